@@ -1,0 +1,1 @@
+//! Benchmarks of Piola beside its peers.

@@ -1,0 +1,257 @@
+//! The chain rule, written once for [`Dual`](crate::Dual), [`Gradient`](crate::Gradient) and
+//! [`Jet`](crate::Jet).
+//!
+//! Each of the three types supplies five inlined building blocks (`chain`, `linear`, `each`, `product`,
+//! `quotient`); the macro turns them into the operators and all of [`Real`](crate::Real). The
+//! derivatives of the elementary functions are therefore stated in one place, and second derivatives are
+//! closures that types of first order never call.
+
+/// Implements the operators and `Real` for a differentiable number over `T: Real`.
+macro_rules! implement_real {
+    ($type:ty, [$($parameters:tt)*], [$($constants:tt)*]) => {
+        impl<$($parameters)*> core::ops::Add for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn add(self, other: Self) -> Self {
+                self.linear(other, |a, b| a + b)
+            }
+        }
+        impl<$($parameters)*> core::ops::Sub for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn sub(self, other: Self) -> Self {
+                self.linear(other, |a, b| a - b)
+            }
+        }
+        impl<$($parameters)*> core::ops::Mul for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn mul(self, other: Self) -> Self {
+                self.product(other)
+            }
+        }
+        impl<$($parameters)*> core::ops::Div for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn div(self, other: Self) -> Self {
+                self.quotient(other)
+            }
+        }
+        impl<$($parameters)*> core::ops::Neg for $type {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                self.each(|a| -a)
+            }
+        }
+        impl<$($parameters)*> core::ops::AddAssign for $type {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+        impl<$($parameters)*> core::ops::SubAssign for $type {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+        impl<$($parameters)*> core::ops::MulAssign for $type {
+            #[inline(always)]
+            fn mul_assign(&mut self, other: Self) {
+                *self = *self * other;
+            }
+        }
+        impl<$($parameters)*> core::ops::DivAssign for $type {
+            #[inline(always)]
+            fn div_assign(&mut self, other: Self) {
+                *self = *self / other;
+            }
+        }
+        impl<$($parameters)*> num_traits::Zero for $type {
+            #[inline(always)]
+            fn zero() -> Self {
+                Self::constant(T::zero())
+            }
+            #[inline(always)]
+            fn is_zero(&self) -> bool {
+                *self == Self::zero()
+            }
+        }
+        impl<$($parameters)*> num_traits::One for $type {
+            #[inline(always)]
+            fn one() -> Self {
+                Self::constant(T::one())
+            }
+        }
+
+        impl<$($parameters)*> crate::Real for $type {
+            type Mask = T::Mask;
+            const LANES: usize = T::LANES;
+
+            #[inline(always)]
+            fn lit(value: f64) -> Self {
+                Self::constant(T::lit(value))
+            }
+            #[inline(always)]
+            fn primal(self, lane: usize) -> f64 {
+                self.value.primal(lane)
+            }
+            #[inline(always)]
+            fn less_than(self, other: Self) -> Self::Mask {
+                self.value.less_than(other.value)
+            }
+            #[inline(always)]
+            fn at_most(self, other: Self) -> Self::Mask {
+                self.value.at_most(other.value)
+            }
+            #[inline(always)]
+            fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self {
+                if_true.linear(if_false, |a, b| T::select(mask, a, b))
+            }
+            #[inline(always)]
+            fn is_finite(self) -> Self::Mask {
+                self.value.is_finite()
+            }
+            #[inline(always)]
+            fn recip(self) -> Self {
+                let r = self.value.recip();
+                let r2 = r * r;
+                self.chain(r, || -r2, || (r2 + r2) * r)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                let r = self.value.sqrt();
+                let half = T::lit(0.5) / r;
+                self.chain(r, || half, || -(T::lit(0.5) * half / self.value))
+            }
+            #[inline(always)]
+            fn cbrt(self) -> Self {
+                let r = self.value.cbrt();
+                let f1 = T::lit(1.0) / (T::lit(3.0) * r * r);
+                self.chain(r, || f1, || -(T::lit(2.0) * f1 / (T::lit(3.0) * self.value)))
+            }
+            #[inline(always)]
+            fn powi(self, n: i32) -> Self {
+                // x⁰ and x¹ have no term in x⁻¹, so their derivatives stay finite at x = 0.
+                let degree = f64::from(n);
+                self.chain(
+                    self.value.powi(n),
+                    || if n == 0 { T::zero() } else { T::lit(degree) * self.value.powi(n - 1) },
+                    || {
+                        if n == 0 || n == 1 {
+                            T::zero()
+                        } else {
+                            T::lit(degree * (degree - 1.0)) * self.value.powi(n - 2)
+                        }
+                    },
+                )
+            }
+            #[inline(always)]
+            fn powf(self, exponent: Self) -> Self {
+                // xʸ = e^(y ln x): as a function of x at fixed y and of y at fixed x. With a constant
+                // exponent the second part vanishes, also at x = 0, where ln x does not exist.
+                let (x, y) = (self.value, exponent.value);
+                let z = x.powf(y);
+                let in_base = self.chain(
+                    z,
+                    || y * x.powf(y - T::one()),
+                    || y * (y - T::one()) * x.powf(y - T::lit(2.0)),
+                );
+                if exponent == Self::constant(y) {
+                    return in_base;
+                }
+                let logarithm = self.ln();
+                (exponent * logarithm).exp()
+            }
+            #[inline(always)]
+            fn exp(self) -> Self {
+                let e = self.value.exp();
+                self.chain(e, || e, || e)
+            }
+            #[inline(always)]
+            fn exp_m1(self) -> Self {
+                self.chain(self.value.exp_m1(), || self.value.exp(), || self.value.exp())
+            }
+            #[inline(always)]
+            fn ln(self) -> Self {
+                let r = self.value.recip();
+                self.chain(self.value.ln(), || r, || -(r * r))
+            }
+            #[inline(always)]
+            fn ln_1p(self) -> Self {
+                let r = (T::one() + self.value).recip();
+                self.chain(self.value.ln_1p(), || r, || -(r * r))
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                let (s, c) = self.value.sin_cos();
+                (self.chain(s, || c, || -s), self.chain(c, || -s, || -c))
+            }
+            #[inline(always)]
+            fn tan(self) -> Self {
+                let t = self.value.tan();
+                let f1 = T::one() + t * t;
+                self.chain(t, || f1, || T::lit(2.0) * t * f1)
+            }
+            #[inline(always)]
+            fn asin(self) -> Self {
+                let x = self.value;
+                let f1 = ((T::one() - x) * (T::one() + x)).sqrt().recip();
+                self.chain(x.asin(), || f1, || x * f1 * f1 * f1)
+            }
+            #[inline(always)]
+            fn acos(self) -> Self {
+                let x = self.value;
+                let f1 = ((T::one() - x) * (T::one() + x)).sqrt().recip();
+                self.chain(x.acos(), || -f1, || -(x * f1 * f1 * f1))
+            }
+            #[inline(always)]
+            fn atan(self) -> Self {
+                let x = self.value;
+                let f1 = (T::one() + x * x).recip();
+                self.chain(x.atan(), || f1, || -(T::lit(2.0) * x * f1 * f1))
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                // The angle is θ₀ + arctan(η/ξ), where (ξ, η) is the point turned back by the constant θ₀,
+                // so that the quotient is zero at the value and all its derivatives are regular.
+                let angle = self.value.atan2(x.value);
+                let (s, c) = angle.sin_cos();
+                let (s, c) = (Self::constant(s), Self::constant(c));
+                let turned = (self * c - x * s) / (x * c + self * s);
+                let small = turned - Self::constant(turned.value);
+                Self::constant(angle) + small.chain(T::zero(), T::one, T::zero)
+            }
+            #[inline(always)]
+            fn sinh(self) -> Self {
+                let (s, c) = (self.value.sinh(), self.value.cosh());
+                self.chain(s, || c, || s)
+            }
+            #[inline(always)]
+            fn cosh(self) -> Self {
+                let (s, c) = (self.value.sinh(), self.value.cosh());
+                self.chain(c, || s, || c)
+            }
+            #[inline(always)]
+            fn tanh(self) -> Self {
+                let t = self.value.tanh();
+                let c = self.value.cosh();
+                let f1 = (c * c).recip();
+                self.chain(t, || f1, || -(T::lit(2.0) * t * f1))
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                let negative = self.value.less_than(T::zero());
+                self.each(|a| T::select(negative, -a, a))
+            }
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                let flip = T::one().copysign(self.value) * T::one().copysign(sign.value);
+                self.each(|a| a * flip)
+            }
+        }
+    };
+}
+
+pub(crate) use implement_real;

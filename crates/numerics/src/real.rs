@@ -1,0 +1,332 @@
+//! The scalar trait that every formula of Piola is written over.
+//!
+//! A formula written once over [`Real`] runs unchanged in `f64` and `f32`, in exact derivatives
+//! ([`Dual`](crate::Dual), [`Gradient`](crate::Gradient), [`Jet`](crate::Jet), nested at will) and in
+//! SIMD lanes ([`Lanes`](crate::Lanes)). Decisions are made with masks, never with `if`, so that lanes
+//! can take both sides:
+//!
+//! ```
+//! use piola_numerics::Real;
+//! /// |x| written with a mask: works in lanes and has the right derivative on either side of zero.
+//! fn modulus<T: Real>(x: T) -> T {
+//!     T::select(x.less_than(T::lit(0.0)), -x, x)
+//! }
+//! assert_eq!(modulus(-2.5_f64), 2.5);
+//! ```
+//!
+//! Why a trait of our own: nalgebra's `RealField` excludes lanes, its `SimdRealField` has no eight-lane
+//! `f64` and chooses the instruction set at compile time.
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+
+use num_traits::{One, Zero};
+
+/// The result of a comparison: one truth value for each lane.
+pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// The same truth value in every lane.
+    #[must_use]
+    fn splat(value: bool) -> Self;
+    /// True when at least one lane is.
+    #[must_use]
+    fn any(self) -> bool;
+    /// True when every lane is.
+    #[must_use]
+    fn all(self) -> bool;
+}
+
+impl Mask for bool {
+    #[inline(always)]
+    fn splat(value: bool) -> Self {
+        value
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+}
+
+/// A real scalar: a float, a lane of floats, or either with exact derivatives.
+///
+/// Angles are in radians. Functions follow the conventions of `f64` outside their domain (NaN) and at
+/// their poles (±∞). Comparisons look at the value only: derivatives follow the chosen branch.
+///
+/// # Example
+/// ```
+/// use piola_numerics::{Dual, Real};
+/// fn kinetic_energy<T: Real>(mass: T, speed: T) -> T {
+///     T::lit(0.5) * mass * speed * speed
+/// }
+/// assert_eq!(kinetic_energy(2.0, 3.0), 9.0);
+/// // The momentum is its derivative with respect to the speed.
+/// assert_eq!(kinetic_energy(Dual::lit(2.0), Dual::variable(3.0)).tangent, 6.0);
+/// ```
+pub trait Real:
+    nalgebra::Scalar
+    + Copy
+    + Debug
+    + Send
+    + Sync
+    + Zero
+    + One
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// What comparisons return.
+    type Mask: Mask;
+
+    /// How many independent values one scalar holds.
+    const LANES: usize;
+
+    /// The constant `value`, rounded to this scalar, with zero derivatives, in every lane.
+    #[must_use]
+    fn lit(value: f64) -> Self;
+    /// The value, without derivatives, of one lane: for error messages, tests and step control.
+    ///
+    /// `lane` is below [`LANES`](Self::LANES).
+    #[must_use]
+    fn primal(self, lane: usize) -> f64;
+
+    /// `self < other`.
+    #[must_use]
+    fn less_than(self, other: Self) -> Self::Mask;
+    /// `self <= other`.
+    #[must_use]
+    fn at_most(self, other: Self) -> Self::Mask;
+    /// Lane by lane, `if_true` where the mask holds and `if_false` elsewhere. Both are evaluated.
+    #[must_use]
+    fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self;
+    /// Where the value is neither infinite nor NaN.
+    #[must_use]
+    fn is_finite(self) -> Self::Mask;
+
+    /// √x.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// ∛x, for negative `x` too.
+    #[must_use]
+    fn cbrt(self) -> Self;
+    /// xⁿ for a whole number n.
+    #[must_use]
+    fn powi(self, n: i32) -> Self;
+    /// xʸ for 0 ≤ x.
+    #[must_use]
+    fn powf(self, exponent: Self) -> Self;
+    /// eˣ.
+    #[must_use]
+    fn exp(self) -> Self;
+    /// eˣ − 1 without cancellation.
+    #[must_use]
+    fn exp_m1(self) -> Self;
+    /// ln x.
+    #[must_use]
+    fn ln(self) -> Self;
+    /// ln(1 + x) without cancellation.
+    #[must_use]
+    fn ln_1p(self) -> Self;
+    /// (sin x, cos x).
+    #[must_use]
+    fn sin_cos(self) -> (Self, Self);
+    /// arcsin x ∈ [−π/2, π/2].
+    #[must_use]
+    fn asin(self) -> Self;
+    /// arccos x ∈ [0, π].
+    #[must_use]
+    fn acos(self) -> Self;
+    /// arctan x ∈ (−π/2, π/2).
+    #[must_use]
+    fn atan(self) -> Self;
+    /// The angle of the point (x, y) = (`x`, `self`), in (−π, π].
+    #[must_use]
+    fn atan2(self, x: Self) -> Self;
+    /// sinh x.
+    #[must_use]
+    fn sinh(self) -> Self;
+    /// cosh x.
+    #[must_use]
+    fn cosh(self) -> Self;
+    /// tanh x.
+    #[must_use]
+    fn tanh(self) -> Self;
+    /// |x|.
+    #[must_use]
+    fn abs(self) -> Self;
+    /// |self| with the sign of `sign`.
+    #[must_use]
+    fn copysign(self, sign: Self) -> Self;
+
+    /// 1/x.
+    #[inline(always)]
+    #[must_use]
+    fn recip(self) -> Self {
+        Self::one() / self
+    }
+    /// sin x.
+    #[inline(always)]
+    #[must_use]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+    /// cos x.
+    #[inline(always)]
+    #[must_use]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+    /// tan x.
+    #[inline(always)]
+    #[must_use]
+    fn tan(self) -> Self {
+        let (s, c) = self.sin_cos();
+        s / c
+    }
+    /// The smaller of two values.
+    #[inline(always)]
+    #[must_use]
+    fn min(self, other: Self) -> Self {
+        Self::select(other.less_than(self), other, self)
+    }
+    /// The larger of two values.
+    #[inline(always)]
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        Self::select(self.less_than(other), other, self)
+    }
+}
+
+macro_rules! real_for_float {
+    ($float:ident) => {
+        impl Real for $float {
+            type Mask = bool;
+            const LANES: usize = 1;
+
+            #[inline(always)]
+            #[expect(
+                clippy::allow_attributes,
+                reason = "one macro serves f32, where the cast rounds, and f64, where it is the identity"
+            )]
+            #[allow(clippy::cast_possible_truncation, reason = "rounding a constant to f32 is the meaning of `lit`")]
+            fn lit(value: f64) -> Self {
+                value as $float
+            }
+            #[inline(always)]
+            fn primal(self, _lane: usize) -> f64 {
+                f64::from(self)
+            }
+            #[inline(always)]
+            fn less_than(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn at_most(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
+                if mask { if_true } else { if_false }
+            }
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $float::sqrt(self)
+            }
+            #[inline(always)]
+            fn cbrt(self) -> Self {
+                $float::cbrt(self)
+            }
+            #[inline(always)]
+            fn powi(self, n: i32) -> Self {
+                $float::powi(self, n)
+            }
+            #[inline(always)]
+            fn powf(self, exponent: Self) -> Self {
+                $float::powf(self, exponent)
+            }
+            #[inline(always)]
+            fn exp(self) -> Self {
+                $float::exp(self)
+            }
+            #[inline(always)]
+            fn exp_m1(self) -> Self {
+                $float::exp_m1(self)
+            }
+            #[inline(always)]
+            fn ln(self) -> Self {
+                $float::ln(self)
+            }
+            #[inline(always)]
+            fn ln_1p(self) -> Self {
+                $float::ln_1p(self)
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $float::sin_cos(self)
+            }
+            #[inline(always)]
+            fn sin(self) -> Self {
+                $float::sin(self)
+            }
+            #[inline(always)]
+            fn cos(self) -> Self {
+                $float::cos(self)
+            }
+            #[inline(always)]
+            fn tan(self) -> Self {
+                $float::tan(self)
+            }
+            #[inline(always)]
+            fn asin(self) -> Self {
+                $float::asin(self)
+            }
+            #[inline(always)]
+            fn acos(self) -> Self {
+                $float::acos(self)
+            }
+            #[inline(always)]
+            fn atan(self) -> Self {
+                $float::atan(self)
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                $float::atan2(self, x)
+            }
+            #[inline(always)]
+            fn sinh(self) -> Self {
+                $float::sinh(self)
+            }
+            #[inline(always)]
+            fn cosh(self) -> Self {
+                $float::cosh(self)
+            }
+            #[inline(always)]
+            fn tanh(self) -> Self {
+                $float::tanh(self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+            #[inline(always)]
+            fn copysign(self, sign: Self) -> Self {
+                $float::copysign(self, sign)
+            }
+        }
+    };
+}
+
+real_for_float!(f32);
+real_for_float!(f64);
