@@ -1,0 +1,95 @@
+//! What can be wrong with kinematic data: each variant names the violated condition and holds the numbers.
+
+/// A violated condition of kinematic data.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum KinematicsError {
+    /// A number is infinite or NaN.
+    #[error("{quantity}[{index}] = {value} is not finite")]
+    NotFinite {
+        /// What the number is.
+        quantity: &'static str,
+        /// Its position in row-major order.
+        index: usize,
+        /// The number itself.
+        value: f64,
+    },
+    /// 0 < mass is violated.
+    #[error("mass {mass} kg is not positive")]
+    NonPositiveMass {
+        /// The mass, in kg.
+        mass: f64,
+    },
+    /// 0 < size is violated for a length of a solid.
+    #[error("{quantity} = {value} m is not positive")]
+    NonPositiveSize {
+        /// Which length.
+        quantity: &'static str,
+        /// Its value, in m.
+        value: f64,
+    },
+    /// `I_ij` = `I_ji` is violated.
+    #[error(
+        "inertia tensor is not symmetric: entries ({row},{column}) and ({column},{row}) differ by {difference} kg m²"
+    )]
+    InertiaNotSymmetric {
+        /// Row of the entry above the diagonal, from 0.
+        row: usize,
+        /// Column of that entry, from 0.
+        column: usize,
+        /// `I_ij − I_ji`, in kg m².
+        difference: f64,
+    },
+    /// 0 < I₁ is violated: no solid has such an inertia tensor. A body without extent about an axis, such
+    /// as a thin rod, has no attitude about that axis: place it as two or three particles instead.
+    #[error(
+        "principal moments {principal_moments:?} kg m² are not all positive; \
+         place a body without thickness as particles"
+    )]
+    InertiaNotPositiveDefinite {
+        /// Principal moments I₁ ≤ I₂ ≤ I₃, in kg m².
+        principal_moments: [f64; 3],
+    },
+    /// I₃ ≤ I₁ + I₂ is violated: no distribution of mass has such an inertia tensor.
+    #[error(
+        "principal moments violate the triangle inequality: {} exceeds {} + {} kg m²",
+        principal_moments[2], principal_moments[0], principal_moments[1]
+    )]
+    InertiaTriangleInequality {
+        /// Principal moments I₁ ≤ I₂ ≤ I₃, in kg m².
+        principal_moments: [f64; 3],
+    },
+    /// A quaternion or an axis has no direction.
+    #[error("{quantity} has length {length}, which gives no direction")]
+    NoDirection {
+        /// What the vector is.
+        quantity: &'static str,
+        /// Its length.
+        length: f64,
+    },
+    /// |q| = 1 is violated beyond rounding.
+    #[error("quaternion of length {length} is not a unit quaternion")]
+    NotUnitQuaternion {
+        /// Its length.
+        length: f64,
+    },
+    /// Q Qᵀ = 1, det Q = 1 is violated beyond rounding.
+    #[error("matrix is not a rotation: deviation of Q Qᵀ from 1 is {deviation}, det Q = {determinant}")]
+    NotRotation {
+        /// Largest entry of Q Qᵀ − 1.
+        deviation: f64,
+        /// det Q.
+        determinant: f64,
+    },
+}
+
+/// 0 < mass < ∞.
+pub(crate) fn positive_mass(mass: f64) -> Result<(), KinematicsError> {
+    if !mass.is_finite() {
+        return Err(KinematicsError::NotFinite { quantity: "mass", index: 0, value: mass });
+    }
+    if mass <= 0.0 {
+        return Err(KinematicsError::NonPositiveMass { mass });
+    }
+    Ok(())
+}

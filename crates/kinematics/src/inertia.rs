@@ -1,0 +1,292 @@
+//! Inertia tensors of rigid bodies: what they may be, how they move.
+//!
+//! ```text
+//! I = ∫ (|r|² 1 − r⊗r) dμ,   r from the centre of mass, body components        W(2.33)
+//! ```
+//!
+//! An [`Inertia`] is symmetric, positive definite and obeys I₃ ≤ I₁ + I₂, because I₁ + I₂ − I₃ = 2∫z²dμ.
+//! A body without thickness about an axis (a thin rod, I₁ = 0) is refused: its attitude about that axis
+//! does not exist and the equations of motion would be singular. Place it as particles (two of mass m/6
+//! at the ends and one of 2m/3 in the middle move as a uniform rod of mass m does).
+//!
+//! # References
+//! W(2.33–2.34).
+
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use piola_numerics::Real;
+
+use crate::attitude::Attitude;
+use crate::error::KinematicsError;
+use crate::vector::{constant_matrix_times, first_non_finite};
+
+/// The inertia tensor of a rigid body about its centre of mass, in body components.
+///
+/// # Example
+/// ```
+/// use piola_kinematics::Inertia;
+/// let inertia = Inertia::principal([1.0, 2.0, 2.5])?;
+/// assert_eq!(inertia.matrix()[(2, 2)], 2.5);
+/// // No body has 1 + 2 < 4.
+/// assert!(Inertia::principal([1.0, 2.0, 4.0]).is_err());
+/// # Ok::<(), piola_kinematics::KinematicsError>(())
+/// ```
+///
+/// # Source
+/// W(2.33–2.34).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "[[f64; 3]; 3]", into = "[[f64; 3]; 3]"))]
+pub struct Inertia {
+    /// Symmetric to the last bit.
+    matrix: Matrix3<f64>,
+}
+
+/// Principal moments I₁ ≤ I₂ ≤ I₃ and the right-handed basis of their axes.
+///
+/// # Example
+/// ```
+/// use piola_kinematics::Inertia;
+/// let principal = Inertia::principal([3.0, 1.0, 2.5])?.principal_axes();
+/// assert_eq!(principal.moments, [1.0, 2.5, 3.0]);
+/// # Ok::<(), piola_kinematics::KinematicsError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PrincipalAxes {
+    /// I₁ ≤ I₂ ≤ I₃, in kg m².
+    pub moments: [f64; 3],
+    /// Column i is the axis of moment i, in body components; det = +1.
+    pub axes: Matrix3<f64>,
+}
+
+/// Relative deviation from symmetry and from the triangle inequality that is taken for rounding of the
+/// data, and the smallest I₁/I₃ that is not taken for zero.
+const TOLERANCE: f64 = 1.0e-12;
+
+impl Inertia {
+    /// The inertia tensor with the given matrix about the centre of mass (body components, kg m²).
+    ///
+    /// # Errors
+    /// With I₁ ≤ I₂ ≤ I₃ the principal moments, and rounding understood as 10⁻¹² I₃:
+    /// [`NotFinite`](KinematicsError::NotFinite);
+    /// [`InertiaNotSymmetric`](KinematicsError::InertiaNotSymmetric) unless `I_ij` = `I_ji`;
+    /// [`InertiaNotPositiveDefinite`](KinematicsError::InertiaNotPositiveDefinite) unless 0 < I₁;
+    /// [`InertiaTriangleInequality`](KinematicsError::InertiaTriangleInequality) unless I₃ ≤ I₁ + I₂.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_kinematics::Inertia;
+    /// let inertia = Inertia::new(Matrix3::from_diagonal_element(0.4))?; // unit sphere of 1 kg
+    /// assert_eq!(inertia.principal_moments(), [0.4, 0.4, 0.4]);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(2.34).
+    pub fn new(matrix: Matrix3<f64>) -> Result<Self, KinematicsError> {
+        if let Some((index, value)) = first_non_finite(matrix.transpose().as_slice()) {
+            return Err(KinematicsError::NotFinite { quantity: "inertia tensor", index, value });
+        }
+        let scale = matrix.amax();
+        for (row, column) in [(0, 1), (0, 2), (1, 2)] {
+            let difference = matrix[(row, column)] - matrix[(column, row)];
+            if TOLERANCE * scale < difference.abs() {
+                return Err(KinematicsError::InertiaNotSymmetric { row, column, difference });
+            }
+        }
+        let inertia = Self { matrix: matrix * 0.5 + matrix.transpose() * 0.5 };
+        let principal_moments = inertia.principal_moments();
+        let [smallest, middle, largest] = principal_moments;
+        if smallest <= TOLERANCE * largest.abs() {
+            return Err(KinematicsError::InertiaNotPositiveDefinite { principal_moments });
+        }
+        if smallest + middle < largest * (1.0 - TOLERANCE) {
+            return Err(KinematicsError::InertiaTriangleInequality { principal_moments });
+        }
+        Ok(inertia)
+    }
+
+    /// The inertia tensor with the given moments about the body axes, which are principal (kg m²).
+    ///
+    /// # Errors
+    /// As [`new`](Inertia::new).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_kinematics::Inertia;
+    /// assert_eq!(Inertia::principal([1.0, 1.0, 2.0])?.matrix().trace(), 4.0); // a flat disc
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    pub fn principal(moments: [f64; 3]) -> Result<Self, KinematicsError> {
+        Self::new(Matrix3::from_diagonal(&Vector3::from(moments)))
+    }
+
+    /// The matrix about the centre of mass, in body components (kg m²).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_kinematics::Inertia;
+    /// assert_eq!(Inertia::principal([1.0, 2.0, 2.5])?.matrix()[(1, 1)], 2.0);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn matrix(&self) -> Matrix3<f64> {
+        self.matrix
+    }
+
+    /// I a, for the angular velocity, its rate or a tangent's angular velocity in body components.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_kinematics::Inertia;
+    /// let spin = Inertia::principal([1.0, 2.0, 2.5])?.times(&Vector3::new(0.0, 3.0, 0.0));
+    /// assert_eq!(spin.y, 6.0);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn times<T: Real>(&self, in_body: &Vector3<T>) -> Vector3<T> {
+        constant_matrix_times(&self.matrix, in_body)
+    }
+
+    /// Principal moments in ascending order (kg m²).
+    ///
+    /// # Accuracy
+    /// A few ulps of the largest moment.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_kinematics::Inertia;
+    /// assert_eq!(Inertia::principal([3.0, 1.0, 2.5])?.principal_moments(), [1.0, 2.5, 3.0]);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    #[must_use]
+    pub fn principal_moments(&self) -> [f64; 3] {
+        self.principal_axes().moments
+    }
+
+    /// Principal moments in ascending order and a right-handed basis of their axes.
+    ///
+    /// ```text
+    /// I = A diag(I₁, I₂, I₃) Aᵀ,   A = axes
+    /// ```
+    ///
+    /// # Accuracy
+    /// Moments to a few ulps of the largest; axes of nearly equal moments are as free as they look.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_kinematics::Inertia;
+    /// let principal = Inertia::principal([3.0, 1.0, 2.5])?.principal_axes();
+    /// assert_eq!(principal.axes[(1, 0)].abs(), 1.0); // the smallest moment is about the second axis
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    #[must_use]
+    pub fn principal_axes(&self) -> PrincipalAxes {
+        let eigen = SymmetricEigen::new(self.matrix);
+        let mut order = [0, 1, 2];
+        order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
+        let mut axes = Matrix3::from_columns(&order.map(|i| eigen.eigenvectors.column(i)));
+        if axes.determinant() < 0.0 {
+            axes.column_mut(2).neg_mut();
+        }
+        PrincipalAxes { moments: order.map(|i| eigen.eigenvalues[i]), axes }
+    }
+
+    /// The same body in turned body axes: `attitude` is that of the old axes seen from the new.
+    ///
+    /// ```text
+    /// I_new = R I Rᵀ,   R v = attitude.to_space(v)
+    /// ```
+    ///
+    /// # Example
+    /// ```
+    /// use piola_kinematics::{Attitude, Inertia};
+    /// let quarter_turn = Attitude::about_z(std::f64::consts::FRAC_PI_2);
+    /// let turned = Inertia::principal([1.0, 2.0, 2.5])?.rotated(quarter_turn);
+    /// assert!((turned.matrix()[(0, 0)] - 2.0).abs() <= 4.0 * f64::EPSILON);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    #[must_use]
+    pub fn rotated(&self, attitude: Attitude<f64>) -> Self {
+        let q = attitude.to_matrix();
+        let matrix = q.transpose() * self.matrix * q;
+        Self { matrix: matrix * 0.5 + matrix.transpose() * 0.5 }
+    }
+
+    /// The tensor about the point c + `offset` of a body of the given mass (kg m², body components).
+    ///
+    /// ```text
+    /// I_P = I + m (|s|² 1 − s⊗s),   s = offset from the centre of mass
+    /// ```
+    ///
+    /// The inverse is [`about_centre_of_mass`](Inertia::about_centre_of_mass).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_kinematics::Inertia;
+    /// // A sphere of 1 kg and radius 1 m about a point of its surface: 2/5 + 1 = 7/5.
+    /// let sphere = Inertia::principal([0.4, 0.4, 0.4])?;
+    /// let about_surface = sphere.about_offset_point(1.0, &Vector3::x());
+    /// assert!((about_surface[(1, 1)] - 1.4).abs() <= 4.0 * f64::EPSILON);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(2.33), parallel axes.
+    #[must_use]
+    pub fn about_offset_point(&self, mass: f64, offset: &Vector3<f64>) -> Matrix3<f64> {
+        self.matrix + point_inertia(mass, offset)
+    }
+
+    /// The tensor about the centre of mass from the one about the point c + `offset`.
+    ///
+    /// # Errors
+    /// As [`new`](Inertia::new): an offset that is too long for the given tensor leaves none.
+    ///
+    /// # Accuracy
+    /// Cancellation: absolute error of a few ulps of the *given* tensor.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_kinematics::Inertia;
+    /// let about_surface = Matrix3::from_diagonal(&Vector3::new(0.5, 1.5, 1.5));
+    /// let sphere = Inertia::about_centre_of_mass(about_surface, 1.0, &Vector3::x())?;
+    /// assert_eq!(sphere.principal_moments(), [0.5, 0.5, 0.5]);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    pub fn about_centre_of_mass(
+        about_offset_point: Matrix3<f64>,
+        mass: f64,
+        offset: &Vector3<f64>,
+    ) -> Result<Self, KinematicsError> {
+        Self::new(about_offset_point - point_inertia(mass, offset))
+    }
+}
+
+/// m (|s|² 1 − s⊗s): the inertia of a particle at s about the origin.
+pub(crate) fn point_inertia(mass: f64, s: &Vector3<f64>) -> Matrix3<f64> {
+    // Written by components: |s|² − x² would cancel.
+    let (x, y, z) = (s.x, s.y, s.z);
+    Matrix3::new(y * y + z * z, -x * y, -x * z, -x * y, z * z + x * x, -y * z, -x * z, -y * z, x * x + y * y) * mass
+}
+
+impl TryFrom<[[f64; 3]; 3]> for Inertia {
+    type Error = KinematicsError;
+
+    /// Rows of the matrix about the centre of mass.
+    fn try_from(rows: [[f64; 3]; 3]) -> Result<Self, KinematicsError> {
+        Self::new(Matrix3::from(rows).transpose())
+    }
+}
+
+impl From<Inertia> for [[f64; 3]; 3] {
+    /// Rows of the matrix about the centre of mass.
+    fn from(inertia: Inertia) -> Self {
+        inertia.matrix.transpose().into()
+    }
+}

@@ -1,0 +1,40 @@
+//! Products of three-vectors over any [`Real`]: unrolled and inlined, so that they fuse in jets and lanes.
+
+use nalgebra::{Matrix3, Vector3};
+use piola_numerics::Real;
+
+/// a·b.
+#[inline(always)]
+pub(crate) fn dot<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> T {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}
+
+/// a×b.
+#[inline(always)]
+pub(crate) fn cross<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> Vector3<T> {
+    Vector3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+}
+
+/// s a.
+#[inline(always)]
+pub(crate) fn scaled<T: Real>(a: &Vector3<T>, s: T) -> Vector3<T> {
+    Vector3::new(a.x * s, a.y * s, a.z * s)
+}
+
+/// A a with a constant matrix.
+#[inline(always)]
+pub(crate) fn constant_matrix_times<T: Real>(matrix: &Matrix3<f64>, a: &Vector3<T>) -> Vector3<T> {
+    let row = |i: usize| T::lit(matrix[(i, 0)]) * a.x + T::lit(matrix[(i, 1)]) * a.y + T::lit(matrix[(i, 2)]) * a.z;
+    Vector3::new(row(0), row(1), row(2))
+}
+
+/// The constant vector in another scalar.
+#[inline(always)]
+pub(crate) fn constant<T: Real>(a: &Vector3<f64>) -> Vector3<T> {
+    Vector3::new(T::lit(a.x), T::lit(a.y), T::lit(a.z))
+}
+
+/// Index and value of the first entry that is infinite or NaN.
+pub(crate) fn first_non_finite(values: &[f64]) -> Option<(usize, f64)> {
+    values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
+}
