@@ -1,0 +1,166 @@
+//! `cargo xtask bench`
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use serde_json::{Map, Value, json};
+use xshell::{Cmd, Shell, cmd};
+
+use super::Command;
+use crate::step::{Outcome, Step};
+use crate::workspace::{Workspace, read};
+
+pub(super) const COMMAND: Command = Command {
+    name: "bench",
+    usage: "[--json FILE] [--filter NAME]",
+    help: "run the benches in cargo's own release profile, on one core where `taskset` exists
+--filter NAME   only the benches whose `group/name` matches the regular expression NAME
+--json FILE     write the results as a list of {group, name, ns_per_item, items, error?, peer?}:
+                nanoseconds per item (median), items in one iteration, the error of the result where the bench
+                states one, and the peer's name where it is a peer that ran",
+    prepare: |shell, _, options| {
+        let json = options.value("--json")?;
+        let filter = options.value("--filter")?;
+        let target = Workspace::target(shell)?;
+        let (criterion, notes) = (target.join("criterion"), target.join("bench-notes"));
+        let start = SystemTime::now();
+        let run = run(shell, filter.as_deref())
+            .env("CRITERION_HOME", &criterion)
+            // Where a bench states the error of its result and whether it is a peer's: see `benches/src/notes.rs`.
+            .env("PIOLA_BENCH_NOTES", &notes);
+        let mut steps = vec![compile(shell), Step::program("bench: run", run, "a bench failed")];
+        if let Some(file) = json {
+            steps.push(Step::check(
+                "bench: collect",
+                move || collect(&criterion, &notes, start, Path::new(&file)),
+                "the results could not be collected",
+            ));
+        }
+        Ok(steps)
+    },
+};
+
+/// The part of `ci`: benches are compiled, not run.
+pub(super) const COMPILE: Command = Command {
+    name: "bench",
+    usage: COMMAND.usage,
+    help: COMMAND.help,
+    prepare: |shell, _, _| Ok(vec![compile(shell)]),
+};
+
+fn compile(shell: &Shell) -> Step<'_> {
+    Step::program(
+        "bench: compile",
+        cmd!(shell, "cargo bench --profile plain-release --package piola-benches --benches --no-run"),
+        "the benches do not compile",
+    )
+}
+
+fn run<'a>(shell: &'a Shell, filter: Option<&str>) -> Cmd<'a> {
+    // One core: a thread that wanders between cores meets cold caches and other clock rates.
+    let pinned = cmd!(shell, "taskset --version").quiet().ignore_stdout().ignore_stderr().run().is_ok();
+    let last_core = std::thread::available_parallelism().map_or(0, |count| count.get() - 1).to_string();
+    let command = if pinned { cmd!(shell, "taskset --cpu-list {last_core} cargo") } else { cmd!(shell, "cargo") };
+    let command = command.args(["bench", "--profile", "plain-release", "--package", "piola-benches", "--benches"]);
+    match filter {
+        Some(name) => command.args(["--", name]),
+        None => command,
+    }
+}
+
+/// Writes what criterion measured since `start`.
+fn collect(criterion: &Path, notes: &Path, start: SystemTime, file: &Path) -> Outcome {
+    let mut folders = Vec::new();
+    find_results(criterion, start, &mut folders);
+    folders.sort();
+    let mut notes_of = BTreeMap::new();
+    let (mut results, mut problems) = (Vec::new(), Vec::new());
+    for folder in folders {
+        let result = (|| {
+            let benchmark: Value = parse(&folder.join("benchmark.json"))?;
+            let estimates: Value = parse(&folder.join("estimates.json"))?;
+            let group = benchmark["group_id"].as_str().unwrap_or_default().to_owned();
+            let notes = notes_of
+                .entry(group.clone())
+                .or_insert_with(|| parse(&notes.join(format!("{group}.json"))).unwrap_or(Value::Null));
+            record(&group, &benchmark, &estimates, notes)
+        })();
+        match result {
+            Ok(record) => results.push(record),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    if results.is_empty() {
+        return Err(vec!["no bench ran: does the filter match a `group/name`?".into()]);
+    }
+    let count = results.len();
+    let text = serde_json::to_string_pretty(&results).map_err(|error| vec![error.to_string()])?;
+    std::fs::write(file, text + "\n").map_err(|error| vec![format!("{}: {error}", file.display())])?;
+    Ok(format!("{count} results in {}", file.display()))
+}
+
+fn record(group: &str, benchmark: &Value, estimates: &Value, notes: &Value) -> Result<Value, String> {
+    let part = |key: &str| benchmark[key].as_str().map(str::to_owned);
+    let name = [part("function_id"), part("value_str")].into_iter().flatten().collect::<Vec<_>>().join("/");
+    // A throughput in elements, whatever the version of criterion calls it, says how many items one iteration holds.
+    let throughput = benchmark["throughput"].as_object();
+    let items = throughput.and_then(|counts| counts.values().find_map(Value::as_u64)).unwrap_or(1);
+    let median = estimates["median"]["point_estimate"].as_f64();
+    let median = median.ok_or_else(|| format!("{group}/{name}: no median"))?;
+    let mut record = Map::new();
+    record.insert("group".into(), json!(group));
+    record.insert("name".into(), json!(name));
+    record.insert("ns_per_item".into(), json!(median / (items.max(1) as f64)));
+    record.insert("items".into(), json!(items));
+    for key in ["error", "peer"] {
+        if let Some(value) = notes.get(&name).and_then(|note| note.get(key)) {
+            record.insert(key.into(), value.clone());
+        }
+    }
+    Ok(Value::Object(record))
+}
+
+fn find_results(folder: &Path, start: SystemTime, found: &mut Vec<PathBuf>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for path in entries.filter_map(|entry| entry.ok().map(|entry| entry.path())).filter(|path| path.is_dir()) {
+        let estimates = path.join("estimates.json");
+        if path.file_name().is_some_and(|name| name == "new") && estimates.is_file() {
+            let modified = std::fs::metadata(&estimates).and_then(|data| data.modified());
+            if modified.is_ok_and(|time| start <= time) {
+                found.push(path);
+            }
+        } else {
+            find_results(&path, start, found);
+        }
+    }
+}
+
+fn parse(path: &Path) -> Result<Value, String> {
+    serde_json::from_str(&read(path)?).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::record;
+
+    #[test]
+    fn a_record_divides_the_median_by_the_items_and_carries_the_notes() {
+        let benchmark =
+            json!({"group_id": "nbody", "function_id": "direct", "value_str": "8", "throughput": {"Elements": 4}});
+        let estimates = json!({"median": {"point_estimate": 10.0}});
+        let notes = json!({"direct/8": {"error": 1e-16, "peer": "other 1.0"}});
+        let expected = json!({"group": "nbody", "name": "direct/8", "ns_per_item": 2.5, "items": 4, "error": 1e-16, "peer": "other 1.0"});
+        assert_eq!(record("nbody", &benchmark, &estimates, &notes), Ok(expected));
+    }
+
+    #[test]
+    fn a_result_without_a_median_is_refused() {
+        assert!(record("g", &json!({"function_id": "f"}), &json!({}), &json!(null)).is_err());
+    }
+}

@@ -1,0 +1,64 @@
+//! `cargo xtask ledger`: every numbered equation has a home.
+
+mod items;
+mod rows;
+mod tests_of;
+
+use std::collections::BTreeMap;
+
+use serde_json::json;
+use xshell::Shell;
+
+use super::Command;
+use crate::step::{Outcome, Step};
+use crate::workspace::{Workspace, read};
+use rows::Row;
+
+pub(super) const COMMAND: Command = Command {
+    name: "ledger",
+    usage: "[--json]",
+    help: "check docs/ledger.toml: each finished row names items that exist and tests that run
+The items are compiled as `use` lines (methods as links of rustdoc) and the tests looked up in the lists of the test
+binaries.
+--json   print {done_ids, missing_ids}; a row whose check fails counts as missing",
+    prepare: |shell, workspace, options| {
+        let as_json = options.flag("--json");
+        Ok(vec![Step::check(
+            "ledger",
+            move || check(shell, workspace, as_json),
+            "a finished row of docs/ledger.toml names an item or a test that does not exist",
+        )])
+    },
+};
+
+fn check(shell: &Shell, workspace: &Workspace, as_json: bool) -> Outcome {
+    let text = read(&workspace.root.join("docs/ledger.toml")).map_err(|problem| vec![problem])?;
+    let (rows, mut problems) = rows::parse(&text);
+    let done: Vec<&Row> = rows.iter().filter(|row| row.is_done).collect();
+    // Problems by id: one row may have several, and counts as missing with any.
+    let mut failed: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for check in [tests_of::missing, items::missing] {
+        match check(shell, workspace, &done) {
+            Ok(found) => {
+                for (id, problem) in found {
+                    failed.entry(id).or_default().push(problem);
+                }
+            }
+            Err(problem) => problems.push(problem),
+        }
+    }
+    let is_sound = |row: &&Row| problems.is_empty() && row.is_done && !failed.contains_key(row.id.as_str());
+    let done_ids: Vec<_> = rows.iter().filter(is_sound).map(|row| &row.id).collect();
+    let missing_ids: Vec<_> = rows.iter().filter(|row| !is_sound(row)).map(|row| &row.id).collect();
+    let line = format!("{} of {} equations have a home", done_ids.len(), rows.len());
+    if as_json {
+        print(&json!({ "done_ids": done_ids, "missing_ids": missing_ids }).to_string());
+    }
+    problems.extend(failed.iter().flat_map(|(id, found)| found.iter().map(move |what| format!("{id}: {what}"))));
+    if problems.is_empty() { Ok(line) } else { Err(problems) }
+}
+
+#[expect(clippy::print_stdout, reason = "the command's answer, for other programs to read")]
+fn print(text: &str) {
+    println!("{text}");
+}
