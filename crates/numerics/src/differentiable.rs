@@ -137,32 +137,44 @@ macro_rules! implement_real {
                 let degree = f64::from(n);
                 self.chain(
                     self.value.powi(n),
-                    || if n == 0 { T::zero() } else { T::lit(degree) * self.value.powi(n - 1) },
+                    || if n == 0 { T::zero() } else { T::lit(degree) * self.value.powi(n.saturating_sub(1)) },
                     || {
                         if n == 0 || n == 1 {
                             T::zero()
                         } else {
-                            T::lit(degree * (degree - 1.0)) * self.value.powi(n - 2)
+                            T::lit(degree * (degree - 1.0)) * self.value.powi(n.saturating_sub(2))
                         }
                     },
                 )
             }
             #[inline(always)]
             fn powf(self, exponent: Self) -> Self {
-                // xʸ = e^(y ln x): as a function of x at fixed y and of y at fixed x. With a constant
-                // exponent the second part vanishes, also at x = 0, where ln x does not exist.
                 let (x, y) = (self.value, exponent.value);
                 let z = x.powf(y);
+                let base_is_zero = x.at_most(T::zero()) & T::zero().at_most(x);
+                // As a function of x at fixed y. The coefficients of x⁰ and x¹ vanish before 0⁻¹ and 0⁻²
+                // are infinite: there the base is replaced by one, so that 0 · ∞ does not arise.
+                let regular = |coefficient: T| {
+                    let vanishes = coefficient.at_most(T::zero()) & T::zero().at_most(coefficient);
+                    T::select(base_is_zero & vanishes, T::one(), x)
+                };
                 let in_base = self.chain(
                     z,
-                    || y * x.powf(y - T::one()),
-                    || y * (y - T::one()) * x.powf(y - T::lit(2.0)),
+                    || y * regular(y).powf(y - T::one()),
+                    || {
+                        let coefficient = y * (y - T::one());
+                        coefficient * regular(coefficient).powf(y - T::lit(2.0))
+                    },
                 );
                 if exponent == Self::constant(y) {
                     return in_base;
                 }
-                let logarithm = self.ln();
-                (exponent * logarithm).exp()
+                // As a function of both, xʸ = e^w with w = y ln x; the value is that of the power itself,
+                // which is more accurate than the exponential of a large w.
+                let in_both = (exponent * self.ln()).chain(z, || z, || z);
+                // At x = 0 < y the logarithm does not exist but xʸ ln x → 0: the exponent has no influence.
+                let at_zero = if self == Self::constant(x) { Self::constant(z) } else { in_base };
+                Self::select(base_is_zero & T::zero().less_than(y), at_zero, in_both)
             }
             #[inline(always)]
             fn exp(self) -> Self {
@@ -171,7 +183,8 @@ macro_rules! implement_real {
             }
             #[inline(always)]
             fn exp_m1(self) -> Self {
-                self.chain(self.value.exp_m1(), || self.value.exp(), || self.value.exp())
+                let e = self.value.exp();
+                self.chain(self.value.exp_m1(), || e, || e)
             }
             #[inline(always)]
             fn ln(self) -> Self {
@@ -215,13 +228,14 @@ macro_rules! implement_real {
             #[inline(always)]
             fn atan2(self, x: Self) -> Self {
                 // The angle is θ₀ + arctan(η/ξ), where (ξ, η) is the point turned back by the constant θ₀,
-                // so that the quotient is zero at the value and all its derivatives are regular.
-                let angle = self.value.atan2(x.value);
-                let (s, c) = angle.sin_cos();
-                let (s, c) = (Self::constant(s), Self::constant(c));
+                // so that the quotient vanishes at the value and all its derivatives are regular. Only the
+                // direction of the constant (c, s) matters; its length is near one so that no product
+                // overflows.
+                let (x0, y0) = (x.value, self.value);
+                let length = x0.abs().max(y0.abs());
+                let (c, s) = (Self::constant(x0 / length), Self::constant(y0 / length));
                 let turned = (self * c - x * s) / (x * c + self * s);
-                let small = turned - Self::constant(turned.value);
-                Self::constant(angle) + small.chain(T::zero(), T::one, T::zero)
+                turned.chain(y0.atan2(x0), T::one, T::zero)
             }
             #[inline(always)]
             fn sinh(self) -> Self {
@@ -243,7 +257,8 @@ macro_rules! implement_real {
             #[inline(always)]
             fn abs(self) -> Self {
                 let negative = self.value.less_than(T::zero());
-                self.each(|a| T::select(negative, -a, a))
+                let sign = T::select(negative, -T::one(), T::one());
+                self.chain(self.value.abs(), || sign, T::zero)
             }
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {

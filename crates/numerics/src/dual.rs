@@ -59,8 +59,9 @@ impl<T: Real> Dual<T> {
     }
     #[inline(always)]
     fn quotient(self, o: Self) -> Self {
+        // The value is divided and not multiplied by r: it is that of the plain scalar, to the last bit.
         let r = T::one() / o.value;
-        let value = self.value * r;
+        let value = self.value / o.value;
         Self { value, tangent: (self.tangent - value * o.tangent) * r }
     }
 }

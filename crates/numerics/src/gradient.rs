@@ -65,8 +65,9 @@ impl<T: Real, const N: usize> Gradient<T, N> {
     }
     #[inline(always)]
     fn quotient(self, o: Self) -> Self {
+        // The value is divided and not multiplied by r: it is that of the plain scalar, to the last bit.
         let r = T::one() / o.value;
-        let value = self.value * r;
+        let value = self.value / o.value;
         Self { value, partials: core::array::from_fn(|i| (self.partials[i] - value * o.partials[i]) * r) }
     }
 }

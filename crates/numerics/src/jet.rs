@@ -96,8 +96,9 @@ impl<T: Real, const N: usize> Jet<T, N> {
     }
     #[inline(always)]
     fn quotient(self, o: Self) -> Self {
+        // The value is divided and not multiplied by r: it is that of the plain scalar, to the last bit.
         let r = T::one() / o.value;
-        let value = self.value * r;
+        let value = self.value / o.value;
         let rate = (self.rate - value * o.rate) * r;
         let cross = rate * o.rate;
         Self {

@@ -5,14 +5,29 @@
 //! | to get | use |
 //! |---|---|
 //! | a derivative of a formula, exact to rounding | [`derivatives`], or [`Dual`], [`Gradient`], [`Jet`] directly |
+//! | several points at once, in the lanes of one scalar | [`Lanes`], run by [`dispatch`] |
+//! | a linear system solved over any scalar, with the reason when it cannot be | [`linear`] |
+//! | a sum, dot product or state update without rounding loss | [`sums`] |
 
+pub mod derivatives;
 mod differentiable;
+mod dispatch;
 mod dual;
+mod elementary;
+mod error;
 mod gradient;
 mod jet;
+mod lanes;
+pub mod linear;
+#[cfg(feature = "num-dual")]
+mod num_dual;
 mod real;
+pub mod sums;
 
+pub use dispatch::{Kernel, Level, dispatch, dispatch_at};
 pub use dual::Dual;
+pub use error::Error;
 pub use gradient::Gradient;
 pub use jet::Jet;
+pub use lanes::{Element, LaneMask, Lanes};
 pub use real::{Mask, Real};

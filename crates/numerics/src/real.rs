@@ -191,17 +191,24 @@ pub trait Real:
         let (s, c) = self.sin_cos();
         s / c
     }
-    /// The smaller of two values.
+    /// The smaller of two values; NaN when either is.
     #[inline(always)]
     #[must_use]
     fn min(self, other: Self) -> Self {
-        Self::select(other.less_than(self), other, self)
+        Self::select(self.at_most(other) | self.is_nan(), self, other)
     }
-    /// The larger of two values.
+    /// The larger of two values; NaN when either is.
     #[inline(always)]
     #[must_use]
     fn max(self, other: Self) -> Self {
-        Self::select(self.less_than(other), other, self)
+        Self::select(other.at_most(self) | self.is_nan(), self, other)
+    }
+    /// Where the value is not a number.
+    #[inline(always)]
+    #[must_use]
+    fn is_nan(self) -> Self::Mask {
+        // Every number is at most itself.
+        !self.at_most(self)
     }
 }
 

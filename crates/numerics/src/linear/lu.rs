@@ -1,0 +1,299 @@
+//! L U with row exchanges, for any regular matrix.
+//!
+//! ```text
+//! P A = L U        L unit lower triangular with |l| ≤ 1,   U upper triangular,   P a permutation
+//! ```
+//!
+//! The pivot of column k is its largest entry by value. Over lanes one order of rows serves all lanes: the
+//! row is taken whose smallest share, over the lanes, of the lane's largest entry is greatest. Matrices
+//! that belong together (neighbouring states of one system) so lose nothing; of unrelated matrices one may
+//! be refused in lanes that alone would be solved.
+//!
+//! A pivot is compared with the largest entry that its column had in A, so that the units of the unknowns
+//! do not matter: n ulp · max|aᵢₖ| < |uₖₖ|.
+
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+
+use super::{condition, one_norm};
+use crate::error::{check_dimension, check_finite};
+use crate::sums::unit_in_last_place;
+use crate::{Error, Mask, Real};
+
+/// Factors an n×n matrix in place: L below the diagonal, U on and above it, and the row that was exchanged
+/// with row k in `exchanges[k]`.
+///
+/// # Errors
+/// [`Error::Dimension`]; [`Error::Singular`] with the first pivot that is zero to rounding, or NaN, in any
+/// lane.
+///
+/// # Accuracy
+/// L U is P A to a few n ulp of the largest entry (growth of the pivots, rare, apart).
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::lu;
+/// let (mut a, mut exchanges, mut b) = ([0.0, 2.0, 1.0, 0.0], [0; 2], [3.0, 4.0]); // y = 3, 2x = 4
+/// lu::factor_in_place(&mut a, &mut exchanges)?;
+/// lu::solve_in_place(&a, &exchanges, &mut b)?;
+/// assert_eq!(b, [2.0, 3.0]);
+/// # Ok::<(), piola_numerics::Error>(())
+/// ```
+#[inline(always)]
+pub fn factor_in_place<T: Real>(a: &mut [T], exchanges: &mut [usize]) -> Result<(), Error> {
+    let n = exchanges.len();
+    check_dimension("matrix", a.len(), n * n)?;
+    let threshold = T::lit(n as f64 * unit_in_last_place::<T>());
+    for j in 0..n {
+        let scale = a[j * n..(j + 1) * n].iter().fold(T::zero(), |largest, x| largest.max(x.abs()));
+        for k in 0..j {
+            // Column j loses its part along column k: a_ij ← a_ij − l_ik u_kj.
+            let (before, column) = a.split_at_mut(j * n);
+            let weight = column[k];
+            for i in k + 1..n {
+                column[i] -= before[i + k * n] * weight;
+            }
+        }
+        let row = pivot_row(&a[j * n..(j + 1) * n], j);
+        exchanges[j] = row;
+        if row != j {
+            for k in 0..n {
+                a.swap(j + k * n, row + k * n);
+            }
+        }
+        let pivot = a[j + j * n];
+        if !(threshold * scale).less_than(pivot.abs()).all() {
+            return Err(refused(j, pivot, scale, threshold));
+        }
+        let inverse = pivot.recip();
+        for i in j + 1..n {
+            a[i + j * n] *= inverse;
+        }
+    }
+    Ok(())
+}
+
+/// The row, from `start` on, whose entry is largest; over lanes by its smallest share of the lane's largest.
+#[inline(always)]
+fn pivot_row<T: Real>(column: &[T], start: usize) -> usize {
+    let share = |entry: T, lane: usize| {
+        if T::LANES == 1 {
+            return entry.primal(0).abs();
+        }
+        let largest = column[start..].iter().fold(0.0_f64, |m, x| m.max(x.primal(lane).abs()));
+        entry.primal(lane).abs() / largest
+    };
+    let mut best = (start, -1.0);
+    for (i, &entry) in column.iter().enumerate().skip(start) {
+        let share = (0..T::LANES).map(|lane| share(entry, lane)).fold(f64::INFINITY, f64::min);
+        if best.1 < share {
+            best = (i, share);
+        }
+    }
+    best.0
+}
+
+/// The error for a pivot that is zero to rounding: the numbers of the first lane that fails.
+#[cold]
+fn refused<T: Real>(pivot: usize, value: T, scale: T, threshold: T) -> Error {
+    let fails = |lane: &usize| {
+        let size = threshold.primal(*lane) * scale.primal(*lane);
+        !(size < value.primal(*lane).abs())
+    };
+    let lane = (0..T::LANES).find(fails).unwrap_or(0);
+    Error::Singular { pivot, value: value.primal(lane), scale: scale.primal(lane) }
+}
+
+/// Overwrites b with the solution of A x = b, from the factors of [`factor_in_place`].
+///
+/// # Errors
+/// [`Error::Dimension`].
+///
+/// # Accuracy
+/// Relative error of a few n ulp × the condition number.
+#[inline(always)]
+pub fn solve_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), Error> {
+    let n = exchanges.len();
+    check_dimension("factors", factors.len(), n * n)?;
+    check_dimension("right-hand side", b.len(), n)?;
+    for (k, &row) in exchanges.iter().enumerate() {
+        b.swap(k, row);
+    }
+    for k in 0..n {
+        let x = b[k];
+        for i in k + 1..n {
+            b[i] -= factors[i + k * n] * x;
+        }
+    }
+    for k in (0..n).rev() {
+        let x = b[k] / factors[k + k * n];
+        b[k] = x;
+        for i in 0..k {
+            b[i] -= factors[i + k * n] * x;
+        }
+    }
+    Ok(())
+}
+
+/// Overwrites b with the solution of Aᵀ x = b, from the factors of A.
+///
+/// # Errors
+/// [`Error::Dimension`].
+#[inline(always)]
+pub fn solve_transposed_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), Error> {
+    let n = exchanges.len();
+    check_dimension("factors", factors.len(), n * n)?;
+    check_dimension("right-hand side", b.len(), n)?;
+    for k in 0..n {
+        let mut x = b[k];
+        for i in 0..k {
+            x -= factors[i + k * n] * b[i];
+        }
+        b[k] = x / factors[k + k * n];
+    }
+    for k in (0..n).rev() {
+        let mut x = b[k];
+        for i in k + 1..n {
+            x -= factors[i + k * n] * b[i];
+        }
+        b[k] = x;
+    }
+    for (k, &row) in exchanges.iter().enumerate().rev() {
+        b.swap(k, row);
+    }
+    Ok(())
+}
+
+/// Solves A x = b for a matrix of constant size, without allocation and with unrolled loops.
+///
+/// # Errors
+/// As [`factor_in_place`]; entries that are not finite are refused by name.
+///
+/// # Example
+/// ```
+/// use nalgebra::{matrix, vector};
+/// let x = piola_numerics::linear::lu::solve(matrix![0.0, 1.0; 2.0, 0.0], vector![3.0, 4.0])?;
+/// assert_eq!(x, vector![2.0, 3.0]);
+/// # Ok::<(), piola_numerics::Error>(())
+/// ```
+#[inline]
+pub fn solve<T: Real, const N: usize>(
+    mut matrix: SMatrix<T, N, N>,
+    mut right: SVector<T, N>,
+) -> Result<SVector<T, N>, Error> {
+    check_finite("matrix", matrix.as_slice())?;
+    check_finite("right-hand side", right.as_slice())?;
+    let mut exchanges = [0; N];
+    factor_in_place(matrix.as_mut_slice(), &mut exchanges)?;
+    solve_in_place(matrix.as_slice(), &exchanges, right.as_mut_slice())?;
+    Ok(right)
+}
+
+/// The factors of a regular matrix whose size is known at run time.
+///
+/// # Example
+/// ```
+/// use nalgebra::{dmatrix, dvector};
+/// use piola_numerics::linear::lu::Lu;
+/// let lu = Lu::new(&dmatrix![0.0, 1.0; 2.0, 0.0])?;
+/// assert_eq!(lu.solve(&dvector![3.0, 4.0])?, dvector![2.0, 3.0]);
+/// assert_eq!(lu.determinant(), -2.0);
+/// # Ok::<(), piola_numerics::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Lu<T> {
+    factors: Vec<T>,
+    exchanges: Vec<usize>,
+}
+
+impl<T: Real> Lu<T> {
+    /// Factors a square matrix.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`], [`Error::NonFinite`], [`Error::Singular`].
+    pub fn new(matrix: &DMatrix<T>) -> Result<Self, Error> {
+        let n = matrix.ncols();
+        let mut lu = Self { factors: vec![T::zero(); n * n], exchanges: vec![0; n] };
+        lu.factor(matrix.as_slice())?;
+        Ok(lu)
+    }
+    /// Factors another matrix of the same size, given down its columns, without allocating.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new). The factors are of no use after an error.
+    pub fn factor(&mut self, matrix: &[T]) -> Result<(), Error> {
+        check_dimension("matrix", matrix.len(), self.factors.len())?;
+        check_finite("matrix", matrix)?;
+        self.factors.copy_from_slice(matrix);
+        factor_in_place(&mut self.factors, &mut self.exchanges)
+    }
+    /// The number of rows.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.exchanges.len()
+    }
+    /// The solution of A x = b.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`], [`Error::NonFinite`].
+    pub fn solve(&self, right: &DVector<T>) -> Result<DVector<T>, Error> {
+        let mut solution = right.clone();
+        check_finite("right-hand side", right.as_slice())?;
+        self.solve_in_place(solution.as_mut_slice())?;
+        Ok(solution)
+    }
+    /// Overwrites b with the solution of A x = b, without allocating.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`].
+    #[inline]
+    pub fn solve_in_place(&self, right: &mut [T]) -> Result<(), Error> {
+        solve_in_place(&self.factors, &self.exchanges, right)
+    }
+    /// Overwrites b with the solution of Aᵀ x = b, without allocating.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`].
+    #[inline]
+    pub fn solve_transposed_in_place(&self, right: &mut [T]) -> Result<(), Error> {
+        solve_transposed_in_place(&self.factors, &self.exchanges, right)
+    }
+    /// det A: the product of the pivots, with a sign for each exchange of rows.
+    #[must_use]
+    pub fn determinant(&self) -> T {
+        let n = self.order();
+        self.exchanges.iter().enumerate().fold(T::one(), |product, (k, &row)| {
+            let pivot = self.factors[k + k * n];
+            product * if row == k { pivot } else { -pivot }
+        })
+    }
+}
+
+impl Lu<f64> {
+    /// An estimate of ‖A‖₁ ‖A⁻¹‖₁, rarely below a third of it: a solution loses that many ulp.
+    ///
+    /// `matrix` is the matrix that was factored, down its columns.
+    ///
+    /// # Errors
+    /// [`Error::Dimension`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::dmatrix;
+    /// use piola_numerics::linear::lu::Lu;
+    /// let a = dmatrix![2.0, 0.0; 0.0, 0.5];
+    /// assert_eq!(Lu::new(&a)?.condition_estimate(a.as_slice())?, 4.0);
+    /// # Ok::<(), piola_numerics::Error>(())
+    /// ```
+    pub fn condition_estimate(&self, matrix: &[f64]) -> Result<f64, Error> {
+        check_dimension("matrix", matrix.len(), self.factors.len())?;
+        // The vectors have the right length, so that nothing can be refused.
+        let solve = |x: &mut [f64]| {
+            let _ = self.solve_in_place(x);
+        };
+        let solve_transposed = |x: &mut [f64]| {
+            let _ = self.solve_transposed_in_place(x);
+        };
+        let n = self.order();
+        Ok(one_norm(matrix, n) * condition::inverse_norm(n, solve, solve_transposed))
+    }
+}

@@ -1,0 +1,199 @@
+//! Determinant, inverse and solution of 3×3 systems in closed form.
+//!
+//! The kernels work on arrays of rows, have no branch and are inlined, so that they run in lanes; they give
+//! ∞ or NaN for a singular matrix. [`inverse`] and [`solve`] take nalgebra's types and refuse it.
+//!
+//! ```text
+//! A⁻¹ = adj A / det A        det A = a₁ · (a₂ × a₃),   adj A = [a₂×a₃  a₃×a₁  a₁×a₂]  for rows aᵢ
+//! ```
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::error::check_finite;
+use crate::sums::unit_in_last_place;
+use crate::{Error, Mask, Real};
+
+/// a × b.
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::matrix3::cross;
+/// assert_eq!(cross([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// a · b.
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::matrix3::dot;
+/// assert_eq!(dot([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), 32.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// det A of an array of rows.
+///
+/// # Accuracy
+/// Within 4 ulp of the sum of the six products with all signs positive.
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::matrix3::determinant;
+/// assert_eq!(determinant([[2.0, 0.0, 1.0], [0.0, 3.0, 0.0], [1.0, 0.0, 1.0]]), 3.0); // 2·3·1 − 1·3·1
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn determinant<T: Real>(rows: [[T; 3]; 3]) -> T {
+    dot(rows[0], cross(rows[1], rows[2]))
+}
+
+/// adj A, with A adj A = (det A) 1; it exists for singular matrices too.
+///
+/// # Accuracy
+/// Each entry within 2 ulp of the sum of its two products with positive signs.
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::matrix3::adjugate;
+/// let a = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 0.0]];
+/// assert_eq!(adjugate(a)[2], [0.0, 0.0, 6.0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn adjugate<T: Real>(rows: [[T; 3]; 3]) -> [[T; 3]; 3] {
+    let columns = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];
+    core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]))
+}
+
+/// (A⁻¹, det A) of an array of rows; ∞ or NaN when A is singular.
+///
+/// # Accuracy
+/// A few ulp × the condition number.
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::matrix3::inverse_and_determinant;
+/// let (inverse, determinant) = inverse_and_determinant([[2.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 1.0]]);
+/// assert_eq!((inverse[0][0], inverse[1][1], determinant), (0.5, 0.25, 8.0));
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn inverse_and_determinant<T: Real>(rows: [[T; 3]; 3]) -> ([[T; 3]; 3], T) {
+    let adjugate = adjugate(rows);
+    let determinant = rows[0][0] * adjugate[0][0] + rows[0][1] * adjugate[1][0] + rows[0][2] * adjugate[2][0];
+    let reciprocal = determinant.recip();
+    (adjugate.map(|row| row.map(|entry| entry * reciprocal)), determinant)
+}
+
+/// The solution of A x = b for an array of rows; ∞ or NaN when A is singular.
+///
+/// # Accuracy
+/// A few ulp × the condition number.
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::matrix3::solve_rows;
+/// let a = [[0.0, 2.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 4.0]];
+/// assert_eq!(solve_rows(a, [2.0, 3.0, 8.0]), [3.0, 1.0, 2.0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn solve_rows<T: Real>(rows: [[T; 3]; 3], right: [T; 3]) -> [T; 3] {
+    let adjugate = adjugate(rows);
+    let determinant = rows[0][0] * adjugate[0][0] + rows[0][1] * adjugate[1][0] + rows[0][2] * adjugate[2][0];
+    let reciprocal = determinant.recip();
+    adjugate.map(|row| dot(row, right) * reciprocal)
+}
+
+/// The rows of a nalgebra matrix, for the kernels above.
+#[inline(always)]
+#[must_use]
+pub fn rows_of<T: Real>(matrix: &Matrix3<T>) -> [[T; 3]; 3] {
+    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]))
+}
+
+/// The nalgebra matrix of an array of rows.
+#[inline(always)]
+#[must_use]
+pub fn from_rows<T: Real>(rows: [[T; 3]; 3]) -> Matrix3<T> {
+    Matrix3::from_fn(|i, j| rows[i][j])
+}
+
+/// A⁻¹.
+///
+/// # Errors
+/// [`Error::NonFinite`]; [`Error::Singular`] when, in any lane, |det A| is within rounding (8 ulp) of zero,
+/// compared with the product of the largest entries of the rows.
+///
+/// # Accuracy
+/// A few ulp × the condition number.
+///
+/// # Example
+/// ```
+/// use nalgebra::Matrix3;
+/// use piola_numerics::linear::matrix3;
+/// let inverse = matrix3::inverse(&Matrix3::new(2.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 1.0))?;
+/// assert_eq!(inverse[(1, 1)], 0.25);
+/// assert!(matrix3::inverse(&Matrix3::repeat(1.0)).is_err());
+/// # Ok::<(), piola_numerics::Error>(())
+/// ```
+#[inline]
+pub fn inverse<T: Real>(matrix: &Matrix3<T>) -> Result<Matrix3<T>, Error> {
+    check_finite("matrix", matrix.as_slice())?;
+    let rows = rows_of(matrix);
+    let (inverse, determinant) = inverse_and_determinant(rows);
+    check_regular(rows, determinant)?;
+    Ok(from_rows(inverse))
+}
+
+/// The solution of A x = b.
+///
+/// # Errors
+/// As [`inverse`].
+///
+/// # Accuracy
+/// A few ulp × the condition number; the residual is not always as small as elimination makes it, for which
+/// see [`lu::solve`](super::lu::solve).
+///
+/// # Example
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use piola_numerics::linear::matrix3;
+/// let a = Matrix3::new(0.0, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 4.0);
+/// assert_eq!(matrix3::solve(&a, &Vector3::new(2.0, 3.0, 8.0))?, Vector3::new(3.0, 1.0, 2.0));
+/// # Ok::<(), piola_numerics::Error>(())
+/// ```
+#[inline]
+pub fn solve<T: Real>(matrix: &Matrix3<T>, right: &Vector3<T>) -> Result<Vector3<T>, Error> {
+    check_finite("matrix", matrix.as_slice())?;
+    check_finite("right-hand side", right.as_slice())?;
+    let rows = rows_of(matrix);
+    check_regular(rows, determinant(rows))?;
+    Ok(Vector3::from(solve_rows(rows, [right[0], right[1], right[2]])))
+}
+
+/// Refuses a determinant that is zero to rounding.
+#[inline]
+fn check_regular<T: Real>(rows: [[T; 3]; 3], determinant: T) -> Result<(), Error> {
+    // The volume is compared with that of the box with the same edges; largest entries stand for lengths,
+    // which could overflow when squared.
+    let length = |row: [T; 3]| row[0].abs().max(row[1].abs()).max(row[2].abs());
+    let volume = length(rows[0]) * length(rows[1]) * length(rows[2]);
+    let threshold = T::lit(8.0 * unit_in_last_place::<T>());
+    let regular = (threshold * volume).less_than(determinant.abs());
+    if regular.all() {
+        return Ok(());
+    }
+    let limit = threshold.primal(0);
+    let fails = |lane: &usize| !(limit * volume.primal(*lane) < determinant.primal(*lane).abs());
+    let lane = (0..T::LANES).find(fails).unwrap_or(0);
+    Err(Error::Singular { pivot: 3, value: determinant.primal(lane), scale: volume.primal(lane) })
+}
