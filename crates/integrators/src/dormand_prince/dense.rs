@@ -1,0 +1,138 @@
+//! Dense output: the state at any time within an accepted step, to order seven.
+
+use piola_numerics::Real;
+
+use super::coefficients as c;
+use super::{DormandPrince853, combine, evaluate};
+use crate::{Field, IntegrationError};
+
+/// An accepted step, with the state at any time within it.
+///
+/// The first call of [`at`](Self::at) in a step evaluates the field three times; a step that is not asked
+/// costs nothing.
+#[derive(Debug)]
+pub struct DenseStep<'a, T, F> {
+    method: &'a mut DormandPrince853<T>,
+    field: &'a mut F,
+    number: u64,
+    start: f64,
+    end: f64,
+    step: f64,
+    evaluations: u64,
+}
+
+impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
+    pub(super) fn new(
+        method: &'a mut DormandPrince853<T>,
+        field: &'a mut F,
+        number: u64,
+        start: f64,
+        end: f64,
+        step: f64,
+    ) -> Self {
+        Self { method, field, number, start, end, step, evaluations: 0 }
+    }
+
+    /// The number of the step, from 1.
+    #[must_use]
+    pub const fn number(&self) -> u64 {
+        self.number
+    }
+    /// The time at its start, s.
+    #[must_use]
+    pub const fn start(&self) -> f64 {
+        self.start
+    }
+    /// The time at its end, s.
+    #[must_use]
+    pub const fn time(&self) -> f64 {
+        self.end
+    }
+    /// The state at its start.
+    #[must_use]
+    pub fn start_values(&self) -> &[T] {
+        &self.method.start
+    }
+    /// The state at its end.
+    #[must_use]
+    pub fn values(&self) -> &[T] {
+        &self.method.trial
+    }
+    /// Whether a time lies within the step.
+    #[must_use]
+    pub fn contains(&self, time: f64) -> bool {
+        let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
+        low <= time && time <= high
+    }
+    pub(super) const fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// Writes the state at a time within the step to `out`.
+    ///
+    /// ```text
+    /// y(θ) = y₀ + θ(F₀ + θ̄(F₁ + θ(F₂ + θ̄(F₃ + θ(F₄ + θ̄(F₅ + θF₆)))))),   θ = (t − t₀)/h,  θ̄ = 1 − θ
+    /// ```
+    ///
+    /// # Errors
+    /// [`IntegrationError::OutsideStep`]: dense output never extrapolates. [`IntegrationError::Field`] when
+    /// one of the three additional evaluations fails. [`IntegrationError::DimensionMismatch`].
+    pub fn at(&mut self, time: f64, out: &mut [T]) -> Result<(), IntegrationError<F::Error>> {
+        if out.len() != self.method.start.len() {
+            return Err(IntegrationError::DimensionMismatch { expected: self.method.start.len(), found: out.len() });
+        }
+        if !self.contains(time) {
+            return Err(IntegrationError::OutsideStep { time, start: self.start, end: self.end });
+        }
+        if self.evaluations == 0 {
+            self.prepare()?;
+        }
+        let theta = T::lit(((time - self.start) / self.step).clamp(0.0, 1.0));
+        let rest = T::one() - theta;
+        let [f0, f1, f2, f3, f4, f5, f6] = &self.method.interpolant;
+        for (i, out) in out.iter_mut().enumerate() {
+            let inner = f3[i] + theta * (f4[i] + rest * (f5[i] + theta * f6[i]));
+            let increment = theta * (f0[i] + rest * (f1[i] + theta * (f2[i] + rest * inner)));
+            *out = self.method.start[i] + (self.method.start_carry[i] + increment);
+        }
+        Ok(())
+    }
+
+    fn prepare(&mut self) -> Result<(), IntegrationError<F::Error>> {
+        let (method, t, h) = (&mut *self.method, self.start, self.step);
+        let start = (&method.start[..], &method.start_carry[..]);
+        // The step's end stands in `trial`; the arguments of the stages go to the last interpolant.
+        macro_rules! stage {
+            ($number:literal, $row:expr) => {
+                combine(&$row, &method.stages, start, h, &mut method.interpolant[6]);
+                evaluate(self.field, t + c::C[$number] * h, &method.interpolant[6], &mut method.stages[$number])?;
+            };
+        }
+        stage!(13, c::A14);
+        stage!(14, c::A15);
+        stage!(15, c::A16);
+        self.evaluations += 3;
+        let h = T::lit(h);
+        let k = &method.stages;
+        for i in 0..method.trial.len() {
+            let difference =
+                (method.trial[i] - method.start[i]) + (method.trial_carry[i] - method.start_carry[i]);
+            let (first, last) = (h * k[0][i], h * k[12][i]);
+            method.interpolant[0][i] = difference;
+            method.interpolant[1][i] = first - difference;
+            method.interpolant[2][i] = difference + difference - (last + first);
+            let row = |row: &[(usize, f64)]| {
+                let mut sum = T::zero();
+                for &(j, d) in row {
+                    sum += T::lit(d) * k[j][i];
+                }
+                h * sum
+            };
+            method.interpolant[3][i] = row(&c::D4);
+            method.interpolant[4][i] = row(&c::D5);
+            method.interpolant[5][i] = row(&c::D6);
+            method.interpolant[6][i] = row(&c::D7);
+        }
+        Ok(())
+    }
+}

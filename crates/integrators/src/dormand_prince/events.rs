@@ -1,0 +1,246 @@
+//! Events: times at which a function g(t, y) crosses zero, found within the steps.
+
+use core::fmt;
+use core::ops::ControlFlow;
+
+use super::{DenseStep, DormandPrince853};
+use crate::{Ending, Field, IntegrationError, Report, State};
+
+/// Which crossings of zero count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crossing {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Both.
+    Either,
+}
+
+/// What happens at a crossing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventAction {
+    /// It is reported and the run goes on.
+    Report,
+    /// It is reported and the run ends there.
+    Stop,
+}
+
+/// A function g(t, y) whose zeros in time are wanted.
+///
+/// Within each step g is looked at in eight places on the dense output, so that two crossings in one step
+/// are found unless they are closer than an eighth of it. A g that is exactly zero at the start of the run
+/// is not an event there: the run may start on the surface that it is to return to.
+pub struct Event<'e> {
+    function: Box<dyn FnMut(f64, &[f64]) -> f64 + 'e>,
+    crossing: Crossing,
+    action: EventAction,
+    /// The last time at which g was not zero, and g there; `None` before the run has left g = 0.
+    last: Option<(f64, f64)>,
+    pending: Option<f64>,
+}
+
+impl fmt::Debug for Event<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.debug_struct("Event").field("crossing", &self.crossing).field("action", &self.action).finish()
+    }
+}
+
+impl<'e> Event<'e> {
+    /// An event at the zeros of `function`.
+    #[must_use]
+    pub fn new(crossing: Crossing, action: EventAction, function: impl FnMut(f64, &[f64]) -> f64 + 'e) -> Self {
+        Self { function: Box::new(function), crossing, action, last: None, pending: None }
+    }
+
+    fn counts(&self, before: f64) -> bool {
+        match self.crossing {
+            Crossing::Rising => before < 0.0,
+            Crossing::Falling => 0.0 < before,
+            Crossing::Either => true,
+        }
+    }
+}
+
+/// One crossing, as it is reported.
+#[derive(Clone, Copy, Debug)]
+pub struct Occurrence<'a> {
+    /// The index of the event in the list given.
+    pub event: usize,
+    /// The time of the crossing, s, to rounding of the dense output.
+    pub time: f64,
+    /// The state there.
+    pub values: &'a [f64],
+}
+
+/// Places looked at in one step.
+const PLACES: u32 = 8;
+
+impl DormandPrince853<f64> {
+    /// Integrates to `end` and reports the crossings of the events in the order of time. The run ends early
+    /// at an event whose action is [`EventAction::Stop`], with the state there, or when one of the observers
+    /// breaks.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_integrators::*;
+    /// use std::ops::ControlFlow;
+    /// // A stone thrown up at 9.80665 m/s is back after two seconds.
+    /// let mut stone = field(2, |_t, y: &[f64], rate: &mut [f64]| {
+    ///     rate[0] = y[1];
+    ///     rate[1] = -9.80665;
+    /// });
+    /// let mut state = State::new(0.0, vec![0.0, 9.80665])?;
+    /// let mut ground = [Event::new(Crossing::Falling, EventAction::Stop, |_t, y| y[0])];
+    /// let report = DormandPrince853::new(Tolerance::relative(1e-12)?).integrate_with_events(
+    ///     &mut stone, &mut state, 10.0, &mut ground,
+    ///     |_| ControlFlow::Continue(()), |_| ControlFlow::Continue(()),
+    /// )?;
+    /// assert_eq!(report.ending, Ending::Event(0));
+    /// assert!((state.time - 2.0).abs() < 1e-13);
+    /// # Ok::<(), IntegrationError>(())
+    /// ```
+    pub fn integrate_with_events<F: Field>(
+        &mut self,
+        field: &mut F,
+        state: &mut State,
+        end: f64,
+        events: &mut [Event<'_>],
+        mut on_event: impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
+        mut observer: impl FnMut(&mut DenseStep<'_, f64, F>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegrationError<F::Error>> {
+        let mut values = state.values.clone();
+        for event in &mut *events {
+            let g = (event.function)(state.time, &state.values);
+            event.last = if g.abs() <= 0.0 { None } else { Some((state.time, g)) };
+            event.pending = None;
+        }
+        let mut failure = None;
+        let report = self.run(field, state, end, &mut |step, _| {
+            match locate(step, events, &mut values, &mut on_event) {
+                Err(error) => {
+                    failure = Some(error);
+                    return ControlFlow::Break((None, Ending::Stopped));
+                }
+                Ok(Some(stop)) => return ControlFlow::Break(stop),
+                Ok(None) => {}
+            }
+            if observer(step).is_break() { ControlFlow::Break((None, Ending::Stopped)) } else { ControlFlow::Continue(()) }
+        })?;
+        failure.map_or(Ok(report), Err)
+    }
+}
+
+type Stop = (Option<f64>, Ending);
+
+/// Finds and reports the crossings of one step.
+fn locate<F: Field>(
+    step: &mut DenseStep<'_, f64, F>,
+    events: &mut [Event<'_>],
+    values: &mut [f64],
+    on_event: &mut impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
+) -> Result<Option<Stop>, IntegrationError<F::Error>> {
+    let (start, end) = (step.start(), step.time());
+    for place in 1..=PLACES {
+        let time = if place == PLACES { end } else { start + (end - start) * (f64::from(place) / f64::from(PLACES)) };
+        step.at(time, values)?;
+        for event in &mut *events {
+            let g = (event.function)(time, values);
+            event.pending = None;
+            let Some((before_time, before)) = event.last else {
+                // Not yet off the surface on which the run started.
+                event.last = if g.abs() <= 0.0 { None } else { Some((time, g)) };
+                continue;
+            };
+            let crossed = g.abs() <= 0.0 || (g < 0.0) != (before < 0.0);
+            if crossed && event.counts(before) {
+                event.pending = Some(root(step, event, values, (before_time, before), (time, g))?);
+                // `values` now belongs to another time; the other events want this one.
+                step.at(time, values)?;
+            }
+            event.last = if g.abs() <= 0.0 { None } else { Some((time, g)) };
+        }
+        while let Some((index, time)) = earliest(events, start <= end) {
+            events[index].pending = None;
+            step.at(time, values)?;
+            let verdict = on_event(Occurrence { event: index, time, values });
+            if events[index].action == EventAction::Stop {
+                return Ok(Some((Some(time), Ending::Event(index))));
+            }
+            if verdict.is_break() {
+                return Ok(Some((Some(time), Ending::Stopped)));
+            }
+        }
+    }
+    Ok(None)
+}
+
+fn earliest(events: &[Event<'_>], forwards: bool) -> Option<(usize, f64)> {
+    let mut found: Option<(usize, f64)> = None;
+    for (index, event) in events.iter().enumerate() {
+        if let Some(time) = event.pending
+            && found.is_none_or(|(_, best)| if forwards { time < best } else { best < time })
+        {
+            found = Some((index, time));
+        }
+    }
+    found
+}
+
+/// The zero of g between two times of opposite sign: false position with halving of the stale end
+/// (Illinois), and bisection whenever that is slow.
+fn root<F: Field>(
+    step: &mut DenseStep<'_, f64, F>,
+    event: &mut Event<'_>,
+    values: &mut [f64],
+    (mut a, mut ga): (f64, f64),
+    (mut b, mut gb): (f64, f64),
+) -> Result<f64, IntegrationError<F::Error>> {
+    if gb.abs() <= 0.0 {
+        return Ok(b);
+    }
+    // The last time with g ≠ 0 can belong to the step before, where this polynomial does not reach.
+    if !step.contains(a) {
+        a = step.start();
+        step.at(a, values)?;
+        let g = (event.function)(a, values);
+        if g.abs() <= 0.0 || (g < 0.0) == (gb < 0.0) {
+            return Ok(a);
+        }
+        ga = g;
+    }
+    let mut stale = 0;
+    for iteration in 0..200 {
+        if (b - a).abs() <= 2.0 * f64::EPSILON * a.abs().max(b.abs()) {
+            break;
+        }
+        let middle = if iteration % 4 == 3 { 0.5 * (a + b) } else { b - gb * ((b - a) / (gb - ga)) };
+        let inside = (a < middle && middle < b) || (b < middle && middle < a);
+        let middle = if inside { middle } else { 0.5 * (a + b) };
+        if middle <= a.min(b) || a.max(b) <= middle {
+            break;
+        }
+        step.at(middle, values)?;
+        let g = (event.function)(middle, values);
+        if g.abs() <= 0.0 {
+            return Ok(middle);
+        }
+        if (g < 0.0) == (gb < 0.0) {
+            (b, gb) = (middle, g);
+            if stale == 1 {
+                ga *= 0.5;
+            }
+            stale = 1;
+        } else {
+            (a, ga) = (middle, g);
+            if stale == 2 {
+                gb *= 0.5;
+            }
+            stale = 2;
+        }
+    }
+    Ok(b)
+}

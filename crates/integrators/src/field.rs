@@ -1,0 +1,136 @@
+//! What is integrated: a field ẏ = f(t, y), or a separable pair q̇ = u(t, p), ṗ = w(t, q).
+
+use core::convert::Infallible;
+
+use piola_numerics::Real;
+
+/// A first-order system ẏ = f(t, y) over any scalar.
+///
+/// Any `FnMut(f64, &[f64], &mut [f64])` with a dimension is one: see [`field`].
+pub trait Field<T: Real = f64> {
+    /// Why an evaluation can fail; [`Infallible`] when it cannot.
+    type Error;
+    /// The number of components of y.
+    fn dimension(&self) -> usize;
+    /// Writes f(t, y) to `rate`. Both slices have the length of [`dimension`](Self::dimension).
+    ///
+    /// # Errors
+    /// Whatever makes the field undefined at (t, y).
+    fn rate(&mut self, t: f64, y: &[T], rate: &mut [T]) -> Result<(), Self::Error>;
+    /// Whether y = (q, v) with q̇ = v: methods may then save evaluations. The default is no.
+    fn is_second_order(&self) -> bool {
+        false
+    }
+    /// Writes the magnitude against which the error of each component is relative.
+    ///
+    /// The default is each component's own block: y is a block of positions and a block of velocities of
+    /// equal length if the dimension is even, and the magnitude is the largest |y| of the block. Fields
+    /// whose components have natural groups (the three coordinates of one body) override it.
+    fn magnitudes(&self, y: &[T], magnitudes: &mut [f64]) {
+        let blocks = if y.len() % 2 == 0 { 2 } else { 1 };
+        let length = (y.len() / blocks).max(1);
+        for (block, magnitudes) in y.chunks(length).zip(magnitudes.chunks_mut(length)) {
+            magnitudes.fill(block.iter().map(|&x| largest_lane(x)).fold(0.0, f64::max));
+        }
+    }
+}
+
+/// The largest |value| among the lanes of one scalar.
+#[inline(always)]
+pub(crate) fn largest_lane<T: Real>(x: T) -> f64 {
+    let mut largest = x.primal(0).abs();
+    for lane in 1..T::LANES {
+        largest = largest.max(x.primal(lane).abs());
+    }
+    largest
+}
+
+/// A separable system: q̇ depends on t and p alone, ṗ on t and q alone.
+///
+/// ```text
+/// q̇ = ∂T/∂p (t, p)        ṗ = −∂V/∂q (t, q)
+/// ```
+///
+/// These are the systems that explicit symplectic methods integrate. The state is y = (q, p).
+pub trait Separable<T: Real = f64> {
+    /// Why an evaluation can fail; [`Infallible`] when it cannot.
+    type Error;
+    /// The number of positions n; the state has 2n components.
+    fn freedom(&self) -> usize;
+    /// Writes q̇ = ∂T/∂p to `velocity`. The default is q̇ = p: momenta per unit mass.
+    ///
+    /// # Errors
+    /// Whatever makes the velocity undefined.
+    fn velocity(&mut self, _t: f64, momentum: &[T], velocity: &mut [T]) -> Result<(), Self::Error> {
+        velocity.copy_from_slice(momentum);
+        Ok(())
+    }
+    /// Writes ṗ = −∂V/∂q to `force`.
+    ///
+    /// # Errors
+    /// Whatever makes the force undefined.
+    fn force(&mut self, t: f64, position: &[T], force: &mut [T]) -> Result<(), Self::Error>;
+}
+
+/// A function with a dimension: see [`field`].
+#[derive(Clone, Copy, Debug)]
+pub struct FunctionField<F> {
+    dimension: usize,
+    function: F,
+}
+
+/// Makes a field of a function f(t, y, rate).
+///
+/// # Example
+/// ```
+/// use piola_integrators::{DormandPrince853, State, Tolerance, field};
+/// let mut decay = field(1, |_t, y: &[f64], rate: &mut [f64]| rate[0] = -y[0]);
+/// let mut state = State::new(0.0, vec![1.0])?;
+/// DormandPrince853::new(Tolerance::relative(1e-12)?).integrate_to(&mut decay, &mut state, 1.0)?;
+/// assert!((state.values[0] - (-1.0_f64).exp()).abs() < 1e-12);
+/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// ```
+pub fn field<F: FnMut(f64, &[T], &mut [T]), T: Real>(dimension: usize, function: F) -> FunctionField<F> {
+    FunctionField { dimension, function }
+}
+
+impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Field<T> for FunctionField<F> {
+    type Error = Infallible;
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+    #[inline(always)]
+    fn rate(&mut self, t: f64, y: &[T], rate: &mut [T]) -> Result<(), Infallible> {
+        (self.function)(t, y, rate);
+        Ok(())
+    }
+}
+
+/// Makes a separable system of n degrees of freedom with q̇ = p and ṗ = f(t, q).
+///
+/// # Example
+/// ```
+/// use piola_integrators::{Composition, Order, State, separable};
+/// // A harmonic oscillator for one period: it comes back.
+/// let mut oscillator = separable(1, |_t, q: &[f64], force: &mut [f64]| force[0] = -q[0]);
+/// let mut state = State::new(0.0, vec![1.0, 0.0])?;
+/// let period = 2.0 * std::f64::consts::PI;
+/// Composition::new(Order::Eight, period / 16.0)?.integrate_to(&mut oscillator, &mut state, period)?;
+/// assert!((state.values[0] - 1.0).abs() < 1e-7);
+/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// ```
+pub fn separable<F: FnMut(f64, &[T], &mut [T]), T: Real>(freedom: usize, force: F) -> FunctionField<F> {
+    FunctionField { dimension: freedom, function: force }
+}
+
+impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Separable<T> for FunctionField<F> {
+    type Error = Infallible;
+    fn freedom(&self) -> usize {
+        self.dimension
+    }
+    #[inline(always)]
+    fn force(&mut self, t: f64, position: &[T], force: &mut [T]) -> Result<(), Infallible> {
+        (self.function)(t, position, force);
+        Ok(())
+    }
+}

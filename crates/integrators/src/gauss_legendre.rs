@@ -1,0 +1,333 @@
+//! Gauss–Legendre collocation of orders 2, 4, 6 and 8: implicit, symplectic, for any field.
+//!
+//! With s stages, order 2s. The stages are solved for the increments Lᵢ = h bᵢ f(t + cᵢh, Yᵢ):
+//!
+//! ```text
+//! Yᵢ = y + Σⱼ μᵢⱼ Lⱼ        y ← y + Σᵢ Lᵢ        μᵢⱼ = aᵢⱼ/bⱼ,   μᵢⱼ + μⱼᵢ = 1
+//! ```
+//!
+//! The last identity is the condition of symplecticity; it holds for the *stored* coefficients exactly, so
+//! rounding of coefficients causes no drift of the energy. All quadratic integrals are kept.
+//!
+//! # When?
+//! For Hamiltonians that do not separate, velocity-dependent forces, and general Lagrangians in their
+//! canonical form (q, p): there the map is symplectic. In (q, q̇) it is merely of high order.
+//!
+//! # References
+//! Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3, VIII.6; the form with μ and the
+//! stopping criterion: Antoñana, Makazaga & Murua, Numer. Algor. 76 (2017) 861.
+
+use core::ops::ControlFlow;
+
+use piola_numerics::Real;
+
+use crate::field::largest_lane;
+use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
+use crate::{Ending, Field, IntegrationError, Order, Report, State, Step, unobserved};
+
+struct Tableau<const S: usize> {
+    /// c
+    nodes: [f64; S],
+    /// b
+    weights: [f64; S],
+    /// μ
+    couplings: [[f64; S]; S],
+    /// Lᵢ of the next step from the Lⱼ of this one, by continuing the collocation polynomial.
+    extrapolation: [[f64; S]; S],
+}
+
+const STAGES_1: Tableau<1> = Tableau {
+nodes: [ 0.5 ],
+weights: [ 1.0 ],
+couplings: [ [0.5] ],
+extrapolation: [ [1.0] ],
+};
+const STAGES_2: Tableau<2> = Tableau {
+nodes: [ 0.2113248654051871, 0.7886751345948129 ],
+weights: [ 0.5, 0.5 ],
+couplings: [ [0.5, 1.0 - 1.0773502691896257], [1.0773502691896257, 0.5] ],
+extrapolation: [ [-0.7320508075688773, 1.7320508075688772], [-1.7320508075688772, 2.732050807568877] ],
+};
+const STAGES_3: Tableau<3> = Tableau {
+nodes: [ 0.11270166537925831, 0.5, 0.8872983346207417 ],
+weights: [ 0.2777777777777778, 0.4444444444444444, 0.2777777777777778 ],
+couplings: [ [0.5, 1.0 - 1.0809475019311126, 1.0 - 0.96475800154489], [1.0809475019311126, 0.5, 1.0 - 1.0809475019311126], [0.96475800154489, 1.0809475019311126, 0.5] ],
+extrapolation: [ [0.46034998712591646, -0.9391805448271526, 2.0423388845975277], [3.2677422153560443, -5.666666666666667, 7.398924451310623], [4.624327782069139, -7.39415278850618, 8.20631667954075] ],
+};
+const STAGES_4: Tableau<4> = Tableau {
+nodes: [ 0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263 ],
+weights: [ 0.17392742256872692, 0.32607257743127305, 0.32607257743127305, 0.17392742256872692 ],
+couplings: [ [0.5, 1.0 - 1.08158975003228, 1.0 - 0.9612740734321142, 1.0 - 1.0204404206840407], [1.08158975003228, 0.5, 1.0 - 1.0855037514105192, 1.0 - 0.9612740734321142], [0.9612740734321142, 1.0855037514105192, 0.5, 1.0 - 1.08158975003228], [1.0204404206840407, 0.9612740734321142, 1.08158975003228, 0.5] ],
+extrapolation: [ [-0.3043475322896335, 0.5560939709183108, -1.0294085679737872, 2.191699902136537], [-3.667677403095109, 6.246427614654768, -9.46401244076669, 11.574646496723345], [-13.783927085129498, 22.244205449220566, -29.80681363156252, 29.836782226170214], [-14.971892910590412, 23.52091860319091, -29.864571097947245, 27.864733549197386] ],
+};
+/// Sweeps over the stages after which a step is given up.
+const MOST_SWEEPS: usize = 60;
+
+/// Gauss–Legendre collocation with a fixed step.
+///
+/// # Accuracy
+/// Global error O(hᵒʳᵈᵉʳ). The stages are iterated until rounding stops them; the state is summed with
+/// compensation.
+///
+/// # Example
+/// ```
+/// use piola_integrators::{GaussLegendre, Order, State, field};
+/// // A pendulum in canonical form, H = p²/2 − cos q: the energy returns to rounding.
+/// let mut pendulum = field(2, |_t, y: &[f64], rate: &mut [f64]| {
+///     rate[0] = y[1];
+///     rate[1] = -y[0].sin();
+/// });
+/// let energy = |y: &[f64]| 0.5 * y[1] * y[1] - y[0].cos();
+/// let mut state = State::new(0.0, vec![2.0, 0.0])?;
+/// let before = energy(&state.values);
+/// GaussLegendre::new(Order::Eight, 0.1)?.integrate_to(&mut pendulum, &mut state, 100.0)?;
+/// assert!((energy(&state.values) - before).abs() < 1e-10);
+/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct GaussLegendre<T = f64> {
+    order: Order,
+    step: f64,
+    workspace: Workspace<T>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Workspace<T> {
+    /// L₁ … Lₛ, one after the other.
+    increments: Vec<T>,
+    guess: Vec<T>,
+    stage: Vec<T>,
+    rate: Vec<T>,
+    magnitudes: Vec<f64>,
+    /// Whether `increments` belong to the step just before, of the same size.
+    continued: bool,
+}
+
+impl<T: Real> GaussLegendre<T> {
+    /// Collocation of the given order whose steps are no longer than `step` (s).
+    ///
+    /// # Errors
+    /// [`IntegrationError::InvalidStep`] unless 0 < step < ∞.
+    pub fn new(order: Order, step: f64) -> Result<Self, IntegrationError> {
+        check_step(step)?;
+        let workspace = Workspace {
+            increments: Vec::new(),
+            guess: Vec::new(),
+            stage: Vec::new(),
+            rate: Vec::new(),
+            magnitudes: Vec::new(),
+            continued: false,
+        };
+        Ok(Self { order, step, workspace })
+    }
+
+    /// The order.
+    #[must_use]
+    pub const fn order(&self) -> Order {
+        self.order
+    }
+
+    /// The longest step, s.
+    #[must_use]
+    pub const fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_to<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+    ) -> Result<Report, IntegrationError<F::Error>> {
+        self.integrate(field, state, end, unobserved)
+    }
+
+    /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is
+    /// earlier than the state's time. The observer sees every step and may stop the run.
+    ///
+    /// # Errors
+    /// The state does not fit, the field fails or gives a rate that is not finite, or the stages do not
+    /// converge ([`IntegrationError::StagesDiverged`]: take a smaller step). The state then stands at the
+    /// last complete step.
+    pub fn integrate<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegrationError<F::Error>> {
+        match self.order {
+            Order::Two => self.run(&STAGES_1, field, state, end, observer),
+            Order::Four => self.run(&STAGES_2, field, state, end, observer),
+            Order::Six => self.run(&STAGES_3, field, state, end, observer),
+            Order::Eight => self.run(&STAGES_4, field, state, end, observer),
+        }
+    }
+
+    fn run<const S: usize, F: Field<T>>(
+        &mut self,
+        tableau: &Tableau<S>,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegrationError<F::Error>> {
+        let n = field.dimension();
+        check_run(n, state, end)?;
+        let work = &mut self.workspace;
+        work.increments.resize(S * n, T::zero());
+        work.guess.resize(S * n, T::zero());
+        work.stage.resize(S * n, T::zero());
+        work.rate.resize(n, T::zero());
+        work.magnitudes.resize(n, 0.0);
+        work.continued = false;
+
+        let start = state.time;
+        let (steps, h) = equal_steps(start, end, self.step);
+        // The increments' weights sum to the step exactly.
+        let mut weights = tableau.weights.map(|b| h * b);
+        let others: f64 = weights.iter().sum::<f64>() - weights[S / 2];
+        weights[S / 2] = h - others;
+
+        let mut report = Report::begin();
+        for number in 1..=steps {
+            report.evaluations += solve_stages(tableau, &weights, h, field, state, work)?;
+            let (values, carry) = (&mut state.values[..], &mut state.carry[..]);
+            for i in 0..n {
+                // From the last stage to the first: the increments of all stages are of one size, and one
+                // order is as good as another; what matters is that the sum enters the state compensated.
+                let mut increment = work.increments[i];
+                for j in 1..S {
+                    increment += work.increments[j * n + i];
+                }
+                compensated_add(&mut values[i], &mut carry[i], increment);
+            }
+            work.continued = true;
+            state.set_time(if number == steps { end } else { start + h * number as f64 });
+            report.steps = number;
+            if observer(Step { number, time: state.time, values: &state.values }).is_break() {
+                report.ending = Ending::Stopped;
+                break;
+            }
+        }
+        Ok(report)
+    }
+}
+
+/// Solves the stage equations by sweeps; returns the number of evaluations. On success `work.increments`
+/// hold L₁ … Lₛ.
+fn solve_stages<const S: usize, T: Real, F: Field<T>>(
+    tableau: &Tableau<S>,
+    weights: &[f64; S],
+    h: f64,
+    field: &mut F,
+    state: &State<T>,
+    work: &mut Workspace<T>,
+) -> Result<u64, IntegrationError<F::Error>> {
+    let n = state.values.len();
+    let time = state.time;
+    field.magnitudes(&state.values, &mut work.magnitudes);
+    let mut evaluations = 0;
+    if work.continued {
+        for (i, row) in tableau.extrapolation.iter().enumerate() {
+            for k in 0..n {
+                let mut guess = T::zero();
+                for (j, &factor) in row.iter().enumerate() {
+                    guess += T::lit(factor) * work.increments[j * n + k];
+                }
+                work.guess[i * n + k] = guess;
+            }
+        }
+        work.increments.copy_from_slice(&work.guess);
+    } else {
+        field.rate(time, &state.values, &mut work.rate).map_err(|source| IntegrationError::Field { time, source })?;
+        evaluations += 1;
+        for (increments, &weight) in work.increments.chunks_mut(n.max(1)).zip(weights) {
+            for (increment, &rate) in increments.iter_mut().zip(&work.rate) {
+                *increment = T::lit(weight) * rate;
+            }
+        }
+    }
+
+    let second_order = field.is_second_order();
+    let half = n / 2;
+    let mut previous = f64::INFINITY;
+    for sweep in 1..=MOST_SWEEPS {
+        let mut change = 0.0_f64;
+        if second_order {
+            // q̇ = v is known: take it at the newest velocities of all stages before any force is asked for.
+            velocities_to_position_increments(tableau, weights, state, work);
+        }
+        for i in 0..S {
+            stage_values(tableau, state, work, i, 0..if second_order { half } else { n });
+            let stage_time = time + tableau.nodes[i] * h;
+            field
+                .rate(stage_time, &work.stage[i * n..(i + 1) * n], &mut work.rate)
+                .map_err(|source| IntegrationError::Field { time: stage_time, source })?;
+            evaluations += 1;
+            check_finite(time, &work.rate)?;
+            for k in if second_order { half } else { 0 }..n {
+                let new = T::lit(weights[i]) * work.rate[k];
+                let difference = largest_lane(new - work.increments[i * n + k]);
+                if 0.0 < difference {
+                    change = change.max(difference / work.magnitudes[k].max(f64::MIN_POSITIVE));
+                }
+                work.increments[i * n + k] = new;
+            }
+        }
+        // Converged when the next change would be below rounding, or when rounding has stopped the fall.
+        let predicted = change * (change / previous).min(1.0);
+        if predicted < f64::EPSILON / 32.0 && change <= 1e-3 || previous <= change && change < 64.0 * f64::EPSILON {
+            if second_order {
+                velocities_to_position_increments(tableau, weights, state, work);
+            }
+            return Ok(evaluations);
+        }
+        if sweep == MOST_SWEEPS {
+            return Err(IntegrationError::StagesDiverged { time, step: h, iterations: sweep, change });
+        }
+        previous = change;
+    }
+    Ok(evaluations)
+}
+
+/// The increments of q from the newest velocities of all stages, for fields with q̇ = v.
+#[inline(always)]
+fn velocities_to_position_increments<const S: usize, T: Real>(
+    tableau: &Tableau<S>,
+    weights: &[f64; S],
+    state: &State<T>,
+    work: &mut Workspace<T>,
+) {
+    let n = state.values.len();
+    let half = n / 2;
+    for (i, &weight) in weights.iter().enumerate() {
+        stage_values(tableau, state, work, i, half..n);
+        for k in 0..half {
+            work.increments[i * n + k] = T::lit(weight) * work.stage[i * n + half + k];
+        }
+    }
+}
+
+/// Yᵢ = y + (carry + Σⱼ μᵢⱼ Lⱼ), for some of the components.
+#[inline(always)]
+fn stage_values<const S: usize, T: Real>(
+    tableau: &Tableau<S>,
+    state: &State<T>,
+    work: &mut Workspace<T>,
+    i: usize,
+    components: core::ops::Range<usize>,
+) {
+    let n = state.values.len();
+    for k in components {
+        let mut increment = state.carry[k];
+        for j in 0..S {
+            increment += T::lit(tableau.couplings[i][j]) * work.increments[j * n + k];
+        }
+        work.stage[i * n + k] = state.values[k] + increment;
+    }
+}

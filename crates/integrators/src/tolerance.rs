@@ -1,0 +1,83 @@
+//! The accuracy asked of an adaptive method.
+
+use crate::IntegrationError;
+
+/// Local error allowed in one step: `absolute + relative · magnitude` for each component.
+///
+/// The magnitude is the field's: by default the largest component of the block (positions or velocities),
+/// at the time of the step, so that a component passing through zero does not stop the run and no unit is
+/// built in. See [`Field::magnitudes`](crate::Field::magnitudes).
+///
+/// # Example
+/// ```
+/// use piola_integrators::Tolerance;
+/// let tolerance = Tolerance::relative(1e-10)?;
+/// assert_eq!(tolerance.relative_part(), 1e-10);
+/// assert!(Tolerance::relative(-1.0).is_err());
+/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Unchecked", into = "Unchecked"))]
+pub struct Tolerance {
+    relative: f64,
+    absolute: f64,
+}
+
+impl Tolerance {
+    /// Relative to the magnitude of each component's group.
+    ///
+    /// # Errors
+    /// [`IntegrationError::InvalidTolerance`] unless 0 < relative < 1.
+    pub const fn relative(relative: f64) -> Result<Self, IntegrationError> {
+        Self::new(relative, 0.0)
+    }
+
+    /// Relative plus absolute; the absolute part has the unit of each component.
+    ///
+    /// # Errors
+    /// [`IntegrationError::InvalidTolerance`] unless 0 ≤ relative < 1, 0 ≤ absolute < ∞ and one is positive.
+    pub const fn new(relative: f64, absolute: f64) -> Result<Self, IntegrationError> {
+        let in_range = 0.0 <= relative && relative < 1.0 && 0.0 <= absolute && absolute < f64::INFINITY;
+        if in_range && 0.0 < relative + absolute {
+            Ok(Self { relative, absolute })
+        } else {
+            Err(IntegrationError::InvalidTolerance { relative, absolute })
+        }
+    }
+
+    /// The relative part.
+    #[must_use]
+    pub const fn relative_part(self) -> f64 {
+        self.relative
+    }
+
+    /// The absolute part.
+    #[must_use]
+    pub const fn absolute_part(self) -> f64 {
+        self.absolute
+    }
+}
+
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Unchecked {
+    relative: f64,
+    #[serde(default)]
+    absolute: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for Tolerance {
+    type Error = IntegrationError;
+    fn try_from(unchecked: Unchecked) -> Result<Self, IntegrationError> {
+        Self::new(unchecked.relative, unchecked.absolute)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<Tolerance> for Unchecked {
+    fn from(tolerance: Tolerance) -> Self {
+        Self { relative: tolerance.relative, absolute: tolerance.absolute }
+    }
+}
