@@ -1,0 +1,131 @@
+//! Running a kernel with the widest vector instructions of the machine.
+//!
+//! A crate compiled for "any x86-64" may use two lanes of `f64`; most machines have four or eight. A
+//! [`Kernel`] is compiled once for each [`Level`] and [`dispatch`] picks at run time:
+//!
+//! ```
+//! use piola_numerics::{Kernel, Lanes, Real, dispatch};
+//!
+//! struct Cosines<'a>(&'a [Lanes<f64, 8>], &'a mut [Lanes<f64, 8>]);
+//! impl Kernel for Cosines<'_> {
+//!     type Output = ();
+//!     #[inline(always)] // and so on everything it calls
+//!     fn run(self) {
+//!         for (x, y) in self.0.iter().zip(self.1) {
+//!             *y = x.cos();
+//!         }
+//!     }
+//! }
+//! let mut y = [Lanes::splat(0.0)];
+//! dispatch(Cosines(&[Lanes::splat(0.0)], &mut y));
+//! assert_eq!(y[0], Lanes::splat(1.0));
+//! ```
+//! **Everything that a kernel calls must be `#[inline(always)]`**: a function that is not inlined is
+//! compiled for the base level, and each call to it saves and restores the wide registers. Closures cannot
+//! be marked; large ones are better written as functions.
+//!
+//! Results are bit-identical at every level: the compiler neither reorders floating-point operations nor
+//! contracts a product and a sum into a fused multiply-add, and no kernel of Piola calls `mul_add`. Fusing
+//! would save about a third of the operations of a polynomial, at the price of answers that depend on the
+//! machine.
+
+use std::sync::OnceLock;
+
+/// A computation that is compiled once for each [`Level`].
+pub trait Kernel {
+    /// What it returns.
+    type Output;
+    /// Computes; to be marked `#[inline(always)]`.
+    fn run(self) -> Self::Output;
+}
+
+/// A set of instructions.
+///
+/// # Example
+/// ```
+/// use piola_numerics::Level;
+/// assert!(Level::Base <= Level::best());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Level {
+    /// What every machine of the target has: two `f64` a register on x86-64 and on aarch64.
+    Base,
+    /// x86-64 with AVX2 and FMA: four `f64` a register.
+    Avx2,
+    /// x86-64 with AVX-512 F, DQ and VL: eight `f64` a register.
+    Avx512,
+}
+
+impl Level {
+    /// The best level of this machine, found out once.
+    #[must_use]
+    pub fn best() -> Self {
+        static BEST: OnceLock<Level> = OnceLock::new();
+        *BEST.get_or_init(detect)
+    }
+
+    /// All levels that this machine has, the best last.
+    pub fn available() -> impl Iterator<Item = Self> {
+        [Self::Base, Self::Avx2, Self::Avx512].into_iter().filter(|level| *level <= Self::best())
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn detect() -> Level {
+    let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
+    let avx512 = is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("avx512vl");
+    match (avx2, avx512) {
+        (true, true) => Level::Avx512,
+        (true, false) => Level::Avx2,
+        _ => Level::Base,
+    }
+}
+
+#[cfg(not(target_arch = "x86_64"))]
+fn detect() -> Level {
+    Level::Base
+}
+
+/// Runs a kernel at the best level of this machine.
+#[inline]
+pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
+    dispatch_at(Level::best(), kernel)
+}
+
+/// Runs a kernel at a given level, or at the best of this machine if it lacks that: for tests and benches.
+#[inline]
+#[cfg(target_arch = "x86_64")]
+#[expect(unsafe_code, reason = "the only way to call a function compiled for features found at run time")]
+pub fn dispatch_at<K: Kernel>(level: Level, kernel: K) -> K::Output {
+    match level.min(Level::best()) {
+        Level::Base => kernel.run(),
+        // SAFETY: `best` is at least `Avx2` only when the processor has its features.
+        Level::Avx2 => unsafe { run_avx2(kernel) },
+        // SAFETY: `best` is `Avx512` only when the processor has its features.
+        Level::Avx512 => unsafe { run_avx512(kernel) },
+    }
+}
+
+/// Runs a kernel: this architecture has one level.
+#[inline]
+#[cfg(not(target_arch = "x86_64"))]
+pub fn dispatch_at<K: Kernel>(_level: Level, kernel: K) -> K::Output {
+    kernel.run()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[inline(never)]
+#[target_feature(enable = "avx2,fma")]
+fn run_avx2<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}
+
+#[cfg(target_arch = "x86_64")]
+#[inline(never)]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
+fn run_avx512<K: Kernel>(kernel: K) -> K::Output {
+    kernel.run()
+}

@@ -1,0 +1,156 @@
+//! xʸ and ∛x.
+//!
+//! ```text
+//! xʸ = e^(y ln x)      ln x = k ln 2 + ⅔ s (3 + z + z² R(z)),   s = (m − 1)/(m + 1),  z = s²
+//! ```
+//! with ln x and its product with y held as sums of two doubles: the exponent, up to 745, must be right to
+//! 2⁻⁵⁵. The exact products by cutting factors follow the method of fdlibm's `e_pow.c` (Sun, 1993).
+//!
+//! ```text
+//! x = 2^(3q + j) m:   g ≈ 2^(j/3) m^(1/3),   then one step of Halley   g ← g + g (u − g³)/(2g³ + u)
+//! ```
+
+use super::exponential::exp_of_sum;
+use super::logarithm::split;
+use super::{FRACTION, LN_2_LOWER, LN_2_UPPER, choose, nearest, ordered_sum, polynomial_5, polynomial_6, power_of_two, upper};
+
+/// 1.5 (2 artanh(s)/s − 2 − ⅔z)/z² as a function of z on m ∈ [√½, √2]: near-minimax of degree 6, error
+/// 2⁻⁶² relative to ln m after multiplication by z²/3.
+const LOGARITHM: [f64; 7] = [
+    0.4 * 1.5,
+    0.285_714_285_713_384_53 * 1.5,
+    0.222_222_222_711_272_43 * 1.5,
+    0.181_818_082_434_800_16 * 1.5,
+    0.153_855_750_925_574_3 * 1.5,
+    0.132_859_475_944_149_6 * 1.5,
+    0.129_137_392_911_296_22 * 1.5,
+];
+
+/// ⅔ in two parts, the upper of 26 bits.
+const TWO_THIRDS: (f64, f64) = (0.666_666_656_732_559_2, 9.934_107_462_565_104e-9);
+
+/// m^(1/3) on 1 ≤ m ≤ 2: near-minimax of degree 5, relative error 2⁻¹⁹.
+const CUBE_ROOT: [f64; 6] = [
+    0.475_146_936_238_902_53,
+    0.831_743_144_247_930_9,
+    -0.460_297_726_769_620_9,
+    0.196_654_797_013_600_78,
+    -0.048_318_320_681_661_14,
+    0.005_072_953_325_277_491,
+];
+
+/// ln x for 0 < x < ∞ as an upper part of 26 bits and the rest.
+#[inline(always)]
+fn ln_in_two_parts(x: f64) -> (f64, f64) {
+    let (k, m) = split(x);
+    // s in two parts: what the upper part leaves of f is exact.
+    let f = m - 1.0;
+    let (d, d_error) = ordered_sum(2.0, f);
+    let inverse = 1.0 / d;
+    let s = f * inverse;
+    let s_upper = upper(s);
+    let d_upper = upper(d);
+    let s_lower = inverse * ((f - s_upper * d_upper) - s_upper * ((d - d_upper) + d_error));
+    // t = 3 + z + z² R(z) in two parts.
+    let z = s * s;
+    let square = s_upper * s_upper;
+    let rest = z * z * polynomial_6(z, LOGARITHM) + s_lower * (s_upper + s);
+    let t_upper = upper(3.0 + square + rest);
+    let t_lower = rest - ((t_upper - 3.0) - square);
+    // ⅔ s t.
+    let product = s_upper * t_upper;
+    let product_rest = s_lower * t_upper + t_lower * s;
+    let p_upper = upper(product + product_rest);
+    let p_lower = product_rest - (p_upper - product);
+    let ln_m = TWO_THIRDS.0 * p_upper;
+    let ln_m_rest = TWO_THIRDS.1 * p_upper + p_lower * (2.0 / 3.0);
+    let (sum, error) = ordered_sum(k * LN_2_UPPER, ln_m);
+    let lower = error + (ln_m_rest + k * LN_2_LOWER);
+    let cut = upper(sum + lower);
+    (cut, (sum - cut) + lower)
+}
+
+/// The nearest whole number of 0 ≤ x.
+#[inline(always)]
+fn nearest_of_positive(x: f64) -> f64 {
+    choose(x < 4_503_599_627_370_496.0, (x + 4_503_599_627_370_496.0) - 4_503_599_627_370_496.0, x)
+}
+
+/// xʸ, with the conventions of C's `pow`.
+#[inline(always)]
+#[expect(clippy::float_cmp, reason = "whether y is a whole number, and whether x is 1, are exact questions")]
+pub(crate) fn powf(x: f64, y: f64) -> f64 {
+    let magnitude = x.abs();
+    let (l_upper, l_lower) = ln_in_two_parts(magnitude);
+    // Beyond 2⁶⁶ every |x| ≠ 1 gives 0 or ∞ already.
+    let huge = 73_786_976_294_838_206_464.0;
+    let bounded = choose(y < -huge, -huge, choose(huge < y, huge, y));
+    let y_upper = upper(bounded);
+    let product = y_upper * l_upper;
+    let (sum, error) = ordered_sum(product, (bounded - y_upper) * l_upper + bounded * l_lower);
+    let positive = exp_of_sum(sum, choose(sum.abs() < 800.0, error, 0.0));
+    // |x| = 0 or ∞.
+    let grows = (magnitude == 0.0) == (y < 0.0);
+    let edge = choose(grows, f64::INFINITY, 0.0);
+    let size = choose((magnitude == 0.0) | (magnitude == f64::INFINITY), edge, positive);
+    // Negative x.
+    let y_magnitude = y.abs();
+    let whole = nearest_of_positive(y_magnitude) == y_magnitude;
+    let even = nearest_of_positive(0.5 * y_magnitude) == 0.5 * y_magnitude;
+    let signed = choose(x.is_sign_negative() & whole & !even, -size, size);
+    let defined = choose((x < 0.0) & (magnitude < f64::INFINITY) & !whole, f64::NAN, signed);
+    let number = choose(x.is_nan() | y.is_nan(), f64::NAN, defined);
+    choose((y == 0.0) | (x == 1.0), 1.0, number)
+}
+
+/// ∛x.
+#[inline(always)]
+pub(crate) fn cbrt(x: f64) -> f64 {
+    let magnitude = x.abs();
+    let small = magnitude < f64::MIN_POSITIVE;
+    let bits = choose(small, magnitude * 18_014_398_509_481_984.0, magnitude).to_bits();
+    let m = f64::from_bits((bits & FRACTION) | 0x3ff0_0000_0000_0000);
+    let biased = f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - 4_503_599_627_370_496.0;
+    // 54 and 1023 are multiples of 3.
+    let exponent = biased - choose(small, 1077.0, 1023.0);
+    let q = nearest((exponent - 1.0) * (1.0 / 3.0));
+    let j = exponent - 3.0 * q;
+    let (one, two) = (j == 1.0, j == 2.0);
+    let u = m * choose(one, 2.0, choose(two, 4.0, 1.0));
+    let root = choose(one, 1.259_921_049_894_873_2, choose(two, 1.587_401_051_968_199_6, 1.0));
+    // g has 26 bits, so that its square is exact.
+    let g = upper(polynomial_5(m, CUBE_ROOT) * root);
+    let quotient = u / (g * g);
+    let improved = g + g * (quotient - g) / (2.0 * g + quotient);
+    let result = improved * power_of_two(q);
+    choose((0.0 < magnitude) & (magnitude < f64::INFINITY), result, magnitude).copysign(x)
+}
+
+/// xⁿ: by products up to the cube, whose two roundings cost at most 2 ulp, else by xʸ.
+#[inline(always)]
+pub(crate) fn powi(x: f64, n: i32) -> f64 {
+    match n {
+        0 => 1.0,
+        1 => x,
+        2 => x * x,
+        3 => x * x * x,
+        -1 => 1.0 / x,
+        _ => powf(x, f64::from(n)),
+    }
+}
+
+/// xⁿ by repeated squaring in doubles, whose roundings are far below those of the result.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is meant")]
+pub(crate) fn powi_of_single(x: f32, n: i32) -> f32 {
+    let (mut square, mut product) = (f64::from(x), 1.0);
+    let mut bits = n.unsigned_abs();
+    while 0 < bits {
+        if bits & 1 == 1 {
+            product *= square;
+        }
+        square *= square;
+        bits >>= 1;
+    }
+    (if n < 0 { 1.0 / product } else { product }) as f32
+}
