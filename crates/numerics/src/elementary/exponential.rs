@@ -12,48 +12,73 @@
 //! tanh x = [(1 − c) + p] / [(1 + c) + p],         c = 2⁻ᵏ,  k and p those of 2x
 //! ```
 
-use super::{LN_2_LOWER, LN_2_UPPER, choose, nearest, ordered_sum, polynomial_10, power_of_two};
+use super::{LN_2_LOWER, LN_2_UPPER, ROUND, choose, ordered_sum, polynomial_9};
 
-/// (eʳ − 1 − r)/r² on |r| ≤ ½ ln 2: near-minimax of degree 10, error 2⁻⁶¹ after multiplication by r².
-const EXPONENTIAL: [f64; 11] = [
-    0.5,
-    0.166_666_666_666_666_7,
-    0.041_666_666_666_666_67,
-    0.008_333_333_333_326_136,
-    0.001_388_888_888_888_374_8,
-    0.000_198_412_698_748_206_27,
-    2.480_158_732_554_774_3e-5,
-    2.755_725_540_020_642_2e-6,
-    2.755_727_364_311_03e-7,
-    2.510_521_700_472_074_5e-8,
-    2.091_468_696_808_687_6e-9,
+/// (eʳ − 1 − r)/r² on |r| ≤ ½ ln 2: near-minimax of degree 9, error 2⁻⁵⁶ after multiplication by r².
+const EXPONENTIAL: [f64; 10] = [
+    0.500_000_000_000_000_1,
+    0.166_666_666_666_666_69,
+    0.041_666_666_666_624_13,
+    0.008_333_333_333_330_062,
+    0.001_388_888_891_721_371_7,
+    0.000_198_412_698_630_536_18,
+    2.480_152_129_595_437_6e-05,
+    2.755_726_845_999_706_4e-06,
+    2.762_008_844_540_974_6e-07,
+    2.510_038_549_551_032e-08,
 ];
 
-/// (k, p, lower part of p) for x + `lower`, |x| < 2000.
+/// What eˣ is made of.
+struct Parts {
+    /// k + 1.5 · 2⁵², which holds the whole number k in its lowest bits.
+    shifted: f64,
+    /// eʳ − 1, rounded.
+    p: f64,
+    /// What the rounding left of it.
+    p_lower: f64,
+}
+
+/// (k + `ROUND`, r, lower part of r) of x + `lower`, |x| < 2000.
 #[inline(always)]
-fn parts(x: f64, lower: f64) -> (f64, f64, f64) {
-    let k = nearest(x * core::f64::consts::LOG2_E);
+fn reduce(x: f64, lower: f64) -> (f64, f64, f64) {
+    let shifted = x * core::f64::consts::LOG2_E + ROUND;
+    let k = shifted - ROUND;
     let upper = x - k * LN_2_UPPER;
     let correction = k * LN_2_LOWER - lower;
     let r = upper - correction;
-    let r_lower = (upper - r) - correction;
-    let (p, p_lower) = ordered_sum(r, r * r * polynomial_10(r, EXPONENTIAL));
-    (k, p, p_lower + (r_lower + r_lower * r))
+    (shifted, r, (upper - r) - correction)
+}
+
+/// The parts of eˣ, |x| < 2000.
+#[inline(always)]
+fn parts(x: f64) -> Parts {
+    let (shifted, r, r_lower) = reduce(x, 0.0);
+    let (p, p_lower) = ordered_sum(r, r * r * polynomial_9(r, EXPONENTIAL));
+    Parts { shifted, p, p_lower: p_lower + (r_lower + r_lower * r) }
 }
 
 /// x · 2ᵏ for |k| ≤ 2044, in two steps, so that neither factor overflows.
 #[inline(always)]
-fn scale(x: f64, k: f64) -> f64 {
-    let half = nearest(0.5 * k);
-    x * power_of_two(half) * power_of_two(k - half)
+fn scale(x: f64, shifted: f64) -> f64 {
+    // 1023 is added to each half of k; the shift by 52 drops all other bits.
+    let both = shifted.to_bits().wrapping_add(2046);
+    let half = both >> 1;
+    x * f64::from_bits(half << 52) * f64::from_bits(both.wrapping_sub(half) << 52)
+}
+
+/// 2⁻ᵐᵏ for −1 ≤ mk ≤ 100 or so, else 0: where it is negligible beside 1.
+#[inline(always)]
+fn reciprocal_power(shifted: f64, m: u64) -> f64 {
+    let power = f64::from_bits(1023_u64.wrapping_sub(shifted.to_bits().wrapping_mul(m)) << 52);
+    choose(shifted < ROUND + 100.0, power, 0.0)
 }
 
 /// e^(x + lower) for |lower| ≪ 1.
 #[inline(always)]
 pub(super) fn exp_of_sum(x: f64, lower: f64) -> f64 {
     let bounded = choose(x < -746.0, -746.0, choose(710.0 < x, 710.0, x));
-    let (k, p, p_lower) = parts(bounded, lower);
-    scale(1.0 + (p + p_lower), k)
+    let (shifted, r, _) = reduce(bounded, lower);
+    scale(1.0 + (r + r * r * polynomial_9(r, EXPONENTIAL)), shifted)
 }
 
 /// eˣ.
@@ -65,43 +90,41 @@ pub(crate) fn exp(x: f64) -> f64 {
 /// eˣ − 1.
 #[inline(always)]
 pub(crate) fn exp_m1(x: f64) -> f64 {
-    // Below −40 the result is −1; c = 2⁻ᵏ is negligible long before it would be subnormal.
-    let (k, p, p_lower) = parts(choose(x < -40.0, -40.0, choose(710.0 < x, 710.0, x)), 0.0);
-    let c = power_of_two(-choose(100.0 < k, 100.0, k));
-    let (one, one_lower) = ordered_sum(1.0, -c);
+    // Below −40 the result is −1.
+    let Parts { shifted, p, p_lower } = parts(choose(x < -40.0, -40.0, choose(710.0 < x, 710.0, x)));
+    let (one, one_lower) = ordered_sum(1.0, -reciprocal_power(shifted, 1));
     let (sum, sum_lower) = ordered_sum(one, p);
-    choose(x == 0.0, x, scale(sum + (sum_lower + (p_lower + one_lower)), k))
+    choose(x == 0.0, x, scale(sum + (sum_lower + (p_lower + one_lower)), shifted))
 }
 
-/// (k, 1 − c, 1 + c, p, c p/(1 + p)) of |x|, c = 2⁻²ᵏ, with the lower parts of the second to fourth added up.
+/// The parts of e^|x|, c = 2⁻²ᵏ and c p/(1 + p).
 #[inline(always)]
-fn hyperbolic_parts(x: f64) -> (f64, f64, f64, f64) {
+fn hyperbolic_parts(x: f64) -> (Parts, f64, f64) {
     let magnitude = x.abs();
-    let (k, p, p_lower) = parts(choose(712.0 < magnitude, 712.0, magnitude), 0.0);
-    let c = power_of_two(-2.0 * choose(100.0 < k, 100.0, k));
-    let (g, g_lower) = ordered_sum(1.0, p);
-    let quotient = p / g;
-    (k, p, p_lower, c * (quotient - quotient * (g_lower + p_lower)))
+    let parts = parts(choose(712.0 < magnitude, 712.0, magnitude));
+    let c = reciprocal_power(parts.shifted, 2);
+    let (g, g_lower) = ordered_sum(1.0, parts.p);
+    let quotient = parts.p / g;
+    let rest = c * (quotient - quotient * (g_lower + parts.p_lower));
+    (parts, c, rest)
 }
 
 /// sinh x.
 #[inline(always)]
 pub(crate) fn sinh(x: f64) -> f64 {
-    let (k, p, p_lower, q) = hyperbolic_parts(x);
-    let c = power_of_two(-2.0 * choose(100.0 < k, 100.0, k));
+    let (Parts { shifted, p, p_lower }, c, rest) = hyperbolic_parts(x);
     let (one, one_lower) = ordered_sum(1.0, -c);
     let (sum, sum_lower) = ordered_sum(one, p);
-    scale(sum + (q + (sum_lower + (p_lower + one_lower))), k - 1.0).copysign(x)
+    scale(sum + (rest + (sum_lower + (p_lower + one_lower))), shifted - 1.0).copysign(x)
 }
 
 /// cosh x.
 #[inline(always)]
 pub(crate) fn cosh(x: f64) -> f64 {
-    let (k, p, p_lower, q) = hyperbolic_parts(x);
-    let c = power_of_two(-2.0 * choose(100.0 < k, 100.0, k));
+    let (Parts { shifted, p, p_lower }, c, rest) = hyperbolic_parts(x);
     let (one, one_lower) = ordered_sum(1.0, c);
     let (sum, sum_lower) = ordered_sum(one, p);
-    scale(sum + (sum_lower + (p_lower + one_lower) - q), k - 1.0)
+    scale(sum + (sum_lower + (p_lower + one_lower) - rest), shifted - 1.0)
 }
 
 /// tanh x.
@@ -109,8 +132,8 @@ pub(crate) fn cosh(x: f64) -> f64 {
 pub(crate) fn tanh(x: f64) -> f64 {
     // Beyond 22 the result is 1 to rounding.
     let magnitude = x.abs();
-    let (k, p, p_lower) = parts(2.0 * choose(22.0 < magnitude, 22.0, magnitude), 0.0);
-    let c = power_of_two(-k);
+    let Parts { shifted, p, p_lower } = parts(2.0 * choose(22.0 < magnitude, 22.0, magnitude));
+    let c = reciprocal_power(shifted, 1);
     let (minus, minus_lower) = ordered_sum(1.0, -c);
     let (plus, plus_lower) = ordered_sum(1.0, c);
     let (numerator, n_lower) = ordered_sum(minus, p);

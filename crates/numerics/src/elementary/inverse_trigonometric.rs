@@ -8,7 +8,7 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use super::{choose, polynomial_10, polynomial_12, upper};
+use super::{both, choose, either, polynomial_10, polynomial_12, upper};
 
 /// π/2 − `FRAC_PI_2`.
 const HALF_PI_LOWER: f64 = 6.123_233_995_736_766e-17;
@@ -118,9 +118,9 @@ pub(crate) fn atan(x: f64) -> f64 {
 pub(crate) fn atan2(y: f64, x: f64) -> f64 {
     let (a, b) = (x.abs(), y.abs());
     // ∞/∞ counts as 1/1 and 0/0 as 0/1.
-    let both_infinite = (a == f64::INFINITY) & (b == f64::INFINITY);
-    let both_zero = (a == 0.0) & (b == 0.0);
-    let (a, b) = (choose(both_infinite | both_zero, 1.0, a), choose(both_infinite, 1.0, b));
+    let both_infinite = both(a == f64::INFINITY, b == f64::INFINITY);
+    let both_zero = both(a == 0.0, b == 0.0);
+    let (a, b) = (choose(either(both_infinite, both_zero), 1.0, a), choose(both_infinite, 1.0, b));
     let angle = atan_of_positive(b / a);
     let turned = PI - (angle - PI_LOWER);
     choose(x.is_sign_negative(), turned, angle).copysign(y)

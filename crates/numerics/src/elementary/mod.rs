@@ -34,6 +34,18 @@ fn choose(condition: bool, if_true: f64, if_false: f64) -> f64 {
     f64::from_bits((mask & if_true.to_bits()) | (!mask & if_false.to_bits()))
 }
 
+/// Whether both hold: computed without a jump, which `&&` may become.
+#[inline(always)]
+fn both(a: bool, b: bool) -> bool {
+    a & b
+}
+
+/// Whether one holds: computed without a jump, which `||` may become.
+#[inline(always)]
+fn either(a: bool, b: bool) -> bool {
+    a | b
+}
+
 /// x cut to its leading 26 bits: the product of two such numbers is exact.
 #[inline(always)]
 fn upper(x: f64) -> f64 {
@@ -89,6 +101,15 @@ fn polynomial_5(x: f64, c: [f64; 6]) -> f64 {
 fn polynomial_6(x: f64, c: [f64; 7]) -> f64 {
     let x2 = x * x;
     cubic(x, x2, [c[0], c[1], c[2], c[3]]) + ((c[4] + c[5] * x) + c[6] * x2) * (x2 * x2)
+}
+
+/// c₀ + … + c₉ x⁹.
+#[inline(always)]
+fn polynomial_9(x: f64, c: [f64; 10]) -> f64 {
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    let middle = cubic(x, x2, [c[4], c[5], c[6], c[7]]);
+    cubic(x, x2, [c[0], c[1], c[2], c[3]]) + (middle + (c[8] + c[9] * x) * x4) * x4
 }
 
 /// c₀ + … + c₁₀ x¹⁰.

@@ -12,7 +12,10 @@
 
 use super::exponential::exp_of_sum;
 use super::logarithm::split;
-use super::{FRACTION, LN_2_LOWER, LN_2_UPPER, choose, nearest, ordered_sum, polynomial_5, polynomial_6, power_of_two, upper};
+use super::{
+    FRACTION, LN_2_LOWER, LN_2_UPPER, both, choose, either, nearest, ordered_sum, polynomial_5, polynomial_6,
+    power_of_two, upper,
+};
 
 /// 1.5 (2 artanh(s)/s − 2 − ⅔z)/z² as a function of z on m ∈ [√½, √2]: near-minimax of degree 6, error
 /// 2⁻⁶² relative to ln m after multiplication by z²/3.
@@ -92,15 +95,15 @@ pub(crate) fn powf(x: f64, y: f64) -> f64 {
     // |x| = 0 or ∞.
     let grows = (magnitude == 0.0) == (y < 0.0);
     let edge = choose(grows, f64::INFINITY, 0.0);
-    let size = choose((magnitude == 0.0) | (magnitude == f64::INFINITY), edge, positive);
+    let size = choose(either(magnitude == 0.0, magnitude == f64::INFINITY), edge, positive);
     // Negative x.
     let y_magnitude = y.abs();
     let whole = nearest_of_positive(y_magnitude) == y_magnitude;
     let even = nearest_of_positive(0.5 * y_magnitude) == 0.5 * y_magnitude;
-    let signed = choose(x.is_sign_negative() & whole & !even, -size, size);
-    let defined = choose((x < 0.0) & (magnitude < f64::INFINITY) & !whole, f64::NAN, signed);
-    let number = choose(x.is_nan() | y.is_nan(), f64::NAN, defined);
-    choose((y == 0.0) | (x == 1.0), 1.0, number)
+    let signed = choose(both(x.is_sign_negative(), both(whole, !even)), -size, size);
+    let defined = choose(both(both(x < 0.0, magnitude < f64::INFINITY), !whole), f64::NAN, signed);
+    let number = choose(either(x.is_nan(), y.is_nan()), f64::NAN, defined);
+    choose(either(y == 0.0, x == 1.0), 1.0, number)
 }
 
 /// ∛x.
@@ -115,7 +118,7 @@ pub(crate) fn cbrt(x: f64) -> f64 {
     let exponent = biased - choose(small, 1077.0, 1023.0);
     let q = nearest((exponent - 1.0) * (1.0 / 3.0));
     let j = exponent - 3.0 * q;
-    let (one, two) = (j == 1.0, j == 2.0);
+    let (one, two) = (both(0.5 < j, j < 1.5), 1.5 < j);
     let u = m * choose(one, 2.0, choose(two, 4.0, 1.0));
     let root = choose(one, 1.259_921_049_894_873_2, choose(two, 1.587_401_051_968_199_6, 1.0));
     // g has 26 bits, so that its square is exact.
@@ -123,7 +126,7 @@ pub(crate) fn cbrt(x: f64) -> f64 {
     let quotient = u / (g * g);
     let improved = g + g * (quotient - g) / (2.0 * g + quotient);
     let result = improved * power_of_two(q);
-    choose((0.0 < magnitude) & (magnitude < f64::INFINITY), result, magnitude).copysign(x)
+    choose(both(0.0 < magnitude, magnitude < f64::INFINITY), result, magnitude).copysign(x)
 }
 
 /// xⁿ: by products up to the cube, whose two roundings cost at most 2 ulp, else by xʸ.
