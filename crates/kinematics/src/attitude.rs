@@ -373,7 +373,7 @@ impl<T: Real> Attitude<T> {
     /// # Example
     /// ```
     /// # use piola_kinematics::Attitude;
-    /// let attitude = Attitude { w: 0.0, x: 3.0, y: 0.0, z: 4.0 }.normalise();
+    /// let attitude = Attitude { w: 0.0, x: 3.0, y: 0.0, z: 4.0_f64 }.normalise();
     /// assert!((attitude.z - 0.8).abs() <= f64::EPSILON);
     /// ```
     #[inline]

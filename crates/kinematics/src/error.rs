@@ -81,6 +81,50 @@ pub enum KinematicsError {
         /// det Q.
         determinant: f64,
     },
+    /// cond W < 1/ε is violated: at a gimbal point the rates of Eulerian angles do not exist.
+    #[error("theta2 = {theta2} rad is a gimbal point (condition number {condition_number})")]
+    GimbalPoint {
+        /// θ² (rad).
+        theta2: f64,
+        /// (1 + |cos θ²|)/|sin θ²|.
+        condition_number: f64,
+    },
+    /// 0 < volume is violated by the vertices of a solid.
+    #[error("vertices span the volume {volume} m³, which is zero to rounding")]
+    NoVolume {
+        /// The volume, in m³.
+        volume: f64,
+    },
+    /// A system has no particles.
+    #[error("a system of particles is empty")]
+    NoParticles,
+    /// Two sequences that describe the same things differ in length.
+    #[error("{quantity}: {found} given where {expected} are needed")]
+    Count {
+        /// What is counted.
+        quantity: &'static str,
+        /// How many are needed.
+        expected: usize,
+        /// How many were given.
+        found: usize,
+    },
+    /// direction < number of coordinates is violated (the time of a time-dependent system counts as one
+    /// more coordinate, after the others).
+    #[error("direction {direction} does not exist: the system has {directions}")]
+    NoSuchDirection {
+        /// The direction asked for, from 0.
+        direction: usize,
+        /// How many there are.
+        directions: usize,
+    },
+    /// rank ∂(placement)/∂q = n is violated: some combination of the coordinates moves nothing.
+    #[error("coordinates {coordinates:?} (from 0) are dependent: the placement has rank {rank}")]
+    DependentCoordinates {
+        /// The coordinates that take part in a motion of the coordinates which moves nothing, from 0.
+        coordinates: Vec<usize>,
+        /// Rank of the placement's Jacobian.
+        rank: usize,
+    },
 }
 
 /// 0 < mass < ∞.

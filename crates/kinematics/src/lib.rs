@@ -3,14 +3,26 @@
 #![forbid(unsafe_code)]
 
 pub mod attitude;
+pub mod curve;
 mod error;
+pub mod euler_angles;
 pub mod inertia;
+pub mod particle;
 pub mod placement;
+#[cfg(feature = "glam")]
+pub mod pose;
 pub mod rigid_body;
+pub mod solids;
+pub mod system;
 mod vector;
 
 pub use attitude::Attitude;
 pub use error::KinematicsError;
+pub use euler_angles::EulerZyz;
 pub use inertia::Inertia;
 pub use placement::{Holonomic, Placement};
-pub use rigid_body::RigidBody;
+#[cfg(feature = "glam")]
+pub use pose::Pose;
+pub use rigid_body::{BodyMotion, BodyPose, BodyVelocity, RigidBody};
+pub use solids::Solid;
+pub use system::ParticleSystem;

@@ -25,14 +25,24 @@
 //! }
 //! ```
 //!
+//! # Which one?
+//! [`PlacementEvaluator`] for positions, velocities, accelerations and tangent vectors of all parts;
+//! [`count`] to size the buffers; [`independence`] to see that no coordinate is superfluous.
+//!
 //! # References
 //! W(3.2–3.13), W(3.24–3.31).
+
+mod evaluator;
+mod independence;
 
 use nalgebra::Vector3;
 use piola_numerics::Real;
 
 use crate::attitude::Attitude;
 use crate::rigid_body::RigidBody;
+
+pub use evaluator::PlacementEvaluator;
+pub use independence::{Independence, independence};
 
 /// Receives the particles and bodies of a system, in the order in which the system places them.
 ///
@@ -60,4 +70,47 @@ pub trait Holonomic {
 
     /// Places all particles and bodies at the generalised coordinates `q` and the time `t` (s).
     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>);
+}
+
+/// How many parts a system has.
+///
+/// # Example
+/// See [`count`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PartCount {
+    /// Particles.
+    pub particles: usize,
+    /// Rigid bodies.
+    pub bodies: usize,
+}
+
+impl<T: Real> Placement<T> for PartCount {
+    fn particle(&mut self, _mass: f64, _position: Vector3<T>) {
+        self.particles += 1;
+    }
+    fn body(&mut self, _body: &RigidBody, _centre: Vector3<T>, _attitude: Attitude<T>) {
+        self.bodies += 1;
+    }
+}
+
+/// How many particles and bodies a system places.
+///
+/// # Example
+/// ```
+/// # use nalgebra::Vector3;
+/// # use piola_kinematics::{Holonomic, Placement, placement};
+/// # use piola_numerics::Real;
+/// struct Free;
+/// impl Holonomic for Free {
+///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+///         bodies.particle(1.0, Vector3::new(q[0], q[1], q[2]));
+///     }
+/// }
+/// assert_eq!(placement::count(&Free, &[0.0; 3], 0.0).particles, 1);
+/// ```
+#[must_use]
+pub fn count<T: Real>(system: &impl Holonomic, q: &[T], t: T) -> PartCount {
+    let mut parts = PartCount::default();
+    system.place(q, t, &mut parts);
+    parts
 }

@@ -28,12 +28,6 @@ pub(crate) fn constant_matrix_times<T: Real>(matrix: &Matrix3<f64>, a: &Vector3<
     Vector3::new(row(0), row(1), row(2))
 }
 
-/// The constant vector in another scalar.
-#[inline(always)]
-pub(crate) fn constant<T: Real>(a: &Vector3<f64>) -> Vector3<T> {
-    Vector3::new(T::lit(a.x), T::lit(a.y), T::lit(a.z))
-}
-
 /// Index and value of the first entry that is infinite or NaN.
 pub(crate) fn first_non_finite(values: &[f64]) -> Option<(usize, f64)> {
     values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
