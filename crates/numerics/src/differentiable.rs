@@ -6,6 +6,13 @@
 //! derivatives of the elementary functions are therefore stated in one place, and second derivatives are
 //! closures that types of first order never call.
 
+/// 1 − x², without cancellation in its value near |x| = 1 or in its derivative −2x near x = 0.
+#[inline(always)]
+pub(crate) fn one_minus_square<T: crate::Real>(x: T) -> T {
+    let one = T::one();
+    T::select(x.abs().less_than(T::lit(0.5)), one - x * x, (one - x) * (one + x))
+}
+
 /// Implements the operators and `Real` for a differentiable number over `T: Real`.
 macro_rules! implement_real {
     ($type:ty, [$($parameters:tt)*], [$($constants:tt)*]) => {
@@ -210,13 +217,13 @@ macro_rules! implement_real {
             #[inline(always)]
             fn asin(self) -> Self {
                 let x = self.value;
-                let f1 = ((T::one() - x) * (T::one() + x)).sqrt().recip();
+                let f1 = crate::differentiable::one_minus_square(x).sqrt().recip();
                 self.chain(x.asin(), || f1, || x * f1 * f1 * f1)
             }
             #[inline(always)]
             fn acos(self) -> Self {
                 let x = self.value;
-                let f1 = ((T::one() - x) * (T::one() + x)).sqrt().recip();
+                let f1 = crate::differentiable::one_minus_square(x).sqrt().recip();
                 self.chain(x.acos(), || -f1, || -(x * f1 * f1 * f1))
             }
             #[inline(always)]

@@ -9,6 +9,11 @@
 //! | a linear system solved over any scalar, with the reason when it cannot be | [`linear`] |
 //! | a sum, dot product or state update without rounding loss | [`sums`] |
 
+#![expect(
+    clippy::inline_always,
+    reason = "a kernel gets the instruction set of its caller only when everything it calls is inlined into it"
+)]
+
 pub mod derivatives;
 mod differentiable;
 mod dispatch;

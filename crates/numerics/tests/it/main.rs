@@ -1,0 +1,18 @@
+//! Tests of the numerics: one binary, one module for each kind of evidence.
+
+mod alloc;
+mod elementary;
+mod formulas;
+mod golden;
+mod lanes;
+mod laws;
+mod linear;
+mod peers;
+mod scalars;
+mod sums;
+mod traps;
+
+use piola_testkit::CountingAllocator;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
