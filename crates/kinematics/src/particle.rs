@@ -323,7 +323,7 @@ pub fn momentum_rate<T: Real>(mass: f64, acceleration: &Vector3<T>) -> Vector3<T
 /// ```
 /// use nalgebra::Vector3;
 /// use piola_kinematics::particle;
-/// assert_eq!(particle::moment_of_momentum_rate(2.0, &Vector3::x(), &Vector3::y()).z, 2.0);
+/// assert_eq!(particle::moment_of_momentum_rate(2.0, &Vector3::<f64>::x(), &Vector3::y()).z, 2.0);
 /// ```
 ///
 /// # Source

@@ -197,7 +197,8 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::ParticleSystem;
     /// let positions = [Vector3::new(1.0e9, 0.0, 0.0), Vector3::new(1.0e9 + 4.0, 0.0, 0.0)];
-    /// let system = ParticleSystem::new(&[1.0, 3.0], &positions, &[Vector3::zeros(); 2])?;
+    /// let at_rest = [Vector3::zeros(); 2];
+    /// let system = ParticleSystem::new(&[1.0, 3.0], &positions, &at_rest)?;
     /// assert_eq!(system.relative_position(0)?.x, -3.0);
     /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
@@ -242,7 +243,7 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::ParticleSystem;
     /// // Two particles that turn about each other: the centre of mass rests.
-    /// let positions = [Vector3::x(), -Vector3::x()];
+    /// let positions = [Vector3::<f64>::x(), -Vector3::x()];
     /// let velocities = [Vector3::y(), -Vector3::y()];
     /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &velocities)?;
     /// assert_eq!(system.moment_of_momentum(&Vector3::zeros()).relative.z, 4.0);
@@ -289,8 +290,9 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::ParticleSystem;
-    /// let positions = [Vector3::x(), -Vector3::x()];
-    /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &[Vector3::zeros(); 2])?;
+    /// let positions = [Vector3::<f64>::x(), -Vector3::x()];
+    /// let at_rest = [Vector3::zeros(); 2];
+    /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &at_rest)?;
     /// assert_eq!(system.inertia_about_centre_of_mass()[(2, 2)], 4.0);
     /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
@@ -327,8 +329,9 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::ParticleSystem;
-    /// let positions = [Vector3::x(), -Vector3::x()];
-    /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &[Vector3::zeros(); 2])?;
+    /// let positions = [Vector3::<f64>::x(), -Vector3::x()];
+    /// let at_rest = [Vector3::zeros(); 2];
+    /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &at_rest)?;
     /// let rates = system.rates(&[Vector3::y(), -Vector3::y()], &Vector3::zeros())?;
     /// assert_eq!(rates.moment_of_momentum.relative.z, 4.0);
     /// # Ok::<(), piola_kinematics::KinematicsError>(())

@@ -1,0 +1,1 @@
+//! Identities that hold for all inputs, named by their two sides.

@@ -1,0 +1,13 @@
+//! Tests of the kinematics of particles and rigid bodies.
+
+use piola_testkit::CountingAllocator;
+
+mod alloc;
+mod golden;
+mod laws;
+mod orders;
+mod systems;
+mod traps;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
