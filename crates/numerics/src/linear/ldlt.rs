@@ -70,11 +70,11 @@ pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), Error> {
 /// The error for a pivot that is not positive: the numbers of the first lane that fails.
 #[cold]
 fn refused<T: Real>(pivot: usize, value: T, diagonal: T, threshold: T) -> Error {
-    let fails = |lane: &usize| {
-        let (value, diagonal) = (value.primal(*lane), diagonal.primal(*lane));
-        !(0.0 < diagonal && threshold.primal(*lane) * diagonal < value)
+    let positive = |lane: usize| {
+        let (value, diagonal) = (value.primal(lane), diagonal.primal(lane));
+        0.0 < diagonal && threshold.primal(lane) * diagonal < value
     };
-    let lane = (0..T::LANES).find(fails).unwrap_or(0);
+    let lane = (0..T::LANES).find(|&lane| !positive(lane)).unwrap_or(0);
     Error::NotPositiveDefinite { pivot, value: value.primal(lane), diagonal: diagonal.primal(lane) }
 }
 
@@ -106,7 +106,7 @@ pub fn solve_in_place<T: Real>(factors: &[T], n: usize, b: &mut [T]) -> Result<(
         }
     }
     for k in 0..n {
-        b[k] = b[k] / factors[k + k * n];
+        b[k] /= factors[k + k * n];
     }
     for k in (0..n).rev() {
         let mut x = b[k];
@@ -118,7 +118,7 @@ pub fn solve_in_place<T: Real>(factors: &[T], n: usize, b: &mut [T]) -> Result<(
     Ok(())
 }
 
-/// The direction z that a refused pivot stands for: zᵀ A z = dₖ, z_k = 1, zᵢ = 0 for k < i.
+/// The direction z that a refused pivot stands for: zᵀ A z = dₖ, zₖ = 1, zᵢ = 0 for k < i.
 ///
 /// When the matrix is a metric, z is the combination of the first k + 1 coordinates along which nothing moves.
 /// `factors` is what [`factor_in_place`] left when it refused pivot `pivot`.
@@ -320,7 +320,8 @@ impl Ldlt<f64> {
             let size = largest(x);
             let correction = if 0.0 < size { largest(residual) / size } else { largest(residual) };
             // A correction that does not shrink is rounding, or the matrix is too ill-conditioned; NaN too.
-            if !(correction < last) {
+            let shrinks = correction < last;
+            if !shrinks {
                 break;
             }
             last = correction;

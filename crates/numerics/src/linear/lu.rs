@@ -95,11 +95,8 @@ fn pivot_row<T: Real>(column: &[T], start: usize) -> usize {
 /// The error for a pivot that is zero to rounding: the numbers of the first lane that fails.
 #[cold]
 fn refused<T: Real>(pivot: usize, value: T, scale: T, threshold: T) -> Error {
-    let fails = |lane: &usize| {
-        let size = threshold.primal(*lane) * scale.primal(*lane);
-        !(size < value.primal(*lane).abs())
-    };
-    let lane = (0..T::LANES).find(fails).unwrap_or(0);
+    let regular = |lane: usize| threshold.primal(lane) * scale.primal(lane) < value.primal(lane).abs();
+    let lane = (0..T::LANES).find(|&lane| !regular(lane)).unwrap_or(0);
     Error::Singular { pivot, value: value.primal(lane), scale: scale.primal(lane) }
 }
 

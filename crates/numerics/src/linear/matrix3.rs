@@ -193,7 +193,7 @@ fn check_regular<T: Real>(rows: [[T; 3]; 3], determinant: T) -> Result<(), Error
         return Ok(());
     }
     let limit = threshold.primal(0);
-    let fails = |lane: &usize| !(limit * volume.primal(*lane) < determinant.primal(*lane).abs());
-    let lane = (0..T::LANES).find(fails).unwrap_or(0);
+    let regular = |lane: usize| limit * volume.primal(lane) < determinant.primal(lane).abs();
+    let lane = (0..T::LANES).find(|&lane| !regular(lane)).unwrap_or(0);
     Err(Error::Singular { pivot: 3, value: determinant.primal(lane), scale: volume.primal(lane) })
 }
