@@ -81,7 +81,7 @@ mod sealed {
         fn lane_sqrt(self) -> Self;
         fn lane_abs(self) -> Self;
         fn lane_copysign(self, sign: Self) -> Self;
-        fn lane_powi(self, n: i32) -> Self;
+        fn lanes_powi<const N: usize>(lanes: [Self; N], n: i32) -> [Self; N];
         fn far_sin_cos(self) -> (Self, Self);
         fn far_tan(self) -> Self;
     }
@@ -103,6 +103,19 @@ pub trait Element:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+}
+
+/// Applies an expression to every lane. A macro and not a closure: closures cannot be forced inline.
+macro_rules! each_lane {
+    ($i:ident in $start:expr => $value:expr) => {{
+        let mut result = $start;
+        let mut $i = 0;
+        while $i < N {
+            result[$i] = $value;
+            $i += 1;
+        }
+        result
+    }};
 }
 
 macro_rules! element {
@@ -157,8 +170,8 @@ macro_rules! element {
                 $float::copysign(self, sign)
             }
             #[inline(always)]
-            fn lane_powi(self, n: i32) -> Self {
-                $powi(self, n)
+            fn lanes_powi<const N: usize>(lanes: [Self; N], n: i32) -> [Self; N] {
+                $powi(lanes, n)
             }
             fn far_sin_cos(self) -> (Self, Self) {
                 $float::sin_cos(self)
@@ -170,8 +183,45 @@ macro_rules! element {
         impl Element for $float {}
     };
 }
-element!(f64, u64, power::powi);
-element!(f32, u32, power::powi_of_single);
+element!(f64, u64, powi);
+element!(f32, u32, powi_of_single);
+
+/// xⁿ of doubles. Up to the fourth power plain products are within 2 ulp: x² is within ½, and squaring it
+/// at most √2 of the rest. Higher ones are products of sums of two doubles.
+#[inline(always)]
+fn powi<const N: usize>(x: [f64; N], n: i32) -> [f64; N] {
+    let magnitude = n.unsigned_abs();
+    match n {
+        0 => return [1.0; N],
+        1 => return x,
+        2 => return each_lane!(i in x => x[i] * x[i]),
+        3 => return each_lane!(i in x => x[i] * x[i] * x[i]),
+        4 => return each_lane!(i in x => (x[i] * x[i]) * (x[i] * x[i])),
+        -1 => return each_lane!(i in x => 1.0 / x[i]),
+        _ if power::LARGEST_PRODUCT < magnitude => return each_lane!(i in x => power::powf(x[i], f64::from(n))),
+        _ => {}
+    }
+    let mut base = each_lane!(i in [(0.0, 0.0); N] => (x[i], 0.0));
+    if n < 0 {
+        base = each_lane!(i in base => power::reciprocal(x[i]));
+    }
+    let mut result = base;
+    let mut bit = magnitude.ilog2();
+    while 0 < bit {
+        bit -= 1;
+        result = each_lane!(i in result => power::product(result[i], result[i]));
+        if (magnitude >> bit) & 1 == 1 {
+            result = each_lane!(i in result => power::product(result[i], base[i]));
+        }
+    }
+    each_lane!(i in x => power::sum(result[i]))
+}
+
+/// xⁿ of singles, by products of doubles.
+#[inline(always)]
+fn powi_of_single<const N: usize>(x: [f32; N], n: i32) -> [f32; N] {
+    each_lane!(i in x => power::powi_of_single(x[i], n))
+}
 
 impl<T: Element, const N: usize> Lanes<T, N> {
     /// The same value in every lane.
@@ -265,19 +315,6 @@ lane_operator!(Add, add, AddAssign, add_assign, +);
 lane_operator!(Sub, sub, SubAssign, sub_assign, -);
 lane_operator!(Mul, mul, MulAssign, mul_assign, *);
 lane_operator!(Div, div, DivAssign, div_assign, /);
-
-/// Applies an expression to every lane. A macro and not a closure: closures cannot be forced inline.
-macro_rules! each_lane {
-    ($i:ident in $start:expr => $value:expr) => {{
-        let mut result = $start;
-        let mut $i = 0;
-        while $i < N {
-            result[$i] = $value;
-            $i += 1;
-        }
-        result
-    }};
-}
 
 impl<T: Element, const N: usize> Neg for Lanes<T, N> {
     type Output = Self;
@@ -397,7 +434,7 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
     }
     #[inline(always)]
     fn powi(self, n: i32) -> Self {
-        Self(each_lane!(i in self.0 => self.0[i].lane_powi(n)))
+        Self(T::lanes_powi(self.0, n))
     }
     #[inline(always)]
     fn powf(self, exponent: Self) -> Self {

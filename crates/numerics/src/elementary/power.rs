@@ -129,17 +129,31 @@ pub(crate) fn cbrt(x: f64) -> f64 {
     choose(both(0.0 < magnitude, magnitude < f64::INFINITY), result, magnitude).copysign(x)
 }
 
-/// xⁿ: by products up to the cube, whose two roundings cost at most 2 ulp, else by xʸ.
+/// The largest |n| for which xⁿ is made of products; beyond, xʸ is faster.
+pub(crate) const LARGEST_PRODUCT: u32 = 64;
+
+/// a b as a sum of two doubles, for factors that are such sums.
 #[inline(always)]
-pub(crate) fn powi(x: f64, n: i32) -> f64 {
-    match n {
-        0 => 1.0,
-        1 => x,
-        2 => x * x,
-        3 => x * x * x,
-        -1 => 1.0 / x,
-        _ => powf(x, f64::from(n)),
-    }
+pub(crate) fn product(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    let (a_upper, b_upper) = (upper(a.0), upper(b.0));
+    let (a_lower, b_lower) = (a.0 - a_upper, b.0 - b_upper);
+    let p = a.0 * b.0;
+    let error = ((a_upper * b_upper - p) + (a_upper * b_lower + a_lower * b_upper)) + a_lower * b_lower;
+    (p, error + (a.0 * b.1 + a.1 * b.0))
+}
+
+/// 1/x as a sum of two doubles.
+#[inline(always)]
+pub(crate) fn reciprocal(x: f64) -> (f64, f64) {
+    let r = 1.0 / x;
+    let (p, p_lower) = product((r, 0.0), (x, 0.0));
+    (r, r * ((1.0 - p) - p_lower))
+}
+
+/// The sum of the parts; the upper one where it is zero or infinite and the lower one means nothing.
+#[inline(always)]
+pub(crate) fn sum(a: (f64, f64)) -> f64 {
+    choose(both(0.0 < a.0.abs(), a.0.abs() < f64::INFINITY), a.0 + a.1, a.0)
 }
 
 /// xⁿ by repeated squaring in doubles, whose roundings are far below those of the result.
