@@ -4,6 +4,9 @@
 //! |---|---|
 //! | state how close two results must be, and why | [`Tol`], [`assert_close`], [`assert_close_at_scale`] |
 //! | read reference data with its provenance | [`golden`] |
+//! | show the order of a method | [`convergence_order`], [`assert_order`] |
+//! | scale a tolerance by how ill-conditioned the problem is | [`condition_number`], [`Tol::times`] |
+//! | check a derivative against differences of values | [`difference_quotient`] |
 //! | draw random inputs for an identity | [`strategies`] |
 //! | prove that a step allocates nothing | [`CountingAllocator`], [`allocations_in`] |
 //!
@@ -11,12 +14,16 @@
 
 mod allocations;
 mod closeness;
+mod differences;
 pub mod golden;
+mod orders;
 pub mod strategies;
 mod tolerance;
 
 pub use allocations::{CountingAllocator, allocations_in};
 pub use closeness::{assert_close, assert_close_at_scale, relative_error, ulps_between};
+pub use differences::{condition_number, difference_quotient};
+pub use orders::{assert_order, convergence_order};
 pub use tolerance::Tol;
 
 #[cfg(doctest)]

@@ -1,4 +1,4 @@
-//! Linear systems over any [`Real`]: what nalgebra has for floats only.
+//! Linear systems over any [`Real`](crate::Real): what nalgebra has for floats only.
 //!
 //! | the matrix is | use |
 //! |---|---|
