@@ -18,7 +18,7 @@ use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, N
 
 use num_traits::{One, Zero};
 
-use crate::elementary::{exponential, inverse_trigonometric, logarithm, power, trigonometric};
+use crate::elementary::{double, power, single, trigonometric};
 use crate::{Mask, Real};
 
 /// N independent values of type `T` (`f32` or `f64`).
@@ -82,6 +82,22 @@ mod sealed {
         fn lane_abs(self) -> Self;
         fn lane_copysign(self, sign: Self) -> Self;
         fn lanes_powi<const N: usize>(lanes: [Self; N], n: i32) -> [Self; N];
+        // In doubles, as accurately as a lane can show.
+        fn exp(x: f64) -> f64;
+        fn exp_m1(x: f64) -> f64;
+        fn ln(x: f64) -> f64;
+        fn ln_1p(x: f64) -> f64;
+        fn tan(x: f64) -> f64;
+        fn asin(x: f64) -> f64;
+        fn acos(x: f64) -> f64;
+        fn atan(x: f64) -> f64;
+        fn sinh(x: f64) -> f64;
+        fn cosh(x: f64) -> f64;
+        fn tanh(x: f64) -> f64;
+        fn cbrt(x: f64) -> f64;
+        fn sin_cos(x: f64) -> (f64, f64);
+        fn atan2(y: f64, x: f64) -> f64;
+        fn powf(x: f64, y: f64) -> f64;
         fn far_sin_cos(self) -> (Self, Self);
         fn far_tan(self) -> Self;
     }
@@ -119,7 +135,15 @@ macro_rules! each_lane {
 }
 
 macro_rules! element {
-    ($float:ident, $bits:ident, $powi:expr) => {
+    (@unary $functions:ident: $($name:ident)*) => {
+        $(
+            #[inline(always)]
+            fn $name(x: f64) -> f64 {
+                $functions::$name(x)
+            }
+        )*
+    };
+    ($float:ident, $bits:ident, $functions:ident, $powi:expr) => {
         impl Bits for $bits {
             #[inline(always)]
             fn splat(value: bool) -> Self {
@@ -173,6 +197,19 @@ macro_rules! element {
             fn lanes_powi<const N: usize>(lanes: [Self; N], n: i32) -> [Self; N] {
                 $powi(lanes, n)
             }
+            element!(@unary $functions: exp exp_m1 ln ln_1p tan asin acos atan sinh cosh tanh cbrt);
+            #[inline(always)]
+            fn sin_cos(x: f64) -> (f64, f64) {
+                $functions::sin_cos(x)
+            }
+            #[inline(always)]
+            fn atan2(y: f64, x: f64) -> f64 {
+                $functions::atan2(y, x)
+            }
+            #[inline(always)]
+            fn powf(x: f64, y: f64) -> f64 {
+                $functions::powf(x, y)
+            }
             fn far_sin_cos(self) -> (Self, Self) {
                 $float::sin_cos(self)
             }
@@ -183,8 +220,8 @@ macro_rules! element {
         impl Element for $float {}
     };
 }
-element!(f64, u64, powi);
-element!(f32, u32, powi_of_single);
+element!(f64, u64, double, powi);
+element!(f32, u32, single, powi_of_single);
 
 /// xⁿ of doubles. Up to the fourth power plain products are within 2 ulp: x² is within ½, and squaring it
 /// at most √2 of the rest. Higher ones are products of sums of two doubles.
@@ -384,10 +421,10 @@ impl<B: Bits, const N: usize> Mask for LaneMask<B, N> {
 
 /// A function of one lane, computed in doubles.
 macro_rules! lane_function {
-    ($name:ident, $kernel:path) => {
+    ($name:ident) => {
         #[inline(always)]
         fn $name(self) -> Self {
-            Self(each_lane!(i in self.0 => T::narrow($kernel(self.0[i].widen()))))
+            Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::$name(self.0[i].widen()))))
         }
     };
 }
@@ -438,23 +475,23 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
     }
     #[inline(always)]
     fn powf(self, exponent: Self) -> Self {
-        Self(each_lane!(i in self.0 => T::narrow(power::powf(self.0[i].widen(), exponent.0[i].widen()))))
+        Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::powf(self.0[i].widen(), exponent.0[i].widen()))))
     }
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
-        Self(each_lane!(i in self.0 => T::narrow(inverse_trigonometric::atan2(self.0[i].widen(), x.0[i].widen()))))
+        Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::atan2(self.0[i].widen(), x.0[i].widen()))))
     }
-    lane_function!(cbrt, power::cbrt);
-    lane_function!(exp, exponential::exp);
-    lane_function!(exp_m1, exponential::exp_m1);
-    lane_function!(ln, logarithm::ln);
-    lane_function!(ln_1p, logarithm::ln_1p);
-    lane_function!(asin, inverse_trigonometric::asin);
-    lane_function!(acos, inverse_trigonometric::acos);
-    lane_function!(atan, inverse_trigonometric::atan);
-    lane_function!(sinh, exponential::sinh);
-    lane_function!(cosh, exponential::cosh);
-    lane_function!(tanh, exponential::tanh);
+    lane_function!(cbrt);
+    lane_function!(exp);
+    lane_function!(exp_m1);
+    lane_function!(ln);
+    lane_function!(ln_1p);
+    lane_function!(asin);
+    lane_function!(acos);
+    lane_function!(atan);
+    lane_function!(sinh);
+    lane_function!(cosh);
+    lane_function!(tanh);
 
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -465,7 +502,7 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
         let mut cosine = self.0;
         let mut i = 0;
         while i < N {
-            let (s, c) = trigonometric::sin_cos(self.0[i].widen());
+            let (s, c) = <T as Functions>::sin_cos(self.0[i].widen());
             sine[i] = T::narrow(s);
             cosine[i] = T::narrow(c);
             i += 1;
@@ -477,7 +514,7 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
         if beyond_reduction(self) {
             return far_tan(self);
         }
-        Self(each_lane!(i in self.0 => T::narrow(trigonometric::tan(self.0[i].widen()))))
+        Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::tan(self.0[i].widen()))))
     }
 }
 
@@ -497,7 +534,7 @@ fn far_sin_cos<T: Element, const N: usize>(x: Lanes<T, N>) -> (Lanes<T, N>, Lane
         (sine.0[i], cosine.0[i]) = if trigonometric::LIMIT < lane.abs() {
             x.0[i].far_sin_cos()
         } else {
-            let (s, c) = trigonometric::sin_cos(lane);
+            let (s, c) = <T as Functions>::sin_cos(lane);
             (T::narrow(s), T::narrow(c))
         };
     }
@@ -511,7 +548,7 @@ fn far_tan<T: Element, const N: usize>(x: Lanes<T, N>) -> Lanes<T, N> {
     for i in 0..N {
         let lane = x.0[i].widen();
         tangent.0[i] =
-            if trigonometric::LIMIT < lane.abs() { x.0[i].far_tan() } else { T::narrow(trigonometric::tan(lane)) };
+            if trigonometric::LIMIT < lane.abs() { x.0[i].far_tan() } else { T::narrow(<T as Functions>::tan(lane)) };
     }
     tangent
 }

@@ -34,6 +34,14 @@ pub(super) fn split(x: f64) -> (f64, f64) {
     (exponent - choose(small, 1077.0, 1023.0), m)
 }
 
+/// (k, m) of a normal 0 < x.
+#[inline(always)]
+pub(super) fn split_normal(x: f64) -> (f64, f64) {
+    let bits = x.to_bits().wrapping_add(ONE - SQRT_HALF);
+    let m = f64::from_bits((bits & FRACTION) + SQRT_HALF);
+    (f64::from_bits((bits >> 52) | 0x4330_0000_0000_0000) - (4_503_599_627_370_496.0 + 1023.0), m)
+}
+
 /// ln u + c, 0 < u < ∞, |c| ≪ 1.
 #[inline(always)]
 fn ln_of_positive(u: f64, c: f64) -> f64 {

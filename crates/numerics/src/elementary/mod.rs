@@ -12,11 +12,21 @@
 //! Coefficients called *near-minimax* are Chebyshev interpolations computed with 60 digits, converted to
 //! powers and rounded to doubles; stated errors include that rounding.
 
-pub(crate) mod exponential;
-pub(crate) mod inverse_trigonometric;
-pub(crate) mod logarithm;
+mod exponential;
+mod inverse_trigonometric;
+mod logarithm;
 pub(crate) mod power;
+pub(crate) mod single;
 pub(crate) mod trigonometric;
+
+/// The functions for lanes of `f64`.
+pub(crate) mod double {
+    pub(crate) use super::exponential::{cosh, exp, exp_m1, sinh, tanh};
+    pub(crate) use super::inverse_trigonometric::{acos, asin, atan, atan2};
+    pub(crate) use super::logarithm::{ln, ln_1p};
+    pub(crate) use super::power::{cbrt, powf};
+    pub(crate) use super::trigonometric::{sin_cos, tan};
+}
 
 /// 1.5 · 2⁵²: adding it to |x| < 2⁵¹ rounds x to a whole number, held in the lowest bits of the sum.
 const ROUND: f64 = 6_755_399_441_055_744.0;

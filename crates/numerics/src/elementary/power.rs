@@ -33,7 +33,7 @@ const LOGARITHM: [f64; 7] = [
 const TWO_THIRDS: (f64, f64) = (0.666_666_656_732_559_2, 9.934_107_462_565_104e-9);
 
 /// m^(1/3) on 1 ≤ m ≤ 2: near-minimax of degree 5, relative error 2⁻¹⁹.
-const CUBE_ROOT: [f64; 6] = [
+pub(super) const CUBE_ROOT: [f64; 6] = [
     0.475_146_936_238_902_53,
     0.831_743_144_247_930_9,
     -0.460_297_726_769_620_9,
@@ -81,7 +81,6 @@ fn nearest_of_positive(x: f64) -> f64 {
 
 /// xʸ, with the conventions of C's `pow`.
 #[inline(always)]
-#[expect(clippy::float_cmp, reason = "whether y is a whole number, and whether x is 1, are exact questions")]
 pub(crate) fn powf(x: f64, y: f64) -> f64 {
     let magnitude = x.abs();
     let (l_upper, l_lower) = ln_in_two_parts(magnitude);
@@ -92,6 +91,14 @@ pub(crate) fn powf(x: f64, y: f64) -> f64 {
     let product = y_upper * l_upper;
     let (sum, error) = ordered_sum(product, (bounded - y_upper) * l_upper + bounded * l_lower);
     let positive = exp_of_sum(sum, choose(sum.abs() < 800.0, error, 0.0));
+    with_conventions(x, y, positive)
+}
+
+/// xʸ, given |x|ʸ for ordinary |x|.
+#[inline(always)]
+#[expect(clippy::float_cmp, reason = "whether y is a whole number, and whether x is 1, are exact questions")]
+pub(super) fn with_conventions(x: f64, y: f64, positive: f64) -> f64 {
+    let magnitude = x.abs();
     // |x| = 0 or ∞.
     let grows = (magnitude == 0.0) == (y < 0.0);
     let edge = choose(grows, f64::INFINITY, 0.0);

@@ -13,7 +13,7 @@ use super::{ROUND, choose, difference, ordered_sum, polynomial_5};
 pub(crate) const LIMIT: f64 = 26_353_589.0;
 
 /// π/2 in parts.
-const HALF_PI: [f64; 4] =
+pub(super) const HALF_PI: [f64; 4] =
     [1.570_796_325_802_803, 9.920_935_774_287_987e-10, 2.251_741_770_634_657_8e-18, 3.521_559_865_183_2e-27];
 
 /// (sin r/r − 1)/z on |r| ≤ π/4: near-minimax of degree 5, error 2⁻⁵⁵ relative to r after multiplication by z.
@@ -56,7 +56,7 @@ fn parts(x: f64) -> (u64, Pair, Pair) {
 
 /// x with its sign changed when bit `bit` of n is set.
 #[inline(always)]
-fn flip(x: f64, n: u64, bit: u32) -> f64 {
+pub(super) fn flip(x: f64, n: u64, bit: u32) -> f64 {
     f64::from_bits(x.to_bits() ^ ((n >> bit) << 63))
 }
 
