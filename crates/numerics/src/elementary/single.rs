@@ -2,7 +2,8 @@
 //!
 //! Twenty-nine spare bits replace every correction: polynomials are about half as long as for doubles,
 //! nothing is held in two parts (but π/2), no intermediate result overflows or is subnormal. The result is
-//! right to 0.51 ulp after rounding to single precision. Arguments are singles; the equations are those of the sister files.
+//! right to 0.51 ulp after rounding to single precision. Arguments are singles; the equations are those of
+//! the sister files.
 
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E, PI};
 
@@ -134,9 +135,9 @@ pub(crate) fn ln(x: f64) -> f64 {
 
 #[inline(always)]
 pub(crate) fn ln_1p(x: f64) -> f64 {
-    // What the sum loses of x is added: where it matters, the sum is nearly 1.
+    // What the sum loses of a small x is added as it is: where that matters, the sum is nearly 1.
     let u = 1.0 + x;
-    let lost = x - (u - 1.0);
+    let lost = choose(x < 1.0, x - (u - 1.0), 0.0);
     let finite = choose(x < f64::INFINITY, ln_of_positive(u) + lost, x);
     let inside = choose(x == 0.0, x, finite);
     choose(-1.0 < x, inside, choose(u == 0.0, f64::NEG_INFINITY, f64::NAN))
@@ -221,7 +222,9 @@ pub(crate) fn atan2(y: f64, x: f64) -> f64 {
 
 #[inline(always)]
 pub(crate) fn powf(x: f64, y: f64) -> f64 {
-    let exponent = y * ln_of_positive(x.abs());
+    // Beyond 10³⁰ every |x| ≠ 1 gives 0 or ∞ already.
+    let bounded = choose(y.abs() < 1e30, y, 1e30_f64.copysign(y));
+    let exponent = bounded * ln_of_positive(x.abs());
     with_conventions(x, y, exp(choose(exponent.abs() < 200.0, exponent, 200.0_f64.copysign(exponent))))
 }
 

@@ -209,6 +209,31 @@ fn special_values_are_the_standard_librarys() {
     }
 }
 
+#[test]
+#[expect(clippy::cast_possible_truncation, reason = "arguments of the single-precision run")]
+fn special_values_in_single_precision_are_the_standard_librarys() {
+    let agree = |name: &str, x: f32, y: f32, lane: f32, scalar: f32| {
+        let same = lane.to_bits() == scalar.to_bits() || (lane.is_nan() && scalar.is_nan());
+        let least = f64::from(f32::from_bits(1));
+        let allowed = ULPS_FROM_STANDARD * unit(f64::from(scalar), 24, least);
+        let ordinary = scalar.is_finite() && 0.0 < scalar.abs();
+        let close = ordinary && f64::from((lane - scalar).abs()) <= allowed;
+        assert!(same || close, "{name}({x:e}, {y:e}) = {lane:e}, not {scalar:e}");
+    };
+    let values =
+        || special_values().into_iter().map(|x| x as f32).chain([88.8, 89.1, -87.4, -103.5, -104.5, 3e-39, 1e38]);
+    for x in values() {
+        for name in UNARY {
+            agree(name, x, 0.0, apply(name, Lanes([x, 1.0]), Lanes([0.0; 2])).0[0], apply(name, x, 0.0));
+        }
+        for y in values() {
+            for name in BINARY {
+                agree(name, x, y, apply(name, Lanes([1.0, x]), Lanes([1.0, y])).0[1], apply(name, x, y));
+            }
+        }
+    }
+}
+
 /// One function of many pairs, N at a time.
 struct Many<'a, const N: usize> {
     name: &'a str,

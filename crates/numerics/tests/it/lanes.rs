@@ -102,9 +102,9 @@ fn partial_loads_and_stores_keep_to_the_slice() {
     assert_eq!(Lanes::<f64, 4>::load(&[], 9.0), Lanes::splat(9.0));
     let mut written = [0.0; 5];
     Lanes([1.0, 2.0, 3.0, 4.0]).store(&mut written[2..]);
-    assert_eq!(written, [0.0, 0.0, 1.0, 2.0, 3.0]);
+    assert_eq!(Lanes(written), Lanes([0.0, 0.0, 1.0, 2.0, 3.0]));
     Lanes([6.0, 7.0]).store(&mut written);
-    assert_eq!(written, [6.0, 7.0, 1.0, 2.0, 3.0]);
+    assert_eq!(Lanes(written), Lanes([6.0, 7.0, 1.0, 2.0, 3.0]));
 }
 
 /// Σ period(1, xᵢ), lane by lane.
