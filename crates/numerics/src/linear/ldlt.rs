@@ -50,8 +50,9 @@ pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), Error> {
             // Column j loses its part along column k: a_ij ← a_ij − l_ik d_k l_jk.
             let weight = a[j + k * n] * a[k + k * n];
             let (before, column) = a.split_at_mut(j * n);
+            let (left, column) = (&before[k * n..(k + 1) * n], &mut column[..n]);
             for i in j..n {
-                column[i] -= before[i + k * n] * weight;
+                column[i] -= left[i] * weight;
             }
         }
         let pivot = a[j + j * n];

@@ -49,8 +49,9 @@ pub fn factor_in_place<T: Real>(a: &mut [T], exchanges: &mut [usize]) -> Result<
             // Column j loses its part along column k: a_ij ← a_ij − l_ik u_kj.
             let (before, column) = a.split_at_mut(j * n);
             let weight = column[k];
+            let (left, column) = (&before[k * n..(k + 1) * n], &mut column[..n]);
             for i in k + 1..n {
-                column[i] -= before[i + k * n] * weight;
+                column[i] -= left[i] * weight;
             }
         }
         let row = pivot_row(&a[j * n..(j + 1) * n], j);

@@ -101,7 +101,8 @@ proptest! {
         let form: f64 = (0..3).map(|i| (0..3).map(|j| n[i] * a[i][j] * n[j]).sum::<f64>()).sum();
         prop_assert!(0.5 - Tol::ulps(16.0).value() <= form && form <= 2.0 + Tol::ulps(16.0).value());
         for (i, row) in a.iter().enumerate() {
-            prop_assert_eq!(*row, a.map(|other| other[i]), "row and column {}", i);
+            let column = a.map(|other| other[i]);
+            prop_assert_eq!(row.map(f64::to_bits), column.map(f64::to_bits), "row and column {}", i);
         }
     }
 }
