@@ -39,7 +39,9 @@ pub enum DynamicsError {
         value: f64,
     },
     /// Two bodies in one place, without softening.
-    #[error("bodies {first} and {second} are in one place, where their attraction is infinite; separate them or soften the attraction")]
+    #[error(
+        "bodies {first} and {second} are in one place, where their attraction is infinite; separate them or soften the attraction"
+    )]
     CoincidentBodies {
         /// The first body's index.
         first: usize,
@@ -59,5 +61,50 @@ pub enum DynamicsError {
     MasslessCentre {
         /// The body's index.
         body: usize,
+    },
+    /// The inertia metric, or the Hessian ∂²L/∂v∂v, is not positive definite.
+    #[error(
+        "the inertia metric is singular: pivot {pivot:e} of coordinate {coordinate} is not positive against {diagonal:e}; \
+         the motion along {direction:?} has no inertia (dependent coordinates, a missing mass, or a singular chart)"
+    )]
+    SingularMetric {
+        /// The coordinate at which the elimination stopped.
+        coordinate: usize,
+        /// The pivot found there.
+        pivot: f64,
+        /// The diagonal entry it came from.
+        diagonal: f64,
+        /// A direction q̇ without kinetic energy, as far as rounding tells.
+        direction: Vec<f64>,
+    },
+    /// A mass that violates 0 ≤ m < ∞.
+    #[error("part {part} has the mass {mass} kg; it must satisfy 0 ≤ m < ∞")]
+    InvalidMass {
+        /// The part's number in the order of placement.
+        part: usize,
+        /// Its mass.
+        mass: f64,
+    },
+    /// The run in time failed.
+    #[error("the run stopped at time {time} s: {source}")]
+    Run {
+        /// The time reached.
+        time: f64,
+        /// Why.
+        source: Box<piola_integrators::IntegrationError<DynamicsError>>,
+    },
+    /// A linear system that cannot be solved.
+    #[error(transparent)]
+    Numerics(#[from] piola_numerics::Error),
+    /// The momenta could not be inverted for velocities.
+    #[error(
+        "no velocities were found for the momenta in {iterations} iterations (last correction {correction:e}): \
+         they may lie outside the range of ∂L/∂q̇"
+    )]
+    LegendreNotConverged {
+        /// Newton iterations made.
+        iterations: usize,
+        /// The largest component of the last correction, relative to the velocity.
+        correction: f64,
     },
 }

@@ -4,9 +4,15 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`lagrangian`] | Lagrange's equations of any placement map, with a potential and applied forces |
+//! | [`hamiltonian`] | Hamilton's equations of any function H(q, p, t) |
+//! | [`rigid_motion`] | the rotation of a rigid body by unit quaternions |
 //! | [`gravitation`] | many bodies attracting each other: direct summation in lanes, post-Newtonian term |
 
 mod error;
 pub mod gravitation;
+pub mod hamiltonian;
+pub mod lagrangian;
+pub mod rigid_motion;
 
 pub use error::DynamicsError;

@@ -38,7 +38,9 @@ pub enum IntegrationError<E = Infallible> {
         step: f64,
     },
     /// A tolerance that violates 0 ≤ tolerance < 1, or both tolerances zero.
-    #[error("the relative tolerance {relative} and the absolute tolerance {absolute} must be finite, not negative and not both zero, and the relative one below 1")]
+    #[error(
+        "the relative tolerance {relative} and the absolute tolerance {absolute} must be finite, not negative and not both zero, and the relative one below 1"
+    )]
     InvalidTolerance {
         /// The relative tolerance given.
         relative: f64,
@@ -78,7 +80,9 @@ pub enum IntegrationError<E = Infallible> {
         steps: u64,
     },
     /// The stages of an implicit step did not converge.
-    #[error("the stages of the step from time {time} did not converge in {iterations} iterations (last change {change:e} of the increment): take a step smaller than {step}")]
+    #[error(
+        "the stages of the step from time {time} did not converge in {iterations} iterations (last change {change:e} of the increment): take a step smaller than {step}"
+    )]
     StagesDiverged {
         /// The time at the start of the step.
         time: f64,
@@ -99,4 +103,26 @@ pub enum IntegrationError<E = Infallible> {
         /// The other end.
         end: f64,
     },
+}
+
+impl IntegrationError<Infallible> {
+    /// The same error where the field can fail.
+    #[must_use]
+    pub fn with_field_error<E>(self) -> IntegrationError<E> {
+        match self {
+            Self::DimensionMismatch { expected, found } => IntegrationError::DimensionMismatch { expected, found },
+            Self::NonFiniteTime { time } => IntegrationError::NonFiniteTime { time },
+            Self::NonFiniteState { index, value } => IntegrationError::NonFiniteState { index, value },
+            Self::InvalidStep { step } => IntegrationError::InvalidStep { step },
+            Self::InvalidTolerance { relative, absolute } => IntegrationError::InvalidTolerance { relative, absolute },
+            Self::Field { source, .. } => match source {},
+            Self::NonFiniteRate { time, index } => IntegrationError::NonFiniteRate { time, index },
+            Self::StepTooSmall { time, step } => IntegrationError::StepTooSmall { time, step },
+            Self::TooManySteps { time, steps } => IntegrationError::TooManySteps { time, steps },
+            Self::StagesDiverged { time, step, iterations, change } => {
+                IntegrationError::StagesDiverged { time, step, iterations, change }
+            }
+            Self::OutsideStep { time, start, end } => IntegrationError::OutsideStep { time, start, end },
+        }
+    }
 }

@@ -126,7 +126,8 @@ impl Gravitation {
     pub fn state(&self, positions: &[[f64; 3]], velocities: &[[f64; 3]]) -> Result<Vec<f64>, DynamicsError> {
         let n = self.bodies();
         let mut state = vec![0.0; 6 * n];
-        for (block, (quantity, triples)) in [("positions", positions), ("velocities", velocities)].into_iter().enumerate()
+        for (block, (quantity, triples)) in
+            [("positions", positions), ("velocities", velocities)].into_iter().enumerate()
         {
             if triples.len() != n {
                 return Err(DynamicsError::DimensionMismatch { quantity, expected: n, found: triples.len() });

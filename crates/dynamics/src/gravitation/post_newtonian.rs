@@ -73,9 +73,8 @@ pub(super) fn add<T: Real>(parameters: &[f64], term: PostNewtonian, state: &[T],
         if body == centre {
             continue;
         }
-        let relative = |block: usize| {
-            core::array::from_fn(|k| state[(block + k) * n + body] - state[(block + k) * n + centre])
-        };
+        let relative =
+            |block: usize| core::array::from_fn(|k| state[(block + k) * n + body] - state[(block + k) * n + centre]);
         let mu = T::lit(parameters[centre]);
         let change = post_newtonian_acceleration(relative(0), relative(3), mu, T::lit(term.speed_of_light));
         for k in 0..3 {

@@ -115,8 +115,7 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
         let h = T::lit(h);
         let k = &method.stages;
         for i in 0..method.trial.len() {
-            let difference =
-                (method.trial[i] - method.start[i]) + (method.trial_carry[i] - method.start_carry[i]);
+            let difference = (method.trial[i] - method.start[i]) + (method.trial_carry[i] - method.start_carry[i]);
             let (first, last) = (h * k[0][i], h * k[12][i]);
             method.interpolant[0][i] = difference;
             method.interpolant[1][i] = first - difference;

@@ -128,7 +128,11 @@ impl DormandPrince853<f64> {
                 Ok(Some(stop)) => return ControlFlow::Break(stop),
                 Ok(None) => {}
             }
-            if observer(step).is_break() { ControlFlow::Break((None, Ending::Stopped)) } else { ControlFlow::Continue(()) }
+            if observer(step).is_break() {
+                ControlFlow::Break((None, Ending::Stopped))
+            } else {
+                ControlFlow::Continue(())
+            }
         })?;
         failure.map_or(Ok(report), Err)
     }

@@ -158,10 +158,12 @@ impl<T: Real> DormandPrince853<T> {
         end: f64,
         mut observer: impl FnMut(&mut DenseStep<'_, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegrationError<F::Error>> {
-        self.run(field, state, end, &mut |step, _| if observer(step).is_break() {
-            ControlFlow::Break((None, Ending::Stopped))
-        } else {
-            ControlFlow::Continue(())
+        self.run(field, state, end, &mut |step, _| {
+            if observer(step).is_break() {
+                ControlFlow::Break((None, Ending::Stopped))
+            } else {
+                ControlFlow::Continue(())
+            }
         })
     }
 

@@ -1,0 +1,373 @@
+//! Lagrange's equations solved for the accelerations.
+
+use nalgebra::DVector;
+use piola_kinematics::Holonomic;
+use piola_numerics::linear::ldlt;
+use piola_numerics::{Dual, Error, Gradient, Jet, Mask, Real};
+
+use super::collect::{Equations, Pass, Rows};
+use super::directions::{CHUNK, LARGEST, with_directions};
+use super::{Forces, Lagrangian, Potential};
+use crate::DynamicsError;
+
+/// The buffers of one thread: made once, grown at the first evaluation, then never again.
+///
+/// Systems of up to eight coordinates leave most of it empty.
+#[derive(Clone, Debug)]
+pub struct Workspace<T = f64> {
+    pub(super) rows: Rows<T>,
+    pub(super) metric: Vec<T>,
+    pub(super) force: Vec<T>,
+    pub(super) coordinates: Vec<Gradient<T, CHUNK>>,
+    pub(super) jets: Vec<Jet<T, CHUNK>>,
+    pub(super) mixed: Vec<Dual<Gradient<T, CHUNK>>>,
+    pub(super) mixed_rates: Vec<Dual<Gradient<T, CHUNK>>>,
+    pub(super) nested: Vec<Gradient<Gradient<T, CHUNK>, CHUNK>>,
+    pub(super) duals: Vec<Dual<T>>,
+    pub(super) constants: Vec<Gradient<T, CHUNK>>,
+    pub(super) linear: Vec<T>,
+}
+
+impl<T> Default for Workspace<T> {
+    fn default() -> Self {
+        Self {
+            rows: Rows::default(),
+            metric: Vec::new(),
+            force: Vec::new(),
+            coordinates: Vec::new(),
+            jets: Vec::new(),
+            mixed: Vec::new(),
+            mixed_rates: Vec::new(),
+            nested: Vec::new(),
+            duals: Vec::new(),
+            constants: Vec::new(),
+            linear: Vec::new(),
+        }
+    }
+}
+
+impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
+    /// The accelerations q̈ that Lagrange's equations give.
+    ///
+    /// ```text
+    /// g_ΔΓ q̈^Γ = Q_Δ − Σ m ∂x/∂q^Δ·ẍ₀ − …                         W(5.31), W(6.3)
+    /// ```
+    ///
+    /// | symbol | argument | shape | unit |
+    /// |---|---|---|---|
+    /// | q, q̇ | `q`, `v` | n | the coordinates' own |
+    /// | t | `t` | scalar | s |
+    /// | q̈ | returned | n | the coordinates' own / s² |
+    ///
+    /// One pass of the placement gives the inertia metric and the accelerations at q̈ = 0; Christoffel
+    /// symbols are not formed.
+    ///
+    /// # Errors
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`] and
+    /// [`DynamicsError::SingularMetric`], which names a motion without inertia.
+    ///
+    /// # Accuracy
+    /// A few ulp times the condition number of the metric scaled to unit diagonal.
+    ///
+    /// # Example
+    /// See [`Lagrangian`].
+    ///
+    /// # Source
+    /// W(5.31), W(6.3).
+    pub fn acceleration<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
+        let mut out = DVector::from_element(q.len(), T::zero());
+        self.acceleration_into(&mut Workspace::default(), q, v, t, out.as_mut_slice())?;
+        Ok(out)
+    }
+
+    /// [`acceleration`](Self::acceleration) to the caller's memory, without allocation once `work` has been
+    /// used.
+    ///
+    /// # Errors
+    /// As [`acceleration`](Self::acceleration).
+    #[inline]
+    pub fn acceleration_into<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        out: &mut [T],
+    ) -> Result<(), DynamicsError> {
+        let n = q.len();
+        check_length("q̇", n, v.len())?;
+        check_length("q̈", n, out.len())?;
+        let solved = with_directions!(n, N => self.acceleration_in_one_pass::<T, N>(work, q, v, t, out),
+            beyond => self.acceleration_by_rows(work, q, v, t, out));
+        solved.map_err(|error| explain(error, q, v, work, n))
+    }
+
+    #[inline(always)]
+    fn acceleration_in_one_pass<T: Real, const N: usize>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        out: &mut [T],
+    ) -> Result<(), Error> {
+        let n = q.len();
+        let mut coordinates = [Jet::<T, N>::constant(T::zero()); N];
+        for (i, jet) in coordinates.iter_mut().take(n).enumerate() {
+            *jet = Jet::coordinate(q[i], v[i], i);
+        }
+        let time = if S::TIME_DEPENDENT { Jet::time(t) } else { Jet::constant(t) };
+        let mut equations = Equations::<T, S, P, F, N>::new(self, t);
+        self.system.place(&coordinates[..n], time, &mut equations);
+        let Equations { mut metric, mut force, .. } = equations;
+
+        if P::PRESENT {
+            self.subtract_gradient::<T, N>(q, v, t, &mut force[..n]);
+            if P::VELOCITY_DEPENDENT {
+                self.add_velocity_dependence::<T, N>(q, v, t, metric.as_flattened_mut(), &mut force);
+            }
+        }
+        if F::GENERALISED {
+            self.forces.generalised(q, v, t, &mut force[..n]);
+        }
+        for (i, column) in metric.iter_mut().enumerate().skip(n) {
+            column[i] = T::one(); // directions that the system does not have
+        }
+        let factors = metric.as_flattened_mut();
+        if let Err(error) = ldlt::factor_in_place(factors, N) {
+            work.metric.clear();
+            for column in factors.chunks(N).take(n) {
+                work.metric.extend_from_slice(&column[..n]);
+            }
+            return Err(error);
+        }
+        ldlt::solve_in_place(factors, N, &mut force)?;
+        out.copy_from_slice(&force[..n]);
+        Ok(())
+    }
+
+    /// −∂V/∂q at fixed velocities.
+    #[inline(always)]
+    fn subtract_gradient<T: Real, const N: usize>(&self, q: &[T], v: &[T], t: T, force: &mut [T]) {
+        let n = q.len();
+        let mut coordinates = [Gradient::<T, N>::constant(T::zero()); N];
+        let mut rates = [Gradient::<T, N>::constant(T::zero()); N];
+        for i in 0..n {
+            coordinates[i] = Gradient::variable(q[i], i);
+            rates[i] = Gradient::constant(v[i]);
+        }
+        let rates = if P::VELOCITY_DEPENDENT { &rates[..n] } else { &[] };
+        let value = self.potential.potential(&coordinates[..n], rates, Gradient::constant(t));
+        for (force, partial) in force.iter_mut().zip(value.partials) {
+            *force -= partial;
+        }
+    }
+
+    /// What d/dt(∂V/∂q̇) adds: −∂²V/∂q̇∂q̇ to the metric and (∂²V/∂q̇∂q) q̇ + ∂²V/∂q̇∂t to the force.
+    fn add_velocity_dependence<T: Real, const N: usize>(
+        &self,
+        q: &[T],
+        v: &[T],
+        t: T,
+        metric: &mut [T],
+        force: &mut [T; N],
+    ) {
+        let n = q.len();
+        let zero = Gradient::<T, N>::constant(T::zero());
+        let mut moving = [Dual::constant(zero); N];
+        let mut rates = [Dual::constant(zero); N];
+        for i in 0..n {
+            moving[i] = Dual::new(Gradient::constant(q[i]), Gradient::constant(v[i]));
+            rates[i] = Dual::constant(Gradient::variable(v[i], i));
+        }
+        let value = self.potential.potential(&moving[..n], &rates[..n], Dual::variable(Gradient::constant(t)));
+        for (force, partial) in force.iter_mut().zip(value.tangent.partials) {
+            *force += partial;
+        }
+        let mut coordinates = [Gradient::<_, N>::constant(zero); N];
+        let mut twice = [Gradient::<_, N>::constant(zero); N];
+        for i in 0..n {
+            coordinates[i] = Gradient::constant(Gradient::constant(q[i]));
+            twice[i] = Gradient::variable(Gradient::variable(v[i], i), i);
+        }
+        let time = Gradient::constant(Gradient::constant(t));
+        let value = self.potential.potential(&coordinates[..n], &twice[..n], time);
+        for i in 0..n {
+            for j in 0..n {
+                metric[j + i * N] -= value.partials[i].partials[j];
+            }
+        }
+    }
+
+    /// The same for more coordinates than one pass serves: g = JᵀJ from weighted rows.
+    fn acceleration_by_rows<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        out: &mut [T],
+    ) -> Result<(), Error> {
+        let n = q.len();
+        self.collect_rows_with_rates(work, q, v, t);
+        work.form_metric(n);
+        work.force.clear();
+        work.force.resize(n, T::zero());
+        for (row, &residual) in work.rows.jacobian.chunks(n).zip(&work.rows.residual) {
+            for (force, &entry) in work.force.iter_mut().zip(row) {
+                *force += entry * residual;
+            }
+        }
+        if P::PRESENT {
+            self.subtract_gradient_by_chunks(work, q, v, t);
+            if P::VELOCITY_DEPENDENT {
+                self.add_velocity_dependence_by_chunks(work, q, v, t);
+            }
+        }
+        if F::GENERALISED {
+            self.forces.generalised(q, v, t, &mut work.force);
+        }
+        ldlt::factor_in_place(&mut work.metric, n)?;
+        ldlt::solve_in_place(&work.metric, n, &mut work.force)?;
+        out.copy_from_slice(&work.force);
+        Ok(())
+    }
+
+    /// The weighted rows and residuals at a state.
+    fn collect_rows_with_rates<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+        let n = q.len();
+        work.rows.jacobian.clear();
+        work.rows.residual.clear();
+        work.jets.clear();
+        work.jets.extend(q.iter().zip(v).enumerate().map(|(i, (&q, &v))| Jet::coordinate(q, v, i)));
+        let time = if S::TIME_DEPENDENT { Jet::time(t) } else { Jet::constant(t) };
+        let mut pass = Pass { lagrangian: self, rows: &mut work.rows, coordinates: n, first: 0, row: 0, part: 0, t };
+        self.system.place(&work.jets, time, &mut pass);
+        self.collect_rows_from(work, q, t, CHUNK);
+    }
+
+    /// The weighted rows in the directions from `first` on.
+    pub(super) fn collect_rows_from<T: Real>(&self, work: &mut Workspace<T>, q: &[T], t: T, first: usize) {
+        let n = q.len();
+        for first in (first..n).step_by(CHUNK) {
+            work.coordinates.clear();
+            work.coordinates.extend(q.iter().enumerate().map(|(i, &q)| Gradient::variable(q, i.wrapping_sub(first))));
+            let mut pass = Pass { lagrangian: self, rows: &mut work.rows, coordinates: n, first, row: 0, part: 0, t };
+            self.system.place(&work.coordinates, Gradient::constant(t), &mut pass);
+        }
+    }
+
+    fn subtract_gradient_by_chunks<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+        let n = q.len();
+        work.constants.clear();
+        if P::VELOCITY_DEPENDENT {
+            work.constants.extend(v.iter().map(|&v| Gradient::constant(v)));
+        }
+        for first in (0..n).step_by(CHUNK) {
+            work.coordinates.clear();
+            work.coordinates.extend(q.iter().enumerate().map(|(i, &q)| Gradient::variable(q, i.wrapping_sub(first))));
+            let value = self.potential.potential(&work.coordinates, &work.constants, Gradient::constant(t));
+            for (force, partial) in work.force[first..].iter_mut().zip(value.partials) {
+                *force -= partial;
+            }
+        }
+    }
+
+    fn add_velocity_dependence_by_chunks<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+        let n = q.len();
+        for first in (0..n).step_by(CHUNK) {
+            work.mixed.clear();
+            work.mixed.extend(q.iter().zip(v).map(|(&q, &v)| Dual::new(Gradient::constant(q), Gradient::constant(v))));
+            work.mixed_rates.clear();
+            let variable = |(i, &v): (usize, &T)| Dual::constant(Gradient::variable(v, i.wrapping_sub(first)));
+            work.mixed_rates.extend(v.iter().enumerate().map(variable));
+            let time = Dual::variable(Gradient::constant(t));
+            let value = self.potential.potential(&work.mixed, &work.mixed_rates, time);
+            for (force, partial) in work.force[first..].iter_mut().zip(value.tangent.partials) {
+                *force += partial;
+            }
+        }
+        self.subtract_velocity_hessian(work, q, v, t);
+    }
+
+    /// Subtracts ∂²V/∂q̇∂q̇ from `work.metric`.
+    pub(super) fn subtract_velocity_hessian<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+        let n = q.len();
+        for first in (0..n).step_by(CHUNK) {
+            for second in (0..n).step_by(CHUNK) {
+                // Coordinates are constants; the velocities carry both sets of directions.
+                work.nested.clear();
+                work.nested.extend(q.iter().map(|&q| Gradient::constant(Gradient::constant(q))));
+                let twice = |(i, &v): (usize, &T)| {
+                    let inner = Gradient::variable(v, i.wrapping_sub(second));
+                    Gradient::variable(inner, i.wrapping_sub(first))
+                };
+                work.nested.extend(v.iter().enumerate().map(twice));
+                let (coordinates, rates) = work.nested.split_at(n);
+                let time = Gradient::constant(Gradient::constant(t));
+                let value = self.potential.potential(coordinates, rates, time);
+                for i in first..n.min(first + CHUNK) {
+                    for j in second..n.min(second + CHUNK) {
+                        work.metric[j + i * n] -= value.partials[i - first].partials[j - second];
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real> Workspace<T> {
+    /// g = JᵀJ, stored whole down the columns.
+    pub(super) fn form_metric(&mut self, n: usize) {
+        self.metric.clear();
+        self.metric.resize(n * n, T::zero());
+        for row in self.rows.jacobian.chunks(n) {
+            for (j, &factor) in row.iter().enumerate() {
+                let column = &mut self.metric[j * n + j..(j + 1) * n];
+                for (entry, &other) in column.iter_mut().zip(&row[j..]) {
+                    *entry += factor * other;
+                }
+            }
+        }
+        for j in 0..n {
+            for i in 0..j {
+                self.metric[i + j * n] = self.metric[j + i * n];
+            }
+        }
+    }
+}
+
+pub(super) fn check_length(quantity: &'static str, expected: usize, found: usize) -> Result<(), DynamicsError> {
+    if expected == found { Ok(()) } else { Err(DynamicsError::DimensionMismatch { quantity, expected, found }) }
+}
+
+pub(super) fn check_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), DynamicsError> {
+    for (index, value) in values.iter().enumerate() {
+        if !value.is_finite().all() {
+            let lane = (0..T::LANES).find(|&lane| !f64::is_finite(value.primal(lane))).unwrap_or(0);
+            return Err(DynamicsError::NonFinite { quantity, index, value: value.primal(lane) });
+        }
+    }
+    Ok(())
+}
+
+/// The reason for a failed factorisation, in the terms of mechanics. `work.metric` holds the factors made.
+#[cold]
+pub(super) fn explain<T: Real>(error: Error, q: &[T], v: &[T], work: &Workspace<T>, n: usize) -> DynamicsError {
+    if let Err(error) = check_finite("q", q).and_then(|()| check_finite("q̇", v)) {
+        return error;
+    }
+    match error {
+        Error::NotPositiveDefinite { pivot, value, diagonal } => {
+            let mut direction = vec![T::zero(); n];
+            if ldlt::null_direction_into(&work.metric, n, pivot, &mut direction).is_err() {
+                direction.clear();
+            }
+            let direction = direction.into_iter().map(|x| x.primal(0)).collect();
+            DynamicsError::SingularMetric { coordinate: pivot, pivot: value, diagonal, direction }
+        }
+        other => DynamicsError::Numerics(other),
+    }
+}
+
+const _: () = assert!(LARGEST == CHUNK, "one chunk serves every system that is solved in one pass");

@@ -1,0 +1,33 @@
+//! Choosing, at run time, how many directions of differentiation are compiled in.
+
+/// Runs `$body` with the constant `$N` set to the smallest compiled number of directions that is at least
+/// `$n`, or `$beyond` when `$n` is larger than all of them.
+macro_rules! with_directions {
+    ($n:expr, $N:ident => $body:expr, beyond => $beyond:expr) => {
+        match $n {
+            0..=2 => {
+                const $N: usize = 2;
+                $body
+            }
+            3 => {
+                const $N: usize = 3;
+                $body
+            }
+            4 => {
+                const $N: usize = 4;
+                $body
+            }
+            5..=8 => {
+                const $N: usize = 8;
+                $body
+            }
+            _ => $beyond,
+        }
+    };
+}
+pub(super) use with_directions;
+
+/// Directions of one pass when the system has more coordinates than the largest compiled number.
+pub(super) const CHUNK: usize = 8;
+/// The largest number of coordinates that one pass serves.
+pub(super) const LARGEST: usize = 8;
