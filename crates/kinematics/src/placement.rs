@@ -72,6 +72,15 @@ pub trait Holonomic {
     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>);
 }
 
+impl<S: Holonomic> Holonomic for &S {
+    const TIME_DEPENDENT: bool = S::TIME_DEPENDENT;
+
+    #[inline(always)]
+    fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
+        (**self).place(q, t, bodies);
+    }
+}
+
 /// How many parts a system has.
 ///
 /// # Example
