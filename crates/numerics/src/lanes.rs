@@ -6,13 +6,28 @@
 //! the least capable machine.
 //!
 //! # Which N?
-//! Measured on a Zen 5 core; see the `numerics` benches. One register holds 4 `f64` or 8 `f32` at
-//! [`Level::Avx2`](crate::Level::Avx2), and twice that at [`Level::Avx512`](crate::Level::Avx512).
+//! One register holds 4 `f64` or 8 `f32` at [`Level::Avx2`](crate::Level::Avx2), and twice that at
+//! [`Level::Avx512`](crate::Level::Avx512). More lanes than that help only while all live values stay in
+//! registers, so measure; on one Zen 5 core, in cargo's default release profile, nanoseconds a point are
 //!
-//! | kernel | `f64` | `f32` |
-//! |---|---|---|
-//! | many live values (products of 3×3 tensors) | 4 | 8 |
-//! | few live values (polynomials, elementary functions) | 8 | 16 |
+//! | kernel | scalar loop | `f64` ×4, AVX2 | ×8, AVX2 | ×4, AVX-512 | ×8, AVX-512 |
+//! |---|---|---|---|---|---|
+//! | products of 3×3 arrays, many live values | 2.2 | **1.5** | 1.7 | **0.7** | 1.4 |
+//! | polynomial of degree 15 | 4.1 | **1.6** | 2.0 | **0.9** | 1.0 |
+//! | eˣ | 2.4 | 1.1 | **1.0** | 0.6 | **0.5** |
+//! | sin x and cos x | 8.3 | 2.6 | **2.5** | 2.4 | **1.4** |
+//! | xʸ | 7.7 | **5.8** | 7.0 | 5.6 | **3.0** |
+//!
+//! So: 4 for `f64` kernels that mix much state, 8 for loops of elementary functions on AVX-512. For `f32`
+//! double these. The alignment is that of the element: a larger one pads short lanes and measured no faster.
+//!
+//! # Accuracy
+//! Largest error in ulp, `f64`, over reference values and 6000 random points for each function, against 160
+//! bits. For `f32` all are below 0.51 (0.56 for sin and cos, 1.4 for tan beyond |x| = 2.6·10⁷).
+//!
+//! | exp | `exp_m1` | ln | `ln_1p` | sin | cos | tan | asin | acos | atan | atan2 | sinh | cosh | tanh | cbrt | powf | powi |
+//! |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
+//! | 0.9 | 1.0 | 0.7 | 0.8 | 0.7 | 0.8 | 1.3 | 0.8 | 0.8 | 0.8 | 1.2 | 1.5 | 0.7 | 1.3 | 0.7 | 1.5 | 1.7 |
 
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
@@ -25,7 +40,8 @@ use crate::{Mask, Real};
 ///
 /// Elementary functions are accurate to 2 ulp over their whole domain, with the conventions of `f64` at
 /// and beyond its edges, and bit-identical for every N, every [`Level`](crate::Level) and every machine;
-/// only sin, cos and tan of |x| > 2.6·10⁷ are the standard library's. `==` holds when all lanes are equal.
+/// only sin, cos and tan of |x| > 2.6·10⁷ are the standard library's. NaNs are equal in kind, not in
+/// pattern. `==` holds when all lanes are equal.
 ///
 /// # Example
 /// ```
