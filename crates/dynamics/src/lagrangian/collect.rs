@@ -141,6 +141,50 @@ impl<T: Real, S, P: Potential, F: Forces, const N: usize> Placement<Jet<T, N>> f
     }
 }
 
+/// The inertia metric alone, for at most N coordinates, in one pass; its lower triangle by columns.
+pub(super) struct Metric<T, const N: usize>(pub(super) [[T; N]; N]);
+
+impl<T: Real, const N: usize> Metric<T, N> {
+    #[inline(always)]
+    fn add(&mut self, row: [T; N], weighted: [T; N]) {
+        for i in 0..N {
+            for j in 0..=i {
+                self.0[j][i] += weighted[i] * row[j];
+            }
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Placement<Gradient<T, N>> for Metric<T, N> {
+    #[inline(always)]
+    fn particle(&mut self, mass: f64, position: Vector3<Gradient<T, N>>) {
+        let m = T::lit(mass);
+        for x in [position.x, position.y, position.z] {
+            self.add(x.partials, x.partials.map(|p| m * p));
+        }
+    }
+
+    #[inline(always)]
+    fn body(&mut self, body: &RigidBody, centre: Vector3<Gradient<T, N>>, attitude: Attitude<Gradient<T, N>>) {
+        self.particle(body.mass(), centre);
+        let quaternion = [attitude.w, attitude.x, attitude.y, attitude.z];
+        let q = quaternion.map(|q| q.value);
+        let mut rows = [[T::zero(); N]; 3];
+        let mut weighted = [[T::zero(); N]; 3];
+        for i in 0..N {
+            let row = turning(q, quaternion.map(|q| q.partials[i]));
+            let inertia = inertia_times(body, row);
+            for k in 0..3 {
+                rows[k][i] = row[k];
+                weighted[k][i] = inertia[k];
+            }
+        }
+        for (row, weighted) in rows.into_iter().zip(weighted) {
+            self.add(row, weighted);
+        }
+    }
+}
+
 /// Rows of the placement Jacobian, each times the root of its inertia, for any number of coordinates: then
 /// g = JᵀJ and f = Jᵀr. Filled in passes of `D` directions.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@ use piola_numerics::{Dual, Gradient, Jet, Real};
 
 use super::acceleration::{Workspace, check_length};
 use super::collect::{AppliedSums, EnergySums};
-use super::directions::CHUNK;
+use super::directions::{CHUNK, with_directions};
 use super::{Forces, Lagrangian, NoForces, NoPotential, Potential};
 use crate::DynamicsError;
 
@@ -244,7 +244,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         Ok(())
     }
 
-    /// The derivatives of L in chunks of directions.
+    /// The derivatives of L with respect to the coordinates or the velocities.
     pub(super) fn differentiate<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -254,21 +254,41 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         with: With,
         out: &mut [T],
     ) {
-        for first in (0..q.len()).step_by(CHUNK) {
-            let seed = |on: bool, (i, &x): (usize, &T)| {
-                if on { Gradient::variable(x, i.wrapping_sub(first)) } else { Gradient::constant(x) }
-            };
-            let (on_q, on_v) = (matches!(with, With::Coordinates), matches!(with, With::Velocities));
-            work.coordinates.clear();
-            work.coordinates.extend(q.iter().enumerate().map(|x| seed(on_q, x)));
-            work.constants.clear();
-            work.constants.extend(v.iter().enumerate().map(|x| seed(on_v, x)));
-            work.mixed.clear();
-            work.mixed.extend(work.coordinates.iter().zip(&work.constants).map(|(&q, &v)| Dual::new(q, v)));
-            let energies = self.energies_over(&work.mixed, &work.coordinates, &work.constants, Gradient::constant(t));
-            for (out, partial) in out[first..].iter_mut().zip(energies.lagrangian().partials) {
-                *out = partial;
+        with_directions!(q.len(), N => self.differentiate_in_one_pass::<T, N>(v, q, t, with, out), beyond =>
+            for first in (0..q.len()).step_by(CHUNK) {
+                let seed = |on: bool, (i, &x): (usize, &T)| {
+                    if on { Gradient::variable(x, i.wrapping_sub(first)) } else { Gradient::constant(x) }
+                };
+                let (on_q, on_v) = (matches!(with, With::Coordinates), matches!(with, With::Velocities));
+                work.coordinates.clear();
+                work.coordinates.extend(q.iter().enumerate().map(|x| seed(on_q, x)));
+                work.constants.clear();
+                work.constants.extend(v.iter().enumerate().map(|x| seed(on_v, x)));
+                work.mixed.clear();
+                work.mixed.extend(work.coordinates.iter().zip(&work.constants).map(|(&q, &v)| Dual::new(q, v)));
+                let time = Gradient::constant(t);
+                let energies = self.energies_over(&work.mixed, &work.coordinates, &work.constants, time);
+                for (out, partial) in out[first..].iter_mut().zip(energies.lagrangian().partials) {
+                    *out = partial;
+                }
             }
+        );
+    }
+
+    #[inline(always)]
+    fn differentiate_in_one_pass<T: Real, const N: usize>(&self, v: &[T], q: &[T], t: T, with: With, out: &mut [T]) {
+        let n = q.len();
+        let zero = Gradient::<T, N>::constant(T::zero());
+        let (mut coordinates, mut rates) = ([zero; N], [zero; N]);
+        let mut moving = [Dual::constant(zero); N];
+        for i in 0..n {
+            (coordinates[i], rates[i]) = match with {
+                With::Coordinates => (Gradient::variable(q[i], i), Gradient::constant(v[i])),
+                With::Velocities => (Gradient::constant(q[i]), Gradient::variable(v[i], i)),
+            };
+            moving[i] = Dual::new(coordinates[i], rates[i]);
         }
+        let energies = self.energies_over(&moving[..n], &coordinates[..n], &rates[..n], Gradient::constant(t));
+        out.copy_from_slice(&energies.lagrangian().partials[..n]);
     }
 }

@@ -3,9 +3,11 @@
 use nalgebra::DMatrix;
 use piola_kinematics::Holonomic;
 use piola_numerics::linear::ldlt;
-use piola_numerics::{Dual, Real};
+use piola_numerics::{Dual, Gradient, Real};
 
 use super::acceleration::{Workspace, check_length};
+use super::collect::Metric;
+use super::directions::with_directions;
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
 
@@ -66,9 +68,28 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 
     /// Leaves the metric in `work.metric`.
     pub(super) fn form_inertia_metric<T: Real>(&self, work: &mut Workspace<T>, q: &[T], t: T) {
-        work.rows.jacobian.clear();
-        self.collect_rows_from(work, q, t, 0);
-        work.form_metric(q.len());
+        with_directions!(q.len(), N => self.form_inertia_metric_in_one_pass::<T, N>(work, q, t), beyond => {
+            work.rows.jacobian.clear();
+            self.collect_rows_from(work, q, t, 0);
+            work.form_metric(q.len());
+        });
+    }
+
+    #[inline(always)]
+    fn form_inertia_metric_in_one_pass<T: Real, const N: usize>(&self, work: &mut Workspace<T>, q: &[T], t: T) {
+        let n = q.len();
+        let mut coordinates = [Gradient::<T, N>::constant(T::zero()); N];
+        for (i, (coordinate, &q)) in coordinates.iter_mut().zip(q).enumerate() {
+            *coordinate = Gradient::variable(q, i);
+        }
+        let mut metric = Metric([[T::zero(); N]; N]);
+        self.system.place(&coordinates[..n], Gradient::constant(t), &mut metric);
+        work.metric.clear();
+        for i in 0..n {
+            for j in 0..n {
+                work.metric.push(if i <= j { metric.0[i][j] } else { metric.0[j][i] });
+            }
+        }
     }
 
     /// The Christoffel symbols of the first kind, entry [ΔΘ, Σ] at `[Σ](Δ, Θ)`.
