@@ -118,7 +118,7 @@ pub struct EulerRates {
 }
 
 impl<T: Real> EulerZyz<T> {
-    /// The matrix Q: f_i = Q_ij e_j, v_body = Q v_space.
+    /// The matrix Q: `f_i = Q_ij e_j`, `v_body = Q v_space`.
     ///
     /// # Example
     /// ```
@@ -145,7 +145,7 @@ impl<T: Real> EulerZyz<T> {
         )
     }
 
-    /// The matrix W: ω_body = W θ̇.
+    /// The matrix W: `ω_body = W θ̇`.
     ///
     /// # Example
     /// ```

@@ -109,11 +109,11 @@ impl<T: Real> Motion<T> {
 pub struct MovingFrame<T: Real> {
     /// o, v°, a°.
     pub origin: Motion<T>,
-    /// e_i.
+    /// `e_i`.
     pub basis: [Vector3<T>; 3],
-    /// ė_i.
+    /// `ė_i`.
     pub basis_rate: [Vector3<T>; 3],
-    /// ë_i.
+    /// `ë_i`.
     pub basis_second_rate: [Vector3<T>; 3],
 }
 
@@ -133,11 +133,11 @@ pub struct MovingFrame<T: Real> {
 pub struct AccelerationTerms<T: Real> {
     /// a°, of the frame's origin.
     pub origin: Vector3<T>,
-    /// ẍⁱ e_i, as seen in the frame.
+    /// ẍⁱ `e_i`, as seen in the frame.
     pub relative: Vector3<T>,
-    /// 2 ẋⁱ ė_i.
+    /// 2 ẋⁱ `ė_i`.
     pub coriolis: Vector3<T>,
-    /// xⁱ ë_i: for a rigid frame ω̇×x + ω×(ω×x).
+    /// xⁱ `ë_i`: for a rigid frame ω̇×x + ω×(ω×x).
     pub transport: Vector3<T>,
 }
 
@@ -243,7 +243,7 @@ impl<T: Real> MovingFrame<T> {
     }
 }
 
-/// xⁱ e_i.
+/// xⁱ `e_i`.
 #[inline(always)]
 fn combine<T: Real>(basis: &[Vector3<T>; 3], x: &Vector3<T>) -> Vector3<T> {
     scaled(&basis[0], x.x) + scaled(&basis[1], x.y) + scaled(&basis[2], x.z)

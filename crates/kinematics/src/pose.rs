@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use crate::attitude::Attitude;
 use crate::rigid_body::BodyPose;
 
-/// Place and attitude of a body: x_space = translation + rotation x_body.
+/// Place and attitude of a body: `x_space = translation + rotation x_body`.
 ///
 /// # Example
 /// ```

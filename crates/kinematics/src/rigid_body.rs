@@ -293,7 +293,7 @@ impl<T: Real> BodyPose<T> {
         Self { position: Vector3::zeros(), attitude: Attitude::identity() }
     }
 
-    /// Where a point of the body is: x^p = x^c + yⁱ f_i, y in body components (m).
+    /// Where a point of the body is: `x^p = x^c + yⁱ f_i`, y in body components (m).
     ///
     /// # Example
     /// See [`BodyPose`].
@@ -306,7 +306,7 @@ impl<T: Real> BodyPose<T> {
     }
 }
 
-/// A rate of change of a body's place: along time a velocity, along a coordinate a tangent vector h_Δ.
+/// A rate of change of a body's place: along time a velocity, along a coordinate a tangent vector `h_Δ`.
 ///
 /// # Example
 /// ```
@@ -320,7 +320,7 @@ impl<T: Real> BodyPose<T> {
 pub struct BodyVelocity<T: Real> {
     /// v^c, or ∂x^c/∂q^Δ (space components).
     pub velocity: Vector3<T>,
-    /// ω, or ω_Δ (body components).
+    /// ω, or `ω_Δ` (body components).
     pub angular_velocity: Vector3<T>,
 }
 
@@ -449,7 +449,7 @@ pub fn velocity_of_embedded_point<T: Real>(
     velocity_of_q + cross(angular_velocity, from_q_to_p)
 }
 
-/// Angular velocity, in components along the basis itself, of an orthonormal basis f_i with rates ḟ_i.
+/// Angular velocity, in components along the basis itself, of an orthonormal basis `f_i` with rates `ḟ_i`.
 ///
 /// ```text
 /// Ω_ij = f_j·ḟ_i        ω = Ω_23 f_1 − Ω_13 f_2 + Ω_12 f_3

@@ -157,7 +157,7 @@ impl<T: Real> PlacementEvaluator<T> {
         self.tangents(system, t, particles, bodies)
     }
 
-    /// The tangent vector h_Δ of a coordinate: ∂x/∂q^Δ of the particles, ∂x^c/∂q^Δ and ω_Δ of the bodies.
+    /// The tangent vector `h_Δ` of a coordinate: ∂x/∂q^Δ of the particles, ∂x^c/∂q^Δ and `ω_Δ` of the bodies.
     ///
     /// A time-dependent system has one direction more, the time, after the coordinates: it gives ∂x/∂t.
     ///

@@ -100,7 +100,7 @@ fn length(column: &[f64]) -> f64 {
     column.iter().fold(0.0_f64, |length, &x| length.hypot(x))
 }
 
-/// Column Δ of J: the mass-weighted tangent vector h_Δ.
+/// Column Δ of J: the mass-weighted tangent vector `h_Δ`.
 fn column(system: &impl Holonomic, q: &[f64], t: f64, direction: usize) -> Vec<f64> {
     let seeds: Vec<Dual<f64>> = (0..q.len())
         .map(|index| if index == direction { Dual::variable(q[index]) } else { Dual::constant(q[index]) })
