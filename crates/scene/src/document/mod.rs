@@ -1,0 +1,107 @@
+//! A scene's text: read with limits, parsed with recovery, edited by `--set`, every value with its place.
+//!
+//! [`Document`] holds the tree of [`Node`]s and the [`Source`]s that it came from: the file, and one for each
+//! `--set` argument, so that a mistake in an argument is shown in the argument.
+
+mod mistake;
+mod node;
+mod parse;
+mod settings;
+mod source;
+
+pub use mistake::{Mistake, Report};
+pub use node::{Entry, Node, Value};
+pub use source::{LARGEST_SCENE, Place, Source};
+
+use std::path::{Path, PathBuf};
+
+use crate::SceneError;
+
+/// A parsed scene, before its meaning is checked.
+///
+/// # Example
+/// ```
+/// use piola_scene::Document;
+/// let mut document = Document::parse("example.toml", "name = \"example\"\n[time]\nend = \"1 h\"\n");
+/// document.set("time.end=2 h");
+/// assert!(document.mistakes().is_empty());
+/// ```
+#[derive(Debug, Clone)]
+pub struct Document {
+    sources: Vec<Source>,
+    root: Node,
+    mistakes: Vec<Mistake>,
+    folder: PathBuf,
+}
+
+impl Document {
+    /// Reads and parses a file. Paths inside the scene are relative to the file's folder.
+    ///
+    /// # Errors
+    /// [`SceneError::Unreadable`], [`SceneError::Folder`], [`SceneError::TooLarge`] or [`SceneError::NotText`] when there
+    /// is no text to parse. Mistakes inside the text are collected instead.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let text = source::read(path)?;
+        let mut document = Self::parse(&path.display().to_string(), &text);
+        document.folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        Ok(document)
+    }
+
+    /// Parses a text. `name` is shown in mistakes; paths inside the scene are relative to the current folder.
+    #[must_use]
+    pub fn parse(name: &str, text: &str) -> Self {
+        let source = Source::new(name, text);
+        let (root, mistakes) = parse::parse(&source, 0);
+        Self { sources: vec![source], root, mistakes, folder: PathBuf::new() }
+    }
+
+    /// Applies one `path=value`, as of `--set`.
+    ///
+    /// The path has dots between keys; an entry of a list is named by its place from 0, as `body[3].mass`, or by its
+    /// name, as `body.earth.mass`. The value is TOML, and what is not TOML is taken as a text, so that
+    /// `time.end=10 d` needs no quotation marks. Tables that do not exist yet are added.
+    pub fn set(&mut self, setting: &str) {
+        let id = self.sources.len();
+        let source = Source::new("--set", setting);
+        if let Err(mistake) = settings::apply(&mut self.root, &source, id) {
+            self.mistakes.push(mistake);
+        }
+        self.sources.push(source);
+    }
+
+    /// The tree.
+    #[must_use]
+    pub fn root(&self) -> &Node {
+        &self.root
+    }
+
+    /// What is wrong so far: with the syntax of the text and of the settings.
+    #[must_use]
+    pub fn mistakes(&self) -> &[Mistake] {
+        &self.mistakes
+    }
+
+    /// The texts that places refer to.
+    #[must_use]
+    pub fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
+    /// The folder that paths inside the scene are relative to.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The name of the text: the file's, or the one given to [`parse`](Self::parse).
+    #[must_use]
+    pub fn name(&self) -> &str {
+        self.sources.first().map_or("", |source| &source.name)
+    }
+
+    /// A report of these mistakes in the order of their places.
+    #[must_use]
+    pub fn report(&self, mistakes: Vec<Mistake>) -> Report {
+        Report::new(&self.sources, mistakes)
+    }
+}

@@ -1,0 +1,66 @@
+//! Errors of scenes.
+
+use std::path::PathBuf;
+
+use crate::document::Report;
+
+/// Why a scene cannot be read, checked, run or written.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The file cannot be opened or read.
+    #[error("cannot read `{}`: {cause}", path.display())]
+    Unreadable {
+        /// The path as given.
+        path: PathBuf,
+        /// The operating system's word.
+        cause: String,
+    },
+    /// A folder was given where a file is needed.
+    #[error("`{}` is a folder: give a scene file such as scenes/solar-system.toml", path.display())]
+    Folder {
+        /// The path as given.
+        path: PathBuf,
+    },
+    /// The file is larger than scenes may be.
+    #[error("`{}` has {bytes} bytes, a scene has at most {most}: put large data in a table that the scene names", path.display())]
+    TooLarge {
+        /// The path as given.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+        /// The largest size.
+        most: u64,
+    },
+    /// The file is not UTF-8 text.
+    #[error("`{}` is not a text file: byte {byte:#04x} at line {line}, column {column} is not UTF-8 text", path.display())]
+    NotText {
+        /// The path as given.
+        path: PathBuf,
+        /// Line of the byte, from 1.
+        line: usize,
+        /// Column of the byte, from 1.
+        column: usize,
+        /// The byte.
+        byte: u8,
+    },
+    /// The scene has mistakes; all of them.
+    #[error("{0}")]
+    Invalid(Report),
+    /// The output folder cannot be made or written to.
+    #[error("cannot write to the output folder `{}`: {cause}", path.display())]
+    UnwritableFolder {
+        /// The folder.
+        path: PathBuf,
+        /// The operating system's word.
+        cause: String,
+    },
+    /// A file could not be written.
+    #[error("cannot write `{}`: {cause}", path.display())]
+    Unwritable {
+        /// The file.
+        path: PathBuf,
+        /// The operating system's word.
+        cause: String,
+    },
+}

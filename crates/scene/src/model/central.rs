@@ -1,0 +1,126 @@
+//! Bodies about a fixed centre of attraction.
+
+use super::Builder;
+use crate::document::Mistake;
+use crate::kepler::{Elements, KeplerMotion};
+use crate::validation::Record;
+
+/// Bodies about a fixed centre at the origin, without attraction among themselves.
+#[derive(Debug, Clone)]
+pub struct Central {
+    /// Gravitational parameter of the centre, m³/s².
+    pub gm: f64,
+    /// The bodies, at least one.
+    pub bodies: Vec<Orbiter>,
+}
+
+/// A body about the centre.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Orbiter {
+    /// Name.
+    pub name: String,
+    /// Mass, kg: a factor of energy and momentum only.
+    pub mass: f64,
+    /// Position at the start, m.
+    pub position: [f64; 3],
+    /// Velocity at the start, m/s.
+    pub velocity: [f64; 3],
+}
+
+impl Central {
+    /// The period of the first body, s; `None` if it escapes.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        let body = self.bodies.first()?;
+        Some(KeplerMotion::new(self.gm, body.position, body.velocity).ok()?.period())
+    }
+}
+
+const SHAPE: [&str; 2] = ["semi_major_axis", "eccentricity"];
+const ANGLES: [&str; 4] = ["inclination", "ascending_node", "argument_of_pericentre", "mean_anomaly"];
+
+impl Builder<'_> {
+    pub(super) fn central(&mut self, scene: &Record, table: &Record) -> Option<Central> {
+        let records = scene.records("body");
+        self.unique_names(&[records]);
+        if records.is_empty() {
+            self.wrong(
+                Mistake::new(table.place.clone(), "[central] without bodies")
+                    .valid("at least one [[body]] with a name and a state or orbital elements"),
+            );
+            return None;
+        }
+        let gm = table.number("gm");
+        let bodies: Vec<Option<Orbiter>> = records.iter().map(|record| self.orbiter(record, gm)).collect();
+        let central = Central { gm: gm?, bodies: bodies.into_iter().collect::<Option<_>>()? };
+        let turns = scene.record("time").is_some_and(|time| time.has("revolutions"));
+        if turns && central.period().is_none() {
+            self.wrong(
+                Mistake::new(records[0].place.clone(), "the first body escapes, so there are no revolutions")
+                    .valid("time.end, or a bound orbit"),
+            );
+            return None;
+        }
+        Some(central)
+    }
+
+    fn orbiter(&mut self, record: &Record, gm: Option<f64>) -> Option<Orbiter> {
+        let shown = record.text("name").unwrap_or("without a name").to_string();
+        if record.has("gm") {
+            self.wrong(
+                Mistake::new(record.place_of("gm"), "`gm` of a body in a scene of [central]")
+                    .valid("mass, or nothing: these bodies do not attract"),
+            );
+        }
+        let state = ["position", "velocity"];
+        let has_state = state.iter().any(|key| record.has(key));
+        let element = SHAPE.iter().chain(&ANGLES).find(|key| record.has(key));
+        let wanted: &[&str] = if has_state { &state } else { &SHAPE };
+        if let (true, Some(key)) = (has_state, element) {
+            self.wrong(
+                Mistake::new(record.place_of(key), format!("the body {shown} has a state and orbital elements"))
+                    .valid("position and velocity, or semi_major_axis and eccentricity with the angles"),
+            );
+            return None;
+        }
+        let missing: Vec<&str> = wanted.iter().copied().filter(|key| !record.has(key)).collect();
+        if !missing.is_empty() {
+            self.wrong(
+                Mistake::new(record.place.clone(), format!("the body {shown} lacks {}", missing.join(" and ")))
+                    .valid("position and velocity, or semi_major_axis and eccentricity with the angles"),
+            );
+            return None;
+        }
+        let eccentricity = record.number("eccentricity");
+        if let Some(e) = eccentricity.filter(|e| 1.0 <= *e) {
+            self.wrong(
+                Mistake::new(record.place_of("eccentricity"), format!("the eccentricity {e} is of no ellipse"))
+                    .valid("a number from 0 to less than 1; give position and velocity of an escaping body"),
+            );
+            return None;
+        }
+        let (position, velocity) = if has_state {
+            (record.vector("position")?, record.vector("velocity")?)
+        } else {
+            let angle = |key| if record.has(key) { record.number(key) } else { Some(0.0) };
+            Elements {
+                semi_major_axis: record.number("semi_major_axis")?,
+                eccentricity: eccentricity?,
+                inclination: angle("inclination")?,
+                ascending_node: angle("ascending_node")?,
+                argument_of_pericentre: angle("argument_of_pericentre")?,
+                mean_anomaly: angle("mean_anomaly")?,
+            }
+            .state(gm?)
+        };
+        if position.iter().all(|x| x.abs() <= 0.0) {
+            self.wrong(
+                Mistake::new(record.place_of("position"), format!("the body {shown} is in one place with the centre"))
+                    .valid("a position other than the origin"),
+            );
+            return None;
+        }
+        let mass = if record.has("mass") { record.number("mass")? } else { 1.0 };
+        Some(Orbiter { name: record.text("name")?.to_string(), mass, position, velocity })
+    }
+}

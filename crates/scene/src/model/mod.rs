@@ -1,0 +1,313 @@
+//! The typed scene, built from a checked document.
+//!
+//! Values are in SI units and valid by themselves and together: names are unique and resolved, masses positive, bodies
+//! apart, coordinates independent, reference files read.
+
+mod central;
+mod gravitation;
+mod independence;
+mod mechanism;
+mod reference;
+
+use std::path::{Path, PathBuf};
+
+pub use central::{Central, Orbiter};
+pub use gravitation::{Gravitation, MassPoint, NEWTONIAN_CONSTANT, PostNewtonian};
+pub use mechanism::{JointTree, Mechanism, PartName};
+pub use reference::{ClosedForm, Comparison, Reference, ReferenceTable};
+
+use crate::document::{Document, Mistake};
+use crate::validation::{self, Record};
+use crate::{SceneError, words};
+
+/// A scene: a system, a span of time, how to integrate it, what to write, what to compare with.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// Name, also of the default output folder.
+    pub name: String,
+    /// Title of figures.
+    pub title: Option<String>,
+    /// What moves.
+    pub system: System,
+    /// The span of time.
+    pub time: TimeSpan,
+    /// What was asked of the integrator.
+    pub integrator: IntegratorRequest,
+    /// What is to be written.
+    pub output: OutputRequest,
+    /// What the result is compared with.
+    pub reference: Option<Reference>,
+}
+
+/// The kinds of systems.
+#[derive(Debug, Clone)]
+pub enum System {
+    /// Bodies that attract each other.
+    Gravitation(Gravitation),
+    /// Particles and rigid bodies on a tree of joints.
+    Mechanism(Mechanism),
+    /// Bodies about a fixed centre.
+    Central(Central),
+}
+
+/// From `start` to `end`, s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeSpan {
+    /// Start, s.
+    pub start: f64,
+    /// End, s; `start < end`.
+    pub end: f64,
+}
+
+/// What a scene asks of the integrator; the planner fills in the rest.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IntegratorRequest {
+    /// One of [`METHODS`](crate::schema::METHODS).
+    pub method: String,
+    /// Step of a method of fixed step, s.
+    pub step: Option<f64>,
+    /// Relative tolerance of an adaptive method.
+    pub tolerance: Option<f64>,
+}
+
+/// What a scene asks to be written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputRequest {
+    /// Folder, relative to the current one.
+    pub folder: PathBuf,
+    /// Number of instants, at least 2.
+    pub samples: u32,
+    /// Whether tables are written.
+    pub tables: bool,
+    /// Whether figures are drawn.
+    pub figures: bool,
+}
+
+impl Scene {
+    /// Reads a scene file, applies settings of the form `path=value`, and checks the result.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with all mistakes; other variants when there is no text to check.
+    pub fn load(path: &Path, settings: &[String]) -> Result<Self, SceneError> {
+        let mut document = Document::read(path)?;
+        for setting in settings {
+            document.set(setting);
+        }
+        Self::from_document(&document)
+    }
+
+    /// Checks a document and builds its scene.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with every mistake found.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_scene::{Document, Scene, SceneError};
+    /// let document = Document::parse("orbit.toml", "
+    ///     [central]
+    ///     gm = 1.0
+    ///     [[body]]
+    ///     name = 'comet'
+    ///     semi_major_axis = '-1 m'
+    ///     eccentricity = 0.5
+    ///     [time]
+    ///     revolutions = 3
+    /// ");
+    /// let Err(SceneError::Invalid(report)) = Scene::from_document(&document) else { panic!() };
+    /// assert_eq!((report.mistakes[0].line, report.mistakes[0].column), (6, 23));
+    /// ```
+    pub fn from_document(document: &Document) -> Result<Self, SceneError> {
+        let (record, mistakes) = validation::records(document);
+        let mut builder = Builder { document, mistakes };
+        match builder.scene(&record) {
+            Some(scene) if builder.mistakes.is_empty() => Ok(scene),
+            _ => Err(SceneError::Invalid(document.report(builder.mistakes))),
+        }
+    }
+
+    /// Names of everything that has a position, in the order of positions.
+    #[must_use]
+    pub fn names(&self) -> Vec<&str> {
+        match &self.system {
+            System::Gravitation(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
+            System::Mechanism(system) => system.parts.iter().map(|part| part.name.as_str()).collect(),
+            System::Central(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
+        }
+    }
+}
+
+/// What collects mistakes while the model is built.
+pub(crate) struct Builder<'d> {
+    document: &'d Document,
+    mistakes: Vec<Mistake>,
+}
+
+impl Builder<'_> {
+    pub(crate) fn wrong(&mut self, mistake: Mistake) {
+        self.mistakes.push(mistake);
+    }
+
+    /// The scene; parts that cannot be built have mistakes of their own.
+    fn scene(&mut self, record: &Record) -> Option<Scene> {
+        let name = record.text("name").map_or_else(|| self.file_stem(), str::to_string);
+        let system = self.system(record);
+        let period = match &system {
+            Some(System::Central(central)) => central.period(),
+            _ => None,
+        };
+        let time = self.time(record, period);
+        let integrator = self.integrator(record);
+        let output = self.output(record, &name);
+        let reference = self.reference(record, system.as_ref(), time);
+        Some(Scene {
+            name,
+            title: record.text("title").map(str::to_string),
+            system: system?,
+            time: time?,
+            integrator,
+            output,
+            reference: reference?,
+        })
+    }
+
+    fn file_stem(&self) -> String {
+        let stem = Path::new(self.document.name()).file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let safe = |c: char| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' };
+        stem.filter(|stem| !stem.is_empty()).map_or_else(|| "scene".to_string(), |stem| stem.chars().map(safe).collect())
+    }
+
+    fn system(&mut self, record: &Record) -> Option<System> {
+        const KINDS: [(&str, &[&str]); 3] =
+            [("gravity", &["body"]), ("mechanism", &["joint", "particle", "rigid_body"]), ("central", &["body"])];
+        let written: Vec<_> = KINDS.iter().filter(|(kind, _)| record.has(kind)).collect();
+        let [(kind, lists)] = written.as_slice() else {
+            let what = if written.is_empty() {
+                let syntax = self.mistakes.iter().any(|mistake| mistake.syntax);
+                if syntax {
+                    return None;
+                }
+                Mistake::new(record.place.clone(), "the scene has no system")
+            } else {
+                let names: Vec<String> = written.iter().map(|(kind, _)| format!("[{kind}]")).collect();
+                Mistake::new(record.place_of(written[1].0), format!("the scene has {}", names.join(" and ")))
+            };
+            self.wrong(what.valid("exactly one of [gravity], [mechanism] and [central]"));
+            return None;
+        };
+        for list in ["body", "joint", "particle", "rigid_body"] {
+            if record.has(list) && !lists.contains(&list) {
+                let lists: Vec<String> = lists.iter().map(|list| format!("[[{list}]]")).collect();
+                self.wrong(
+                    Mistake::new(record.place_of(list), format!("[[{list}]] in a scene of [{kind}]"))
+                        .valid(lists.join(", ")),
+                );
+            }
+        }
+        let table = record.record(kind)?;
+        match *kind {
+            "gravity" => self.gravitation(record, table).map(System::Gravitation),
+            "mechanism" => self.mechanism(record, table).map(System::Mechanism),
+            _ => self.central(record, table).map(System::Central),
+        }
+    }
+
+    fn time(&mut self, record: &Record, period: Option<f64>) -> Option<TimeSpan> {
+        let table = record.record("time")?;
+        let start = table.number("start")?;
+        if table.has("revolutions") && !record.has("central") {
+            self.wrong(
+                Mistake::new(table.place_of("revolutions"), "`revolutions` without [central]")
+                    .valid("end = a time after the start"),
+            );
+            return None;
+        }
+        if table.has("end") == table.has("revolutions") {
+            let what = if table.has("end") { "[time] has both `end` and `revolutions`" } else { "[time] has no `end`" };
+            let place = if table.has("end") { table.place_of("revolutions") } else { table.place.clone() };
+            self.wrong(Mistake::new(place, what).valid("end = a time after the start, as end = \"10 d\""));
+            return None;
+        }
+        if let (Some(revolutions), Some(period)) = (table.number("revolutions"), period) {
+            return Some(TimeSpan { start, end: start + revolutions * period });
+        }
+        let end = table.number("end")?;
+        if start < end {
+            return Some(TimeSpan { start, end });
+        }
+        self.wrong(
+            Mistake::new(table.place_of("end"), format!("the end, {end} s, is not after the start, {start} s"))
+                .valid(format!("a time after {start} s")),
+        );
+        None
+    }
+
+    fn integrator(&mut self, record: &Record) -> IntegratorRequest {
+        let table = record.record("integrator");
+        let method = table.and_then(|table| table.text("method")).unwrap_or("auto").to_string();
+        let request = IntegratorRequest {
+            step: table.and_then(|table| table.number("step")),
+            tolerance: table.and_then(|table| table.number("tolerance")),
+            method,
+        };
+        if let Some(table) = table {
+            let adaptive = request.method == "dormand-prince-853";
+            let fixed = !adaptive && request.method != "auto";
+            for (key, wrong) in [("step", adaptive), ("tolerance", fixed)] {
+                if wrong && table.has(key) {
+                    let valid = if adaptive { "tolerance: its step adapts" } else { "step: its step is fixed" };
+                    self.wrong(
+                        Mistake::new(table.place_of(key), format!("`{key}` with the method {}", request.method))
+                            .valid(valid),
+                    );
+                }
+            }
+            if request.method == "auto" && table.has("step") && table.has("tolerance") {
+                self.wrong(
+                    Mistake::new(table.place_of("tolerance"), "both `step` and `tolerance`")
+                        .valid("step for a fixed step, tolerance for an adaptive one"),
+                );
+            }
+        }
+        request
+    }
+
+    fn output(&mut self, record: &Record, name: &str) -> OutputRequest {
+        let table = record.record("output");
+        let folder = table.and_then(|table| table.text("folder")).map(PathBuf::from);
+        OutputRequest {
+            folder: folder.unwrap_or_else(|| Path::new("out").join(name)),
+            samples: table.and_then(|table| table.count("samples")).unwrap_or(1001),
+            tables: table.and_then(|table| table.flag("tables")).unwrap_or(true),
+            figures: table.and_then(|table| table.flag("figures")).unwrap_or(true),
+        }
+    }
+
+    /// Checks that names differ over all the given lists.
+    pub(crate) fn unique_names(&mut self, lists: &[&[Record]]) {
+        let mut seen: std::collections::HashMap<&str, &Record> = std::collections::HashMap::new();
+        for record in lists.iter().copied().flatten() {
+            let Some(name) = record.text("name") else { continue };
+            if let Some(first) = seen.insert(name, record) {
+                self.mistakes.push(
+                    Mistake::new(record.place_of("name"), format!("the name `{name}` is taken"))
+                        .see(first.place_of("name"), "first here")
+                        .valid("a name unlike any other"),
+                );
+            }
+        }
+    }
+
+    /// The index of a name, or a mistake that lists the valid ones.
+    pub(crate) fn find(&mut self, record: &Record, key: &str, what: &str, names: &[&str]) -> Option<usize> {
+        let name = record.text(key)?;
+        let found = names.iter().position(|known| *known == name);
+        if found.is_none() {
+            self.wrong(
+                Mistake::new(record.place_of(key), format!("no {what} is named `{name}`"))
+                    .valid(words::one_of(name, names.iter().copied())),
+            );
+        }
+        found
+    }
+}
