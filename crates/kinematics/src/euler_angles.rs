@@ -42,9 +42,13 @@ use crate::error::KinematicsError;
 /// W(2.22).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(
+    feature = "serde",
+    serde(deny_unknown_fields, bound(deserialize = "T: piola_numerics::Real + serde::Deserialize<'de>"))
+)]
 pub struct EulerZyz<T> {
     /// θ¹, θ², θ³.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::triple"))]
     pub theta: [T; 3],
 }
 

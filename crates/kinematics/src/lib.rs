@@ -6,6 +6,8 @@ pub mod attitude;
 pub mod curve;
 mod error;
 pub mod euler_angles;
+#[cfg(feature = "serde")]
+mod finite;
 pub mod inertia;
 pub mod particle;
 pub mod placement;

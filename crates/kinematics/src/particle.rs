@@ -39,10 +39,13 @@ use crate::vector::{cross, dot, scaled};
 #[cfg_attr(feature = "serde", serde(bound(deserialize = "T: Real + serde::Deserialize<'de>")))]
 pub struct Motion<T: Real> {
     /// x (m).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub position: Vector3<T>,
     /// v = dx/dt (m/s).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub velocity: Vector3<T>,
     /// a = dv/dt (m/s²).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub acceleration: Vector3<T>,
 }
 

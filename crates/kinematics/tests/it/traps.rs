@@ -269,6 +269,9 @@ fn wrong_buffers_and_states_are_refused_by_name() {
 #[cfg(feature = "serde")]
 #[test]
 fn what_is_read_is_validated() {
+    use serde::de::IntoDeserializer;
+    use serde::de::value::{MapDeserializer, SeqDeserializer};
+
     let inertia = Inertia::principal([1.0, 2.0, 2.5]).expect("a body");
     let body = RigidBody::new(2.0, inertia).expect("a body");
     let text = serde_json::to_string(&body).expect("text");
@@ -277,6 +280,12 @@ fn what_is_read_is_validated() {
     assert!(serde_json::from_str::<RigidBody>(negative).is_err());
     assert!(serde_json::from_str::<Inertia>("[[1,0,0],[0,1,0],[0,0,9]]").is_err());
     assert!(serde_json::from_str::<Attitude<f64>>("[1.0, 1.0, 0.0, 0.0]").is_err());
+    let angles = |third: f64| {
+        let theta: SeqDeserializer<_, serde::de::value::Error> = vec![0.0, 1.0, third].into_deserializer();
+        let fields = MapDeserializer::new([("theta", theta)].into_iter());
+        <EulerZyz<f64> as serde::Deserialize>::deserialize(fields)
+    };
+    assert!(angles(2.0).is_ok() && angles(f64::NAN).is_err());
     let attitude = Attitude::about_x(0.3);
     let text = serde_json::to_string(&attitude).expect("text");
     assert_eq!(serde_json::from_str::<Attitude<f64>>(&text).expect("an attitude"), attitude);
