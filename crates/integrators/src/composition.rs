@@ -104,7 +104,9 @@ pub struct Composition<T = f64> {
     stages: usize,
     /// γ₁ … γₛ.
     kicks: [f64; MOST_STAGES],
-    increment: Vec<T>,
+    rate: Vec<T>,
+    /// The step's end and its carry while the step is made; the state is touched only when it is complete.
+    next: (Vec<T>, Vec<T>),
 }
 
 impl<T: Real> Composition<T> {
@@ -127,7 +129,7 @@ impl<T: Real> Composition<T> {
             kicks[stages - 1 - i] = gamma;
         }
         kicks[half.len()] = 1.0 - 2.0 * half.iter().sum::<f64>();
-        Ok(Self { order, step, stages, kicks, increment: Vec::new() })
+        Ok(Self { order, step, stages, kicks, rate: Vec::new(), next: (Vec::new(), Vec::new()) })
     }
 
     /// The order.
@@ -159,8 +161,8 @@ impl<T: Real> Composition<T> {
     /// earlier than the state's time. The observer sees every step and may stop the run.
     ///
     /// # Errors
-    /// The state does not fit, the field fails or gives a rate that is not finite. The state then stands
-    /// at the last complete step.
+    /// The state does not fit or is not finite, the step is too small to advance the time, or the field fails
+    /// or gives a rate that is not finite. The state then stands at the last complete step.
     pub fn integrate<F: Separable<T>>(
         &mut self,
         field: &mut F,
@@ -170,19 +172,16 @@ impl<T: Real> Composition<T> {
     ) -> Result<Report, IntegrationError<F::Error>> {
         let n = field.freedom();
         check_run(2 * n, state, end)?;
-        self.increment.resize(n, T::zero());
-        let mut backup = (state.values.clone(), state.carry.clone());
         let start = state.time;
-        let (steps, h) = equal_steps(start, end, self.step);
+        let (steps, h) = equal_steps(start, end, self.step)?;
+        self.rate.resize(n, T::zero());
+        self.next.0.resize(2 * n, T::zero());
+        self.next.1.resize(2 * n, T::zero());
         let mut report = Report::begin();
         for number in 1..=steps {
-            backup.0.copy_from_slice(&state.values);
-            backup.1.copy_from_slice(&state.carry);
-            if let Err(error) = self.advance(field, state, h) {
-                state.values.copy_from_slice(&backup.0);
-                state.carry.copy_from_slice(&backup.1);
-                return Err(error);
-            }
+            self.advance(field, state, h)?;
+            core::mem::swap(&mut state.values, &mut self.next.0);
+            core::mem::swap(&mut state.carry, &mut self.next.1);
             state.set_time(if number == steps { end } else { start + h * number as f64 });
             report.steps = number;
             report.evaluations += self.stages as u64;
@@ -194,33 +193,48 @@ impl<T: Real> Composition<T> {
         Ok(report)
     }
 
+    /// Makes one step from the state to `next`.
     fn advance<F: Separable<T>>(
         &mut self,
         field: &mut F,
-        state: &mut State<T>,
+        state: &State<T>,
         h: f64,
     ) -> Result<(), IntegrationError<F::Error>> {
-        let n = self.increment.len();
-        let (q, p) = state.values.split_at_mut(n);
-        let (q_carry, p_carry) = state.carry.split_at_mut(n);
-        let increment = &mut self.increment[..];
-        let mut time = state.time;
-        let mut previous = 0.0;
-        for stage in 0..=self.stages {
-            let gamma = if stage < self.stages { self.kicks[stage] } else { 0.0 };
+        let n = self.rate.len();
+        let start = state.time;
+        let rate = &mut self.rate[..];
+        let (q, p) = self.next.0.split_at_mut(n);
+        let (q_carry, p_carry) = self.next.1.split_at_mut(n);
+        let (q_start, p_start) = state.values.split_at(n);
+        let (q_carry_start, p_carry_start) = state.carry.split_at(n);
+        // Velocities belong to the ends of the substeps, forces to their middles; both in units of h.
+        let (mut reached, mut previous) = (0.0, 0.0);
+        for (stage, &gamma) in self.kicks[..self.stages].iter().enumerate() {
+            let time = start + reached * h;
+            let momentum = if stage == 0 { p_start } else { &*p };
+            field.velocity(time, momentum, rate).map_err(|source| IntegrationError::Field { time, source })?;
             let drift = 0.5 * (previous + gamma) * h;
-            field.velocity(time, p, increment).map_err(|source| IntegrationError::Field { time, source })?;
-            update(q, q_carry, increment, drift);
-            time += drift;
-            previous = gamma;
-            if stage == self.stages {
-                break;
+            if stage == 0 {
+                update_from((q_start, q_carry_start), q, q_carry, rate, drift);
+            } else {
+                update(q, q_carry, rate, drift);
             }
-            field.force(time, q, increment).map_err(|source| IntegrationError::Field { time, source })?;
-            check_finite(state.time, increment)?;
-            update(p, p_carry, increment, gamma * h);
+            let time = start + (reached + 0.5 * gamma) * h;
+            field.force(time, q, rate).map_err(|source| IntegrationError::Field { time, source })?;
+            check_finite(start, rate)?;
+            if stage == 0 {
+                update_from((p_start, p_carry_start), p, p_carry, rate, gamma * h);
+            } else {
+                update(p, p_carry, rate, gamma * h);
+            }
+            reached += gamma;
+            previous = gamma;
         }
-        Ok(())
+        let time = start + h;
+        field.velocity(time, p, rate).map_err(|source| IntegrationError::Field { time, source })?;
+        update(q, q_carry, rate, 0.5 * previous * h);
+        // A velocity that was infinite or NaN at any stage has left its mark on the position for good.
+        check_finite(start, q)
     }
 }
 
@@ -231,4 +245,12 @@ fn update<T: Real>(y: &mut [T], carry: &mut [T], rate: &[T], h: f64) {
     for ((y, carry), &rate) in y.iter_mut().zip(carry).zip(rate) {
         compensated_add(y, carry, rate * h);
     }
+}
+
+/// y ← y₀ + h ẏ with compensation.
+#[inline(always)]
+fn update_from<T: Real>((start, carry_start): (&[T], &[T]), y: &mut [T], carry: &mut [T], rate: &[T], h: f64) {
+    y.copy_from_slice(start);
+    carry.copy_from_slice(carry_start);
+    update(y, carry, rate, h);
 }

@@ -17,13 +17,13 @@ pub enum IntegrationError<E = Infallible> {
         /// The number of components of the state.
         found: usize,
     },
-    /// A time that is infinite or NaN.
+    /// A time, or the time between start and end, that is infinite or NaN.
     #[error("the time {time} is not finite")]
     NonFiniteTime {
         /// The time given.
         time: f64,
     },
-    /// A component of the initial state that is infinite or NaN.
+    /// A component of the state a run starts from that is infinite or NaN.
     #[error("component {index} of the state is {value}; every component must be finite")]
     NonFiniteState {
         /// The component's index.
@@ -47,7 +47,7 @@ pub enum IntegrationError<E = Infallible> {
         /// The absolute tolerance given.
         absolute: f64,
     },
-    /// The field refused to be evaluated.
+    /// The field refused to be evaluated; for an adaptive method: however small the step.
     #[error("the field could not be evaluated at time {time}: {source}")]
     Field {
         /// The time of the evaluation.
@@ -55,7 +55,7 @@ pub enum IntegrationError<E = Infallible> {
         /// What the field said.
         source: E,
     },
-    /// The rate became infinite or NaN.
+    /// The rate became infinite or NaN; for an adaptive method: however small the step.
     #[error("the rate of component {index} is not finite at time {time}")]
     NonFiniteRate {
         /// The time of the last accepted step.
@@ -93,6 +93,14 @@ pub enum IntegrationError<E = Infallible> {
         /// The last change of the stages, relative to the increment.
         change: f64,
     },
+    /// The function of an event is NaN.
+    #[error("the function of event {event} is NaN at time {time}")]
+    InvalidEvent {
+        /// The index of the event in the list given.
+        event: usize,
+        /// The time.
+        time: f64,
+    },
     /// Dense output was asked for outside the step it belongs to.
     #[error("time {time} lies outside the step [{start}, {end}]: dense output never extrapolates")]
     OutsideStep {
@@ -122,6 +130,7 @@ impl IntegrationError<Infallible> {
             Self::StagesDiverged { time, step, iterations, change } => {
                 IntegrationError::StagesDiverged { time, step, iterations, change }
             }
+            Self::InvalidEvent { event, time } => IntegrationError::InvalidEvent { event, time },
             Self::OutsideStep { time, start, end } => IntegrationError::OutsideStep { time, start, end },
         }
     }

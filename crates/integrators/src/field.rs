@@ -17,7 +17,7 @@ pub trait Field<T: Real = f64> {
     /// # Errors
     /// Whatever makes the field undefined at (t, y).
     fn rate(&mut self, t: f64, y: &[T], rate: &mut [T]) -> Result<(), Self::Error>;
-    /// Whether y = (q, v) with q̇ = v: methods may then save evaluations. The default is no.
+    /// Whether y = (q, v) with q̇ = v, in two halves: methods may then save evaluations. The default is no.
     fn is_second_order(&self) -> bool {
         false
     }
@@ -25,7 +25,8 @@ pub trait Field<T: Real = f64> {
     ///
     /// The default is each component's own block: y is a block of positions and a block of velocities of
     /// equal length if the dimension is even, and the magnitude is the largest |y| of the block. Fields
-    /// whose components have natural groups (the three coordinates of one body) override it.
+    /// whose components have natural groups (the three coordinates of one body) override it. Over lanes the
+    /// magnitude is that of the largest lane.
     fn magnitudes(&self, y: &[T], magnitudes: &mut [f64]) {
         let blocks = if y.len() % 2 == 0 { 2 } else { 1 };
         let length = (y.len() / blocks).max(1);
@@ -35,12 +36,13 @@ pub trait Field<T: Real = f64> {
     }
 }
 
-/// The largest |value| among the lanes of one scalar.
+/// The largest |value| among the lanes of one scalar; NaN when one of them is NaN, so that no lane hides it.
 #[inline(always)]
 pub(crate) fn largest_lane<T: Real>(x: T) -> f64 {
     let mut largest = x.primal(0).abs();
     for lane in 1..T::LANES {
-        largest = largest.max(x.primal(lane).abs());
+        let value = x.primal(lane).abs();
+        largest = if value <= largest || largest.is_nan() { largest } else { value };
     }
     largest
 }
@@ -58,6 +60,9 @@ pub trait Separable<T: Real = f64> {
     /// The number of positions n; the state has 2n components.
     fn freedom(&self) -> usize;
     /// Writes q̇ = ∂T/∂p to `velocity`. The default is q̇ = p: momenta per unit mass.
+    ///
+    /// It is asked for at the ends of the substeps, forces in their middles, so that fields that depend on
+    /// time keep the order of the method.
     ///
     /// # Errors
     /// Whatever makes the velocity undefined.

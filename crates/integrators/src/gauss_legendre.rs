@@ -112,6 +112,7 @@ struct Workspace<T> {
     stage: Vec<T>,
     rate: Vec<T>,
     magnitudes: Vec<f64>,
+    magnitudes_at_last_stage: Vec<f64>,
     /// Whether `increments` belong to the step just before, of the same size.
     continued: bool,
 }
@@ -129,6 +130,7 @@ impl<T: Real> GaussLegendre<T> {
             stage: Vec::new(),
             rate: Vec::new(),
             magnitudes: Vec::new(),
+            magnitudes_at_last_stage: Vec::new(),
             continued: false,
         };
         Ok(Self { order, step, workspace })
@@ -197,10 +199,11 @@ impl<T: Real> GaussLegendre<T> {
         work.stage.resize(S * n, T::zero());
         work.rate.resize(n, T::zero());
         work.magnitudes.resize(n, 0.0);
+        work.magnitudes_at_last_stage.resize(n, 0.0);
         work.continued = false;
 
         let start = state.time;
-        let (steps, h) = equal_steps(start, end, self.step);
+        let (steps, h) = equal_steps(start, end, self.step)?;
         // The increments' weights sum to the step exactly.
         let mut weights = tableau.weights.map(|b| h * b);
         let others: f64 = weights.iter().sum::<f64>() - weights[S / 2];
@@ -211,8 +214,8 @@ impl<T: Real> GaussLegendre<T> {
             report.evaluations += solve_stages(tableau, &weights, h, field, state, work)?;
             let (values, carry) = (&mut state.values[..], &mut state.carry[..]);
             for i in 0..n {
-                // From the last stage to the first: the increments of all stages are of one size, and one
-                // order is as good as another; what matters is that the sum enters the state compensated.
+                // The increments of all stages are of one size, and one order is as good as another; what
+                // matters is that their sum enters the state compensated.
                 let mut increment = work.increments[i];
                 for j in 1..S {
                     increment += work.increments[j * n + i];
@@ -266,7 +269,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
         }
     }
 
-    let second_order = field.is_second_order();
+    let second_order = field.is_second_order() && n % 2 == 0;
     let half = n / 2;
     let mut previous = f64::INFINITY;
     for sweep in 1..=MOST_SWEEPS {
@@ -283,6 +286,13 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
                 .map_err(|source| IntegrationError::Field { time: stage_time, source })?;
             evaluations += 1;
             check_finite(time, &work.rate)?;
+            if i == S - 1 {
+                // A start from rest has no magnitude; where the step leads it has one.
+                field.magnitudes(&work.stage[i * n..], &mut work.magnitudes_at_last_stage);
+                for (largest, &magnitude) in work.magnitudes.iter_mut().zip(&work.magnitudes_at_last_stage) {
+                    *largest = largest.max(magnitude);
+                }
+            }
             for k in if second_order { half } else { 0 }..n {
                 let new = T::lit(weights[i]) * work.rate[k];
                 let difference = largest_lane(new - work.increments[i * n + k]);

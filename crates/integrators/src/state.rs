@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use piola_numerics::Real;
+use piola_numerics::sums::two_sum;
 
 use crate::IntegrationError;
 use crate::field::largest_lane;
@@ -12,6 +13,9 @@ use crate::field::largest_lane;
 /// Updates are compensated: the low part of every increment is carried to the next step, so that after N
 /// steps the rounding error of the sum is of the order of one ulp instead of √N or N.
 ///
+/// Time and values may be changed between runs; the carry, at most half an ulp of the old value, is then
+/// still added. Where that matters make a new state.
+///
 /// # Example
 /// ```
 /// use piola_integrators::State;
@@ -20,6 +24,12 @@ use crate::field::largest_lane;
 /// # Ok::<(), piola_integrators::IntegrationError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Unchecked<T>", into = "Unchecked<T>"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub struct State<T = f64> {
     /// The time t, s.
     pub time: f64,
@@ -36,24 +46,24 @@ impl<T: Real> State<T> {
     /// # Errors
     /// [`IntegrationError::NonFiniteTime`], [`IntegrationError::NonFiniteState`].
     pub fn new(time: f64, values: Vec<T>) -> Result<Self, IntegrationError> {
-        if !time.is_finite() {
-            return Err(IntegrationError::NonFiniteTime { time });
-        }
-        for (index, &value) in values.iter().enumerate() {
-            let magnitude = largest_lane(value);
-            if !magnitude.is_finite() {
-                return Err(IntegrationError::NonFiniteState { index, value: magnitude });
-            }
-        }
         let carry = vec![T::zero(); values.len()];
-        Ok(Self { time, values, carry, time_carry: 0.0 })
+        let state = Self { time, values, carry, time_carry: 0.0 };
+        state.check()?;
+        Ok(state)
+    }
+
+    fn check<E>(&self) -> Result<(), IntegrationError<E>> {
+        if !self.time.is_finite() {
+            return Err(IntegrationError::NonFiniteTime { time: self.time });
+        }
+        match first_non_finite(&self.values) {
+            None => Ok(()),
+            Some((index, value)) => Err(IntegrationError::NonFiniteState { index, value }),
+        }
     }
 
     pub(crate) fn advance_time(&mut self, step: f64) {
-        let increment = step + self.time_carry;
-        let sum = self.time + increment;
-        self.time_carry = increment - (sum - self.time);
-        self.time = sum;
+        compensated_add(&mut self.time, &mut self.time_carry, step);
     }
 
     pub(crate) fn set_time(&mut self, time: f64) {
@@ -62,13 +72,49 @@ impl<T: Real> State<T> {
     }
 }
 
-/// Adds an increment to y and keeps in `carry` what rounding lost (Kahan's compensated update).
+/// A state as it is written, with the carry that makes a continued run bit-identical to an unbroken one.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    time: f64,
+    values: Vec<T>,
+    carry: Vec<T>,
+    time_carry: f64,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for State<T> {
+    type Error = IntegrationError;
+    fn try_from(unchecked: Unchecked<T>) -> Result<Self, IntegrationError> {
+        let Unchecked { time, values, carry, time_carry } = unchecked;
+        if carry.len() != values.len() {
+            return Err(IntegrationError::DimensionMismatch { expected: values.len(), found: carry.len() });
+        }
+        if let Some((index, value)) = first_non_finite(&carry) {
+            return Err(IntegrationError::NonFiniteState { index, value });
+        }
+        if !time_carry.is_finite() {
+            return Err(IntegrationError::NonFiniteTime { time: time_carry });
+        }
+        Ok(Self { carry, time_carry, ..Self::new(time, values)? })
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T> From<State<T>> for Unchecked<T> {
+    fn from(state: State<T>) -> Self {
+        let State { time, values, carry, time_carry } = state;
+        Self { time, values, carry, time_carry }
+    }
+}
+
+/// y + carry ← y + carry + increment, where y alone is the rounded value.
+///
+/// The exact sum of two numbers of any size is wanted, not Kahan's for a large y: states start from rest.
 #[inline(always)]
 pub(crate) fn compensated_add<T: Real>(y: &mut T, carry: &mut T, increment: T) {
-    let increment = increment + *carry;
-    let sum = *y + increment;
-    *carry = increment - (sum - *y);
-    *y = sum;
+    (*y, *carry) = two_sum(*y, increment + *carry);
 }
 
 /// One accepted step, as its observer sees it.
@@ -97,6 +143,7 @@ pub enum Ending {
 /// What a run cost and how it ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Report {
     /// Accepted steps.
     pub steps: u64,
@@ -130,36 +177,62 @@ pub fn unobserved<T>(_step: Step<'_, T>) -> ControlFlow<()> {
 }
 
 /// Splits [start, end] into the fewest equal steps no longer than `step`; backwards in time if end < start.
-pub(crate) fn equal_steps(start: f64, end: f64, step: f64) -> (u64, f64) {
+pub(crate) fn equal_steps<E>(start: f64, end: f64, step: f64) -> Result<(u64, f64), IntegrationError<E>> {
+    /// 2⁵³: beyond it steps can neither be counted nor told from one another.
+    const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
     let span = end - start;
+    if span.abs() <= 0.0 {
+        return Ok((0, 0.0));
+    }
     // A span that is a whole number of steps but for rounding is not given one more.
-    let count = (span.abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(0.0);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a count: not negative, and the cast saturates"
-    )]
+    let count = (span.abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
+    let h = span / count;
+    if MOST_STEPS < count || h.abs() < 0.5 * f64::EPSILON * start.abs().max(end.abs()) {
+        return Err(IntegrationError::StepTooSmall { time: start, step });
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count between 1 and 2⁵³")]
     let steps = count as u64;
-    (steps, if steps == 0 { 0.0 } else { span / count })
+    Ok((steps, h))
 }
 
 pub(crate) fn check_step<E>(step: f64) -> Result<(), IntegrationError<E>> {
     if 0.0 < step && step < f64::INFINITY { Ok(()) } else { Err(IntegrationError::InvalidStep { step }) }
 }
 
-pub(crate) fn check_run<T, E>(expected: usize, state: &State<T>, end: f64) -> Result<(), IntegrationError<E>> {
+/// Checks what a run starts from; the caller may have changed the state since it was made.
+pub(crate) fn check_run<T: Real, E>(
+    expected: usize,
+    state: &mut State<T>,
+    end: f64,
+) -> Result<(), IntegrationError<E>> {
     if state.values.len() != expected {
         return Err(IntegrationError::DimensionMismatch { expected, found: state.values.len() });
     }
-    if !end.is_finite() {
-        return Err(IntegrationError::NonFiniteTime { time: end });
+    state.check()?;
+    for time in [end, end - state.time] {
+        if !time.is_finite() {
+            return Err(IntegrationError::NonFiniteTime { time });
+        }
     }
+    state.carry.resize(expected, T::zero());
     Ok(())
 }
 
 pub(crate) fn check_finite<T: Real, E>(time: f64, rate: &[T]) -> Result<(), IntegrationError<E>> {
-    match rate.iter().position(|&x| !largest_lane(x).is_finite()) {
+    match first_non_finite(rate) {
         None => Ok(()),
-        Some(index) => Err(IntegrationError::NonFiniteRate { time, index }),
+        Some((index, _)) => Err(IntegrationError::NonFiniteRate { time, index }),
     }
+}
+
+/// The first component that is infinite or NaN in some lane, and its value there.
+#[inline(always)]
+fn first_non_finite<T: Real>(values: &[T]) -> Option<(usize, f64)> {
+    // One pass without branches where all is well.
+    if values.iter().fold(true, |finite, &x| finite & largest_lane(x).is_finite()) {
+        return None;
+    }
+    values.iter().enumerate().find_map(|(index, x)| {
+        (0..T::LANES).map(|lane| x.primal(lane)).find(|x| !x.is_finite()).map(|value| (index, value))
+    })
 }

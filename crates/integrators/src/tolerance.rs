@@ -61,6 +61,7 @@ impl Tolerance {
 
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Unchecked {
     relative: f64,
     #[serde(default)]

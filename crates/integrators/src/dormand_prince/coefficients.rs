@@ -133,17 +133,8 @@ pub(super) const A16: [(usize, f64); 8] = [
     (13, 2.9475147891527724),
     (14, -9.15095847217987),
 ];
-/// The difference to the embedded formula of order three.
-pub(super) const E3: [(usize, f64); 8] = [
-    (0, -0.18980075407240762),
-    (5, 4.450312892752409),
-    (6, 1.8915178993145003),
-    (7, -5.801203960010585),
-    (8, -0.4226823213237919),
-    (9, -0.1521609496625161),
-    (10, 0.20136540080403034),
-    (11, 0.02265179219836082),
-];
+/// The embedded formula of order three: what it gives to the stages that the step of order eight also uses.
+pub(super) const B3: [(usize, f64); 3] = [(0, 0.2440944881889764), (8, 0.7338466882816118), (11, 0.022058823529411766)];
 /// The difference to the embedded formula of order five.
 pub(super) const E5: [(usize, f64); 8] = [
     (0, 0.01312004499419488),

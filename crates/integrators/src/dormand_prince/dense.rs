@@ -3,13 +3,14 @@
 use piola_numerics::Real;
 
 use super::coefficients as c;
-use super::{DormandPrince853, combine, evaluate};
+use super::stages::{combine, weighted_sums};
+use super::{DormandPrince853, evaluate};
 use crate::{Field, IntegrationError};
 
 /// An accepted step, with the state at any time within it.
 ///
-/// The first call of [`at`](Self::at) in a step evaluates the field three times; a step that is not asked
-/// costs nothing.
+/// The first call of [`at`](Self::at) within a step evaluates the field three times; a step that is not asked,
+/// or asked at its ends only, costs nothing.
 #[derive(Debug)]
 pub struct DenseStep<'a, T, F> {
     method: &'a mut DormandPrince853<T>,
@@ -84,16 +85,27 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
         if !self.contains(time) {
             return Err(IntegrationError::OutsideStep { time, start: self.start, end: self.end });
         }
+        // At its ends the step is known, to the last bit and without evaluations.
+        if time.to_bits() == self.end.to_bits() {
+            out.copy_from_slice(&self.method.trial);
+            return Ok(());
+        }
+        if time.to_bits() == self.start.to_bits() {
+            out.copy_from_slice(&self.method.start);
+            return Ok(());
+        }
         if self.evaluations == 0 {
             self.prepare()?;
         }
         let theta = T::lit(((time - self.start) / self.step).clamp(0.0, 1.0));
         let rest = T::one() - theta;
-        let [f0, f1, f2, f3, f4, f5, f6] = &self.method.interpolant;
+        let n = out.len();
+        let [f0, f1, f2, f3, f4, f5, f6] = self.method.interpolant.each_ref().map(|f| &f[..n]);
+        let (start, carry) = (&self.method.start[..n], &self.method.start_carry[..n]);
         for (i, out) in out.iter_mut().enumerate() {
             let inner = f3[i] + theta * (f4[i] + rest * (f5[i] + theta * f6[i]));
             let increment = theta * (f0[i] + rest * (f1[i] + theta * (f2[i] + rest * inner)));
-            *out = self.method.start[i] + (self.method.start_carry[i] + increment);
+            *out = start[i] + (carry[i] + increment);
         }
         Ok(())
     }
@@ -113,25 +125,20 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
         stage!(15, c::A16);
         self.evaluations += 3;
         let h = T::lit(h);
-        let k = &method.stages;
-        for i in 0..method.trial.len() {
-            let difference = (method.trial[i] - method.start[i]) + (method.trial_carry[i] - method.start_carry[i]);
+        let DormandPrince853 { stages: k, interpolant, trial, trial_carry, start, start_carry, .. } = method;
+        let n = trial.len();
+        let [f0, f1, f2, f3, f4, f5, f6] = interpolant.each_mut().map(|f| &mut f[..n]);
+        for i in 0..n {
+            let difference = (trial[i] - start[i]) + (trial_carry[i] - start_carry[i]);
             let (first, last) = (h * k[0][i], h * k[12][i]);
-            method.interpolant[0][i] = difference;
-            method.interpolant[1][i] = first - difference;
-            method.interpolant[2][i] = difference + difference - (last + first);
-            let row = |row: &[(usize, f64)]| {
-                let mut sum = T::zero();
-                for &(j, d) in row {
-                    sum += T::lit(d) * k[j][i];
-                }
-                h * sum
-            };
-            method.interpolant[3][i] = row(&c::D4);
-            method.interpolant[4][i] = row(&c::D5);
-            method.interpolant[5][i] = row(&c::D6);
-            method.interpolant[6][i] = row(&c::D7);
+            f0[i] = difference;
+            f1[i] = first - difference;
+            f2[i] = difference + difference - (last + first);
         }
+        weighted_sums(&c::D4, k, f3, |_, sum| h * sum);
+        weighted_sums(&c::D5, k, f4, |_, sum| h * sum);
+        weighted_sums(&c::D6, k, f5, |_, sum| h * sum);
+        weighted_sums(&c::D7, k, f6, |_, sum| h * sum);
         Ok(())
     }
 }

@@ -3,10 +3,11 @@
 use core::fmt;
 use core::ops::ControlFlow;
 
-use super::{DenseStep, DormandPrince853};
+use super::{DenseStep, DormandPrince853, Stop};
+use crate::state::check_run;
 use crate::{Ending, Field, IntegrationError, Report, State};
 
-/// Which crossings of zero count.
+/// Which crossings of zero count; in the direction of the run, also where it runs backwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Crossing {
     /// From negative to positive.
@@ -30,7 +31,8 @@ pub enum EventAction {
 ///
 /// Within each step g is looked at in eight places on the dense output, so that two crossings in one step
 /// are found unless they are closer than an eighth of it. A g that is exactly zero at the start of the run
-/// is not an event there: the run may start on the surface that it is to return to.
+/// is not an event there: the run may start on the surface that it is to return to. Where g is exactly zero at
+/// a place looked at, that is a crossing, also if g then returns to the side it came from.
 pub struct Event<'e> {
     function: Box<dyn FnMut(f64, &[f64]) -> f64 + 'e>,
     crossing: Crossing,
@@ -53,6 +55,11 @@ impl<'e> Event<'e> {
         Self { function: Box::new(function), crossing, action, last: None, pending: None }
     }
 
+    fn value<E>(&mut self, index: usize, time: f64, values: &[f64]) -> Result<f64, IntegrationError<E>> {
+        let g = (self.function)(time, values);
+        if g.is_nan() { Err(IntegrationError::InvalidEvent { event: index, time }) } else { Ok(g) }
+    }
+
     fn counts(&self, before: f64) -> bool {
         match self.crossing {
             Crossing::Rising => before < 0.0,
@@ -67,7 +74,7 @@ impl<'e> Event<'e> {
 pub struct Occurrence<'a> {
     /// The index of the event in the list given.
     pub event: usize,
-    /// The time of the crossing, s, to rounding of the dense output.
+    /// The time of the crossing, s, to rounding of the dense output; never before the crossing.
     pub time: f64,
     /// The state there.
     pub values: &'a [f64],
@@ -79,10 +86,10 @@ const PLACES: u32 = 8;
 impl DormandPrince853<f64> {
     /// Integrates to `end` and reports the crossings of the events in the order of time. The run ends early
     /// at an event whose action is [`EventAction::Stop`], with the state there, or when one of the observers
-    /// breaks.
+    /// breaks. The observer sees a step after its events; a step cut short by a stop it does not see.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate).
+    /// As [`integrate`](Self::integrate), and [`IntegrationError::InvalidEvent`] where a function is NaN.
     ///
     /// # Example
     /// ```
@@ -112,33 +119,27 @@ impl DormandPrince853<f64> {
         mut on_event: impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
         mut observer: impl FnMut(&mut DenseStep<'_, f64, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegrationError<F::Error>> {
+        check_run(field.dimension(), state, end)?;
         let mut values = state.values.clone();
-        for event in &mut *events {
-            let g = (event.function)(state.time, &state.values);
+        for (index, event) in events.iter_mut().enumerate() {
+            let g = event.value(index, state.time, &state.values)?;
             event.last = if g.abs() <= 0.0 { None } else { Some((state.time, g)) };
             event.pending = None;
         }
-        let mut failure = None;
-        let report = self.run(field, state, end, &mut |step, _| {
-            match locate(step, events, &mut values, &mut on_event) {
-                Err(error) => {
-                    failure = Some(error);
-                    return ControlFlow::Break((None, Ending::Stopped));
-                }
-                Ok(Some(stop)) => return ControlFlow::Break(stop),
-                Ok(None) => {}
+        self.run(field, state, end, &mut |step| {
+            if !events.is_empty()
+                && let Some(stop) = locate(step, events, &mut values, &mut on_event)?
+            {
+                return Ok(ControlFlow::Break(stop));
             }
-            if observer(step).is_break() {
+            Ok(if observer(step).is_break() {
                 ControlFlow::Break((None, Ending::Stopped))
             } else {
                 ControlFlow::Continue(())
-            }
-        })?;
-        failure.map_or(Ok(report), Err)
+            })
+        })
     }
 }
-
-type Stop = (Option<f64>, Ending);
 
 /// Finds and reports the crossings of one step.
 fn locate<F: Field>(
@@ -151,32 +152,39 @@ fn locate<F: Field>(
     for place in 1..=PLACES {
         let time = if place == PLACES { end } else { start + (end - start) * (f64::from(place) / f64::from(PLACES)) };
         step.at(time, values)?;
-        for event in &mut *events {
-            let g = (event.function)(time, values);
+        for (index, event) in events.iter_mut().enumerate() {
+            let g = event.value(index, time, values)?;
             event.pending = None;
-            let Some((before_time, before)) = event.last else {
-                // Not yet off the surface on which the run started.
-                event.last = if g.abs() <= 0.0 { None } else { Some((time, g)) };
-                continue;
-            };
-            let crossed = g.abs() <= 0.0 || (g < 0.0) != (before < 0.0);
-            if crossed && event.counts(before) {
-                event.pending = Some(root(step, event, values, (before_time, before), (time, g))?);
-                // `values` now belongs to another time; the other events want this one.
-                step.at(time, values)?;
+            // Before it has left the surface on which the run started, or on which it stood at the last place,
+            // there is nothing to cross.
+            if let Some((before_time, before)) = event.last {
+                let crossed = g.abs() <= 0.0 || (g < 0.0) != (before < 0.0);
+                if crossed && event.counts(before) {
+                    event.pending = Some(root(step, (index, event), values, (before_time, before), (time, g))?);
+                    // `values` now belongs to another time; the other events want this one.
+                    step.at(time, values)?;
+                }
             }
             event.last = if g.abs() <= 0.0 { None } else { Some((time, g)) };
         }
+        let mut stop: Option<(f64, Ending)> = None;
         while let Some((index, time)) = earliest(events, start <= end) {
+            // What happens at the very time of the stop is still reported.
+            if stop.is_some_and(|(stop, _)| stop.to_bits() != time.to_bits()) {
+                break;
+            }
             events[index].pending = None;
             step.at(time, values)?;
             let verdict = on_event(Occurrence { event: index, time, values });
-            if events[index].action == EventAction::Stop {
-                return Ok(Some((Some(time), Ending::Event(index))));
+            if stop.is_none() && events[index].action == EventAction::Stop {
+                stop = Some((time, Ending::Event(index)));
             }
-            if verdict.is_break() {
-                return Ok(Some((Some(time), Ending::Stopped)));
+            if stop.is_none() && verdict.is_break() {
+                stop = Some((time, Ending::Stopped));
             }
+        }
+        if let Some((time, ending)) = stop {
+            return Ok(Some((Some(time), ending)));
         }
     }
     Ok(None)
@@ -198,7 +206,7 @@ fn earliest(events: &[Event<'_>], forwards: bool) -> Option<(usize, f64)> {
 /// (Illinois), and bisection whenever that is slow.
 fn root<F: Field>(
     step: &mut DenseStep<'_, f64, F>,
-    event: &mut Event<'_>,
+    (index, event): (usize, &mut Event<'_>),
     values: &mut [f64],
     (mut a, mut ga): (f64, f64),
     (mut b, mut gb): (f64, f64),
@@ -206,19 +214,11 @@ fn root<F: Field>(
     if gb.abs() <= 0.0 {
         return Ok(b);
     }
-    // The last time with g ≠ 0 can belong to the step before, where this polynomial does not reach.
-    if !step.contains(a) {
-        a = step.start();
-        step.at(a, values)?;
-        let g = (event.function)(a, values);
-        if g.abs() <= 0.0 || (g < 0.0) == (gb < 0.0) {
-            return Ok(a);
-        }
-        ga = g;
-    }
+    // Times closer than this are one time to the dense output.
+    let resolution = 2.0 * f64::EPSILON * (step.time() - step.start()).abs();
     let mut stale = 0;
     for iteration in 0..200 {
-        if (b - a).abs() <= 2.0 * f64::EPSILON * a.abs().max(b.abs()) {
+        if (b - a).abs() <= resolution.max(2.0 * f64::EPSILON * a.abs().max(b.abs())) {
             break;
         }
         let middle = if iteration % 4 == 3 { 0.5 * (a + b) } else { b - gb * ((b - a) / (gb - ga)) };
@@ -228,7 +228,7 @@ fn root<F: Field>(
             break;
         }
         step.at(middle, values)?;
-        let g = (event.function)(middle, values);
+        let g = event.value(index, middle, values)?;
         if g.abs() <= 0.0 {
             return Ok(middle);
         }

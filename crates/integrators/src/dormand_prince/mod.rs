@@ -15,6 +15,8 @@
 mod coefficients;
 mod dense;
 mod events;
+mod first_step;
+mod stages;
 
 use core::ops::ControlFlow;
 
@@ -23,9 +25,7 @@ use piola_numerics::Real;
 pub use dense::DenseStep;
 pub use events::{Crossing, Event, EventAction, Occurrence};
 
-use self::coefficients as c;
-use crate::field::largest_lane;
-use crate::state::{check_finite, check_run, compensated_add};
+use crate::state::{check_finite, check_run};
 use crate::{Ending, Field, IntegrationError, Report, State, Tolerance};
 
 /// The adaptive method of order 8(5,3).
@@ -148,9 +148,9 @@ impl<T: Real> DormandPrince853<T> {
     /// may ask for the state at any time within it, and may stop the run.
     ///
     /// # Errors
-    /// The state does not fit, the field fails or its rate stays not finite however small the step, the step
-    /// no longer advances the time, or the limit on steps is reached. The state then stands at the last
-    /// accepted step.
+    /// The state does not fit or is not finite; the field fails or its rate is not finite at the start or, however
+    /// small the step, beyond a time; the step no longer advances the time; or the limit on steps is reached.
+    /// The state then stands at the last accepted step.
     pub fn integrate<F: Field<T>>(
         &mut self,
         field: &mut F,
@@ -158,12 +158,12 @@ impl<T: Real> DormandPrince853<T> {
         end: f64,
         mut observer: impl FnMut(&mut DenseStep<'_, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegrationError<F::Error>> {
-        self.run(field, state, end, &mut |step, _| {
-            if observer(step).is_break() {
+        self.run(field, state, end, &mut |step| {
+            Ok(if observer(step).is_break() {
                 ControlFlow::Break((None, Ending::Stopped))
             } else {
                 ControlFlow::Continue(())
-            }
+            })
         })
     }
 
@@ -185,7 +185,7 @@ impl<T: Real> DormandPrince853<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-        inspect: &mut impl FnMut(&mut DenseStep<'_, T, F>, &mut Report) -> ControlFlow<(Option<f64>, Ending)>,
+        inspect: &mut impl FnMut(&mut DenseStep<'_, T, F>) -> Result<ControlFlow<Stop>, IntegrationError<F::Error>>,
     ) -> Result<Report, IntegrationError<F::Error>> {
         check_run(field.dimension(), state, end)?;
         self.prepare(state.values.len());
@@ -199,39 +199,56 @@ impl<T: Real> DormandPrince853<T> {
         evaluate(field, state.time, &state.values, &mut self.stages[0])?;
         report.evaluations += 1;
         check_finite(state.time, &self.stages[0])?;
+        field.magnitudes(&state.values, &mut self.magnitudes);
         let mut step = match self.first_step {
-            Some(step) => step * direction,
-            None => self.estimate_first_step(field, state, span, &mut report)?,
+            Some(step) => step,
+            None => self.estimate_first_step(field, state, span, &mut report),
         };
         let mut just_rejected = false;
+        // Why the last trial could not be made at all, if it could not.
+        let mut obstacle = None;
         loop {
             if self.most_steps <= report.steps {
                 return Err(IntegrationError::TooManySteps { time: state.time, steps: report.steps });
             }
             let remaining = (end - state.time) - state.time_carry;
-            step = direction * step.abs().min(self.longest_step);
-            let last = remaining.abs() <= 1.01 * step.abs();
-            let h = if last { remaining } else { step };
+            step = step.min(self.longest_step);
+            // A last step may be longer by one hundredth, rather than leave a tiny one behind.
+            let last = remaining.abs() <= (1.01 * step).min(self.longest_step);
+            let h = if last { remaining } else { direction * step };
             if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() && !last || !(0.0 < h.abs()) {
-                return Err(IntegrationError::StepTooSmall { time: state.time, step: h });
+                return Err(obstacle.unwrap_or(IntegrationError::StepTooSmall { time: state.time, step: h }));
             }
 
-            let error = self.try_step(field, state, h, &mut report)?;
-            // The new step: h · 0.9 / error^(1/8), changed by a factor between 1/3 and 6.
-            let factor = (0.9 * error.powf(-0.125)).clamp(1.0 / 3.0, 6.0);
+            let error = match self.try_step(field, state, h, &mut report) {
+                Ok(error) => error,
+                Err(refusal) => {
+                    // A stage left the field's domain: a shorter step may stay in it.
+                    obstacle = Some(refusal);
+                    f64::INFINITY
+                }
+            };
+            // The new step: h · 0.9 / error^(1/8), changed by a factor between 1/3 and 6. Square roots are
+            // rounded in the same way on every machine; powers are not.
+            let factor = (0.9 / error.sqrt().sqrt().sqrt()).clamp(1.0 / 3.0, 6.0);
             if !(error <= 1.0) {
-                // NaN comes here too: the trial left the field's domain.
                 report.rejected += 1;
-                step = h * if error.is_finite() { factor.min(1.0) } else { 0.1 };
+                if error.is_finite() {
+                    obstacle = None;
+                    step = h.abs() * factor;
+                } else {
+                    step = 0.1 * h.abs();
+                }
                 just_rejected = true;
                 continue;
             }
-            let factor = if just_rejected { factor.min(1.0) } else { factor };
+            obstacle = None;
+            step = h.abs() * if just_rejected { factor.min(1.0) } else { factor };
             just_rejected = false;
 
-            self.start.copy_from_slice(&state.values);
-            self.start_carry.copy_from_slice(&state.carry);
-            let (start_time, start_time_carry) = (state.time, state.time_carry);
+            let start_time = state.time;
+            core::mem::swap(&mut self.start, &mut state.values);
+            core::mem::swap(&mut self.start_carry, &mut state.carry);
             state.values.copy_from_slice(&self.trial);
             state.carry.copy_from_slice(&self.trial_carry);
             if last {
@@ -241,171 +258,33 @@ impl<T: Real> DormandPrince853<T> {
             }
             report.steps += 1;
 
-            let verdict = {
-                let mut dense = DenseStep::new(self, field, report.steps, start_time, state.time, h);
-                let verdict = inspect(&mut dense, &mut report);
-                report.evaluations += dense.evaluations();
-                match verdict {
-                    ControlFlow::Continue(()) => None,
-                    ControlFlow::Break((time, ending)) => {
-                        let mut evaluations = 0;
-                        if let Some(time) = time {
-                            let before = dense.evaluations();
-                            dense.at(time, &mut state.values)?;
-                            evaluations = dense.evaluations() - before;
-                        }
-                        Some((time, ending, evaluations))
-                    }
-                }
-            };
-            if let Some((time, ending, evaluations)) = verdict {
-                report.evaluations += evaluations;
+            let mut dense = DenseStep::new(self, field, report.steps, start_time, state.time, h);
+            let verdict = inspect(&mut dense);
+            if let Ok(ControlFlow::Break((Some(time), _))) = verdict {
+                dense.at(time, &mut state.values)?;
+                state.carry.fill(T::zero());
+                state.set_time(time);
+            }
+            report.evaluations += dense.evaluations();
+            if let ControlFlow::Break((_, ending)) = verdict? {
                 report.ending = ending;
-                if let Some(time) = time {
-                    state.carry.fill(T::zero());
-                    state.set_time(time);
-                }
                 return Ok(report);
             }
-            let _ = start_time_carry;
             if last {
                 return Ok(report);
             }
             // The rate at the end is the first stage of the next step.
             let (first, rest) = self.stages.split_at_mut(1);
             core::mem::swap(&mut first[0], &mut rest[11]);
-            step = h * factor;
+            core::mem::swap(&mut self.magnitudes, &mut self.magnitudes_at_end);
         }
-    }
-
-    /// Makes the stages of one step and its end in `trial`; returns the error over the tolerance.
-    fn try_step<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        state: &State<T>,
-        h: f64,
-        report: &mut Report,
-    ) -> Result<f64, IntegrationError<F::Error>> {
-        let t = state.time;
-        let y = (&state.values[..], &state.carry[..]);
-        let k = &mut self.stages;
-        let trial = &mut self.trial;
-        macro_rules! stage {
-            ($number:literal, $row:expr) => {
-                combine(&$row, k, y, h, trial);
-                evaluate(field, t + c::C[$number] * h, trial, &mut k[$number])?;
-            };
-        }
-        stage!(1, c::A2);
-        stage!(2, c::A3);
-        stage!(3, c::A4);
-        stage!(4, c::A5);
-        stage!(5, c::A6);
-        stage!(6, c::A7);
-        stage!(7, c::A8);
-        stage!(8, c::A9);
-        stage!(9, c::A10);
-        stage!(10, c::A11);
-        stage!(11, c::A12);
-        for i in 0..trial.len() {
-            let mut increment = T::zero();
-            for &(j, b) in &c::B {
-                increment += T::lit(b) * k[j][i];
-            }
-            let (mut value, mut carry) = (state.values[i], state.carry[i]);
-            compensated_add(&mut value, &mut carry, increment * T::lit(h));
-            trial[i] = value;
-            self.trial_carry[i] = carry;
-        }
-        report.evaluations += 11;
-        let error = self.error(field, state, h);
-        if error <= 1.0 {
-            evaluate(field, t + h, &self.trial, &mut self.stages[12])?;
-            report.evaluations += 1;
-            if check_finite::<T, F::Error>(t, &self.stages[12]).is_err() {
-                return Ok(f64::NAN);
-            }
-        }
-        Ok(error)
-    }
-
-    /// The error of the step over the tolerance: fifth-order estimate, damped by the third-order one.
-    fn error<F: Field<T>>(&mut self, field: &F, state: &State<T>, h: f64) -> f64 {
-        field.magnitudes(&state.values, &mut self.magnitudes);
-        field.magnitudes(&self.trial, &mut self.magnitudes_at_end);
-        let (mut fifth, mut third) = (0.0, 0.0);
-        for i in 0..self.trial.len() {
-            let (mut e5, mut e3) = (T::zero(), T::zero());
-            for &(j, e) in &c::E5 {
-                e5 += T::lit(e) * self.stages[j][i];
-            }
-            for &(j, e) in &c::E3 {
-                e3 += T::lit(e) * self.stages[j][i];
-            }
-            let (e5, e3) = (largest_lane(e5), largest_lane(e3));
-            let magnitude = self.magnitudes[i].max(self.magnitudes_at_end[i]);
-            let allowed = self.tolerance.absolute_part() + self.tolerance.relative_part() * magnitude;
-            if e5.abs() <= 0.0 && e3.abs() <= 0.0 {
-                continue; // exact, whatever the tolerance: also where the magnitude is zero
-            }
-            fifth += (e5 / allowed) * (e5 / allowed);
-            third += (e3 / allowed) * (e3 / allowed);
-        }
-        let denominator = fifth + 0.01 * third;
-        if denominator <= 0.0 {
-            return 0.0;
-        }
-        h.abs() * fifth / (denominator * self.trial.len() as f64).sqrt()
-    }
-
-    /// A first step for which an explicit Euler step would change the state by one hundredth and the rate is
-    /// known to vary slowly; a start from rest falls back on the acceleration.
-    fn estimate_first_step<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        state: &State<T>,
-        span: f64,
-        report: &mut Report,
-    ) -> Result<f64, IntegrationError<F::Error>> {
-        field.magnitudes(&state.values, &mut self.magnitudes);
-        let tolerance = self.tolerance;
-        let scaled = |x: &[T], magnitudes: &[f64]| {
-            let mut sum = 0.0;
-            for (&x, &magnitude) in x.iter().zip(magnitudes) {
-                let allowed = tolerance.absolute_part() + tolerance.relative_part() * magnitude;
-                let ratio = largest_lane(x) / allowed;
-                if ratio.is_finite() {
-                    sum += ratio * ratio;
-                }
-            }
-            (sum / x.len().max(1) as f64).sqrt()
-        };
-        let (size, rate) = (scaled(&state.values, &self.magnitudes), scaled(&self.stages[0], &self.magnitudes));
-        let span = span.abs().min(self.longest_step) * span.signum();
-        let euler = if size <= 1e-5 || rate <= 1e-5 { span.abs() * 1e-6 } else { 0.01 * size / rate };
-        let euler = euler.min(span.abs()) * span.signum();
-        for ((trial, &y), &rate) in self.trial.iter_mut().zip(&state.values).zip(&self.stages[0]) {
-            *trial = y + T::lit(euler) * rate;
-        }
-        evaluate(field, state.time + euler, &self.trial, &mut self.stages[1])?;
-        report.evaluations += 1;
-        for (change, &first) in self.trial.iter_mut().zip(&self.stages[0]) {
-            *change = -first;
-        }
-        for (change, &second) in self.trial.iter_mut().zip(&self.stages[1]) {
-            *change += second;
-        }
-        let curvature = scaled(&self.trial, &self.magnitudes) / euler.abs();
-        let largest = curvature.max(rate);
-        let step = if largest <= 1e-15 || !largest.is_finite() {
-            (euler.abs() * 1e-3).max(span.abs() * 1e-6)
-        } else {
-            (0.01 / largest).powf(0.125)
-        };
-        Ok(step.min(100.0 * euler.abs()).min(span.abs()) * span.signum())
     }
 }
 
+/// The time at which a run is stopped, where it is not the end of the step, and how it ended.
+type Stop = (Option<f64>, Ending);
+
+#[inline(always)]
 fn evaluate<T: Real, F: Field<T>>(
     field: &mut F,
     time: f64,
@@ -413,26 +292,4 @@ fn evaluate<T: Real, F: Field<T>>(
     rate: &mut [T],
 ) -> Result<(), IntegrationError<F::Error>> {
     field.rate(time, y, rate).map_err(|source| IntegrationError::Field { time, source })
-}
-
-/// y + (carry + h Σ aⱼ kⱼ), written for rows whose length the compiler knows.
-#[inline(always)]
-fn combine<T: Real, const M: usize>(
-    row: &[(usize, f64); M],
-    stages: &[Vec<T>; 16],
-    (y, carry): (&[T], &[T]),
-    h: f64,
-    out: &mut [T],
-) {
-    let n = out.len();
-    let terms: [(T, &[T]); M] = core::array::from_fn(|m| (T::lit(row[m].1), &stages[row[m].0][..n]));
-    let (y, carry) = (&y[..n], &carry[..n]);
-    let h = T::lit(h);
-    for i in 0..n {
-        let mut sum = terms[0].0 * terms[0].1[i];
-        for term in &terms[1..] {
-            sum += term.0 * term.1[i];
-        }
-        out[i] = y[i] + (carry[i] + h * sum);
-    }
 }

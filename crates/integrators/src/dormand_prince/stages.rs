@@ -1,0 +1,168 @@
+//! One trial step: its stages, its end and its error.
+
+use piola_numerics::Real;
+
+use super::coefficients as c;
+use super::{DormandPrince853, evaluate};
+use crate::field::largest_lane;
+use crate::state::{check_finite, compensated_add};
+use crate::{Field, IntegrationError, Report, State};
+
+impl<T: Real> DormandPrince853<T> {
+    /// Makes the stages of one step and its end in `trial`; returns the error over the tolerance.
+    pub(super) fn try_step<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        state: &State<T>,
+        h: f64,
+        report: &mut Report,
+    ) -> Result<f64, IntegrationError<F::Error>> {
+        let t = state.time;
+        let y = (&state.values[..], &state.carry[..]);
+        let k = &mut self.stages;
+        let trial = &mut self.trial;
+        macro_rules! stage {
+            ($number:literal, $row:expr) => {
+                combine(&$row, k, y, h, trial);
+                report.evaluations += 1;
+                evaluate(field, t + c::C[$number] * h, trial, &mut k[$number])?;
+            };
+        }
+        stage!(1, c::A2);
+        stage!(2, c::A3);
+        stage!(3, c::A4);
+        stage!(4, c::A5);
+        stage!(5, c::A6);
+        stage!(6, c::A7);
+        stage!(7, c::A8);
+        stage!(8, c::A9);
+        stage!(9, c::A10);
+        stage!(10, c::A11);
+        stage!(11, c::A12);
+        let error = self.finish(field, state, h);
+        if error <= 1.0 {
+            report.evaluations += 1;
+            evaluate(field, t + h, &self.trial, &mut self.stages[12])?;
+            check_finite(t, &self.stages[12])?;
+        } else if error.is_nan() {
+            for rate in &self.stages[1..12] {
+                check_finite(t, rate)?;
+            }
+        }
+        Ok(error)
+    }
+
+    /// The end of the step, and its error over the tolerance: the estimate of order five, damped by that of
+    /// order three.
+    ///
+    /// ```text
+    /// e = |h| ‖e₅‖² / √(n (‖e₅‖² + 0.01 ‖e₃‖²)),    ‖x‖² = Σᵢ (xᵢ/allowedᵢ)²
+    /// ```
+    #[inline(always)]
+    fn finish<F: Field<T>>(&mut self, field: &F, state: &State<T>, h: f64) -> f64 {
+        let n = self.trial.len();
+        // E5 has the stages of B; those of B3 are among them.
+        let k: [&[T]; c::B.len()] = core::array::from_fn(|m| &self.stages[c::B[m].0][..n]);
+        let (y, carry) = (&state.values[..n], &state.carry[..n]);
+        let (trial, trial_carry) = (&mut self.trial[..n], &mut self.trial_carry[..n]);
+        let (fifth_error, third_error) = self.interpolant.split_at_mut(1);
+        let (fifth_error, third_error) = (&mut fifth_error[0][..n], &mut third_error[0][..n]);
+        let [b1, b9, b12] = c::B3.map(|(_, b)| T::lit(b));
+        let (h_lit, b, e) = (T::lit(h), c::B.map(|(_, b)| T::lit(b)), c::E5.map(|(_, e)| T::lit(e)));
+        for i in 0..n {
+            let [slope] = sum_of_terms(&b, |m| [k[m][i]]);
+            [fifth_error[i]] = sum_of_terms(&e, |m| [k[m][i]]);
+            third_error[i] = slope - (b1 * k[0][i] + b9 * k[4][i] + b12 * k[7][i]);
+            (trial[i], trial_carry[i]) = (y[i], carry[i]);
+            compensated_add(&mut trial[i], &mut trial_carry[i], slope * h_lit);
+        }
+
+        field.magnitudes(trial, &mut self.magnitudes_at_end);
+        let (absolute, relative) = (self.tolerance.absolute_part(), self.tolerance.relative_part());
+        let (mut fifth, mut third) = (0.0, 0.0);
+        for (((e5, e3), &before), &after) in
+            fifth_error.iter().zip(&*third_error).zip(&self.magnitudes).zip(&self.magnitudes_at_end)
+        {
+            let allowed = absolute + relative * if before < after { after } else { before };
+            let (e5, e3) = (largest_lane(*e5), largest_lane(*e3));
+            // An exact component is exact whatever the tolerance: also where its magnitude is zero.
+            let allowed = if e5 <= 0.0 && e3 <= 0.0 { 1.0 } else { allowed };
+            let (e5, e3) = (e5 / allowed, e3 / allowed);
+            fifth += e5 * e5;
+            third += e3 * e3;
+        }
+        let denominator = fifth + 0.01 * third;
+        if denominator <= 0.0 {
+            return 0.0;
+        }
+        if denominator.is_infinite() {
+            return f64::INFINITY;
+        }
+        h.abs() * fifth / (denominator * n as f64).sqrt()
+    }
+}
+
+/// Components worked on at once: small systems are one block, whose sums the compiler keeps in registers.
+const BLOCK: usize = 4;
+
+/// y + (carry + h Σ aⱼ kⱼ).
+#[inline(always)]
+pub(super) fn combine<T: Real, const M: usize>(
+    row: &[(usize, f64); M],
+    stages: &[Vec<T>; 16],
+    (y, carry): (&[T], &[T]),
+    h: f64,
+    out: &mut [T],
+) {
+    let h = T::lit(h);
+    let (y, carry) = (&y[..out.len()], &carry[..out.len()]);
+    weighted_sums(row, stages, out, |i, sum| y[i] + (carry[i] + h * sum));
+}
+
+/// Writes `finish(i, Σ aⱼ kⱼᵢ)` for every component i, for rows whose length the compiler knows.
+///
+/// The sum runs over even and odd terms apart, which halves the time spent waiting for additions.
+#[inline(always)]
+pub(super) fn weighted_sums<T: Real, const M: usize>(
+    row: &[(usize, f64); M],
+    stages: &[Vec<T>; 16],
+    out: &mut [T],
+    finish: impl Fn(usize, T) -> T,
+) {
+    let n = out.len();
+    let weights: [T; M] = core::array::from_fn(|m| T::lit(row[m].1));
+    let terms: [&[T]; M] = core::array::from_fn(|m| &stages[row[m].0][..n]);
+    let blocks = n / BLOCK;
+    let (out_blocks, _) = out.as_chunks_mut::<BLOCK>();
+    let term_blocks: [&[[T; BLOCK]]; M] = terms.map(|term| &term.as_chunks::<BLOCK>().0[..blocks]);
+    for (b, out) in out_blocks.iter_mut().enumerate().take(blocks) {
+        let sums = sum_of_terms(&weights, |m| term_blocks[m][b]);
+        for l in 0..BLOCK {
+            out[l] = finish(b * BLOCK + l, sums[l]);
+        }
+    }
+    for i in blocks * BLOCK..n {
+        let [sum] = sum_of_terms(&weights, |m| [terms[m][i]]);
+        out[i] = finish(i, sum);
+    }
+}
+
+/// Σ aⱼ kⱼ, even and odd terms apart.
+#[inline(always)]
+fn sum_of_terms<T: Real, const M: usize, const N: usize>(weights: &[T; M], term: impl Fn(usize) -> [T; N]) -> [T; N] {
+    let first = term(0);
+    let mut even: [T; N] = core::array::from_fn(|l| weights[0] * first[l]);
+    if M == 1 {
+        return even;
+    }
+    let second = term(1);
+    let mut odd: [T; N] = core::array::from_fn(|l| weights[1] * second[l]);
+    for m in 2..M {
+        let term = term(m);
+        let sum = if m % 2 == 0 { &mut even } else { &mut odd };
+        for l in 0..N {
+            sum[l] += weights[m] * term[l];
+        }
+    }
+    core::array::from_fn(|l| even[l] + odd[l])
+}
