@@ -1,0 +1,128 @@
+//! One function a command.
+
+use core::ops::ControlFlow;
+use std::io::Write as _;
+
+use piola_scene::output::{self, Folder, Summary};
+use piola_scene::run::{self, Outcome};
+use piola_scene::{Plan, Scene, SceneError, schema};
+
+use crate::arguments::{RunArguments, SceneArguments, SchemaArguments};
+use crate::interrupt::Interrupt;
+use crate::progress::ProgressLine;
+use crate::{Exit, report};
+
+pub(crate) fn run(arguments: &RunArguments) -> Exit {
+    let mut scene = match load(&arguments.scene) {
+        Ok(scene) => scene,
+        Err(error) => return invalid(&error, arguments.scene.json),
+    };
+    if let Some(folder) = &arguments.out {
+        scene.output.folder.clone_from(folder);
+    }
+    let folder = match Folder::prepare(&scene.output.folder) {
+        Ok(folder) => folder,
+        Err(error) => return invalid(&error, arguments.scene.json),
+    };
+    let plan = Plan::of(&scene);
+    let interrupt = Interrupt::listen();
+    let mut progress = ProgressLine::new(&plan);
+    let run = run::run(&scene, &plan, |step| {
+        progress.update(step);
+        if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    progress.finish();
+    let summary = Summary::of(&scene, &plan, &run);
+    let written = output::write(&folder, &scene, &plan, &run, &summary);
+    if arguments.scene.json {
+        print(&summary.to_json());
+    } else {
+        print(&report::table(&scene, &plan, &run));
+        let names: Vec<_> = written.files.iter().filter_map(|path| path.file_name()?.to_str()).collect();
+        print(&format!("written to {}: {}\n", folder.path().display(), names.join(", ")));
+    }
+    for failure in &written.failures {
+        note(&format!("error: {failure}"));
+    }
+    let end = format!("at {} s of {} s; what was computed until then is in {}", run.time, plan.end, folder.path().display());
+    match &run.outcome {
+        Outcome::Completed if written.failures.is_empty() => Exit::Done,
+        Outcome::Completed => Exit::Failed,
+        Outcome::Interrupted => {
+            note(&format!("interrupted {end}"));
+            Exit::Failed
+        }
+        Outcome::Failed(why) => {
+            note(&format!("error: the run failed: {why}\nstopped {end}"));
+            Exit::Failed
+        }
+    }
+}
+
+pub(crate) fn plan(arguments: &SceneArguments) -> Exit {
+    match load(arguments) {
+        Ok(scene) => {
+            let plan = Plan::of(&scene);
+            if arguments.json { print_json(&plan) } else { print(&format!("{plan}\n")) }
+            Exit::Done
+        }
+        Err(error) => invalid(&error, arguments.json),
+    }
+}
+
+pub(crate) fn check(arguments: &SceneArguments) -> Exit {
+    match load(arguments) {
+        Ok(scene) if arguments.json => {
+            print_json(&serde_json::json!({ "name": scene.name, "valid": true, "mistakes": [], "more": 0 }));
+            Exit::Done
+        }
+        Ok(scene) => {
+            print(&format!("{} is valid: {}\n", arguments.scene.display(), Plan::of(&scene).system));
+            Exit::Done
+        }
+        Err(error) => invalid(&error, arguments.json),
+    }
+}
+
+pub(crate) fn schema(arguments: &SchemaArguments) -> Exit {
+    if arguments.markdown {
+        print(&schema::markdown());
+    } else {
+        print_json(&schema::json_schema());
+    }
+    Exit::Done
+}
+
+fn load(arguments: &SceneArguments) -> Result<Scene, SceneError> {
+    Scene::load(&arguments.scene, &arguments.settings)
+}
+
+fn invalid(error: &SceneError, json: bool) -> Exit {
+    match error {
+        SceneError::Invalid(report) if json => print_json(&serde_json::json!({
+            "valid": false,
+            "mistakes": report.mistakes,
+            "more": report.more,
+        })),
+        _ if json => print_json(&serde_json::json!({ "valid": false, "error": error.to_string() })),
+        SceneError::Invalid(report) => note(&report.to_string()),
+        _ => note(&format!("error: {error}")),
+    }
+    Exit::Invalid
+}
+
+fn print_json(value: &impl serde::Serialize) {
+    // Nothing that is printed can fail to serialise: keys are texts, numbers that are not finite become null.
+    let text = serde_json::to_string_pretty(value).unwrap_or_default();
+    print(&format!("{text}\n"));
+}
+
+/// Standard output; a reader that has gone away is no error.
+fn print(text: &str) {
+    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+}
+
+/// Standard error.
+fn note(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
+}

@@ -1,0 +1,41 @@
+//! The program `piola`.
+//!
+//! Results go to standard output; progress, notes and errors to standard error. Exit codes are those of [`Exit`].
+#![forbid(unsafe_code)]
+
+mod arguments;
+mod commands;
+mod interrupt;
+mod progress;
+mod report;
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use arguments::{Arguments, Command};
+
+/// How the program ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Exit {
+    /// 0: what was asked is done.
+    Done,
+    /// 1: the run failed or was interrupted, or a result could not be written. What there is, is written.
+    Failed,
+    /// 2: the arguments, the scene or the output folder are not valid. Nothing was run.
+    Invalid,
+}
+
+fn main() -> ExitCode {
+    let exit = match Arguments::parse().command {
+        Command::Run(arguments) => commands::run(&arguments),
+        Command::Plan(arguments) => commands::plan(&arguments),
+        Command::Check(arguments) => commands::check(&arguments),
+        Command::Schema(arguments) => commands::schema(&arguments),
+    };
+    match exit {
+        Exit::Done => ExitCode::SUCCESS,
+        Exit::Failed => ExitCode::from(1),
+        Exit::Invalid => ExitCode::from(2),
+    }
+}

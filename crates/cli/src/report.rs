@@ -1,0 +1,88 @@
+//! The short table at the end of a run.
+
+use core::fmt::Write as _;
+
+use piola_scene::run::{Drift, Run};
+use piola_scene::{Plan, Scene};
+
+/// Bodies beyond this are left to the tables.
+const SHOWN: usize = 20;
+
+/// The table.
+pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
+    let mut text = String::new();
+    let title = scene.title.as_deref().unwrap_or(&scene.name);
+    let _ = writeln!(text, "{title}: {}", plan.system);
+    let _ = writeln!(
+        text,
+        "{}: {} steps, {} evaluations of the forces, {:.3} s\n{}\n",
+        plan.method, run.steps, run.force_evaluations, run.wall_time, plan.reason
+    );
+    if let Some(errors) = &run.errors {
+        errors_table(&mut text, errors);
+    }
+    let _ = writeln!(text, "{:<24}{:>12}{:>12}", "invariant", "largest", "last");
+    let mut line = |name: &str, drift: Option<Drift>| {
+        if let Some(drift) = drift {
+            let _ = writeln!(text, "{name:<24}{:>12.1e}{:>12.1e}", drift.max_relative, drift.last_relative);
+        }
+    };
+    line("energy", run.drifts.energy);
+    line("post-Newtonian energy", run.drifts.post_newtonian_energy);
+    line("momentum", run.drifts.momentum);
+    line("moment of momentum", run.drifts.angular_momentum);
+    if run.drifts.post_newtonian_energy.is_some() {
+        text.push_str("The post-Newtonian force depends on velocity: the Newtonian energy and momentum vary with the orbits,\n");
+        text.push_str("and the post-Newtonian energy is kept to the next order in 1/c^2.\n");
+    }
+    text.push('\n');
+    text
+}
+
+/// Relative errors by body, at a few instants when there are few.
+fn errors_table(text: &mut String, errors: &piola_scene::run::Errors) {
+    /// Instants that fit on a line.
+    const COLUMNS: usize = 5;
+    let times: Vec<f64> = errors.bodies.first().map(|body| body.at.iter().map(|at| at.time).collect()).unwrap_or_default();
+    let few = times.len() <= COLUMNS;
+    let _ = write!(text, "{:<24}", format!("position beside {}", shortened(&errors.label)));
+    if few {
+        for time in &times {
+            let _ = write!(text, "{:>12}", instant(*time));
+        }
+    } else {
+        let _ = write!(text, "{:>12}", "last");
+    }
+    let _ = writeln!(text, "{:>12}{:>14}", "largest", "metres");
+    for body in errors.bodies.iter().take(SHOWN) {
+        let _ = write!(text, "{:<24}", body.name);
+        if few {
+            for time in &times {
+                match body.at.iter().find(|at| at.time.total_cmp(time).is_eq()) {
+                    Some(at) => {
+                        let _ = write!(text, "{:>12.1e}", at.relative);
+                    }
+                    None => {
+                        let _ = write!(text, "{:>12}", "");
+                    }
+                }
+            }
+        } else if let Some(last) = body.at.last() {
+            let _ = write!(text, "{:>12.1e}", last.relative);
+        }
+        let _ = writeln!(text, "{:>12.1e}{:>14.1e}", body.largest_relative, body.largest);
+    }
+    if SHOWN < errors.bodies.len() {
+        let _ = writeln!(text, "and {} more in reference.csv", errors.bodies.len() - SHOWN);
+    }
+    text.push('\n');
+}
+
+fn shortened(label: &str) -> String {
+    label.chars().take(40).collect()
+}
+
+/// A time in days where it is long.
+fn instant(time: f64) -> String {
+    if 86_400.0 <= time.abs() { format!("{} d", (time / 86_400.0 * 1e4).round() / 1e4) } else { format!("{time} s") }
+}

@@ -1,0 +1,419 @@
+//! SVG figures: trajectories, drift of invariants, error against the reference.
+//!
+//! Colours are told apart by the colour-blind (Okabe & Ito 2008, then Tol's muted scheme). Text is SVG text in the reader's
+//! sans-serif font, so that no font is needed to draw.
+
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use crate::run::{History, Run};
+
+const PALETTE: [RGBColor; 12] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(51, 34, 136),
+    RGBColor(136, 34, 85),
+    RGBColor(17, 119, 51),
+    RGBColor(153, 153, 51),
+    RGBColor(170, 68, 153),
+    RGBColor(85, 85, 85),
+];
+const INK: RGBColor = RGBColor(40, 40, 40);
+const GRID: RGBColor = RGBColor(225, 225, 225);
+const FONT: &str = "sans-serif";
+/// Beyond this many curves a legend helps nobody.
+const NAMED: usize = 24;
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Drawn = Result<(), Box<dyn core::error::Error>>;
+
+fn colour(index: usize) -> RGBColor {
+    PALETTE[index % PALETTE.len()]
+}
+
+/// A figure of a size, with a title; one that cannot be drawn says so instead of being lost.
+fn figure(size: (u32, u32), title: &str, draw: impl Fn(&Area<'_>) -> Drawn) -> String {
+    let mut text = String::new();
+    let attempt = |text: &mut String, draw: &dyn Fn(&Area<'_>) -> Drawn| -> Drawn {
+        let area = SVGBackend::with_string(text, size).into_drawing_area();
+        area.fill(&WHITE)?;
+        let style = (FONT, 21).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Top));
+        area.draw(&Text::new(title.to_string(), (24, 14), style))?;
+        draw(&area.margin(44, 8, 12, 12))?;
+        area.present()?;
+        Ok(())
+    };
+    if let Err(error) = attempt(&mut text, &draw) {
+        text.clear();
+        let message = format!("this figure could not be drawn: {error}");
+        let _ = attempt(&mut text, &|area: &Area<'_>| {
+            Ok(area.draw(&Text::new(message.clone(), (24, 40), (FONT, 15).into_font().color(&INK)))?)
+        });
+    }
+    text
+}
+
+/// A unit for lengths of this size: name and metres.
+fn length_unit(largest: f64) -> (&'static str, f64) {
+    match largest {
+        x if 1e10 <= x => ("au", 149_597_870_700.0),
+        x if 1e5 <= x => ("km", 1e3),
+        x if x < 1e-2 => ("mm", 1e-3),
+        _ => ("m", 1.0),
+    }
+}
+
+/// A unit for times of this length: name and seconds.
+fn time_unit(span: f64) -> (&'static str, f64) {
+    match span {
+        x if 3.0 * 31_557_600.0 <= x => ("years", 31_557_600.0),
+        x if 3.0 * 86_400.0 <= x => ("days", 86_400.0),
+        x if 3.0 * 3600.0 <= x => ("hours", 3600.0),
+        _ => ("s", 1.0),
+    }
+}
+
+/// The largest distance of each body from the origin, m.
+fn reach(history: &History) -> Vec<f64> {
+    let mut reach = vec![0.0; history.names.len()];
+    for positions in &history.positions {
+        for (reach, x) in reach.iter_mut().zip(positions) {
+            *reach = f64::max(*reach, x.iter().map(|x| x * x).sum::<f64>().sqrt());
+        }
+    }
+    reach
+}
+
+/// Paths in the plane in which they extend most; in two panels, near and all, when bodies are of very different reach.
+pub(super) fn trajectory(title: &str, history: &History, gravity: Option<[f64; 3]>) -> String {
+    let reach = reach(history);
+    let (across, up) = plane(history, gravity);
+    let mut sorted: Vec<f64> = reach.iter().copied().filter(|x| 0.0 < *x && x.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let largest = sorted.last().copied().unwrap_or(1.0);
+    let gap = sorted
+        .windows(2)
+        .filter(|pair| 2.5 < pair[1] / pair[0] && 8.0 < largest / pair[0])
+        .max_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])))
+        // A body that hardly moves, as a sun, does not make a panel of its own.
+        .filter(|pair| 1 < sorted.iter().filter(|x| **x <= pair[0] && 0.05 * pair[0] < **x).count());
+    let panels: Vec<f64> = gap.map(|pair| pair[0]).into_iter().chain([largest]).collect();
+    let size = if panels.len() == 2 { (1180, 600) } else { (780, 640) };
+    figure(size, title, |area| {
+        let legend = if history.names.len() <= NAMED { 130 } else { 0 };
+        let (width, height) = area.dim_in_pixel();
+        let (plots, names) = area.split_horizontally(width - legend);
+        let each = (width - legend) / u32::try_from(panels.len())?;
+        for (index, &radius) in panels.iter().enumerate() {
+            let (part, _) = plots.split_horizontally(each * (u32::try_from(index)? + 1));
+            let (_, part) = part.split_horizontally(each * u32::try_from(index)?);
+            panel(&part, (each, height), history, &reach, (across, up), radius)?;
+        }
+        if 0 < legend {
+            let labels: Vec<&str> = history.names.iter().map(String::as_str).collect();
+            draw_legend(&names, &labels)?;
+        }
+        Ok(())
+    })
+}
+
+/// One panel with the bodies that stay within a radius, true to scale.
+fn panel(
+    area: &Area<'_>,
+    (width, height): (u32, u32),
+    history: &History,
+    reach: &[f64],
+    (across, up): (usize, usize),
+    radius: f64,
+) -> Drawn {
+    let (unit, metre) = length_unit(radius);
+    let shown: Vec<usize> = (0..reach.len()).filter(|body| reach[*body] <= radius).collect();
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    for positions in &history.positions {
+        for &body in &shown {
+            for (k, axis) in [across, up].into_iter().enumerate() {
+                let x = positions[body][axis] / metre;
+                if x.is_finite() {
+                    low[k] = low[k].min(x);
+                    high[k] = high[k].max(x);
+                }
+            }
+        }
+    }
+    if !(low[0] <= high[0] && low[1] <= high[1]) {
+        (low, high) = ([-1.0; 2], [1.0; 2]);
+    }
+    // One scale for both axes: the plot area is what margins and labels leave.
+    let (wide, tall) = (f64::from(width.saturating_sub(100).max(50)), f64::from(height.saturating_sub(75).max(50)));
+    let scale = 1.08 * ((high[0] - low[0]) / wide).max((high[1] - low[1]) / tall).max(1e-12 * (1.0 + radius / metre));
+    let range = |k: usize, pixels: f64| {
+        let middle = 0.5 * (low[k] + high[k]);
+        middle - 0.5 * scale * pixels..middle + 0.5 * scale * pixels
+    };
+    let mut chart = ChartBuilder::on(area)
+        .margin(10)
+        .x_label_area_size(50)
+        .y_label_area_size(70)
+        .build_cartesian_2d(range(0, wide), range(1, tall))?;
+    let names = ["x", "y", "z"];
+    let short = |x: &f64| format_short(*x);
+    chart
+        .configure_mesh()
+        .x_labels(7)
+        .y_labels(7)
+        .light_line_style(WHITE)
+        .bold_line_style(GRID)
+        .axis_style(INK)
+        .label_style((FONT, 14).into_font().color(&INK))
+        .axis_desc_style((FONT, 16).into_font().color(&INK))
+        .x_desc(format!("{} ({unit})", names[across]))
+        .y_desc(format!("{} ({unit})", names[up]))
+        .x_label_formatter(&short)
+        .y_label_formatter(&short)
+        .draw()?;
+    for &body in &shown {
+        let at = |positions: &Vec<[f64; 3]>| (positions[body][across] / metre, positions[body][up] / metre);
+        let points = thinned(history.positions.iter().map(at), 0.6 * scale);
+        let style = colour(body).stroke_width(if history.names.len() == 1 { 1 } else { 2 });
+        chart.draw_series(LineSeries::new(points, style))?;
+        if let Some(last) = history.positions.last() {
+            chart.draw_series([Circle::new(at(last), 4, colour(body).filled())])?;
+        }
+    }
+    Ok(())
+}
+
+/// The two axes along which paths extend most; up is against gravity when there is any.
+fn plane(history: &History, gravity: Option<[f64; 3]>) -> (usize, usize) {
+    let mut low = [f64::INFINITY; 3];
+    let mut high = [f64::NEG_INFINITY; 3];
+    for x in history.positions.iter().flatten() {
+        for k in 0..3 {
+            low[k] = low[k].min(x[k]);
+            high[k] = high[k].max(x[k]);
+        }
+    }
+    let extent = |k: &usize| high[*k] - low[*k];
+    let by_extent = |a: &usize, b: &usize| extent(b).total_cmp(&extent(a)).then(a.cmp(b));
+    let mut axes = [0, 1, 2];
+    axes.sort_by(by_extent);
+    let vertical = gravity.and_then(|g| (0..3).find(|k| 0.9 * g.iter().map(|x| x * x).sum::<f64>() < g[*k] * g[*k]));
+    match vertical {
+        // A path that hardly rises is seen from above.
+        Some(up) if 0.3 * extent(&axes[0]) < extent(&up) => {
+            let across = axes.into_iter().find(|k| *k != up).unwrap_or(0);
+            (across, up)
+        }
+        _ => (axes[0].min(axes[1]), axes[0].max(axes[1])),
+    }
+}
+
+/// Points of which each is at least a distance from the one before.
+fn thinned(points: impl Iterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    let mut last = None;
+    for point in points.filter(|(x, y)| x.is_finite() && y.is_finite()) {
+        last = Some(point);
+        match kept.last() {
+            Some((x, y)) if (point.0 - x).hypot(point.1 - y) < least => {}
+            _ => kept.push(point),
+        }
+    }
+    kept.extend(last);
+    kept
+}
+
+struct Curve {
+    name: String,
+    colour: RGBColor,
+    points: Vec<(f64, f64)>,
+}
+
+/// The relative drift of each invariant over time.
+pub(super) fn invariants(title: &str, history: &History) -> String {
+    let series = history.drift_series();
+    let curve = |name: &str, index: usize, pick: fn(&crate::run::DriftAt) -> Option<f64>| Curve {
+        name: name.to_string(),
+        colour: colour(index),
+        points: series.iter().filter_map(|drift| Some((drift.time, pick(drift)?))).collect(),
+    };
+    let mut curves = vec![
+        curve("energy", 0, |drift| Some(drift.energy)),
+        curve("post-Newtonian energy", 1, |drift| drift.post_newtonian_energy),
+        curve("momentum", 2, |drift| drift.momentum),
+        curve("moment of momentum", 3, |drift| drift.angular_momentum),
+    ];
+    curves.retain(|curve| !curve.points.is_empty());
+    log_figure(&format!("{title}: drift of invariants"), "relative change since the start", curves, false)
+}
+
+/// The relative error of each body over time.
+pub(super) fn error(title: &str, run: &Run) -> String {
+    let Some(errors) = &run.errors else { return figure((780, 520), title, |_| Ok(())) };
+    let curves: Vec<Curve> = errors
+        .bodies
+        .iter()
+        .map(|body| Curve {
+            name: body.name.clone(),
+            colour: colour(body.body),
+            points: body.at.iter().map(|at| (at.time, at.relative)).collect(),
+        })
+        .collect();
+    let few = curves.iter().all(|curve| curve.points.len() <= 12);
+    log_figure(&format!("{title}: difference from {}", errors.label), "relative error of position", curves, few)
+}
+
+/// Curves over time with a logarithmic ordinate; with a logarithmic abscissa and marks when there are few instants.
+fn log_figure(title: &str, ordinate: &str, mut curves: Vec<Curve>, few: bool) -> String {
+    /// Below this a relative change is nothing but the last bit.
+    const FLOOR: f64 = 1e-18;
+    for curve in &mut curves {
+        curve.points.retain(|(t, y)| t.is_finite() && y.is_finite() && FLOOR < *y && (!few || 0.0 < *t));
+    }
+    let all = || curves.iter().flat_map(|curve| &curve.points);
+    let extreme = |pick: fn(&(f64, f64)) -> f64, fold: fn(f64, f64) -> f64| all().map(pick).reduce(fold);
+    let low = extreme(|p| p.1, f64::min).unwrap_or(1e-16);
+    let high = extreme(|p| p.1, f64::max).unwrap_or(1e-15);
+    let decades = |x: f64, up: bool| 10_f64.powf(if up { x.log10().ceil() } else { x.log10().floor() });
+    // Half a decade of air, and no long tail of values that happen to be tiny.
+    let top = decades(1.5 * high, true);
+    let bottom = decades(low.max(1e-7 * high), false).min(top / 10.0);
+    let start = extreme(|p| p.0, f64::min).unwrap_or(0.0);
+    let end = extreme(|p| p.0, f64::max).unwrap_or(1.0).max(start + f64::MIN_POSITIVE);
+    let (unit, second) = time_unit(end - start);
+    figure((960, 560), title, |area| {
+        let named = 1 < curves.len() && curves.len() <= NAMED;
+        let (width, _) = area.dim_in_pixel();
+        let (plot, names) = area.split_horizontally(if named { width - 190 } else { width });
+        let description = format!("time ({unit})");
+        if few {
+            // Marks stand clear of the frame.
+            let range = (0.7 * start / second..1.4 * end / second).log_scale();
+            log_chart(&plot, range, bottom..top, (&description, ordinate), &curves, second, true)?;
+        } else {
+            log_chart(&plot, start / second..end / second, bottom..top, (&description, ordinate), &curves, second, false)?;
+        }
+        if named {
+            let labels: Vec<(&str, RGBColor)> = curves.iter().map(|curve| (curve.name.as_str(), curve.colour)).collect();
+            legend(&names, &labels)?;
+        }
+        Ok(())
+    })
+}
+
+fn log_chart<X>(
+    area: &Area<'_>,
+    abscissa: X,
+    ordinate: core::ops::Range<f64>,
+    (x_name, y_name): (&str, &str),
+    curves: &[Curve],
+    second: f64,
+    marks: bool,
+) -> Drawn
+where
+    X: AsRangedCoord<Value = f64>,
+    X::CoordDescType: ValueFormatter<f64>,
+{
+    let bottom = ordinate.start;
+    let mut chart = ChartBuilder::on(area)
+        .margin(10)
+        .x_label_area_size(52)
+        .y_label_area_size(86)
+        .build_cartesian_2d(abscissa, ordinate.log_scale())?;
+    let power = |y: &f64| power_of_ten(*y);
+    let short = |x: &f64| format_short(*x);
+    chart
+        .configure_mesh()
+        .x_labels(9)
+        .y_labels(10)
+        .light_line_style(WHITE)
+        .bold_line_style(GRID)
+        .axis_style(INK)
+        .label_style((FONT, 14).into_font().color(&INK))
+        .axis_desc_style((FONT, 16).into_font().color(&INK))
+        .x_desc(x_name)
+        .y_desc(y_name)
+        .x_label_formatter(&short)
+        .y_label_formatter(&power)
+        .draw()?;
+    for curve in curves {
+        let points: Vec<(f64, f64)> = peaks(&curve.points).into_iter().map(|(t, y)| (t / second, y.max(bottom))).collect();
+        let width = if marks || points.len() < 200 { 2 } else { 1 };
+        chart.draw_series(LineSeries::new(points.clone(), curve.colour.stroke_width(width)))?;
+        if marks {
+            chart.draw_series(points.into_iter().map(|point| Circle::new(point, 4, curve.colour.filled())))?;
+        }
+    }
+    Ok(())
+}
+
+/// At most a few thousand points; of each stretch the smallest and the largest, so that no peak is lost.
+fn peaks(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    const STRETCHES: usize = 800;
+    if points.len() <= 2 * STRETCHES {
+        return points.to_vec();
+    }
+    let length = points.len().div_ceil(STRETCHES);
+    let mut kept = Vec::with_capacity(2 * STRETCHES);
+    for stretch in points.chunks(length) {
+        let by = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let (least, most) = (stretch.iter().min_by(by), stretch.iter().max_by(by));
+        let mut pair: Vec<(f64, f64)> = least.into_iter().chain(most).copied().collect();
+        pair.sort_by(|a, b| a.0.total_cmp(&b.0));
+        kept.append(&mut pair);
+    }
+    kept
+}
+
+fn draw_legend(area: &Area<'_>, names: &[&str]) -> Drawn {
+    let entries: Vec<(&str, RGBColor)> = names.iter().enumerate().map(|(index, name)| (*name, colour(index))).collect();
+    legend(area, &entries)
+}
+
+fn legend(area: &Area<'_>, entries: &[(&str, RGBColor)]) -> Drawn {
+    let mut y = 20;
+    for (name, colour) in entries {
+        area.draw(&PathElement::new(vec![(8, y), (30, y)], colour.stroke_width(3)))?;
+        let style = (FONT, 15).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new((*name).to_string(), (38, y), style))?;
+        y += 22;
+    }
+    Ok(())
+}
+
+/// 1e-13 as 10⁻¹³.
+fn power_of_ten(y: f64) -> String {
+    #[expect(clippy::cast_possible_truncation, reason = "an exponent of a double")]
+    let exponent = y.log10().round() as i32;
+    let digit = |c: char| match c {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        _ => '⁹',
+    };
+    format!("10{}", exponent.to_string().chars().map(digit).collect::<String>())
+}
+
+/// A number with as many digits as it needs, at most four.
+fn format_short(x: f64) -> String {
+    let rounded = format!("{x:.4}");
+    let trimmed = rounded.trim_end_matches('0').trim_end_matches('.');
+    match trimmed {
+        "-0" | "" => "0".to_string(),
+        _ if 1e5 <= x.abs() => format!("{x:.2e}"),
+        _ => trimmed.replace('-', "−"),
+    }
+}

@@ -1,0 +1,122 @@
+//! `summary.json`: the numbers of a run.
+
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use crate::model::Scene;
+use crate::plan::{Item, Method, Plan};
+use crate::run::{Drift, Outcome, Run};
+
+/// The numbers of a run.
+///
+/// A drift is `null` where the invariant is not conserved, or where it is not a finite number.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Summary {
+    /// Name of the scene.
+    pub name: String,
+    /// `completed`, `interrupted` or `failed`.
+    pub status: String,
+    /// Why the run failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
+    /// Name of the method.
+    pub method: String,
+    /// The method with its order, step or tolerance.
+    pub method_details: Method,
+    /// Why this method.
+    pub method_reason: String,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps tried and rejected.
+    pub rejected_steps: u64,
+    /// Evaluations of the forces.
+    pub force_evaluations: u64,
+    /// Wall time of the integration, s.
+    pub wall_time_s: f64,
+    /// Start, s.
+    pub start_s: f64,
+    /// Time reached, s.
+    pub reached_s: f64,
+    /// End as planned, s.
+    pub end_s: f64,
+    /// Drift of the invariants.
+    pub invariants: Value,
+    /// Errors against the reference.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference: Option<Value>,
+    /// What the plan skipped.
+    pub skipped: Vec<Item>,
+}
+
+impl Summary {
+    /// The summary of a run.
+    #[must_use]
+    pub fn of(scene: &Scene, plan: &Plan, run: &Run) -> Self {
+        let (status, failure) = match &run.outcome {
+            Outcome::Completed => ("completed", None),
+            Outcome::Interrupted => ("interrupted", None),
+            Outcome::Failed(why) => ("failed", Some(why.clone())),
+        };
+        Self {
+            name: scene.name.clone(),
+            status: status.to_string(),
+            failure,
+            method: plan.method.to_string(),
+            method_details: plan.method,
+            method_reason: plan.reason.clone(),
+            steps: run.steps,
+            rejected_steps: run.rejected,
+            force_evaluations: run.force_evaluations,
+            wall_time_s: run.wall_time,
+            start_s: plan.start,
+            reached_s: run.time,
+            end_s: plan.end,
+            invariants: invariants(run),
+            reference: reference(run),
+            skipped: plan.skipped.clone(),
+        }
+    }
+
+    /// The summary as JSON text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Nothing in a summary can fail to serialise: numbers that are not finite become null.
+        let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+}
+
+fn invariants(run: &Run) -> Value {
+    let drift = |drift: Option<Drift>| match drift {
+        Some(drift) => json!({ "max_relative_drift": drift.max_relative, "last_relative_drift": drift.last_relative }),
+        None => json!({ "max_relative_drift": null, "conserved": false }),
+    };
+    let mut invariants = json!({
+        "energy": drift(run.drifts.energy),
+        "momentum": drift(run.drifts.momentum),
+        "angular_momentum": drift(run.drifts.angular_momentum),
+    });
+    if run.drifts.post_newtonian_energy.is_some() {
+        invariants["post_newtonian_energy"] = drift(run.drifts.post_newtonian_energy);
+    }
+    invariants
+}
+
+fn reference(run: &Run) -> Option<Value> {
+    let errors = run.errors.as_ref()?;
+    let by_body: Map<String, Value> = errors
+        .bodies
+        .iter()
+        .map(|body| {
+            let errors = json!({
+                "max_relative_error": body.largest_relative,
+                "max_error_m": body.largest,
+                "last_relative_error": body.at.last().map(|last| last.relative),
+            });
+            (body.name.clone(), errors)
+        })
+        .collect();
+    Some(json!({ "label": errors.label, "max_relative_error": errors.largest_relative, "by_body": by_body }))
+}

@@ -1,0 +1,150 @@
+//! The choice of a method and its step.
+
+use piola_integrators::Order;
+
+use super::Method;
+use crate::kepler::KeplerMotion;
+use crate::model::{Central, Gravitation, Scene, System};
+
+/// Steps a method of order 8 takes for each turn of the fastest motion: errors near rounding on mild ellipses.
+const STEPS_PER_TURN: f64 = 100.0;
+/// Relative tolerance when none is asked for.
+const TOLERANCE: f64 = 1e-12;
+/// The same where rounding is to be reached over many revolutions.
+const FINE_TOLERANCE: f64 = 1e-14;
+
+/// The method and why.
+pub(super) fn method(scene: &Scene) -> (Method, String) {
+    let request = &scene.integrator;
+    let (family, order) = match request.method.rsplit_once('-') {
+        Some((family, order)) => (family, Order::ALL.into_iter().find(|known| known.value().to_string() == order)),
+        None => ("auto", None),
+    };
+    match (family, order) {
+        ("composition", Some(order)) => {
+            let (step, why) = step(scene, order);
+            (Method::Composition { order, step }, format!("integrator.method asks for it; {why}"))
+        }
+        ("gauss-legendre", Some(order)) => {
+            let (step, why) = step(scene, order);
+            (Method::GaussLegendre { order, step }, format!("integrator.method asks for it; {why}"))
+        }
+        ("dormand-prince", _) => {
+            (adaptive(scene, TOLERANCE), "integrator.method asks for it; the step adapts".to_string())
+        }
+        _ => automatic(scene),
+    }
+}
+
+fn adaptive(scene: &Scene, tolerance: f64) -> Method {
+    Method::DormandPrince { tolerance: scene.integrator.tolerance.unwrap_or(tolerance) }
+}
+
+fn automatic(scene: &Scene) -> (Method, String) {
+    let asked = |what: &str| what.to_string();
+    let request = &scene.integrator;
+    match &scene.system {
+        System::Gravitation(system) if system.post_newtonian.is_some() => {
+            if request.step.is_some() {
+                let (step, why) = step(scene, Order::Eight);
+                let why = format!("the post-Newtonian force depends on velocity, which no explicit composition allows; {why}");
+                return (Method::GaussLegendre { order: Order::Eight, step }, why);
+            }
+            (
+                adaptive(scene, FINE_TOLERANCE),
+                asked("the post-Newtonian force depends on velocity, so that no explicit symplectic composition applies; adaptive, order 8(5,3)"),
+            )
+        }
+        System::Gravitation(system) => {
+            if request.tolerance.is_some() || (request.step.is_none() && !hierarchical(system)) {
+                let why = if request.tolerance.is_some() { "integrator.tolerance asks for an adaptive step" } else { "no body dominates, so that close encounters may come: the step adapts" };
+                return (adaptive(scene, TOLERANCE), asked(why));
+            }
+            let (step, why) = step(scene, Order::Eight);
+            (
+                Method::Composition { order: Order::Eight, step },
+                format!("forces depend on positions alone and one body dominates: explicit, symplectic, energy does not drift; {why}"),
+            )
+        }
+        System::Central(system) => {
+            let e = eccentricity(system);
+            if request.step.is_some() || (request.tolerance.is_none() && e <= 0.2) {
+                let (step, why) = step(scene, Order::Eight);
+                return (
+                    Method::Composition { order: Order::Eight, step },
+                    format!("forces depend on positions alone and the orbit is near a circle: explicit, symplectic; {why}"),
+                );
+            }
+            (adaptive(scene, FINE_TOLERANCE), format!("the eccentricity {e:.4} needs steps of very different lengths: the step adapts"))
+        }
+        System::Mechanism(_) => match request.step {
+            Some(step) => (
+                Method::GaussLegendre { order: Order::Eight, step },
+                asked("a fixed step is asked for, and the inertia metric depends on the coordinates: implicit, symplectic"),
+            ),
+            None => (
+                adaptive(scene, FINE_TOLERANCE),
+                asked("the inertia metric depends on the coordinates, so that no explicit symplectic method applies; adaptive, order 8(5,3)"),
+            ),
+        },
+    }
+}
+
+/// The step asked for, or one made from the fastest motion at the start.
+fn step(scene: &Scene, order: Order) -> (f64, String) {
+    let span = scene.time.end - scene.time.start;
+    if let Some(step) = scene.integrator.step {
+        return (step.min(span), "the step is integrator.step".to_string());
+    }
+    let turn = match &scene.system {
+        System::Gravitation(system) => fastest_turn(system),
+        System::Central(system) => turn_at_pericentre(system),
+        System::Mechanism(_) => None,
+    };
+    let per_turn = STEPS_PER_TURN * if order == Order::Eight { 1.0 } else { 4.0 };
+    match turn {
+        Some(turn) if turn.is_finite() && 0.0 < turn => {
+            ((turn / per_turn).min(span), format!("the step is 1/{per_turn} of the fastest turn, {:.4} d", turn / 86_400.0))
+        }
+        _ => (span / 10_000.0, "the step is 1/10000 of the time, for want of a better measure".to_string()),
+    }
+}
+
+/// Whether one body has most of the mass.
+fn hierarchical(system: &Gravitation) -> bool {
+    let total: f64 = system.bodies.iter().map(|body| body.gm).sum();
+    let largest = system.bodies.iter().map(|body| body.gm).fold(0.0, f64::max);
+    0.9 * total < largest
+}
+
+/// The shortest period that any pair would have on a circle at its distance, s.
+fn fastest_turn(system: &Gravitation) -> Option<f64> {
+    /// More pairs than this are not looked through.
+    const MOST: usize = 3000;
+    let bodies = &system.bodies[..system.bodies.len().min(MOST)];
+    let softening = system.softening * system.softening;
+    let mut fastest = f64::INFINITY;
+    for (i, one) in bodies.iter().enumerate() {
+        for other in &bodies[i + 1..] {
+            let square: f64 = one.position.iter().zip(other.position).map(|(a, b)| (a - b) * (a - b)).sum();
+            let cube = (square + softening).powf(1.5);
+            fastest = fastest.min(core::f64::consts::TAU * (cube / (one.gm + other.gm)).sqrt());
+        }
+    }
+    (fastest < f64::INFINITY).then_some(fastest)
+}
+
+/// The period of a circle through the nearest pericentre, s.
+fn turn_at_pericentre(system: &Central) -> Option<f64> {
+    system
+        .bodies
+        .iter()
+        .filter_map(|body| KeplerMotion::new(system.gm, body.position, body.velocity).ok())
+        .map(|motion| motion.period() * (1.0 - motion.eccentricity()).powf(1.5))
+        .reduce(f64::min)
+}
+
+fn eccentricity(system: &Central) -> f64 {
+    let motions = system.bodies.iter().map(|body| KeplerMotion::new(system.gm, body.position, body.velocity));
+    motions.map(|motion| motion.map_or(1.0, |motion| motion.eccentricity())).fold(0.0, f64::max)
+}

@@ -1,0 +1,347 @@
+//! What will be computed, by which method and step, and what is skipped, each with its reason.
+
+mod choice;
+
+use core::fmt;
+
+use piola_integrators::Order;
+use serde::Serialize;
+
+use crate::model::{Comparison, Scene, System};
+
+/// The plan of a run.
+///
+/// # Example
+/// ```
+/// use piola_scene::{Document, Plan, Scene};
+/// let document = Document::parse("orbit.toml", "
+///     [central]
+///     gm = 1.0
+///     [[body]]
+///     name = 'comet'
+///     semi_major_axis = 1.0
+///     eccentricity = 0.99
+///     [time]
+///     revolutions = 3
+/// ");
+/// let plan = Plan::of(&Scene::from_document(&document)?);
+/// assert_eq!(plan.method.to_string(), "dormand-prince-853");
+/// assert!(plan.reason.contains("eccentricity"));
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Plan {
+    /// Name of the scene.
+    pub name: String,
+    /// The system in words.
+    pub system: String,
+    /// Number of first-order equations.
+    pub equations: usize,
+    /// Method of integration.
+    pub method: Method,
+    /// Why this method with this step.
+    pub reason: String,
+    /// Start, s.
+    pub start: f64,
+    /// End, s.
+    pub end: f64,
+    /// Estimated number of steps, for a fixed step.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<u64>,
+    /// Instants at which the state is recorded.
+    pub instants: usize,
+    /// What is computed besides the motion.
+    pub computed: Vec<Item>,
+    /// What is not computed.
+    pub skipped: Vec<Item>,
+    /// Folder of the results.
+    pub folder: String,
+    /// Files that will be written.
+    pub files: Vec<String>,
+}
+
+/// Something that is computed or skipped, with the reason.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct Item {
+    /// What.
+    pub what: String,
+    /// Why, or how.
+    pub why: String,
+}
+
+/// A method of integration with its step or tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(into = "MethodSummary")]
+pub enum Method {
+    /// Explicit symplectic composition.
+    Composition {
+        /// Order.
+        order: Order,
+        /// Longest step, s.
+        step: f64,
+    },
+    /// Gauss–Legendre collocation.
+    GaussLegendre {
+        /// Order.
+        order: Order,
+        /// Longest step, s.
+        step: f64,
+    },
+    /// Adaptive Runge–Kutta of order 8(5,3).
+    DormandPrince {
+        /// Relative tolerance of a step.
+        tolerance: f64,
+    },
+}
+
+#[derive(Serialize)]
+struct MethodSummary {
+    name: String,
+    order: u32,
+    symplectic: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step_s: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    relative_tolerance: Option<f64>,
+}
+
+impl From<Method> for MethodSummary {
+    fn from(method: Method) -> Self {
+        let (order, symplectic, step_s, relative_tolerance) = match method {
+            Method::Composition { order, step } | Method::GaussLegendre { order, step } => {
+                (order.value(), true, Some(step), None)
+            }
+            Method::DormandPrince { tolerance } => (8, false, None, Some(tolerance)),
+        };
+        Self { name: method.to_string(), order, symplectic, step_s, relative_tolerance }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Composition { order, .. } => write!(f, "composition-{}", order.value()),
+            Self::GaussLegendre { order, .. } => write!(f, "gauss-legendre-{}", order.value()),
+            Self::DormandPrince { .. } => f.write_str("dormand-prince-853"),
+        }
+    }
+}
+
+impl Method {
+    /// The longest step of a method of fixed step, s.
+    #[must_use]
+    pub fn step(&self) -> Option<f64> {
+        match self {
+            Self::Composition { step, .. } | Self::GaussLegendre { step, .. } => Some(*step),
+            Self::DormandPrince { .. } => None,
+        }
+    }
+}
+
+impl Plan {
+    /// The plan of a scene.
+    #[must_use]
+    pub fn of(scene: &Scene) -> Self {
+        let (method, reason) = choice::method(scene);
+        let span = scene.time.end - scene.time.start;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, and the cast saturates")]
+        let steps = method.step().map(|step| (span / step).ceil() as u64);
+        let mut plan = Self {
+            name: scene.name.clone(),
+            system: describe(&scene.system),
+            equations: equations(&scene.system),
+            method,
+            reason,
+            start: scene.time.start,
+            end: scene.time.end,
+            steps,
+            instants: instants(scene).len(),
+            computed: Vec::new(),
+            skipped: Vec::new(),
+            folder: scene.output.folder.display().to_string(),
+            files: vec!["summary.json".to_string()],
+        };
+        plan.system_items(scene);
+        plan.output_items(scene);
+        plan
+    }
+
+    fn compute(&mut self, what: &str, why: impl Into<String>) {
+        self.computed.push(Item { what: what.to_string(), why: why.into() });
+    }
+
+    fn skip(&mut self, what: &str, why: impl Into<String>) {
+        self.skipped.push(Item { what: what.to_string(), why: why.into() });
+    }
+
+    fn system_items(&mut self, scene: &Scene) {
+        match &scene.system {
+            System::Gravitation(system) => {
+                self.compute("Newtonian attraction", "every pair once, direct summation");
+                match system.post_newtonian {
+                    Some(term) => self.compute(
+                        "post-Newtonian term",
+                        format!("first order, of {}, with its reaction: gravity.post_newtonian = true", system.bodies[term.central].name),
+                    ),
+                    None => self.skip("post-Newtonian term", "gravity.post_newtonian = false"),
+                }
+                if system.softening > 0.0 {
+                    self.compute("softening", format!("gravity.softening = {} m", system.softening));
+                } else {
+                    self.skip("softening", "gravity.softening = 0: the true law");
+                }
+                self.skip("attitudes", "bodies without extent");
+                self.skip("collisions", "bodies without extent cannot touch");
+                self.compute("energy, momentum, moment of momentum", "conserved: compensated sums at every recorded instant");
+            }
+            System::Mechanism(system) => {
+                self.compute("inertia metric and its derivatives", "exact derivatives of the placement of the parts");
+                if system.gravity.iter().all(|g| g.abs() <= 0.0) {
+                    self.skip("gravity", "mechanism.gravity is zero");
+                } else {
+                    self.compute("gravity", format!("uniform, {:?} m/s²", system.gravity));
+                }
+                if !system.parts.iter().any(|part| part.rigid) {
+                    self.skip("attitudes", "no rigid bodies");
+                }
+                self.skip("row of time in the metric", "the placement does not depend on time");
+                self.compute("energy", "conserved: at every recorded instant");
+                self.skip("momentum and moment of momentum", "not conserved: the ground holds the mechanism");
+            }
+            System::Central(system) => {
+                self.compute("central attraction", format!("gm = {} m³/s²", system.gm));
+                self.skip("attraction between bodies", "[central]: the bodies do not attract");
+                self.skip("attitudes", "bodies without extent");
+                self.compute("energy and moment of momentum", "conserved: at every recorded instant");
+                self.skip("momentum", "not conserved: the centre is held");
+            }
+        }
+    }
+
+    fn output_items(&mut self, scene: &Scene) {
+        match &scene.reference {
+            Some(reference) => {
+                let how = match &reference.comparison {
+                    Comparison::Table(table) => {
+                        format!("{} instants of {}", table.times.len(), table.path.display())
+                    }
+                    Comparison::ClosedForm(_) => "closed form at every recorded instant".to_string(),
+                };
+                self.compute("error against reference", how);
+            }
+            None => self.skip("error against reference", "no [reference]"),
+        }
+        if scene.output.tables {
+            self.files.extend(["trajectory.csv", "invariants.csv"].map(str::to_string));
+            if matches!(scene.system, System::Mechanism(_)) {
+                self.files.push("coordinates.csv".to_string());
+            }
+            if scene.reference.is_some() {
+                self.files.push("reference.csv".to_string());
+            }
+        } else {
+            self.skip("tables", "output.tables = false");
+        }
+        if scene.output.figures {
+            self.files.extend(["trajectory.svg", "invariants.svg"].map(str::to_string));
+            if scene.reference.is_some() {
+                self.files.push("error.svg".to_string());
+            }
+        } else {
+            self.skip("figures", "output.figures = false");
+        }
+    }
+}
+
+/// Samples and instants of the reference, ascending, each once.
+pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
+    let (start, end) = (scene.time.start, scene.time.end);
+    let last = f64::from(scene.output.samples - 1);
+    let mut instants: Vec<f64> = (0..scene.output.samples)
+        .map(|i| if i + 1 == scene.output.samples { end } else { start + (end - start) * (f64::from(i) / last) })
+        .collect();
+    if let Some(Comparison::Table(table)) = scene.reference.as_ref().map(|reference| &reference.comparison) {
+        instants.extend(&table.times);
+    }
+    instants.sort_by(f64::total_cmp);
+    // Two instants that differ by rounding alone are one; an instant of the reference is the one that stays.
+    let wanted = reference_times(scene);
+    let slack = 1e-12 * (end - start);
+    let mut merged: Vec<f64> = Vec::with_capacity(instants.len());
+    for t in instants {
+        match merged.last_mut() {
+            Some(last) if t - *last <= slack => {
+                if wanted.binary_search_by(|probe| probe.total_cmp(&t)).is_ok() {
+                    *last = t;
+                }
+            }
+            _ => merged.push(t),
+        }
+    }
+    merged
+}
+
+/// The instants of a reference table, ascending.
+pub(crate) fn reference_times(scene: &Scene) -> &[f64] {
+    match scene.reference.as_ref().map(|reference| &reference.comparison) {
+        Some(Comparison::Table(table)) => &table.times,
+        _ => &[],
+    }
+}
+
+fn describe(system: &System) -> String {
+    let count = |n: usize, what: &str| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") };
+    match system {
+        System::Gravitation(system) => {
+            let bodies = if system.bodies.len() == 1 { "1 body".to_string() } else { format!("{} bodies", system.bodies.len()) };
+            format!("{bodies} attracting each other")
+        }
+        System::Mechanism(system) => {
+            let rigid = system.parts.iter().filter(|part| part.rigid).count();
+            let mut parts = Vec::new();
+            if rigid < system.parts.len() {
+                parts.push(count(system.parts.len() - rigid, "particle"));
+            }
+            if 0 < rigid {
+                parts.push(if rigid == 1 { "1 rigid body".to_string() } else { format!("{rigid} rigid bodies") });
+            }
+            format!("mechanism of {} with {}", parts.join(" and "), count(system.coordinates.len(), "coordinate"))
+        }
+        System::Central(system) => {
+            let n = system.bodies.len();
+            format!("{} about a fixed centre", if n == 1 { "1 body".to_string() } else { format!("{n} bodies") })
+        }
+    }
+}
+
+fn equations(system: &System) -> usize {
+    match system {
+        System::Gravitation(system) => 6 * system.bodies.len(),
+        System::Mechanism(system) => 2 * system.coordinates.len(),
+        System::Central(system) => 6 * system.bodies.len(),
+    }
+}
+
+impl fmt::Display for Plan {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}: {}, {} equations of first order", self.name, self.system, self.equations)?;
+        write!(f, "time      {} s to {} s", self.start, self.end)?;
+        writeln!(f, ", recorded at {} instants", self.instants)?;
+        write!(f, "method    {}", self.method)?;
+        match self.method {
+            Method::DormandPrince { tolerance } => writeln!(f, ", relative tolerance {tolerance:e}")?,
+            Method::Composition { step, .. } | Method::GaussLegendre { step, .. } => {
+                writeln!(f, ", step {step} s, {} steps", self.steps.unwrap_or_default())?;
+            }
+        }
+        writeln!(f, "          {}", self.reason)?;
+        for (heading, items) in [("computed", &self.computed), ("skipped", &self.skipped)] {
+            for (index, item) in items.iter().enumerate() {
+                writeln!(f, "{:<10}{}: {}", if index == 0 { heading } else { "" }, item.what, item.why)?;
+            }
+        }
+        write!(f, "written   {}: {}", self.folder, self.files.join(", "))
+    }
+}

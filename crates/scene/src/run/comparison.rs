@@ -1,0 +1,108 @@
+//! Errors against a reference.
+
+use super::History;
+use crate::model::{ClosedForm, Comparison, Scene};
+
+/// Errors of all bodies.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Errors {
+    /// What the reference is called.
+    pub label: String,
+    /// The largest relative error of any body.
+    pub largest_relative: f64,
+    /// Errors by body; a body that distances are measured from is not among them.
+    pub bodies: Vec<BodyErrors>,
+}
+
+/// Errors of one body.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct BodyErrors {
+    /// Index of the body.
+    pub body: usize,
+    /// Name of the body.
+    pub name: String,
+    /// The largest error of position, m.
+    pub largest: f64,
+    /// The largest relative error of position.
+    pub largest_relative: f64,
+    /// Errors at each instant.
+    pub at: Vec<ErrorAt>,
+}
+
+/// The error of a position at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorAt {
+    /// Time, s.
+    pub time: f64,
+    /// |x − x_ref|, m.
+    pub error: f64,
+    /// The same divided by the distance that the scene's `relative_to` says.
+    pub relative: f64,
+}
+
+/// Positions of the reference at one recorded instant.
+type Known = Vec<(usize, [f64; 3])>;
+
+pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
+    let reference = scene.reference.as_ref()?;
+    let known: Vec<(usize, Known)> = match &reference.comparison {
+        Comparison::Table(table) => table
+            .times
+            .iter()
+            .zip(&table.positions)
+            .filter_map(|(t, known)| {
+                // Recorded instants stand within rounding of the reference's.
+                let slack = 1e-12 * (scene.time.end - scene.time.start);
+                let record = history.times.iter().position(|time| (time - t).abs() <= slack)?;
+                Some((record, known.clone()))
+            })
+            .collect(),
+        Comparison::ClosedForm(ClosedForm::Kepler(motions)) => history
+            .times
+            .iter()
+            .enumerate()
+            .map(|(record, t)| {
+                let at = |motion: &crate::kepler::KeplerMotion| motion.position(t - scene.time.start);
+                (record, motions.iter().map(at).enumerate().collect())
+            })
+            .collect(),
+    };
+    let overall = known.iter().flat_map(|(_, known)| known).map(|(_, x)| distance(*x, [0.0; 3])).fold(0.0, f64::max);
+    let scale = |body: usize, position: [f64; 3], known: &Known| match (reference.relative_to, &reference.comparison) {
+        (Some(centre), _) => known.iter().find(|(other, _)| *other == centre).map(|(_, x)| distance(position, *x)),
+        (None, Comparison::ClosedForm(ClosedForm::Kepler(motions))) => Some(motions[body].semi_major_axis()),
+        (None, Comparison::Table(_)) => Some(overall),
+    };
+    let mut bodies: Vec<BodyErrors> = Vec::new();
+    for (body, name) in history.names.iter().enumerate() {
+        if reference.relative_to == Some(body) {
+            continue;
+        }
+        let mut at = Vec::new();
+        for (record, known) in &known {
+            let Some((_, expected)) = known.iter().find(|(other, _)| *other == body) else { continue };
+            let Some(scale) = scale(body, *expected, known) else { continue };
+            let error = distance(history.positions[*record][body], *expected);
+            at.push(ErrorAt { time: history.times[*record], error, relative: error / scale });
+        }
+        if at.is_empty() {
+            continue;
+        }
+        let largest = |pick: fn(&ErrorAt) -> f64| at.iter().map(pick).fold(0.0, |a: f64, b| if b.is_nan() { b } else { a.max(b) });
+        bodies.push(BodyErrors {
+            body,
+            name: name.clone(),
+            largest: largest(|e| e.error),
+            largest_relative: largest(|e| e.relative),
+            at,
+        });
+    }
+    let largest_relative = bodies.iter().map(|body| body.largest_relative).fold(0.0, f64::max);
+    Some(Errors { label: reference.label.clone(), largest_relative, bodies })
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}

@@ -1,0 +1,121 @@
+//! What a run records: positions and coordinates at instants, invariants at ends of steps.
+
+/// Positions, coordinates and invariants over time.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct History {
+    /// Names of the bodies or parts.
+    pub names: Vec<String>,
+    /// Instants, s.
+    pub times: Vec<f64>,
+    /// Positions, m: for each instant one a body.
+    pub positions: Vec<Vec<[f64; 3]>>,
+    /// Velocities, m/s, in the same order; empty for a mechanism, which has `coordinates`.
+    pub velocities: Vec<Vec<[f64; 3]>>,
+    /// Names of the coordinates of a mechanism.
+    pub coordinate_names: Vec<String>,
+    /// Coordinates and then their rates, for each instant; empty unless a mechanism.
+    pub coordinates: Vec<Vec<f64>>,
+    /// Invariants. With an adaptive method they stand at the end of the step that an instant falls into, where the state is
+    /// best known.
+    pub invariants: Vec<Invariants>,
+}
+
+/// What should stay constant, at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Invariants {
+    /// Time, s.
+    pub time: f64,
+    /// Kinetic and potential energy, J.
+    pub energy: f64,
+    /// What energies are compared with besides the first one: kinetic energy in a mechanism, whose potential has an arbitrary zero; 0
+    /// otherwise.
+    pub energy_scale: f64,
+    /// Energy with the post-Newtonian part, J, when that is on.
+    pub post_newtonian_energy: Option<f64>,
+    /// Σ m v, kg m/s, and Σ m |v|, where momentum is conserved.
+    pub momentum: Option<([f64; 3], f64)>,
+    /// Σ m r × v, kg m²/s, and Σ m |r × v|, where it is conserved.
+    pub angular_momentum: Option<([f64; 3], f64)>,
+}
+
+/// How far one invariant went from its first value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Drift {
+    /// The largest |change| over the whole run, relative.
+    pub max_relative: f64,
+    /// The |change| at the end, relative.
+    pub last_relative: f64,
+}
+
+/// The drifts; `None` for what is not conserved.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Drifts {
+    /// |E − E₀| relative to |E₀| (in a mechanism to the largest of |E₀| and the kinetic energy).
+    pub energy: Option<Drift>,
+    /// The same of the energy with its post-Newtonian part.
+    pub post_newtonian_energy: Option<Drift>,
+    /// |P − P₀| relative to Σ m |v|.
+    pub momentum: Option<Drift>,
+    /// |H − H₀| relative to Σ m |r × v|.
+    pub angular_momentum: Option<Drift>,
+}
+
+impl History {
+    /// The drifts of the recorded invariants.
+    #[must_use]
+    pub fn drifts(&self) -> Drifts {
+        let series = self.drift_series();
+        let of = |pick: fn(&DriftAt) -> Option<f64>| {
+            let values: Vec<f64> = series.iter().filter_map(pick).collect();
+            let last = *values.last()?;
+            // A drift that is not a number is the largest of all.
+            let largest = values.iter().fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(*b) });
+            Some(Drift { max_relative: largest, last_relative: last })
+        };
+        Drifts {
+            energy: of(|drift| Some(drift.energy)),
+            post_newtonian_energy: of(|drift| drift.post_newtonian_energy),
+            momentum: of(|drift| drift.momentum),
+            angular_momentum: of(|drift| drift.angular_momentum),
+        }
+    }
+
+    /// Relative changes since the first record, one for each record.
+    pub(crate) fn drift_series(&self) -> Vec<DriftAt> {
+        let Some(first) = self.invariants.first() else { return Vec::new() };
+        let energy_scale =
+            self.invariants.iter().map(|record| record.energy_scale).fold(first.energy.abs(), f64::max);
+        let relative = |change: f64, scale: f64| if 0.0 < scale { change / scale } else { change };
+        let vector = |pick: fn(&Invariants) -> Option<([f64; 3], f64)>, record: &Invariants| {
+            let ((now, scale), (start, _)) = (pick(record)?, pick(first)?);
+            let square: f64 = now.iter().zip(start).map(|(a, b)| (a - b) * (a - b)).sum();
+            Some(relative(square.sqrt(), scale))
+        };
+        self.invariants
+            .iter()
+            .map(|record| DriftAt {
+                time: record.time,
+                energy: relative((record.energy - first.energy).abs(), energy_scale),
+                post_newtonian_energy: record
+                    .post_newtonian_energy
+                    .zip(first.post_newtonian_energy)
+                    .map(|(now, start)| relative((now - start).abs(), start.abs())),
+                momentum: vector(|record| record.momentum, record),
+                angular_momentum: vector(|record| record.angular_momentum, record),
+            })
+            .collect()
+    }
+}
+
+/// Relative changes at one time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DriftAt {
+    pub(crate) time: f64,
+    pub(crate) energy: f64,
+    pub(crate) post_newtonian_energy: Option<f64>,
+    pub(crate) momentum: Option<f64>,
+    pub(crate) angular_momentum: Option<f64>,
+}

@@ -1,0 +1,111 @@
+//! Runs a planned scene and keeps its history.
+
+mod comparison;
+mod drive;
+mod history;
+mod systems;
+
+use core::ops::ControlFlow;
+use std::time::Instant;
+
+use piola_integrators::{Ending, Report};
+
+pub use comparison::{BodyErrors, ErrorAt, Errors};
+pub(crate) use history::DriftAt;
+pub use history::{Drift, Drifts, History, Invariants};
+
+use crate::model::{Scene, System};
+use crate::plan::Plan;
+use drive::Driver;
+
+/// What an observer of a run sees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Progress {
+    /// Time reached, s.
+    pub time: f64,
+    /// Part of the span that is done, 0 to 1.
+    pub fraction: f64,
+    /// Steps so far.
+    pub steps: u64,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// The end was reached.
+    Completed,
+    /// The observer stopped it.
+    Interrupted,
+    /// It failed, as the text says.
+    Failed(String),
+}
+
+/// A run with all that it recorded, however far it came.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Time reached, s.
+    pub time: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps tried and rejected.
+    pub rejected: u64,
+    /// Evaluations of the forces.
+    pub force_evaluations: u64,
+    /// Wall time of the integration with its recording, s.
+    pub wall_time: f64,
+    /// What was recorded.
+    pub history: History,
+    /// Drift of the invariants.
+    pub drifts: Drifts,
+    /// Errors against the reference, when there is one.
+    pub errors: Option<Errors>,
+}
+
+/// Runs a scene as planned. The observer sees the progress after every step and may stop the run.
+///
+/// A run that fails or is stopped returns what it recorded until then.
+///
+/// # Example
+/// ```
+/// use piola_scene::{Document, Plan, Scene, run};
+/// let document = Document::parse("orbit.toml", "
+///     [central]
+///     gm = 1.0
+///     [[body]]
+///     name = 'comet'
+///     semi_major_axis = 1.0
+///     eccentricity = 0.5
+///     [time]
+///     revolutions = 1
+///     [reference]
+///     closed_form = 'kepler'
+/// ");
+/// let scene = Scene::from_document(&document)?;
+/// let run = run::run(&scene, &Plan::of(&scene), |_| std::ops::ControlFlow::Continue(()));
+/// assert!(run.errors.unwrap().largest_relative < 1e-11);
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
+pub fn run(scene: &Scene, plan: &Plan, observer: impl FnMut(Progress) -> ControlFlow<()>) -> Run {
+    let begun = Instant::now();
+    let mut driver = Driver::new(scene, plan, observer);
+    let result = match &scene.system {
+        System::Gravitation(system) => systems::gravitation(system, plan, &mut driver),
+        System::Mechanism(system) => systems::mechanism(system, plan, &mut driver),
+        System::Central(system) => systems::central(system, plan, &mut driver),
+    };
+    let (history, report, time) = driver.finish();
+    let wall_time = begun.elapsed().as_secs_f64();
+    let outcome = match result {
+        Err(why) => Outcome::Failed(why),
+        Ok(()) if report.ending == Ending::Stopped => Outcome::Interrupted,
+        Ok(()) => Outcome::Completed,
+    };
+    let Report { steps, rejected, evaluations, .. } = report;
+    let drifts = history.drifts();
+    let errors = comparison::errors(scene, &history);
+    Run { outcome, time, steps, rejected, force_evaluations: evaluations, wall_time, history, drifts, errors }
+}

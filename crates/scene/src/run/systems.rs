@@ -1,0 +1,262 @@
+//! The equations of each kind of system and the reading of its states.
+
+use core::convert::Infallible;
+use core::ops::ControlFlow;
+
+use nalgebra::Vector3;
+use piola_dynamics::gravitation::{self, Gravitation, SPEED_OF_LIGHT, attraction};
+use piola_dynamics::lagrangian::{Lagrangian, Workspace};
+use piola_integrators::{Composition, Field, Separable, State};
+use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
+use piola_numerics::sums::CompensatedSum;
+
+use super::drive::{Driver, Reading};
+use super::{History, Invariants, Progress};
+use crate::model::{self, JointTree, NEWTONIAN_CONSTANT};
+use crate::plan::{Method, Plan};
+
+/// Bodies that attract each other.
+pub(super) fn gravitation(
+    system: &model::Gravitation,
+    plan: &Plan,
+    driver: &mut Driver<impl FnMut(Progress) -> ControlFlow<()>>,
+) -> Result<(), String> {
+    let mut bodies = gravitating(system).map_err(|error| error.to_string())?;
+    let positions: Vec<_> = system.bodies.iter().map(|body| body.position).collect();
+    let velocities: Vec<_> = system.bodies.iter().map(|body| body.velocity).collect();
+    let start = bodies.state(&positions, &velocities).map_err(|error| error.to_string())?;
+    let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
+    let mut reading = bodies.clone();
+    match plan.method {
+        Method::Composition { order, step } if system.post_newtonian.is_none() => {
+            let mut method = Composition::new(order, step).map_err(|error| error.to_string())?;
+            driver.separable(&mut method, &mut bodies, &mut state, &mut reading)
+        }
+        _ => driver.field(plan, &mut bodies, &mut state, &mut reading),
+    }
+}
+
+fn gravitating(system: &model::Gravitation) -> Result<Gravitation, piola_dynamics::DynamicsError> {
+    let bodies = Gravitation::new(system.bodies.iter().map(|body| body.gm).collect())?
+        .with_softening(system.softening)?;
+    match system.post_newtonian {
+        None => Ok(bodies),
+        Some(term) => bodies.with_post_newtonian(gravitation::PostNewtonian {
+            centre: term.central,
+            speed_of_light: SPEED_OF_LIGHT,
+        }),
+    }
+}
+
+impl Reading for Gravitation {
+    fn record(&mut self, time: f64, values: &[f64], history: &mut History) {
+        history.times.push(time);
+        history.positions.push((0..self.bodies()).map(|body| Gravitation::position(self, values, body)).collect());
+        history.velocities.push((0..self.bodies()).map(|body| Gravitation::velocity(self, values, body)).collect());
+    }
+
+    fn invariants(&mut self, time: f64, values: &[f64]) -> Invariants {
+        let sums = Gravitation::invariants(self, values);
+        // The sums are of Gm: one division makes them joules and newton-seconds.
+        let mass = |x: f64| x / NEWTONIAN_CONSTANT;
+        Invariants {
+            time,
+            energy: mass(sums.energy),
+            energy_scale: 0.0,
+            post_newtonian_energy: self.post_newtonian().map(|_| mass(sums.post_newtonian_energy)),
+            momentum: Some((sums.momentum.map(mass), mass(sums.momentum_scale))),
+            angular_momentum: Some((sums.moment_of_momentum.map(mass), mass(sums.moment_of_momentum_scale))),
+        }
+    }
+}
+
+/// Bodies about a fixed centre.
+pub(super) fn central(
+    system: &model::Central,
+    plan: &Plan,
+    driver: &mut Driver<impl FnMut(Progress) -> ControlFlow<()>>,
+) -> Result<(), String> {
+    let places = system.bodies.iter().flat_map(|body| body.position);
+    let start = places.chain(system.bodies.iter().flat_map(|body| body.velocity)).collect();
+    let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
+    let mut field = CentralField { gm: system.gm, freedom: 3 * system.bodies.len() };
+    match plan.method {
+        Method::Composition { order, step } => {
+            let mut method = Composition::new(order, step).map_err(|error| error.to_string())?;
+            driver.separable(&mut method, &mut field, &mut state, &mut CentralReading(system))
+        }
+        _ => driver.field(plan, &mut field, &mut state, &mut CentralReading(system)),
+    }
+}
+
+/// ẍ = −μ x/|x|³ for each body.
+struct CentralField {
+    gm: f64,
+    freedom: usize,
+}
+
+impl Separable for CentralField {
+    type Error = Infallible;
+    fn freedom(&self) -> usize {
+        self.freedom
+    }
+    fn force(&mut self, _t: f64, position: &[f64], force: &mut [f64]) -> Result<(), Infallible> {
+        for (x, f) in position.chunks_exact(3).zip(force.chunks_exact_mut(3)) {
+            f.copy_from_slice(&attraction([-x[0], -x[1], -x[2]], self.gm, 0.0));
+        }
+        Ok(())
+    }
+}
+
+impl Field for CentralField {
+    type Error = Infallible;
+    fn dimension(&self) -> usize {
+        2 * self.freedom
+    }
+    fn is_second_order(&self) -> bool {
+        true
+    }
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
+        let (positions, velocities) = y.split_at(self.freedom);
+        let (rate, force) = rate.split_at_mut(self.freedom);
+        rate.copy_from_slice(velocities);
+        self.force(t, positions, force)
+    }
+    /// Each body by itself: a distant one must not hide the error of a near one.
+    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
+        for (values, magnitudes) in y.chunks_exact(3).zip(magnitudes.chunks_exact_mut(3)) {
+            magnitudes.fill(values.iter().map(|x| x * x).sum::<f64>().sqrt());
+        }
+    }
+}
+
+struct CentralReading<'s>(&'s model::Central);
+
+fn triples(values: &[f64]) -> Vec<[f64; 3]> {
+    values.chunks_exact(3).map(|x| [x[0], x[1], x[2]]).collect()
+}
+
+impl Reading for CentralReading<'_> {
+    fn record(&mut self, time: f64, values: &[f64], history: &mut History) {
+        let (positions, velocities) = values.split_at(values.len() / 2);
+        history.times.push(time);
+        history.positions.push(triples(positions));
+        history.velocities.push(triples(velocities));
+    }
+
+    fn invariants(&mut self, time: f64, values: &[f64]) -> Invariants {
+        let (positions, velocities) = values.split_at(values.len() / 2);
+        let mut energy = CompensatedSum::new();
+        let mut moment = [CompensatedSum::new(); 3];
+        let mut scale = CompensatedSum::new();
+        for ((body, x), v) in self.0.bodies.iter().zip(positions.chunks_exact(3)).zip(velocities.chunks_exact(3)) {
+            let mut own = [0.0; 3];
+            for k in 0..3 {
+                let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+                energy.add_product(0.5 * body.mass * v[k], v[k]);
+                moment[k].add_product(body.mass * x[a], v[b]);
+                moment[k].add_product(-(body.mass * x[b]), v[a]);
+                own[k] = x[a] * v[b] - x[b] * v[a];
+            }
+            let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+            energy.add(-body.mass * self.0.gm / length(x));
+            scale.add(body.mass * length(&own));
+        }
+        Invariants {
+            time,
+            energy: energy.value(),
+            energy_scale: 0.0,
+            post_newtonian_energy: None,
+            momentum: None,
+            angular_momentum: Some((moment.map(CompensatedSum::value), scale.value())),
+        }
+    }
+}
+
+/// Particles and rigid bodies on joints.
+pub(super) fn mechanism(
+    system: &model::Mechanism,
+    plan: &Plan,
+    driver: &mut Driver<impl FnMut(Progress) -> ControlFlow<()>>,
+) -> Result<(), String> {
+    let n = system.position.len();
+    driver.history().coordinate_names.clone_from(&system.coordinates);
+    let lagrangian = Lagrangian::of(system.tree.clone()).with_uniform_gravity(system.gravity);
+    let canonical = matches!(plan.method, Method::GaussLegendre { .. });
+    let mut start = system.position.clone();
+    if canonical {
+        let momenta = lagrangian.momenta(&system.position, &system.velocity, driver.start());
+        start.extend(momenta.map_err(|error| error.to_string())?.iter());
+    } else {
+        start.extend(&system.velocity);
+    }
+    let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
+    let mut reading =
+        MechanismReading { lagrangian: &lagrangian, canonical, work: Workspace::default(), state: vec![0.0; 2 * n] };
+    if canonical {
+        driver.field(plan, &mut lagrangian.canonical_motion(n), &mut state, &mut reading)
+    } else {
+        driver.field(plan, &mut lagrangian.motion(n), &mut state, &mut reading)
+    }
+}
+
+struct MechanismReading<'l> {
+    lagrangian: &'l Lagrangian<JointTree>,
+    /// Whether states hold momenta instead of velocities.
+    canonical: bool,
+    work: Workspace,
+    /// (q, q̇).
+    state: Vec<f64>,
+}
+
+impl MechanismReading<'_> {
+    fn read(&mut self, time: f64, values: &[f64]) {
+        let n = values.len() / 2;
+        self.state.copy_from_slice(values);
+        if self.canonical {
+            let (q, p) = values.split_at(n);
+            if self.lagrangian.velocities_into(&mut self.work, q, p, time, &mut self.state[n..]).is_err() {
+                self.state[n..].fill(f64::NAN);
+            }
+        }
+    }
+}
+
+impl Reading for MechanismReading<'_> {
+    fn record(&mut self, time: f64, values: &[f64], history: &mut History) {
+        self.read(time, values);
+        let mut places = Places(Vec::new());
+        self.lagrangian.system().place(&self.state[..values.len() / 2], time, &mut places);
+        history.times.push(time);
+        history.positions.push(places.0);
+        history.coordinates.push(self.state.clone());
+    }
+
+    fn invariants(&mut self, time: f64, values: &[f64]) -> Invariants {
+        self.read(time, values);
+        let (q, v) = self.state.split_at(values.len() / 2);
+        let (energy, scale) = match self.lagrangian.energies_with(&mut self.work, q, v, time) {
+            Ok(energies) => (energies.total(), energies.kinetic),
+            Err(_) => (f64::NAN, f64::NAN),
+        };
+        Invariants {
+            time,
+            energy,
+            energy_scale: scale,
+            post_newtonian_energy: None,
+            momentum: None,
+            angular_momentum: None,
+        }
+    }
+}
+
+struct Places(Vec<[f64; 3]>);
+
+impl Placement<f64> for Places {
+    fn particle(&mut self, _mass: f64, position: Vector3<f64>) {
+        self.0.push(position.into());
+    }
+    fn body(&mut self, _body: &RigidBody, centre: Vector3<f64>, _attitude: Attitude<f64>) {
+        self.0.push(centre.into());
+    }
+}
