@@ -1,0 +1,41 @@
+//! A pendulum in ten lines: its period beside that of small swings.
+#![expect(clippy::print_stdout, reason = "an example prints")]
+
+use nalgebra::Vector3;
+use piola::dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+use piola::integrators::{Crossing, DormandPrince853, Event, EventAction, State, Tolerance};
+use piola::numerics::Real;
+use std::ops::ControlFlow::Continue;
+
+struct Pendulum;
+
+impl Holonomic for Pendulum {
+    fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        let (s, c) = q[0].sin_cos();
+        bodies.particle(1.0, Vector3::new(s, T::zero(), -c));
+    }
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let pendulum = Lagrangian::of(Pendulum).with_gravity(9.80665);
+    for degrees in [1.0_f64, 30.0, 90.0, 150.0] {
+        let mut state = State::new(0.0, vec![degrees.to_radians(), 0.0])?;
+        let mut bottom = [Event::new(Crossing::Falling, EventAction::Stop, |_t, y| y[0])];
+        let mut method = DormandPrince853::new(Tolerance::relative(1e-13)?);
+        method.integrate_with_events(
+            &mut pendulum.motion(1),
+            &mut state,
+            60.0,
+            &mut bottom,
+            |_| Continue(()),
+            |_| Continue(()),
+        )?;
+        let small = std::f64::consts::TAU / 9.80665_f64.sqrt();
+        println!(
+            "swing of {degrees:5}°: period {:.12} s, {:.6} of small swings",
+            4.0 * state.time,
+            4.0 * state.time / small
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,82 @@
+#![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+//! Mechanics from Lagrange to Cauchy.
+//!
+//! Piola is a set of small crates; this one re-exports them. Take it whole, or a single crate.
+//!
+//! # A guided tour
+//!
+//! **1. Say where things are.** A system is a map from generalised coordinates to places, written once over
+//! any scalar:
+//!
+//! ```
+//! # #[cfg(feature = "dynamics")] {
+//! use nalgebra::Vector3;
+//! use piola::dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+//! use piola::numerics::Real;
+//!
+//! struct Pendulum { length: f64 }
+//! impl Holonomic for Pendulum {
+//!     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+//!         let (s, c) = q[0].sin_cos();
+//!         let length = T::lit(self.length);
+//!         bodies.particle(1.0, Vector3::new(length * s, T::zero(), -length * c));
+//!     }
+//! }
+//!
+//! // 2. Ask. A call computes what it returns, and nothing else.
+//! let pendulum = Lagrangian::of(Pendulum { length: 2.0 }).with_gravity(10.0);
+//! let quarter_turn = std::f64::consts::FRAC_PI_2;
+//! let acceleration = pendulum.acceleration(&[quarter_turn], &[0.0], 0.0)?;
+//! assert!((acceleration[0] + 5.0).abs() < 1e-15); // −g/l
+//! let energies = pendulum.energies(&[0.0], &[3.0], 0.0)?;
+//! assert_eq!(energies.kinetic, 18.0); // ½ m l² q̇²
+//!
+//! // 3. Run it, with a method chosen and named, and its error estimated…
+//! use piola::integrators::{GaussLegendre, Order, State, Tolerance};
+//! let run = pendulum.integrate(&[1.0], &[0.0], 0.0..10.0, Tolerance::relative(1e-12)?)?;
+//! assert!(run.error_estimate() < 1e-9);
+//!
+//! // 4. …or by a method of your choice: symplectic, in canonical variables.
+//! let mut state = State::new(0.0, vec![1.0, 0.0])?;
+//! GaussLegendre::new(Order::Eight, 0.05)?.integrate_to(&mut pendulum.canonical_motion(1), &mut state, 10.0)?;
+//! assert!((state.values[0] - run.last().0[0]).abs() < 1e-9);
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! **5. Differentiate anything.** Every formula runs over dual numbers, nested as deep as you like:
+//!
+//! ```
+//! use piola::numerics::{Dual, Real};
+//! fn energy<T: Real>(angle: T) -> T {
+//!     -angle.cos()
+//! }
+//! let stiffness = energy(Dual::variable(Dual::variable(0.0_f64))).tangent.tangent;
+//! assert_eq!(stiffness, 1.0);
+//! ```
+//!
+//! # Where to look
+//!
+//! | area | module | feature |
+//! |---|---|---|
+//! | scalars, exact derivatives, lanes, small linear systems, compensated sums | [`numerics`] | always |
+//! | particles, bodies, attitudes, inertia, placement maps | [`kinematics`] | `kinematics` |
+//! | Lagrange's and Hamilton's equations, gravitation | [`dynamics`] | `dynamics` |
+//! | time stepping | [`integrators`] | `integrators` |
+//!
+//! # Features
+#![doc = document_features::document_features!()]
+
+#[cfg(feature = "dynamics")]
+pub use piola_dynamics as dynamics;
+#[cfg(feature = "integrators")]
+pub use piola_integrators as integrators;
+#[cfg(feature = "kinematics")]
+pub use piola_kinematics as kinematics;
+pub use piola_numerics as numerics;
+
+/// The snippets of the project's read-me run as tests.
+#[cfg(all(doctest, feature = "dynamics"))]
+#[doc = include_str!("../../../README.md")]
+struct ProjectReadMe;
