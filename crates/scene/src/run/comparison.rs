@@ -38,7 +38,8 @@ pub struct ErrorAt {
     pub time: f64,
     /// |x − x_ref|, m.
     pub error: f64,
-    /// The same divided by the distance that the scene's `relative_to` says.
+    /// With a body c to measure from, |(x − c) − (x_ref − c_ref)| / |x_ref − c_ref|; otherwise |x − x_ref| over the largest distance of the
+    /// reference from the origin, or over the semi-major axis with the closed form.
     pub relative: f64,
 }
 
@@ -70,10 +71,20 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
             .collect(),
     };
     let overall = known.iter().flat_map(|(_, known)| known).map(|(_, x)| distance(*x, [0.0; 3])).fold(0.0, f64::max);
-    let scale = |body: usize, position: [f64; 3], known: &Known| match (reference.relative_to, &reference.comparison) {
-        (Some(centre), _) => known.iter().find(|(other, _)| *other == centre).map(|(_, x)| distance(position, *x)),
-        (None, Comparison::ClosedForm(ClosedForm::Kepler(motions))) => Some(motions[body].semi_major_axis()),
-        (None, Comparison::Table(_)) => Some(overall),
+    // The relative error of one position; `None` where the reference lacks the body to measure from.
+    let relative = |record: usize, body: usize, expected: [f64; 3], known: &Known| {
+        let position = history.positions[record][body];
+        let scale = match (reference.relative_to, &reference.comparison) {
+            (Some(centre), _) => {
+                let (_, origin) = known.iter().find(|(other, _)| *other == centre)?;
+                let moved = difference(history.positions[record][centre], *origin);
+                let error = distance(difference(position, expected), moved);
+                return Some(error / distance(expected, *origin));
+            }
+            (None, Comparison::ClosedForm(ClosedForm::Kepler(motions))) => motions[body].semi_major_axis(),
+            (None, Comparison::Table(_)) => overall,
+        };
+        Some(distance(position, expected) / scale)
     };
     let mut bodies: Vec<BodyErrors> = Vec::new();
     for (body, name) in history.names.iter().enumerate() {
@@ -83,9 +94,9 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
         let mut at = Vec::new();
         for (record, known) in &known {
             let Some((_, expected)) = known.iter().find(|(other, _)| *other == body) else { continue };
-            let Some(scale) = scale(body, *expected, known) else { continue };
+            let Some(relative) = relative(*record, body, *expected, known) else { continue };
             let error = distance(history.positions[*record][body], *expected);
-            at.push(ErrorAt { time: history.times[*record], error, relative: error / scale });
+            at.push(ErrorAt { time: history.times[*record], error, relative });
         }
         if at.is_empty() {
             continue;
@@ -103,6 +114,10 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
     Some(Errors { label: reference.label.clone(), largest_relative, bodies })
 }
 
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+    difference(a, b).iter().map(|x| x * x).sum::<f64>().sqrt()
 }

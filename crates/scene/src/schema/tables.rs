@@ -196,6 +196,6 @@ static REFERENCE: Table = Table {
         key("file", Kind::Path, Absent::Optional, "Table with the columns `time_s`, `body`, `x_m`, `y_m`, `z_m`; lines that begin with `#` say where it comes from."),
         key("closed_form", Kind::Choice(&CLOSED_FORMS), Absent::Optional, "Closed form, instead of `file`."),
         key("label", Kind::Text, Absent::Optional, "What the reference is called in figures and on the terminal."),
-        key("relative_to", Kind::Name, Absent::Optional, "Body from which distances are measured to make errors relative: an error is divided by the reference's distance of the body from this one. When absent, by the largest distance of the reference's bodies from the origin; with a closed form, by the semi-major axis."),
+        key("relative_to", Kind::Name, Absent::Optional, "Body from which positions are measured: the relative error is that of the position relative to this body, over its distance from it. When absent, errors are divided by the largest distance of the reference from the origin; with a closed form, by the semi-major axis."),
     ],
 };
