@@ -297,7 +297,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
                 let new = T::lit(weights[i]) * work.rate[k];
                 let difference = largest_lane(new - work.increments[i * n + k]);
                 if 0.0 < difference {
-                    change = change.max(difference / work.magnitudes[k].max(f64::MIN_POSITIVE));
+                    change = change.max(difference / work.magnitudes[k]);
                 }
                 work.increments[i * n + k] = new;
             }
@@ -313,7 +313,8 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
         if sweep == MOST_SWEEPS {
             return Err(IntegrationError::StagesDiverged { time, step: h, iterations: sweep, change });
         }
-        previous = change;
+        // The first change may be out of proportion: it can be relative to a velocity near rest.
+        previous = change.min(1.0);
     }
     Ok(evaluations)
 }

@@ -47,3 +47,7 @@ pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use tolerance::Tolerance;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;

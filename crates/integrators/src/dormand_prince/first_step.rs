@@ -14,11 +14,12 @@ impl<T: Real> DormandPrince853<T> {
     /// The length of a first step whose error should be within the tolerance.
     ///
     /// ```text
-    /// h = (0.01/‖y‖)^(1/8) / λ,    λ² = ‖ÿ‖/‖y‖ or (10⁻³ ‖ẏ‖/‖y‖)², whichever is larger
+    /// h = (0.01/‖y‖)^(1/8) / λ,    λ² = ‖ÿ‖/‖y‖
     /// ```
     ///
-    /// in the norm of the tolerance. λ is a rate of the motion, so that the result follows the units of time,
-    /// and ÿ tells it when the motion starts from rest.
+    /// in the norm of the tolerance. λ is a rate of the motion, so that the result follows the units of time.
+    /// Rates ẏ have no say: at rest, or where a position passes through zero, they are out of all proportion
+    /// to y.
     pub(super) fn estimate_first_step<F: Field<T>>(
         &mut self,
         field: &mut F,
@@ -40,11 +41,13 @@ impl<T: Real> DormandPrince853<T> {
         };
         let longest = span.abs().min(self.longest_step);
         let shortest = 1e-6 * longest;
+        // What the rounding of the time leaves three digits of.
+        let resolved = 1e3 * f64::EPSILON * state.time.abs();
 
         let rate = norm(&self.stages[0], &self.magnitudes);
         let size = norm(&state.values, &self.magnitudes);
         let changing = 1e-5 < size && 1e-5 < rate;
-        let mut euler = if changing { (0.01 * size / rate).min(longest) } else { shortest };
+        let mut euler = if changing { (0.01 * size / rate).clamp(1e-3 * shortest, longest) } else { shortest };
         for _ in 0..MOST_ATTEMPTS {
             let step = euler * span.signum();
             for ((trial, &y), &rate) in self.trial.iter_mut().zip(&state.values).zip(&self.stages[0]) {
@@ -68,8 +71,9 @@ impl<T: Real> DormandPrince853<T> {
             *after -= before;
         }
         let acceleration = norm(&self.stages[1], &self.magnitudes_at_end) / euler;
-        let lambda = (acceleration / size).sqrt().max(1e-3 * rate / size);
+        let lambda = (acceleration / size).sqrt();
         let step = (0.01 / size).sqrt().sqrt().sqrt() / lambda;
-        if 0.0 < step && step.is_finite() { step.min(longest) } else { shortest }
+        let step = if 0.0 < step && step.is_finite() { step.min(0.1 * longest) } else { shortest };
+        step.max(resolved).min(longest)
     }
 }

@@ -62,19 +62,18 @@ impl<T: Real> DormandPrince853<T> {
     fn finish<F: Field<T>>(&mut self, field: &F, state: &State<T>, h: f64) -> f64 {
         let n = self.trial.len();
         // E5 has the stages of B; those of B3 are among them.
-        let k: [&[T]; c::B.len()] = core::array::from_fn(|m| &self.stages[c::B[m].0][..n]);
+        let h_lit = T::lit(h);
         let (y, carry) = (&state.values[..n], &state.carry[..n]);
         let (trial, trial_carry) = (&mut self.trial[..n], &mut self.trial_carry[..n]);
-        let (fifth_error, third_error) = self.interpolant.split_at_mut(1);
-        let (fifth_error, third_error) = (&mut fifth_error[0][..n], &mut third_error[0][..n]);
-        let [b1, b9, b12] = c::B3.map(|(_, b)| T::lit(b));
-        let (h_lit, b, e) = (T::lit(h), c::B.map(|(_, b)| T::lit(b)), c::E5.map(|(_, e)| T::lit(e)));
-        for i in 0..n {
-            let [slope] = sum_of_terms(&b, |m| [k[m][i]]);
-            [fifth_error[i]] = sum_of_terms(&e, |m| [k[m][i]]);
-            third_error[i] = slope - (b1 * k[0][i] + b9 * k[4][i] + b12 * k[7][i]);
-            (trial[i], trial_carry[i]) = (y[i], carry[i]);
-            compensated_add(&mut trial[i], &mut trial_carry[i], slope * h_lit);
+        let [fifth_error, third_error, ..] = self.interpolant.each_mut().map(|f| &mut f[..n]);
+        weighted_sums(&c::E5, &self.stages, fifth_error, |_, sum| sum);
+        weighted_sums(&c::B, &self.stages, trial, |_, sum| sum);
+        weighted_sums(&c::B3, &self.stages, third_error, |_, sum| sum);
+        for (i, trial) in trial.iter_mut().enumerate() {
+            let slope = *trial;
+            third_error[i] = slope - third_error[i];
+            (*trial, trial_carry[i]) = (y[i], carry[i]);
+            compensated_add(trial, &mut trial_carry[i], slope * h_lit);
         }
 
         field.magnitudes(trial, &mut self.magnitudes_at_end);

@@ -1,0 +1,17 @@
+//! Tests of the integrators: one binary, one module for each kind of evidence.
+
+mod alloc;
+mod dense;
+mod events;
+mod golden;
+mod laws;
+mod orders;
+mod problems;
+#[cfg(feature = "serde")]
+mod serialised;
+mod traps;
+
+use piola_testkit::CountingAllocator;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
