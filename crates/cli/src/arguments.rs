@@ -6,7 +6,12 @@ use clap::{Args, Parser, Subcommand};
 
 /// Mechanics from scenes: run, plan, check.
 #[derive(Debug, Parser)]
-#[command(name = "piola", version, about, after_help = "Exit codes: 0 done; 1 failed or interrupted, what there is was written; 2 invalid input.")]
+#[command(
+    name = "piola",
+    version,
+    about,
+    after_help = "Exit codes: 0 done; 1 failed or interrupted, what there is was written; 2 invalid input."
+)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,

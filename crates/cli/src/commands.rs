@@ -44,7 +44,8 @@ pub(crate) fn run(arguments: &RunArguments) -> Exit {
     for failure in &written.failures {
         note(&format!("error: {failure}"));
     }
-    let end = format!("at {} s of {} s; what was computed until then is in {}", run.time, plan.end, folder.path().display());
+    let end =
+        format!("at {} s of {} s; what was computed until then is in {}", run.time, plan.end, folder.path().display());
     match &run.outcome {
         Outcome::Completed if written.failures.is_empty() => Exit::Done,
         Outcome::Completed => Exit::Failed,
@@ -63,7 +64,11 @@ pub(crate) fn plan(arguments: &SceneArguments) -> Exit {
     match load(arguments) {
         Ok(scene) => {
             let plan = Plan::of(&scene);
-            if arguments.json { print_json(&plan) } else { print(&format!("{plan}\n")) }
+            if arguments.json {
+                print_json(&plan)
+            } else {
+                print(&format!("{plan}\n"))
+            }
             Exit::Done
         }
         Err(error) => invalid(&error, arguments.json),

@@ -45,7 +45,11 @@ impl ProgressLine {
             return;
         }
         if let Some(bar) = &self.bar {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between zero and ten thousand")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "between zero and ten thousand"
+            )]
             bar.set_position((progress.fraction * PARTS) as u64);
         } else if PAUSE <= self.shown.elapsed() {
             self.shown = Instant::now();

@@ -32,7 +32,9 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
     line("momentum", run.drifts.momentum);
     line("moment of momentum", run.drifts.angular_momentum);
     if run.drifts.post_newtonian_energy.is_some() {
-        text.push_str("The post-Newtonian force depends on velocity: the Newtonian energy and momentum vary with the orbits,\n");
+        text.push_str(
+            "The post-Newtonian force depends on velocity: the Newtonian energy and momentum vary with the orbits,\n",
+        );
         text.push_str("and the post-Newtonian energy is kept to the next order in 1/c^2.\n");
     }
     text.push('\n');
@@ -43,7 +45,8 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
 fn errors_table(text: &mut String, errors: &piola_scene::run::Errors) {
     /// Instants that fit on a line.
     const COLUMNS: usize = 5;
-    let times: Vec<f64> = errors.bodies.first().map(|body| body.at.iter().map(|at| at.time).collect()).unwrap_or_default();
+    let times: Vec<f64> =
+        errors.bodies.first().map(|body| body.at.iter().map(|at| at.time).collect()).unwrap_or_default();
     let few = times.len() <= COLUMNS;
     let _ = write!(text, "{:<24}", format!("position beside {}", shortened(&errors.label)));
     if few {

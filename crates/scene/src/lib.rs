@@ -1,9 +1,13 @@
 //! Declarative scenes of mechanics: a TOML file in, tables and figures out.
+#![doc = include_str!("../README.md")]
 //!
 //! | stage | module | from → to |
 //! |---|---|---|
-//! | read | [`document`] | text → tree with places |
-//! | check | [`model`] | tree → [`Scene`], or all mistakes at once |
+//! | read | [`document`] | text and `--set` arguments → tree with places |
+//! | check | [`schema`], [`units`], [`model`] | tree → [`Scene`], or all mistakes at once |
+//! | plan | [`plan`] | scene → method, step, what is computed and what is skipped, with reasons |
+//! | run | [`run`](mod@run) | plan → history, drift of invariants, errors against the reference ([`kepler`] or a table) |
+//! | write | [`output`] | run → `summary.json`, CSV tables, SVG figures |
 #![forbid(unsafe_code)]
 
 pub mod document;

@@ -120,8 +120,7 @@ fn excerpt(sources: &[Source], place: &Place) -> Excerpt {
     };
     let (line, column) = source.position(place.span.start);
     let (end_line, end_column) = source.position(place.span.end);
-    let whole: Vec<char> =
-        source.line(line).chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let whole: Vec<char> = source.line(line).chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let marked = if end_line == line { end_column - column } else { whole.len().saturating_sub(column - 1) };
     // A long line is shown from a little before the place.
     let start = if column + marked.min(40) <= WIDTH { 0 } else { column.saturating_sub(30) };

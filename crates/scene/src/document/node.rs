@@ -70,7 +70,13 @@ impl Value {
             Self::Text(text) => format!("a text of {} characters", text.chars().count()),
             Self::Number { value, whole: true } => format!("the number {value}"),
             Self::Number { value, .. } if value.is_finite() => format!("the number {value:?}"),
-            Self::Number { value, .. } => if value.is_nan() { "nan".to_string() } else { format!("{value}") },
+            Self::Number { value, .. } => {
+                if value.is_nan() {
+                    "nan".to_string()
+                } else {
+                    format!("{value}")
+                }
+            }
             Self::Flag(flag) => flag.to_string(),
             Self::Date(date) => format!("the date {date}"),
         }

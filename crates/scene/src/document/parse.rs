@@ -13,11 +13,7 @@ pub(super) fn parse(source: &Source, id: usize) -> (Node, Vec<Mistake>) {
     // A byte-order mark is no mistake; one keeps its three bytes so that places stay right.
     let (table, errors) = DeTable::parse_recoverable(text);
     let mistakes = errors.iter().map(|error| mistake(error, id, text)).collect::<Vec<_>>();
-    let root = if mistakes.len() <= HOPELESS {
-        self::table(table.into_inner(), id)
-    } else {
-        Value::Table(Vec::new())
-    };
+    let root = if mistakes.len() <= HOPELESS { self::table(table.into_inner(), id) } else { Value::Table(Vec::new()) };
     (Node { place: Place { source: id, span: 0..0 }, value: root }, mistakes)
 }
 

@@ -28,10 +28,8 @@ pub(super) fn apply(root: &mut Node, source: &Source, id: usize) -> Result<(), M
             .valid("path=value, for example `time.end=10 d`"));
     }
     // What is not TOML is a text: `10 d`, `composition-8`, `[1, 2, 3] km`.
-    let node = parse::value(trimmed, id, start).unwrap_or_else(|| Node {
-        place: place.clone(),
-        value: Value::Text(trimmed.to_string()),
-    });
+    let node = parse::value(trimmed, id, start)
+        .unwrap_or_else(|| Node { place: place.clone(), value: Value::Text(trimmed.to_string()) });
     place_node(root, &steps, Node { place, value: node.value })
 }
 
@@ -104,8 +102,9 @@ fn place_node(node: &mut Node, steps: &[Step], new: Node) -> Result<(), Mistake>
             let count = items.len();
             match items.get_mut(*index) {
                 Some(item) => place_node(item, rest, new),
-                None => Err(Mistake::new(place.clone(), format!("entry {index} of a list of {count}"))
-                    .valid(if count == 0 { "no entry: the list is empty".to_string() } else { format!("0 to {}", count - 1) })),
+                None => Err(Mistake::new(place.clone(), format!("entry {index} of a list of {count}")).valid(
+                    if count == 0 { "no entry: the list is empty".to_string() } else { format!("0 to {}", count - 1) },
+                )),
             }
         }
         (Step::Key(_, place) | Step::Index(_, place), other) => {

@@ -64,7 +64,14 @@ impl Builder<'_> {
 
     fn mass_point(&mut self, record: &Record) -> Option<MassPoint> {
         let shown = record.text("name").unwrap_or("without a name").to_string();
-        let elements = ["semi_major_axis", "eccentricity", "inclination", "ascending_node", "argument_of_pericentre", "mean_anomaly"];
+        let elements = [
+            "semi_major_axis",
+            "eccentricity",
+            "inclination",
+            "ascending_node",
+            "argument_of_pericentre",
+            "mean_anomaly",
+        ];
         for key in elements.into_iter().filter(|key| record.has(key)) {
             self.wrong(
                 Mistake::new(record.place_of(key), format!("`{key}` in a scene of [gravity]"))
@@ -77,10 +84,10 @@ impl Builder<'_> {
             self.wrong(Mistake::new(place, format!("the body {shown} has {what}")).valid("one of them"));
         }
         for key in ["position", "velocity"].into_iter().filter(|key| !record.has(key)) {
-            self.wrong(
-                Mistake::new(record.place.clone(), format!("the body {shown} lacks `{key}`"))
-                    .valid(format!("{key} = a list of 3 numbers, or a text such as \"[1, 0, 0] {}\"", if key == "position" { "au" } else { "km/s" })),
-            );
+            self.wrong(Mistake::new(record.place.clone(), format!("the body {shown} lacks `{key}`")).valid(format!(
+                "{key} = a list of 3 numbers, or a text such as \"[1, 0, 0] {}\"",
+                if key == "position" { "au" } else { "km/s" }
+            )));
         }
         Some(MassPoint {
             name: record.text("name")?.to_string(),
@@ -115,9 +122,15 @@ impl Builder<'_> {
 
     /// The outer `None` says that a mistake was made.
     #[expect(clippy::option_option, reason = "absent because not asked for, or because of a mistake")]
-    fn post_newtonian(&mut self, table: &Record, records: &[Record], bodies: &[Option<MassPoint>]) -> Option<Option<PostNewtonian>> {
+    fn post_newtonian(
+        &mut self,
+        table: &Record,
+        records: &[Record],
+        bodies: &[Option<MassPoint>],
+    ) -> Option<Option<PostNewtonian>> {
         let names: Vec<&str> = records.iter().map(|record| record.text("name").unwrap_or("")).collect();
-        let named = if table.has("central_body") { Some(self.find(table, "central_body", "body", &names)?) } else { None };
+        let named =
+            if table.has("central_body") { Some(self.find(table, "central_body", "body", &names)?) } else { None };
         if !table.flag("post_newtonian")? {
             return Some(None);
         }

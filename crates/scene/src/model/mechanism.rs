@@ -207,7 +207,8 @@ impl Builder<'_> {
             self.wrong(Mistake::new(record.place_of("name"), "the name `ground` is taken").valid("another name"));
             return None;
         }
-        let parent = if record.text("parent")? == "ground" { None } else { Some(self.find(record, "parent", "joint", names)?) };
+        let parent =
+            if record.text("parent")? == "ground" { None } else { Some(self.find(record, "parent", "joint", names)?) };
         let kind = record.text("type")?.to_string();
         let mut coordinates = Vec::new();
         let mut coordinate = |name: String, angular, position, velocity| {
@@ -248,7 +249,8 @@ impl Builder<'_> {
 
     fn angles(&mut self, record: &Record, count: usize) -> Option<(Vec<f64>, Vec<f64>)> {
         let angles = record.numbers("angles").map(<[f64]>::to_vec);
-        let rates = if record.has("rates") { record.numbers("rates").map(<[f64]>::to_vec) } else { Some(vec![0.0; count]) };
+        let rates =
+            if record.has("rates") { record.numbers("rates").map(<[f64]>::to_vec) } else { Some(vec![0.0; count]) };
         let mut valid = true;
         for (key, numbers) in [("angles", &angles), ("rates", &rates)] {
             let found = numbers.as_ref().map_or(count, Vec::len);
@@ -268,7 +270,9 @@ impl Builder<'_> {
         let axis = record.vector(key)?;
         let largest = axis.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
         if largest <= 0.0 {
-            self.wrong(Mistake::new(record.place_of(key), format!("`{key}` is zero")).valid("a direction, as [0, 1, 0]"));
+            self.wrong(
+                Mistake::new(record.place_of(key), format!("`{key}` is zero")).valid("a direction, as [0, 1, 0]"),
+            );
             return None;
         }
         // Divided by the largest component first: squares neither overflow nor vanish.
@@ -378,7 +382,10 @@ impl Builder<'_> {
             let names: Vec<String> = group.iter().map(|i| format!("`{}`", coordinates[*i])).collect();
             let found = match group.as_slice() {
                 [_] => format!("nothing with mass moves with {} at the start", names.join("")),
-                _ => format!("the coordinates {} are dependent at the start: together they can change without moving anything", names.join(", ")),
+                _ => format!(
+                    "the coordinates {} are dependent at the start: together they can change without moving anything",
+                    names.join(", ")
+                ),
             };
             let last = group.last().copied().unwrap_or_default();
             self.wrong(Mistake::new(owner(last).place.clone(), found).valid(

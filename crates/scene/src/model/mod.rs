@@ -174,7 +174,8 @@ impl Builder<'_> {
     fn file_stem(&self) -> String {
         let stem = Path::new(self.document.name()).file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let safe = |c: char| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' };
-        stem.filter(|stem| !stem.is_empty()).map_or_else(|| "scene".to_string(), |stem| stem.chars().map(safe).collect())
+        stem.filter(|stem| !stem.is_empty())
+            .map_or_else(|| "scene".to_string(), |stem| stem.chars().map(safe).collect())
     }
 
     fn system(&mut self, record: &Record) -> Option<System> {

@@ -66,7 +66,8 @@ impl Builder<'_> {
             return if scene.has("reference") { None } else { Some(None) };
         };
         if table.has("file") == table.has("closed_form") {
-            let what = if table.has("file") { "both `file` and `closed_form`" } else { "neither `file` nor `closed_form`" };
+            let what =
+                if table.has("file") { "both `file` and `closed_form`" } else { "neither `file` nor `closed_form`" };
             let place = if table.has("file") { table.place_of("closed_form") } else { table.place.clone() };
             self.wrong(Mistake::new(place, format!("[reference] has {what}")).valid("one of them"));
             return None;
@@ -79,7 +80,8 @@ impl Builder<'_> {
             System::Mechanism(system) => system.parts.iter().map(|part| part.name.as_str()).collect(),
             System::Central(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
         };
-        let relative_to = if table.has("relative_to") { Some(self.find(table, "relative_to", "body", &names)?) } else { None };
+        let relative_to =
+            if table.has("relative_to") { Some(self.find(table, "relative_to", "body", &names)?) } else { None };
         let label = |default: &str| table.text("label").unwrap_or(default).to_string();
         Some(Some(match file {
             Some((path, text)) => Reference {
@@ -121,8 +123,7 @@ impl Builder<'_> {
     fn reference_text(&mut self, table: &Record) -> Option<(PathBuf, String)> {
         let path = self.document.folder().join(table.text("file")?);
         let mut text = String::new();
-        let read = std::fs::File::open(&path)
-            .and_then(|file| file.take(LARGEST_TABLE + 1).read_to_string(&mut text));
+        let read = std::fs::File::open(&path).and_then(|file| file.take(LARGEST_TABLE + 1).read_to_string(&mut text));
         let cause = match read {
             Ok(_) if LARGEST_TABLE < text.len() as u64 => format!("it has more than {LARGEST_TABLE} bytes"),
             Ok(_) => return Some((path, text)),
@@ -181,8 +182,7 @@ impl Builder<'_> {
 /// The rows of a table, or the line of the first mistake with what was found and what would be valid.
 #[expect(clippy::type_complexity, reason = "a row is (time, body, position), a mistake (line, found, valid)")]
 fn rows(text: &str, names: &[&str]) -> Result<Vec<(f64, usize, [f64; 3])>, (u64, String, String)> {
-    let mut reader =
-        csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
     let malformed = |error: &csv::Error| {
         let line = error.position().map_or(1, csv::Position::line);
         (line, error.to_string(), "rows of comma-separated values, all of one length".to_string())

@@ -27,6 +27,8 @@ const PALETTE: [RGBColor; 12] = [
 const INK: RGBColor = RGBColor(40, 40, 40);
 const GRID: RGBColor = RGBColor(225, 225, 225);
 const FONT: &str = "sans-serif";
+/// Coordinates are whole in the drawing; this many of them make a pixel, so that curves are smooth.
+const FINE: u32 = 8;
 /// Beyond this many curves a legend helps nobody.
 const NAMED: usize = 24;
 
@@ -41,22 +43,31 @@ fn colour(index: usize) -> RGBColor {
 fn figure(size: (u32, u32), title: &str, draw: impl Fn(&Area<'_>) -> Drawn) -> String {
     let mut text = String::new();
     let attempt = |text: &mut String, draw: &dyn Fn(&Area<'_>) -> Drawn| -> Drawn {
-        let area = SVGBackend::with_string(text, size).into_drawing_area();
+        let area = SVGBackend::with_string(text, (FINE * size.0, FINE * size.1)).into_drawing_area();
         area.fill(&WHITE)?;
-        let style = (FONT, 21).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Top));
-        area.draw(&Text::new(title.to_string(), (24, 14), style))?;
-        draw(&area.margin(44, 8, 12, 12))?;
+        let style = (FONT, pixels(21)).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Top));
+        area.draw(&Text::new(title.to_string(), (pixels(24), pixels(14)), style))?;
+        draw(&area.margin(pixels(44), pixels(8), pixels(12), pixels(12)))?;
         area.present()?;
         Ok(())
     };
-    if let Err(error) = attempt(&mut text, &draw) {
+    let drawn = attempt(&mut text, &draw);
+    if let Err(error) = drawn {
         text.clear();
         let message = format!("this figure could not be drawn: {error}");
         let _ = attempt(&mut text, &|area: &Area<'_>| {
-            Ok(area.draw(&Text::new(message.clone(), (24, 40), (FONT, 15).into_font().color(&INK)))?)
+            Ok(area.draw(&Text::new(message.clone(), (pixels(24), pixels(40)), (FONT, pixels(15)).into_font().color(&INK)))?)
         });
     }
-    text
+    // The view box keeps the fine coordinates; the size is that of the figure.
+    let fine = format!("width=\"{}\" height=\"{}\"", FINE * size.0, FINE * size.1);
+    let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+    text.replacen(&fine, &shown, 1)
+}
+
+/// Pixels in the coordinates of the drawing.
+fn pixels(count: u32) -> i32 {
+    i32::try_from(count * FINE).unwrap_or(i32::MAX)
 }
 
 /// A unit for lengths of this size: name and metres.
@@ -97,16 +108,16 @@ pub(super) fn trajectory(title: &str, history: &History, gravity: Option<[f64; 3
     let mut sorted: Vec<f64> = reach.iter().copied().filter(|x| 0.0 < *x && x.is_finite()).collect();
     sorted.sort_by(f64::total_cmp);
     let largest = sorted.last().copied().unwrap_or(1.0);
+    // A body that hardly moves, as a sun, does not make a panel of its own.
+    let several = |radius: f64| 1 < sorted.iter().filter(|x| **x <= radius && 0.05 * radius < **x).count();
     let gap = sorted
         .windows(2)
-        .filter(|pair| 2.5 < pair[1] / pair[0] && 8.0 < largest / pair[0])
-        .max_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])))
-        // A body that hardly moves, as a sun, does not make a panel of its own.
-        .filter(|pair| 1 < sorted.iter().filter(|x| **x <= pair[0] && 0.05 * pair[0] < **x).count());
+        .filter(|pair| 2.5 < pair[1] / pair[0] && 8.0 < largest / pair[0] && several(pair[0]))
+        .max_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])));
     let panels: Vec<f64> = gap.map(|pair| pair[0]).into_iter().chain([largest]).collect();
     let size = if panels.len() == 2 { (1180, 600) } else { (780, 640) };
     figure(size, title, |area| {
-        let legend = if history.names.len() <= NAMED { 130 } else { 0 };
+        let legend = if history.names.len() <= NAMED { 130 * FINE } else { 0 };
         let (width, height) = area.dim_in_pixel();
         let (plots, names) = area.split_horizontally(width - legend);
         let each = (width - legend) / u32::try_from(panels.len())?;
@@ -150,28 +161,29 @@ fn panel(
         (low, high) = ([-1.0; 2], [1.0; 2]);
     }
     // One scale for both axes: the plot area is what margins and labels leave.
-    let (wide, tall) = (f64::from(width.saturating_sub(100).max(50)), f64::from(height.saturating_sub(75).max(50)));
+    let (wide, tall) = (f64::from(width.saturating_sub(100 * FINE).max(50 * FINE)), f64::from(height.saturating_sub(75 * FINE).max(50 * FINE)));
     let scale = 1.08 * ((high[0] - low[0]) / wide).max((high[1] - low[1]) / tall).max(1e-12 * (1.0 + radius / metre));
     let range = |k: usize, pixels: f64| {
         let middle = 0.5 * (low[k] + high[k]);
         middle - 0.5 * scale * pixels..middle + 0.5 * scale * pixels
     };
     let mut chart = ChartBuilder::on(area)
-        .margin(10)
-        .x_label_area_size(50)
-        .y_label_area_size(70)
+        .margin(pixels(10))
+        .x_label_area_size(pixels(50))
+        .y_label_area_size(pixels(70))
         .build_cartesian_2d(range(0, wide), range(1, tall))?;
     let names = ["x", "y", "z"];
     let short = |x: &f64| format_short(*x);
     chart
         .configure_mesh()
+        .set_all_tick_mark_size(pixels(5))
         .x_labels(7)
         .y_labels(7)
         .light_line_style(WHITE)
-        .bold_line_style(GRID)
-        .axis_style(INK)
-        .label_style((FONT, 14).into_font().color(&INK))
-        .axis_desc_style((FONT, 16).into_font().color(&INK))
+        .bold_line_style(GRID.stroke_width(FINE))
+        .axis_style(INK.stroke_width(FINE))
+        .label_style((FONT, pixels(14)).into_font().color(&INK))
+        .axis_desc_style((FONT, pixels(16)).into_font().color(&INK))
         .x_desc(format!("{} ({unit})", names[across]))
         .y_desc(format!("{} ({unit})", names[up]))
         .x_label_formatter(&short)
@@ -179,11 +191,16 @@ fn panel(
         .draw()?;
     for &body in &shown {
         let at = |positions: &Vec<[f64; 3]>| (positions[body][across] / metre, positions[body][up] / metre);
-        let points = thinned(history.positions.iter().map(at), 0.6 * scale);
-        let style = colour(body).stroke_width(if history.names.len() == 1 { 1 } else { 2 });
-        chart.draw_series(LineSeries::new(points, style))?;
+        let points: Vec<(f64, f64)> = history.positions.iter().map(at).collect();
+        if jumps(&points, 0.15 * scale * wide.min(tall)) {
+            let marks = scattered(&points, 2.0 * f64::from(FINE) * scale);
+            chart.draw_series(marks.into_iter().map(|point| Circle::new(point, pixels(1), colour(body).filled())))?;
+        } else {
+            let style = colour(body).stroke_width(if history.names.len() == 1 { FINE } else { 3 * FINE / 2 });
+            chart.draw_series(LineSeries::new(thinned(points.into_iter(), 3.0 * scale), style))?;
+        }
         if let Some(last) = history.positions.last() {
-            chart.draw_series([Circle::new(at(last), 4, colour(body).filled())])?;
+            chart.draw_series([Circle::new(at(last), pixels(4), colour(body).filled())])?;
         }
     }
     Ok(())
@@ -227,6 +244,20 @@ fn thinned(points: impl Iterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, f6
     }
     kept.extend(last);
     kept
+}
+
+/// Whether successive points are so far apart that lines between them would show what is not there.
+fn jumps(points: &[(f64, f64)], far: f64) -> bool {
+    let long = points.windows(2).filter(|pair| far < (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).count();
+    points.len() < 50 * long
+}
+
+/// One point for each occupied cell of a grid.
+fn scattered(points: &[(f64, f64)], cell: f64) -> Vec<(f64, f64)> {
+    let mut occupied = std::collections::BTreeSet::new();
+    #[expect(clippy::cast_possible_truncation, reason = "cells of a figure are few, and the cast saturates")]
+    let mut free = |(x, y): &(f64, f64)| occupied.insert(((x / cell).round() as i64, (y / cell).round() as i64));
+    points.iter().filter(|(x, y)| x.is_finite() && y.is_finite()).filter(|point| free(point)).copied().collect()
 }
 
 struct Curve {
@@ -281,26 +312,38 @@ fn log_figure(title: &str, ordinate: &str, mut curves: Vec<Curve>, few: bool) ->
     let low = extreme(|p| p.1, f64::min).unwrap_or(1e-16);
     let high = extreme(|p| p.1, f64::max).unwrap_or(1e-15);
     let decades = |x: f64, up: bool| 10_f64.powf(if up { x.log10().ceil() } else { x.log10().floor() });
-    // Half a decade of air, and no long tail of values that happen to be tiny.
+    // Half a decade of air, and no long tail of values that happen to be tiny: two decades below the lowest curve's peak.
     let top = decades(1.5 * high, true);
-    let bottom = decades(low.max(1e-7 * high), false).min(top / 10.0);
+    let peak = |curve: &Curve| curve.points.iter().map(|p| p.1).reduce(f64::max);
+    let lowest_peak = curves.iter().filter_map(peak).reduce(f64::min).unwrap_or(high);
+    let tail = if few { low } else { low.max(1e-2 * lowest_peak).min(high) };
+    let bottom = decades(tail, false).min(top / 10.0);
     let start = extreme(|p| p.0, f64::min).unwrap_or(0.0);
     let end = extreme(|p| p.0, f64::max).unwrap_or(1.0).max(start + f64::MIN_POSITIVE);
     let (unit, second) = time_unit(end - start);
     figure((960, 560), title, |area| {
         let named = 1 < curves.len() && curves.len() <= NAMED;
         let (width, _) = area.dim_in_pixel();
-        let (plot, names) = area.split_horizontally(if named { width - 190 } else { width });
+        let (plot, names) = area.split_horizontally(if named { width - 190 * FINE } else { width });
         let description = format!("time ({unit})");
         if few {
             // Marks stand clear of the frame.
             let range = (0.7 * start / second..1.4 * end / second).log_scale();
             log_chart(&plot, range, bottom..top, (&description, ordinate), &curves, second, true)?;
         } else {
-            log_chart(&plot, start / second..end / second, bottom..top, (&description, ordinate), &curves, second, false)?;
+            log_chart(
+                &plot,
+                start / second..end / second,
+                bottom..top,
+                (&description, ordinate),
+                &curves,
+                second,
+                false,
+            )?;
         }
         if named {
-            let labels: Vec<(&str, RGBColor)> = curves.iter().map(|curve| (curve.name.as_str(), curve.colour)).collect();
+            let labels: Vec<(&str, RGBColor)> =
+                curves.iter().map(|curve| (curve.name.as_str(), curve.colour)).collect();
             legend(&names, &labels)?;
         }
         Ok(())
@@ -322,32 +365,34 @@ where
 {
     let bottom = ordinate.start;
     let mut chart = ChartBuilder::on(area)
-        .margin(10)
-        .x_label_area_size(52)
-        .y_label_area_size(86)
+        .margin(pixels(10))
+        .x_label_area_size(pixels(52))
+        .y_label_area_size(pixels(86))
         .build_cartesian_2d(abscissa, ordinate.log_scale())?;
     let power = |y: &f64| power_of_ten(*y);
     let short = |x: &f64| format_short(*x);
     chart
         .configure_mesh()
+        .set_all_tick_mark_size(pixels(5))
         .x_labels(9)
         .y_labels(10)
         .light_line_style(WHITE)
-        .bold_line_style(GRID)
-        .axis_style(INK)
-        .label_style((FONT, 14).into_font().color(&INK))
-        .axis_desc_style((FONT, 16).into_font().color(&INK))
+        .bold_line_style(GRID.stroke_width(FINE))
+        .axis_style(INK.stroke_width(FINE))
+        .label_style((FONT, pixels(14)).into_font().color(&INK))
+        .axis_desc_style((FONT, pixels(16)).into_font().color(&INK))
         .x_desc(x_name)
         .y_desc(y_name)
         .x_label_formatter(&short)
         .y_label_formatter(&power)
         .draw()?;
     for curve in curves {
-        let points: Vec<(f64, f64)> = peaks(&curve.points).into_iter().map(|(t, y)| (t / second, y.max(bottom))).collect();
-        let width = if marks || points.len() < 200 { 2 } else { 1 };
+        let points: Vec<(f64, f64)> =
+            peaks(&curve.points).into_iter().map(|(t, y)| (t / second, y.max(bottom))).collect();
+        let width = if marks || points.len() < 200 { 2 * FINE } else { FINE };
         chart.draw_series(LineSeries::new(points.clone(), curve.colour.stroke_width(width)))?;
         if marks {
-            chart.draw_series(points.into_iter().map(|point| Circle::new(point, 4, curve.colour.filled())))?;
+            chart.draw_series(points.into_iter().map(|point| Circle::new(point, pixels(4), curve.colour.filled())))?;
         }
     }
     Ok(())
@@ -377,12 +422,12 @@ fn draw_legend(area: &Area<'_>, names: &[&str]) -> Drawn {
 }
 
 fn legend(area: &Area<'_>, entries: &[(&str, RGBColor)]) -> Drawn {
-    let mut y = 20;
+    let mut y = pixels(20);
     for (name, colour) in entries {
-        area.draw(&PathElement::new(vec![(8, y), (30, y)], colour.stroke_width(3)))?;
-        let style = (FONT, 15).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw(&Text::new((*name).to_string(), (38, y), style))?;
-        y += 22;
+        area.draw(&PathElement::new(vec![(pixels(8), y), (pixels(30), y)], colour.stroke_width(3 * FINE)))?;
+        let style = (FONT, pixels(15)).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+        area.draw(&Text::new((*name).to_string(), (pixels(38), y), style))?;
+        y += pixels(22);
     }
     Ok(())
 }

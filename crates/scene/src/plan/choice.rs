@@ -60,13 +60,19 @@ fn automatic(scene: &Scene) -> (Method, String) {
         }
         System::Gravitation(system) => {
             if request.tolerance.is_some() || (request.step.is_none() && !hierarchical(system)) {
-                let why = if request.tolerance.is_some() { "integrator.tolerance asks for an adaptive step" } else { "no body dominates, so that close encounters may come: the step adapts" };
+                let why = if request.tolerance.is_some() {
+                    "integrator.tolerance asks for an adaptive step"
+                } else {
+                    "no body dominates, so that close encounters may come: the step adapts"
+                };
                 return (adaptive(scene, TOLERANCE), asked(why));
             }
             let (step, why) = step(scene, Order::Eight);
             (
                 Method::Composition { order: Order::Eight, step },
-                format!("forces depend on positions alone and one body dominates: explicit, symplectic, energy does not drift; {why}"),
+                format!(
+                    "forces depend on positions alone and one body dominates: explicit, symplectic, energy does not drift; {why}"
+                ),
             )
         }
         System::Central(system) => {
@@ -75,19 +81,28 @@ fn automatic(scene: &Scene) -> (Method, String) {
                 let (step, why) = step(scene, Order::Eight);
                 return (
                     Method::Composition { order: Order::Eight, step },
-                    format!("forces depend on positions alone and the orbit is near a circle: explicit, symplectic; {why}"),
+                    format!(
+                        "forces depend on positions alone and the orbit is near a circle: explicit, symplectic; {why}"
+                    ),
                 );
             }
-            (adaptive(scene, FINE_TOLERANCE), format!("the eccentricity {e:.4} needs steps of very different lengths: the step adapts"))
+            (
+                adaptive(scene, FINE_TOLERANCE),
+                format!("the eccentricity {e:.4} needs steps of very different lengths: the step adapts"),
+            )
         }
         System::Mechanism(_) => match request.step {
             Some(step) => (
                 Method::GaussLegendre { order: Order::Eight, step },
-                asked("a fixed step is asked for, and the inertia metric depends on the coordinates: implicit, symplectic"),
+                asked(
+                    "a fixed step is asked for, and the inertia metric depends on the coordinates: implicit, symplectic",
+                ),
             ),
             None => (
                 adaptive(scene, MECHANISM_TOLERANCE),
-                asked("the inertia metric depends on the coordinates, so that no explicit symplectic method applies; adaptive, order 8(5,3)"),
+                asked(
+                    "the inertia metric depends on the coordinates, so that no explicit symplectic method applies; adaptive, order 8(5,3)",
+                ),
             ),
         },
     }
@@ -106,9 +121,10 @@ fn step(scene: &Scene, order: Order) -> (f64, String) {
     };
     let per_turn = STEPS_PER_TURN * if order == Order::Eight { 1.0 } else { 4.0 };
     match turn {
-        Some(turn) if turn.is_finite() && 0.0 < turn => {
-            ((turn / per_turn).min(span), format!("the step is 1/{per_turn} of the fastest turn, {:.4} d", turn / 86_400.0))
-        }
+        Some(turn) if turn.is_finite() && 0.0 < turn => (
+            (turn / per_turn).min(span),
+            format!("the step is 1/{per_turn} of the fastest turn, {:.4} d", turn / 86_400.0),
+        ),
         _ => (span / 10_000.0, "the step is 1/10000 of the time, for want of a better measure".to_string()),
     }
 }

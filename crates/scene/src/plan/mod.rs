@@ -183,7 +183,10 @@ impl Plan {
                 match system.post_newtonian {
                     Some(term) => self.compute(
                         "post-Newtonian term",
-                        format!("first order, of {}, with its reaction: gravity.post_newtonian = true", system.bodies[term.central].name),
+                        format!(
+                            "first order, of {}, with its reaction: gravity.post_newtonian = true",
+                            system.bodies[term.central].name
+                        ),
                     ),
                     None => self.skip("post-Newtonian term", "gravity.post_newtonian = false"),
                 }
@@ -194,7 +197,10 @@ impl Plan {
                 }
                 self.skip("attitudes", "bodies without extent");
                 self.skip("collisions", "bodies without extent cannot touch");
-                self.compute("energy, momentum, moment of momentum", "conserved: compensated sums at every recorded instant");
+                self.compute(
+                    "energy, momentum, moment of momentum",
+                    "conserved: compensated sums at every recorded instant",
+                );
             }
             System::Mechanism(system) => {
                 self.compute("inertia metric and its derivatives", "exact derivatives of the placement of the parts");
@@ -295,7 +301,8 @@ fn describe(system: &System) -> String {
     let count = |n: usize, what: &str| if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") };
     match system {
         System::Gravitation(system) => {
-            let bodies = if system.bodies.len() == 1 { "1 body".to_string() } else { format!("{} bodies", system.bodies.len()) };
+            let bodies =
+                if system.bodies.len() == 1 { "1 body".to_string() } else { format!("{} bodies", system.bodies.len()) };
             format!("{bodies} attracting each other")
         }
         System::Mechanism(system) => {

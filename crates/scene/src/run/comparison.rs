@@ -101,7 +101,9 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
         if at.is_empty() {
             continue;
         }
-        let largest = |pick: fn(&ErrorAt) -> f64| at.iter().map(pick).fold(0.0, |a: f64, b| if b.is_nan() { b } else { a.max(b) });
+        let largest = |pick: fn(&ErrorAt) -> f64| {
+            at.iter().map(pick).fold(0.0, |a: f64, b| if b.is_nan() { b } else { a.max(b) })
+        };
         bodies.push(BodyErrors {
             body,
             name: name.clone(),

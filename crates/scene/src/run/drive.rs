@@ -6,7 +6,9 @@
 use core::fmt::Display;
 use core::ops::ControlFlow;
 
-use piola_integrators::{Composition, DormandPrince853, Ending, Field, GaussLegendre, Report, Separable, State, Tolerance};
+use piola_integrators::{
+    Composition, DormandPrince853, Ending, Field, GaussLegendre, Report, Separable, State, Tolerance,
+};
 
 use super::{History, Invariants, Progress};
 use crate::model::Scene;
@@ -126,8 +128,7 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
         F::Error: Display,
     {
         self.fixed(state, reading, |driver, state, instant| {
-            method
-                .integrate(field, state, instant, |step| driver.step_done(step.time))
+            method.integrate(field, state, instant, |step| driver.step_done(step.time))
         })
     }
 
@@ -153,7 +154,9 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
                 let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
                 self.adaptive(&mut DormandPrince853::new(tolerance), field, state, reading)
             }
-            Method::Composition { .. } => Err("an explicit composition needs forces that depend on positions alone".to_string()),
+            Method::Composition { .. } => {
+                Err("an explicit composition needs forces that depend on positions alone".to_string())
+            }
         }
     }
 

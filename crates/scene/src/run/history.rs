@@ -86,8 +86,7 @@ impl History {
     /// Relative changes since the first record, one for each record.
     pub(crate) fn drift_series(&self) -> Vec<DriftAt> {
         let Some(first) = self.invariants.first() else { return Vec::new() };
-        let energy_scale =
-            self.invariants.iter().map(|record| record.energy_scale).fold(first.energy.abs(), f64::max);
+        let energy_scale = self.invariants.iter().map(|record| record.energy_scale).fold(first.energy.abs(), f64::max);
         let relative = |change: f64, scale: f64| if 0.0 < scale { change / scale } else { change };
         let vector = |pick: fn(&Invariants) -> Option<([f64; 3], f64)>, record: &Invariants| {
             let ((now, scale), (start, _)) = (pick(record)?, pick(first)?);

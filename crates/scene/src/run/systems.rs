@@ -37,14 +37,12 @@ pub(super) fn gravitation(
 }
 
 fn gravitating(system: &model::Gravitation) -> Result<Gravitation, piola_dynamics::DynamicsError> {
-    let bodies = Gravitation::new(system.bodies.iter().map(|body| body.gm).collect())?
-        .with_softening(system.softening)?;
+    let bodies =
+        Gravitation::new(system.bodies.iter().map(|body| body.gm).collect())?.with_softening(system.softening)?;
     match system.post_newtonian {
         None => Ok(bodies),
-        Some(term) => bodies.with_post_newtonian(gravitation::PostNewtonian {
-            centre: term.central,
-            speed_of_light: SPEED_OF_LIGHT,
-        }),
+        Some(term) => bodies
+            .with_post_newtonian(gravitation::PostNewtonian { centre: term.central, speed_of_light: SPEED_OF_LIGHT }),
     }
 }
 

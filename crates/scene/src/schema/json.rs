@@ -38,16 +38,21 @@ fn table(table: &Table) -> Map<String, Value> {
         schema.insert("required".into(), always.into());
     }
     // Keys of some types only: required there, and false elsewhere.
-    let conditions: Vec<Value> = table.keys.iter().filter(|key| !key.only_for.is_empty()).map(|key| {
-        let mut condition = json!({
-            "if": { "properties": { "type": { "enum": key.only_for } } },
-            "else": { "properties": { key.name: false } },
-        });
-        if key.absent == Absent::Required {
-            condition["then"] = json!({ "required": [key.name] });
-        }
-        condition
-    }).collect();
+    let conditions: Vec<Value> = table
+        .keys
+        .iter()
+        .filter(|key| !key.only_for.is_empty())
+        .map(|key| {
+            let mut condition = json!({
+                "if": { "properties": { "type": { "enum": key.only_for } } },
+                "else": { "properties": { key.name: false } },
+            });
+            if key.absent == Absent::Required {
+                condition["then"] = json!({ "required": [key.name] });
+            }
+            condition
+        })
+        .collect();
     if !conditions.is_empty() {
         schema.insert("allOf".into(), conditions.into());
     }
@@ -93,9 +98,9 @@ fn kind(kind: &Kind) -> Map<String, Value> {
             if *dimension == Dimension::NONE { number } else { json!({ "anyOf": [number, with_unit(dimension)] }) }
         }
         Kind::Numbers(dimension, counts) => {
-            let lists = counts.iter().map(|count| {
-                json!({ "type": "array", "items": { "type": "number" }, "minItems": count, "maxItems": count })
-            });
+            let lists = counts.iter().map(
+                |count| json!({ "type": "array", "items": { "type": "number" }, "minItems": count, "maxItems": count }),
+            );
             json!({ "anyOf": lists.chain(core::iter::once(with_unit(dimension))).collect::<Vec<_>>() })
         }
         Kind::Choice(words) => json!({

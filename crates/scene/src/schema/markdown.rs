@@ -25,7 +25,8 @@ pub fn markdown() -> String {
 }
 
 fn table(text: &mut String, table: &Table, heading: &str) {
-    let _ = write!(text, "## {heading}\n\n{}\n\n| key | value | when absent | meaning |\n|---|---|---|---|\n", table.doc);
+    let _ =
+        write!(text, "## {heading}\n\n{}\n\n| key | value | when absent | meaning |\n|---|---|---|---|\n", table.doc);
     for key in table.keys {
         let _ = writeln!(text, "| `{}` | {} | {} | {} |", key.name, value(&key.kind), absent(key), meaning(key));
     }

@@ -18,7 +18,13 @@ const ENERGY: Dimension = Dimension { length: 2, ..FORCE };
 const POWER: Dimension = Dimension { time: -3, ..ENERGY };
 
 /// `numerator/denominator` SI units of a dimension under a name.
-const fn named(name: &'static str, numerator: f64, denominator: f64, dimension: Dimension, doc: &'static str) -> NamedUnit {
+const fn named(
+    name: &'static str,
+    numerator: f64,
+    denominator: f64,
+    dimension: Dimension,
+    doc: &'static str,
+) -> NamedUnit {
     NamedUnit { name, unit: Unit { numerator, denominator, dimension }, doc }
 }
 

@@ -128,10 +128,8 @@ impl<'t> Reader<'t> {
             }
             Some(c) if is_name(c) => {
                 let name = self.take(is_name);
-                names::find(name).ok_or_else(|| UnitError::UnknownUnit {
-                    name: name.to_string(),
-                    nearest: names::nearest(name),
-                })?
+                names::find(name)
+                    .ok_or_else(|| UnitError::UnknownUnit { name: name.to_string(), nearest: names::nearest(name) })?
             }
             None => return Err(UnitError::UnexpectedText { found: self.whole.to_string() }),
             Some(_) => return Err(self.unexpected()),

@@ -51,7 +51,12 @@ impl Reader {
                         entry.place.clone(),
                         format!("`{}` is no key of a {} {}", key.name, kind.unwrap_or("?"), table.name),
                     )
-                    .valid(format!("one of {}; `{}` is of type {}", words::list(&names), key.name, key.only_for.join(", "))),
+                    .valid(format!(
+                        "one of {}; `{}` is of type {}",
+                        words::list(&names),
+                        key.name,
+                        key.only_for.join(", ")
+                    )),
                 );
                 continue;
             }
@@ -76,17 +81,21 @@ impl Reader {
     }
 
     fn missing(&mut self, table: &Table, key: &Key, node: &Node, inner: bool) {
-        let what = if matches!(key.kind, Kind::Table(_)) { format!("[{}]", key.name) } else { format!("`{}`", key.name) };
-        let name = node.get("name").and_then(|node| if let Value::Text(name) = &node.value { Some(name) } else { None });
+        let what =
+            if matches!(key.kind, Kind::Table(_)) { format!("[{}]", key.name) } else { format!("`{}`", key.name) };
+        let name =
+            node.get("name").and_then(|node| if let Value::Text(name) = &node.value { Some(name) } else { None });
         let of = match name {
             Some(name) if inner => format!("the {} `{name}`", table.name.replace('_', " ")),
             _ if inner => format!("[{}]", table.name),
             _ => "the scene".to_string(),
         };
-        self.mistakes.push(
-            Mistake::new(node.place.clone(), format!("{of} lacks {what}"))
-                .valid(format!("{} = {}: {}", key.name, key.kind.describe(), key.doc)),
-        );
+        self.mistakes.push(Mistake::new(node.place.clone(), format!("{of} lacks {what}")).valid(format!(
+            "{} = {}: {}",
+            key.name,
+            key.kind.describe(),
+            key.doc
+        )));
     }
 
     fn unknown(&mut self, table: &Table, entry: &Entry, inner: bool, applies: &dyn Fn(&Key) -> bool) {
@@ -96,15 +105,18 @@ impl Reader {
         let mut mistake = Mistake::new(entry.place.clone(), format!("unknown key `{shown}`{of}"));
         // A key of another table, put before its header or after a wrong one, is the commonest slip.
         let home = SCENE.keys.iter().find_map(|outer| match outer.kind {
-            Kind::Table(other) | Kind::Tables(other) if other.name != table.name => {
-                other.key(&entry.key).map(|_| if matches!(outer.kind, Kind::Table(_)) { format!("[{}]", other.name) } else { format!("[[{}]]", other.name) })
-            }
+            Kind::Table(other) | Kind::Tables(other) if other.name != table.name => other.key(&entry.key).map(|_| {
+                if matches!(outer.kind, Kind::Table(_)) {
+                    format!("[{}]", other.name)
+                } else {
+                    format!("[[{}]]", other.name)
+                }
+            }),
             _ => None,
         });
         mistake = match (words::nearest(&entry.key, names()), home) {
-            (None, Some(home)) => {
-                mistake.valid(format!("it belongs in {home}; here one of {}", words::list(&names().collect::<Vec<_>>())))
-            }
+            (None, Some(home)) => mistake
+                .valid(format!("it belongs in {home}; here one of {}", words::list(&names().collect::<Vec<_>>()))),
             _ => mistake.valid(words::one_of(&entry.key, names())),
         };
         self.mistakes.push(mistake);
@@ -170,7 +182,11 @@ fn value(kind: &Kind, node: &Node) -> Result<FieldValue, Wrong> {
         (Kind::Count { least, most }, Value::Number { value, whole: true })
             if f64::from(*least) <= *value && *value <= f64::from(*most) =>
         {
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number within the range of u32")]
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a whole number within the range of u32"
+            )]
             Ok(FieldValue::Count(*value as u32))
         }
         (Kind::Quantity(dimension, range), _) => {
