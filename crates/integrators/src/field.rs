@@ -28,7 +28,7 @@ pub trait Field<T: Real = f64> {
     /// whose components have natural groups (the three coordinates of one body) override it. Over lanes the
     /// magnitude is that of the largest lane.
     fn magnitudes(&self, y: &[T], magnitudes: &mut [f64]) {
-        let blocks = if y.len() % 2 == 0 { 2 } else { 1 };
+        let blocks = if y.len().is_multiple_of(2) { 2 } else { 1 };
         let length = (y.len() / blocks).max(1);
         for (block, magnitudes) in y.chunks(length).zip(magnitudes.chunks_mut(length)) {
             magnitudes.fill(block.iter().map(|&x| largest_lane(x)).fold(0.0, f64::max));

@@ -27,6 +27,8 @@ pub enum EventAction {
     Stop,
 }
 
+type Function<'e> = dyn FnMut(f64, &[f64]) -> f64 + 'e;
+
 /// A function g(t, y) whose zeros in time are wanted.
 ///
 /// Within each step g is looked at in eight places on the dense output, so that two crossings in one step
@@ -34,7 +36,7 @@ pub enum EventAction {
 /// is not an event there: the run may start on the surface that it is to return to. Where g is exactly zero at
 /// a place looked at, that is a crossing, also if g then returns to the side it came from.
 pub struct Event<'e> {
-    function: Box<dyn FnMut(f64, &[f64]) -> f64 + 'e>,
+    function: Box<Function<'e>>,
     crossing: Crossing,
     action: EventAction,
     /// The last time at which g was not zero, and g there; `None` before the run has left g = 0.

@@ -133,7 +133,7 @@ pub(super) fn weighted_sums<T: Real, const M: usize>(
     let terms: [&[T]; M] = core::array::from_fn(|m| &stages[row[m].0][..n]);
     let blocks = n / BLOCK;
     let (out_blocks, _) = out.as_chunks_mut::<BLOCK>();
-    let term_blocks: [&[[T; BLOCK]]; M] = terms.map(|term| &term.as_chunks::<BLOCK>().0[..blocks]);
+    let term_blocks: [&[[T; BLOCK]]; M] = core::array::from_fn(|m| &terms[m].as_chunks::<BLOCK>().0[..blocks]);
     for (b, out) in out_blocks.iter_mut().enumerate().take(blocks) {
         let sums = sum_of_terms(&weights, |m| term_blocks[m][b]);
         for l in 0..BLOCK {
@@ -156,11 +156,11 @@ fn sum_of_terms<T: Real, const M: usize, const N: usize>(weights: &[T; M], term:
     }
     let second = term(1);
     let mut odd: [T; N] = core::array::from_fn(|l| weights[1] * second[l]);
-    for m in 2..M {
+    for (m, &weight) in weights.iter().enumerate().skip(2) {
         let term = term(m);
         let sum = if m % 2 == 0 { &mut even } else { &mut odd };
         for l in 0..N {
-            sum[l] += weights[m] * term[l];
+            sum[l] += weight * term[l];
         }
     }
     core::array::from_fn(|l| even[l] + odd[l])

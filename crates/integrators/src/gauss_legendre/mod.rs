@@ -17,62 +17,18 @@
 //! Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3, VIII.6; the form with μ and the
 //! stopping criterion: Antoñana, Makazaga & Murua, Numer. Algor. 76 (2017) 861.
 
+#[expect(clippy::unreadable_literal, reason = "seventeen digits, to be compared with printed tables")]
+mod tableaux;
+
 use core::ops::ControlFlow;
 
 use piola_numerics::Real;
 
+use self::tableaux::{STAGES_1, STAGES_2, STAGES_3, STAGES_4, Tableau};
 use crate::field::largest_lane;
 use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
 use crate::{Ending, Field, IntegrationError, Order, Report, State, Step, unobserved};
 
-struct Tableau<const S: usize> {
-    /// c
-    nodes: [f64; S],
-    /// b
-    weights: [f64; S],
-    /// μ
-    couplings: [[f64; S]; S],
-    /// Lᵢ of the next step from the Lⱼ of this one, by continuing the collocation polynomial.
-    extrapolation: [[f64; S]; S],
-}
-
-const STAGES_1: Tableau<1> = Tableau { nodes: [0.5], weights: [1.0], couplings: [[0.5]], extrapolation: [[1.0]] };
-const STAGES_2: Tableau<2> = Tableau {
-    nodes: [0.2113248654051871, 0.7886751345948129],
-    weights: [0.5, 0.5],
-    couplings: [[0.5, 1.0 - 1.0773502691896257], [1.0773502691896257, 0.5]],
-    extrapolation: [[-0.7320508075688773, 1.7320508075688772], [-1.7320508075688772, 2.732050807568877]],
-};
-const STAGES_3: Tableau<3> = Tableau {
-    nodes: [0.11270166537925831, 0.5, 0.8872983346207417],
-    weights: [0.2777777777777778, 0.4444444444444444, 0.2777777777777778],
-    couplings: [
-        [0.5, 1.0 - 1.0809475019311126, 1.0 - 0.96475800154489],
-        [1.0809475019311126, 0.5, 1.0 - 1.0809475019311126],
-        [0.96475800154489, 1.0809475019311126, 0.5],
-    ],
-    extrapolation: [
-        [0.46034998712591646, -0.9391805448271526, 2.0423388845975277],
-        [3.2677422153560443, -5.666666666666667, 7.398924451310623],
-        [4.624327782069139, -7.39415278850618, 8.20631667954075],
-    ],
-};
-const STAGES_4: Tableau<4> = Tableau {
-    nodes: [0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263],
-    weights: [0.17392742256872692, 0.32607257743127305, 0.32607257743127305, 0.17392742256872692],
-    couplings: [
-        [0.5, 1.0 - 1.08158975003228, 1.0 - 0.9612740734321142, 1.0 - 1.0204404206840407],
-        [1.08158975003228, 0.5, 1.0 - 1.0855037514105192, 1.0 - 0.9612740734321142],
-        [0.9612740734321142, 1.0855037514105192, 0.5, 1.0 - 1.08158975003228],
-        [1.0204404206840407, 0.9612740734321142, 1.08158975003228, 0.5],
-    ],
-    extrapolation: [
-        [-0.3043475322896335, 0.5560939709183108, -1.0294085679737872, 2.191699902136537],
-        [-3.667677403095109, 6.246427614654768, -9.46401244076669, 11.574646496723345],
-        [-13.783927085129498, 22.244205449220566, -29.80681363156252, 29.836782226170214],
-        [-14.971892910590412, 23.52091860319091, -29.864571097947245, 27.864733549197386],
-    ],
-};
 /// Sweeps over the stages after which a step is given up.
 const MOST_SWEEPS: usize = 60;
 
@@ -269,7 +225,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
         }
     }
 
-    let second_order = field.is_second_order() && n % 2 == 0;
+    let second_order = field.is_second_order() && n.is_multiple_of(2);
     let half = n / 2;
     let mut previous = f64::INFINITY;
     for sweep in 1..=MOST_SWEEPS {
@@ -278,7 +234,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
             // q̇ = v is known: take it at the newest velocities of all stages before any force is asked for.
             velocities_to_position_increments(tableau, weights, state, work);
         }
-        for i in 0..S {
+        for (i, &weight) in weights.iter().enumerate() {
             stage_values(tableau, state, work, i, 0..if second_order { half } else { n });
             let stage_time = time + tableau.nodes[i] * h;
             field
@@ -294,7 +250,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
                 }
             }
             for k in if second_order { half } else { 0 }..n {
-                let new = T::lit(weights[i]) * work.rate[k];
+                let new = T::lit(weight) * work.rate[k];
                 let difference = largest_lane(new - work.increments[i * n + k]);
                 if 0.0 < difference {
                     change = change.max(difference / work.magnitudes[k]);
