@@ -1,1 +1,17 @@
 //! Benchmarks of Piola beside its peers.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`problems`] | initial value problems with known solutions, hand-coded as their authors' peers would |
+//! | [`peers`] | the same equations given to other crates |
+//! | [`chain`] | pendulum chains three ways: by placement, hand-coded, by the dual numbers of another crate |
+//! | [`work_precision`] | error against time for many methods and parameters, measured in turn |
+//! | [`figure`] | such a table as a figure |
+//! | [`notes`] | what a bench knows beside its time |
+
+pub mod chain;
+pub mod figure;
+pub mod notes;
+pub mod peers;
+pub mod problems;
+pub mod work_precision;

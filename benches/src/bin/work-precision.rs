@@ -1,0 +1,113 @@
+//! Error against time on four problems, our methods and the peers': `work-precision.json` and one SVG each.
+//!
+//! Options: `--out FOLDER` (default: the current one), `--filter PROBLEM` (part of a problem's name).
+
+use std::error::Error;
+use std::path::{Path, PathBuf};
+
+use piola_benches::chain::Chain;
+use piola_benches::figure::figure;
+use piola_benches::problems::{self, Equations, Force, Problem};
+use piola_benches::work_precision::{
+    Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, dormand_prince, gauss_legendre,
+    measure, peer_methods,
+};
+use piola_dynamics::gravitation::Gravitation;
+use piola_dynamics::lagrangian::Lagrangian;
+use piola_integrators::Order;
+use serde_json::Value;
+
+const COLLOCATION: [Order; 3] = [Order::Four, Order::Six, Order::Eight];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let (mut folder, mut filter) = (PathBuf::from("."), String::new());
+    let mut arguments = std::env::args().skip(1);
+    while let Some(argument) = arguments.next() {
+        let value = arguments.next().ok_or_else(|| format!("{argument} wants a value"))?;
+        match argument.as_str() {
+            "--out" => folder = value.into(),
+            "--filter" => filter = value,
+            _ => return Err(format!("unknown option {argument}: --out FOLDER, --filter PROBLEM").into()),
+        }
+    }
+    std::fs::create_dir_all(&folder)?;
+    let mut records = Vec::new();
+    if "double-pendulum".contains(&filter) {
+        records.extend(double_pendulum(&folder)?);
+    }
+    if "kepler".contains(&filter) {
+        let problem = problems::kepler();
+        records.extend(run(&problem, &separable_methods(&problem, 200.0), &folder)?);
+    }
+    if "pleiades".contains(&filter) {
+        let problem = problems::pleiades()?;
+        records.extend(run(&problem, &separable_methods(&problem, 100.0), &folder)?);
+    }
+    if "outer-solar-system".contains(&filter) {
+        records.extend(outer_solar_system(&folder)?);
+    }
+    if records.is_empty() {
+        return Err(format!(
+            "no problem is called {filter}: there are double-pendulum, kepler, pleiades, outer-solar-system"
+        )
+        .into());
+    }
+    // One record a line: differences stay readable.
+    let lines: Vec<String> = records.iter().map(Value::to_string).collect();
+    std::fs::write(folder.join("work-precision.json"), format!("[\n{}\n]\n", lines.join(",\n")))?;
+    Ok(())
+}
+
+fn double_pendulum(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
+    let problem = problems::double_pendulum()?;
+    let pendulum = problem.equations;
+    let chain = Chain::<2> { masses: pendulum.masses, lengths: pendulum.lengths };
+    let lagrangian = Lagrangian::of(chain).with_gravity(pendulum.gravity);
+    let back = |y: &mut [f64]| {
+        if let Some(&[q1, q2, p1, p2]) = y.first_chunk() {
+            y[2..4].copy_from_slice(&pendulum.velocities([q1, q2], [p1, p2]));
+        }
+    };
+    let mut methods = vec![
+        dormand_prince(&problem),
+        derived_dormand_prince("by placement", problem.start, problem.end, || lagrangian.motion(2)),
+    ];
+    methods.extend(COLLOCATION.map(|order| gauss_legendre(&problem, order, 30.0)));
+    // It starts from rest: momenta are zero as velocities are.
+    methods.extend(COLLOCATION.map(|order| {
+        canonical_gauss_legendre(problem.start, problem.end, || lagrangian.canonical_motion(2), back, order, 30.0)
+    }));
+    methods.extend(peer_methods(&problem));
+    run(&problem, &methods, folder)
+}
+
+fn outer_solar_system(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
+    let problem = problems::outer_solar_system()?;
+    let gravitation = Gravitation::new(problem.equations.parameters.to_vec())?;
+    let mut methods = separable_methods(&problem, 100.0);
+    let gravitation = || gravitation.clone();
+    methods.insert(1, derived_dormand_prince("Gravitation", problem.start, problem.end, gravitation));
+    run(&problem, &methods, folder)
+}
+
+/// All methods on equations written by hand that separate.
+fn separable_methods<E: Equations<D> + Force, const D: usize>(problem: &Problem<E, D>, fewest: f64) -> Vec<Method<'_>> {
+    let mut methods = vec![dormand_prince(problem)];
+    methods.extend(Order::ALL.map(|order| composition(problem, order, fewest)));
+    methods.extend(COLLOCATION.map(|order| gauss_legendre(problem, order, fewest)));
+    methods.extend(peer_methods(problem));
+    methods
+}
+
+fn run<E, const D: usize>(
+    problem: &Problem<E, D>,
+    methods: &[Method<'_>],
+    folder: &Path,
+) -> Result<Vec<Value>, Box<dyn Error>> {
+    eprintln!("{}", problem.title);
+    let curves: Vec<Curve> = measure(problem, methods, |complaint| eprintln!("  left out: {complaint}"));
+    let path = folder.join(format!("work-precision-{}.svg", problem.name));
+    std::fs::write(&path, figure(problem.title, &curves))?;
+    eprintln!("  {}", path.display());
+    Ok(curves.iter().flat_map(|curve| curve.records(problem.name)).collect())
+}

@@ -1,0 +1,50 @@
+//! An eccentric orbit.
+
+use core::f64::consts::PI;
+
+use super::{Equations, Force, Problem};
+
+/// The attraction of a fixed centre in the plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Kepler {
+    /// The parameter Gm.
+    pub parameter: f64,
+}
+
+impl Force for Kepler {
+    #[inline]
+    fn force(&self, position: &[f64], force: &mut [f64]) {
+        let (Some(&[x, y]), Some(force)) = (position.first_chunk(), force.first_chunk_mut()) else { return };
+        let square: f64 = x * x + y * y;
+        let factor = -self.parameter / (square * square.sqrt());
+        *force = [factor * x, factor * y];
+    }
+}
+
+impl Equations<4> for Kepler {
+    #[inline]
+    fn rate(&self, y: &[f64; 4], rate: &mut [f64; 4]) {
+        let (position, velocity) = y.split_at(2);
+        let (moving, force) = rate.split_at_mut(2);
+        moving.copy_from_slice(velocity);
+        self.force(position, force);
+    }
+}
+
+/// Ten revolutions of an orbit of eccentricity 0.9, from apocentre to apocentre.
+///
+/// With the half-axis a = 10 and the parameter 190 the start is exact in doubles: r = a(1 + e) = 19 and
+/// v² = (190/10)(1 − e)/(1 + e) = 1. After whole periods 2π √(a³/190) the exact solution is back.
+#[must_use]
+pub fn kepler() -> Problem<Kepler, 4> {
+    let start = [19.0, 0.0, 0.0, 1.0];
+    Problem {
+        name: "kepler",
+        title: "Kepler orbit of eccentricity 0.9, 10 revolutions",
+        equations: Kepler { parameter: 190.0 },
+        start,
+        end: 20.0 * PI * (100.0_f64 / 19.0).sqrt(),
+        reference: start,
+        small: 1.0,
+    }
+}

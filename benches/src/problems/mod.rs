@@ -1,0 +1,60 @@
+//! Initial value problems with known solutions, their equations written by hand as for any library.
+
+mod attraction;
+mod double_pendulum;
+mod kepler;
+mod reference;
+
+pub use attraction::{Attraction, outer_solar_system, pleiades};
+pub use double_pendulum::{DoublePendulum, double_pendulum};
+pub use kepler::{Kepler, kepler};
+pub use reference::ReferenceError;
+
+/// Equations of first order, ẏ = f(y), y being a block of positions and a block of velocities.
+pub trait Equations<const D: usize> {
+    /// Writes f(y).
+    fn rate(&self, y: &[f64; D], rate: &mut [f64; D]);
+}
+
+/// Equations of second order, q̈ = f(q).
+pub trait Force {
+    /// Writes f(q).
+    fn force(&self, position: &[f64], force: &mut [f64]);
+}
+
+/// A problem from time 0 to `end`.
+#[derive(Clone, Debug)]
+pub struct Problem<E, const D: usize> {
+    /// The name of files and records.
+    pub name: &'static str,
+    /// One line about it.
+    pub title: &'static str,
+    /// The equations.
+    pub equations: E,
+    /// The state at time 0.
+    pub start: [f64; D],
+    /// The end time.
+    pub end: f64,
+    /// The state at the end.
+    pub reference: [f64; D],
+    /// The size of the smaller of both blocks of the state: absolute tolerances are relative to it where a
+    /// method wants one.
+    pub small: f64,
+}
+
+impl<E, const D: usize> Problem<E, D> {
+    /// The error of a final state: the largest difference of a component, relative to the largest component
+    /// of its block (positions or velocities).
+    #[must_use]
+    pub fn error(&self, state: &[f64]) -> f64 {
+        let mut error = 0.0_f64;
+        for (found, expected) in state.chunks(D / 2).zip(self.reference.chunks(D / 2)) {
+            let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
+            for (found, expected) in found.iter().zip(expected) {
+                let difference = (found - expected).abs() / scale;
+                error = if difference <= error { error } else { difference };
+            }
+        }
+        error
+    }
+}

@@ -1,0 +1,337 @@
+//! Error against time: many methods with many parameters on one problem, measured in turn.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use piola_integrators::{
+    Composition, DormandPrince853, Field, GaussLegendre, Order, Report, State, Tolerance, field, separable,
+};
+use serde_json::{Value, json};
+
+use crate::peers;
+use crate::problems::{Equations, Force, Problem};
+
+/// The end of one run.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// The state at the end, as the problem lists it.
+    pub state: Vec<f64>,
+    /// Evaluations of the equations.
+    pub evaluations: u64,
+    /// Accepted steps.
+    pub steps: u64,
+}
+
+impl Outcome {
+    fn of(report: Report, state: State) -> Self {
+        Self { state: state.values, evaluations: report.evaluations, steps: report.steps }
+    }
+}
+
+/// What a method looks like in a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Family {
+    /// Explicit symplectic compositions.
+    Composition,
+    /// Collocation in positions and velocities.
+    GaussLegendre,
+    /// Collocation in positions and momenta.
+    CanonicalGaussLegendre,
+    /// The adaptive method on the equations written by hand.
+    DormandPrince,
+    /// The adaptive method on equations that Piola derives.
+    DerivedDormandPrince,
+    /// The first peer.
+    OdeSolvers,
+    /// The second peer.
+    DifferentialEquations,
+}
+
+/// A method of some order, to be run with a parameter: the number of steps or the tolerance.
+pub struct Method<'a> {
+    /// The name in records.
+    pub name: String,
+    /// The family.
+    pub family: Family,
+    /// The order.
+    pub order: u32,
+    /// The parameters, towards smaller errors.
+    parameters: Vec<f64>,
+    run: Box<dyn Fn(f64) -> Result<Outcome, String> + 'a>,
+}
+
+impl std::fmt::Debug for Method<'_> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Method").field("name", &self.name).field("parameters", &self.parameters).finish()
+    }
+}
+
+/// One point of a curve.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// The step (s) or the tolerance.
+    pub parameter: f64,
+    /// The error at the end: see [`Problem::error`].
+    pub error: f64,
+    /// The median time of a run, s.
+    pub seconds: f64,
+    /// Evaluations of the equations.
+    pub evaluations: u64,
+}
+
+/// The points of one method.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// The name in records.
+    pub name: String,
+    /// The family.
+    pub family: Family,
+    /// The order.
+    pub order: u32,
+    /// The points, towards smaller errors.
+    pub points: Vec<Point>,
+}
+
+impl Curve {
+    /// The records of this curve: `{problem, method, peer, parameter, error, seconds, evaluations}`.
+    #[must_use]
+    pub fn records(&self, problem: &str) -> Vec<Value> {
+        let peer = matches!(self.family, Family::OdeSolvers | Family::DifferentialEquations);
+        let record = |point: &Point| {
+            json!({
+                "problem": problem, "method": self.name, "peer": peer, "parameter": point.parameter,
+                "error": point.error, "seconds": point.seconds, "evaluations": point.evaluations,
+            })
+        };
+        self.points.iter().map(record).collect()
+    }
+}
+
+/// A run longer than this ends the curve of its method.
+const LONGEST_RUN: Duration = Duration::from_millis(120);
+/// A sample repeats short runs until it lasts this long.
+const SHORTEST_SAMPLE: Duration = Duration::from_millis(2);
+/// Samples of each point, one in every round over all methods.
+const ROUNDS: usize = 9;
+/// Larger errors are not of interest.
+const LARGEST_ERROR: f64 = 0.1;
+/// Only below this error can rounding be what stops a curve.
+const FLOOR: f64 = 1e-9;
+
+/// Measures all methods on a problem, one after the other in every round, so that a slow minute of the
+/// machine slows all of them. Runs that fail are told to `complain` and left out.
+pub fn measure<E, const D: usize>(
+    problem: &Problem<E, D>,
+    methods: &[Method<'_>],
+    mut complain: impl FnMut(&str),
+) -> Vec<Curve> {
+    let mut curves = Vec::new();
+    let mut samples = Vec::new();
+    for (index, method) in methods.iter().enumerate() {
+        let mut curve =
+            Curve { name: method.name.clone(), family: method.family, order: method.order, points: Vec::new() };
+        let (mut best, mut in_vain) = (f64::INFINITY, 0);
+        for &parameter in &method.parameters {
+            let start = Instant::now();
+            let outcome = match (method.run)(parameter) {
+                Ok(outcome) => outcome,
+                Err(problem) => {
+                    complain(&format!("{} with {parameter:e}: {problem}", method.name));
+                    continue;
+                }
+            };
+            let duration = start.elapsed();
+            if LONGEST_RUN < duration {
+                break;
+            }
+            let error = problem.error(&outcome.state);
+            if error.is_nan() || LARGEST_ERROR < error {
+                continue;
+            }
+            samples.push((index, curve.points.len(), parameter, duration, Vec::with_capacity(ROUNDS)));
+            curve.points.push(Point { parameter, error, seconds: 0.0, evaluations: outcome.evaluations });
+            // The floor of rounding is reached when smaller steps no longer help.
+            in_vain = if error < 0.7 * best { 0 } else { in_vain + 1 };
+            best = best.min(error);
+            if best < FLOOR && 3 <= in_vain {
+                break;
+            }
+        }
+        curves.push(curve);
+    }
+    for _ in 0..ROUNDS {
+        for (method, _, parameter, duration, seconds) in &mut samples {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+            let runs = (SHORTEST_SAMPLE.as_secs_f64() / duration.as_secs_f64()).ceil().clamp(1.0, 1e4) as u32;
+            let start = Instant::now();
+            for _ in 0..runs {
+                let _outcome = black_box((methods[*method].run)(black_box(*parameter)));
+            }
+            seconds.push(start.elapsed().as_secs_f64() / f64::from(runs));
+        }
+    }
+    for (method, point, _, _, mut seconds) in samples {
+        seconds.sort_by(f64::total_cmp);
+        curves[method].points[point].seconds = seconds[seconds.len() / 2];
+    }
+    for curve in &mut curves {
+        // Of what lies beyond the smallest error one point shows that there is a floor.
+        let errors = curve.points.iter().map(|point| point.error).enumerate();
+        let best = errors.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index);
+        curve.points.truncate(best + 2);
+        if curve.family.is_fixed() {
+            for point in &mut curve.points {
+                point.parameter = problem.end / point.parameter;
+            }
+        }
+    }
+    curves
+}
+
+impl Family {
+    /// Whether the parameter is a step, not a tolerance.
+    #[must_use]
+    pub const fn is_fixed(self) -> bool {
+        matches!(self, Self::Composition | Self::GaussLegendre | Self::CanonicalGaussLegendre)
+    }
+}
+
+/// Tolerances from 1e-4 to rounding, one to a decade.
+fn tolerances() -> Vec<f64> {
+    (4..=15).map(|k| 10.0_f64.powi(-k)).collect()
+}
+
+/// Numbers of steps from `fewest` on, four to a factor of ten.
+fn step_counts(fewest: f64) -> Vec<f64> {
+    (0..=24).map(|k| (fewest * 10.0_f64.powf(0.25 * f64::from(k))).round()).collect()
+}
+
+/// The explicit symplectic composition of an order, for equations that separate.
+#[must_use]
+pub fn composition<E: Force, const D: usize>(problem: &Problem<E, D>, order: Order, fewest: f64) -> Method<'_> {
+    let run = move |steps: f64| {
+        let mut equations = separable(D / 2, |_t, q: &[f64], force: &mut [f64]| problem.equations.force(q, force));
+        let mut state = State::new(0.0, problem.start.to_vec()).map_err(|error| error.to_string())?;
+        let mut method = Composition::new(order, problem.end / steps).map_err(|error| error.to_string())?;
+        let report = method.integrate_to(&mut equations, &mut state, problem.end).map_err(|error| error.to_string())?;
+        Ok(Outcome::of(report, state))
+    };
+    let name = format!("composition {}", order.value());
+    let parameters = step_counts(fewest);
+    Method { name, family: Family::Composition, order: order.value(), parameters, run: Box::new(run) }
+}
+
+/// Collocation of an order in positions and velocities.
+#[must_use]
+pub fn gauss_legendre<E: Equations<D>, const D: usize>(
+    problem: &Problem<E, D>,
+    order: Order,
+    fewest: f64,
+) -> Method<'_> {
+    let run = move |steps: f64| collocate(order, &mut by_hand(problem), &problem.start, problem.end, steps);
+    let name = format!("Gauss–Legendre {}", order.value());
+    let parameters = step_counts(fewest);
+    Method { name, family: Family::GaussLegendre, order: order.value(), parameters, run: Box::new(run) }
+}
+
+/// Collocation of an order on a field in positions and momenta; `back` makes velocities of the momenta.
+#[must_use]
+pub fn canonical_gauss_legendre<'a, F: Field, const D: usize>(
+    start: [f64; D],
+    end: f64,
+    field: impl Fn() -> F + 'a,
+    back: impl Fn(&mut [f64]) + 'a,
+    order: Order,
+    fewest: f64,
+) -> Method<'a>
+where
+    F::Error: std::error::Error + 'static,
+{
+    let run = move |steps: f64| {
+        let mut outcome = collocate(order, &mut field(), &start, end, steps)?;
+        back(&mut outcome.state);
+        Ok(outcome)
+    };
+    let name = format!("Gauss–Legendre {}, canonical, by placement", order.value());
+    let parameters = step_counts(fewest);
+    Method { name, family: Family::CanonicalGaussLegendre, order: order.value(), parameters, run: Box::new(run) }
+}
+
+/// The adaptive method on equations written by hand.
+#[must_use]
+pub fn dormand_prince<E: Equations<D>, const D: usize>(problem: &Problem<E, D>) -> Method<'_> {
+    let run = move |tolerance: f64| adapt(&mut by_hand(problem), &problem.start, problem.end, tolerance);
+    let name = "Dormand–Prince 8(5,3)".into();
+    Method { name, family: Family::DormandPrince, order: 8, parameters: tolerances(), run: Box::new(run) }
+}
+
+/// The adaptive method on a field that Piola derives.
+#[must_use]
+pub fn derived_dormand_prince<'a, F: Field, const D: usize>(
+    name: &str,
+    start: [f64; D],
+    end: f64,
+    field: impl Fn() -> F + 'a,
+) -> Method<'a>
+where
+    F::Error: std::error::Error + 'static,
+{
+    let run = move |tolerance: f64| adapt(&mut field(), &start, end, tolerance);
+    let name = format!("Dormand–Prince 8(5,3), {name}");
+    Method { name, family: Family::DerivedDormandPrince, order: 8, parameters: tolerances(), run: Box::new(run) }
+}
+
+/// Both peers.
+#[must_use]
+pub fn peer_methods<E: Equations<D>, const D: usize>(problem: &Problem<E, D>) -> [Method<'_>; 2] {
+    let first = move |tolerance: f64| peers::ode_solvers(problem, tolerance, None);
+    let second = move |tolerance: f64| peers::differential_equations(problem, tolerance, None);
+    [
+        Method {
+            name: format!("{}, Dop853", peers::ODE_SOLVERS),
+            family: Family::OdeSolvers,
+            order: 8,
+            parameters: tolerances(),
+            run: Box::new(first),
+        },
+        Method {
+            name: format!("{}, DOP853", peers::DIFFERENTIAL_EQUATIONS),
+            family: Family::DifferentialEquations,
+            order: 8,
+            parameters: tolerances(),
+            run: Box::new(second),
+        },
+    ]
+}
+
+/// The equations of a problem as a field.
+pub fn by_hand<E: Equations<D>, const D: usize>(
+    problem: &Problem<E, D>,
+) -> impl Field<f64, Error = std::convert::Infallible> {
+    field(D, |_t, y: &[f64], rate: &mut [f64]| {
+        if let (Some(y), Some(rate)) = (y.first_chunk(), rate.first_chunk_mut()) {
+            problem.equations.rate(y, rate);
+        }
+    })
+}
+
+fn collocate<F: Field>(order: Order, field: &mut F, start: &[f64], end: f64, steps: f64) -> Result<Outcome, String>
+where
+    F::Error: std::error::Error + 'static,
+{
+    let mut state = State::new(0.0, start.to_vec()).map_err(|error| error.to_string())?;
+    let mut method = GaussLegendre::new(order, end / steps).map_err(|error| error.to_string())?;
+    let report = method.integrate_to(field, &mut state, end).map_err(|error| error.to_string())?;
+    Ok(Outcome::of(report, state))
+}
+
+fn adapt<F: Field>(field: &mut F, start: &[f64], end: f64, tolerance: f64) -> Result<Outcome, String>
+where
+    F::Error: std::error::Error + 'static,
+{
+    let mut state = State::new(0.0, start.to_vec()).map_err(|error| error.to_string())?;
+    let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+    let report =
+        DormandPrince853::new(tolerance).integrate_to(field, &mut state, end).map_err(|error| error.to_string())?;
+    Ok(Outcome::of(report, state))
+}
