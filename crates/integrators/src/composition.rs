@@ -250,7 +250,9 @@ fn update<T: Real>(y: &mut [T], carry: &mut [T], rate: &[T], h: f64) {
 /// y ← y₀ + h ẏ with compensation.
 #[inline(always)]
 fn update_from<T: Real>((start, carry_start): (&[T], &[T]), y: &mut [T], carry: &mut [T], rate: &[T], h: f64) {
-    y.copy_from_slice(start);
-    carry.copy_from_slice(carry_start);
-    update(y, carry, rate, h);
+    let h = T::lit(h);
+    for ((((y, carry), &start), &carry_start), &rate) in y.iter_mut().zip(carry).zip(start).zip(carry_start).zip(rate) {
+        (*y, *carry) = (start, carry_start);
+        compensated_add(y, carry, rate * h);
+    }
 }

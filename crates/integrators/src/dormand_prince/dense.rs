@@ -135,10 +135,13 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
             f1[i] = first - difference;
             f2[i] = difference + difference - (last + first);
         }
-        weighted_sums(&c::D4, k, f3, |_, sum| h * sum);
-        weighted_sums(&c::D5, k, f4, |_, sum| h * sum);
-        weighted_sums(&c::D6, k, f5, |_, sum| h * sum);
-        weighted_sums(&c::D7, k, f6, |_, sum| h * sum);
+        weighted_sums(&c::D4, k, f3);
+        weighted_sums(&c::D5, k, f4);
+        weighted_sums(&c::D6, k, f5);
+        weighted_sums(&c::D7, k, f6);
+        for f in [f3, f4, f5, f6] {
+            f.iter_mut().for_each(|f| *f *= h);
+        }
         Ok(())
     }
 }

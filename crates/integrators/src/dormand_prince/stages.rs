@@ -66,9 +66,9 @@ impl<T: Real> DormandPrince853<T> {
         let (y, carry) = (&state.values[..n], &state.carry[..n]);
         let (trial, trial_carry) = (&mut self.trial[..n], &mut self.trial_carry[..n]);
         let [fifth_error, third_error, ..] = self.interpolant.each_mut().map(|f| &mut f[..n]);
-        weighted_sums(&c::E5, &self.stages, fifth_error, |_, sum| sum);
-        weighted_sums(&c::B, &self.stages, trial, |_, sum| sum);
-        weighted_sums(&c::B3, &self.stages, third_error, |_, sum| sum);
+        weighted_sums(&c::E5, &self.stages, fifth_error);
+        weighted_sums(&c::B, &self.stages, trial);
+        weighted_sums(&c::B3, &self.stages, third_error);
         for (i, trial) in trial.iter_mut().enumerate() {
             let slope = *trial;
             third_error[i] = slope - third_error[i];
@@ -104,6 +104,11 @@ impl<T: Real> DormandPrince853<T> {
 /// Components worked on at once: small systems are one block, whose sums the compiler keeps in registers.
 const BLOCK: usize = 4;
 
+/// Blocks of a system of n components: none beyond the size where the plain loop, in vector registers, is faster.
+const fn blocks_of(n: usize) -> usize {
+    if n < 16 { n / BLOCK } else { 0 }
+}
+
 /// y + (carry + h Σ aⱼ kⱼ).
 #[inline(always)]
 pub(super) fn combine<T: Real, const M: usize>(
@@ -113,36 +118,42 @@ pub(super) fn combine<T: Real, const M: usize>(
     h: f64,
     out: &mut [T],
 ) {
-    let h = T::lit(h);
-    let (y, carry) = (&y[..out.len()], &carry[..out.len()]);
-    weighted_sums(row, stages, out, |i, sum| y[i] + (carry[i] + h * sum));
-}
-
-/// Writes `finish(i, Σ aⱼ kⱼᵢ)` for every component i, for rows whose length the compiler knows.
-///
-/// The sum runs over even and odd terms apart, which halves the time spent waiting for additions.
-#[inline(always)]
-pub(super) fn weighted_sums<T: Real, const M: usize>(
-    row: &[(usize, f64); M],
-    stages: &[Vec<T>; 16],
-    out: &mut [T],
-    finish: impl Fn(usize, T) -> T,
-) {
     let n = out.len();
+    let h = T::lit(h);
     let weights: [T; M] = core::array::from_fn(|m| T::lit(row[m].1));
     let terms: [&[T]; M] = core::array::from_fn(|m| &stages[row[m].0][..n]);
-    let blocks = n / BLOCK;
-    let (out_blocks, _) = out.as_chunks_mut::<BLOCK>();
+    let (y, carry) = (&y[..n], &carry[..n]);
+    let blocks = blocks_of(n);
     let term_blocks: [&[[T; BLOCK]]; M] = core::array::from_fn(|m| &terms[m].as_chunks::<BLOCK>().0[..blocks]);
-    for (b, out) in out_blocks.iter_mut().enumerate().take(blocks) {
-        let sums = sum_of_terms(&weights, |m| term_blocks[m][b]);
+    let (y_blocks, carry_blocks) = (&y.as_chunks::<BLOCK>().0[..blocks], &carry.as_chunks::<BLOCK>().0[..blocks]);
+    for (b, out) in out.as_chunks_mut::<BLOCK>().0[..blocks].iter_mut().enumerate() {
+        let sum = sum_of_terms(&weights, |m| term_blocks[m][b]);
         for l in 0..BLOCK {
-            out[l] = finish(b * BLOCK + l, sums[l]);
+            out[l] = y_blocks[b][l] + (carry_blocks[b][l] + h * sum[l]);
         }
     }
     for i in blocks * BLOCK..n {
         let [sum] = sum_of_terms(&weights, |m| [terms[m][i]]);
-        out[i] = finish(i, sum);
+        out[i] = y[i] + (carry[i] + h * sum);
+    }
+}
+
+/// Writes Σ aⱼ kⱼ, for rows whose length the compiler knows.
+///
+/// The sum runs over even and odd terms apart, which halves the time spent waiting for additions.
+#[inline(always)]
+pub(super) fn weighted_sums<T: Real, const M: usize>(row: &[(usize, f64); M], stages: &[Vec<T>; 16], out: &mut [T]) {
+    let n = out.len();
+    let weights: [T; M] = core::array::from_fn(|m| T::lit(row[m].1));
+    let terms: [&[T]; M] = core::array::from_fn(|m| &stages[row[m].0][..n]);
+    let blocks = blocks_of(n);
+    let term_blocks: [&[[T; BLOCK]]; M] = core::array::from_fn(|m| &terms[m].as_chunks::<BLOCK>().0[..blocks]);
+    let (out_blocks, _) = out.as_chunks_mut::<BLOCK>();
+    for (b, out) in out_blocks[..blocks].iter_mut().enumerate() {
+        *out = sum_of_terms(&weights, |m| term_blocks[m][b]);
+    }
+    for i in blocks * BLOCK..n {
+        [out[i]] = sum_of_terms(&weights, |m| [terms[m][i]]);
     }
 }
 

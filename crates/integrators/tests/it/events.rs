@@ -21,6 +21,8 @@ fn clock() -> (impl Field<Error = core::convert::Infallible>, DormandPrince853) 
     (field(1, |_t, _y: &[f64], rate: &mut [f64]| rate[0] = 1.0), method)
 }
 
+type Ended<E> = Result<Report, IntegrationError<E>>;
+
 /// Runs and lists (event, time).
 fn run<F: Field>(
     method: &mut DormandPrince853,
@@ -28,7 +30,7 @@ fn run<F: Field>(
     state: &mut State,
     end: f64,
     events: &mut [Event<'_>],
-) -> (Result<Report, IntegrationError<F::Error>>, Vec<(usize, f64)>) {
+) -> (Ended<F::Error>, Vec<(usize, f64)>) {
     let mut found = Vec::new();
     let report = method.integrate_with_events(
         field,
