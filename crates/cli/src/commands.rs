@@ -65,9 +65,9 @@ pub(crate) fn plan(arguments: &SceneArguments) -> Exit {
         Ok(scene) => {
             let plan = Plan::of(&scene);
             if arguments.json {
-                print_json(&plan)
+                print_json(&plan);
             } else {
-                print(&format!("{plan}\n"))
+                print(&format!("{plan}\n"));
             }
             Exit::Done
         }

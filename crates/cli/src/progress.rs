@@ -41,7 +41,7 @@ impl ProgressLine {
     /// Shows a step, if it is time to.
     pub(crate) fn update(&mut self, progress: Progress) {
         self.seen += 1;
-        if self.seen % STRIDE != 0 {
+        if !self.seen.is_multiple_of(STRIDE) {
             return;
         }
         if let Some(bar) = &self.bar {

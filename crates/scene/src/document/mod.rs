@@ -64,7 +64,7 @@ impl Document {
         let id = self.sources.len();
         let source = Source::new("--set", setting);
         if let Err(mistake) = settings::apply(&mut self.root, &source, id) {
-            self.mistakes.push(mistake);
+            self.mistakes.push(*mistake);
         }
         self.sources.push(source);
     }

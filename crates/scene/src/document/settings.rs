@@ -3,6 +3,11 @@
 use super::{Entry, Mistake, Node, Place, Source, Value, parse};
 use crate::words;
 
+/// A boxed mistake, since it is far larger than what is returned when all is well.
+fn wrong<T>(mistake: Mistake) -> Result<T, Box<Mistake>> {
+    Err(Box::new(mistake))
+}
+
 /// One step of a path.
 enum Step {
     /// `.key`, or the name of an entry of a list.
@@ -12,11 +17,13 @@ enum Step {
 }
 
 /// Applies the setting that `source` holds.
-pub(super) fn apply(root: &mut Node, source: &Source, id: usize) -> Result<(), Mistake> {
+pub(super) fn apply(root: &mut Node, source: &Source, id: usize) -> Result<(), Box<Mistake>> {
     let text = source.text.as_str();
     let Some((path, value)) = text.split_once('=') else {
-        return Err(Mistake::new(Place { source: id, span: 0..text.len() }, "a setting without `=`")
-            .valid("path=value, for example `time.end=10 d`"));
+        return wrong(
+            Mistake::new(Place { source: id, span: 0..text.len() }, "a setting without `=`")
+                .valid("path=value, for example `time.end=10 d`"),
+        );
     };
     let offset = path.len() + 1;
     let steps = steps(path, id)?;
@@ -24,8 +31,10 @@ pub(super) fn apply(root: &mut Node, source: &Source, id: usize) -> Result<(), M
     let start = offset + (value.len() - value.trim_start().len());
     let place = Place { source: id, span: start..start + trimmed.len() };
     if trimmed.is_empty() {
-        return Err(Mistake::new(Place { source: id, span: 0..text.len() }, "a setting without a value")
-            .valid("path=value, for example `time.end=10 d`"));
+        return wrong(
+            Mistake::new(Place { source: id, span: 0..text.len() }, "a setting without a value")
+                .valid("path=value, for example `time.end=10 d`"),
+        );
     }
     // What is not TOML is a text: `10 d`, `composition-8`, `[1, 2, 3] km`.
     let node = parse::value(trimmed, id, start)
@@ -33,11 +42,13 @@ pub(super) fn apply(root: &mut Node, source: &Source, id: usize) -> Result<(), M
     place_node(root, &steps, Node { place, value: node.value })
 }
 
-fn steps(path: &str, id: usize) -> Result<Vec<Step>, Mistake> {
-    let bad = |span: core::ops::Range<usize>, what: &str| {
-        Err(Mistake::new(Place { source: id, span }, what.to_string())
-            .valid("keys with dots between, `[i]` or a name for an entry of a list: `body[3].mass`, `body.earth.mass`"))
-    };
+fn steps(path: &str, id: usize) -> Result<Vec<Step>, Box<Mistake>> {
+    let bad =
+        |span: core::ops::Range<usize>, what: &str| {
+            wrong(Mistake::new(Place { source: id, span }, what.to_string()).valid(
+                "keys with dots between, `[i]` or a name for an entry of a list: `body[3].mass`, `body.earth.mass`",
+            ))
+        };
     let mut steps = Vec::new();
     let mut at = 0;
     for part in path.split('.') {
@@ -69,7 +80,7 @@ fn steps(path: &str, id: usize) -> Result<Vec<Step>, Mistake> {
     Ok(steps)
 }
 
-fn place_node(node: &mut Node, steps: &[Step], new: Node) -> Result<(), Mistake> {
+fn place_node(node: &mut Node, steps: &[Step], new: Node) -> Result<(), Box<Mistake>> {
     let Some((step, rest)) = steps.split_first() else {
         *node = new;
         return Ok(());
@@ -94,23 +105,27 @@ fn place_node(node: &mut Node, steps: &[Step], new: Node) -> Result<(), Mistake>
             let names: Vec<String> = items.iter().filter_map(name_of).collect();
             match items.iter_mut().find(|item| name_of(item).as_ref() == Some(name)) {
                 Some(item) => place_node(item, rest, new),
-                None => Err(Mistake::new(place.clone(), format!("no entry of the list is named `{name}`"))
-                    .valid(words::one_of(name, names.iter().map(String::as_str)))),
+                None => wrong(
+                    Mistake::new(place.clone(), format!("no entry of the list is named `{name}`"))
+                        .valid(words::one_of(name, names.iter().map(String::as_str))),
+                ),
             }
         }
         (Step::Index(index, place), Value::List(items)) => {
             let count = items.len();
             match items.get_mut(*index) {
                 Some(item) => place_node(item, rest, new),
-                None => Err(Mistake::new(place.clone(), format!("entry {index} of a list of {count}")).valid(
+                None => wrong(Mistake::new(place.clone(), format!("entry {index} of a list of {count}")).valid(
                     if count == 0 { "no entry: the list is empty".to_string() } else { format!("0 to {}", count - 1) },
                 )),
             }
         }
         (Step::Key(_, place) | Step::Index(_, place), other) => {
             let what = other.describe();
-            Err(Mistake::new(place.clone(), format!("the path goes on, but here stands {what}"))
-                .valid("a path that ends at this value"))
+            wrong(
+                Mistake::new(place.clone(), format!("the path goes on, but here stands {what}"))
+                    .valid("a path that ends at this value"),
+            )
         }
     }
 }

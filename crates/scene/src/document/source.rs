@@ -86,7 +86,7 @@ pub(super) fn read(path: &Path) -> Result<String, SceneError> {
     }
     let not_text = |at: usize, bytes: &[u8]| {
         let before = &bytes[..at];
-        let line = 1 + before.iter().filter(|b| **b == b'\n').count();
+        let line = before.split(|b| *b == b'\n').count();
         let column = at - before.iter().rposition(|b| *b == b'\n').map_or(0, |newline| newline + 1) + 1;
         SceneError::NotText { path: shown(), line, column, byte: bytes[at] }
     };

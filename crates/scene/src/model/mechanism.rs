@@ -338,7 +338,9 @@ impl Builder<'_> {
                         .valid("parents that lead to the ground"),
                     );
                     valid = false;
-                    path.iter().for_each(|j| reported[*j] = true);
+                    for &j in &path {
+                        reported[j] = true;
+                    }
                     break;
                 }
                 path.push(joint);
@@ -346,7 +348,9 @@ impl Builder<'_> {
             }
             if let Some(joint) = at.filter(|joint| reported[*joint]) {
                 // Hangs on a cycle that is reported already.
-                path.iter().chain([&joint]).for_each(|j| reported[*j] = true);
+                for &j in path.iter().chain([&joint]) {
+                    reported[j] = true;
+                }
                 continue;
             }
             for &joint in path.iter().rev() {

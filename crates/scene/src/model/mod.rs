@@ -158,7 +158,7 @@ impl Builder<'_> {
         };
         let time = self.time(record, period);
         let integrator = self.integrator(record);
-        let output = self.output(record, &name);
+        let output = output(record, &name);
         let reference = self.reference(record, system.as_ref(), time);
         Some(Scene {
             name,
@@ -273,17 +273,6 @@ impl Builder<'_> {
         request
     }
 
-    fn output(&mut self, record: &Record, name: &str) -> OutputRequest {
-        let table = record.record("output");
-        let folder = table.and_then(|table| table.text("folder")).map(PathBuf::from);
-        OutputRequest {
-            folder: folder.unwrap_or_else(|| Path::new("out").join(name)),
-            samples: table.and_then(|table| table.count("samples")).unwrap_or(1001),
-            tables: table.and_then(|table| table.flag("tables")).unwrap_or(true),
-            figures: table.and_then(|table| table.flag("figures")).unwrap_or(true),
-        }
-    }
-
     /// Checks that names differ over all the given lists.
     pub(crate) fn unique_names(&mut self, lists: &[&[Record]]) {
         let mut seen: std::collections::HashMap<&str, &Record> = std::collections::HashMap::new();
@@ -310,5 +299,17 @@ impl Builder<'_> {
             );
         }
         found
+    }
+}
+
+/// What is to be written.
+fn output(record: &Record, name: &str) -> OutputRequest {
+    let table = record.record("output");
+    let folder = table.and_then(|table| table.text("folder")).map(PathBuf::from);
+    OutputRequest {
+        folder: folder.unwrap_or_else(|| Path::new("out").join(name)),
+        samples: table.and_then(|table| table.count("samples")).unwrap_or(1001),
+        tables: table.and_then(|table| table.flag("tables")).unwrap_or(true),
+        figures: table.and_then(|table| table.flag("figures")).unwrap_or(true),
     }
 }

@@ -56,7 +56,11 @@ fn figure(size: (u32, u32), title: &str, draw: impl Fn(&Area<'_>) -> Drawn) -> S
         text.clear();
         let message = format!("this figure could not be drawn: {error}");
         let _ = attempt(&mut text, &|area: &Area<'_>| {
-            Ok(area.draw(&Text::new(message.clone(), (pixels(24), pixels(40)), (FONT, pixels(15)).into_font().color(&INK)))?)
+            Ok(area.draw(&Text::new(
+                message.clone(),
+                (pixels(24), pixels(40)),
+                (FONT, pixels(15)).into_font().color(&INK),
+            ))?)
         });
     }
     // The view box keeps the fine coordinates; the size is that of the figure.
@@ -161,7 +165,10 @@ fn panel(
         (low, high) = ([-1.0; 2], [1.0; 2]);
     }
     // One scale for both axes: the plot area is what margins and labels leave.
-    let (wide, tall) = (f64::from(width.saturating_sub(100 * FINE).max(50 * FINE)), f64::from(height.saturating_sub(75 * FINE).max(50 * FINE)));
+    let (wide, tall) = (
+        f64::from(width.saturating_sub(100 * FINE).max(50 * FINE)),
+        f64::from(height.saturating_sub(75 * FINE).max(50 * FINE)),
+    );
     let scale = 1.08 * ((high[0] - low[0]) / wide).max((high[1] - low[1]) / tall).max(1e-12 * (1.0 + radius / metre));
     let range = |k: usize, pixels: f64| {
         let middle = 0.5 * (low[k] + high[k]);

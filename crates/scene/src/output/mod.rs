@@ -29,6 +29,7 @@ pub struct Written {
 }
 
 /// Writes everything that the plan lists.
+#[must_use]
 pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &Summary) -> Written {
     let mut written = Written::default();
     for name in &plan.files {

@@ -36,10 +36,10 @@ pub struct BodyErrors {
 pub struct ErrorAt {
     /// Time, s.
     pub time: f64,
-    /// |x − x_ref|, m.
+    /// `|x − x_ref|`, m.
     pub error: f64,
-    /// With a body c to measure from, |(x − c) − (x_ref − c_ref)| / |x_ref − c_ref|; otherwise |x − x_ref| over the largest distance of the
-    /// reference from the origin, or over the semi-major axis with the closed form.
+    /// With a body c to measure from, `|(x − c) − (x_ref − c_ref)| / |x_ref − c_ref|`; otherwise the error over the largest distance
+    /// of the reference from the origin, or over the semi-major axis with the closed form.
     pub relative: f64,
 }
 
@@ -112,8 +112,13 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
             at,
         });
     }
-    let largest_relative = bodies.iter().map(|body| body.largest_relative).fold(0.0, f64::max);
+    let largest_relative = bodies.iter().map(|body| body.largest_relative).fold(0.0, larger);
     Some(Errors { label: reference.label.clone(), largest_relative, bodies })
+}
+
+/// The larger of two; what is not a number is larger than all.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b < a { a } else { b }
 }
 
 fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

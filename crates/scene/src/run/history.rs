@@ -21,6 +21,9 @@ pub struct History {
     pub invariants: Vec<Invariants>,
 }
 
+/// A vector with the magnitude that its changes are compared with.
+pub type Scaled = ([f64; 3], f64);
+
 /// What should stay constant, at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Invariants {
@@ -34,9 +37,9 @@ pub struct Invariants {
     /// Energy with the post-Newtonian part, J, when that is on.
     pub post_newtonian_energy: Option<f64>,
     /// Σ m v, kg m/s, and Σ m |v|, where momentum is conserved.
-    pub momentum: Option<([f64; 3], f64)>,
+    pub momentum: Option<Scaled>,
     /// Σ m r × v, kg m²/s, and Σ m |r × v|, where it is conserved.
-    pub angular_momentum: Option<([f64; 3], f64)>,
+    pub angular_momentum: Option<Scaled>,
 }
 
 /// How far one invariant went from its first value.
@@ -72,7 +75,7 @@ impl History {
             let values: Vec<f64> = series.iter().filter_map(pick).collect();
             let last = *values.last()?;
             // A drift that is not a number is the largest of all.
-            let largest = values.iter().fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(*b) });
+            let largest = values.iter().copied().reduce(|a, b| if a.is_nan() || b < a { a } else { b })?;
             Some(Drift { max_relative: largest, last_relative: last })
         };
         Drifts {
@@ -88,7 +91,7 @@ impl History {
         let Some(first) = self.invariants.first() else { return Vec::new() };
         let energy_scale = self.invariants.iter().map(|record| record.energy_scale).fold(first.energy.abs(), f64::max);
         let relative = |change: f64, scale: f64| if 0.0 < scale { change / scale } else { change };
-        let vector = |pick: fn(&Invariants) -> Option<([f64; 3], f64)>, record: &Invariants| {
+        let vector = |pick: fn(&Invariants) -> Option<Scaled>, record: &Invariants| {
             let ((now, scale), (start, _)) = (pick(record)?, pick(first)?);
             let square: f64 = now.iter().zip(start).map(|(a, b)| (a - b) * (a - b)).sum();
             Some(relative(square.sqrt(), scale))

@@ -12,7 +12,7 @@ use piola_integrators::{Ending, Report};
 
 pub use comparison::{BodyErrors, ErrorAt, Errors};
 pub(crate) use history::DriftAt;
-pub use history::{Drift, Drifts, History, Invariants};
+pub use history::{Drift, Drifts, History, Invariants, Scaled};
 
 use crate::model::{Scene, System};
 use crate::plan::Plan;

@@ -63,10 +63,10 @@ fn table(table: &Table) -> Map<String, Value> {
 fn key(key: &Key) -> Value {
     let mut schema = kind(&key.kind);
     let mut doc = key.doc.to_string();
-    if let Kind::Quantity(dimension, _) | Kind::Numbers(dimension, _) = key.kind {
-        if dimension != Dimension::NONE {
-            doc = format!("{doc} A plain number is in {}.", dimension.si_unit());
-        }
+    if let Kind::Quantity(dimension, _) | Kind::Numbers(dimension, _) = key.kind
+        && dimension != Dimension::NONE
+    {
+        doc = format!("{doc} A plain number is in {}.", dimension.si_unit());
     }
     schema.insert("description".into(), doc.into());
     if let Absent::Default(text) = key.absent {
@@ -95,13 +95,13 @@ fn kind(kind: &Kind) -> Map<String, Value> {
                     number["exclusiveMaximum"] = 1.into();
                 }
             }
-            if *dimension == Dimension::NONE { number } else { json!({ "anyOf": [number, with_unit(dimension)] }) }
+            if *dimension == Dimension::NONE { number } else { json!({ "anyOf": [number, with_unit(*dimension)] }) }
         }
         Kind::Numbers(dimension, counts) => {
             let lists = counts.iter().map(
                 |count| json!({ "type": "array", "items": { "type": "number" }, "minItems": count, "maxItems": count }),
             );
-            json!({ "anyOf": lists.chain(core::iter::once(with_unit(dimension))).collect::<Vec<_>>() })
+            json!({ "anyOf": lists.chain(core::iter::once(with_unit(*dimension))).collect::<Vec<_>>() })
         }
         Kind::Choice(words) => json!({
             "oneOf": words.iter().map(|word| json!({ "const": word.name, "description": word.doc })).collect::<Vec<_>>()
@@ -112,6 +112,6 @@ fn kind(kind: &Kind) -> Map<String, Value> {
     if let Value::Object(map) = schema { map } else { Map::new() }
 }
 
-fn with_unit(dimension: &Dimension) -> Value {
+fn with_unit(dimension: Dimension) -> Value {
     json!({ "type": "string", "description": format!("{dimension}, with its unit") })
 }

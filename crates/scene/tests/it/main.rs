@@ -1,0 +1,11 @@
+//! Tests of scenes: every bad input has a clear answer, every good one the right result.
+
+mod bad_input;
+mod kepler;
+mod plan;
+mod reference;
+mod run;
+mod schema;
+mod settings;
+mod support;
+mod units;

@@ -1,0 +1,219 @@
+//! Runs: accuracy of the scenes that come with the program, interruption, failure, files.
+
+use core::ops::ControlFlow;
+use std::path::Path;
+
+use piola_scene::output::{self, Folder, Summary};
+use piola_scene::run::{self, Outcome, Run};
+use piola_scene::{Plan, Scene};
+
+use crate::support::{ORBIT, PAIR, TOP, replaced, scene};
+
+fn complete(scene: &Scene) -> Run {
+    let run = run::run(scene, &Plan::of(scene), |_| ControlFlow::Continue(()));
+    assert_eq!(run.outcome, Outcome::Completed);
+    run
+}
+
+fn supplied(name: &str, settings: &[&str]) -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes").join(name);
+    let settings: Vec<String> = settings.iter().map(ToString::to_string).collect();
+    Scene::load(&path, &settings).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn energy_drift(run: &Run) -> f64 {
+    run.drifts.energy.map_or(f64::NAN, |drift| drift.max_relative)
+}
+
+#[test]
+fn solar_system_with_relativity_is_within_the_model_error_of_the_ephemeris() {
+    let run = complete(&supplied("solar-system.toml", &[]));
+    let errors = run.errors.unwrap_or_else(|| panic!("no errors"));
+    assert_eq!(errors.bodies.len(), 10);
+    for body in errors.bodies {
+        // What asteroids, tides and figures of bodies, which the model lacks, make in ten years.
+        let bound = if body.name == "moon" { 1.5e-6 } else { 3e-8 };
+        assert!(body.largest_relative < bound, "{}: {:e}", body.name, body.largest_relative);
+    }
+}
+
+#[test]
+fn solar_system_without_relativity_equals_a_newtonian_integration_in_extended_precision() {
+    let settings = ["gravity.post_newtonian=false", "reference.file=data/solar-system-newtonian.csv"];
+    let run = complete(&supplied("solar-system.toml", &settings));
+    for body in &run.errors.as_ref().unwrap_or_else(|| panic!("no errors")).bodies {
+        // The reference is known to 8.3e-2 m.
+        assert!(body.largest < 0.2, "{}: {} m", body.name, body.largest);
+    }
+    let drifts = [run.drifts.energy, run.drifts.momentum, run.drifts.angular_momentum];
+    for drift in drifts {
+        assert!(drift.is_some_and(|drift| drift.max_relative < 2e-15), "{drift:?}");
+    }
+}
+
+#[test]
+fn kepler_with_eccentricity_near_one_stays_at_the_floor_of_doubles() {
+    let run = complete(&supplied("kepler.toml", &[]));
+    assert!(energy_drift(&run) < 2e-11, "{:e}", energy_drift(&run));
+    let error = run.errors.map_or(f64::NAN, |errors| errors.largest_relative);
+    assert!(error < 2e-6, "{error:e}");
+}
+
+#[test]
+fn mechanisms_equal_their_references() {
+    // The bounds are 1e-14 times the sensitivity of the motion to its start, or 1e-11 where that is larger.
+    for (name, bound) in
+        [("double-pendulum.toml", 3.4e-9), ("heavy-top.toml", 1e-11), ("spherical-pendulum.toml", 1e-11)]
+    {
+        let run = complete(&supplied(name, &[]));
+        let error = run.errors.as_ref().map_or(f64::NAN, |errors| errors.largest_relative);
+        assert!(error < bound, "{name}: {error:e}");
+        assert!(energy_drift(&run) < 1e-12, "{name}: {:e}", energy_drift(&run));
+    }
+}
+
+#[test]
+fn every_method_comes_to_the_same_result() {
+    let methods = [
+        "composition-4",
+        "composition-6",
+        "composition-8",
+        "gauss-legendre-4",
+        "gauss-legendre-6",
+        "gauss-legendre-8",
+        "dormand-prince-853",
+    ];
+    for method in methods {
+        let text = replaced(ORBIT, "eccentricity = 0.5", "eccentricity = 0.2");
+        let text = format!("{text}[integrator]\nmethod = \"{method}\"\n");
+        let run = complete(&scene(&text));
+        let error = run.errors.map_or(f64::NAN, |errors| errors.largest_relative);
+        // Order 4 with 400 steps a turn: h⁴ times a constant and two turns.
+        assert!(error < 1e-6, "{method}: {error:e}");
+    }
+}
+
+#[test]
+fn symplectic_and_adaptive_mechanisms_agree() {
+    let fixed = complete(&scene(&format!("{TOP}[integrator]\nstep = '1 ms'\n")));
+    let adaptive = complete(&scene(TOP));
+    let last = |run: &Run| run.history.coordinates.last().cloned().unwrap_or_default();
+    for (a, b) in last(&fixed).iter().zip(last(&adaptive)) {
+        assert!((a - b).abs() < 1e-10 * (1.0 + b.abs()), "{a} {b}");
+    }
+    assert!(energy_drift(&fixed) < 1e-12);
+}
+
+fn folder(name: &str) -> Folder {
+    let path = std::env::temp_dir().join(format!("piola-run-{}-{name}", std::process::id()));
+    Folder::prepare(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn interrupted_run_writes_what_it_has() {
+    let scene = scene(PAIR);
+    let plan = Plan::of(&scene);
+    let mut steps = 0;
+    let run = run::run(&scene, &plan, |progress| {
+        steps += 1;
+        assert!(0.0 < progress.fraction && progress.fraction <= 1.0);
+        if steps == 5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert_eq!((run.outcome.clone(), run.steps), (Outcome::Interrupted, 5));
+    assert!(1 < run.history.times.len() && run.history.times.len() < plan.instants);
+    let summary = Summary::of(&scene, &plan, &run);
+    assert_eq!(summary.status, "interrupted");
+    assert!(summary.reached_s < summary.end_s);
+    let folder = folder("interrupted");
+    let written = output::write(&folder, &scene, &plan, &run, &summary);
+    assert!(written.failures.is_empty());
+    assert_eq!(written.files.len(), plan.files.len());
+    let _ = std::fs::remove_dir_all(folder.path());
+}
+
+#[test]
+fn failed_run_keeps_its_history_and_says_why() {
+    // Two bodies at rest fall onto each other.
+    let text = replaced(PAIR, "[0.0, 0.5, 0.0]", "[0.0, 0.0, 0.0]");
+    let scene = scene(&replaced(&text, "[0.0, -0.5, 0.0]", "[0.0, 0.0, 0.0]"));
+    let plan = Plan::of(&scene);
+    let run = run::run(&scene, &plan, |_| ControlFlow::Continue(()));
+    assert!(matches!(&run.outcome, Outcome::Failed(why) if why.contains("time")), "{:?}", run.outcome);
+    // They meet after π/√2 · (r³/2Gm)^½ …: before the end at any rate.
+    assert!(0.0 < run.time && run.time < plan.end && 0 < run.steps);
+    assert!(1 < run.history.times.len());
+    let summary = Summary::of(&scene, &plan, &run);
+    assert_eq!(summary.status, "failed");
+    assert!(summary.failure.is_some());
+}
+
+#[test]
+fn summary_has_the_promised_fields() {
+    let scene = scene(ORBIT);
+    let plan = Plan::of(&scene);
+    let run = run::run(&scene, &plan, |_| ControlFlow::Continue(()));
+    let summary: serde_json::Value =
+        serde_json::from_str(&Summary::of(&scene, &plan, &run).to_json()).unwrap_or_else(|error| panic!("{error}"));
+    for number in ["steps", "force_evaluations", "wall_time_s"] {
+        assert!(summary[number].is_number(), "{number} of {summary}");
+    }
+    for text in ["name", "method"] {
+        assert!(summary[text].is_string(), "{text} of {summary}");
+    }
+    for invariant in ["energy", "momentum", "angular_momentum"] {
+        assert!(summary["invariants"][invariant].get("max_relative_drift").is_some(), "{invariant} of {summary}");
+    }
+    assert!(summary["reference"]["max_relative_error"].is_number());
+    assert!(summary["reference"]["by_body"]["comet"]["max_relative_error"].is_number());
+    assert!(summary["skipped"].as_array().is_some_and(|skipped| !skipped.is_empty()));
+}
+
+#[test]
+fn one_file_that_cannot_be_written_does_not_lose_the_others() {
+    let scene = scene(ORBIT);
+    let plan = Plan::of(&scene);
+    let run = complete(&scene);
+    let folder = folder("blocked");
+    // A folder stands where a file should.
+    std::fs::create_dir_all(folder.path().join("trajectory.csv/x")).unwrap_or_else(|error| panic!("{error}"));
+    let written = output::write(&folder, &scene, &plan, &run, &Summary::of(&scene, &plan, &run));
+    assert_eq!(written.failures.len(), 1);
+    assert_eq!(written.files.len(), plan.files.len() - 1);
+    let left: Vec<_> = std::fs::read_dir(folder.path()).into_iter().flatten().filter_map(Result::ok).collect();
+    assert!(left.iter().all(|entry| !entry.file_name().to_string_lossy().contains(".tmp")));
+    let _ = std::fs::remove_dir_all(folder.path());
+}
+
+#[test]
+fn figures_are_whole_svg_documents() {
+    for text in [PAIR, TOP, ORBIT] {
+        let scene = scene(text);
+        let plan = Plan::of(&scene);
+        let run = complete(&scene);
+        let folder = folder(&format!("figures-{}", scene.names()[0]));
+        let written = output::write(&folder, &scene, &plan, &run, &Summary::of(&scene, &plan, &run));
+        for path in written.files.iter().filter(|path| path.extension().is_some_and(|e| e == "svg")) {
+            let svg = std::fs::read_to_string(path).unwrap_or_default();
+            assert!(svg.starts_with("<svg width=\"") && svg.trim_end().ends_with("</svg>"), "{}", path.display());
+            assert!(!svg.contains("could not be drawn") && !svg.contains("NaN"), "{}", path.display());
+        }
+        let _ = std::fs::remove_dir_all(folder.path());
+    }
+}
+
+#[test]
+fn trajectory_of_a_run_is_a_reference_without_error() {
+    let path = std::env::temp_dir().join(format!("piola-again-{}", std::process::id()));
+    let folder = Folder::prepare(&path).unwrap_or_else(|error| panic!("{error}"));
+    let first = scene(PAIR);
+    let plan = Plan::of(&first);
+    let run = complete(&first);
+    let _ = output::write(&folder, &first, &plan, &run, &Summary::of(&first, &plan, &run));
+    let text = format!("{PAIR}[reference]\nfile = \"trajectory.csv\"\n");
+    std::fs::write(path.join("scene.toml"), text).unwrap_or_else(|error| panic!("{error}"));
+    let again = Scene::load(&path.join("scene.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let errors = complete(&again).errors.map_or(f64::NAN, |errors| errors.largest_relative);
+    // The run lands on every instant now instead of giving it by dense output.
+    assert!(errors < 1e-9, "{errors:e}");
+    let _ = std::fs::remove_dir_all(path);
+}
