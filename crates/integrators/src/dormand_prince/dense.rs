@@ -140,7 +140,9 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
         weighted_sums(&c::D6, k, f5);
         weighted_sums(&c::D7, k, f6);
         for f in [f3, f4, f5, f6] {
-            f.iter_mut().for_each(|f| *f *= h);
+            for f in f {
+                *f *= h;
+            }
         }
         Ok(())
     }
