@@ -1,5 +1,3 @@
-#![forbid(unsafe_code)]
-#![cfg_attr(docsrs, feature(doc_cfg))]
 //! Analytical dynamics.
 //!
 //! | module | what |
@@ -8,6 +6,8 @@
 //! | [`hamiltonian`] | Hamilton's equations of any function H(q, p, t) |
 //! | [`rigid_motion`] | the rotation of a rigid body by unit quaternions |
 //! | [`gravitation`] | many bodies attracting each other: direct summation in lanes, post-Newtonian term |
+#![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod error;
 pub mod gravitation;

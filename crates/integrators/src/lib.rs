@@ -1,5 +1,3 @@
-#![forbid(unsafe_code)]
-#![cfg_attr(docsrs, feature(doc_cfg))]
 //! Time stepping for mechanics, over any scalar.
 //!
 //! | method | for | order | step |
@@ -31,6 +29,8 @@
 //! assert!((state.values[0] - 1.0_f64.sin()).abs() < 1e-13);
 //! # Ok::<(), piola_integrators::IntegrationError>(())
 //! ```
+#![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod composition;
 mod dormand_prince;

@@ -1,5 +1,3 @@
-#![forbid(unsafe_code)]
-#![cfg_attr(docsrs, feature(doc_cfg))]
 //! Mechanics from Lagrange to Cauchy.
 //!
 //! Piola is a set of small crates; this one re-exports them. Take it whole, or a single crate.
@@ -67,6 +65,8 @@
 //!
 //! # Features
 #![doc = document_features::document_features!()]
+#![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[cfg(feature = "dynamics")]
 pub use piola_dynamics as dynamics;
