@@ -56,7 +56,8 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
             .filter_map(|(t, known)| {
                 // Recorded instants stand within rounding of the reference's.
                 let slack = 1e-12 * (scene.time.end - scene.time.start);
-                let record = history.times.iter().position(|time| (time - t).abs() <= slack)?;
+                let record = history.times.partition_point(|time| *time < t - slack);
+                history.times.get(record).filter(|time| (*time - t).abs() <= slack)?;
                 Some((record, known.clone()))
             })
             .collect(),
@@ -101,9 +102,7 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
         if at.is_empty() {
             continue;
         }
-        let largest = |pick: fn(&ErrorAt) -> f64| {
-            at.iter().map(pick).fold(0.0, |a: f64, b| if b.is_nan() { b } else { a.max(b) })
-        };
+        let largest = |pick: fn(&ErrorAt) -> f64| at.iter().map(pick).fold(0.0, larger);
         bodies.push(BodyErrors {
             body,
             name: name.clone(),

@@ -1,0 +1,193 @@
+//! Each command on good and bad scenes.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+const ORBIT: &str = "[central]\ngm = 1.0\n[[body]]\nname = 'comet'\nsemi_major_axis = 1.0\neccentricity = 0.5\n\
+                     [time]\nrevolutions = 2\n[reference]\nclosed_form = 'kepler'\n";
+
+/// A folder of its own for each test, removed at its end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("piola-cli-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap_or_else(|error| panic!("{error}"));
+        Self(path)
+    }
+
+    fn scene(&self, text: &str) -> PathBuf {
+        let path = self.0.join("orbit.toml");
+        std::fs::write(&path, text).unwrap_or_else(|error| panic!("{error}"));
+        path
+    }
+
+    fn piola(&self, arguments: &[&str]) -> Output {
+        self.command(arguments).output().unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
+        command.args(arguments).current_dir(&self.0).stdin(Stdio::null());
+        command
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+#[test]
+fn run_writes_everything_that_the_plan_lists() {
+    let folder = Folder::new("run");
+    folder.scene(ORBIT);
+    let plan = json(&out(&folder.piola(&["plan", "orbit.toml", "--json"])));
+    let output = folder.piola(&["run", "orbit.toml"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(out(&output).contains("closed form") && out(&output).contains("comet"), "{}", out(&output));
+    for file in plan["files"].as_array().into_iter().flatten() {
+        let path = folder.0.join("out/orbit").join(file.as_str().unwrap_or_default());
+        assert!(!read(&path).is_empty());
+    }
+    let summary = json(&read(&folder.0.join("out/orbit/summary.json")));
+    assert_eq!(summary["status"], "completed");
+}
+
+#[test]
+fn json_of_a_run_equals_the_summary_written() {
+    let folder = Folder::new("json");
+    folder.scene(ORBIT);
+    let output = folder.piola(&["run", "orbit.toml", "--json", "--out", "results", "--set", "output.figures=false"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert_eq!(json(&out(&output)), json(&read(&folder.0.join("results/summary.json"))));
+    assert!(!folder.0.join("results/trajectory.svg").exists());
+}
+
+#[test]
+fn invalid_scene_exits_with_2_and_writes_nothing() {
+    let folder = Folder::new("invalid");
+    folder.scene(&ORBIT.replace("gm = 1.0", "gm = -1.0").replace("eccentricity", "excentricity"));
+    for command in ["run", "plan", "check"] {
+        let output = folder.piola(&[command, "orbit.toml"]);
+        assert_eq!(output.status.code(), Some(2));
+        let shown = err(&output);
+        assert!(
+            shown.contains("orbit.toml:2:6") && shown.contains("orbit.toml:6:1") && shown.contains("mistakes"),
+            "{shown}"
+        );
+        assert!(out(&output).is_empty());
+    }
+    assert!(!folder.0.join("out").exists());
+    let output = folder.piola(&["check", "orbit.toml", "--json"]);
+    let report = json(&out(&output));
+    assert_eq!((&report["valid"], &report["mistakes"][0]["line"]), (&false.into(), &2.into()), "{report}");
+}
+
+#[test]
+fn mistake_in_a_setting_is_shown_in_the_argument() {
+    let folder = Folder::new("setting");
+    folder.scene(ORBIT);
+    let output = folder.piola(&["run", "orbit.toml", "--set", "body.comet.mass=-1 kg"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("--set:1:17"), "{}", err(&output));
+}
+
+#[test]
+fn unwritable_output_folder_exits_with_2_before_the_run() {
+    let folder = Folder::new("unwritable");
+    folder.scene(ORBIT);
+    std::fs::write(folder.0.join("file"), "text").unwrap_or_else(|error| panic!("{error}"));
+    let output = folder.piola(&["run", "orbit.toml", "--out", "file/results"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("cannot write to the output folder `file/results`"), "{}", err(&output));
+}
+
+#[test]
+fn missing_file_folder_and_garbage_exit_with_2() {
+    let folder = Folder::new("garbage");
+    assert_eq!(folder.piola(&["run", "nothing.toml"]).status.code(), Some(2));
+    assert_eq!(folder.piola(&["run", "."]).status.code(), Some(2));
+    std::fs::write(folder.0.join("garbage.toml"), vec![b'x'; 10_000_000]).unwrap_or_else(|error| panic!("{error}"));
+    let output = folder.piola(&["run", "garbage.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("has 10000000 bytes") && err(&output).len() < 2000, "{}", err(&output));
+    assert_eq!(folder.piola(&["walk", "garbage.toml"]).status.code(), Some(2));
+}
+
+#[test]
+fn failed_run_exits_with_1_and_writes_what_it_has() {
+    let folder = Folder::new("failed");
+    folder.scene(
+        "[gravity]\n[[body]]\nname = 'a'\ngm = 1\nposition = [1, 0, 0]\nvelocity = [0, 0, 0]\n\
+         [[body]]\nname = 'b'\ngm = 1\nposition = [-1, 0, 0]\nvelocity = [0, 0, 0]\n[time]\nend = 10\n",
+    );
+    let output = folder.piola(&["run", "orbit.toml"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(err(&output).contains("the run failed") && err(&output).contains("out/orbit"), "{}", err(&output));
+    let summary = json(&read(&folder.0.join("out/orbit/summary.json")));
+    assert_eq!(summary["status"], "failed");
+    assert!(100 < read(&folder.0.join("out/orbit/trajectory.csv")).len());
+}
+
+#[test]
+#[cfg(unix)]
+fn signals_stop_a_run_which_writes_what_it_has() {
+    for signal in ["-INT", "-TERM"] {
+        let folder = Folder::new(&format!("signal{signal}"));
+        folder.scene(&ORBIT.replace("revolutions = 2", "revolutions = 1e9"));
+        let mut run = folder
+            .command(&["run", "orbit.toml"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap_or_else(|error| panic!("{error}"));
+        std::thread::sleep(Duration::from_millis(800));
+        let kill = Command::new("kill").args([signal, &run.id().to_string()]).status();
+        assert!(kill.is_ok_and(|status| status.success()));
+        let begun = Instant::now();
+        while run.try_wait().unwrap_or_else(|error| panic!("{error}")).is_none() {
+            if Duration::from_secs(30) < begun.elapsed() {
+                let _ = run.kill();
+                panic!("the run did not stop");
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let output = run.wait_with_output().unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(output.status.code(), Some(1), "{}", err(&output));
+        assert!(err(&output).contains("interrupted at"), "{}", err(&output));
+        let summary = json(&read(&folder.0.join("out/orbit/summary.json")));
+        assert_eq!(summary["status"], "interrupted");
+    }
+}
+
+#[test]
+fn plan_check_and_schema_are_printed() {
+    let folder = Folder::new("print");
+    folder.scene(ORBIT);
+    let plan = folder.piola(&["plan", "orbit.toml"]);
+    assert!(plan.status.success() && out(&plan).contains("skipped") && out(&plan).contains("dormand-prince-853"));
+    let check = folder.piola(&["check", "orbit.toml"]);
+    assert!(check.status.success() && out(&check).contains("is valid"), "{}", out(&check));
+    let schema = folder.piola(&["schema"]);
+    assert!(json(&out(&schema))["properties"]["central"].is_object());
+    assert!(!folder.0.join("out").exists());
+}

@@ -1,0 +1,3 @@
+//! The program from outside: arguments, exit codes, what goes to which stream, what is written.
+
+mod end_to_end;
