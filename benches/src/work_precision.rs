@@ -109,10 +109,11 @@ impl Curve {
 
 /// A run longer than this ends the curve of its method.
 const LONGEST_RUN: Duration = Duration::from_millis(120);
-/// A sample repeats short runs until it lasts this long.
-const SHORTEST_SAMPLE: Duration = Duration::from_millis(2);
+/// A sample repeats short runs until it lasts this long: short beside the time slices of the scheduler, so that
+/// most samples of a short run are not interrupted.
+const SHORTEST_SAMPLE: Duration = Duration::from_micros(200);
 /// Samples of each point, one in every round over all methods.
-const ROUNDS: usize = 9;
+const ROUNDS: usize = 15;
 /// Larger errors are not of interest.
 const LARGEST_ERROR: f64 = 0.1;
 /// Only below this error can rounding be what stops a curve.
