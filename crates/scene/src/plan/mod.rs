@@ -46,7 +46,7 @@ pub struct Plan {
     pub start: f64,
     /// End, s.
     pub end: f64,
-    /// Estimated number of steps, for a fixed step.
+    /// Number of steps, for a fixed step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<u64>,
     /// Instants at which the state is recorded.
@@ -145,9 +145,8 @@ impl Plan {
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (method, reason) = choice::method(scene);
-        let span = scene.time.end - scene.time.start;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, and the cast saturates")]
-        let steps = method.step().map(|step| (span / step).ceil() as u64);
+        let instants = instants(scene);
+        let steps = method.step().map(|step| steps(&instants, step));
         let mut plan = Self {
             name: scene.name.clone(),
             system: describe(&scene.system),
@@ -157,7 +156,7 @@ impl Plan {
             start: scene.time.start,
             end: scene.time.end,
             steps,
-            instants: instants(scene).len(),
+            instants: instants.len(),
             computed: Vec::new(),
             skipped: Vec::new(),
             folder: scene.output.folder.display().to_string(),
@@ -289,6 +288,14 @@ pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
     merged
 }
 
+/// Steps of at most `step` that land on every instant.
+fn steps(instants: &[f64], step: f64) -> u64 {
+    // As the integrators count: an interval that is a whole number of steps but for rounding is not given one more.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, and the cast saturates")]
+    let count = |pair: &[f64]| ((pair[1] - pair[0]) / step * (1.0 - 4.0 * f64::EPSILON)).ceil() as u64;
+    instants.windows(2).map(count).sum()
+}
+
 /// The instants of a reference table, ascending.
 pub(crate) fn reference_times(scene: &Scene) -> &[f64] {
     match scene.reference.as_ref().map(|reference| &reference.comparison) {
@@ -340,7 +347,11 @@ impl fmt::Display for Plan {
         match self.method {
             Method::DormandPrince { tolerance } => writeln!(f, ", relative tolerance {tolerance:e}")?,
             Method::Composition { step, .. } | Method::GaussLegendre { step, .. } => {
-                writeln!(f, ", step {step} s, {} steps", self.steps.unwrap_or_default())?;
+                writeln!(
+                    f,
+                    ", steps of at most {step:.6} s that land on every instant: {}",
+                    self.steps.unwrap_or_default()
+                )?;
             }
         }
         writeln!(f, "          {}", self.reason)?;

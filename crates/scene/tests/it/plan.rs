@@ -58,6 +58,15 @@ fn every_method_can_be_asked_for() {
 }
 
 #[test]
+fn planned_steps_equal_steps_taken() {
+    let text = format!("{ORBIT}[integrator]\nmethod = 'composition-8'\nstep = '0.01 s'\n[output]\nsamples = 37\n");
+    let scene = scene(&text);
+    let plan = Plan::of(&scene);
+    let run = piola_scene::run::run(&scene, &plan, |_| core::ops::ControlFlow::Continue(()));
+    assert_eq!(plan.steps, Some(run.steps));
+}
+
+#[test]
 fn plan_is_told_as_text_and_as_json() {
     let plan = plan(PAIR);
     let text = plan.to_string();
