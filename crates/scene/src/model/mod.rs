@@ -159,6 +159,7 @@ impl Builder<'_> {
         let time = self.time(record, period);
         let integrator = self.integrator(record);
         let output = output(record, &name);
+        self.recordable(record, &output);
         let reference = self.reference(record, system.as_ref(), time);
         Some(Scene {
             name,
@@ -271,6 +272,21 @@ impl Builder<'_> {
             }
         }
         request
+    }
+
+    /// Checks that what is recorded fits into memory.
+    fn recordable(&mut self, record: &Record, output: &OutputRequest) {
+        /// Positions over all instants and bodies: about a gigabyte with its tables.
+        const MOST: usize = 5_000_000;
+        let bodies: usize = ["body", "particle", "rigid_body"].iter().map(|list| record.records(list).len()).sum();
+        let samples = output.samples as usize;
+        if MOST / bodies.max(1) < samples {
+            let place = record.record("output").map_or(record.place.clone(), |table| table.place_of("samples"));
+            self.wrong(
+                Mistake::new(place, format!("{samples} samples of {bodies} bodies are more than {MOST} positions"))
+                    .valid(format!("samples = at most {}", MOST / bodies.max(1))),
+            );
+        }
     }
 
     /// Checks that names differ over all the given lists.

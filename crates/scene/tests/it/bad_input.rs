@@ -194,6 +194,14 @@ fn system_that_is_missing_or_twice_there_is_a_mistake() {
 }
 
 #[test]
+fn more_samples_than_memory_holds_are_refused() {
+    let body = |i: u32| format!("[[body]]\nname = 'b{i}'\ngm = 1\nposition = [{i}, 0, 0]\nvelocity = [0, 0, 0]\n");
+    let bodies: String = (0..6).map(body).collect();
+    let text = format!("[gravity]\n{bodies}[time]\nend = 1\n[output]\nsamples = 1000000\n");
+    assert_mistake(&text, "1000000", &["1000000 samples of 6 bodies", "at most 833333"]);
+}
+
+#[test]
 fn empty_scene_lacks_its_parts() {
     let shown = report("").to_string();
     assert!(shown.contains("lacks [time]") && shown.contains("no system"), "{shown}");
