@@ -80,3 +80,12 @@ pub use piola_numerics as numerics;
 #[cfg(all(doctest, feature = "dynamics"))]
 #[doc = include_str!("../../../README.md")]
 struct ProjectReadMe;
+
+/// The snippets of the book run as tests.
+#[cfg(all(doctest, feature = "dynamics"))]
+mod book {
+    #[doc = include_str!("../../../docs/placements.md")]
+    struct Placements;
+    #[doc = include_str!("../../../docs/integrators.md")]
+    struct Integrators;
+}

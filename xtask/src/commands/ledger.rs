@@ -1,6 +1,7 @@
 //! `cargo xtask ledger`: every numbered equation has a home.
 
 mod items;
+mod page;
 mod rows;
 mod tests_of;
 
@@ -16,13 +17,17 @@ use rows::Row;
 
 pub(super) const COMMAND: Command = Command {
     name: "ledger",
-    usage: "[--json]",
+    usage: "[--json | --page]",
     help: "check docs/ledger.toml: each finished row names items that exist and tests that run
 The items are compiled as `use` lines (methods as links of rustdoc) and the tests looked up in the lists of the test
 binaries.
---json   print {done_ids, missing_ids}; a row whose check fails counts as missing",
+--json   print {done_ids, missing_ids}; a row whose check fails counts as missing
+--page   write docs/ledger.md from the rows, and check nothing",
     prepare: |shell, workspace, options| {
         let as_json = options.flag("--json");
+        if options.flag("--page") {
+            return Ok(vec![Step::check("ledger: page", || write_page(workspace), "the page could not be written")]);
+        }
         Ok(vec![Step::check(
             "ledger",
             move || check(shell, workspace, as_json),
@@ -31,10 +36,26 @@ binaries.
     },
 };
 
+const PAGE: &str = "docs/ledger.md";
+
+fn write_page(workspace: &Workspace) -> Outcome {
+    let text = read(&workspace.root.join("docs/ledger.toml")).map_err(|problem| vec![problem])?;
+    let (rows, problems) = rows::parse(&text);
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    std::fs::write(workspace.root.join(PAGE), page::page(&rows)).map_err(|error| vec![format!("{PAGE}: {error}")])?;
+    Ok(format!("wrote {PAGE}"))
+}
+
 fn check(shell: &Shell, workspace: &Workspace, as_json: bool) -> Outcome {
     let text = read(&workspace.root.join("docs/ledger.toml")).map_err(|problem| vec![problem])?;
     let (rows, mut problems) = rows::parse(&text);
+    if read(&workspace.root.join(PAGE)).unwrap_or_default() != page::page(&rows) {
+        problems.push(format!("{PAGE} is out of date: run `cargo xtask ledger --page`"));
+    }
     let done: Vec<&Row> = rows.iter().filter(|row| row.is_done).collect();
+    let mut could_not_check = false;
     // Problems by id: one row may have several, and counts as missing with any.
     let mut failed: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     for check in [tests_of::missing, items::missing] {
@@ -44,10 +65,13 @@ fn check(shell: &Shell, workspace: &Workspace, as_json: bool) -> Outcome {
                     failed.entry(id).or_default().push(problem);
                 }
             }
-            Err(problem) => problems.push(problem),
+            Err(problem) => {
+                could_not_check = true;
+                problems.push(problem);
+            }
         }
     }
-    let is_sound = |row: &&Row| problems.is_empty() && row.is_done && !failed.contains_key(row.id.as_str());
+    let is_sound = |row: &&Row| row.is_done && !could_not_check && !failed.contains_key(row.id.as_str());
     let done_ids: Vec<_> = rows.iter().filter(is_sound).map(|row| &row.id).collect();
     let missing_ids: Vec<_> = rows.iter().filter(|row| !is_sound(row)).map(|row| &row.id).collect();
     let line = format!("{} of {} equations have a home", done_ids.len(), rows.len());

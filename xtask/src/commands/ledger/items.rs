@@ -154,6 +154,8 @@ mod tests {
     fn every_generated_line_knows_its_row() {
         let row = Row {
             id: "W1".into(),
+            folder: "a".into(),
+            what: "velocity".into(),
             is_done: true,
             items: vec!["a::B".into(), "a::B::c".into()],
             tests: vec!["a::it::d".into()],

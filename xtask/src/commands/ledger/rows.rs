@@ -8,6 +8,9 @@ use toml::{Table, Value};
 #[derive(Debug, PartialEq)]
 pub(super) struct Row {
     pub(super) id: String,
+    /// The crate's folder.
+    pub(super) folder: String,
+    pub(super) what: String,
     pub(super) is_done: bool,
     /// Rust paths, such as `piola_kinematics::Attitude`.
     pub(super) items: Vec<String>,
@@ -45,15 +48,14 @@ fn row(entry: &Value) -> Result<Row, String> {
     {
         return Err(format!("{id}: unknown key `{unknown}`"));
     }
-    for key in ["crate", "what"] {
-        text(key).ok_or_else(|| format!("{id}: no `{key}`"))?;
-    }
+    let folder = text("crate").ok_or_else(|| format!("{id}: no `crate`"))?;
+    let what = text("what").ok_or_else(|| format!("{id}: no `what`"))?;
     let is_done = match text("status").as_deref() {
         Some("done") => true,
         Some("open") => false,
         _ => return Err(format!("{id}: `status` must be \"open\" or \"done\"")),
     };
-    let row = Row { is_done, items: strings(table, "item"), tests: strings(table, "test"), id };
+    let row = Row { is_done, items: strings(table, "item"), tests: strings(table, "test"), id, folder, what };
     if row.is_done && (row.items.is_empty() || row.tests.is_empty()) {
         return Err(format!("{}: a finished row names an `item` and a `test`", row.id));
     }
