@@ -11,6 +11,9 @@ use xshell::{Shell, cmd};
 use super::rows::Row;
 use crate::workspace::{Workspace, read};
 
+/// The generated crate.
+const CRATE: &str = "piola-ledger";
+
 /// The items that do not exist, each with the id of its row.
 pub(super) fn missing<'r>(
     shell: &Shell,
@@ -85,12 +88,12 @@ fn importable(item: &str) -> &str {
     item
 }
 
-/// The lines that errors point at.
+/// The lines of the generated file that errors point at.
 fn error_lines(messages: &str) -> BTreeSet<usize> {
     let mut lines = BTreeSet::new();
     for message in messages.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok()) {
         let diagnostic = &message["message"];
-        if diagnostic["level"] != "error" {
+        if message["target"]["name"] != CRATE.replace('-', "_") || diagnostic["level"] != "error" {
             continue;
         }
         let spans = diagnostic["spans"].as_array().into_iter().flatten();
@@ -106,7 +109,7 @@ fn manifest(workspace: &Workspace) -> Result<String, String> {
     let mut manifest = Table::new();
     let package = |key: &str| root.get("workspace").and_then(|workspace| workspace.get("package")?.get(key)).cloned();
     let mut head = Table::new();
-    head.insert("name".into(), "piola-ledger".into());
+    head.insert("name".into(), CRATE.into());
     head.insert("version".into(), "0.0.0".into());
     for key in ["edition", "rust-version"] {
         head.extend(package(key).map(|value| (key.to_owned(), value)));
@@ -168,7 +171,13 @@ mod tests {
 
     #[test]
     fn errors_are_found_by_line() {
-        let message = "{\"message\":{\"level\":\"error\",\"spans\":[{\"line_start\":7}]}}\n{\"message\":{\"level\":\"warning\",\"spans\":[{\"line_start\":8}]}}";
-        assert_eq!(error_lines(message).into_iter().collect::<Vec<_>>(), [7]);
+        let message = |target: &str, level: &str, line: usize| {
+            format!(
+                "{{\"target\":{{\"name\":\"{target}\"}},\"message\":{{\"level\":\"{level}\",\"spans\":[{{\"line_start\":{line}}}]}}}}\n"
+            )
+        };
+        let messages = [("piola_ledger", "error", 7), ("piola_ledger", "warning", 8), ("piola_dynamics", "error", 9)];
+        let messages: String = messages.map(|(target, level, line)| message(target, level, line)).concat();
+        assert_eq!(error_lines(&messages).into_iter().collect::<Vec<_>>(), [7]);
     }
 }
