@@ -152,7 +152,7 @@ fn manifest(member: &Member) -> Vec<String> {
         }
     }
     let docs = package.and_then(|package| package.get("metadata")?.get("docs")?.get("rs"));
-    if docs.is_none() {
+    if docs.is_none() && member.path.join("src/lib.rs").is_file() {
         problems.push("`[package.metadata.docs.rs]` is missing".into());
     }
     problems

@@ -35,7 +35,8 @@ type Found = Vec<(usize, String)>;
 
 fn in_rust(text: &str, is_library: bool) -> Found {
     let mut found = Found::new();
-    if !text.starts_with("//!") {
+    // Attributes of the crate may stand before.
+    if !text.lines().find(|line| !line.starts_with("#![")).is_some_and(|line| line.starts_with("//!")) {
         found.push((1, "no `//!` at the top: say in one line what this file is".into()));
     }
     let code = code_only(text);
@@ -109,6 +110,7 @@ mod tests {
         let open = ["//! File.\nfn a() { to", "do!() }\n#[ign", "ore]\nfn b() {}\n"].concat();
         assert_eq!(in_rust(&open, false).len(), 2);
         assert_eq!(in_rust("fn a() {}\n", false).len(), 1);
+        assert_eq!(in_rust("#![forbid(unsafe_code)]\n//! Crate.\n", false).len(), 0);
         assert_eq!(in_rust("//! `x.unwrap()` in words, \"panic!\" too.\n", true).len(), 0);
         let tested = "//! File.\n#[cfg(test)]\nmod tests { fn a() { b.unwrap() } }\n";
         assert_eq!(in_rust(tested, true).len(), 0);
