@@ -41,7 +41,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         if bodies <= LARGEST_SCALAR {
             group.bench_function(format!("{name} scalar"), |bencher| {
                 bencher.iter(|| {
-                    gravitation.accelerations_over(black_box(&positions), &mut out).expect("bodies in different places");
+                    gravitation
+                        .accelerations_over(black_box(&positions), &mut out)
+                        .expect("bodies in different places");
                     black_box(&mut out);
                 });
             });
