@@ -314,6 +314,7 @@ pub fn by_hand<E: Equations<D>, const D: usize>(
             problem.equations.rate(y, rate);
         }
     })
+    .of_second_order()
 }
 
 fn collocate<F: Field>(order: Order, field: &mut F, start: &[f64], end: f64, steps: f64) -> Result<Outcome, String>
