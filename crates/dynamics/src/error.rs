@@ -38,7 +38,8 @@ pub enum DynamicsError {
         /// The value given.
         value: f64,
     },
-    /// Two bodies in one place, without softening.
+    /// Two bodies in one place, or so near that the cube of their distance is no number any more, where
+    /// nothing softens what one does to the other.
     #[error(
         "bodies {first} and {second} are in one place, where their attraction is infinite; separate them or soften the attraction"
     )]
@@ -61,6 +62,32 @@ pub enum DynamicsError {
     MasslessCentre {
         /// The body's index.
         body: usize,
+    },
+    /// 0 < c < ∞ violated.
+    #[error("the speed of light is {value} m/s; it must satisfy 0 < c < ∞")]
+    InvalidSpeedOfLight {
+        /// The value given.
+        value: f64,
+    },
+    /// A part whose position is infinite or NaN although coordinates and time are finite.
+    #[error("part {part} is nowhere: its position is not finite at these coordinates")]
+    PartNowhere {
+        /// The part's number in the order of placement.
+        part: usize,
+    },
+    /// The attitude of a body is not a unit quaternion.
+    #[error("the attitude of part {part} has the squared length {squared_length}; it must be 1: normalise it")]
+    AttitudeNotUnit {
+        /// The part's number in the order of placement.
+        part: usize,
+        /// w² + x² + y² + z².
+        squared_length: f64,
+    },
+    /// A placement that uses the time but does not say so: its velocities would be wrong.
+    #[error("the placement of part {part} depends on time: declare `const TIME_DEPENDENT: bool = true`")]
+    UndeclaredTimeDependence {
+        /// The part's number in the order of placement.
+        part: usize,
     },
     /// The inertia metric, or the Hessian ∂²L/∂v∂v, is not positive definite.
     #[error(

@@ -9,6 +9,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod check;
 mod error;
 pub mod gravitation;
 pub mod hamiltonian;
@@ -16,3 +17,7 @@ pub mod lagrangian;
 pub mod rigid_motion;
 
 pub use error::DynamicsError;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadMe;

@@ -26,25 +26,32 @@
 //! ```
 
 mod attraction;
+mod field;
+#[cfg(feature = "glam")]
+mod glam;
 mod invariants;
 mod post_newtonian;
 
-use core::convert::Infallible;
-
-use piola_integrators::{Field, Separable};
-use piola_numerics::{Dual, Real};
+use piola_numerics::{Mask, Real};
 
 pub use attraction::{PARALLEL_BODIES, attraction};
 pub use invariants::GravitationInvariants;
 pub use post_newtonian::{PostNewtonian, SPEED_OF_LIGHT, post_newtonian_acceleration};
 
 use crate::DynamicsError;
+use crate::check::{check_finite, check_length};
 use attraction::Summation;
 
 /// Bodies with their gravitational parameters Gm (m³/s²), and what acts between them.
 ///
-/// It is a [`Separable`] system without, and a [`Field`] with or without, the post-Newtonian term.
+/// It is a [`Separable`](piola_integrators::Separable) system without, and a
+/// [`Field`](piola_integrators::Field) with or without, the post-Newtonian term.
+///
+/// # Example
+/// See the [module](self).
 #[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Unchecked", into = "Unchecked"))]
 pub struct Gravitation {
     parameters: Vec<f64>,
     softening: f64,
@@ -82,8 +89,20 @@ impl Gravitation {
     /// Adds the first post-Newtonian term of one central body, which makes the force depend on velocities.
     ///
     /// # Errors
-    /// [`DynamicsError::NoSuchBody`], [`DynamicsError::MasslessCentre`].
+    /// [`DynamicsError::NoSuchBody`], [`DynamicsError::MasslessCentre`], and
+    /// [`DynamicsError::InvalidSpeedOfLight`] unless 0 < c < ∞.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_dynamics::gravitation::{Gravitation, PostNewtonian};
+    /// let sun_and_mercury = Gravitation::new(vec![1.327e20, 2.2e13])?.with_post_newtonian(PostNewtonian::of(0))?;
+    /// assert!(sun_and_mercury.with_post_newtonian(PostNewtonian::of(2)).is_err()); // there is no third body
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     pub fn with_post_newtonian(mut self, term: PostNewtonian) -> Result<Self, DynamicsError> {
+        if !(0.0 < term.speed_of_light && term.speed_of_light < f64::INFINITY) {
+            return Err(DynamicsError::InvalidSpeedOfLight { value: term.speed_of_light });
+        }
         match self.parameters.get(term.centre) {
             None => Err(DynamicsError::NoSuchBody { body: term.centre, bodies: self.parameters.len() }),
             Some(&parameter) if parameter <= 0.0 => Err(DynamicsError::MasslessCentre { body: term.centre }),
@@ -118,22 +137,35 @@ impl Gravitation {
         self.post_newtonian
     }
 
-    /// The state made of positions (m) and velocities (m/s), one triple a body.
+    /// The state made of positions (m) and velocities (m/s), one triple a body: arrays, nalgebra's `Vector3`,
+    /// glam's `DVec3`.
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], and
-    /// [`DynamicsError::CoincidentBodies`] when two bodies that attract are in one place without softening.
-    pub fn state(&self, positions: &[[f64; 3]], velocities: &[[f64; 3]]) -> Result<Vec<f64>, DynamicsError> {
+    /// [`DynamicsError::CoincidentBodies`] when two bodies are in one place where their attraction is
+    /// infinite: see [`with_softening`](Self::with_softening).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_dynamics::gravitation::Gravitation;
+    /// let pair = Gravitation::new(vec![1.0, 1.0])?;
+    /// let state = pair.state(&[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], &[[0.0; 3]; 2])?;
+    /// assert_eq!(state[..6], [1.0, 4.0, 2.0, 5.0, 3.0, 6.0]); // x of both, y of both, z of both
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
+    pub fn state<V: Copy + Into<[f64; 3]>>(
+        &self,
+        positions: &[V],
+        velocities: &[V],
+    ) -> Result<Vec<f64>, DynamicsError> {
         let n = self.bodies();
         let mut state = vec![0.0; 6 * n];
         for (block, (quantity, triples)) in
             [("positions", positions), ("velocities", velocities)].into_iter().enumerate()
         {
-            if triples.len() != n {
-                return Err(DynamicsError::DimensionMismatch { quantity, expected: n, found: triples.len() });
-            }
-            for (body, triple) in triples.iter().enumerate() {
-                for (component, &value) in triple.iter().enumerate() {
+            check_length(quantity, n, triples.len())?;
+            for (body, &triple) in triples.iter().enumerate() {
+                for (component, value) in triple.into().into_iter().enumerate() {
                     if !value.is_finite() {
                         return Err(DynamicsError::NonFinite { quantity, index: 3 * body + component, value });
                     }
@@ -141,32 +173,56 @@ impl Gravitation {
                 }
             }
         }
-        if self.softening <= 0.0
-            && let Some((first, second)) = self.coincident(&state)
-        {
-            return Err(DynamicsError::CoincidentBodies { first, second });
+        let pair = if self.softening <= 0.0 { self.coincident(&state) } else { self.at_the_centre(&state) };
+        match pair {
+            Some((first, second)) => Err(DynamicsError::CoincidentBodies { first, second }),
+            None => Ok(state),
         }
-        Ok(state)
+    }
+
+    /// The central body of the post-Newtonian term, which nothing softens, and one in the same place.
+    fn at_the_centre(&self, state: &[f64]) -> Option<(usize, usize)> {
+        let centre = self.post_newtonian?.centre;
+        let mut others = (0..self.bodies()).filter(|&other| other != centre);
+        let other = others.find(|&other| self.is_infinite_between(state, centre, other))?;
+        Some((centre.min(other), centre.max(other)))
     }
 
     /// The first two bodies in one place of which at least one attracts, if there are any.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_dynamics::gravitation::Gravitation;
+    /// let soft = Gravitation::new(vec![1.0, 2.0, 3.0])?.with_softening(0.1)?;
+    /// let state = soft.state(&[[0.0; 3], [1.0; 3], [0.0; 3]], &[[0.0; 3]; 3])?;
+    /// assert_eq!(soft.coincident(&state), Some((0, 2)));
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     #[must_use]
     pub fn coincident(&self, state: &[f64]) -> Option<(usize, usize)> {
-        let n = self.bodies();
-        let mut order: Vec<usize> = (0..n).collect();
-        let place = |i: usize| self.position(state, i);
-        order.sort_by(|&i, &j| place(i).partial_cmp(&place(j)).unwrap_or(core::cmp::Ordering::Equal));
+        // Both zeros are one place; NaN is none.
+        let place = |&i: &usize| self.position(state, i).map(|x| x + 0.0);
+        let mut order: Vec<usize> = (0..self.bodies()).filter(|i| place(i).iter().all(|x| x.is_finite())).collect();
+        let compare = |i: &usize, j: &usize| {
+            let [a, b] = [place(i), place(j)];
+            a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])).then(a[2].total_cmp(&b[2]))
+        };
+        order.sort_by(compare); // stable: bodies in one place stay in their order
         order
-            .windows(2)
-            .filter(|pair| {
-                let same = place(pair[0]).iter().zip(place(pair[1])).all(|(a, b)| (a - b).abs() <= 0.0);
-                same && 0.0 < self.parameters[pair[0]] + self.parameters[pair[1]]
+            .chunk_by(|i, j| compare(i, j).is_eq())
+            .filter_map(|together| {
+                let first = *together.first()?;
+                let mut others = together[1..].iter().copied();
+                let second = others.find(|&other| 0.0 < self.parameters[first] + self.parameters[other])?;
+                Some((first, second))
             })
-            .map(|pair| (pair[0].min(pair[1]), pair[0].max(pair[1])))
             .min()
     }
 
     /// The position of one body (m), from a state or from its first half.
+    ///
+    /// # Panics
+    /// As indexing does: `body` must be below [`bodies`](Self::bodies), the state one of this system.
     #[must_use]
     pub fn position<T: Real>(&self, state: &[T], body: usize) -> [T; 3] {
         let n = self.bodies();
@@ -174,6 +230,9 @@ impl Gravitation {
     }
 
     /// The velocity of one body (m/s), from a state.
+    ///
+    /// # Panics
+    /// As [`position`](Self::position).
     #[must_use]
     pub fn velocity<T: Real>(&self, state: &[T], body: usize) -> [T; 3] {
         let n = self.bodies();
@@ -182,21 +241,97 @@ impl Gravitation {
 
     /// Writes the Newtonian accelerations (m/s²) at the positions: both in the order of the state.
     ///
+    /// # Errors
+    /// [`DynamicsError::DimensionMismatch`]; when an acceleration is infinite or NaN, why:
+    /// [`DynamicsError::NonFinite`] for a position, [`DynamicsError::CoincidentBodies`] for bodies whose
+    /// distance is zero or so small that its cube is. Nothing is looked for while all is well.
+    ///
     /// # Accuracy
     /// A few ulp of the sum of the magnitudes of the terms.
-    pub fn accelerations_into(&mut self, positions: &[f64], accelerations: &mut [f64]) {
+    ///
+    /// # Example
+    /// ```
+    /// use piola_dynamics::gravitation::Gravitation;
+    /// let mut pair = Gravitation::new(vec![4.0, 8.0])?;
+    /// let mut accelerations = [0.0; 6];
+    /// pair.accelerations_into(&[0.0, 2.0, 0.0, 0.0, 0.0, 0.0], &mut accelerations)?; // 2 m apart along x
+    /// assert_eq!(accelerations[..2], [2.0, -1.0]); // 8/2², 4/2²
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
+    pub fn accelerations_into(&mut self, positions: &[f64], accelerations: &mut [f64]) -> Result<(), DynamicsError> {
+        self.check_lengths(positions, accelerations)?;
         self.summation.run(&self.parameters, self.softening * self.softening, positions, accelerations);
+        self.check_accelerations(positions, &[], accelerations)
     }
 
-    /// The Newtonian accelerations over any scalar: the same formula, without lanes.
-    pub fn accelerations_over<T: Real>(&self, positions: &[T], accelerations: &mut [T]) {
+    /// The Newtonian accelerations over any scalar: the same formula, without lanes, and for floats the same
+    /// results to the last bit.
+    ///
+    /// # Errors
+    /// As [`accelerations_into`](Self::accelerations_into).
+    pub fn accelerations_over<T: Real>(&self, positions: &[T], accelerations: &mut [T]) -> Result<(), DynamicsError> {
+        self.check_lengths(positions, accelerations)?;
         attraction::sum_over(&self.parameters, self.softening * self.softening, positions, accelerations);
+        self.check_accelerations(positions, &[], accelerations)
     }
 
-    fn add_post_newtonian<T: Real>(&self, state: &[T], accelerations: &mut [T]) {
-        if let Some(term) = self.post_newtonian {
-            post_newtonian::add(&self.parameters, term, state, accelerations);
+    fn check_lengths<T>(&self, positions: &[T], accelerations: &[T]) -> Result<(), DynamicsError> {
+        check_length("positions", 3 * self.bodies(), positions.len())?;
+        check_length("accelerations", 3 * self.bodies(), accelerations.len())
+    }
+
+    #[inline]
+    fn check_accelerations<T: Real>(
+        &self,
+        positions: &[T],
+        velocities: &[T],
+        accelerations: &[T],
+    ) -> Result<(), DynamicsError> {
+        let finite = accelerations.iter().fold(T::Mask::splat(true), |all, a| all & a.is_finite());
+        if finite.all() { Ok(()) } else { Err(self.explain(positions, velocities, accelerations)) }
+    }
+
+    /// Why an acceleration is not finite.
+    #[cold]
+    fn explain<T: Real>(&self, positions: &[T], velocities: &[T], accelerations: &[T]) -> DynamicsError {
+        let given = check_finite("positions", positions).and_then(|()| check_finite("velocities", velocities));
+        if let Err(error) = given {
+            return error;
         }
+        for first in 0..self.bodies() {
+            for second in first + 1..self.bodies() {
+                if self.is_infinite_between(positions, first, second) {
+                    return DynamicsError::CoincidentBodies { first, second };
+                }
+            }
+        }
+        match check_finite("accelerations", accelerations) {
+            Err(error) => error,
+            Ok(()) => DynamicsError::NonFinite { quantity: "accelerations", index: 0, value: f64::NAN },
+        }
+    }
+
+    /// Whether what one of two bodies does to the other is infinite, in some lane.
+    fn is_infinite_between<T: Real>(&self, positions: &[T], first: usize, second: usize) -> bool {
+        let (x, y) = (self.position(positions, first), self.position(positions, second));
+        let distance: [T; 3] = core::array::from_fn(|k| y[k] - x[k]);
+        let infinite = |a: [T; 3]| a.iter().any(|a| !a.is_finite().all());
+        let parameter = self.parameters[first].max(self.parameters[second]);
+        let attracts = 0.0 < parameter;
+        let softening_squared = T::lit(self.softening * self.softening);
+        attracts && infinite(attraction(distance, T::lit(parameter), softening_squared))
+            || self.post_newtonian.is_some_and(|term| {
+                let (mu, c) = (T::lit(self.parameters[term.centre]), T::lit(term.speed_of_light));
+                [first, second].contains(&term.centre)
+                    && infinite(post_newtonian_acceleration(distance, [T::zero(); 3], mu, c))
+            })
+    }
+
+    fn add_post_newtonian<T: Real>(&self, state: &[T], accelerations: &mut [T]) -> Result<(), DynamicsError> {
+        let Some(term) = self.post_newtonian else { return Ok(()) };
+        post_newtonian::add(&self.parameters, term, state, accelerations);
+        let (positions, velocities) = state.split_at(3 * self.bodies());
+        self.check_accelerations(positions, velocities, accelerations)
     }
 
     fn magnitudes<T: Real>(&self, y: &[T], magnitudes: &mut [f64]) {
@@ -206,13 +341,13 @@ impl Gravitation {
         for block in 0..2 {
             let part = &y[3 * n * block..3 * n * (block + 1)];
             let size = |body: usize| {
-                let sum: f64 = (0..3)
-                    .map(|component| {
-                        let value: f64 = part[component * n + body].primal(0);
-                        value * value
+                // Over lanes the largest counts; NaN shows in the error itself.
+                (0..T::LANES)
+                    .map(|lane| {
+                        let [x, y, z] = [0, n, 2 * n].map(|start| part[start + body].primal(lane));
+                        (x * x + y * y + z * z).sqrt()
                     })
-                    .sum();
-                sum.sqrt()
+                    .fold(0.0, f64::max)
             };
             let largest = (0..n).map(size).fold(0.0, f64::max);
             for body in 0..n {
@@ -225,64 +360,34 @@ impl Gravitation {
     }
 }
 
-impl Separable for Gravitation {
-    type Error = Infallible;
-    fn freedom(&self) -> usize {
-        3 * self.bodies()
-    }
-    fn force(&mut self, _t: f64, position: &[f64], force: &mut [f64]) -> Result<(), Infallible> {
-        self.accelerations_into(position, force);
-        Ok(())
+/// What is written of a system, checked when it is read.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    parameters: Vec<f64>,
+    #[serde(default)]
+    softening: f64,
+    #[serde(default)]
+    post_newtonian: Option<PostNewtonian>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for Gravitation {
+    type Error = DynamicsError;
+    fn try_from(unchecked: Unchecked) -> Result<Self, DynamicsError> {
+        let system = Self::new(unchecked.parameters)?.with_softening(unchecked.softening)?;
+        match unchecked.post_newtonian {
+            None => Ok(system),
+            Some(term) => system.with_post_newtonian(term),
+        }
     }
 }
 
-impl Field for Gravitation {
-    type Error = Infallible;
-    fn dimension(&self) -> usize {
-        6 * self.bodies()
-    }
-    fn is_second_order(&self) -> bool {
-        true
-    }
-    fn rate(&mut self, _t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Infallible> {
-        let half = 3 * self.bodies();
-        rate[..half].copy_from_slice(&y[half..]);
-        self.accelerations_into(&y[..half], &mut rate[half..]);
-        self.add_post_newtonian(y, &mut rate[half..]);
-        Ok(())
-    }
-    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
-        self.magnitudes(y, magnitudes);
-    }
-}
-
-impl<T: Real> Separable<Dual<T>> for Gravitation {
-    type Error = Infallible;
-    fn freedom(&self) -> usize {
-        3 * self.bodies()
-    }
-    fn force(&mut self, _t: f64, position: &[Dual<T>], force: &mut [Dual<T>]) -> Result<(), Infallible> {
-        self.accelerations_over(position, force);
-        Ok(())
-    }
-}
-
-impl<T: Real> Field<Dual<T>> for Gravitation {
-    type Error = Infallible;
-    fn dimension(&self) -> usize {
-        6 * self.bodies()
-    }
-    fn is_second_order(&self) -> bool {
-        true
-    }
-    fn rate(&mut self, _t: f64, y: &[Dual<T>], rate: &mut [Dual<T>]) -> Result<(), Infallible> {
-        let half = 3 * self.bodies();
-        rate[..half].copy_from_slice(&y[half..]);
-        self.accelerations_over(&y[..half], &mut rate[half..]);
-        self.add_post_newtonian(y, &mut rate[half..]);
-        Ok(())
-    }
-    fn magnitudes(&self, y: &[Dual<T>], magnitudes: &mut [f64]) {
-        self.magnitudes(y, magnitudes);
+#[cfg(feature = "serde")]
+impl From<Gravitation> for Unchecked {
+    fn from(system: Gravitation) -> Self {
+        let Gravitation { parameters, softening, post_newtonian, .. } = system;
+        Self { parameters, softening, post_newtonian }
     }
 }

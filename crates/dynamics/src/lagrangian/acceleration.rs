@@ -9,6 +9,7 @@ use super::collect::{Equations, Pass, Rows};
 use super::directions::{CHUNK, LARGEST, with_directions};
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
+use crate::check::{check_finite, check_length};
 
 /// The buffers of one thread: made once, grown at the first evaluation, then never again.
 ///
@@ -64,7 +65,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`] and
-    /// [`DynamicsError::SingularMetric`], which names a motion without inertia.
+    /// [`DynamicsError::SingularMetric`], which names a motion without inertia; then also what
+    /// [`check`](Self::check) finds wrong with the parts. A negative mass that leaves the metric positive is
+    /// not noticed here, but by `check`.
     ///
     /// # Accuracy
     /// A few ulp times the condition number of the metric scaled to unit diagonal.
@@ -99,7 +102,54 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         check_length("q̈", n, out.len())?;
         let solved = with_directions!(n, N => self.acceleration_in_one_pass::<T, N>(work, q, v, t, out),
             beyond => self.acceleration_by_rows(work, q, v, t, out));
-        solved.map_err(|error| explain(error, q, v, work, n))
+        // NaN velocities and forces leave the metric as it is: they show in the result only.
+        let finite = out.iter().fold(T::Mask::splat(true), |all, a| all & a.is_finite());
+        match solved {
+            Ok(()) if finite.all() => Ok(()),
+            Ok(()) => Err(self.explain_non_finite([("q", q), ("q̇", v)], t, ("q̈", out))),
+            Err(error) => Err(self.explain(error, [("q", q), ("q̇", v)], t, work)),
+        }
+    }
+
+    /// The reason for results that are not finite.
+    #[cold]
+    pub(super) fn explain_non_finite<T: Real>(
+        &self,
+        state: [(&'static str, &[T]); 2],
+        t: T,
+        (quantity, result): (&'static str, &[T]),
+    ) -> DynamicsError {
+        let reason = self.check_given(state, t).and_then(|()| check_finite(quantity, result));
+        reason.err().unwrap_or(DynamicsError::NonFinite { quantity, index: 0, value: f64::NAN })
+    }
+
+    /// The reason for a failed factorisation, in the terms of mechanics. `work.metric` holds the factors made.
+    #[cold]
+    pub(super) fn explain<T: Real>(
+        &self,
+        error: Error,
+        state: [(&'static str, &[T]); 2],
+        t: T,
+        work: &Workspace<T>,
+    ) -> DynamicsError {
+        if let Err(error) = self.check_given(state, t) {
+            return error;
+        }
+        let n = state[0].1.len();
+        match error {
+            Error::NotPositiveDefinite { pivot, value, diagonal } => {
+                let mut direction = vec![T::zero(); n];
+                if ldlt::null_direction_into(&work.metric, n, pivot, &mut direction).is_err() {
+                    direction.clear();
+                }
+                // The lane that failed is the one with this pivot.
+                let pivot_in = |lane: usize| work.metric.get(pivot * (n + 1)).map(|entry| entry.primal(lane).to_bits());
+                let lane = (0..T::LANES).find(|&lane| pivot_in(lane) == Some(value.to_bits())).unwrap_or(0);
+                let direction = direction.into_iter().map(|x| x.primal(lane)).collect();
+                DynamicsError::SingularMetric { coordinate: pivot, pivot: value, diagonal, direction }
+            }
+            other => DynamicsError::Numerics(other),
+        }
     }
 
     #[inline(always)]
@@ -199,7 +249,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
     }
 
-    /// The same for more coordinates than one pass serves: g = JᵀJ from weighted rows.
+    /// The same for more coordinates than one pass serves: g = JᵀmJ from stored rows.
     fn acceleration_by_rows<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -233,11 +283,10 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         Ok(())
     }
 
-    /// The weighted rows and residuals at a state.
+    /// The rows, weights and residuals at a state.
     fn collect_rows_with_rates<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
         let n = q.len();
-        work.rows.jacobian.clear();
-        work.rows.residual.clear();
+        work.rows.clear();
         work.jets.clear();
         work.jets.extend(q.iter().zip(v).enumerate().map(|(i, (&q, &v))| Jet::coordinate(q, v, i)));
         let time = if S::TIME_DEPENDENT { Jet::time(t) } else { Jet::constant(t) };
@@ -246,7 +295,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         self.collect_rows_from(work, q, t, CHUNK);
     }
 
-    /// The weighted rows in the directions from `first` on.
+    /// The rows in the directions from `first` on.
     pub(super) fn collect_rows_from<T: Real>(&self, work: &mut Workspace<T>, q: &[T], t: T, first: usize) {
         let n = q.len();
         for first in (first..n).step_by(CHUNK) {
@@ -317,12 +366,14 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 }
 
 impl<T: Real> Workspace<T> {
-    /// g = JᵀJ, stored whole down the columns.
+    /// g = JᵀmJ, stored whole down the columns.
     pub(super) fn form_metric(&mut self, n: usize) {
         self.metric.clear();
         self.metric.resize(n * n, T::zero());
-        for row in self.rows.jacobian.chunks(n) {
-            for (j, &factor) in row.iter().enumerate() {
+        for (row, &weight) in self.rows.jacobian.chunks(n).zip(&self.rows.weights) {
+            let weight = T::lit(weight);
+            for (j, &entry) in row.iter().enumerate() {
+                let factor = weight * entry;
                 let column = &mut self.metric[j * n + j..(j + 1) * n];
                 for (entry, &other) in column.iter_mut().zip(&row[j..]) {
                     *entry += factor * other;
@@ -334,39 +385,6 @@ impl<T: Real> Workspace<T> {
                 self.metric[i + j * n] = self.metric[j + i * n];
             }
         }
-    }
-}
-
-pub(super) fn check_length(quantity: &'static str, expected: usize, found: usize) -> Result<(), DynamicsError> {
-    if expected == found { Ok(()) } else { Err(DynamicsError::DimensionMismatch { quantity, expected, found }) }
-}
-
-pub(super) fn check_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), DynamicsError> {
-    for (index, value) in values.iter().enumerate() {
-        if !value.is_finite().all() {
-            let lane = (0..T::LANES).find(|&lane| !f64::is_finite(value.primal(lane))).unwrap_or(0);
-            return Err(DynamicsError::NonFinite { quantity, index, value: value.primal(lane) });
-        }
-    }
-    Ok(())
-}
-
-/// The reason for a failed factorisation, in the terms of mechanics. `work.metric` holds the factors made.
-#[cold]
-pub(super) fn explain<T: Real>(error: Error, q: &[T], v: &[T], work: &Workspace<T>, n: usize) -> DynamicsError {
-    if let Err(error) = check_finite("q", q).and_then(|()| check_finite("q̇", v)) {
-        return error;
-    }
-    match error {
-        Error::NotPositiveDefinite { pivot, value, diagonal } => {
-            let mut direction = vec![T::zero(); n];
-            if ldlt::null_direction_into(&work.metric, n, pivot, &mut direction).is_err() {
-                direction.clear();
-            }
-            let direction = direction.into_iter().map(|x| x.primal(0)).collect();
-            DynamicsError::SingularMetric { coordinate: pivot, pivot: value, diagonal, direction }
-        }
-        other => DynamicsError::Numerics(other),
     }
 }
 

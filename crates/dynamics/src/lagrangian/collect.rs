@@ -29,6 +29,11 @@ pub(super) fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
     piola_numerics::linear::matrix3::dot(a, b)
 }
 
+#[inline(always)]
+fn attitude_of<T: Real>([w, x, y, z]: [T; 4]) -> Attitude<T> {
+    Attitude { w, x, y, z }
+}
+
 /// I a, with the body's inertia tensor as constants.
 #[inline(always)]
 pub(super) fn inertia_times<T: Real>(body: &RigidBody, a: [T; 3]) -> [T; 3] {
@@ -131,7 +136,7 @@ impl<T: Real, S, P: Potential, F: Forces, const N: usize> Placement<Jet<T, N>> f
         let bias = inertia_times(body, bias);
         let mut residual: [T; 3] = core::array::from_fn(|k| -(bias[k] + gyroscopic[k]));
         if F::MOMENTS {
-            let moment = self.lagrangian.forces.moment_on_body(self.part, angular_velocity, self.t);
+            let moment = self.lagrangian.forces.moment_on_body(self.part, attitude_of(q), angular_velocity, self.t);
             for (residual, moment) in residual.iter_mut().zip(moment) {
                 *residual += moment;
             }
@@ -185,19 +190,29 @@ impl<T: Real, const N: usize> Placement<Gradient<T, N>> for Metric<T, N> {
     }
 }
 
-/// Rows of the placement Jacobian, each times the root of its inertia, for any number of coordinates: then
-/// g = JᵀJ and f = Jᵀr. Filled in passes of `D` directions.
+/// Rows of the placement Jacobian with their inertia, for any number of coordinates: then g = JᵀmJ and f = Jᵀr.
+/// The rows of a body are Lᵀω_Δ with I = LLᵀ and weight one. Filled in passes of `D` directions.
 #[derive(Clone, Debug)]
 pub(super) struct Rows<T> {
     /// Rows × coordinates.
     pub(super) jacobian: Vec<T>,
-    /// What is left of the force at q̈ = 0, over the root of the inertia.
+    /// The inertia of each row.
+    pub(super) weights: Vec<f64>,
+    /// What is left of the force at q̈ = 0.
     pub(super) residual: Vec<T>,
+}
+
+impl<T> Rows<T> {
+    pub(super) fn clear(&mut self) {
+        self.jacobian.clear();
+        self.weights.clear();
+        self.residual.clear();
+    }
 }
 
 impl<T> Default for Rows<T> {
     fn default() -> Self {
-        Self { jacobian: Vec::new(), residual: Vec::new() }
+        Self { jacobian: Vec::new(), weights: Vec::new(), residual: Vec::new() }
     }
 }
 
@@ -214,7 +229,7 @@ pub(super) struct Pass<'a, T, S, P, F> {
 
 impl<T: Real, S, P: Potential, F: Forces> Pass<'_, T, S, P, F> {
     #[inline(always)]
-    fn store<const D: usize>(&mut self, partials: [T; D], scale: T) {
+    fn store<const D: usize>(&mut self, partials: [T; D], weight: f64) {
         let n = self.coordinates;
         let end = (self.row + 1) * n;
         if self.rows.jacobian.len() < end {
@@ -222,7 +237,10 @@ impl<T: Real, S, P: Potential, F: Forces> Pass<'_, T, S, P, F> {
         }
         let row = &mut self.rows.jacobian[self.row * n + self.first..end];
         for (entry, partial) in row.iter_mut().zip(partials) {
-            *entry = partial * scale;
+            *entry = partial;
+        }
+        if self.first == 0 {
+            self.rows.weights.push(weight);
         }
         self.row += 1;
     }
@@ -262,22 +280,20 @@ fn lower_solve<T: Real>(l: &[[f64; 3]; 3], b: [T; 3]) -> [T; 3] {
 
 impl<T: Real, S, P: Potential, F: Forces, const D: usize> Placement<Gradient<T, D>> for Pass<'_, T, S, P, F> {
     fn particle(&mut self, mass: f64, position: Vector3<Gradient<T, D>>) {
-        let scale = T::lit(mass.sqrt());
         for x in [position.x, position.y, position.z] {
-            self.store(x.partials, scale);
+            self.store(x.partials, mass);
         }
         self.part += 1;
     }
 
     fn body(&mut self, body: &RigidBody, centre: Vector3<Gradient<T, D>>, attitude: Attitude<Gradient<T, D>>) {
-        let scale = T::lit(body.mass().sqrt());
         for x in [centre.x, centre.y, centre.z] {
-            self.store(x.partials, scale);
+            self.store(x.partials, body.mass());
         }
         let quaternion = [attitude.w, attitude.x, attitude.y, attitude.z];
         let rows = turning_rows(body, quaternion.map(|q| q.value), |i| quaternion.map(|q| q.partials[i]));
         for row in rows {
-            self.store::<D>(row, T::one());
+            self.store::<D>(row, 1.0);
         }
         self.part += 1;
     }
@@ -303,14 +319,12 @@ fn turning_rows<T: Real, const D: usize>(
 
 impl<T: Real, S, P: Potential, F: Forces> Pass<'_, T, S, P, F> {
     fn translation<const D: usize>(&mut self, mass: f64, x: [Jet<T, D>; 3]) {
-        let scale = T::lit(mass.sqrt());
+        let m = T::lit(mass);
         let (position, velocity) = (x.map(|x| x.value), x.map(|x| x.rate));
         let force = applied(self.lagrangian, self.part, mass, position, velocity, self.t);
         for k in 0..3 {
-            self.store(x[k].partials, scale);
-            // A part without mass has no inertia to weigh its force with: it cannot be pushed.
-            let over_root = if 0.0 < mass { force[k] / scale } else { T::zero() };
-            self.rows.residual.push(over_root - scale * x[k].second_rate);
+            self.store(x[k].partials, mass);
+            self.rows.residual.push(force[k] - m * x[k].second_rate);
         }
     }
 }
@@ -330,14 +344,14 @@ impl<T: Real, S, P: Potential, F: Forces, const D: usize> Placement<Jet<T, D>> f
         let gyroscopic = cross(angular_velocity, inertia_times(body, angular_velocity));
         let mut moment: [T; 3] = core::array::from_fn(|k| -(bias[k] + gyroscopic[k]));
         if F::MOMENTS {
-            let more = self.lagrangian.forces.moment_on_body(self.part, angular_velocity, self.t);
+            let more = self.lagrangian.forces.moment_on_body(self.part, attitude_of(q), angular_velocity, self.t);
             for (moment, more) in moment.iter_mut().zip(more) {
                 *moment += more;
             }
         }
         let l = root(body);
         for row in turning_rows(body, q, |i| jets.map(|jet| jet.partials[i])) {
-            self.store::<D>(row, T::one());
+            self.store::<D>(row, 1.0);
         }
         self.rows.residual.extend(lower_solve(&l, moment));
         self.part += 1;
@@ -416,7 +430,8 @@ impl<T: Real, F: Forces, const D: usize> Placement<Jet<T, D>> for AppliedSums<'_
         if F::MOMENTS {
             let jets = [attitude.w, attitude.x, attitude.y, attitude.z];
             let q = jets.map(|jet| jet.value);
-            let moment = self.forces.moment_on_body(self.part, turning(q, jets.map(|jet| jet.rate)), self.t);
+            let angular_velocity = turning(q, jets.map(|jet| jet.rate));
+            let moment = self.forces.moment_on_body(self.part, attitude_of(q), angular_velocity, self.t);
             for (i, sum) in self.generalised.iter_mut().enumerate() {
                 *sum += dot(moment, turning(q, jets.map(|jet| jet.partials[i])));
             }

@@ -4,11 +4,12 @@ use nalgebra::DVector;
 use piola_kinematics::Holonomic;
 use piola_numerics::{Dual, Gradient, Jet, Real};
 
-use super::acceleration::{Workspace, check_length};
+use super::acceleration::Workspace;
 use super::collect::{AppliedSums, EnergySums};
 use super::directions::{CHUNK, with_directions};
 use super::{Forces, Lagrangian, NoForces, NoPotential, Potential};
 use crate::DynamicsError;
+use crate::check::check_length;
 
 /// The energies of a state, J.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,5 +1,6 @@
 //! Applied forces: generalised ones, and forces and moments on the particles and bodies themselves.
 
+use piola_kinematics::Attitude;
 use piola_numerics::Real;
 
 /// Forces that do not come from a potential.
@@ -40,8 +41,15 @@ pub trait Forces {
         [T::zero(); 3]
     }
     /// The moment (N m, body components, about the centre of mass) on the body with the part number `part`,
-    /// turning with the given angular velocity (rad/s, body components).
-    fn moment_on_body<T: Real>(&self, _part: usize, _angular_velocity: [T; 3], _t: T) -> [T; 3] {
+    /// in its attitude, turning with the given angular velocity (rad/s, body components).
+    /// [`Attitude::to_body`] brings a moment that is known in space components.
+    fn moment_on_body<T: Real>(
+        &self,
+        _part: usize,
+        _attitude: Attitude<T>,
+        _angular_velocity: [T; 3],
+        _t: T,
+    ) -> [T; 3] {
         [T::zero(); 3]
     }
 }

@@ -5,11 +5,12 @@ use piola_kinematics::Holonomic;
 use piola_numerics::linear::ldlt;
 use piola_numerics::{Dual, Gradient, Real};
 
-use super::acceleration::{Workspace, check_length};
+use super::acceleration::Workspace;
 use super::collect::Metric;
 use super::directions::with_directions;
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
+use crate::check::check_length;
 
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The inertia metric g.
@@ -69,7 +70,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// Leaves the metric in `work.metric`.
     pub(super) fn form_inertia_metric<T: Real>(&self, work: &mut Workspace<T>, q: &[T], t: T) {
         with_directions!(q.len(), N => self.form_inertia_metric_in_one_pass::<T, N>(work, q, t), beyond => {
-            work.rows.jacobian.clear();
+            work.rows.clear();
             self.collect_rows_from(work, q, t, 0);
             work.form_metric(q.len());
         });

@@ -26,6 +26,7 @@ mod directions;
 mod energy;
 mod forces;
 mod function;
+mod legendre;
 mod metric;
 mod motion;
 mod potential;
@@ -40,7 +41,12 @@ pub use piola_kinematics::{Holonomic, Placement};
 pub use potential::{NoPotential, Potential};
 pub use run::Run;
 
+use nalgebra::Vector3;
+use piola_kinematics::{Attitude, RigidBody};
+use piola_numerics::Real;
+
 use crate::DynamicsError;
+use crate::check::{check_finite, check_length};
 
 /// A holonomic system with what acts on it.
 ///
@@ -111,6 +117,16 @@ impl<S, P, F> Lagrangian<S, P, F> {
         &self.system
     }
 
+    /// The potential.
+    pub const fn potential(&self) -> &P {
+        &self.potential
+    }
+
+    /// The applied forces.
+    pub const fn forces(&self) -> &F {
+        &self.forces
+    }
+
     /// Uniform gravity, m/s².
     #[must_use]
     pub const fn gravity(&self) -> [f64; 3] {
@@ -119,43 +135,102 @@ impl<S, P, F> Lagrangian<S, P, F> {
 }
 
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
-    /// Checks what the hot paths trust: finite coordinates and gravity, masses 0 ≤ m < ∞.
+    /// Checks what evaluations trust: finite coordinates, time and gravity, masses 0 ≤ m < ∞, parts that are
+    /// somewhere, attitudes of length one, and that a placement without declared time dependence has none.
+    ///
+    /// [`integrate`](Self::integrate) calls it; call it once yourself before many evaluations.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`], [`DynamicsError::InvalidMass`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::InvalidMass`],
+    /// [`DynamicsError::AttitudeNotUnit`], [`DynamicsError::UndeclaredTimeDependence`].
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Lift; // its floor rises with 2 m/s
+    /// impl Holonomic for Lift {
+    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
+    ///         bodies.particle(1.0, Vector3::new(q[0], T::zero(), T::lit(2.0) * t));
+    ///     }
+    /// }
+    /// let refused = Lagrangian::of(Lift).check(&[0.0], &[0.0], 0.0).unwrap_err();
+    /// assert_eq!(
+    ///     refused.to_string(),
+    ///     "the placement of part 0 depends on time: declare `const TIME_DEPENDENT: bool = true`"
+    /// );
+    /// ```
     pub fn check(&self, q: &[f64], v: &[f64], t: f64) -> Result<(), DynamicsError> {
-        acceleration::check_length("q̇", q.len(), v.len())?;
-        acceleration::check_finite("q", q)?;
-        acceleration::check_finite("q̇", v)?;
-        acceleration::check_finite("t", &[t])?;
-        acceleration::check_finite("gravity", &self.gravity)?;
-        let mut masses = Masses { part: 0, invalid: None };
-        self.system.place(q, t, &mut masses);
-        match masses.invalid {
-            Some((part, mass)) => Err(DynamicsError::InvalidMass { part, mass }),
-            None => Ok(()),
+        check_length("q̇", q.len(), v.len())?;
+        self.check_given([("q", q), ("q̇", v)], t)?;
+        if !S::TIME_DEPENDENT {
+            // Time that is not a number leaves no trace where it is not used.
+            let mut parts = Parts { part: 0, complaint: None };
+            self.system.place(q, f64::NAN, &mut parts);
+            if let Some(DynamicsError::PartNowhere { part } | DynamicsError::AttitudeNotUnit { part, .. }) =
+                parts.complaint
+            {
+                return Err(DynamicsError::UndeclaredTimeDependence { part });
+            }
         }
+        Ok(())
+    }
+
+    /// The first thing wrong with coordinates, velocities or momenta, time, gravity or parts. The first list
+    /// given is that of the coordinates.
+    fn check_given<T: Real>(&self, state: [(&'static str, &[T]); 2], t: T) -> Result<(), DynamicsError> {
+        for (quantity, values) in state {
+            check_finite(quantity, values)?;
+        }
+        check_finite("t", &[t])?;
+        check_finite("gravity", &self.gravity)?;
+        for lane in 0..T::LANES {
+            let q: Vec<f64> = state[0].1.iter().map(|q| q.primal(lane)).collect();
+            let mut parts = Parts { part: 0, complaint: None };
+            self.system.place(&q, t.primal(lane), &mut parts);
+            if let Some(complaint) = parts.complaint {
+                return Err(complaint);
+            }
+        }
+        Ok(())
     }
 }
 
-struct Masses {
+/// How far the squared length of an attitude may be from one.
+const UNIT_TO: f64 = 1e-6; // an attitude computed in f32 passes
+
+/// The first thing that is wrong with a part.
+struct Parts {
     part: usize,
-    invalid: Option<(usize, f64)>,
+    complaint: Option<DynamicsError>,
 }
 
-impl Placement<f64> for Masses {
-    fn particle(&mut self, mass: f64, _position: nalgebra::Vector3<f64>) {
-        if !(0.0 <= mass && mass < f64::INFINITY) && self.invalid.is_none() {
-            self.invalid = Some((self.part, mass));
+impl Parts {
+    fn next(&mut self, complaint: Option<DynamicsError>) {
+        if self.complaint.is_none() {
+            self.complaint = complaint;
         }
         self.part += 1;
     }
-    fn body(
-        &mut self,
-        _body: &piola_kinematics::RigidBody,
-        _centre: nalgebra::Vector3<f64>,
-        _attitude: piola_kinematics::Attitude<f64>,
-    ) {
-        self.part += 1; // validated when it was made
+
+    fn nowhere(&self, position: Vector3<f64>) -> Option<DynamicsError> {
+        let somewhere = position.iter().all(|x| x.is_finite());
+        (!somewhere).then_some(DynamicsError::PartNowhere { part: self.part })
+    }
+}
+
+impl Placement<f64> for Parts {
+    fn particle(&mut self, mass: f64, position: Vector3<f64>) {
+        let part = self.part;
+        let weightless = !(0.0 <= mass && mass < f64::INFINITY);
+        let complaint = weightless.then_some(DynamicsError::InvalidMass { part, mass });
+        self.next(complaint.or(self.nowhere(position)));
+    }
+    fn body(&mut self, _body: &RigidBody, centre: Vector3<f64>, attitude: Attitude<f64>) {
+        let squared_length = attitude.squared_length();
+        let unit = (squared_length - 1.0).abs() <= UNIT_TO;
+        let complaint = (!unit).then_some(DynamicsError::AttitudeNotUnit { part: self.part, squared_length });
+        self.next(self.nowhere(centre).or(complaint));
     }
 }

@@ -3,9 +3,8 @@
 use piola_integrators::Field;
 use piola_kinematics::Holonomic;
 use piola_numerics::Real;
-use piola_numerics::linear::ldlt;
 
-use super::acceleration::{Workspace, check_length};
+use super::acceleration::Workspace;
 use super::energy::With;
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
@@ -69,100 +68,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     pub fn canonical_motion<T: Real>(&self, coordinates: usize) -> CanonicalMotion<'_, S, P, F, T> {
         CanonicalMotion { lagrangian: self, coordinates, work: Workspace::default() }
     }
-
-    /// The velocities that belong to momenta: the inverse of the Legendre map.
-    ///
-    /// ```text
-    /// ∂L/∂q̇ (q, q̇, t) = p
-    /// ```
-    ///
-    /// One solve with the metric when the potential does not depend on velocities; Newton's iteration from
-    /// q̇ = 0 otherwise.
-    ///
-    /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::SingularMetric`],
-    /// [`DynamicsError::LegendreNotConverged`].
-    ///
-    /// # Source
-    /// W(9.4).
-    pub fn velocities_into<T: Real>(
-        &self,
-        work: &mut Workspace<T>,
-        q: &[T],
-        p: &[T],
-        t: T,
-        out: &mut [T],
-    ) -> Result<(), DynamicsError> {
-        let n = q.len();
-        check_length("p", n, p.len())?;
-        check_length("q̇", n, out.len())?;
-        out.fill(T::zero());
-        if !S::TIME_DEPENDENT && !P::VELOCITY_DEPENDENT {
-            out.copy_from_slice(p);
-            return self.solve_with_metric(work, q, p, t, out);
-        }
-        let mut residual = core::mem::take(&mut work.linear);
-        residual.resize(n, T::zero());
-        let mut result = Ok(());
-        for iteration in 1..=NEWTON_ITERATIONS {
-            self.differentiate(work, out, q, t, With::Velocities, &mut residual);
-            for (residual, &p) in residual.iter_mut().zip(p) {
-                *residual = p - *residual;
-            }
-            if P::VELOCITY_DEPENDENT {
-                // ∂²L/∂q̇∂q̇ at the newest velocities.
-                self.form_inertia_metric(work, q, t);
-                self.subtract_velocity_hessian(work, q, out, t);
-                if let Err(error) = ldlt::factor_in_place(&mut work.metric, n) {
-                    result = Err(super::acceleration::explain(error, q, p, work, n));
-                    break;
-                }
-                ldlt::solve_in_place(&work.metric, n, &mut residual)?;
-            } else if let Err(error) = self.solve_with_metric(work, q, p, t, &mut residual) {
-                result = Err(error);
-                break;
-            }
-            let (mut size, mut speed) = (0.0_f64, 0.0_f64);
-            for (v, &change) in out.iter_mut().zip(&residual) {
-                *v += change;
-                for lane in 0..T::LANES {
-                    size = size.max(change.primal(lane).abs());
-                    speed = speed.max(v.primal(lane).abs());
-                }
-            }
-            let correction = if 0.0 < speed { size / speed } else { 0.0 };
-            // Without velocity-dependent potential one step is exact. Derivatives converge one step later.
-            if !P::VELOCITY_DEPENDENT || (1 < iteration && correction <= 4.0 * f64::EPSILON) {
-                break;
-            }
-            if iteration == NEWTON_ITERATIONS && !(correction <= 1e-10) {
-                result = Err(DynamicsError::LegendreNotConverged { iterations: iteration, correction });
-            }
-        }
-        work.linear = residual;
-        result
-    }
-
-    /// Solves g x = b in place.
-    fn solve_with_metric<T: Real>(
-        &self,
-        work: &mut Workspace<T>,
-        q: &[T],
-        p: &[T],
-        t: T,
-        b: &mut [T],
-    ) -> Result<(), DynamicsError> {
-        let n = q.len();
-        self.form_inertia_metric(work, q, t);
-        if let Err(error) = ldlt::factor_in_place(&mut work.metric, n) {
-            return Err(super::acceleration::explain(error, q, p, work, n));
-        }
-        Ok(ldlt::solve_in_place(&work.metric, n, b)?)
-    }
 }
-
-/// Newton steps of the inverse Legendre map after which it is given up.
-const NEWTON_ITERATIONS: usize = 50;
 
 impl<S: Holonomic, P: Potential, F: Forces, T: Real> Field<T> for Motion<'_, S, P, F, T> {
     type Error = DynamicsError;

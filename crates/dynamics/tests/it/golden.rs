@@ -3,8 +3,13 @@
 use core::ops::ControlFlow;
 use std::collections::HashMap;
 
+use piola_dynamics::gravitation::Gravitation;
+use piola_dynamics::hamiltonian::{Hamiltonian, HamiltonianField};
 use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Potential};
-use piola_integrators::{DormandPrince853, GaussLegendre, Order, State, Tolerance};
+use piola_dynamics::rigid_motion::RigidRotation;
+use piola_integrators::{Composition, DormandPrince853, Field, GaussLegendre, Order, Separable, State, Tolerance};
+use piola_kinematics::{Attitude, Inertia, RigidBody};
+use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
 use serde_json::Value;
 
@@ -93,7 +98,7 @@ struct Given(Vec<f64>);
 
 impl Forces for Given {
     const GENERALISED: bool = true;
-    fn generalised<T: piola_numerics::Real>(&self, _q: &[T], _v: &[T], _t: T, q_out: &mut [T]) {
+    fn generalised<T: Real>(&self, _q: &[T], _v: &[T], _t: T, q_out: &mut [T]) {
         for (out, &force) in q_out.iter_mut().zip(&self.0) {
             *out += T::lit(force);
         }
@@ -210,4 +215,146 @@ fn mechanisms_follow_reference_trajectories() {
         }
     }
     assert_eq!(followed, 6);
+}
+
+/// Compares two methods with a reference trajectory at all its times. `reading` brings a state to the form of
+/// the data.
+fn follow_field<F: Field + Separable<Error = <F as Field>::Error>>(
+    case: &Value,
+    field: &mut F,
+    start: Vec<f64>,
+    step: f64,
+    reading: impl Fn(&[f64]) -> Vec<f64>,
+) where
+    <F as Field>::Error: core::fmt::Debug,
+{
+    let mut adaptive = State::new(0.0, start).unwrap();
+    let mut implicit = adaptive.clone();
+    let mut composed = adaptive.clone();
+    for (index, expected) in case["states"].as_array().unwrap().iter().enumerate() {
+        let (t, values) = (golden::number(&expected["t"]), golden::vector(&expected["state"]));
+        let mut method = DormandPrince853::new(Tolerance::relative(1e-15).unwrap());
+        method.integrate_to(field, &mut adaptive, t).unwrap();
+        GaussLegendre::new(Order::Eight, step).unwrap().integrate_to(field, &mut implicit, t).unwrap();
+        Composition::new(Order::Eight, step).unwrap().integrate_to(field, &mut composed, t).unwrap();
+        for (what, state) in [("adaptive", &adaptive), ("Gauss–Legendre", &implicit), ("composition", &composed)] {
+            let what = format!("{} at {t}, {what}", golden::text(&case["name"]));
+            assert_close_at_scale(&what, &reading(&state.values), &values, 1.0, allowed(case, index));
+        }
+    }
+}
+
+fn cases_of(system: &str) -> Vec<Value> {
+    golden::load("trajectories").cases.into_iter().filter(|case| golden::text(&case["system"]) == system).collect()
+}
+
+/// The state of plane bodies from (x₁, y₁, …) and (ẋ₁, ẏ₁, …), and back.
+fn in_space(bodies: &Gravitation, plane: &[f64]) -> Vec<f64> {
+    let (x, v) = plane.split_at(plane.len() / 2);
+    let mut triples = [x, v].map(|half| half.chunks(2).map(|pair| [pair[0], pair[1], 0.0]).collect::<Vec<[f64; 3]>>());
+    // The centre of Kepler's problem, at rest at the origin.
+    triples.iter_mut().for_each(|triples| triples.resize(bodies.bodies(), [0.0; 3]));
+    bodies.state(&triples[0], &triples[1]).unwrap()
+}
+
+fn in_plane(bodies: &Gravitation, state: &[f64], n: usize) -> Vec<f64> {
+    let pair = |[x, y, _]: [f64; 3]| [x, y];
+    let positions = (0..n).flat_map(|i| pair(bodies.position(state, i)));
+    positions.chain((0..n).flat_map(|i| pair(bodies.velocity(state, i)))).collect()
+}
+
+#[test]
+fn figure_eight_follows_reference_trajectory() {
+    for case in cases_of("planar_n_body") {
+        let mut bodies = Gravitation::new(vec![1.0; 3]).unwrap();
+        let reader = bodies.clone();
+        let start = in_space(&reader, &golden::vector(&case["initial_state"]));
+        follow_field(&case, &mut bodies, start, 0.005, |state| in_plane(&reader, state, 3));
+    }
+}
+
+#[test]
+fn test_particle_follows_keplers_ellipses() {
+    for case in cases_of("kepler") {
+        let mut bodies = Gravitation::new(vec![0.0, 1.0]).unwrap();
+        let reader = bodies.clone();
+        let start = in_space(&reader, &golden::vector(&case["initial_state"]));
+        if golden::text(&case["name"]) == "kepler_e0.3" {
+            follow_field(&case, &mut bodies, start, 0.005, |state| in_plane(&reader, state, 1));
+            continue;
+        }
+        // Near the centre fixed steps would have to be tiny: these are for adaptive ones.
+        let mut state = State::new(0.0, start).unwrap();
+        for (index, expected) in case["states"].as_array().unwrap().iter().enumerate() {
+            let (t, values) = (golden::number(&expected["t"]), golden::vector(&expected["state"]));
+            let mut method = DormandPrince853::new(Tolerance::relative(1e-15).unwrap());
+            method.integrate_to(&mut bodies, &mut state, t).unwrap();
+            let what = format!("{} at {t}", golden::text(&case["name"]));
+            assert_close_at_scale(&what, &in_plane(&reader, &state.values, 1), &values, 1.0, allowed(&case, index));
+        }
+    }
+}
+
+/// H = (p² + q²)/2 + x²y − y³/3.
+struct HenonHeiles;
+
+impl Hamiltonian for HenonHeiles {
+    fn hamiltonian<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
+        let half = T::lit(0.5);
+        let (x, y) = (q[0], q[1]);
+        half * (p[0] * p[0] + p[1] * p[1] + x * x + y * y) + x * x * y - y * y * y / T::lit(3.0)
+    }
+}
+
+/// The same for a field that does not separate.
+fn follow_implicitly<F: Field>(
+    case: &Value,
+    field: &mut F,
+    start: Vec<f64>,
+    step: f64,
+    reading: impl Fn(&[f64]) -> Vec<f64>,
+) where
+    F::Error: core::fmt::Debug,
+{
+    let mut adaptive = State::new(0.0, start).unwrap();
+    let mut implicit = adaptive.clone();
+    for (index, expected) in case["states"].as_array().unwrap().iter().enumerate() {
+        let (t, values) = (golden::number(&expected["t"]), golden::vector(&expected["state"]));
+        let mut method = DormandPrince853::new(Tolerance::relative(1e-15).unwrap());
+        method.integrate_to(field, &mut adaptive, t).unwrap();
+        GaussLegendre::new(Order::Eight, step).unwrap().integrate_to(field, &mut implicit, t).unwrap();
+        for (what, state) in [("adaptive", &adaptive), ("Gauss–Legendre", &implicit)] {
+            let what = format!("{} at {t}, {what}", golden::text(&case["name"]));
+            assert_close_at_scale(&what, &reading(&state.values), &values, 1.0, allowed(case, index));
+        }
+    }
+}
+
+#[test]
+fn hamiltonian_field_follows_reference_trajectory() {
+    for case in cases_of("henon_heiles") {
+        let start = golden::vector(&case["initial_state"]);
+        follow_implicitly(&case, &mut HamiltonianField::new(&HenonHeiles, 2), start, 0.02, <[f64]>::to_vec);
+    }
+}
+
+#[test]
+fn free_rotation_follows_reference_trajectories() {
+    let mut followed = 0;
+    for case in cases_of("free_rigid_body") {
+        let p = parameters(&case);
+        let body = RigidBody::new(1.0, Inertia::principal([p["I1"], p["I2"], p["I3"]]).unwrap()).unwrap();
+        let initial = golden::vector(&case["initial_state"]);
+        let mut start = golden::vector(&case["initial_quaternion_wxyz"]);
+        start.extend_from_slice(&initial[..3]);
+        // The data's state: ω, then the rows of Q in f_i = Q_ij e_j.
+        let reading = |y: &[f64]| {
+            let rows = Attitude { w: y[0], x: y[1], y: y[2], z: y[3] }.to_matrix().transpose();
+            [&y[4..], rows.as_slice()].concat()
+        };
+        assert_close("the start", &reading(&start), &initial, Tol::ulps(8.0));
+        follow_implicitly(&case, &mut RigidRotation::free(&body).unwrap(), start, 0.02, reading);
+        followed += 1;
+    }
+    assert_eq!(followed, 2);
 }

@@ -1,1 +1,6 @@
-//! To come.
+//! Identities that hold for every system and state.
+
+mod gravitation;
+mod lagrangian;
+mod motion;
+mod scalars;

@@ -1,6 +1,8 @@
 //! Tests of the dynamics crate.
 
 mod alloc;
+mod any;
+mod counts;
 mod golden;
 mod gravitation;
 mod laws;

@@ -179,6 +179,7 @@ impl Potential for Lorentz {
 }
 
 /// A pendulum on the turning earth: x east, y north, z up; the frame turns with Ω(0, cos λ, sin λ).
+#[derive(Clone, Copy)]
 pub(crate) struct Foucault {
     pub(crate) mass: f64,
     pub(crate) length: f64,
@@ -288,4 +289,9 @@ impl Holonomic for FreeBody {
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         bodies.body(&self.body, point(q[0], q[1], q[2]), Attitude::from_euler_zyz([q[3], q[4], q[5]]));
     }
+}
+
+/// An inertia tensor without symmetry.
+pub(crate) fn uneven_inertia() -> Matrix3<f64> {
+    Matrix3::new(2.0, 0.25, -0.125, 0.25, 1.5, 0.0625, -0.125, 0.0625, 1.75)
 }
