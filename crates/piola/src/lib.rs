@@ -88,4 +88,6 @@ mod book {
     struct Placements;
     #[doc = include_str!("../../../docs/integrators.md")]
     struct Integrators;
+    #[doc = include_str!("../../../docs/scalars.md")]
+    struct Scalars;
 }
