@@ -8,6 +8,8 @@
 //! | [`gravitation`] | many bodies attracting each other: direct summation in lanes, post-Newtonian term |
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#![expect(clippy::doc_markdown, reason = "symbols with indices, as g_ΔΓ, are not code")]
+#![expect(clippy::needless_range_loop, reason = "the indices are those of the equations")]
 
 mod check;
 mod error;

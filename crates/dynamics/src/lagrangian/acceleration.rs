@@ -6,10 +6,13 @@ use piola_numerics::linear::ldlt;
 use piola_numerics::{Dual, Error, Gradient, Jet, Mask, Real};
 
 use super::collect::{Equations, Pass, Rows};
-use super::directions::{CHUNK, LARGEST, with_directions};
+use super::directions::{CHUNK, HESSIAN_CHUNK, LARGEST, with_directions};
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
 use crate::check::{check_finite, check_length};
+
+/// A scalar with two sets of directions.
+pub(super) type Twice<T> = Gradient<Gradient<T, HESSIAN_CHUNK>, HESSIAN_CHUNK>;
 
 /// The buffers of one thread: made once, grown at the first evaluation, then never again.
 ///
@@ -23,7 +26,7 @@ pub struct Workspace<T = f64> {
     pub(super) jets: Vec<Jet<T, CHUNK>>,
     pub(super) mixed: Vec<Dual<Gradient<T, CHUNK>>>,
     pub(super) mixed_rates: Vec<Dual<Gradient<T, CHUNK>>>,
-    pub(super) nested: Vec<Gradient<Gradient<T, CHUNK>, CHUNK>>,
+    pub(super) nested: Vec<Twice<T>>,
     pub(super) duals: Vec<Dual<T>>,
     pub(super) constants: Vec<Gradient<T, CHUNK>>,
     pub(super) linear: Vec<T>,
@@ -174,7 +177,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         if P::PRESENT {
             self.subtract_gradient::<T, N>(q, v, t, &mut force[..n]);
             if P::VELOCITY_DEPENDENT {
-                self.add_velocity_dependence::<T, N>(q, v, t, metric.as_flattened_mut(), &mut force);
+                self.add_velocity_dependence::<T, N>(work, q, v, t, metric.as_flattened_mut(), &mut force);
             }
         }
         if F::GENERALISED {
@@ -216,6 +219,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// What d/dt(∂V/∂q̇) adds: −∂²V/∂q̇∂q̇ to the metric and (∂²V/∂q̇∂q) q̇ + ∂²V/∂q̇∂t to the force.
     fn add_velocity_dependence<T: Real, const N: usize>(
         &self,
+        work: &mut Workspace<T>,
         q: &[T],
         v: &[T],
         t: T,
@@ -234,19 +238,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         for (force, partial) in force.iter_mut().zip(value.tangent.partials) {
             *force += partial;
         }
-        let mut coordinates = [Gradient::<_, N>::constant(zero); N];
-        let mut twice = [Gradient::<_, N>::constant(zero); N];
-        for i in 0..n {
-            coordinates[i] = Gradient::constant(Gradient::constant(q[i]));
-            twice[i] = Gradient::variable(Gradient::variable(v[i], i), i);
-        }
-        let time = Gradient::constant(Gradient::constant(t));
-        let value = self.potential.potential(&coordinates[..n], &twice[..n], time);
-        for i in 0..n {
-            for j in 0..n {
-                metric[j + i * N] -= value.partials[i].partials[j];
-            }
-        }
+        self.subtract_velocity_hessian(&mut work.nested, q, v, t, metric, N);
     }
 
     /// The same for more coordinates than one pass serves: g = JᵀmJ from stored rows.
@@ -336,28 +328,36 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 *force += partial;
             }
         }
-        self.subtract_velocity_hessian(work, q, v, t);
+        self.subtract_velocity_hessian(&mut work.nested, q, v, t, &mut work.metric, n);
     }
 
-    /// Subtracts ∂²V/∂q̇∂q̇ from `work.metric`.
-    pub(super) fn subtract_velocity_hessian<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+    /// Subtracts ∂²V/∂q̇∂q̇ from a metric whose columns are `stride` apart.
+    pub(super) fn subtract_velocity_hessian<T: Real>(
+        &self,
+        nested: &mut Vec<Twice<T>>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        metric: &mut [T],
+        stride: usize,
+    ) {
         let n = q.len();
-        for first in (0..n).step_by(CHUNK) {
-            for second in (0..n).step_by(CHUNK) {
+        for first in (0..n).step_by(HESSIAN_CHUNK) {
+            for second in (0..n).step_by(HESSIAN_CHUNK) {
                 // Coordinates are constants; the velocities carry both sets of directions.
-                work.nested.clear();
-                work.nested.extend(q.iter().map(|&q| Gradient::constant(Gradient::constant(q))));
+                nested.clear();
+                nested.extend(q.iter().map(|&q| Gradient::constant(Gradient::constant(q))));
                 let twice = |(i, &v): (usize, &T)| {
                     let inner = Gradient::variable(v, i.wrapping_sub(second));
                     Gradient::variable(inner, i.wrapping_sub(first))
                 };
-                work.nested.extend(v.iter().enumerate().map(twice));
-                let (coordinates, rates) = work.nested.split_at(n);
+                nested.extend(v.iter().enumerate().map(twice));
+                let (coordinates, rates) = nested.split_at(n);
                 let time = Gradient::constant(Gradient::constant(t));
                 let value = self.potential.potential(coordinates, rates, time);
-                for i in first..n.min(first + CHUNK) {
-                    for j in second..n.min(second + CHUNK) {
-                        work.metric[j + i * n] -= value.partials[i - first].partials[j - second];
+                for i in first..n.min(first + HESSIAN_CHUNK) {
+                    for j in second..n.min(second + HESSIAN_CHUNK) {
+                        metric[j + i * stride] -= value.partials[i - first].partials[j - second];
                     }
                 }
             }

@@ -31,3 +31,6 @@ pub(super) use with_directions;
 pub(super) const CHUNK: usize = 8;
 /// The largest number of coordinates that one pass serves.
 pub(super) const LARGEST: usize = 8;
+/// Directions of each of two nested sets: few, because every operation then costs the square of them, in time
+/// and in compiled code.
+pub(super) const HESSIAN_CHUNK: usize = 2;

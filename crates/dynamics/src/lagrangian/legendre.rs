@@ -133,7 +133,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let (mut correction, mut previous) = (f64::INFINITY, f64::INFINITY);
         for iteration in 1..=NEWTON_ITERATIONS {
             self.form_inertia_metric(work, q, t);
-            self.subtract_velocity_hessian(work, q, out, t);
+            let Workspace { nested, metric, .. } = &mut *work;
+            self.subtract_velocity_hessian(nested, q, out, t, metric, q.len());
             step.clear();
             step.extend_from_slice(residual);
             self.solve_with_hessian(work, (q, p, t), step)?;

@@ -1,4 +1,4 @@
-//! All systems of the reference data as one type, so that laws are compiled once for all of them.
+//! The systems of the reference data as few types, so that laws are compiled once for all of them.
 
 use nalgebra::Vector3;
 use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Placement, Potential};
@@ -7,33 +7,26 @@ use piola_numerics::Real;
 
 use crate::systems::*;
 
-/// One of the systems.
-pub(crate) enum Any<const TIME_DEPENDENT: bool> {
+/// A system whose placement does not depend on time.
+pub(crate) enum Still {
     DoublePendulum(DoublePendulum),
     SphericalPendulum(SphericalPendulum),
-    BeadOnHoop(BeadOnHoop),
     HeavyTop(HeavyTop),
     ElasticPendulum(ElasticPendulum),
     Torus(Torus),
-    Cylindrical(Cylindrical),
-    Foucault(Foucault),
     HingedBodies(HingedBodies),
     FreeBody(FreeBody),
     Chain(Chain),
 }
 
-impl<const TIME_DEPENDENT: bool> Holonomic for Any<TIME_DEPENDENT> {
-    const TIME_DEPENDENT: bool = TIME_DEPENDENT;
+impl Holonomic for Still {
     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
         match self {
             Self::DoublePendulum(system) => system.place(q, t, bodies),
             Self::SphericalPendulum(system) => system.place(q, t, bodies),
-            Self::BeadOnHoop(system) => system.place(q, t, bodies),
             Self::HeavyTop(system) => system.place(q, t, bodies),
             Self::ElasticPendulum(system) => system.place(q, t, bodies),
             Self::Torus(system) => system.place(q, t, bodies),
-            Self::Cylindrical(system) => system.place(q, t, bodies),
-            Self::Foucault(system) => system.place(q, t, bodies),
             Self::HingedBodies(system) => system.place(q, t, bodies),
             Self::FreeBody(system) => system.place(q, t, bodies),
             Self::Chain(system) => system.place(q, t, bodies),
@@ -41,22 +34,35 @@ impl<const TIME_DEPENDENT: bool> Holonomic for Any<TIME_DEPENDENT> {
     }
 }
 
+/// A system whose placement depends on time.
+pub(crate) enum Moving {
+    BeadOnHoop(BeadOnHoop),
+    Foucault(Foucault),
+}
+
+impl Holonomic for Moving {
+    const TIME_DEPENDENT: bool = true;
+    fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
+        match self {
+            Self::BeadOnHoop(system) => system.place(q, t, bodies),
+            Self::Foucault(system) => system.place(q, t, bodies),
+        }
+    }
+}
+
 /// One of their potentials.
-pub(crate) enum AnyPotential<const VELOCITY_DEPENDENT: bool> {
+pub(crate) enum AnyPotential {
     None,
     Spring(RadialSpring),
-    Lorentz(Lorentz),
     Height(Foucault, f64),
     Torsion(Torsion),
 }
 
-impl<const VELOCITY_DEPENDENT: bool> Potential for AnyPotential<VELOCITY_DEPENDENT> {
-    const VELOCITY_DEPENDENT: bool = VELOCITY_DEPENDENT;
+impl Potential for AnyPotential {
     fn potential<T: Real>(&self, q: &[T], v: &[T], t: T) -> T {
         match self {
             Self::None => T::zero(),
             Self::Spring(potential) => potential.potential(q, v, t),
-            Self::Lorentz(potential) => potential.potential(q, v, t),
             Self::Height(pendulum, gravity) => Height { pendulum, gravity: *gravity }.potential(q, v, t),
             Self::Torsion(potential) => potential.potential(q, v, t),
         }
@@ -108,7 +114,7 @@ pub(crate) trait Law {
 
 /// Runs a law for each system at a random state: six numbers in (−1, 1) and (−2, 2).
 pub(crate) fn for_all_systems(law: &impl Law, q: &[f64], v: &[f64], t: f64) {
-    let still = |system: Any<false>, gravity: [f64; 3], potential: AnyPotential<false>, driven: bool| {
+    let still = |system: Still, gravity: [f64; 3], potential: AnyPotential, driven: bool| {
         Lagrangian::of(system).with_uniform_gravity(gravity).with_potential(potential).with_forces(Everything(driven))
     };
     let along_y = [0.0, -9.8, 0.0];
@@ -116,44 +122,42 @@ pub(crate) fn for_all_systems(law: &impl Law, q: &[f64], v: &[f64], t: f64) {
     let none = || AnyPotential::None;
     let (q2, v2) = (&q[..2], &v[..2]);
     for driven in [false, true] {
-        let double = Any::DoublePendulum(DoublePendulum { mass: [1.0, 2.0], length: [1.0, 0.5] });
+        let double = Still::DoublePendulum(DoublePendulum { mass: [1.0, 2.0], length: [1.0, 0.5] });
         law.check("double pendulum", &still(double, along_y, none(), driven), q2, v2, t);
         let angles = [1.5 + q[0], q[1]]; // away from the poles of the chart
-        let spherical = Any::SphericalPendulum(SphericalPendulum { mass: 2.0, length: 0.75 });
+        let spherical = Still::SphericalPendulum(SphericalPendulum { mass: 2.0, length: 0.75 });
         law.check("spherical pendulum", &still(spherical, along_z, none(), driven), &angles, v2, t);
         let euler = [q[0], 1.5 + q[1], q[2]];
-        let top = Any::HeavyTop(HeavyTop::new(1.0, 0.5, 1.0, 0.25));
+        let top = Still::HeavyTop(HeavyTop::new(1.0, 0.5, 1.0, 0.25));
         law.check("heavy top", &still(top, along_z, none(), driven), &euler, &v[..3], t);
         let spring = AnyPotential::Spring(RadialSpring { stiffness: 40.0, rest: 1.0 });
-        let elastic = still(Any::ElasticPendulum(ElasticPendulum { mass: 1.5 }), along_z, spring, driven);
+        let elastic = still(Still::ElasticPendulum(ElasticPendulum { mass: 1.5 }), along_z, spring, driven);
         law.check("elastic pendulum", &elastic, &[1.5 + 0.5 * q[0], q[1]], v2, t);
-        let torus = Any::Torus(Torus { mass: 1.0, large: 2.0, small: 0.5 });
+        let torus = Still::Torus(Torus { mass: 1.0, large: 2.0, small: 0.5 });
         law.check("torus", &still(torus, along_z, none(), driven), q2, v2, t);
-        let hinged = Any::HingedBodies(HingedBodies::new([1.0, 3.0], [0.5, 0.25], [0.5, 0.75]));
+        let hinged = Still::HingedBodies(HingedBodies::new([1.0, 3.0], [0.5, 0.25], [0.5, 0.75]));
         let torsion = AnyPotential::Torsion(Torsion { stiffness: 2.0 });
         law.check("hinged bodies", &still(hinged, along_y, torsion, driven), &q[..4], &v[..4], t);
-        let free = Any::FreeBody(FreeBody::new(2.0, uneven_inertia()));
+        let free = Still::FreeBody(FreeBody::new(2.0, uneven_inertia()));
         let pose = [q[0], q[1], q[2], q[3], 1.5 + q[4], q[5]];
         law.check("free body", &still(free, along_z, none(), driven), &pose, v, t);
         let angles: Vec<f64> = (0..11).map(|i| q[i % 6] + 0.1 * i as f64).collect();
         let rates: Vec<f64> = (0..11).map(|i| v[(i + 2) % 6]).collect();
-        let chain = Any::Chain(Chain { links: 11 });
+        let chain = Still::Chain(Chain { links: 11 });
         law.check("chain of 11", &still(chain, along_z, none(), driven), &angles, &rates, t);
 
-        let moving = |system: Any<true>, gravity: [f64; 3], potential: AnyPotential<false>| {
+        let moving = |system: Moving, gravity: [f64; 3], potential: AnyPotential| {
             let moved = Lagrangian::of(system).with_uniform_gravity(gravity);
             moved.with_potential(potential).with_forces(Everything(driven))
         };
         let bead = BeadOnHoop { mass: 0.5, radius: 2.0, rate: 1.5, wobble: 0.25, frequency: 3.0 };
-        law.check("bead on a hoop", &moving(Any::BeadOnHoop(bead), along_z, none()), &q[..1], &v[..1], t);
+        law.check("bead on a hoop", &moving(Moving::BeadOnHoop(bead), along_z, none()), &q[..1], &v[..1], t);
         let pendulum = Foucault { mass: 1.0, length: 4.0, rate: 0.5, latitude: 0.75 };
-        let turning = moving(Any::Foucault(pendulum), [0.0; 3], AnyPotential::Height(pendulum, 9.8));
+        let turning = moving(Moving::Foucault(pendulum), [0.0; 3], AnyPotential::Height(pendulum, 9.8));
         law.check("pendulum of Foucault", &turning, q2, v2, t);
 
         let field = Lorentz { charge: 2.0, electric: [0.5, -0.25, 0.125], magnetic: [1.0, -2.0, 0.5] };
-        let charged = Lagrangian::of(Any::<false>::Cylindrical(Cylindrical { mass: 1.5 }))
-            .with_potential(AnyPotential::<true>::Lorentz(field))
-            .with_forces(Everything(driven));
+        let charged = Lagrangian::of(Cylindrical { mass: 1.5 }).with_potential(field).with_forces(Everything(driven));
         law.check("charged particle", &charged, &[1.5 + 0.5 * q[0], q[1], q[2]], &v[..3], t);
     }
 }

@@ -175,7 +175,7 @@ fn allowed(case: &Value, index: usize) -> Tol {
 }
 
 /// Follows a motion through all listed times, with an adaptive and with an implicit method.
-fn follow<S: Holonomic, P: Potential>(case: &Value, lagrangian: Lagrangian<S, P>, gauss_step: f64) {
+fn follow<S: Holonomic, P: Potential>(case: &Value, lagrangian: &Lagrangian<S, P>, gauss_step: f64) {
     let name = golden::text(&case["name"]);
     let start = golden::vector(&case["initial_state"]);
     let n = start.len() / 2;
@@ -210,7 +210,7 @@ fn mechanisms_follow_reference_trajectories() {
             golden::text(&case["system"]),
             "double_pendulum" | "spherical_pendulum" | "heavy_top" | "elastic_pendulum"
         ) {
-            with_system!(case, lagrangian => follow(case, lagrangian, gauss_step));
+            with_system!(case, lagrangian => follow(case, &lagrangian, gauss_step));
             followed += 1;
         }
     }
@@ -253,7 +253,9 @@ fn in_space(bodies: &Gravitation, plane: &[f64]) -> Vec<f64> {
     let (x, v) = plane.split_at(plane.len() / 2);
     let mut triples = [x, v].map(|half| half.chunks(2).map(|pair| [pair[0], pair[1], 0.0]).collect::<Vec<[f64; 3]>>());
     // The centre of Kepler's problem, at rest at the origin.
-    triples.iter_mut().for_each(|triples| triples.resize(bodies.bodies(), [0.0; 3]));
+    for triples in &mut triples {
+        triples.resize(bodies.bodies(), [0.0; 3]);
+    }
     bodies.state(&triples[0], &triples[1]).unwrap()
 }
 

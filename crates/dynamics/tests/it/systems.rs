@@ -18,11 +18,11 @@ pub(crate) struct DoublePendulum {
 impl Holonomic for DoublePendulum {
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let mut end = point(T::zero(), T::zero(), T::zero());
-        for i in 0..2 {
-            let (s, c) = q[i].sin_cos();
-            let length = T::lit(self.length[i]);
+        for ((angle, mass), length) in q.iter().zip(self.mass).zip(self.length) {
+            let (s, c) = angle.sin_cos();
+            let length = T::lit(length);
             end += point(length * s, -length * c, T::zero());
-            bodies.particle(self.mass[i], end);
+            bodies.particle(mass, end);
         }
     }
 }

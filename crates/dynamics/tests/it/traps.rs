@@ -81,6 +81,14 @@ fn singular_hessian_of_a_lagrangian_is_named() {
     assert_close("q̇", &direction, &[0.0, 1.0], Tol::ulps(0.0));
 }
 
+struct Bad;
+impl Forces for Bad {
+    const GENERALISED: bool = true;
+    fn generalised<T: Real>(&self, _q: &[T], _v: &[T], _t: T, q_out: &mut [T]) {
+        q_out[0] += T::lit(f64::NAN);
+    }
+}
+
 #[test]
 fn non_finite_input_is_refused_by_name() {
     let pendulum = Lagrangian::of(DoublePendulum { mass: [1.0; 2], length: [1.0; 2] }).with_gravity(9.8);
@@ -101,13 +109,6 @@ fn non_finite_input_is_refused_by_name() {
     let long = Lagrangian::of(Chain { links: 12 });
     assert_eq!(named(refusal(long.acceleration(&[0.1; 12], &[nan; 12], 0.0))), ("q̇", 0));
 
-    struct Bad;
-    impl Forces for Bad {
-        const GENERALISED: bool = true;
-        fn generalised<T: Real>(&self, _q: &[T], _v: &[T], _t: T, q_out: &mut [T]) {
-            q_out[0] += T::lit(f64::NAN);
-        }
-    }
     let pushed = pendulum.with_forces(Bad);
     assert_eq!(named(refusal(pushed.acceleration(&[0.0; 2], &[0.0; 2], 0.0))), ("q̈", 0));
 }
@@ -138,6 +139,15 @@ fn lengths_that_differ_are_refused_by_name() {
     assert_eq!(named(refusal(pair.state(&[[0.0; 3]], &[[0.0; 3]; 2]))), ("positions", 2, 1));
 }
 
+struct Stretched(RigidBody);
+impl Holonomic for Stretched {
+    fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        let turned = Attitude::about_z(q[0]);
+        let attitude = Attitude { w: turned.w + turned.w, ..turned };
+        bodies.body(&self.0, Vector3::new(T::zero(), T::zero(), T::zero()), attitude);
+    }
+}
+
 #[test]
 fn masses_and_places_are_checked_before_a_run() {
     let check = |mass: [f64; 2], length: f64| {
@@ -151,14 +161,6 @@ fn masses_and_places_are_checked_before_a_run() {
     let error = refusal(sick.acceleration(&[0.1, 1.5], &[0.0; 2], 0.0));
     assert_eq!(error, DynamicsError::InvalidMass { part: 1, mass: -2.0 });
 
-    struct Stretched(RigidBody);
-    impl Holonomic for Stretched {
-        fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-            let turned = Attitude::about_z(q[0]);
-            let attitude = Attitude { w: turned.w + turned.w, ..turned };
-            bodies.body(&self.0, Vector3::new(T::zero(), T::zero(), T::zero()), attitude);
-        }
-    }
     let body = RigidBody::new(1.0, Inertia::principal([1.0, 1.0, 1.0]).unwrap()).unwrap();
     let error = refusal(Lagrangian::of(Stretched(body)).check(&[0.0], &[0.0], 0.0));
     assert_eq!(error, DynamicsError::AttitudeNotUnit { part: 0, squared_length: 4.0 });
@@ -237,7 +239,7 @@ fn bodies_in_one_place_are_named_before_a_run() {
 
 #[test]
 fn bodies_that_collide_during_a_run_are_named() {
-    // Two bodies fall onto each other from rest and meet, to the last bit, in a fixed step that hits the centre.
+    // Two bodies fly towards each other and meet, to the last bit, in the middle of a fixed step.
     let start = |bodies: &Gravitation| {
         State::new(
             0.0,
