@@ -202,7 +202,7 @@ impl Plan {
                 );
             }
             System::Mechanism(system) => {
-                self.compute("inertia metric and its derivatives", "exact derivatives of the placement of the parts");
+                self.compute("accelerations", "inertia metric and bias in one pass, by exact derivatives of the placement");
                 if system.gravity.iter().all(|g| g.abs() <= 0.0) {
                     self.skip("gravity", "mechanism.gravity is zero");
                 } else {

@@ -82,7 +82,7 @@ fn sum_on_any_number_of_threads_equals_sum_on_one_bit_for_bit() {
 #[cfg(feature = "rayon")]
 #[test]
 fn run_on_any_number_of_threads_equals_run_on_one_bit_for_bit() {
-    let n = 520;
+    let n = 1030;
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| {
