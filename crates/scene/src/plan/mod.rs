@@ -202,7 +202,10 @@ impl Plan {
                 );
             }
             System::Mechanism(system) => {
-                self.compute("accelerations", "inertia metric and bias in one pass, by exact derivatives of the placement");
+                self.compute(
+                    "accelerations",
+                    "inertia metric and bias in one pass, by exact derivatives of the placement",
+                );
                 if system.gravity.iter().all(|g| g.abs() <= 0.0) {
                     self.skip("gravity", "mechanism.gravity is zero");
                 } else {
