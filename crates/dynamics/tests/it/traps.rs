@@ -168,7 +168,7 @@ fn masses_and_places_are_checked_before_a_run() {
 
 #[test]
 fn momenta_without_velocities_are_refused() {
-    struct Saturating; // p = v/(1 + |v|) stays below one
+    struct Saturating; // p = v/√(1 + v²) stays below one
     impl LagrangianFunction for Saturating {
         fn lagrangian<T: Real>(&self, _q: &[T], v: &[T], _t: T) -> T {
             let speed = (T::one() + v[0] * v[0]).sqrt();
