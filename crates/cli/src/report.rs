@@ -33,9 +33,9 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
     line("moment of momentum", run.drifts.angular_momentum);
     if run.drifts.post_newtonian_energy.is_some() {
         text.push_str(
-            "The post-Newtonian force depends on velocity: the Newtonian energy and momentum vary with the orbits,\n",
+            "The post-Newtonian force depends on velocity: Newton's energy and moment of momentum vary with the orbits. The\n\
+             post-Newtonian energy is kept but for terms of order m/(M c^2), which a term for one central body leaves out.\n",
         );
-        text.push_str("and the post-Newtonian energy is kept to the next order in 1/c^2.\n");
     }
     text.push('\n');
     text

@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use piola_dynamics::gravitation::{Gravitation, GravitationInvariants, PostNewtonian};
+use piola_dynamics::gravitation::{Gravitation, GravitationInvariants, PostNewtonian, SPEED_OF_LIGHT};
 use piola_integrators::{Composition, GaussLegendre, Order, State};
 use piola_testkit::golden;
 use serde_json::Value;
@@ -121,4 +121,34 @@ fn post_newtonian_solar_system_equals_ephemeris() {
             assert!(error < allowed, "{} after {epoch} days: {error:e}", golden::text(&entry["body"]));
         }
     }
+}
+
+/// The largest relative change of the post-Newtonian energy in ten years, with the masses of all bodies but the
+/// Sun and the speed of light multiplied by the given factors.
+fn post_newtonian_energy_change(masses: f64, light: f64) -> f64 {
+    let SolarSystem { bodies, mut state, .. } = solar_system();
+    let scaled = |(body, &parameter): (usize, &f64)| if body == 0 { parameter } else { masses * parameter };
+    let parameters = bodies.parameters().iter().enumerate().map(scaled).collect();
+    let term = PostNewtonian { centre: 0, speed_of_light: light * SPEED_OF_LIGHT };
+    let mut bodies = Gravitation::new(parameters).unwrap().with_post_newtonian(term).unwrap();
+    let reader = bodies.clone();
+    let start = reader.invariants(&state.values);
+    let mut largest = 0.0_f64;
+    let mut method = GaussLegendre::new(Order::Eight, DAY).unwrap();
+    for month in 1..=120 {
+        method.integrate_to(&mut bodies, &mut state, f64::from(month) * 30.0 * DAY).unwrap();
+        let change = reader.invariants(&state.values).post_newtonian_energy - start.post_newtonian_energy;
+        largest = largest.max((change / start.energy).abs());
+    }
+    largest
+}
+
+#[test]
+fn post_newtonian_energy_changes_by_the_terms_of_order_m_over_mc2_that_are_left_out() {
+    let change = post_newtonian_energy_change(1.0, 1.0);
+    assert!(change < 1e-11, "{change:e}");
+    // Proportional to the masses of the planets and to 1/c², but for the next orders and the changed orbits.
+    let lighter = post_newtonian_energy_change(0.1, 1.0) / change;
+    let slower = post_newtonian_energy_change(1.0, 0.5) / change;
+    assert!((0.08..0.12).contains(&lighter) && (3.6..4.4).contains(&slower), "{lighter} {slower}");
 }
