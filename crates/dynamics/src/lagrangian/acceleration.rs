@@ -50,6 +50,12 @@ impl<T> Default for Workspace<T> {
     }
 }
 
+/// The mass matrix (lower triangle by columns) and the forcing of at most N coordinates.
+struct Formed<T, const N: usize> {
+    metric: [[T; N]; N],
+    force: [T; N],
+}
+
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The accelerations q̈ that Lagrange's equations give.
     ///
@@ -155,15 +161,89 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
     }
 
-    #[inline(always)]
-    fn acceleration_in_one_pass<T: Real, const N: usize>(
+    /// The mass matrix and the forcing of the equations of motion, `mass_matrix` q̈ = `forcing`.
+    ///
+    /// ```text
+    /// M = g − ∂²V/∂q̇∂q̇
+    /// f = Q − ∂V/∂q + (∂²V/∂q̇∂q) q̇ + ∂²V/∂q̇∂t − (Σ m ∂x/∂q·ẍ₀ + …)            W(5.31), W(6.3)
+    /// ```
+    ///
+    /// M is the inertia metric where the potential does not depend on velocities, and always the Hessian
+    /// ∂²L/∂q̇∂q̇. `mass_matrix` holds n² entries, (i, j) at `i + j n`; `forcing` n. Nothing is allocated once
+    /// `work` has been used, and no Christoffel symbols are formed.
+    ///
+    /// # Errors
+    /// [`DynamicsError::DimensionMismatch`]; [`DynamicsError::NonFinite`] and what [`check`](Self::check) finds
+    /// wrong with the parts. A singular matrix is no error here.
+    ///
+    /// # Accuracy
+    /// A few ulp of the terms summed.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
+    /// # use piola_numerics::Real;
+    /// struct Pendulum; // 3 kg on 2 m
+    /// impl Holonomic for Pendulum {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = q[0].sin_cos();
+    ///         bodies.particle(3.0, Vector3::new(T::lit(2.0) * s, T::zero(), T::lit(-2.0) * c));
+    ///     }
+    /// }
+    /// let (mut mass_matrix, mut forcing) = ([0.0], [0.0]);
+    /// let q = [std::f64::consts::FRAC_PI_2];
+    /// let pendulum = Lagrangian::of(Pendulum).with_gravity(10.0);
+    /// pendulum.equations_into(&mut Workspace::default(), &q, &[0.0], 0.0, &mut mass_matrix, &mut forcing)?;
+    /// assert_eq!((mass_matrix, forcing), ([12.0], [-60.0])); // m l² and −m g l
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(5.31), W(6.3), W(7.3).
+    pub fn equations_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
         q: &[T],
         v: &[T],
         t: T,
-        out: &mut [T],
-    ) -> Result<(), Error> {
+        mass_matrix: &mut [T],
+        forcing: &mut [T],
+    ) -> Result<(), DynamicsError> {
+        let n = q.len();
+        check_length("q̇", n, v.len())?;
+        check_length("mass matrix", n * n, mass_matrix.len())?;
+        check_length("forcing", n, forcing.len())?;
+        with_directions!(n, N => {
+            let Formed { metric, force } = self.form_in_one_pass::<T, N>(work, q, v, t);
+            for (i, (forcing, entry)) in forcing.iter_mut().zip(force).enumerate() {
+                *forcing = entry;
+                for j in i..n {
+                    mass_matrix[j + i * n] = metric[i][j];
+                    mass_matrix[i + j * n] = metric[i][j];
+                }
+            }
+        }, beyond => {
+            self.form_by_rows(work, q, v, t);
+            mass_matrix.copy_from_slice(&work.metric);
+            forcing.copy_from_slice(&work.force);
+        });
+        let given = mass_matrix.iter().chain(&*forcing);
+        if given.fold(T::Mask::splat(true), |all, a| all & a.is_finite()).all() {
+            Ok(())
+        } else {
+            Err(self.explain_non_finite([("q", q), ("q̇", v)], t, ("equations of motion", forcing)))
+        }
+    }
+
+    #[inline(always)]
+    fn form_in_one_pass<T: Real, const N: usize>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+    ) -> Formed<T, N> {
         let n = q.len();
         let mut coordinates = [Jet::<T, N>::constant(T::zero()); N];
         for (i, jet) in coordinates.iter_mut().take(n).enumerate() {
@@ -183,6 +263,20 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         if F::GENERALISED {
             self.forces.generalised(q, v, t, &mut force[..n]);
         }
+        Formed { metric, force }
+    }
+
+    #[inline(always)]
+    fn acceleration_in_one_pass<T: Real, const N: usize>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        out: &mut [T],
+    ) -> Result<(), Error> {
+        let n = q.len();
+        let Formed { mut metric, mut force } = self.form_in_one_pass::<T, N>(work, q, v, t);
         for (i, column) in metric.iter_mut().enumerate().skip(n) {
             column[i] = T::one(); // directions that the system does not have
         }
@@ -250,6 +344,15 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         t: T,
         out: &mut [T],
     ) -> Result<(), Error> {
+        self.form_by_rows(work, q, v, t);
+        ldlt::factor_in_place(&mut work.metric, q.len())?;
+        ldlt::solve_in_place(&work.metric, q.len(), &mut work.force)?;
+        out.copy_from_slice(&work.force);
+        Ok(())
+    }
+
+    /// Leaves the mass matrix in `work.metric` and the forcing in `work.force`.
+    fn form_by_rows<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
         let n = q.len();
         self.collect_rows_with_rates(work, q, v, t);
         work.form_metric(n);
@@ -269,10 +372,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         if F::GENERALISED {
             self.forces.generalised(q, v, t, &mut work.force);
         }
-        ldlt::factor_in_place(&mut work.metric, n)?;
-        ldlt::solve_in_place(&work.metric, n, &mut work.force)?;
-        out.copy_from_slice(&work.force);
-        Ok(())
     }
 
     /// The rows, weights and residuals at a state.
