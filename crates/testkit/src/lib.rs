@@ -8,6 +8,7 @@
 //! | scale a tolerance by how ill-conditioned the problem is | [`condition_number`], [`Tol::times`] |
 //! | check a derivative against differences of values | [`difference_quotient`] |
 //! | draw random inputs for an identity | [`strategies`] |
+//! | tell rounding from the rest | [`DoubleDouble`] |
 //! | prove that a step allocates nothing | [`CountingAllocator`], [`allocations_in`] |
 //!
 //! The functions here fail by panicking: they are called from tests only.
@@ -15,6 +16,7 @@
 mod allocations;
 mod closeness;
 mod differences;
+mod double_double;
 pub mod golden;
 mod orders;
 pub mod strategies;
@@ -23,6 +25,7 @@ mod tolerance;
 pub use allocations::{CountingAllocator, allocations_in};
 pub use closeness::{assert_close, assert_close_at_scale, relative_error, ulps_between};
 pub use differences::{condition_number, difference_quotient};
+pub use double_double::DoubleDouble;
 pub use orders::{assert_order, convergence_order};
 pub use tolerance::Tol;
 

@@ -2,10 +2,11 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use piola_numerics::Real;
 use piola_testkit::strategies::{positive_definite, rotation, rotation_matrix, unit_vector};
 use piola_testkit::{
-    CountingAllocator, Tol, allocations_in, assert_close, assert_close_at_scale, assert_order, condition_number,
-    golden, relative_error, ulps_between,
+    CountingAllocator, DoubleDouble, Tol, allocations_in, assert_close, assert_close_at_scale, assert_order,
+    condition_number, golden, relative_error, ulps_between,
 };
 use proptest::prelude::*;
 
@@ -84,6 +85,47 @@ fn allocations_are_counted_on_this_thread_only() {
 fn reference_data_without_a_file_is_refused() {
     assert!(fails(|| drop(golden::load("no such file"))));
     assert!(fails(|| drop(golden::vector(&golden::load("derivatives").meta))));
+}
+
+#[test]
+fn doubled_precision_keeps_thirty_digits() {
+    type Function = fn(&[DoubleDouble]) -> DoubleDouble;
+    let functions: [(&str, Function); 15] = [
+        ("exp", |x| x[0].exp()),
+        ("exp_m1", |x| x[0].exp_m1()),
+        ("ln", |x| x[0].ln()),
+        ("ln_1p", |x| x[0].ln_1p()),
+        ("sin", |x| x[0].sin()),
+        ("cos", |x| x[0].cos()),
+        ("tan", |x| x[0].tan()),
+        ("asin", |x| x[0].asin()),
+        ("acos", |x| x[0].acos()),
+        ("atan", |x| x[0].atan()),
+        ("atan2", |x| x[0].atan2(x[1])),
+        ("sinh", |x| x[0].sinh()),
+        ("cosh", |x| x[0].cosh()),
+        ("tanh", |x| x[0].tanh()),
+        ("cbrt", |x| x[0].cbrt()),
+    ];
+    let reference = golden::load("elementary");
+    for (name, function) in functions {
+        let case = reference.cases.iter().find(|case| golden::text(&case["name"]) == name);
+        let points = golden::matrix(&case.expect("every function has a case")["points"]);
+        let (mut worst, mut compared) = (0.0_f64, 0);
+        for point in &points {
+            let [arguments @ .., value, rest] = &point[..] else { panic!("a point has a value") };
+            // Beyond, the second double of a pair runs out of exponents, or the argument out of digits.
+            if !(1e-200..1e200).contains(&value.abs()) || arguments.iter().any(|x| 1e6 < x.abs() || x.abs() < 1e-200) {
+                continue;
+            }
+            let arguments: Vec<_> = arguments.iter().map(|&x| DoubleDouble::lit(x)).collect();
+            let missing = function(&arguments).rounding_of(*value);
+            worst = worst.max((missing - rest).abs() / value.abs());
+            compared += 1;
+        }
+        assert!(40 < compared, "{name}: only {compared} points");
+        assert_close(name, &[worst], &[0.0], Tol::stated(1e-28, "argument reduction and scaling of the exponential"));
+    }
 }
 
 proptest! {
