@@ -8,6 +8,7 @@ mod features;
 mod fmt;
 mod ledger;
 mod package;
+mod stability;
 mod test;
 mod tidy;
 mod work_precision;
@@ -41,6 +42,7 @@ const COMMANDS: &[Command] = &[
     ledger::COMMAND,
     bench::COMMAND,
     work_precision::COMMAND,
+    stability::COMMAND,
 ];
 
 pub(crate) fn find(name: &str) -> Option<&'static Command> {

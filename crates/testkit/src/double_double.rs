@@ -205,7 +205,7 @@ impl Real for DoubleDouble {
     fn sin_cos(self) -> (Self, Self) {
         // x = k π/2 + r, then r by the series of r/8 and three doublings.
         let x = self.0.hi();
-        if 1e6 <= x.abs() || x.is_nan() {
+        if 1e9 <= x.abs() || x.is_nan() {
             return (Self(self.0.sin()), Self(self.0.cos()));
         }
         let quarter = (x * core::f64::consts::FRAC_2_PI).round();

@@ -1,0 +1,3 @@
+//! The benches' own tests.
+
+mod stability;
