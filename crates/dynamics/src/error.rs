@@ -134,4 +134,28 @@ pub enum DynamicsError {
         /// The largest component of the last correction, relative to the velocity.
         correction: f64,
     },
+    /// The forces do not balance anywhere near the guess.
+    #[error("no equilibrium was found in {iterations} steps: the forces left are {residual:e} of those that balance")]
+    NoEquilibrium {
+        /// Newton steps made.
+        iterations: usize,
+        /// The largest force left over the forces that balance.
+        residual: f64,
+    },
+    /// A displacement that changes no force: the equilibrium is not isolated, or cannot be sought from here.
+    #[error(
+        "the stiffness is singular ({ratio:e} of the largest) along {direction:?}: no force answers that displacement"
+    )]
+    SingularStiffness {
+        /// Smallest over largest singular value of the stiffness by units of mass.
+        ratio: f64,
+        /// The displacement, its largest component being one.
+        direction: Vec<f64>,
+    },
+    /// The iteration for eigenvalues or singular values does not converge.
+    #[error("the eigenvalues of a matrix of {rows} rows were not found")]
+    NoEigenvalues {
+        /// The rows of the matrix.
+        rows: usize,
+    },
 }

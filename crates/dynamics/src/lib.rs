@@ -3,6 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`lagrangian`] | Lagrange's equations of any placement map, with a potential and applied forces |
+//! | [`small_motions`] | equilibria, linearisation about any state, normal and complex modes, stability |
 //! | [`hamiltonian`] | Hamilton's equations of any function H(q, p, t) |
 //! | [`rigid_motion`] | the rotation of a rigid body by unit quaternions |
 //! | [`gravitation`] | many bodies attracting each other: direct summation in lanes, post-Newtonian term |
@@ -17,6 +18,7 @@ pub mod gravitation;
 pub mod hamiltonian;
 pub mod lagrangian;
 pub mod rigid_motion;
+pub mod small_motions;
 
 pub use error::DynamicsError;
 
