@@ -24,6 +24,8 @@ pub struct Workspace<T = f64> {
     pub(super) force: Vec<T>,
     pub(super) coordinates: Vec<Gradient<T, CHUNK>>,
     pub(super) jets: Vec<Jet<T, CHUNK>>,
+    /// Coordinates along the motion, beside the derivative with respect to time alone.
+    pub(super) timed: Vec<Jet<T, 1>>,
     pub(super) mixed: Vec<Dual<Gradient<T, CHUNK>>>,
     pub(super) mixed_rates: Vec<Dual<Gradient<T, CHUNK>>>,
     pub(super) nested: Vec<Twice<T>>,
@@ -40,6 +42,7 @@ impl<T> Default for Workspace<T> {
             force: Vec::new(),
             coordinates: Vec::new(),
             jets: Vec::new(),
+            timed: Vec::new(),
             mixed: Vec::new(),
             mixed_rates: Vec::new(),
             nested: Vec::new(),

@@ -29,8 +29,12 @@ mod function;
 mod legendre;
 mod metric;
 mod motion;
+mod parts;
 mod potential;
+mod power;
+mod reactions;
 mod run;
+mod virtual_work;
 
 pub use acceleration::Workspace;
 pub use energy::{Energies, KineticEnergyParts};
@@ -39,7 +43,10 @@ pub use function::{LagrangianFunction, Negative, NoParts};
 pub use motion::{CanonicalMotion, Motion};
 pub use piola_kinematics::{Holonomic, Placement};
 pub use potential::{NoPotential, Potential};
+pub use power::{ForceAlongTime, PartPower, PowerBalance};
+pub use reactions::{PartForce, Reaction};
 pub use run::Run;
+pub use virtual_work::{ConstraintVerdict, IdealConstraintTest};
 
 use nalgebra::Vector3;
 use piola_kinematics::{Attitude, RigidBody};
