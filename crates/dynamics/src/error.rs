@@ -120,6 +120,12 @@ pub enum DynamicsError {
         /// Why.
         source: Box<piola_integrators::IntegrationError<DynamicsError>>,
     },
+    /// 0 < g_ΔΓ v^Δ v^Γ violated by the direction of a geodesic.
+    #[error("the direction has the squared length {squared_length} in the inertia metric; it must be positive")]
+    NoDirection {
+        /// g_ΔΓ v^Δ v^Γ.
+        squared_length: f64,
+    },
     /// A linear system that cannot be solved.
     #[error(transparent)]
     Numerics(#[from] piola_numerics::Error),

@@ -21,11 +21,13 @@
 //! without potential, applied forces, time dependence or bodies does not pay for them.
 
 mod acceleration;
+mod change_of_coordinates;
 mod collect;
 mod directions;
 mod energy;
 mod forces;
 mod function;
+mod geodesic;
 mod legendre;
 mod metric;
 mod motion;
@@ -35,11 +37,14 @@ mod power;
 mod reactions;
 mod run;
 mod virtual_work;
+mod work;
 
 pub use acceleration::Workspace;
+pub use change_of_coordinates::{ChangeOfCoordinates, InCoordinates};
 pub use energy::{Energies, KineticEnergyParts};
 pub use forces::{Forces, NoForces};
 pub use function::{LagrangianFunction, Negative, NoParts};
+pub use geodesic::{GeodesicEnd, GeodesicMotion};
 pub use motion::{CanonicalMotion, Motion};
 pub use piola_kinematics::{Holonomic, Placement};
 pub use potential::{NoPotential, Potential};
@@ -47,6 +52,7 @@ pub use power::{ForceAlongTime, PartPower, PowerBalance};
 pub use reactions::{PartForce, Reaction};
 pub use run::Run;
 pub use virtual_work::{ConstraintVerdict, IdealConstraintTest};
+pub use work::{MotionWithWork, WorkAccount, Works};
 
 use nalgebra::Vector3;
 use piola_kinematics::{Attitude, RigidBody};
