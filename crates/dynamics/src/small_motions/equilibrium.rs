@@ -76,65 +76,80 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let rest = vec![0.0; n];
         self.check(guess, &rest, t)?;
         let mut q = DVector::from_column_slice(guess);
+        if n == 0 {
+            return self.balanced(q, t, [0.0, 1.0], 0);
+        }
         let mut forces = self.forces_at(&q, t)?;
-        let (mut previous, mut iterations) = (f64::INFINITY, 0);
+        let (mut previous, mut largest_force, mut iterations) = (f64::INFINITY, 0.0_f64, 0);
         loop {
             let units = forces.units();
+            let decomposition = Decomposition::of(&forces, &units)?;
             let force = forces.force.component_div(&units);
-            let stiffness = DMatrix::from_fn(n, n, |i, j| forces.stiffness[(i, j)] / (units[i] * units[j]));
-            let decomposition = Decomposition::of(stiffness)?;
-            let (mut step, along) = decomposition.solve(&force);
-            // The size of displacements is that of the coordinates, or of what has been travelled.
-            let extent = (0..n).fold(0.0_f64, |extent, i| {
-                let travelled = (q[i] - guess[i]).abs();
-                extent.max(units[i] * q[i].abs().max(travelled)).max(step[i].abs())
-            });
-            let balance = self.weight(q.as_slice(), t).max(decomposition.largest() * extent);
-            let residual = if balance <= 0.0 { force.amax() } else { force.amax() / balance };
-            let correction = if extent <= 0.0 { 0.0 } else { step.amax() / extent };
-            let noise = (1e3 * f64::EPSILON * decomposition.condition()).min(1e-6);
-            let stagnates = correction <= noise && previous <= 2.0 * correction;
-            let fine = 4.0 * f64::EPSILON;
-            let balanced = residual <= fine * (n as f64 + 1.0);
-            if (correction <= fine && balanced) || (stagnates && residual <= 1e3 * fine) || force.amax() <= 0.0 {
-                if let Some(direction) = decomposition.null_direction(&units) {
-                    return Err(DynamicsError::SingularStiffness { ratio: decomposition.ratio(), direction });
-                }
-                let condition = decomposition.condition();
-                return self.balanced(q, t, [residual, condition], iterations);
+            let (mut step, answered) = decomposition.solve(&force);
+            largest_force = largest_force.max(force.amax());
+            let extent_of = |x: &dyn Fn(usize) -> f64| (0..n).fold(0.0_f64, |m, i| m.max((units[i] * x(i)).abs()));
+            let guessed = extent_of(&|i| guess[i]);
+            let extent = extent_of(&|i| q[i]).max(extent_of(&|i| q[i] - guess[i])).max(step.amax());
+            let weight = self.weight(q.as_slice(), t);
+            // Forces that small are rounding of those at the guess, or of those met on the way.
+            let fine = 4.0 * (n as f64 + 1.0) * f64::EPSILON;
+            let at_guess = weight.max(decomposition.largest() * guessed);
+            let condition = decomposition.condition();
+            let small = (1e3 * fine * at_guess).max(1e3 * fine * condition * largest_force);
+            let residual = ratio_of(force.amax(), weight.max(decomposition.largest() * extent));
+            let correction = ratio_of(step.amax(), extent);
+            let noise = (1e3 * f64::EPSILON * condition).min(1e-6);
+            let converged = (correction <= fine && residual <= fine)
+                || (correction <= noise && previous <= 2.0 * correction && residual <= 1e3 * fine);
+            let singular = decomposition.null_direction(&units);
+            let refused = |direction| DynamicsError::SingularStiffness { ratio: decomposition.ratio(), direction };
+            if force.amax() <= 0.0 || (converged && force.amax() <= small) {
+                return match singular {
+                    Some(direction) => Err(refused(direction)),
+                    None => self.balanced(q, t, [residual, condition], iterations),
+                };
+            }
+            if answered < 0.5 * force.norm()
+                && let Some(direction) = singular
+            {
+                return Err(refused(direction));
             }
             if NEWTON_ITERATIONS <= iterations {
                 return Err(DynamicsError::NoEquilibrium { iterations, residual });
             }
-            let stuck = if along < 0.5 * force.norm() { decomposition.null_direction(&units) } else { None };
-            if let Some(direction) = stuck {
-                return Err(DynamicsError::SingularStiffness { ratio: decomposition.ratio(), direction });
-            }
             iterations += 1;
             step.component_div_assign(&units);
-            let size = |forces: &Balance| forces.force.component_div(&units).norm();
-            let (mut fraction, before) = (1.0, size(&forces));
-            let mut halvings = 0;
-            loop {
-                let moved = &q + &step * fraction;
-                let reached = self.forces_at(&moved, t);
-                let smaller = reached.as_ref().is_ok_and(|reached| size(reached) < (1.0 - 1e-4 * fraction) * before);
-                // Near the solution the forces are rounding and need not get smaller.
-                if smaller || (correction <= noise && reached.is_ok()) {
-                    (q, forces) = (moved, reached?);
-                    break;
-                }
-                if HALVINGS <= halvings {
-                    return Err(match decomposition.null_direction(&units) {
-                        Some(direction) => DynamicsError::SingularStiffness { ratio: decomposition.ratio(), direction },
-                        None => DynamicsError::NoEquilibrium { iterations, residual },
-                    });
-                }
-                fraction *= 0.5;
-                halvings += 1;
-            }
+            let Some(moved) = self.shortened_step(&q, &forces, &step, &units, correction <= noise, t) else {
+                return Err(singular.map_or(DynamicsError::NoEquilibrium { iterations, residual }, refused));
+            };
+            (q, forces) = moved;
             previous = correction;
         }
+    }
+
+    /// The step, halved until the forces get smaller; near the solution, where they are rounding, as it is.
+    fn shortened_step(
+        &self,
+        q: &DVector<f64>,
+        forces: &Balance,
+        step: &DVector<f64>,
+        units: &DVector<f64>,
+        near: bool,
+        t: f64,
+    ) -> Option<(DVector<f64>, Balance)> {
+        let size = |forces: &Balance| forces.force.component_div(units).norm();
+        let (mut fraction, before) = (1.0, size(forces));
+        for _ in 0..=HALVINGS {
+            let moved = q + step * fraction;
+            // Forces that do not exist there are as good as forces that grow.
+            if let Ok(reached) = self.forces_at(&moved, t)
+                && (near || size(&reached) < (1.0 - 1e-4 * fraction) * before)
+            {
+                return Some((moved, reached));
+            }
+            fraction *= 0.5;
+        }
+        None
     }
 
     fn balanced(
@@ -172,6 +187,11 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 }
 
+/// a/b, and zero where nothing is.
+fn ratio_of(a: f64, b: f64) -> f64 {
+    if a <= 0.0 { 0.0 } else { a / b }
+}
+
 /// Forces at rest, ∂(−f)/∂q, and the diagonal of the mass matrix.
 struct Balance {
     force: DVector<f64>,
@@ -193,9 +213,10 @@ struct Decomposition {
 }
 
 impl Decomposition {
-    fn of(stiffness: DMatrix<f64>) -> Result<Self, DynamicsError> {
-        let order = stiffness.nrows();
-        let svd = SVD::try_new(stiffness, true, true, f64::EPSILON, 100 * order.max(1));
+    fn of(forces: &Balance, units: &DVector<f64>) -> Result<Self, DynamicsError> {
+        let order = units.len();
+        let stiffness = DMatrix::from_fn(order, order, |i, j| forces.stiffness[(i, j)] / (units[i] * units[j]));
+        let svd = SVD::try_new(stiffness, true, true, f64::EPSILON, 100 * order);
         Ok(Self { svd: svd.ok_or(DynamicsError::NoEigenvalues { rows: order })?, order })
     }
 
@@ -214,7 +235,7 @@ impl Decomposition {
     }
 
     fn condition(&self) -> f64 {
-        if self.order == 0 { 1.0 } else { self.ratio().recip() }
+        self.ratio().recip()
     }
 
     fn threshold(&self) -> f64 {
@@ -240,7 +261,7 @@ impl Decomposition {
 
     /// A displacement that no force answers, of size one, in the coordinates' own units.
     fn null_direction(&self, units: &DVector<f64>) -> Option<Vec<f64>> {
-        if self.order == 0 || self.threshold() < self.smallest() {
+        if self.threshold() < self.smallest() {
             return None;
         }
         let direction = self.svd.v_t.as_ref()?.row(self.order - 1).transpose().component_div(units);

@@ -67,15 +67,17 @@ impl Linearisation {
             let (least_stiffness, stiffest) = extremes(stiffness)?;
             let (least_damping, most) = extremes(damping)?;
             let held = rounding * stiffest < least_stiffness;
-            if held && rounding * most < least_damping {
+            // What is left where the velocity terms of a turning placement cancel.
+            let noise = rounding * most.max(stiffest.sqrt()).max(reduction.of_form(&self.gyroscopic).amax());
+            if held && noise < least_damping {
                 return Ok(Stability::Asymptotic);
             }
-            if held && most <= 0.0 && 0.0 <= least_damping {
+            if held && most <= noise {
                 return Ok(Stability::Stable);
             }
             let modes = self.complex_modes()?;
             return Ok(match modes.stability() {
-                Stability::Marginal if held && -rounding * most <= least_damping => Stability::Stable,
+                Stability::Marginal if held && -noise <= least_damping => Stability::Stable,
                 verdict => verdict,
             });
         }

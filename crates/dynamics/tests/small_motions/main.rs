@@ -1,0 +1,7 @@
+//! Tests of equilibria, linearisation, modes and stability.
+
+mod equilibria;
+mod linearisation;
+mod modes;
+mod stability;
+mod systems;
