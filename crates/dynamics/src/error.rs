@@ -126,6 +126,32 @@ pub enum DynamicsError {
         /// g_ΔΓ v^Δ v^Γ.
         squared_length: f64,
     },
+    /// An integral over time that does not become accurate, however small the intervals.
+    #[error("the integral still has the error {error:e} after {intervals} intervals: its integrand is not smooth")]
+    QuadratureNotConverged {
+        /// The intervals used.
+        intervals: usize,
+        /// The error left.
+        error: f64,
+    },
+    /// Samples of a motion that are not in the order of time.
+    #[error("the time {time} of sample {index} does not come after the {before} of the one before")]
+    TimesNotIncreasing {
+        /// The sample.
+        index: usize,
+        /// Its time.
+        time: f64,
+        /// The time before.
+        before: f64,
+    },
+    /// Too few samples to say anything of the motion between them.
+    #[error("{found} samples are given where at least {needed} are needed")]
+    TooFewSamples {
+        /// The number given.
+        found: usize,
+        /// The number needed.
+        needed: usize,
+    },
     /// A linear system that cannot be solved.
     #[error(transparent)]
     Numerics(#[from] piola_numerics::Error),

@@ -21,30 +21,36 @@
 //! without potential, applied forces, time dependence or bodies does not pay for them.
 
 mod acceleration;
+mod action;
 mod change_of_coordinates;
 mod collect;
 mod directions;
+mod driving_forces;
 mod energy;
 mod forces;
 mod function;
 mod geodesic;
+mod hamilton_principle;
 mod legendre;
 mod metric;
 mod motion;
 mod parts;
 mod potential;
 mod power;
+mod quadrature;
 mod reactions;
 mod run;
 mod virtual_work;
 mod work;
 
 pub use acceleration::Workspace;
+pub use action::{Action, FirstVariation, Path, Varied};
 pub use change_of_coordinates::{ChangeOfCoordinates, InCoordinates};
 pub use energy::{Energies, KineticEnergyParts};
 pub use forces::{Forces, NoForces};
 pub use function::{LagrangianFunction, Negative, NoParts};
 pub use geodesic::{GeodesicEnd, GeodesicMotion};
+pub use hamilton_principle::{SampledMotion, StationarityResidual};
 pub use motion::{CanonicalMotion, Motion};
 pub use piola_kinematics::{Holonomic, Placement};
 pub use potential::{NoPotential, Potential};
