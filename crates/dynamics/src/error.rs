@@ -152,6 +152,9 @@ pub enum DynamicsError {
         /// The number needed.
         needed: usize,
     },
+    /// Angles at a gimbal point, or other kinematic data that cannot be used.
+    #[error(transparent)]
+    Kinematics(#[from] piola_kinematics::KinematicsError),
     /// A linear system that cannot be solved.
     #[error(transparent)]
     Numerics(#[from] piola_numerics::Error),

@@ -5,6 +5,7 @@
 //! | [`lagrangian`] | Lagrange's equations of any placement map, with a potential and applied forces |
 //! | [`small_motions`] | equilibria, linearisation about any state, normal and complex modes, stability |
 //! | [`hamiltonian`] | Hamilton's equations of any function H(q, p, t) |
+//! | [`newton_euler`] | Newton's and Euler's laws of particles and rigid bodies |
 //! | [`rigid_motion`] | the rotation of a rigid body by unit quaternions |
 //! | [`gravitation`] | many bodies attracting each other: direct summation in lanes, post-Newtonian term |
 #![forbid(unsafe_code)]
@@ -17,6 +18,7 @@ mod error;
 pub mod gravitation;
 pub mod hamiltonian;
 pub mod lagrangian;
+pub mod newton_euler;
 pub mod rigid_motion;
 pub mod small_motions;
 

@@ -7,13 +7,13 @@
 //! The state is y = (w, x, y, z; ω₁, ω₂, ω₃), components of ω in the body basis. There is no chart and so no
 //! singular attitude.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use piola_integrators::Field;
 use piola_kinematics::{Attitude, RigidBody};
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3;
 
 use crate::DynamicsError;
+use crate::newton_euler::NewtonEuler;
 
 /// The moment that acts on a body.
 ///
@@ -51,8 +51,7 @@ impl Torque for NoTorque {
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct RigidRotation<'a, G = NoTorque> {
-    body: &'a RigidBody,
-    inverse: Matrix3<f64>,
+    laws: NewtonEuler<'a>,
     torque: G,
 }
 
@@ -72,7 +71,7 @@ impl<'a, G: Torque> RigidRotation<'a, G> {
     /// # Errors
     /// [`DynamicsError::Numerics`] when the inertia tensor cannot be inverted.
     pub fn driven(body: &'a RigidBody, torque: G) -> Result<Self, DynamicsError> {
-        Ok(Self { body, inverse: matrix3::inverse(&body.inertia().matrix())?, torque })
+        Ok(Self { laws: NewtonEuler::of(body)?, torque })
     }
 
     /// The angular acceleration ω̇ = I⁻¹(G − ω × I ω), rad/s², body components.
@@ -86,11 +85,7 @@ impl<'a, G: Torque> RigidRotation<'a, G> {
         angular_velocity: Vector3<T>,
     ) -> Vector3<T> {
         let moment = self.torque.moment(t, attitude, angular_velocity);
-        let h = self.body.inertia().times(&angular_velocity);
-        let gyroscopic = matrix3::cross(angular_velocity.into(), h.into());
-        let rest: [T; 3] = core::array::from_fn(|k| moment[k] - gyroscopic[k]);
-        let rows = |k: usize| matrix3::dot(core::array::from_fn(|j| T::lit(self.inverse[(k, j)])), rest);
-        Vector3::new(rows(0), rows(1), rows(2))
+        self.laws.angular_acceleration(&moment, &angular_velocity)
     }
 }
 
