@@ -86,8 +86,16 @@ pub enum KinematicsError {
     GimbalPoint {
         /// θ² (rad).
         theta2: f64,
-        /// (1 + |cos θ²|)/|sin θ²|.
+        /// cond W.
         condition_number: f64,
+    },
+    /// 2 ≤ threshold < ∞ is violated: below it every chart would have to be left at some attitude.
+    #[error("condition number {threshold} to leave a chart at is not in [{least}, ∞)")]
+    ConditionThreshold {
+        /// The threshold given.
+        threshold: f64,
+        /// What it must at least be.
+        least: f64,
     },
     /// 0 < volume is violated by the vertices of a solid.
     #[error("vertices span the volume {volume} m³, which is zero to rounding")]

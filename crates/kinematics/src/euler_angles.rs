@@ -1,6 +1,6 @@
-//! Eulerian angles z–y–z: a chart of the attitudes.
+//! Eulerian angles in all twelve sequences of axes: charts of the attitudes.
 //!
-//! Turn by θ¹ about e₃, by θ² about the moved second axis, by θ³ about f₃:
+//! z–y–z is the default and the text's. Turn by θ¹ about e₃, by θ² about the moved second axis, by θ³ about f₃:
 //!
 //! ```text
 //! f_i = Q_ij e_j,  Q = A₃ A₂ A₁                                           W(2.22–2.25)
@@ -15,26 +15,42 @@
 //! cond W = (1 + |c₂|)/|s₂|
 //! ```
 //!
-//! The chart is singular at θ² = 0, π (gimbal points): there only θ¹ ± θ³ has a meaning. Ask
-//! [`condition_number`](EulerZyz::condition_number) and change over to an [`Attitude`] before it is large.
-//! Each sequence of axes is a type of its own, named after it.
+//! The other [sequences](EulerSequence) are z–y–z with the axes renamed and, for those of Tait and Bryan,
+//! θ² + π/2 in the place of θ² (cos θ² for s₂, −sin θ² for c₂) and a constant quarter turn at the end. The
+//! formulas are therefore written once, for z–y–z, in sines and cosines.
+//!
+//! Each chart is singular where its first and third axis are one line (gimbal points): there only θ¹ + θ³ or
+//! θ¹ − θ³ has a meaning. Ask for the [`condition_number`](EulerAngles::condition_number), and change over to
+//! another chart before it is large.
+//!
+//! # Which one?
+//! [`Attitude`] to hold and to integrate an attitude; [`EulerAngles`] to read, print or prescribe one;
+//! [`EulerChart`] to follow a tumbling body in angles, in whichever sequence is well conditioned.
 //!
 //! # References
 //! W(2.22–2.28), W(5.30).
+
+mod chart;
+mod inverse;
+mod sequence;
 
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 
 use crate::attitude::Attitude;
-use crate::error::KinematicsError;
+use sequence::Layout;
 
-/// Eulerian angles z–y–z (rad).
+pub use chart::{ChartChange, EulerChart};
+pub use inverse::{AnglesOfAttitude, EulerRates};
+pub use sequence::EulerSequence;
+
+/// Three angles (rad) about the axes of a sequence.
 ///
 /// # Example
 /// ```
-/// use piola_kinematics::EulerZyz;
+/// use piola_kinematics::EulerAngles;
 /// // A top that only spins: all of θ̇³ is about f₃.
-/// let top = EulerZyz { theta: [0.0, 0.5, 0.0] };
+/// let top = EulerAngles::zyz([0.0, 0.5, 0.0]);
 /// assert_eq!(top.angular_velocity_in_body([0.0, 0.0, 7.0]).z, 7.0);
 /// ```
 ///
@@ -46,88 +62,126 @@ use crate::error::KinematicsError;
     feature = "serde",
     serde(deny_unknown_fields, bound(deserialize = "T: piola_numerics::Real + serde::Deserialize<'de>"))
 )]
-pub struct EulerZyz<T> {
+pub struct EulerAngles<T> {
+    /// The axes; z–y–z where it is not given.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub sequence: EulerSequence,
     /// θ¹, θ², θ³.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::triple"))]
     pub theta: [T; 3],
 }
 
-/// The Eulerian angles of an attitude, as far as they are determined.
-///
-/// # Example
-/// ```
-/// use piola_kinematics::{Attitude, EulerZyz, euler_angles::AnglesOfAttitude};
-/// let upright = EulerZyz::of_attitude(Attitude::about_z(0.5));
-/// // θ² = 0: only θ¹ + θ³ = 0.5 is determined.
-/// assert!(matches!(upright, AnglesOfAttitude::Gimbal { sum, .. } if (sum - 0.5).abs() < 1.0e-15));
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum AnglesOfAttitude {
-    /// All three angles are determined.
-    Regular {
-        /// θ¹, θ³ in (−π, π], θ² in (0, π).
-        angles: EulerZyz<f64>,
-        /// (1 + |c₂|)/|s₂|: how much an error of the attitude grows in θ¹ and θ³.
-        condition_number: f64,
-    },
-    /// θ² = 0 within rounding: only the sum of the outer angles is determined.
-    Gimbal {
-        /// One choice: θ³ = 0.
-        angles: EulerZyz<f64>,
-        /// θ¹ + θ³.
-        sum: f64,
-    },
-    /// θ² = π within rounding: only the difference of the outer angles is determined.
-    ReversedGimbal {
-        /// One choice: θ³ = 0.
-        angles: EulerZyz<f64>,
-        /// θ¹ − θ³.
-        difference: f64,
-    },
-}
+impl<T> EulerAngles<T> {
+    /// The angles z–y–z.
+    ///
+    /// # Example
+    /// See [`EulerAngles`].
+    #[inline]
+    #[must_use]
+    pub const fn zyz(theta: [T; 3]) -> Self {
+        Self { sequence: EulerSequence::Zyz, theta }
+    }
 
-impl AnglesOfAttitude {
-    /// The angles, with the choice θ³ = 0 at a gimbal point.
+    /// Angles about the axes of a sequence.
     ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::{Attitude, EulerZyz};
-    /// let angles = EulerZyz::of_attitude(Attitude::about_y(0.5)).angles();
-    /// assert!((angles.theta[1] - 0.5).abs() <= f64::EPSILON);
+    /// use piola_kinematics::{Attitude, EulerAngles, EulerSequence};
+    /// // Yaw, pitch and roll: with a yaw alone the nose, f₁, turns towards e₂.
+    /// let yawed = EulerAngles::new(EulerSequence::Zyx, [0.25, 0.0, 0.0]);
+    /// assert_eq!(yawed.attitude(), Attitude::about_z(0.25));
     /// ```
+    #[inline]
     #[must_use]
-    pub fn angles(&self) -> EulerZyz<f64> {
-        match *self {
-            Self::Regular { angles, .. } | Self::Gimbal { angles, .. } | Self::ReversedGimbal { angles, .. } => angles,
-        }
+    pub const fn new(sequence: EulerSequence, theta: [T; 3]) -> Self {
+        Self { sequence, theta }
     }
 }
 
-/// Rates of the angles at an angular velocity, and how well they are determined.
-///
-/// # Example
-/// ```
-/// # use nalgebra::Vector3;
-/// # use piola_kinematics::EulerZyz;
-/// let level = EulerZyz { theta: [0.0, std::f64::consts::FRAC_PI_2, 0.0] };
-/// assert_eq!(level.rates(&Vector3::new(-2.0, 0.0, 0.0))?.condition_number.round(), 1.0);
-/// # Ok::<(), piola_kinematics::KinematicsError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EulerRates {
-    /// θ̇ (rad/s).
-    pub rates: [f64; 3],
-    /// cond W = (1 + |c₂|)/|s₂|.
-    pub condition_number: f64,
+/// Sines and cosines of the z–y–z angles that a sequence amounts to: W, Q and their rates in its basis.
+#[derive(Clone, Copy)]
+struct Canonical<T> {
+    layout: Layout,
+    first: (T, T),
+    second: (T, T),
+    third: (T, T),
 }
 
-impl<T: Real> EulerZyz<T> {
+impl<T: Real> Canonical<T> {
+    #[inline(always)]
+    fn of(angles: &EulerAngles<T>) -> Self {
+        let layout = Layout::of(angles.sequence);
+        let [first, (s2, c2), (s3, c3)] = angles.theta.map(Real::sin_cos);
+        if layout.eulerian {
+            return Self { layout, first, second: (s2, c2), third: (s3, c3) };
+        }
+        Self { layout, first, second: (c2, -s2), third: (s3 * T::lit(layout.third_sign()), c3) }
+    }
+
+    /// Rates of the z–y–z angles from those of the sequence, and back.
+    #[inline(always)]
+    fn rates(&self, [r1, r2, r3]: [T; 3]) -> [T; 3] {
+        [r1, r2, r3 * T::lit(self.layout.third_sign())]
+    }
+
+    /// The columns of W that are not constant.
+    #[inline(always)]
+    fn columns_in_body(&self) -> [Vector3<T>; 2] {
+        let ((s2, c2), (s3, c3)) = (self.second, self.third);
+        [Vector3::new(-(s2 * c3), s2 * s3, c2), Vector3::new(s3, c3, T::zero())]
+    }
+
+    /// The columns of Qᵀ W that are not constant: ē₂ and f₃.
+    #[inline(always)]
+    fn columns_in_space(&self) -> [Vector3<T>; 2] {
+        let ((s1, c1), (s2, c2)) = (self.first, self.second);
+        [Vector3::new(-s1, c1, T::zero()), Vector3::new(s2 * c1, s2 * s1, c2)]
+    }
+
+    /// W θ̇.
+    #[inline(always)]
+    fn velocity_in_body(&self, [r1, r2, r3]: [T; 3]) -> Vector3<T> {
+        let [first, second] = self.columns_in_body();
+        Vector3::new(first.x * r1 + second.x * r2, first.y * r1 + second.y * r2, first.z * r1 + r3)
+    }
+
+    /// Qᵀ W θ̇.
+    #[inline(always)]
+    fn velocity_in_space(&self, [r1, r2, r3]: [T; 3]) -> Vector3<T> {
+        let [second, third] = self.columns_in_space();
+        Vector3::new(second.x * r2 + third.x * r3, second.y * r2 + third.y * r3, r1 + third.z * r3)
+    }
+
+    /// Ẇ θ̇.
+    #[inline(always)]
+    fn changing_in_body(&self, [r1, r2, r3]: [T; 3]) -> Vector3<T> {
+        let ((s2, c2), (s3, c3)) = (self.second, self.third);
+        Vector3::new(
+            r1 * (s2 * s3 * r3 - c2 * c3 * r2) + r2 * c3 * r3,
+            r1 * (c2 * s3 * r2 + s2 * c3 * r3) - r2 * s3 * r3,
+            -(s2 * r2 * r1),
+        )
+    }
+
+    /// (Qᵀ W)· θ̇.
+    #[inline(always)]
+    fn changing_in_space(&self, [r1, r2, r3]: [T; 3]) -> Vector3<T> {
+        let ((s1, c1), (s2, c2)) = (self.first, self.second);
+        Vector3::new(
+            r3 * (c2 * c1 * r2 - s2 * s1 * r1) - r2 * c1 * r1,
+            r3 * (c2 * s1 * r2 + s2 * c1 * r1) - r2 * s1 * r1,
+            -(s2 * r2 * r3),
+        )
+    }
+}
+
+impl<T: Real> EulerAngles<T> {
     /// The matrix Q: `f_i = Q_ij e_j`, `v_body = Q v_space`.
     ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::EulerZyz;
-    /// let q = EulerZyz { theta: [0.0, 0.5, 0.0] }.matrix();
+    /// # use piola_kinematics::EulerAngles;
+    /// let q = EulerAngles::zyz([0.0, 0.5, 0.0]).matrix();
     /// assert_eq!(q[(2, 0)], 0.5_f64.sin()); // f₃ leans towards e₁
     /// ```
     ///
@@ -135,26 +189,24 @@ impl<T: Real> EulerZyz<T> {
     /// W(2.25).
     #[must_use]
     pub fn matrix(&self) -> Matrix3<T> {
-        let [(s1, c1), (s2, c2), (s3, c3)] = self.theta.map(Real::sin_cos);
-        Matrix3::new(
-            c3 * c2 * c1 - s3 * s1,
-            c3 * c2 * s1 + s3 * c1,
-            -(c3 * s2),
-            -(s3 * c2 * c1) - c3 * s1,
-            c3 * c1 - s3 * c2 * s1,
-            s3 * s2,
-            s2 * c1,
-            s2 * s1,
-            c2,
-        )
+        let canonical = Canonical::of(self);
+        let ((s1, c1), (s2, c2), (s3, c3)) = (canonical.first, canonical.second, canonical.third);
+        let e1 = Vector3::new(c3 * c2 * c1 - s3 * s1, -(s3 * c2 * c1) - c3 * s1, s2 * c1);
+        let e2 = Vector3::new(c3 * c2 * s1 + s3 * c1, c3 * c1 - s3 * c2 * s1, s2 * s1);
+        let e3 = Vector3::new(-(c3 * s2), s3 * s2, c2);
+        // Column j holds the body components of e_j.
+        let columns = [e1, e2, e3].map(|e| canonical.layout.from_body(&e));
+        let rows = [0, 1, 2].map(|i| Vector3::new(columns[0][i], columns[1][i], columns[2][i]));
+        let [a, b, c] = rows.map(|row| canonical.layout.from_space(&row));
+        Matrix3::new(a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z)
     }
 
     /// The matrix W: `ω_body = W θ̇`.
     ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::EulerZyz;
-    /// let w = EulerZyz { theta: [0.3, 0.5, 0.0] }.rate_matrix();
+    /// # use piola_kinematics::EulerAngles;
+    /// let w = EulerAngles::zyz([0.3, 0.5, 0.0]).rate_matrix();
     /// assert_eq!(w[(2, 0)], 0.5_f64.cos());
     /// ```
     ///
@@ -162,58 +214,81 @@ impl<T: Real> EulerZyz<T> {
     /// W(2.28).
     #[must_use]
     pub fn rate_matrix(&self) -> Matrix3<T> {
-        let [_, (s2, c2), (s3, c3)] = self.theta.map(Real::sin_cos);
-        let (zero, one) = (T::zero(), T::one());
-        Matrix3::new(-(s2 * c3), s3, zero, s2 * s3, c3, zero, c2, zero, one)
+        let canonical = Canonical::of(self);
+        let [first, second] = canonical.columns_in_body();
+        let third = Vector3::new(T::zero(), T::zero(), T::lit(canonical.layout.third_sign()));
+        Matrix3::from_columns(&[first, second, third].map(|column| canonical.layout.from_body(&column)))
     }
 
-    /// det W = −sin θ².
+    /// The matrix of the space components: `ω_space = W_space θ̇`, `W_space = Qᵀ W`. Its columns are the axes
+    /// of the three turns.
     ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::EulerZyz;
-    /// assert_eq!(EulerZyz { theta: [0.3, 0.0, 0.2] }.rate_matrix_determinant(), 0.0);
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::EulerAngles;
+    /// let w = EulerAngles::zyz([0.3, 0.5, 0.7]).rate_matrix_in_space();
+    /// assert_eq!(w.column(0), Vector3::z());
+    /// ```
+    ///
+    /// # Source
+    /// W(2.26).
+    #[must_use]
+    pub fn rate_matrix_in_space(&self) -> Matrix3<T> {
+        let canonical = Canonical::of(self);
+        let [second, third] = canonical.columns_in_space();
+        let first = Vector3::new(T::zero(), T::zero(), T::one());
+        let third = third * T::lit(canonical.layout.third_sign());
+        Matrix3::from_columns(&[first, second, third].map(|column| canonical.layout.from_space(&column)))
+    }
+
+    /// det W: −sin θ² for z–y–z and all Eulerian sequences, ±cos θ² for those of Tait and Bryan.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_kinematics::EulerAngles;
+    /// assert_eq!(EulerAngles::zyz([0.3, 0.0, 0.2]).rate_matrix_determinant(), 0.0);
     /// ```
     #[must_use]
     pub fn rate_matrix_determinant(&self) -> T {
-        -self.theta[1].sin()
+        let canonical = Canonical::of(self);
+        -canonical.second.0 * T::lit(canonical.layout.third_sign())
     }
 
-    /// cond W = (1 + |c₂|)/|s₂| in the spectral norm; infinite at θ² = 0.
+    /// cond W = (1 + |c₂|)/|s₂| in the spectral norm; infinite at a gimbal point.
     ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::EulerZyz;
-    /// let near_gimbal = EulerZyz { theta: [0.0, 1.0e-8_f64, 0.0] };
+    /// # use piola_kinematics::EulerAngles;
+    /// let near_gimbal = EulerAngles::zyz([0.0, 1.0e-8_f64, 0.0]);
     /// assert!((near_gimbal.condition_number() / 2.0e8 - 1.0).abs() <= f64::EPSILON);
     /// ```
     #[must_use]
     pub fn condition_number(&self) -> T {
         // W has the singular values √(1 + |c₂|), 1, √(1 − |c₂|).
-        let (s2, c2) = self.theta[1].sin_cos();
+        let (s2, c2) = Canonical::of(self).second;
         (T::one() + c2.abs()) / s2.abs()
     }
 
     /// Angular velocity in body components, ω = W θ̇ (rad/s).
     ///
     /// # Example
-    /// See [`EulerZyz`].
+    /// See [`EulerAngles`].
     ///
     /// # Source
     /// W(2.26–2.28).
     #[must_use]
     pub fn angular_velocity_in_body(&self, rates: [T; 3]) -> Vector3<T> {
-        let [_, (s2, c2), (s3, c3)] = self.theta.map(Real::sin_cos);
-        let [r1, r2, r3] = rates;
-        Vector3::new(s3 * r2 - s2 * c3 * r1, s2 * s3 * r1 + c3 * r2, c2 * r1 + r3)
+        let canonical = Canonical::of(self);
+        canonical.layout.from_body(&canonical.velocity_in_body(canonical.rates(rates)))
     }
 
     /// Angular velocity in space components, θ̇¹ e₃ + θ̇² ē₂ + θ̇³ f₃ (rad/s).
     ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::EulerZyz;
-    /// let top = EulerZyz { theta: [0.4, 0.5, 0.6] };
+    /// # use piola_kinematics::EulerAngles;
+    /// let top = EulerAngles::zyz([0.4, 0.5, 0.6]);
     /// assert_eq!(top.angular_velocity_in_space([7.0, 0.0, 0.0]).z, 7.0);
     /// ```
     ///
@@ -221,9 +296,8 @@ impl<T: Real> EulerZyz<T> {
     /// W(2.26).
     #[must_use]
     pub fn angular_velocity_in_space(&self, rates: [T; 3]) -> Vector3<T> {
-        let [(s1, c1), (s2, c2), _] = self.theta.map(Real::sin_cos);
-        let [r1, r2, r3] = rates;
-        Vector3::new(s2 * c1 * r3 - s1 * r2, s2 * s1 * r3 + c1 * r2, r1 + c2 * r3)
+        let canonical = Canonical::of(self);
+        canonical.layout.from_space(&canonical.velocity_in_space(canonical.rates(rates)))
     }
 
     /// Rate of the body components of ω: ω̇ = W θ̈ + Ẇ θ̇ (rad/s²).
@@ -232,9 +306,9 @@ impl<T: Real> EulerZyz<T> {
     ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::EulerZyz;
+    /// # use piola_kinematics::EulerAngles;
     /// // Steady precession of a spinning top: ω̇ = θ̇¹ e₃ × θ̇³ f₃.
-    /// let top = EulerZyz { theta: [0.0, std::f64::consts::FRAC_PI_2, 0.0] };
+    /// let top = EulerAngles::zyz([0.0, std::f64::consts::FRAC_PI_2, 0.0]);
     /// let rate = top.angular_acceleration_in_body([2.0, 0.0, 3.0], [0.0; 3]);
     /// assert_eq!(rate.y, 6.0);
     /// ```
@@ -243,22 +317,17 @@ impl<T: Real> EulerZyz<T> {
     /// W(2.28), differentiated.
     #[must_use]
     pub fn angular_acceleration_in_body(&self, rates: [T; 3], second_rates: [T; 3]) -> Vector3<T> {
-        let [_, (s2, c2), (s3, c3)] = self.theta.map(Real::sin_cos);
-        let [r1, r2, r3] = rates;
-        let changing = Vector3::new(
-            r1 * (s2 * s3 * r3 - c2 * c3 * r2) + r2 * c3 * r3,
-            r1 * (c2 * s3 * r2 + s2 * c3 * r3) - r2 * s3 * r3,
-            -(s2 * r2 * r1),
-        );
-        self.angular_velocity_in_body(second_rates) + changing
+        let canonical = Canonical::of(self);
+        let (rates, second_rates) = (canonical.rates(rates), canonical.rates(second_rates));
+        canonical.layout.from_body(&(canonical.velocity_in_body(second_rates) + canonical.changing_in_body(rates)))
     }
 
     /// Rate of the space components of ω (rad/s²).
     ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::EulerZyz;
-    /// let top = EulerZyz { theta: [0.0, std::f64::consts::FRAC_PI_2, 0.0] };
+    /// # use piola_kinematics::EulerAngles;
+    /// let top = EulerAngles::zyz([0.0, std::f64::consts::FRAC_PI_2, 0.0]);
     /// let rate = top.angular_acceleration_in_space([2.0, 0.0, 3.0], [0.0; 3]);
     /// assert_eq!(rate.y, 6.0);
     /// ```
@@ -267,107 +336,35 @@ impl<T: Real> EulerZyz<T> {
     /// W(2.26), differentiated.
     #[must_use]
     pub fn angular_acceleration_in_space(&self, rates: [T; 3], second_rates: [T; 3]) -> Vector3<T> {
-        let [(s1, c1), (s2, c2), _] = self.theta.map(Real::sin_cos);
-        let [r1, r2, r3] = rates;
-        let changing = Vector3::new(
-            r3 * (c2 * c1 * r2 - s2 * s1 * r1) - r2 * c1 * r1,
-            r3 * (c2 * s1 * r2 + s2 * c1 * r1) - r2 * s1 * r1,
-            -(s2 * r2 * r3),
-        );
-        self.angular_velocity_in_space(second_rates) + changing
+        let canonical = Canonical::of(self);
+        let (rates, second_rates) = (canonical.rates(rates), canonical.rates(second_rates));
+        canonical.layout.from_space(&(canonical.velocity_in_space(second_rates) + canonical.changing_in_space(rates)))
     }
 
     /// The attitude with these angles.
     ///
+    /// # Accuracy
+    /// A few ulps of one; of its vector part where all angles are small.
+    ///
     /// # Example
     /// ```
-    /// # use piola_kinematics::{Attitude, EulerZyz};
-    /// assert_eq!(EulerZyz { theta: [0.0_f64; 3] }.attitude(), Attitude::identity());
+    /// # use piola_kinematics::{Attitude, EulerAngles};
+    /// assert_eq!(EulerAngles::zyz([0.0_f64; 3]).attitude(), Attitude::identity());
     /// ```
+    ///
+    /// # Source
+    /// W(2.22).
     #[must_use]
     pub fn attitude(&self) -> Attitude<T> {
-        Attitude::from_euler_zyz(self.theta)
-    }
-}
-
-/// Half angles up to this are zero to the rounding of a quaternion.
-const GIMBAL: f64 = 4.0 * f64::EPSILON;
-
-impl EulerZyz<f64> {
-    /// Rates of the angles at an angular velocity in body components: θ̇ = W⁻¹ ω.
-    ///
-    /// # Errors
-    /// [`KinematicsError::GimbalPoint`] where cond W exceeds 1/ε, so that no digit would be right;
-    /// [`KinematicsError::NotFinite`].
-    ///
-    /// # Accuracy
-    /// A few ulps × `condition_number`.
-    ///
-    /// # Example
-    /// See [`EulerRates`].
-    ///
-    /// # Source
-    /// W(2.28), inverted.
-    pub fn rates(&self, angular_velocity_in_body: &Vector3<f64>) -> Result<EulerRates, KinematicsError> {
-        for (quantity, values) in
-            [("theta", &self.theta[..]), ("angular velocity", angular_velocity_in_body.as_slice())]
-        {
-            if let Some((index, value)) = crate::vector::first_non_finite(values) {
-                return Err(KinematicsError::NotFinite { quantity, index, value });
-            }
-        }
-        let condition_number = self.condition_number();
-        if f64::EPSILON.recip() <= condition_number {
-            return Err(KinematicsError::GimbalPoint { theta2: self.theta[1], condition_number });
-        }
-        let [_, (s2, c2), (s3, c3)] = self.theta.map(f64::sin_cos);
-        let omega = angular_velocity_in_body;
-        let first = (s3 * omega.y - c3 * omega.x) / s2;
-        let rates = [first, s3 * omega.x + c3 * omega.y, omega.z - c2 * first];
-        Ok(EulerRates { rates, condition_number })
-    }
-
-    /// The angles of an attitude; gimbal points are reported, not guessed.
-    ///
-    /// ```text
-    /// θ² = 2 arctan(√(x²+y²)/√(w²+z²))   ½(θ³+θ¹) = arctan(z/w)   ½(θ³−θ¹) = arctan(x/y)
-    /// ```
-    ///
-    /// # Accuracy
-    /// θ² to a few ulps everywhere, also near 0 and π; θ¹ and θ³ to a few ulps × `condition_number`.
-    ///
-    /// # Example
-    /// See [`AnglesOfAttitude`].
-    ///
-    /// # Source
-    /// W(2.22–2.25), inverted.
-    #[must_use]
-    pub fn of_attitude(attitude: Attitude<f64>) -> AnglesOfAttitude {
-        let Attitude { w, x, y, z } = attitude;
-        let (sine, cosine) = (x.hypot(y), w.hypot(z));
-        let second = 2.0 * sine.atan2(cosine);
-        if sine <= GIMBAL {
-            let sum = wrapped(2.0 * z.atan2(w));
-            return AnglesOfAttitude::Gimbal { angles: Self { theta: [sum, second, 0.0] }, sum };
-        }
-        if cosine <= GIMBAL {
-            let difference = wrapped(-2.0 * x.atan2(y));
-            return AnglesOfAttitude::ReversedGimbal { angles: Self { theta: [difference, second, 0.0] }, difference };
-        }
-        let (half_sum, half_difference) = (z.atan2(w), x.atan2(y));
-        let angles = Self { theta: [wrapped(half_sum - half_difference), second, wrapped(half_sum + half_difference)] };
-        AnglesOfAttitude::Regular { angles, condition_number: angles.condition_number() }
-    }
-}
-
-/// The angle in (−π, π] of a sum of two arctangents, which lies in (−2π, 2π].
-fn wrapped(angle: f64) -> f64 {
-    use core::f64::consts::{PI, TAU};
-    if PI < angle {
-        angle - TAU
-    } else if angle <= -PI {
-        angle + TAU
-    } else {
-        angle
+        let layout = Layout::of(self.sequence);
+        let [first, second, third] = self.theta;
+        let turned = if layout.eulerian {
+            Attitude::from_euler_zyz(self.theta)
+        } else {
+            let tilted = Attitude::about_z(first).product(Attitude::about_y(second));
+            tilted.product(Attitude::about_x(third * T::lit(layout.third_sign())))
+        };
+        let v = layout.from_space(&Vector3::new(turned.x, turned.y, turned.z));
+        Attitude { w: turned.w, x: v.x, y: v.y, z: v.z }
     }
 }

@@ -20,7 +20,7 @@ mod vector;
 
 pub use attitude::Attitude;
 pub use error::KinematicsError;
-pub use euler_angles::EulerZyz;
+pub use euler_angles::{EulerAngles, EulerChart, EulerSequence};
 pub use inertia::Inertia;
 pub use placement::{Holonomic, Placement};
 #[cfg(feature = "glam")]

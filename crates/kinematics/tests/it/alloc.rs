@@ -4,7 +4,9 @@ use nalgebra::Vector3;
 use piola_kinematics::curve::{Curve, Frenet};
 use piola_kinematics::particle::Motion;
 use piola_kinematics::placement::PlacementEvaluator;
-use piola_kinematics::{Attitude, BodyMotion, BodyPose, BodyVelocity, EulerZyz, Inertia, ParticleSystem};
+use piola_kinematics::{
+    Attitude, BodyMotion, BodyPose, BodyVelocity, EulerAngles, EulerSequence, Inertia, ParticleSystem,
+};
 use piola_numerics::Real;
 use piola_testkit::allocations_in;
 
@@ -42,7 +44,7 @@ fn attitudes_inertia_systems_and_curves_allocate_nothing() {
     let points = [Vector3::new(1.0, 0.0, 0.5), Vector3::new(0.0, 2.0, 0.0), Vector3::new(-1.0, 0.3, 0.0)];
     let (allocations, ()) = allocations_in(|| {
         let attitude = Attitude::from_rotation_vector(&points[0]);
-        let _ = EulerZyz::of_attitude(attitude).angles().rates(&points[1]).expect("regular");
+        let _ = EulerAngles::of_attitude(EulerSequence::Zyz, attitude).angles().rates(&points[1]).expect("regular");
         let _ = Inertia::principal([1.0, 2.0, 2.5]).expect("a body").rotated(attitude).principal_axes();
         let system = ParticleSystem::new(&[1.0, 2.0, 3.0], &points, &points).expect("a system");
         let _ = (system.kinetic_energy(), system.moment_of_momentum(&points[0]), system.inertia_about_centre_of_mass());

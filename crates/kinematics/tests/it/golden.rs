@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_kinematics::curve::{Curve, Derivatives, Frenet};
 use piola_kinematics::solids::Solid;
-use piola_kinematics::{Attitude, BodyMotion, EulerZyz, Inertia, ParticleSystem};
+use piola_kinematics::{Attitude, BodyMotion, EulerAngles, EulerSequence, Inertia, ParticleSystem};
 use piola_numerics::Real;
 use piola_testkit::golden::{load, matrix, number, text, vector};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
@@ -44,14 +44,14 @@ fn eulerian_angles_equal_reference() {
         if case.get("theta_list").is_some() {
             continue;
         }
-        let euler = EulerZyz { theta: triple(&case["theta"]) };
+        let euler = EulerAngles::zyz(triple(&case["theta"]));
         if let Some(quaternion) = case.get("quaternion_wxyz") {
             let expected = vector(quaternion);
             let actual = <[f64; 4]>::from(euler.attitude());
             let sign = if actual.iter().zip(&expected).map(|(a, b)| a * b).sum::<f64>() < 0.0 { -1.0 } else { 1.0 };
             check(name, "quaternion", &actual.map(|x| sign * x), &expected);
             let attitude = Attitude::from_quaternion(expected.try_into().expect("four")).expect("unit");
-            let back = EulerZyz::of_attitude(attitude);
+            let back = EulerAngles::of_attitude(EulerSequence::Zyz, attitude);
             check(name, "Q of the angles found", &rows(&back.angles().matrix()), &rows(&attitude.to_matrix()));
         }
         if case.get("Q").is_some() {
@@ -88,7 +88,7 @@ fn composed_attitudes_equal_reference() {
             reached.product(Attitude::from_euler_zyz([theta[0], theta[1], theta[2]]))
         });
         check(name, "Q", &rows(&attitude.to_matrix()), &matrix(&case["Q"]).concat());
-        let angles = EulerZyz::of_attitude(attitude).angles();
+        let angles = EulerAngles::of_attitude(EulerSequence::Zyz, attitude).angles();
         check(name, "angles", &angles.theta, &vector(&case["theta_of_composition"]));
         let from_matrix = Attitude::from_matrix(&attitude.to_matrix()).expect("a rotation");
         check(name, "Q of Q's quaternion", &rows(&from_matrix.to_matrix()), &matrix(&case["Q"]).concat());
@@ -221,7 +221,7 @@ fn motion_of_rigid_bodies_equals_reference() {
     for case in &load("rigid_body").cases {
         let name = text(&case["name"]);
         let body = solid(case).body(number(&case["mass"])).expect("a body");
-        let euler = EulerZyz { theta: triple(&case["theta"]) };
+        let euler = EulerAngles::zyz(triple(&case["theta"]));
         let (rates, second) = (triple(&case["theta_dot"]), triple(&case["theta_ddot"]));
         let motion = BodyMotion {
             attitude: euler.attitude(),

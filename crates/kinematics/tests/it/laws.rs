@@ -8,7 +8,9 @@ use piola_kinematics::placement::PlacementEvaluator;
 use piola_kinematics::rigid_body::{angular_velocity_of_basis, velocity_of_embedded_point};
 use piola_kinematics::solids::{body_of_particles, thin_rod};
 use piola_kinematics::system::largest_distance_change;
-use piola_kinematics::{Attitude, BodyMotion, BodyPose, BodyVelocity, EulerZyz, ParticleSystem, RigidBody, Solid};
+use piola_kinematics::{
+    Attitude, BodyMotion, BodyPose, BodyVelocity, EulerAngles, EulerSequence, ParticleSystem, RigidBody, Solid,
+};
 use piola_numerics::{Dual, Gradient, Jet, Lanes, Real};
 use piola_testkit::strategies::{finite, rotation, unit_vector, vector};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
@@ -167,7 +169,7 @@ proptest! {
 
     #[test]
     fn quaternion_equals_matrix_equals_eulerian_angles(theta in angles(), v in triple()) {
-        let euler = EulerZyz { theta };
+        let euler = EulerAngles::zyz(theta);
         let attitude = euler.attitude();
         let q = euler.matrix();
         close_matrix("Q", &attitude.to_matrix(), &q, 1.0);
@@ -175,7 +177,7 @@ proptest! {
         close("v_space", &attitude.to_space(&v), &(q.transpose() * v), 4.0);
         let by_axes = Attitude::about_z(theta[0]).product(Attitude::about_y(theta[1])).product(Attitude::about_z(theta[2]));
         close_matrix("Q by axes", &by_axes.to_matrix(), &q, 1.0);
-        let AnglesOfAttitude::Regular { angles, condition_number } = EulerZyz::of_attitude(attitude) else {
+        let AnglesOfAttitude::Regular { angles, condition_number } = EulerAngles::of_attitude(EulerSequence::Zyz, attitude) else {
             panic!("{theta:?} is no gimbal point");
         };
         assert_close("angles", &angles.theta, &theta, FEW.times(condition_number));
@@ -241,7 +243,7 @@ proptest! {
             value: theta[i], partials: [], rate: rates[i], second_rate: second[i]
         });
         let moving = <[Jet<f64, 0>; 4]>::from(Attitude::from_euler_zyz(jets));
-        let euler = EulerZyz { theta };
+        let euler = EulerAngles::zyz(theta);
         let q = euler.attitude();
         let (rate, second_rate) = (moving.map(|x| x.rate), moving.map(|x| x.second_rate));
         close("ω body", &euler.angular_velocity_in_body(rates), &q.angular_velocity_in_body(rate), 8.0);
@@ -259,7 +261,7 @@ proptest! {
     #[test]
     fn curl_of_rate_matrix_equals_minus_cross_products_of_its_columns(theta in angles()) {
         let seeds = core::array::from_fn(|i| Gradient::<f64, 3>::variable(theta[i], i));
-        let w = EulerZyz { theta: seeds }.rate_matrix();
+        let w = EulerAngles::zyz(seeds).rate_matrix();
         let column = |j: usize| w.column(j).map(|x| x.value);
         for (j, r) in [(0, 1), (0, 2), (1, 2), (1, 0), (2, 2)] {
             let curl: Vector3<f64> = Vector3::from_fn(|i, _| w[(i, j)].partials[r] - w[(i, r)].partials[j]);
@@ -380,7 +382,7 @@ proptest! {
         close("v of jets", &motion[0].velocity, &v[0], 20.0);
         close("ω of jets", &body_motion[0].angular_velocity, &body[0].angular_velocity, 20.0);
         // ω_Δ of the Eulerian angles are the columns of W.
-        let w = EulerZyz { theta }.rate_matrix();
+        let w = EulerAngles::zyz(theta).rate_matrix();
         for direction in 0..3 {
             let (mut h, mut tangent) = ([Vector3::zeros()], [BodyVelocity::at_rest()]);
             evaluator.tangent_into(&system, &q, t, direction, &mut h, &mut tangent).expect("a tangent");

@@ -3,6 +3,7 @@
 use piola_testkit::CountingAllocator;
 
 mod alloc;
+mod charts;
 mod golden;
 mod laws;
 mod orders;

@@ -6,7 +6,8 @@ use piola_kinematics::euler_angles::AnglesOfAttitude;
 use piola_kinematics::placement::{PlacementEvaluator, count, independence};
 use piola_kinematics::solids::{Solid, body_of_particles};
 use piola_kinematics::{
-    Attitude, BodyVelocity, EulerZyz, Holonomic, Inertia, KinematicsError, ParticleSystem, Placement, RigidBody,
+    Attitude, BodyVelocity, EulerAngles, EulerSequence, Holonomic, Inertia, KinematicsError, ParticleSystem, Placement,
+    RigidBody,
 };
 use piola_numerics::{Dual, Jet, Real};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
@@ -85,7 +86,7 @@ fn relative_parts_far_from_the_origin_equal_those_near_it() {
 
 #[test]
 fn rate_matrix_near_gimbal_is_right_and_its_condition_number_reported() {
-    let euler = EulerZyz { theta: [1.3, 1.0e-8, -2.0] };
+    let euler = EulerAngles::zyz([1.3, 1.0e-8, -2.0]);
     let found = euler.rates(&Vector3::new(0.5, -1.0, 2.0)).expect("still regular");
     assert_close("cond W", &[found.condition_number], &[2.0e8], Tol::ulps(4.0));
     let back = euler.rate_matrix() * Vector3::from(found.rates);
@@ -96,24 +97,31 @@ fn rate_matrix_near_gimbal_is_right_and_its_condition_number_reported() {
 #[test]
 fn gimbal_points_are_reported() {
     for theta2 in [0.0, core::f64::consts::PI] {
-        let euler = EulerZyz { theta: [0.4, theta2, 0.3] };
+        let euler = EulerAngles::zyz([0.4, theta2, 0.3]);
         let refused = euler.rates(&Vector3::x());
         assert!(matches!(refused, Err(KinematicsError::GimbalPoint { .. })), "{refused:?}");
     }
     let tol = Tol::ulps(4.0);
-    let AnglesOfAttitude::Gimbal { sum, .. } = EulerZyz::of_attitude(Attitude::from_euler_zyz([0.4, 0.0, 0.3])) else {
+    let AnglesOfAttitude::Gimbal { sum, .. } =
+        EulerAngles::of_attitude(EulerSequence::Zyz, Attitude::from_euler_zyz([0.4, 0.0, 0.3]))
+    else {
         panic!("θ² = 0 is a gimbal point");
     };
     assert_close("θ¹ + θ³", &[sum], &[0.7], tol);
     let reversed = Attitude::from_euler_zyz([0.4, core::f64::consts::PI, 0.3]);
-    let AnglesOfAttitude::ReversedGimbal { difference, angles } = EulerZyz::of_attitude(reversed) else {
+    let AnglesOfAttitude::ReversedGimbal { difference, angles } =
+        EulerAngles::of_attitude(EulerSequence::Zyz, reversed)
+    else {
         panic!("θ² = π is a gimbal point");
     };
     assert_close("θ¹ − θ³", &[difference], &[0.1], Tol::ulps(16.0));
     let (chosen, given) = (angles.matrix(), reversed.to_matrix());
     assert_close("Q", chosen.as_slice(), given.as_slice(), Tol::ulps(16.0));
     // Near π, but not there, θ² keeps its digits: π − θ² is right although cos θ² no longer feels it.
-    let near = EulerZyz::of_attitude(Attitude::from_euler_zyz([0.4, core::f64::consts::PI - 1.0e-8, 0.3]));
+    let near = EulerAngles::of_attitude(
+        EulerSequence::Zyz,
+        Attitude::from_euler_zyz([0.4, core::f64::consts::PI - 1.0e-8, 0.3]),
+    );
     let gap = core::f64::consts::PI - near.angles().theta[1];
     assert_close_at_scale("π − θ²", &[gap], &[1.0e-8], core::f64::consts::PI, Tol::ulps(2.0));
 }
@@ -283,7 +291,7 @@ fn what_is_read_is_validated() {
     let angles = |third: f64| {
         let theta: SeqDeserializer<_, serde::de::value::Error> = vec![0.0, 1.0, third].into_deserializer();
         let fields = MapDeserializer::new([("theta", theta)].into_iter());
-        <EulerZyz<f64> as serde::Deserialize>::deserialize(fields)
+        <EulerAngles<f64> as serde::Deserialize>::deserialize(fields)
     };
     assert!(angles(2.0).is_ok() && angles(f64::NAN).is_err());
     let attitude = Attitude::about_x(0.3);
