@@ -6,6 +6,7 @@
 
 mod far;
 mod metric;
+mod rotations;
 mod top;
 
 use piola_numerics::Real;
@@ -47,7 +48,13 @@ impl Table {
 /// # Errors
 /// What the systems refuse: none of these inputs should be.
 pub fn tables(steps: u32) -> Result<Vec<Table>, Box<dyn std::error::Error>> {
-    Ok(vec![metric::near_dependence()?, metric::mass_ratios()?, far::from_origin()?, top::free_top(steps)?])
+    Ok(vec![
+        rotations::near_singular_angles()?,
+        metric::near_dependence()?,
+        metric::mass_ratios()?,
+        far::from_origin()?,
+        top::free_top(steps)?,
+    ])
 }
 
 /// Numbers without pattern between −1 and 1, the same in every run.
