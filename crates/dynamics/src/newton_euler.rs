@@ -17,7 +17,7 @@
 //! constrained body obey these laws as if it were free.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_kinematics::{EulerZyz, RigidBody};
+use piola_kinematics::{EulerAngles, RigidBody};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{self, cross, dot};
 
@@ -208,7 +208,7 @@ impl<'a> NewtonEuler<'a> {
         self.body.spin_rate_in_body(angular_velocity, angular_acceleration)
     }
 
-    /// The second rates of the Eulerian angles z–y–z, rad/s².
+    /// The second rates of Eulerian angles, z–y–z or in any other sequence, rad/s².
     ///
     /// ```text
     /// θ̈ = W⁻¹ (I⁻¹ (G − ω×Iω) − Ẇ θ̇),   ω = W θ̇
@@ -218,16 +218,17 @@ impl<'a> NewtonEuler<'a> {
     /// [`DynamicsError::Kinematics`] at a gimbal point and for what is not finite.
     ///
     /// # Accuracy
-    /// A few ulp of the terms times the condition numbers of I and of W, (1 + |cos θ²|)/|sin θ²|.
+    /// A few ulp of the terms times the condition numbers of I and of the
+    /// [chart](EulerAngles::condition_number).
     ///
     /// # Example
     /// ```
     /// use nalgebra::Vector3;
     /// use piola_dynamics::newton_euler::NewtonEuler;
-    /// use piola_kinematics::{EulerZyz, Inertia, RigidBody};
+    /// use piola_kinematics::{EulerAngles, Inertia, RigidBody};
     /// let ball = RigidBody::new(1.0, Inertia::principal([2.0; 3])?)?;
     /// // With θ² = π/2 the second angle turns about f₂ when θ³ = 0: 6 N m give 3 rad/s².
-    /// let angles = EulerZyz { theta: [0.0, std::f64::consts::FRAC_PI_2, 0.0] };
+    /// let angles = EulerAngles::zyz([0.0, std::f64::consts::FRAC_PI_2, 0.0]);
     /// let moment = Vector3::new(0.0, 6.0, 0.0);
     /// let rates = NewtonEuler::of(&ball)?.eulerian_accelerations(&angles, [0.0; 3], &moment)?;
     /// assert_eq!(rates[1], 3.0);
@@ -238,14 +239,13 @@ impl<'a> NewtonEuler<'a> {
     /// W(4.12).
     pub fn eulerian_accelerations(
         &self,
-        angles: &EulerZyz<f64>,
+        angles: &EulerAngles<f64>,
         rates: [f64; 3],
         moment: &Vector3<f64>,
     ) -> Result<[f64; 3], DynamicsError> {
         let angular_velocity = angles.angular_velocity_in_body(rates);
-        let rest =
-            self.angular_acceleration(moment, &angular_velocity) - angles.angular_acceleration_in_body(rates, [0.0; 3]);
-        Ok(angles.rates(&rest)?.rates)
+        let angular_acceleration = self.angular_acceleration(moment, &angular_velocity);
+        Ok(angles.second_rates(rates, &angular_acceleration)?.rates)
     }
 }
 

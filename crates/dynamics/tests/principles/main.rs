@@ -1,0 +1,10 @@
+//! Tests of the principles of mechanics: reactions, virtual work, power, geodesics, action, changes of coordinates.
+
+mod alloc;
+mod laws;
+mod orders;
+mod systems;
+mod traps;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;

@@ -1,0 +1,155 @@
+//! One test for each trap: what is refused is refused by name.
+
+use nalgebra::Vector3;
+use piola_dynamics::DynamicsError;
+use piola_dynamics::lagrangian::{
+    ChangeOfCoordinates, Forces, Holonomic, Lagrangian, PartForce, PartPower, Path, Placement, Reaction, SampledMotion,
+    Workspace,
+};
+use piola_dynamics::newton_euler::{NewtonEuler, particle_acceleration};
+use piola_integrators::Tolerance;
+use piola_kinematics::{EulerAngles, Inertia, KinematicsError, RigidBody};
+use piola_numerics::Real;
+use piola_testkit::Tol;
+
+use crate::systems::*;
+
+fn refusal<T: core::fmt::Debug>(result: Result<T, DynamicsError>) -> DynamicsError {
+    result.expect_err("refused")
+}
+
+#[test]
+fn buffers_of_the_wrong_length_are_refused_by_name() {
+    let system = driven();
+    let (q, v) = ([0.0; 3], [0.0; 3]);
+    let mut work = Workspace::default();
+    let mut two = [Reaction::none(); 2];
+    let wrong = |quantity, expected, found| DynamicsError::DimensionMismatch { quantity, expected, found };
+    let refused = refusal(system.reactions_into(&mut work, &q, &v, 0.0, &mut two));
+    assert_eq!(refused, wrong("reactions", 3, 2));
+    let refused = refusal(system.virtual_work(&[PartForce::force([0.0; 3]); 4], &q, 0.0));
+    assert_eq!(refused, wrong("forces", 3, 4));
+    let (mut parts, mut coordinates) = ([PartPower::default(); 1], [0.0; 3]);
+    let refused = refusal(system.actuator_powers_into(&mut work, &q, &v, 0.0, &mut parts, &mut coordinates));
+    assert_eq!(refused, wrong("powers of the parts", 3, 1));
+    assert_eq!(refusal(system.driving_forces(&q, &v, &[0.0; 2], 0.0)), wrong("q̈", 3, 2));
+    assert_eq!(refusal(system.raise(&q, &[1.0], 0.0)), wrong("covector", 3, 1));
+    assert_eq!(refusal(system.force_along_time(&q, &v[..2], 0.0)), wrong("q̇", 3, 2));
+}
+
+#[test]
+fn non_finite_input_is_refused_by_name() {
+    let system = driven();
+    let q = [0.0; 3];
+    let found = refusal(system.reactions(&q, &[0.0, f64::NAN, 0.0], 0.0));
+    assert!(matches!(found, DynamicsError::NonFinite { quantity: "q̇", index: 1, .. }), "{found}");
+    let found = refusal(system.power_balance(&q, &q, f64::INFINITY));
+    assert!(matches!(found, DynamicsError::NonFinite { quantity: "t", index: 0, .. }), "{found}");
+    let mut out = [Reaction::none(); 3];
+    let given = (&q[..], &q[..], &[0.0, 0.0, f64::NAN][..]);
+    let found = refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), given, 0.0, &mut out));
+    assert!(matches!(found, DynamicsError::NonFinite { quantity: "q̈", index: 2, .. }), "{found}");
+    let found = refusal(system.covariant_acceleration(&q, &q, given.2, 0.0));
+    assert!(matches!(found, DynamicsError::NonFinite { quantity: "q̈", index: 2, .. }), "{found}");
+    let forces = [PartForce::force([0.0, f64::NAN, 0.0]); 3];
+    let found = refusal(system.ideal_constraint_test(&forces, &q, 0.0));
+    assert!(matches!(found, DynamicsError::NonFinite { .. }), "{found}");
+}
+
+/// Forces that are not numbers on the second part.
+struct Broken;
+impl Forces for Broken {
+    const ON_PARTS: bool = true;
+    fn on_part<T: Real>(&self, part: usize, _x: [T; 3], _v: [T; 3], _t: T) -> [T; 3] {
+        [T::lit(if part == 1 { f64::NAN } else { 0.0 }); 3]
+    }
+}
+
+#[test]
+fn part_with_an_infinite_force_is_named() {
+    let system = Lagrangian::of(Arm::<false>::new()).with_forces(Broken);
+    let zero: &[f64] = &[0.0; 3];
+    let mut out = [Reaction::none(); 3];
+    let found =
+        refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), (zero, zero, zero), 0.0, &mut out));
+    assert!(matches!(found, DynamicsError::NonFinite { quantity: "reactions", index: 1, .. }), "{found}");
+}
+
+#[test]
+fn gimbal_point_of_eulerian_accelerations_is_refused() {
+    let body = RigidBody::new(1.0, Inertia::principal([1.0, 2.0, 2.5]).unwrap()).unwrap();
+    let laws = NewtonEuler::of(&body).unwrap();
+    let at_pole = EulerAngles::zyz([0.5, 0.0, 0.25]);
+    let found = refusal(laws.eulerian_accelerations(&at_pole, [1.0; 3], &Vector3::zeros()));
+    assert!(matches!(found, DynamicsError::Kinematics(KinematicsError::GimbalPoint { .. })), "{found}");
+}
+
+#[test]
+fn particles_without_mass_have_no_acceleration() {
+    for mass in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let found = refusal(particle_acceleration(mass, &Vector3::new(1.0, 0.0, 0.0)));
+        assert!(matches!(found, DynamicsError::InvalidMass { part: 0, .. }), "{found}");
+    }
+}
+
+#[test]
+fn geodesic_without_direction_is_refused() {
+    let tolerance = Tolerance::relative(1e-10).unwrap();
+    let found = refusal(Lagrangian::of(Arm::<false>::new()).geodesic(&[0.0; 3], &[0.0; 3], 1.0, 0.0, tolerance));
+    assert_eq!(found, DynamicsError::NoDirection { squared_length: 0.0 });
+}
+
+/// A path that jumps.
+struct Jump;
+impl Path for Jump {
+    fn freedom(&self) -> usize {
+        3
+    }
+    fn at<T: Real>(&self, t: T, q: &mut [T]) {
+        q.fill(T::select(t.less_than(T::lit(std::f64::consts::FRAC_1_SQRT_2)), T::zero(), t));
+    }
+}
+
+#[test]
+fn action_of_a_path_that_jumps_is_given_with_its_error_or_refused() {
+    let system = everything();
+    match system.action(&Jump, 0.0..1.0, Tolerance::relative(1e-13).unwrap()) {
+        Ok(action) => assert!(action.error <= 1e-10, "{action:?}"),
+        Err(found) => assert!(matches!(found, DynamicsError::QuadratureNotConverged { .. }), "{found}"),
+    }
+    let found = refusal(system.action(&Jump, 0.0..f64::NAN, Tolerance::relative(1e-10).unwrap()));
+    assert!(matches!(found, DynamicsError::NonFinite { quantity: "times", index: 1, .. }), "{found}");
+}
+
+#[test]
+fn samples_out_of_order_and_too_few_are_refused() {
+    let found = refusal(SampledMotion::new(1, vec![0.0, 1.0, 1.0], vec![0.0; 3], vec![0.0; 3]));
+    assert_eq!(found, DynamicsError::TimesNotIncreasing { index: 2, time: 1.0, before: 1.0 });
+    let two = SampledMotion::new(3, vec![0.0, 1.0], vec![0.0; 6], vec![0.0; 6]).unwrap();
+    let few = DynamicsError::TooFewSamples { found: 2, needed: 3 };
+    assert_eq!(refusal(everything().stationarity_of_samples(&two)), few);
+    assert_eq!(refusal(everything().action_of_samples(&two)), few);
+}
+
+/// Two new coordinates for one old one.
+#[derive(Clone)]
+struct Sum;
+impl ChangeOfCoordinates<1> for Sum {
+    fn old_coordinates<T: Real>(&self, new: &[T], _t: T) -> [T; 1] {
+        [new.iter().fold(T::zero(), |sum, &x| sum + x)]
+    }
+}
+
+struct Line;
+impl Holonomic for Line {
+    fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        bodies.particle(2.0, Vector3::new(q[0], T::zero(), T::zero()));
+    }
+}
+
+#[test]
+fn more_new_coordinates_than_old_ones_are_named_as_dependent() {
+    let found = refusal(Lagrangian::of(Line).in_coordinates(Sum).acceleration(&[0.0; 2], &[1.0; 2], 0.0));
+    let DynamicsError::SingularMetric { coordinate: 1, direction, .. } = found else { panic!("{found}") };
+    piola_testkit::assert_close("null direction", &direction, &[-1.0, 1.0], Tol::ulps(4.0));
+}
