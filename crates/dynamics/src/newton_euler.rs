@@ -154,7 +154,7 @@ impl<'a> NewtonEuler<'a> {
     /// use piola_dynamics::newton_euler::NewtonEuler;
     /// use piola_kinematics::{Inertia, RigidBody};
     /// let body = RigidBody::new(1.0, Inertia::principal([2.0, 3.0, 4.0])?)?;
-    /// let free = Vector3::zeros();
+    /// let free = Vector3::<f64>::zeros();
     /// let rate = NewtonEuler::of(&body)?.angular_acceleration(&free, &Vector3::new(1.0, 0.0, 1.0));
     /// assert!((rate.y - 2.0 / 3.0).abs() < 1e-15); // (I₃ − I₁) ω³ ω¹/I₂
     /// # Ok::<(), Box<dyn std::error::Error>>(())

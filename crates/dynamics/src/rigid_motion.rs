@@ -19,6 +19,31 @@ use crate::newton_euler::NewtonEuler;
 ///
 /// Any system of moments G(t, attitude, ω), N m, body components; [`Torque::moment`] is written once for any
 /// scalar.
+///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_dynamics::rigid_motion::{RigidRotation, Torque};
+/// use piola_kinematics::{Attitude, Inertia, RigidBody};
+/// use piola_numerics::Real;
+/// /// A moment of 6 N m about the vertical of space.
+/// struct Wrench;
+/// impl Torque for Wrench {
+///     fn moment<T: Real>(&self, _t: T, attitude: Attitude<T>, _angular_velocity: Vector3<T>) -> Vector3<T> {
+///         attitude.to_body(&Vector3::new(T::zero(), T::zero(), T::lit(6.0)))
+///     }
+/// }
+/// let body = RigidBody::new(1.0, Inertia::principal([1.0, 2.0, 2.5])?)?;
+/// // Lying on its side, so that f₂ points up: ω̇² = 6/2.
+/// let lying = Attitude::about_x(std::f64::consts::FRAC_PI_2);
+/// let rotation = RigidRotation::driven(&body, Wrench)?;
+/// let rate = rotation.angular_acceleration(0.0, lying, Vector3::zeros());
+/// assert!((rate.y - 3.0).abs() < 1e-15 && rate.z.abs() < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Source
+/// W(4.8).
 pub trait Torque {
     /// The moment about the centre of mass.
     fn moment<T: Real>(&self, t: T, attitude: Attitude<T>, angular_velocity: Vector3<T>) -> Vector3<T>;

@@ -108,6 +108,24 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The linear and constant parts of the kinetic energy in the velocities; the quadratic part is the
     /// inertia metric.
     ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Lift; // 2 kg on a slope of 45° that rises with 3 m/s; q = [distance along the ground]
+    /// impl Holonomic for Lift {
+    ///     const TIME_DEPENDENT: bool = true;
+    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
+    ///         bodies.particle(2.0, Vector3::new(q[0], T::zero(), q[0] + T::lit(3.0) * t));
+    ///     }
+    /// }
+    /// // E = ½·2 (q̇² + (q̇ + 3)²) = ½·4 q̇² + 6 q̇ + 9
+    /// let parts = Lagrangian::of(Lift).kinetic_energy_parts(&[0.0], 0.0);
+    /// assert_eq!((parts.linear[0], parts.constant), (6.0, 9.0));
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
+    ///
     /// # Source
     /// W(3.32).
     pub fn kinetic_energy_parts<T: Real>(&self, q: &[T], t: T) -> KineticEnergyParts<T> {
@@ -133,6 +151,24 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`].
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Polar; // q = [r, φ], 4 kg
+    /// impl Holonomic for Polar {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = q[1].sin_cos();
+    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
+    ///     }
+    /// }
+    /// // m ṙ and m r² φ̇, at r = 2 with 3 m/s and 0.5 rad/s.
+    /// let momenta = Lagrangian::of(Polar).momenta(&[2.0, 0.0], &[3.0, 0.5], 0.0)?;
+    /// assert_eq!(momenta.as_slice(), [12.0, 8.0]);
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     ///
     /// # Source
     /// W(9.3).
@@ -165,6 +201,24 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`].
     ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Polar; // q = [r, φ], 4 kg
+    /// impl Holonomic for Polar {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = q[1].sin_cos();
+    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
+    ///     }
+    /// }
+    /// // ∂L/∂r = m r φ̇²: the centrifugal force.
+    /// let gradient = Lagrangian::of(Polar).coordinate_gradient(&[2.0, 0.0], &[3.0, 0.5], 0.0)?;
+    /// assert_eq!(gradient.as_slice(), [2.0, 0.0]);
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
+    ///
     /// # Source
     /// W(7.3).
     pub fn coordinate_gradient<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
@@ -179,6 +233,24 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`].
     ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Hoist; // 2 kg on a rope of which q is unwound, hauled in with 3 m/s² from rest
+    /// impl Holonomic for Hoist {
+    ///     const TIME_DEPENDENT: bool = true;
+    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
+    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), T::lit(1.5) * t * t - q[0]));
+    ///     }
+    /// }
+    /// // L = (3 t − q̇)² − 20 (1.5 t² − q): ∂L/∂t = 6 (3 t − q̇) − 60 t = −54 at t = 1, q̇ = 2.
+    /// let rate = Lagrangian::of(Hoist).with_gravity(10.0).time_derivative(&[0.0], &[2.0], 1.0)?;
+    /// assert_eq!(rate, -54.0);
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
+    ///
     /// # Source
     /// W(7.20).
     pub fn time_derivative<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<T, DynamicsError> {
@@ -191,6 +263,26 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`].
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Bead; // 2 kg on a rod that turns with 3 rad/s; q = [distance]
+    /// impl Holonomic for Bead {
+    ///     const TIME_DEPENDENT: bool = true;
+    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = (T::lit(3.0) * t).sin_cos();
+    ///         bodies.particle(2.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
+    ///     }
+    /// }
+    /// // L = ½·2 (q̇² + 9 q²) does not depend on time: h = q̇² − 9 q² is kept, E = q̇² + 9 q² is not.
+    /// let bead = Lagrangian::of(Bead);
+    /// assert_eq!(bead.jacobi_integral(&[1.0], &[5.0], 0.0)?, 16.0);
+    /// assert_eq!(bead.energies(&[1.0], &[5.0], 0.0)?.total(), 34.0);
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     ///
     /// # Source
     /// W(7.19–7.22).
@@ -206,6 +298,32 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`].
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// # use piola_dynamics::lagrangian::Forces;
+    /// struct Polar; // q = [r, φ], 4 kg
+    /// impl Holonomic for Polar {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = q[1].sin_cos();
+    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
+    ///     }
+    /// }
+    /// struct Wind; // 5 N along y
+    /// impl Forces for Wind {
+    ///     const ON_PARTS: bool = true;
+    ///     fn on_part<T: Real>(&self, _part: usize, _x: [T; 3], _v: [T; 3], _t: T) -> [T; 3] {
+    ///         [T::zero(), T::lit(5.0), T::zero()]
+    ///     }
+    /// }
+    /// // At φ = 0 it is across the ray: a moment r f about the origin.
+    /// let forces = Lagrangian::of(Polar).with_forces(Wind).generalised_forces(&[2.0, 0.0], &[0.0, 0.0], 0.0)?;
+    /// assert_eq!(forces.as_slice(), [0.0, 10.0]);
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     ///
     /// # Source
     /// W(5.9).

@@ -65,6 +65,30 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The motion as a field in (q, p), for symplectic integration.
     ///
     /// Start it with [`momenta`](Self::momenta); [`velocities_into`](Self::velocities_into) leads back.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// use piola_integrators::{GaussLegendre, Order, State};
+    /// struct Polar; // q = [r, φ], 2 kg
+    /// impl Holonomic for Polar {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = q[1].sin_cos();
+    ///         bodies.particle(2.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
+    ///     }
+    /// }
+    /// // Past the origin at 3 m with 4 m/s across: p = (0, m r² φ̇) = (0, 24). After a second it is 5 m away.
+    /// let polar = Lagrangian::of(Polar);
+    /// let mut state = State::new(0.0, vec![3.0, 0.0, 0.0, 24.0])?;
+    /// GaussLegendre::new(Order::Eight, 0.05)?.integrate_to(&mut polar.canonical_motion(2), &mut state, 1.0)?;
+    /// assert!((state.values[0] - 5.0).abs() < 1e-9 && (state.values[3] - 24.0).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(9.10).
     pub fn canonical_motion<T: Real>(&self, coordinates: usize) -> CanonicalMotion<'_, S, P, F, T> {
         CanonicalMotion { lagrangian: self, coordinates, work: Workspace::default() }
     }
