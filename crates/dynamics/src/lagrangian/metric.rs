@@ -102,6 +102,24 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Accuracy
     /// The metric is differentiated exactly: a few ulp of the largest of the three terms.
     ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Polar; // q = [r, φ], 4 kg
+    /// impl Holonomic for Polar {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = q[1].sin_cos();
+    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
+    ///     }
+    /// }
+    /// let symbols = Lagrangian::of(Polar).christoffel_first(&[2.0, 0.0], 0.0);
+    /// // [φφ,r] = −m r and [rφ,φ] = m r
+    /// assert_eq!((symbols[0][(1, 1)], symbols[1][(0, 1)]), (-8.0, 8.0));
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
+    ///
     /// # Source
     /// W(6.5).
     pub fn christoffel_first<T: Real>(&self, q: &[T], t: T) -> Vec<DMatrix<T>> {
@@ -133,6 +151,24 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Accuracy
     /// A few ulp times the condition number of the metric.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Polar; // q = [r, φ], 4 kg
+    /// impl Holonomic for Polar {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = q[1].sin_cos();
+    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
+    ///     }
+    /// }
+    /// let symbols = Lagrangian::of(Polar).christoffel_second(&[2.0, 0.0], 0.0)?;
+    /// // r̈ − r φ̇² and φ̈ + (2/r) ṙ φ̇: Γ^r_φφ = −r, Γ^φ_rφ = 1/r
+    /// assert_eq!((symbols[0][(1, 1)], symbols[1][(0, 1)]), (-2.0, 0.5));
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     ///
     /// # Source
     /// W(6.6).
