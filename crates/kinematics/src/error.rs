@@ -103,6 +103,48 @@ pub enum KinematicsError {
         /// The volume, in m³.
         volume: f64,
     },
+    /// index < number of vertices is violated by a triangle.
+    #[error("corner {corner} of triangle {triangle} is vertex {index}, but there are {vertices} vertices")]
+    MeshIndex {
+        /// The triangle, from 0.
+        triangle: usize,
+        /// Its corner, from 0.
+        corner: usize,
+        /// The index given.
+        index: usize,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A triangle has the same vertex at two corners.
+    #[error("triangle {triangle} with the vertices {vertices:?} has one of them twice")]
+    MeshTriangle {
+        /// The triangle, from 0.
+        triangle: usize,
+        /// Its vertices.
+        vertices: [usize; 3],
+    },
+    /// ∂(surface) = 0 is violated: an edge belongs to an odd number of triangles, as at the rim of a hole.
+    #[error("mesh is not closed: triangle {triangle} has no neighbour at the edge {edge:?}")]
+    MeshNotClosed {
+        /// The two vertices, ascending.
+        edge: (usize, usize),
+        /// A triangle at the edge, from 0.
+        triangle: usize,
+    },
+    /// Two triangles pass their common edge in the same direction: one of them is turned inside out.
+    #[error("triangles {triangles:?} are turned to opposite sides: both pass the edge {edge:?} the same way")]
+    MeshOrientation {
+        /// The two vertices, ascending.
+        edge: (usize, usize),
+        /// The two triangles, from 0.
+        triangles: (usize, usize),
+    },
+    /// 0 < volume is violated because all triangles are turned inside out.
+    #[error("mesh encloses the volume {volume} m³: its triangles are turned inside out")]
+    MeshInverted {
+        /// The signed volume, in m³.
+        volume: f64,
+    },
     /// A system has no particles.
     #[error("a system of particles is empty")]
     NoParticles,

@@ -173,26 +173,52 @@ impl Inertia {
     /// I = A diag(I₁, I₂, I₃) Aᵀ,   A = axes
     /// ```
     ///
+    /// Of the many such bases always the same is returned:
+    /// * of moments that differ, the first two axes point so that their largest component is positive (the
+    ///   earlier one, where two are equal to 10⁻⁸), and the third completes the right-handed basis;
+    /// * where two moments are equal to 64 ε I₃, one of their axes is as near as can be to a body axis, the
+    ///   first of those that are most nearly perpendicular to the axis of the third moment;
+    /// * where all three are, the axes are the body axes.
+    ///
     /// # Accuracy
-    /// Moments to a few ulps of the largest; axes of nearly equal moments are as free as they look.
+    /// Moments to a few ulps of the largest; axes to a few ulps × I₃/(difference of the moments).
     ///
     /// # Example
     /// ```
     /// use piola_kinematics::Inertia;
     /// let principal = Inertia::principal([3.0, 1.0, 2.5])?.principal_axes();
-    /// assert_eq!(principal.axes[(1, 0)].abs(), 1.0); // the smallest moment is about the second axis
+    /// assert_eq!(principal.axes[(1, 0)], 1.0); // the smallest moment is about the second axis
     /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
+    ///
+    /// # Source
+    /// W(2.33–2.34).
     #[must_use]
     pub fn principal_axes(&self) -> PrincipalAxes {
         let eigen = SymmetricEigen::new(self.matrix);
         let mut order = [0, 1, 2];
         order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
-        let mut axes = Matrix3::from_columns(&order.map(|i| eigen.eigenvectors.column(i)));
-        if axes.determinant() < 0.0 {
-            axes.column_mut(2).neg_mut();
-        }
-        PrincipalAxes { moments: order.map(|i| eigen.eigenvalues[i]), axes }
+        let moments = order.map(|i| eigen.eigenvalues[i]);
+        let axis = |i: usize| pointed(eigen.eigenvectors.column(order[i]).into_owned());
+        let near = |i: usize| moments[i + 1] - moments[i] <= EQUAL * moments[2].abs();
+        let axes = match (near(0), near(1)) {
+            (true, true) => [Vector3::x(), Vector3::y(), Vector3::z()],
+            (true, false) => {
+                let unique = axis(2);
+                let first = across(&unique);
+                [first, unique.cross(&first), unique]
+            }
+            (false, true) => {
+                let unique = axis(0);
+                let second = across(&unique);
+                [unique, second, unique.cross(&second)]
+            }
+            (false, false) => {
+                let (first, second) = (axis(0), axis(1));
+                [first, second, first.cross(&second)]
+            }
+        };
+        PrincipalAxes { moments, axes: Matrix3::from_columns(&axes) }
     }
 
     /// The same body in turned body axes: `attitude` is that of the old axes seen from the new.
@@ -266,6 +292,27 @@ impl Inertia {
     ) -> Result<Self, KinematicsError> {
         Self::new(about_offset_point - point_inertia(mass, offset))
     }
+}
+
+/// Moments that differ by less than this multiple of the largest are equal to the rounding of the axes.
+const EQUAL: f64 = 64.0 * f64::EPSILON;
+
+/// ±axis, the largest component positive; the earlier one where two are equal to √ε.
+fn pointed(axis: Vector3<f64>) -> Vector3<f64> {
+    let nearly_largest = axis.amax() * (1.0 - 1.0e-8);
+    match axis.iter().find(|component| nearly_largest <= component.abs()) {
+        Some(component) if *component < 0.0 => -axis,
+        _ => axis,
+    }
+}
+
+/// A unit vector across a unit vector, as near as can be to a body axis: the first of those most across.
+fn across(axis: &Vector3<f64>) -> Vector3<f64> {
+    let nearly_least = axis.iter().fold(1.0_f64, |least, component| least.min(component.abs())) + 1.0e-8;
+    let chosen = axis.iter().position(|component| component.abs() <= nearly_least).unwrap_or(0);
+    let mut across = -axis * axis[chosen];
+    across[chosen] += 1.0;
+    across.normalize()
 }
 
 /// m (|s|² 1 − s⊗s): the inertia of a particle at s about the origin.

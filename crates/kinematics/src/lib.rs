@@ -9,6 +9,7 @@ pub mod euler_angles;
 #[cfg(feature = "serde")]
 mod finite;
 pub mod inertia;
+pub mod mesh;
 pub mod particle;
 pub mod placement;
 #[cfg(feature = "glam")]

@@ -233,7 +233,7 @@ impl Solid {
 }
 
 /// Volumes below this multiple of the cubed length are zero to rounding.
-const FLAT: f64 = 16.0 * f64::EPSILON;
+pub(crate) const FLAT: f64 = 16.0 * f64::EPSILON;
 
 /// |(b−a)·(c−a)×(d−a)|/6.
 fn tetrahedron_volume(vertices: &[[f64; 3]; 4]) -> f64 {
@@ -283,7 +283,7 @@ pub fn thin_rod(
     Ok([(tip, *start), (4.0 * tip, start * 0.5 + end * 0.5), (tip, *end)])
 }
 
-/// The rigid body made of fixed particles, with the place of its centre of mass.
+/// The rigid body made of fixed particles or enclosed by a mesh, with the place of its centre of mass.
 ///
 /// # Example
 /// See [`body_of_particles`].

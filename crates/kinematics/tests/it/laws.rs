@@ -110,6 +110,23 @@ proptest! {
     }
 
     #[test]
+    fn rates_of_a_particle_equal_derivatives_along_its_path(x in triple(), v in triple(), a in triple(), mass in finite(0.1..5.0), t in finite(-2.0..2.0)) {
+        // A path of third degree about the fixed point `pivot`.
+        let pivot = a - v;
+        let path = |t: Jet<f64, 0>| {
+            x.map(Jet::lit) + v.map(Jet::lit) * t + a.map(Jet::lit) * (t * t * Jet::lit(0.5)) + x.map(Jet::lit) * (t * t * t)
+        };
+        let motion = Motion::along(path, t);
+        let (r, velocity) = (dual(&(motion.position - pivot), &motion.velocity), dual(&motion.velocity, &motion.acceleration));
+        let scale = 400.0 * mass;
+        close("dl/dt", &particle::momentum_rate(mass, &motion.acceleration), &tangent(&particle::momentum(mass, &velocity)), scale);
+        let moment_rate = particle::moment_of_momentum_rate(mass, &(motion.position - pivot), &motion.acceleration);
+        close("dh/dt", &moment_rate, &tangent(&particle::moment_of_momentum(mass, &r, &velocity)), 100.0 * scale);
+        let power = particle::kinetic_energy_rate(mass, &motion.velocity, &motion.acceleration);
+        assert_close_at_scale("de/dt", &[power], &[particle::kinetic_energy(mass, &velocity).tangent], 100.0 * scale, FEW);
+    }
+
+    #[test]
     fn motion_in_a_moving_frame_equals_derivatives_of_the_combined_path(
         omega in triple(), t in finite(-2.0..2.0), rate in finite(-2.0..2.0)
     ) {

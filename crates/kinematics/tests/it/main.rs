@@ -6,6 +6,7 @@ mod alloc;
 mod charts;
 mod golden;
 mod laws;
+mod meshes;
 mod orders;
 mod systems;
 mod traps;

@@ -237,6 +237,56 @@ fn dependent_coordinates_are_named() {
     assert!(independence(&DoublePendulum { length: [1.0, 0.5] }, &[0.3, 0.3], 0.0).is_ok());
 }
 
+/// A cart on a rail, its place in millimetres; a pendulum on it, its angle; a satellite far along the rail, in
+/// kilometres from the cart. The masses are 10¹² apart.
+struct Scaled {
+    /// Whether the last coordinate is once more the place of the cart and all on it, in kilometres.
+    repeated: bool,
+}
+
+impl Holonomic for Scaled {
+    fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        let shift = if self.repeated { q[3] * T::lit(1.0e3) } else { T::zero() };
+        let cart = q[0] * T::lit(1.0e-3) + shift;
+        let (s, c) = q[1].sin_cos();
+        bodies.particle(1.0e6, Vector3::new(cart, T::zero(), T::zero()));
+        bodies.particle(1.0e-6, Vector3::new(cart + s, T::zero(), -c));
+        bodies.particle(1.0, Vector3::new(cart + q[2] * T::lit(1.0e3), T::zero(), T::zero()));
+    }
+}
+
+/// A light particle whose place is also part of that of a heavy one.
+struct Carried;
+
+impl Holonomic for Carried {
+    fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        bodies.particle(1.0e12, Vector3::new(q[0] + q[1], T::zero(), T::zero()));
+        bodies.particle(1.0, Vector3::new(q[1], T::zero(), T::zero()));
+    }
+}
+
+#[test]
+fn dependence_does_not_depend_on_units_and_masses() {
+    // Unequal masses make tangents nearly parallel in the metric; they stay independent.
+    let found = independence(&Scaled { repeated: false }, &[250.0, 0.7, 384.0e3], 0.0).expect("independent");
+    assert_close_at_scale(
+        "condition number",
+        &[found.condition_number],
+        &[1.0],
+        1.0,
+        Tol::stated(0.01, "√(m/M) = 1e-3"),
+    );
+    let found = independence(&Scaled { repeated: true }, &[250.0, 0.7, 384.0e3, 2.0], 0.0);
+    assert_eq!(found, Err(KinematicsError::DependentCoordinates { coordinates: vec![0, 3], rank: 3 }));
+    let found = independence(&Carried, &[0.1, 0.2], 0.0).expect("independent");
+    assert_close(
+        "condition number",
+        &[found.condition_number],
+        &[2.0e6],
+        Tol::stated(1.0e-9, "ε cond, and terms of m/M"),
+    );
+}
+
 /// Says that it does not depend on time, yet uses it.
 struct Undeclared;
 
