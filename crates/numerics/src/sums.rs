@@ -75,8 +75,15 @@ fn split<T: Real>(x: T) -> (T, T) {
 }
 
 /// The distance from one to the next number of `T`: 2⁻⁵² over f64, 2⁻²³ over f32.
+///
+/// # Example
+/// ```
+/// use piola_numerics::{Dual, sums::unit_in_last_place};
+/// assert_eq!(unit_in_last_place::<Dual<f32>>(), f64::from(f32::EPSILON));
+/// ```
 #[inline(always)]
-pub(crate) fn unit_in_last_place<T: Real>() -> f64 {
+#[must_use]
+pub fn unit_in_last_place<T: Real>() -> f64 {
     let next = T::one() + T::lit(f64::EPSILON);
     if 1.0 < next.primal(0) { f64::EPSILON } else { f64::from(f32::EPSILON) }
 }

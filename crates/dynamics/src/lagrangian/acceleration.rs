@@ -3,9 +3,11 @@
 use nalgebra::DVector;
 use piola_kinematics::Holonomic;
 use piola_numerics::linear::ldlt;
+use piola_numerics::linear::least_squares::LeastSquares;
 use piola_numerics::{Dual, Error, Gradient, Jet, Mask, Real};
 
 use super::collect::{Equations, Pass, Rows};
+use super::conditioning::trusted_pivot;
 use super::directions::{CHUNK, HESSIAN_CHUNK, LARGEST, with_directions};
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
@@ -32,6 +34,7 @@ pub struct Workspace<T = f64> {
     pub(super) duals: Vec<Dual<T>>,
     pub(super) constants: Vec<Gradient<T, CHUNK>>,
     pub(super) linear: Vec<T>,
+    pub(super) least_squares: LeastSquares<T>,
 }
 
 impl<T> Default for Workspace<T> {
@@ -49,6 +52,7 @@ impl<T> Default for Workspace<T> {
             duals: Vec::new(),
             constants: Vec::new(),
             linear: Vec::new(),
+            least_squares: LeastSquares::default(),
         }
     }
 }
@@ -82,7 +86,11 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// not noticed here, but by `check`.
     ///
     /// # Accuracy
-    /// A few ulp times the condition number of the metric scaled to unit diagonal.
+    /// A few ulp times κ, the condition number of the metric scaled to unit diagonal, as long as κ is below 10⁸
+    /// or so. Beyond, the accelerations are found from the rows √m ∂x/∂q of the placement, without the metric:
+    /// then the error is of a few ulp times √κ, and κ ulp only of those parts of the reactions of the
+    /// constraints that the accelerations do not exceed. The difference is noticed by the pivots of the metric,
+    /// at no cost. Where the potential is not linear in the velocities, the metric is used throughout.
     ///
     /// # Example
     /// See [`Lagrangian`].
@@ -160,6 +168,16 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 let direction = direction.into_iter().map(|x| x.primal(lane)).collect();
                 DynamicsError::SingularMetric { coordinate: pivot, pivot: value, diagonal, direction }
             }
+            // Only the rows of a metric are solved that way: pivots are the squares of what is left of them.
+            Error::Singular { pivot, value, scale } => {
+                let mut direction = vec![T::zero(); n];
+                if work.least_squares.null_direction_into(pivot, &mut direction).is_err() {
+                    direction.clear();
+                }
+                let direction = direction.into_iter().map(|x| x.primal(0)).collect();
+                let (pivot, coordinate, diagonal) = (value * value, pivot, scale * scale);
+                DynamicsError::SingularMetric { coordinate, pivot, diagonal, direction }
+            }
             other => DynamicsError::Numerics(other),
         }
     }
@@ -228,6 +246,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             }
         }, beyond => {
             self.form_by_rows(work, q, v, t);
+            work.complete_metric(n);
             mass_matrix.copy_from_slice(&work.metric);
             forcing.copy_from_slice(&work.force);
         });
@@ -284,16 +303,36 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             column[i] = T::one(); // directions that the system does not have
         }
         let factors = metric.as_flattened_mut();
-        if let Err(error) = ldlt::factor_in_place(factors, N) {
-            work.metric.clear();
-            for column in factors.chunks(N).take(n) {
-                work.metric.extend_from_slice(&column[..n]);
+        match ldlt::factor_and_grade_in_place(factors, N, trusted_pivot::<T>()) {
+            Ok(sound) => {
+                ldlt::solve_in_place(factors, N, &mut force)?;
+                out.copy_from_slice(&force[..n]);
+                if sound.all() { Ok(()) } else { self.accelerate_by_rows(work, (q, v, t), sound, out).map(|_| ()) }
             }
-            return Err(error);
+            Err(error) => {
+                work.metric.clear();
+                for column in factors.chunks(N).take(n) {
+                    work.metric.extend_from_slice(&column[..n]);
+                }
+                self.accelerate_by_rows_alone(work, (q, v, t), error, out)
+            }
         }
-        ldlt::solve_in_place(factors, N, &mut force)?;
-        out.copy_from_slice(&force[..n]);
-        Ok(())
+    }
+
+    /// The accelerations where the metric cannot be factored, or else the error that says so.
+    #[cold]
+    #[inline(never)]
+    fn accelerate_by_rows_alone<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        (q, v, t): (&[T], &[T], T),
+        error: Error,
+        out: &mut [T],
+    ) -> Result<(), Error> {
+        match self.accelerate_by_rows(work, (q, v, t), T::Mask::splat(false), out) {
+            Ok(true) => Ok(()),
+            _ => Err(error),
+        }
     }
 
     /// −∂V/∂q at fixed velocities.
@@ -348,10 +387,14 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         out: &mut [T],
     ) -> Result<(), Error> {
         self.form_by_rows(work, q, v, t);
-        ldlt::factor_in_place(&mut work.metric, q.len())?;
-        ldlt::solve_in_place(&work.metric, q.len(), &mut work.force)?;
-        out.copy_from_slice(&work.force);
-        Ok(())
+        match ldlt::factor_and_grade_in_place(&mut work.metric, q.len(), trusted_pivot::<T>()) {
+            Ok(sound) => {
+                ldlt::solve_in_place(&work.metric, q.len(), &mut work.force)?;
+                out.copy_from_slice(&work.force);
+                if sound.all() { Ok(()) } else { self.accelerate_by_rows(work, (q, v, t), sound, out).map(|_| ()) }
+            }
+            Err(error) => self.accelerate_by_rows_alone(work, (q, v, t), error, out),
+        }
     }
 
     /// Leaves the mass matrix in `work.metric` and the forcing in `work.force`.
@@ -361,11 +404,15 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         work.form_metric(n);
         work.force.clear();
         work.force.resize(n, T::zero());
-        for (row, &residual) in work.rows.jacobian.chunks(n).zip(&work.rows.residual) {
-            for (force, &entry) in work.force.iter_mut().zip(row) {
-                *force += entry * residual;
-            }
+        work.rows.add_forces(&mut work.force);
+        self.add_forces_without_parts(work, q, v, t);
+        if P::VELOCITY_DEPENDENT {
+            self.subtract_velocity_hessian(&mut work.nested, q, v, t, &mut work.metric, n);
         }
+    }
+
+    /// Adds to `work.force` what does not act on parts: the potential's and the generalised forces.
+    pub(super) fn add_forces_without_parts<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
         if P::PRESENT {
             self.subtract_gradient_by_chunks(work, q, v, t);
             if P::VELOCITY_DEPENDENT {
@@ -378,14 +425,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// The rows, weights and residuals at a state.
-    fn collect_rows_with_rates<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
-        let n = q.len();
+    pub(super) fn collect_rows_with_rates<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
         work.rows.clear();
         work.jets.clear();
         work.jets.extend(q.iter().zip(v).enumerate().map(|(i, (&q, &v))| Jet::coordinate(q, v, i)));
         let time = if S::TIME_DEPENDENT { Jet::time(t) } else { Jet::constant(t) };
-        let mut pass = Pass { lagrangian: self, rows: &mut work.rows, coordinates: n, first: 0, row: 0, part: 0, t };
-        self.system.place(&work.jets, time, &mut pass);
+        self.system.place(&work.jets, time, &mut Pass::new(self, &mut work.rows, t));
         self.collect_rows_from(work, q, t, CHUNK);
     }
 
@@ -395,7 +440,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         for first in (first..n).step_by(CHUNK) {
             work.coordinates.clear();
             work.coordinates.extend(q.iter().enumerate().map(|(i, &q)| Gradient::variable(q, i.wrapping_sub(first))));
-            let mut pass = Pass { lagrangian: self, rows: &mut work.rows, coordinates: n, first, row: 0, part: 0, t };
+            let mut pass = Pass::new(self, &mut work.rows, t);
             self.system.place(&work.coordinates, Gradient::constant(t), &mut pass);
         }
     }
@@ -430,7 +475,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 *force += partial;
             }
         }
-        self.subtract_velocity_hessian(&mut work.nested, q, v, t, &mut work.metric, n);
     }
 
     /// Subtracts ∂²V/∂q̇∂q̇ from a metric whose columns are `stride` apart.
@@ -468,20 +512,15 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 }
 
 impl<T: Real> Workspace<T> {
-    /// g = JᵀmJ, stored whole down the columns.
+    /// The lower triangle of g = JᵀmJ, down the columns.
     pub(super) fn form_metric(&mut self, n: usize) {
         self.metric.clear();
         self.metric.resize(n * n, T::zero());
-        for (row, &weight) in self.rows.jacobian.chunks(n).zip(&self.rows.weights) {
-            let weight = T::lit(weight);
-            for (j, &entry) in row.iter().enumerate() {
-                let factor = weight * entry;
-                let column = &mut self.metric[j * n + j..(j + 1) * n];
-                for (entry, &other) in column.iter_mut().zip(&row[j..]) {
-                    *entry += factor * other;
-                }
-            }
-        }
+        self.rows.form_metric(n, &mut self.metric);
+    }
+
+    /// The upper triangle from the lower.
+    pub(super) fn complete_metric(&mut self, n: usize) {
         for j in 0..n {
             for i in 0..j {
                 self.metric[i + j * n] = self.metric[j + i * n];

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 use piola_kinematics::{Attitude, Placement, RigidBody};
 use piola_numerics::{Gradient, Jet, Real};
 
+use super::directions::CHUNK;
 use super::{Forces, Lagrangian, Potential};
 
 /// The vector part of 2 q* r: the angular velocity, in body components, that belongs to the rate r of the
@@ -83,17 +84,18 @@ impl<'a, T: Real, S, P: Potential, F: Forces, const N: usize> Equations<'a, T, S
         Self { lagrangian, metric: [[T::zero(); N]; N], force: [T::zero(); N], t, part: 0 }
     }
 
-    /// Adds the part of one rate: rows of derivatives, the same times their inertia, and what is left of
-    /// the force at q̈ = 0.
+    /// Adds the part of one rate: its derivatives, the same times their inertia, and what is left of the force
+    /// at q̈ = 0.
     #[inline(always)]
-    fn add(&mut self, rows: [[T; N]; 3], weighted: [[T; N]; 3], residual: [T; 3]) {
-        for k in 0..3 {
-            for i in 0..N {
-                self.force[i] += rows[k][i] * residual[k];
-                for j in 0..=i {
-                    self.metric[j][i] += weighted[k][i] * rows[k][j];
-                }
-            }
+    fn add(&mut self, row: [T; N], weigh: impl FnOnce([T; N]) -> [T; N], residual: T) {
+        // Nothing moves across the plane of a plane system. A force that is not a number is not lost with it.
+        if row.iter().all(T::is_zero) {
+            self.force[0] += T::zero() * residual;
+            return;
+        }
+        add_products(&mut self.metric, row, weigh(row));
+        for (force, partial) in self.force.iter_mut().zip(row) {
+            *force += partial * residual;
         }
     }
 
@@ -103,8 +105,9 @@ impl<'a, T: Real, S, P: Potential, F: Forces, const N: usize> Equations<'a, T, S
         let x = [x.x, x.y, x.z];
         let (position, velocity) = (x.map(|x| x.value), x.map(|x| x.rate));
         let force = applied(self.lagrangian, self.part, mass, position, velocity, self.t);
-        let residual = core::array::from_fn(|k| force[k] - m * x[k].second_rate);
-        self.add(x.map(|x| x.partials), x.map(|x| x.partials.map(|p| m * p)), residual);
+        for k in 0..3 {
+            self.add(x[k].partials, |row| row.map(|p| m * p), force[k] - m * x[k].second_rate);
+        }
     }
 }
 
@@ -141,7 +144,9 @@ impl<T: Real, S, P: Potential, F: Forces, const N: usize> Placement<Jet<T, N>> f
                 *residual += moment;
             }
         }
-        self.add(rows, weighted, residual);
+        for k in 0..3 {
+            self.add(rows[k], |_| weighted[k], residual[k]);
+        }
         self.part += 1;
     }
 }
@@ -149,13 +154,14 @@ impl<T: Real, S, P: Potential, F: Forces, const N: usize> Placement<Jet<T, N>> f
 /// The inertia metric alone, for at most N coordinates, in one pass; its lower triangle by columns.
 pub(super) struct Metric<T, const N: usize>(pub(super) [[T; N]; N]);
 
-impl<T: Real, const N: usize> Metric<T, N> {
-    #[inline(always)]
-    fn add(&mut self, row: [T; N], weighted: [T; N]) {
-        for i in 0..N {
-            for j in 0..=i {
-                self.0[j][i] += weighted[i] * row[j];
-            }
+/// Adds the products of a row with itself, weighted, to the lower triangle of a metric, by columns. Columns begin
+/// at even rows, so that they are added in pairs.
+#[inline(always)]
+fn add_products<T: Real, const N: usize>(metric: &mut [[T; N]; N], row: [T; N], weighted: [T; N]) {
+    for j in 0..N {
+        let first = if N <= 3 { j } else { j & !1 };
+        for i in first..N {
+            metric[j][i] += weighted[i] * row[j];
         }
     }
 }
@@ -165,7 +171,9 @@ impl<T: Real, const N: usize> Placement<Gradient<T, N>> for Metric<T, N> {
     fn particle(&mut self, mass: f64, position: Vector3<Gradient<T, N>>) {
         let m = T::lit(mass);
         for x in [position.x, position.y, position.z] {
-            self.add(x.partials, x.partials.map(|p| m * p));
+            if !x.partials.iter().all(T::is_zero) {
+                add_products(&mut self.0, x.partials, x.partials.map(|p| m * p));
+            }
         }
     }
 
@@ -185,61 +193,171 @@ impl<T: Real, const N: usize> Placement<Gradient<T, N>> for Metric<T, N> {
             }
         }
         for (row, weighted) in rows.into_iter().zip(weighted) {
-            self.add(row, weighted);
+            add_products(&mut self.0, row, weighted);
         }
     }
 }
 
 /// Rows of the placement Jacobian with their inertia, for any number of coordinates: then g = JᵀmJ and f = Jᵀr.
-/// The rows of a body are Lᵀω_Δ with I = LLᵀ and weight one. Filled in passes of `D` directions.
+/// The rows of a body are Lᵀω_Δ with I = LLᵀ and weight one.
+///
+/// They are filled in passes of [`CHUNK`] directions, and kept by passes: of each pass only the rows that are
+/// not zero. The parts of a chain do not move with the coordinates of the links behind them, so that half of
+/// its rows are; a plane system has no rows across its plane.
 #[derive(Clone, Debug)]
 pub(super) struct Rows<T> {
-    /// Rows × coordinates.
-    pub(super) jacobian: Vec<T>,
+    /// The rows that are not zero, one pass after the other.
+    pub(super) entries: Vec<[T; CHUNK]>,
+    /// The number of the row that each entry is part of.
+    pub(super) numbers: Vec<usize>,
+    /// Where the entries of each pass begin.
+    pub(super) starts: Vec<usize>,
     /// The inertia of each row.
     pub(super) weights: Vec<f64>,
     /// What is left of the force at q̈ = 0.
     pub(super) residual: Vec<T>,
+    /// Entries of two passes that belong to one row.
+    pub(super) pairs: Vec<[usize; 2]>,
 }
 
 impl<T> Rows<T> {
     pub(super) fn clear(&mut self) {
-        self.jacobian.clear();
+        self.entries.clear();
+        self.numbers.clear();
+        self.starts.clear();
         self.weights.clear();
         self.residual.clear();
     }
-}
 
-impl<T> Default for Rows<T> {
-    fn default() -> Self {
-        Self { jacobian: Vec::new(), weights: Vec::new(), residual: Vec::new() }
+    /// The entries of pass number `pass`.
+    pub(super) fn entries_of(&self, pass: usize) -> core::ops::Range<usize> {
+        self.starts[pass]..self.starts.get(pass + 1).copied().unwrap_or(self.entries.len())
     }
 }
 
-/// One pass over the directions from `first` on.
-pub(super) struct Pass<'a, T, S, P, F> {
-    pub(super) lagrangian: &'a Lagrangian<S, P, F>,
-    pub(super) rows: &'a mut Rows<T>,
-    pub(super) coordinates: usize,
-    pub(super) first: usize,
-    pub(super) row: usize,
-    pub(super) part: usize,
-    pub(super) t: T,
+impl<T: Real> Rows<T> {
+    /// Leaves in `pairs` the entries of two passes that belong to one row.
+    fn pair(&mut self, first: usize, second: usize) {
+        let (mut one, mut other) = (self.entries_of(first), self.entries_of(second));
+        self.pairs.clear();
+        while one.start < one.end && other.start < other.end {
+            let (a, b) = (self.numbers[one.start], self.numbers[other.start]);
+            if a == b {
+                self.pairs.push([one.start, other.start]);
+            }
+            one.start += usize::from(a <= b);
+            other.start += usize::from(b <= a);
+        }
+    }
+
+    /// The lower triangle of JᵀmJ, down the columns.
+    pub(super) fn form_metric(&mut self, n: usize, metric: &mut [T]) {
+        for left in 0..self.starts.len() {
+            for below in left..self.starts.len() {
+                self.pair(left, below);
+                for (first_column, first_row) in TILES {
+                    if left == below && first_row < first_column {
+                        continue;
+                    }
+                    let tile = self.tile(first_column, first_row);
+                    let (column, row) = (left * CHUNK + first_column, below * CHUNK + first_row);
+                    for (j, entries) in (column..n).zip(tile) {
+                        for (i, entry) in (row..n).zip(entries) {
+                            metric[i + j * n] = entry;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Σ m J_j J_i over the paired rows, for a few columns j and rows i of the metric.
+    fn tile(&self, first_column: usize, first_row: usize) -> [[T; TILE]; TILE] {
+        let mut sums = [[T::zero(); TILE]; TILE];
+        for &[left, below] in &self.pairs {
+            let weight = T::lit(self.weights[self.numbers[left]]);
+            let (left, below) = (&self.entries[left], &self.entries[below]);
+            let columns: [T; TILE] = core::array::from_fn(|j| weight * left[first_column + j]);
+            let rows: [T; TILE] = core::array::from_fn(|i| below[first_row + i]);
+            for (sums, column) in sums.iter_mut().zip(columns) {
+                for (sum, row) in sums.iter_mut().zip(rows) {
+                    *sum += column * row;
+                }
+            }
+        }
+        sums
+    }
+
+    /// Row number `number`; `out` is zero.
+    pub(super) fn row_into(&self, number: usize, out: &mut [T]) {
+        for (pass, out) in out.chunks_mut(CHUNK).enumerate() {
+            let entries = self.entries_of(pass);
+            if let Ok(found) = self.numbers[entries.clone()].binary_search(&number) {
+                for (out, &partial) in out.iter_mut().zip(&self.entries[entries.start + found]) {
+                    *out = partial;
+                }
+            }
+        }
+    }
+
+    /// Adds Jᵀr.
+    pub(super) fn add_forces(&self, force: &mut [T]) {
+        // A force that is not a number is not lost with a row that is zero.
+        if let Some(first) = force.first_mut() {
+            *first += self.residual.iter().fold(T::zero(), |sum, &residual| sum + T::zero() * residual);
+        }
+        for (pass, force) in force.chunks_mut(CHUNK).enumerate() {
+            for entry in self.entries_of(pass) {
+                let residual = self.residual[self.numbers[entry]];
+                for (force, &partial) in force.iter_mut().zip(&self.entries[entry]) {
+                    *force += partial * residual;
+                }
+            }
+        }
+    }
 }
 
-impl<T: Real, S, P: Potential, F: Forces> Pass<'_, T, S, P, F> {
+/// Columns and rows of the metric that are summed at once: their sums fit into the registers of any machine.
+const TILE: usize = 4;
+/// Where the tiles of a pair of passes begin.
+const TILES: [(usize, usize); 4] = [(0, 0), (0, TILE), (TILE, 0), (TILE, TILE)];
+const _: () = assert!(2 * TILE == CHUNK, "four tiles make a pair of passes");
+
+impl<T> Default for Rows<T> {
+    fn default() -> Self {
+        Self {
+            entries: Vec::new(),
+            numbers: Vec::new(),
+            starts: Vec::new(),
+            weights: Vec::new(),
+            residual: Vec::new(),
+            pairs: Vec::new(),
+        }
+    }
+}
+
+/// One pass over [`CHUNK`] directions.
+pub(super) struct Pass<'a, T, S, P, F> {
+    lagrangian: &'a Lagrangian<S, P, F>,
+    rows: &'a mut Rows<T>,
+    row: usize,
+    part: usize,
+    t: T,
+}
+
+impl<'a, T: Real, S, P: Potential, F: Forces> Pass<'a, T, S, P, F> {
+    pub(super) fn new(lagrangian: &'a Lagrangian<S, P, F>, rows: &'a mut Rows<T>, t: T) -> Self {
+        rows.starts.push(rows.entries.len());
+        Self { lagrangian, rows, row: 0, part: 0, t }
+    }
+
     #[inline(always)]
-    fn store<const D: usize>(&mut self, partials: [T; D], weight: f64) {
-        let n = self.coordinates;
-        let end = (self.row + 1) * n;
-        if self.rows.jacobian.len() < end {
-            self.rows.jacobian.resize(end, T::zero());
+    fn store(&mut self, partials: [T; CHUNK], weight: f64) {
+        if !partials.iter().all(T::is_zero) {
+            self.rows.entries.push(partials);
+            self.rows.numbers.push(self.row);
         }
-        let row = &mut self.rows.jacobian[self.row * n + self.first..end];
-        for (entry, partial) in row.iter_mut().zip(partials) {
-            *entry = partial;
-        }
-        if self.first == 0 {
+        if self.rows.starts.len() == 1 {
             self.rows.weights.push(weight);
         }
         self.row += 1;
@@ -278,37 +396,33 @@ fn lower_solve<T: Real>(l: &[[f64; 3]; 3], b: [T; 3]) -> [T; 3] {
     [y0, y1, y2]
 }
 
-impl<T: Real, S, P: Potential, F: Forces, const D: usize> Placement<Gradient<T, D>> for Pass<'_, T, S, P, F> {
-    fn particle(&mut self, mass: f64, position: Vector3<Gradient<T, D>>) {
+impl<T: Real, S, P: Potential, F: Forces> Placement<Gradient<T, CHUNK>> for Pass<'_, T, S, P, F> {
+    fn particle(&mut self, mass: f64, position: Vector3<Gradient<T, CHUNK>>) {
         for x in [position.x, position.y, position.z] {
             self.store(x.partials, mass);
         }
         self.part += 1;
     }
 
-    fn body(&mut self, body: &RigidBody, centre: Vector3<Gradient<T, D>>, attitude: Attitude<Gradient<T, D>>) {
+    fn body(&mut self, body: &RigidBody, centre: Vector3<Gradient<T, CHUNK>>, attitude: Attitude<Gradient<T, CHUNK>>) {
         for x in [centre.x, centre.y, centre.z] {
             self.store(x.partials, body.mass());
         }
         let quaternion = [attitude.w, attitude.x, attitude.y, attitude.z];
         let rows = turning_rows(body, quaternion.map(|q| q.value), |i| quaternion.map(|q| q.partials[i]));
         for row in rows {
-            self.store::<D>(row, 1.0);
+            self.store(row, 1.0);
         }
         self.part += 1;
     }
 }
 
-/// Lᵀ ω_Δ for D directions.
+/// Lᵀ ω_Δ for the directions of one pass.
 #[inline(always)]
-fn turning_rows<T: Real, const D: usize>(
-    body: &RigidBody,
-    q: [T; 4],
-    partials: impl Fn(usize) -> [T; 4],
-) -> [[T; D]; 3] {
+fn turning_rows<T: Real>(body: &RigidBody, q: [T; 4], partials: impl Fn(usize) -> [T; 4]) -> [[T; CHUNK]; 3] {
     let l = root(body);
-    let mut rows = [[T::zero(); D]; 3];
-    for i in 0..D {
+    let mut rows = [[T::zero(); CHUNK]; 3];
+    for i in 0..CHUNK {
         let column = upper_times(&l, turning(q, partials(i)));
         for k in 0..3 {
             rows[k][i] = column[k];
@@ -318,7 +432,7 @@ fn turning_rows<T: Real, const D: usize>(
 }
 
 impl<T: Real, S, P: Potential, F: Forces> Pass<'_, T, S, P, F> {
-    fn translation<const D: usize>(&mut self, mass: f64, x: [Jet<T, D>; 3]) {
+    fn translation(&mut self, mass: f64, x: [Jet<T, CHUNK>; 3]) {
         let m = T::lit(mass);
         let (position, velocity) = (x.map(|x| x.value), x.map(|x| x.rate));
         let force = applied(self.lagrangian, self.part, mass, position, velocity, self.t);
@@ -329,13 +443,13 @@ impl<T: Real, S, P: Potential, F: Forces> Pass<'_, T, S, P, F> {
     }
 }
 
-impl<T: Real, S, P: Potential, F: Forces, const D: usize> Placement<Jet<T, D>> for Pass<'_, T, S, P, F> {
-    fn particle(&mut self, mass: f64, position: Vector3<Jet<T, D>>) {
+impl<T: Real, S, P: Potential, F: Forces> Placement<Jet<T, CHUNK>> for Pass<'_, T, S, P, F> {
+    fn particle(&mut self, mass: f64, position: Vector3<Jet<T, CHUNK>>) {
         self.translation(mass, [position.x, position.y, position.z]);
         self.part += 1;
     }
 
-    fn body(&mut self, body: &RigidBody, centre: Vector3<Jet<T, D>>, attitude: Attitude<Jet<T, D>>) {
+    fn body(&mut self, body: &RigidBody, centre: Vector3<Jet<T, CHUNK>>, attitude: Attitude<Jet<T, CHUNK>>) {
         self.translation(body.mass(), [centre.x, centre.y, centre.z]);
         let jets = [attitude.w, attitude.x, attitude.y, attitude.z];
         let q = jets.map(|jet| jet.value);
@@ -351,7 +465,7 @@ impl<T: Real, S, P: Potential, F: Forces, const D: usize> Placement<Jet<T, D>> f
         }
         let l = root(body);
         for row in turning_rows(body, q, |i| jets.map(|jet| jet.partials[i])) {
-            self.store::<D>(row, 1.0);
+            self.store(row, 1.0);
         }
         self.rows.residual.extend(lower_solve(&l, moment));
         self.part += 1;

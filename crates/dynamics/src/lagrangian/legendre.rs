@@ -2,9 +2,11 @@
 
 use piola_kinematics::Holonomic;
 use piola_numerics::linear::ldlt;
+use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Error, Mask, Real};
 
 use super::acceleration::Workspace;
+use super::conditioning::trusted_pivot;
 use super::energy::With;
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
@@ -85,12 +87,46 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 work.linear = linear;
             }
             self.form_inertia_metric(work, q, t);
-            self.solve_with_hessian(work, (q, p, t), out)?;
+            self.solve_with_metric(work, (q, p, t), out)?;
         }
         if out.iter().fold(T::Mask::splat(true), |all, v| all & v.is_finite()).all() {
             Ok(())
         } else {
             Err(self.explain_non_finite([("q", q), ("p", p)], t, ("q̇", out)))
+        }
+    }
+
+    /// Overwrites b with the solution of g x = b, g being in `work.metric`; from rows where g is ill-conditioned.
+    fn solve_with_metric<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        (q, p, t): (&[T], &[T], T),
+        b: &mut [T],
+    ) -> Result<(), DynamicsError> {
+        let n = q.len();
+        match ldlt::factor_and_grade_in_place(&mut work.metric, n, trusted_pivot::<T>()) {
+            Ok(sound) => {
+                if !sound.all() {
+                    work.force.clear();
+                    work.force.extend_from_slice(b);
+                }
+                ldlt::solve_in_place(&work.metric, n, b)?;
+                if !sound.all() {
+                    let refused = self.velocities_by_rows(work, (q, t), sound, b).err();
+                    if let Some(error) = refused {
+                        return Err(self.explain(error, [("q", q), ("p", p)], t, work));
+                    }
+                }
+                Ok(())
+            }
+            Err(error) => {
+                work.force.clear();
+                work.force.extend_from_slice(b);
+                match self.velocities_by_rows(work, (q, t), T::Mask::splat(false), b) {
+                    Ok(true) => Ok(()),
+                    _ => Err(self.explain(error, [("q", q), ("p", p)], t, work)),
+                }
+            }
         }
     }
 
@@ -190,10 +226,4 @@ fn largest_ratio<T: Real>(a: &[T], b: &[T]) -> f64 {
         worst = if ratio <= worst || f64::is_nan(worst) { worst } else { ratio };
     }
     worst
-}
-
-/// The distance from one to the next number of `T`.
-fn unit_in_last_place<T: Real>() -> f64 {
-    let next = T::one() + T::lit(f64::EPSILON);
-    if 1.0 < next.primal(0) { f64::EPSILON } else { f64::from(f32::EPSILON) }
 }

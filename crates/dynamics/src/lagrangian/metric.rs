@@ -73,6 +73,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             work.rows.clear();
             self.collect_rows_from(work, q, t, 0);
             work.form_metric(q.len());
+            work.complete_metric(q.len());
         });
     }
 

@@ -24,6 +24,7 @@ mod acceleration;
 mod action;
 mod change_of_coordinates;
 mod collect;
+mod conditioning;
 mod directions;
 mod driving_forces;
 mod energy;

@@ -1,5 +1,6 @@
 //! Tests of equilibria, linearisation, modes and stability.
 
+mod conditioning;
 mod equilibria;
 mod linearisation;
 mod modes;

@@ -19,6 +19,8 @@ pub(crate) enum Still {
     Pendulums(Vec<f64>, Vec<f64>),
     /// A cart of one mass, and a pendulum of unit length and the other mass above it.
     CartPole(f64, f64),
+    /// A unit mass at (q₁ + q₂, δ q₂): tangents that are nearly parallel.
+    Sheared(f64),
     /// Tilts about x and y, then the spin.
     Top(RigidBody),
 }
@@ -52,6 +54,9 @@ impl Holonomic for Still {
                 let (s, c) = q[1].sin_cos();
                 bodies.particle(*cart, Vector3::new(q[0], T::zero(), T::zero()));
                 bodies.particle(*mass, Vector3::new(q[0] + s, T::zero(), c));
+            }
+            Self::Sheared(delta) => {
+                bodies.particle(1.0, Vector3::new(q[0] + q[1], T::zero(), T::lit(*delta) * q[1]));
             }
             Self::Top(body) => {
                 let attitude =

@@ -21,6 +21,9 @@ use crate::error::{check_dimension, check_finite};
 use crate::sums::{CompensatedSum, unit_in_last_place};
 use crate::{Error, Mask, Real};
 
+/// Up to this order the loops of a factorisation are left to be unrolled.
+const SMALL: usize = 8;
+
 /// Factors a symmetric positive definite n×n matrix in place: L below the diagonal, D on it.
 ///
 /// Only the lower triangle is read and written.
@@ -42,30 +45,79 @@ use crate::{Error, Mask, Real};
 /// ```
 #[inline(always)]
 pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), Error> {
+    factor_and_grade_in_place(a, n, 0.0).map(|_| ())
+}
+
+/// [`factor_in_place`], with a verdict: in which lanes each pivot is more than `share` of the diagonal entry
+/// that it comes from.
+///
+/// ```text
+/// share · aₖₖ < dₖ  for all k
+/// ```
+///
+/// The reciprocal of the smallest dₖ/aₖₖ is at most the condition number of the matrix scaled to unit
+/// diagonal, and seldom much less. The verdict costs nothing: it is made with the comparison that guards the
+/// factorisation.
+///
+/// # Errors
+/// As [`factor_in_place`].
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::ldlt;
+/// let mut a = [1.0, 0.99, 0.99, 1.0]; // d₂ = 1 − 0.99² = 0.0199
+/// assert!(ldlt::factor_and_grade_in_place(&mut a.clone(), 2, 0.01)?);
+/// assert!(!ldlt::factor_and_grade_in_place(&mut a, 2, 0.02)?);
+/// # Ok::<(), piola_numerics::Error>(())
+/// ```
+#[inline(always)]
+pub fn factor_and_grade_in_place<T: Real>(a: &mut [T], n: usize, share: f64) -> Result<T::Mask, Error> {
     check_dimension("matrix", a.len(), n * n)?;
     let threshold = T::lit(n as f64 * unit_in_last_place::<T>());
+    let share = threshold.max(T::lit(share));
+    let mut sound = T::Mask::splat(true);
     for j in 0..n {
         let diagonal = a[j + j * n];
-        for k in 0..j {
-            // Column j loses its part along column k: a_ij ← a_ij − l_ik d_k l_jk.
-            let weight = a[j + k * n] * a[k + k * n];
-            let (before, column) = a.split_at_mut(j * n);
-            let (left, column) = (&before[k * n..(k + 1) * n], &mut column[..n]);
+        let (before, column) = a.split_at_mut(j * n);
+        let column = &mut column[..n];
+        // Column j loses its part along column k: a_ij ← a_ij − l_ik d_k l_jk.
+        let mut k = 0;
+        if SMALL < n {
+            // Four at a time, so that the column is read and written once.
+            while k + 4 <= j {
+                let left: [&[T]; 4] = core::array::from_fn(|m| &before[(k + m) * n + j..(k + m + 1) * n]);
+                let weights: [T; 4] = core::array::from_fn(|m| left[m][0] * before[(k + m) * (n + 1)]);
+                let rest = &mut column[j..];
+                let [l0, l1, l2, l3] = left.map(|column| &column[..rest.len()]);
+                for i in 0..rest.len() {
+                    rest[i] = (((rest[i] - l0[i] * weights[0]) - l1[i] * weights[1]) - l2[i] * weights[2])
+                        - l3[i] * weights[3];
+                }
+                k += 4;
+            }
+        }
+        for k in k..j {
+            let left = &before[k * n..(k + 1) * n];
+            let weight = left[j] * left[k];
             for i in j..n {
                 column[i] -= left[i] * weight;
             }
         }
-        let pivot = a[j + j * n];
-        let positive = T::zero().less_than(diagonal) & (threshold * diagonal).less_than(pivot);
-        if !positive.all() {
-            return Err(refused(j, pivot, diagonal, threshold));
+        let pivot = column[j];
+        let regular = T::zero().less_than(diagonal);
+        let well = regular & (share * diagonal).less_than(pivot);
+        if !well.all() {
+            if !(regular & (threshold * diagonal).less_than(pivot)).all() {
+                return Err(refused(j, pivot, diagonal, threshold));
+            }
+            sound = sound & well;
         }
         let inverse = pivot.recip();
         for i in j + 1..n {
-            a[i + j * n] *= inverse;
+            column[i] *= inverse;
         }
     }
-    Ok(())
+    Ok(sound)
 }
 
 /// The error for a pivot that is not positive: the numbers of the first lane that fails.
