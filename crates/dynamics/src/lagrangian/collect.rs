@@ -89,7 +89,7 @@ impl<'a, T: Real, S, P: Potential, F: Forces, const N: usize> Equations<'a, T, S
     #[inline(always)]
     fn add(&mut self, row: [T; N], weigh: impl FnOnce([T; N]) -> [T; N], residual: T) {
         // Nothing moves across the plane of a plane system. A force that is not a number is not lost with it.
-        if row.iter().all(T::is_zero) {
+        if 2 < N && row.iter().all(T::is_zero) {
             self.force[0] += T::zero() * residual;
             return;
         }
