@@ -26,7 +26,9 @@ pub struct Workspace<T = f64> {
     pub(super) force: Vec<T>,
     pub(super) coordinates: Vec<Gradient<T, CHUNK>>,
     pub(super) jets: Vec<Jet<T, CHUNK>>,
-    /// Coordinates along the motion, beside the derivative with respect to time alone.
+    /// Coordinates along the motion, without directions…
+    pub(super) moving: Vec<Jet<T, 0>>,
+    /// …and with the time as the only one.
     pub(super) timed: Vec<Jet<T, 1>>,
     pub(super) mixed: Vec<Dual<Gradient<T, CHUNK>>>,
     pub(super) mixed_rates: Vec<Dual<Gradient<T, CHUNK>>>,
@@ -45,6 +47,7 @@ impl<T> Default for Workspace<T> {
             force: Vec::new(),
             coordinates: Vec::new(),
             jets: Vec::new(),
+            moving: Vec::new(),
             timed: Vec::new(),
             mixed: Vec::new(),
             mixed_rates: Vec::new(),

@@ -57,8 +57,13 @@ impl<T: Real> TurningState<T> {
     }
 }
 
-/// Shows every part to a visitor.
-struct Tour<'a, T, F, V> {
+/// ∂x/∂t, where it is carried; nothing without.
+fn drift<T: Real, const D: usize>(x: Jet<T, D>) -> T {
+    x.partials.first().copied().unwrap_or_else(T::zero)
+}
+
+/// Shows every part to a visitor. D is one where the time is a direction, or zero.
+struct Tour<'a, T, F, V, const D: usize> {
     forces: &'a F,
     gravity: [f64; 3],
     t: T,
@@ -66,8 +71,8 @@ struct Tour<'a, T, F, V> {
     visit: V,
 }
 
-impl<T: Real, F: Forces, V: FnMut(usize, PartState<T>)> Tour<'_, T, F, V> {
-    fn translation(&self, mass: f64, x: &Vector3<Jet<T, 1>>) -> PartState<T> {
+impl<T: Real, F: Forces, V: FnMut(usize, PartState<T>), const D: usize> Tour<'_, T, F, V, D> {
+    fn translation(&self, mass: f64, x: &Vector3<Jet<T, D>>) -> PartState<T> {
         let x = [x.x, x.y, x.z];
         let (position, velocity) = (x.map(|x| x.value), x.map(|x| x.rate));
         let force =
@@ -75,7 +80,7 @@ impl<T: Real, F: Forces, V: FnMut(usize, PartState<T>)> Tour<'_, T, F, V> {
         PartState {
             position,
             velocity,
-            drift: x.map(|x| x.partials[0]),
+            drift: x.map(drift),
             inertia_force: x.map(|x| T::lit(mass) * x.second_rate),
             weight: self.gravity.map(|g| T::lit(mass * g)),
             force,
@@ -88,13 +93,13 @@ impl<T: Real, F: Forces, V: FnMut(usize, PartState<T>)> Tour<'_, T, F, V> {
     }
 }
 
-impl<T: Real, F: Forces, V: FnMut(usize, PartState<T>)> Placement<Jet<T, 1>> for Tour<'_, T, F, V> {
-    fn particle(&mut self, mass: f64, position: Vector3<Jet<T, 1>>) {
+impl<T: Real, F: Forces, V: FnMut(usize, PartState<T>), const D: usize> Placement<Jet<T, D>> for Tour<'_, T, F, V, D> {
+    fn particle(&mut self, mass: f64, position: Vector3<Jet<T, D>>) {
         let state = self.translation(mass, &position);
         self.show(state);
     }
 
-    fn body(&mut self, body: &RigidBody, centre: Vector3<Jet<T, 1>>, attitude: Attitude<Jet<T, 1>>) {
+    fn body(&mut self, body: &RigidBody, centre: Vector3<Jet<T, D>>, attitude: Attitude<Jet<T, D>>) {
         let mut state = self.translation(body.mass(), &centre);
         let jets = [attitude.w, attitude.x, attitude.y, attitude.z];
         let q = jets.map(|jet| jet.value);
@@ -113,7 +118,7 @@ impl<T: Real, F: Forces, V: FnMut(usize, PartState<T>)> Placement<Jet<T, 1>> for
         state.turning = Some(TurningState {
             attitude,
             angular_velocity,
-            drift: turning(q, jets.map(|jet| jet.partials[0])),
+            drift: turning(q, jets.map(drift)),
             inertia_moment: core::array::from_fn(|k| spin_rate[k] + gyroscopic[k]),
             moment,
         });
@@ -122,26 +127,48 @@ impl<T: Real, F: Forces, V: FnMut(usize, PartState<T>)> Placement<Jet<T, 1>> for
 }
 
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
-    /// Shows the parts at (q, q̇, q̈, t) in the order of placement; returns how many there are.
+    /// Shows the parts at (q, q̇, q̈, t) in the order of placement, without drifts; returns how many there are.
     pub(super) fn tour<T: Real>(
         &self,
         work: &mut Workspace<T>,
-        (q, v, a): (&[T], &[T], &[T]),
+        state: (&[T], &[T], &[T]),
         t: T,
+        visit: impl FnMut(usize, PartState<T>),
+    ) -> Result<usize, DynamicsError> {
+        let time = if S::TIME_DEPENDENT { Jet::time(t) } else { Jet::constant(t) };
+        self.tour_over(&mut work.moving, state, (t, time), visit)
+    }
+
+    /// [`tour`](Self::tour) with the drifts of a placement that depends on time; others do not pay for them.
+    pub(super) fn tour_with_drift<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        state: (&[T], &[T], &[T]),
+        t: T,
+        visit: impl FnMut(usize, PartState<T>),
+    ) -> Result<usize, DynamicsError> {
+        if S::TIME_DEPENDENT {
+            let time = Jet { value: t, partials: [T::one()], rate: T::one(), second_rate: T::zero() };
+            self.tour_over(&mut work.timed, state, (t, time), visit)
+        } else {
+            self.tour(work, state, t, visit)
+        }
+    }
+
+    fn tour_over<T: Real, const D: usize>(
+        &self,
+        jets: &mut Vec<Jet<T, D>>,
+        (q, v, a): (&[T], &[T], &[T]),
+        (t, time): (T, Jet<T, D>),
         visit: impl FnMut(usize, PartState<T>),
     ) -> Result<usize, DynamicsError> {
         check_length("q̇", q.len(), v.len())?;
         check_length("q̈", q.len(), a.len())?;
-        let along = |((&value, &rate), &second_rate)| Jet { value, partials: [T::zero()], rate, second_rate };
-        work.timed.clear();
-        work.timed.extend(q.iter().zip(v).zip(a).map(along));
-        let time = if S::TIME_DEPENDENT {
-            Jet { value: t, partials: [T::one()], rate: T::one(), second_rate: T::zero() }
-        } else {
-            Jet::constant(t)
-        };
+        let along = |((&value, &rate), &second_rate)| Jet { value, partials: [T::zero(); D], rate, second_rate };
+        jets.clear();
+        jets.extend(q.iter().zip(v).zip(a).map(along));
         let mut tour = Tour { forces: &self.forces, gravity: self.gravity, t, part: 0, visit };
-        self.system.place(&work.timed, time, &mut tour);
+        self.system.place(jets, time, &mut tour);
         Ok(tour.part)
     }
 

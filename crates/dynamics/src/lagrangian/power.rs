@@ -184,17 +184,21 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             applied: zero,
             moving_constraint: zero,
         };
-        self.tour(work, (q, v, a), t, |_part, part| {
+        self.tour_with_drift(work, (q, v, a), t, |_part, part| {
             let still = [T::zero(); 3];
             balance.kinetic_energy_rate += power(part.inertia_force, part.velocity, still, still);
             balance.gravity += power(part.weight, part.velocity, still, still);
             balance.applied += power(part.force, part.velocity, still, still);
-            balance.moving_constraint += power(part.reaction(), part.drift, still, still);
+            if S::TIME_DEPENDENT {
+                balance.moving_constraint += power(part.reaction(), part.drift, still, still);
+            }
             if let Some(turning) = part.turning {
                 let omega = turning.angular_velocity;
                 balance.kinetic_energy_rate += power(still, still, turning.inertia_moment, omega);
                 balance.applied += power(still, still, turning.moment, omega);
-                balance.moving_constraint += power(still, still, turning.reaction(), turning.drift);
+                if S::TIME_DEPENDENT {
+                    balance.moving_constraint += power(still, still, turning.reaction(), turning.drift);
+                }
             }
         })?;
         if F::GENERALISED {
@@ -292,7 +296,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
         let work = &mut Workspace::default();
         self.with_acceleration(work, q, v, t, |work, a| {
-            self.tour(work, (q, v, a), t, |_part, part| {
+            self.tour_with_drift(work, (q, v, a), t, |_part, part| {
                 let still = [T::zero(); 3];
                 let external = core::array::from_fn(|k| part.weight[k] + part.force[k]);
                 force.external += power(external, part.drift, still, still);

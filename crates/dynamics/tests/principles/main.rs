@@ -1,6 +1,7 @@
 //! Tests of the principles of mechanics: reactions, virtual work, power, geodesics, action, changes of coordinates.
 
 mod alloc;
+mod counts;
 mod laws;
 mod orders;
 mod systems;

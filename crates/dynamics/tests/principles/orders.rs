@@ -21,8 +21,8 @@ fn action_of_samples_of_a_motion_converges_to_sixth_order() {
     let oscillator = Lagrangian::from_function(Oscillator);
     let steps = [4_u32, 8, 16, 32];
     let spacings = steps.map(|steps| 2.0 / f64::from(steps));
-    let errors = spacings.map(|spacing| {
-        let times: Vec<f64> = (0..).map(|i| spacing * f64::from(i)).take_while(|&t| t <= 2.0).collect();
+    let errors = steps.map(|steps| {
+        let times: Vec<f64> = (0..=steps).map(|i| 2.0 / f64::from(steps) * f64::from(i)).collect();
         let coordinates = times.iter().map(|t| t.cos()).collect();
         let velocities = times.iter().map(|t| -t.sin()).collect();
         let samples = SampledMotion::new(1, times, coordinates, velocities).unwrap();

@@ -99,7 +99,7 @@ fn first_order_form_equals_the_field_of_the_motion() {
     let mut rate = [0.0; 2];
     quartic.motion(1).rate(0.0, &[q, v], &mut rate).unwrap();
     assert_close("ẏ", &rate, &[v, by_hand], Tol::ulps(8.0));
-    // u = ½ q² obeys u̇ = q v, ü = −q²/… : with L = ½ u̇² − u² it swings as cos √2 t.
+    // With u = ½ q² it is L = ½ u̇² − u²: u swings as cos √2 t.
     let mut state = State::new(0.0, vec![1.5, 0.0]).unwrap();
     let mut method = DormandPrince853::new(Tolerance::relative(1e-13).unwrap());
     method.integrate_to(&mut quartic.motion(1), &mut state, 0.75).unwrap();
