@@ -432,7 +432,7 @@ fn hamilton_product<T: Real>(q: [T; 4], p: [T; 4]) -> [T; 4] {
 
 /// (cos(a/2), sin(a/2)/a) as functions of a² ≥ 0, smooth at zero.
 #[inline(always)]
-fn half_angle_functions<T: Real>(squared_angle: T) -> (T, T) {
+pub(crate) fn half_angle_functions<T: Real>(squared_angle: T) -> (T, T) {
     // Below a² = 1 the power series in h = a²/4: eleven terms leave 4⁻¹¹/22! ≈ 2·10⁻²⁸.
     let small = squared_angle.less_than(T::one());
     let h = squared_angle * T::lit(0.25);

@@ -195,9 +195,9 @@ impl<T: Real> EulerAngles<T> {
         let e2 = Vector3::new(c3 * c2 * s1 + s3 * c1, c3 * c1 - s3 * c2 * s1, s2 * s1);
         let e3 = Vector3::new(-(c3 * s2), s3 * s2, c2);
         // Column j holds the body components of e_j.
-        let columns = [e1, e2, e3].map(|e| canonical.layout.from_body(&e));
+        let columns = [e1, e2, e3].map(|e| canonical.layout.real_from_body(&e));
         let rows = [0, 1, 2].map(|i| Vector3::new(columns[0][i], columns[1][i], columns[2][i]));
-        let [a, b, c] = rows.map(|row| canonical.layout.from_space(&row));
+        let [a, b, c] = rows.map(|row| canonical.layout.real_from_space(&row));
         Matrix3::new(a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z)
     }
 
@@ -217,7 +217,7 @@ impl<T: Real> EulerAngles<T> {
         let canonical = Canonical::of(self);
         let [first, second] = canonical.columns_in_body();
         let third = Vector3::new(T::zero(), T::zero(), T::lit(canonical.layout.third_sign()));
-        Matrix3::from_columns(&[first, second, third].map(|column| canonical.layout.from_body(&column)))
+        Matrix3::from_columns(&[first, second, third].map(|column| canonical.layout.real_from_body(&column)))
     }
 
     /// The matrix of the space components: `ω_space = W_space θ̇`, `W_space = Qᵀ W`. Its columns are the axes
@@ -239,7 +239,7 @@ impl<T: Real> EulerAngles<T> {
         let [second, third] = canonical.columns_in_space();
         let first = Vector3::new(T::zero(), T::zero(), T::one());
         let third = third * T::lit(canonical.layout.third_sign());
-        Matrix3::from_columns(&[first, second, third].map(|column| canonical.layout.from_space(&column)))
+        Matrix3::from_columns(&[first, second, third].map(|column| canonical.layout.real_from_space(&column)))
     }
 
     /// det W: −sin θ² for z–y–z and all Eulerian sequences, ±cos θ² for those of Tait and Bryan.
@@ -280,7 +280,7 @@ impl<T: Real> EulerAngles<T> {
     #[must_use]
     pub fn angular_velocity_in_body(&self, rates: [T; 3]) -> Vector3<T> {
         let canonical = Canonical::of(self);
-        canonical.layout.from_body(&canonical.velocity_in_body(canonical.rates(rates)))
+        canonical.layout.real_from_body(&canonical.velocity_in_body(canonical.rates(rates)))
     }
 
     /// Angular velocity in space components, θ̇¹ e₃ + θ̇² ē₂ + θ̇³ f₃ (rad/s).
@@ -297,7 +297,7 @@ impl<T: Real> EulerAngles<T> {
     #[must_use]
     pub fn angular_velocity_in_space(&self, rates: [T; 3]) -> Vector3<T> {
         let canonical = Canonical::of(self);
-        canonical.layout.from_space(&canonical.velocity_in_space(canonical.rates(rates)))
+        canonical.layout.real_from_space(&canonical.velocity_in_space(canonical.rates(rates)))
     }
 
     /// Rate of the body components of ω: ω̇ = W θ̈ + Ẇ θ̇ (rad/s²).
@@ -319,7 +319,7 @@ impl<T: Real> EulerAngles<T> {
     pub fn angular_acceleration_in_body(&self, rates: [T; 3], second_rates: [T; 3]) -> Vector3<T> {
         let canonical = Canonical::of(self);
         let (rates, second_rates) = (canonical.rates(rates), canonical.rates(second_rates));
-        canonical.layout.from_body(&(canonical.velocity_in_body(second_rates) + canonical.changing_in_body(rates)))
+        canonical.layout.real_from_body(&(canonical.velocity_in_body(second_rates) + canonical.changing_in_body(rates)))
     }
 
     /// Rate of the space components of ω (rad/s²).
@@ -338,7 +338,9 @@ impl<T: Real> EulerAngles<T> {
     pub fn angular_acceleration_in_space(&self, rates: [T; 3], second_rates: [T; 3]) -> Vector3<T> {
         let canonical = Canonical::of(self);
         let (rates, second_rates) = (canonical.rates(rates), canonical.rates(second_rates));
-        canonical.layout.from_space(&(canonical.velocity_in_space(second_rates) + canonical.changing_in_space(rates)))
+        canonical
+            .layout
+            .real_from_space(&(canonical.velocity_in_space(second_rates) + canonical.changing_in_space(rates)))
     }
 
     /// The attitude with these angles.
@@ -364,7 +366,7 @@ impl<T: Real> EulerAngles<T> {
             let tilted = Attitude::about_z(first).product(Attitude::about_y(second));
             tilted.product(Attitude::about_x(third * T::lit(layout.third_sign())))
         };
-        let v = layout.from_space(&Vector3::new(turned.x, turned.y, turned.z));
+        let v = layout.real_from_space(&Vector3::new(turned.x, turned.y, turned.z));
         Attitude { w: turned.w, x: v.x, y: v.y, z: v.z }
     }
 }

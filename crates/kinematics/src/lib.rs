@@ -15,8 +15,10 @@ pub mod placement;
 #[cfg(feature = "glam")]
 pub mod pose;
 pub mod rigid_body;
+pub mod rotation_vector;
 pub mod solids;
 pub mod system;
+pub mod twist;
 mod vector;
 
 pub use attitude::Attitude;
@@ -27,5 +29,7 @@ pub use placement::{Holonomic, Placement};
 #[cfg(feature = "glam")]
 pub use pose::Pose;
 pub use rigid_body::{BodyMotion, BodyPose, BodyVelocity, RigidBody};
+pub use rotation_vector::RotationVector;
 pub use solids::Solid;
 pub use system::ParticleSystem;
+pub use twist::{BodyTwist, SpaceTwist};

@@ -304,6 +304,66 @@ impl<T: Real> BodyPose<T> {
     pub fn embedded_point(&self, y: &Vector3<T>) -> Vector3<T> {
         self.position + self.attitude.to_space(y)
     }
+
+    /// Which point of the body is at the place x of space: yⁱ = (x − x^c)·`f_i`, in body components (m).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::{Attitude, BodyPose};
+    /// let pose = BodyPose { position: Vector3::new(1.0, 0.0, 0.0), attitude: Attitude { w: 0.0, x: 0.0, y: 0.0, z: 1.0 } };
+    /// assert_eq!(pose.point_in_body(&Vector3::zeros()), Vector3::x());
+    /// ```
+    ///
+    /// # Source
+    /// W(2.10), inverted.
+    #[must_use]
+    pub fn point_in_body(&self, x: &Vector3<T>) -> Vector3<T> {
+        self.attitude.to_body(&(x - self.position))
+    }
+
+    /// The pose in space of something whose pose in this body is `other`.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::BodyPose;
+    /// let step = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// assert_eq!(step.product(&step).position.x, 2.0);
+    /// ```
+    #[must_use]
+    pub fn product(&self, other: &Self) -> Self {
+        Self { position: self.embedded_point(&other.position), attitude: self.attitude.product(other.attitude) }
+    }
+
+    /// The pose of space in the body, which undoes this one.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::BodyPose;
+    /// let step = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// assert_eq!(step.product(&step.inverse()), BodyPose::at_rest());
+    /// ```
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let attitude = self.attitude.conjugate();
+        Self { position: -attitude.to_space(&self.position), attitude }
+    }
+
+    /// A constant pose in another scalar: all derivatives zero, the same in every lane.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_kinematics::BodyPose;
+    /// use piola_numerics::Dual;
+    /// let pose: BodyPose<Dual<f64>> = BodyPose::constant(&BodyPose::at_rest());
+    /// assert_eq!(pose.position.x.tangent, 0.0);
+    /// ```
+    #[must_use]
+    pub fn constant(pose: &BodyPose<f64>) -> Self {
+        Self { position: pose.position.map(T::lit), attitude: Attitude::constant(pose.attitude) }
+    }
 }
 
 /// A rate of change of a body's place: along time a velocity, along a coordinate a tangent vector `h_Δ`.

@@ -1,7 +1,7 @@
 //! The twelve sequences of axes, and how each of them amounts to z–y–z.
 //!
 //! Turning about the axes i, j, k in this order, each carried along by the turns before it, with j ≠ i and
-//! j ≠ k. With h the axis that is neither i nor j, and the right-handed basis (σ e_h, e_j, e_i) called
+//! j ≠ k. With h the axis that is neither i nor j, and the right-handed basis `(σ e_h, e_j, e_i)` called
 //! (x, y, z), every sequence is one of two:
 //!
 //! ```text
@@ -145,7 +145,7 @@ impl EulerSequence {
     /// The sequence whose angles are best conditioned at an attitude; of equal ones the first in
     /// [`ALL`](Self::ALL).
     ///
-    /// Its condition number is below 2: of the three entries e_i·f_k in a row of Q one is at most 1/√3.
+    /// Its condition number is below 2: of the three entries `e_i·f_k` in a row of Q one is at most 1/√3.
     ///
     /// # Example
     /// ```
@@ -183,7 +183,7 @@ pub(super) struct Layout {
     second: usize,
     /// h, the axis ±x.
     beside: usize,
-    /// σ: whether x is e_h or −e_h.
+    /// σ: whether x is `e_h` or `−e_h`.
     sign: f64,
     /// k = i.
     pub(super) eulerian: bool,
@@ -197,7 +197,7 @@ impl Layout {
         Self { first, second, beside: 3 - first - second, sign, eulerian: sequence.is_eulerian() }
     }
 
-    /// The factor of θ³ and its rates: the third turn of Tait and Bryan is about σ e_h.
+    /// The factor of θ³ and its rates: the third turn of Tait and Bryan is about `σ e_h`.
     #[inline(always)]
     pub(super) fn third_sign(self) -> f64 {
         if self.eulerian { 1.0 } else { self.sign }
@@ -211,7 +211,7 @@ impl Layout {
 
     /// Real components from those along (x, y, z), of space.
     #[inline(always)]
-    pub(super) fn from_space<T: Real>(self, v: &Vector3<T>) -> Vector3<T> {
+    pub(super) fn real_from_space<T: Real>(self, v: &Vector3<T>) -> Vector3<T> {
         let mut real = Vector3::zeros();
         real[self.beside] = v.x * T::lit(self.sign);
         real[self.second] = v.y;
@@ -228,8 +228,8 @@ impl Layout {
 
     /// Real components from those along (x, y, z), of the body.
     #[inline(always)]
-    pub(super) fn from_body<T: Real>(self, v: &Vector3<T>) -> Vector3<T> {
-        if self.eulerian { self.from_space(v) } else { self.from_space(&Vector3::new(v.z, v.y, -v.x)) }
+    pub(super) fn real_from_body<T: Real>(self, v: &Vector3<T>) -> Vector3<T> {
+        if self.eulerian { self.real_from_space(v) } else { self.real_from_space(&Vector3::new(v.z, v.y, -v.x)) }
     }
 
     /// The quaternion (w, x, y, z) of the z–y–z angles that the sequence amounts to, of any length.

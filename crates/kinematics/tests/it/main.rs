@@ -4,6 +4,7 @@ use piola_testkit::CountingAllocator;
 
 mod alloc;
 mod charts;
+mod exponential;
 mod golden;
 mod laws;
 mod meshes;

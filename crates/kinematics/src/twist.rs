@@ -1,0 +1,581 @@
+//! Twists: the velocity of a body as one quantity, screws, and the exponential map of rigid motions.
+//!
+//! A pose g takes points of the body to space, x = x^c + yⁱ f_i. Its velocity is six numbers, the angular velocity
+//! and the velocity of one embedded point. Which point, and along which basis, makes two kinds of twist:
+//!
+//! ```text
+//! body   ξ_b = (ω_body, Qv^c)         the body's reference point, body components     g⁻¹ ġ = ξ_b^
+//! space  ξ_s = (ω_space, v − ω×x^c)   the embedded point that is at the origin        ġ g⁻¹ = ξ_s^
+//! ξ_s = Ad_g ξ_b,    Ad_g (ω, v) = (Rω, Rv + x^c × Rω),   R = Qᵀ
+//! exp (ω, v) = rotation exp ω, translation Jᵀ(ω) v;    exp (Ad_g ξ) = g exp ξ g⁻¹
+//! ```
+//!
+//! with J of [`rotation_vector`](crate::rotation_vector). The two kinds are two types, so that they are not
+//! added to each other.
+//!
+//! A chain of joints that turn about or slide along axes fixed in the previous link is a product of exponentials of
+//! the joints' twists in the position where all coordinates are zero:
+//!
+//! ```text
+//! g(q) = exp(q¹ξ_1) exp(q²ξ_2) … g(0)        ξ_s = Σ q̇ⁱ Ad_{exp(q¹ξ_1)…exp(qⁱ⁻¹ξ_{i−1})} ξ_i
+//! ```
+//!
+//! # References
+//! W(2.10–2.19); the product of exponentials: R. W. Brockett, in Mathematical Theory of Networks and Systems,
+//! Lecture Notes in Control and Information Sciences 58, Springer (1984).
+
+use core::marker::PhantomData;
+
+use nalgebra::{Matrix6, Vector3};
+use piola_numerics::Real;
+
+use crate::error::KinematicsError;
+use crate::rigid_body::{BodyPose, BodyVelocity};
+use crate::rotation_vector::RotationVector;
+use crate::vector::{cross, first_non_finite, scaled};
+
+/// Components along the body basis, the velocity that of the body's reference point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InBody;
+
+/// Components along the space basis, the velocity that of the embedded point at the origin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct InSpace;
+
+/// An angular and a linear velocity (rad/s, m/s), or increments of them (rad, m); `F` says of what point and along
+/// which basis.
+///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_kinematics::SpaceTwist;
+/// // Half a turn about the line through (1, 0, 0) along z carries the origin to (2, 0, 0).
+/// let joint = SpaceTwist::revolute(&Vector3::x(), &Vector3::z())?;
+/// let there = joint.scaled(std::f64::consts::PI).exponential().position;
+/// assert!((there - Vector3::new(2.0, 0.0, 0.0)).amax() <= 2.0 * f64::EPSILON);
+/// # Ok::<(), piola_kinematics::KinematicsError>(())
+/// ```
+///
+/// # Source
+/// W(2.13), W(2.19).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twist<T: Real, F> {
+    /// ω.
+    pub angular: Vector3<T>,
+    /// v.
+    pub linear: Vector3<T>,
+    frame: PhantomData<F>,
+}
+
+/// The twist of a body in body components, of its reference point.
+pub type BodyTwist<T> = Twist<T, InBody>;
+
+/// The twist of a body in space components, of its point at the origin.
+pub type SpaceTwist<T> = Twist<T, InSpace>;
+
+/// The axis of a twist: every rigid motion is a screw at every moment.
+///
+/// # Example
+/// See [`SpaceTwist::screw_axis`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ScrewAxis {
+    /// Rotation about a line and translation along it.
+    Screw {
+        /// The point of the axis nearest to the origin (m).
+        point: Vector3<f64>,
+        /// Unit vector along the axis, towards which ω points.
+        direction: Vector3<f64>,
+        /// |ω| (rad/s).
+        speed: f64,
+        /// Advance for each radian (m/rad).
+        pitch: f64,
+    },
+    /// No rotation.
+    Translation {
+        /// v (m/s).
+        velocity: Vector3<f64>,
+    },
+}
+
+impl<T: Real, F> Twist<T, F> {
+    /// A twist of the given angular and linear velocity.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::BodyTwist;
+    /// assert_eq!(BodyTwist::new(Vector3::x(), Vector3::z()).linear.z, 1.0);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub const fn new(angular: Vector3<T>, linear: Vector3<T>) -> Self {
+        Self { angular, linear, frame: PhantomData }
+    }
+
+    /// No motion.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_kinematics::BodyTwist;
+    /// assert_eq!(BodyTwist::<f64>::at_rest().angular.x, 0.0);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn at_rest() -> Self {
+        Self::new(Vector3::zeros(), Vector3::zeros())
+    }
+
+    /// A constant twist in another scalar: all derivatives zero, the same in every lane.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::SpaceTwist;
+    /// use piola_numerics::Dual;
+    /// let joint: SpaceTwist<Dual<f64>> = SpaceTwist::constant(&SpaceTwist::new(Vector3::z(), Vector3::zeros()));
+    /// assert_eq!((joint.angular.z.value, joint.angular.z.tangent), (1.0, 0.0));
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn constant(twist: &Twist<f64, F>) -> Self {
+        Self::new(twist.angular.map(T::lit), twist.linear.map(T::lit))
+    }
+
+    /// The twist times a number.
+    ///
+    /// # Example
+    /// See [`Twist`].
+    #[inline]
+    #[must_use]
+    pub fn scaled(&self, factor: T) -> Self {
+        Self::new(scaled(&self.angular, factor), scaled(&self.linear, factor))
+    }
+
+    /// The sum of two twists of one kind.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::SpaceTwist;
+    /// let turn = SpaceTwist::new(Vector3::z(), Vector3::zeros());
+    /// assert_eq!(turn.plus(&turn).angular.z, 2.0);
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self::new(self.angular + other.angular, self.linear + other.linear)
+    }
+
+    /// The pose reached in unit time at constant twist from the pose of no displacement.
+    ///
+    /// ```text
+    /// exp (ω, v) = (exp ω, Jᵀ(ω) v)
+    /// ```
+    ///
+    /// A body at g that moves at constant `ξ_b` is after the time t at g exp(t `ξ_b`), at constant `ξ_s` at
+    /// exp(t `ξ_s`) g.
+    ///
+    /// # Accuracy
+    /// A few ulps of |v|, at any angle.
+    ///
+    /// # Example
+    /// See [`Twist`].
+    #[must_use]
+    pub fn exponential(&self) -> BodyPose<T> {
+        let turn = RotationVector(self.angular);
+        BodyPose { position: turn.angular_velocity_in_space(&self.linear), attitude: turn.attitude() }
+    }
+
+    /// The twist of least angle, |ω| ≤ π, that leads to a pose in unit time: the inverse of
+    /// [`exponential`](Twist::exponential).
+    ///
+    /// # Accuracy
+    /// A few ulps of ω and of |x^c|; of a half turn one of the two axes ±ω.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::BodyTwist;
+    /// let twist = BodyTwist::new(Vector3::new(0.0, 0.0, 1.0e-9), Vector3::x());
+    /// assert_eq!(BodyTwist::logarithm(&twist.exponential()), twist);
+    /// ```
+    #[must_use]
+    pub fn logarithm(pose: &BodyPose<T>) -> Self {
+        let turn = RotationVector::of_attitude(pose.attitude);
+        Self::new(turn.0, turn.rate_from_space(&pose.position))
+    }
+
+    /// The commutator [ξ, η] = (ω×ω′, ω×v′ − ω′×v): the rate of η as seen from a body that moves with ξ, but for
+    /// the sign.
+    ///
+    /// ```text
+    /// d/dt Ad_{exp(tξ)} η = [ξ, η] at t = 0
+    /// ```
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::SpaceTwist;
+    /// let (turn, slide) = (SpaceTwist::new(Vector3::z(), Vector3::zeros()), SpaceTwist::new(Vector3::zeros(), Vector3::x()));
+    /// assert_eq!(turn.commutator(&slide).linear, Vector3::y());
+    /// ```
+    #[must_use]
+    pub fn commutator(&self, other: &Self) -> Self {
+        let linear = cross(&self.angular, &other.linear) - cross(&other.angular, &self.linear);
+        Self::new(cross(&self.angular, &other.angular), linear)
+    }
+}
+
+impl<T: Real> BodyTwist<T> {
+    /// The twist of a body at a pose with a velocity.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::{Attitude, BodyPose, BodyTwist, BodyVelocity};
+    /// // Half turned about z, moving along e₁: along −f₁.
+    /// let pose = BodyPose { position: Vector3::zeros(), attitude: Attitude { w: 0.0, x: 0.0, y: 0.0, z: 1.0 } };
+    /// let velocity = BodyVelocity { velocity: Vector3::x(), angular_velocity: Vector3::zeros() };
+    /// assert_eq!(BodyTwist::of_motion(&pose, &velocity).linear.x, -1.0);
+    /// ```
+    ///
+    /// # Source
+    /// W(2.13).
+    #[must_use]
+    pub fn of_motion(pose: &BodyPose<T>, velocity: &BodyVelocity<T>) -> Self {
+        Self::new(velocity.angular_velocity, pose.attitude.to_body(&velocity.velocity))
+    }
+
+    /// The velocity of the body at a pose.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::{BodyPose, BodyTwist};
+    /// let velocity = BodyTwist::new(Vector3::z(), Vector3::x()).velocity(&BodyPose::at_rest());
+    /// assert_eq!((velocity.velocity.x, velocity.angular_velocity.z), (1.0, 1.0));
+    /// ```
+    #[must_use]
+    pub fn velocity(&self, pose: &BodyPose<T>) -> BodyVelocity<T> {
+        BodyVelocity { velocity: pose.attitude.to_space(&self.linear), angular_velocity: self.angular }
+    }
+
+    /// The same motion as a twist of space: `ξ_s = Ad_g ξ_b`.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::{BodyPose, BodyTwist};
+    /// // Turning about its own axis at (1, 0, 0): a point of it at the origin would move along −e₂.
+    /// let pose = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// assert_eq!(BodyTwist::new(Vector3::z(), Vector3::zeros()).in_space(&pose).linear.y, -1.0);
+    /// ```
+    #[must_use]
+    pub fn in_space(&self, pose: &BodyPose<T>) -> SpaceTwist<T> {
+        let angular = pose.attitude.to_space(&self.angular);
+        SpaceTwist::new(angular, pose.attitude.to_space(&self.linear) + cross(&pose.position, &angular))
+    }
+}
+
+impl<T: Real> SpaceTwist<T> {
+    /// The twist of a body at a pose with a velocity.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::{BodyPose, BodyVelocity, SpaceTwist};
+    /// // A wheel that rolls along x at 1 m/s, its contact at the origin: that point rests.
+    /// let pose = BodyPose { position: Vector3::z(), ..BodyPose::at_rest() };
+    /// let rolling = BodyVelocity { velocity: Vector3::x(), angular_velocity: Vector3::y() };
+    /// assert_eq!(SpaceTwist::of_motion(&pose, &rolling).linear, Vector3::zeros());
+    /// ```
+    ///
+    /// # Source
+    /// W(2.19).
+    #[must_use]
+    pub fn of_motion(pose: &BodyPose<T>, velocity: &BodyVelocity<T>) -> Self {
+        let angular = pose.attitude.to_space(&velocity.angular_velocity);
+        Self::new(angular, velocity.velocity + cross(&pose.position, &angular))
+    }
+
+    /// The velocity of the body at a pose.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::{BodyPose, SpaceTwist};
+    /// let pose = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// let velocity = SpaceTwist::new(Vector3::z(), Vector3::zeros()).velocity(&pose);
+    /// assert_eq!(velocity.velocity, Vector3::y());
+    /// ```
+    #[must_use]
+    pub fn velocity(&self, pose: &BodyPose<T>) -> BodyVelocity<T> {
+        BodyVelocity {
+            velocity: self.velocity_at(&pose.position),
+            angular_velocity: pose.attitude.to_body(&self.angular),
+        }
+    }
+
+    /// The velocity of the embedded point that is at the place x: v + ω×x (m/s).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::SpaceTwist;
+    /// let turn = SpaceTwist::new(Vector3::z() * 2.0, Vector3::zeros());
+    /// assert_eq!(turn.velocity_at(&Vector3::x()).y, 2.0);
+    /// ```
+    ///
+    /// # Source
+    /// W(2.19).
+    #[inline]
+    #[must_use]
+    pub fn velocity_at(&self, x: &Vector3<T>) -> Vector3<T> {
+        self.linear + cross(&self.angular, x)
+    }
+
+    /// The same motion as a twist of the body: `ξ_b = Ad_g⁻¹ ξ_s`.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::{BodyPose, SpaceTwist};
+    /// let pose = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// assert_eq!(SpaceTwist::new(Vector3::z(), Vector3::zeros()).in_body(&pose).linear.y, 1.0);
+    /// ```
+    #[must_use]
+    pub fn in_body(&self, pose: &BodyPose<T>) -> BodyTwist<T> {
+        let linear = pose.attitude.to_body(&self.velocity_at(&pose.position));
+        BodyTwist::new(pose.attitude.to_body(&self.angular), linear)
+    }
+
+    /// The twist carried along by a displacement g of space: `Ad_g ξ`, whose axis is the axis displaced.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::{BodyPose, SpaceTwist};
+    /// let aside = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// let moved = SpaceTwist::new(Vector3::z(), Vector3::zeros()).displaced(&aside);
+    /// assert_eq!(moved.velocity_at(&Vector3::x()), Vector3::zeros());
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn displaced(&self, by: &BodyPose<T>) -> Self {
+        BodyTwist::new(self.angular, self.linear).in_space(by)
+    }
+}
+
+impl SpaceTwist<f64> {
+    /// Rotation about the line through `point` (m) along `axis`, of any length but zero, at 1 rad/s.
+    ///
+    /// # Errors
+    /// As [`screw`](Self::screw).
+    ///
+    /// # Example
+    /// See [`Twist`].
+    pub fn revolute(point: &Vector3<f64>, axis: &Vector3<f64>) -> Result<Self, KinematicsError> {
+        Self::screw(point, axis, 0.0)
+    }
+
+    /// Translation along `axis`, of any length but zero, at 1 m/s.
+    ///
+    /// # Errors
+    /// As [`screw`](Self::screw).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::SpaceTwist;
+    /// assert_eq!(SpaceTwist::prismatic(&(Vector3::z() * 3.0))?.linear, Vector3::z());
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    pub fn prismatic(axis: &Vector3<f64>) -> Result<Self, KinematicsError> {
+        Ok(Self::new(Vector3::zeros(), direction(axis)?))
+    }
+
+    /// Rotation about the line through `point` (m) along `axis`, of any length but zero, at 1 rad/s, and advance
+    /// along it by `pitch` (m/rad).
+    ///
+    /// # Errors
+    /// [`KinematicsError::NotFinite`]; [`KinematicsError::NoDirection`] when the axis is zero.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_kinematics::SpaceTwist;
+    /// use std::f64::consts::TAU;
+    /// // A thread of 2 mm: one turn advances by as much.
+    /// let thread = SpaceTwist::screw(&Vector3::zeros(), &Vector3::z(), 2.0e-3 / TAU)?;
+    /// assert!((thread.scaled(TAU).exponential().position.z - 2.0e-3).abs() <= f64::EPSILON);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    pub fn screw(point: &Vector3<f64>, axis: &Vector3<f64>, pitch: f64) -> Result<Self, KinematicsError> {
+        for (quantity, values) in [("point", point.as_slice()), ("pitch", &[pitch])] {
+            if let Some((index, value)) = first_non_finite(values) {
+                return Err(KinematicsError::NotFinite { quantity, index, value });
+            }
+        }
+        let angular = direction(axis)?;
+        Ok(Self::new(angular, cross(point, &angular) + angular * pitch))
+    }
+
+    /// The axis about which and along which the motion is at this moment.
+    ///
+    /// ```text
+    /// point ω×v/|ω|²     pitch ω·v/|ω|²
+    /// ```
+    ///
+    /// # Errors
+    /// [`KinematicsError::NotFinite`].
+    ///
+    /// # Accuracy
+    /// The point to a few ulps of |v|/|ω|.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_kinematics::{SpaceTwist, twist::ScrewAxis};
+    /// let motion = SpaceTwist::screw(&Vector3::x(), &Vector3::z(), 0.25)?.scaled(2.0);
+    /// let expected = ScrewAxis::Screw { point: Vector3::x(), direction: Vector3::z(), speed: 2.0, pitch: 0.25 };
+    /// assert_eq!(motion.screw_axis()?, expected);
+    /// # Ok::<(), piola_kinematics::KinematicsError>(())
+    /// ```
+    pub fn screw_axis(&self) -> Result<ScrewAxis, KinematicsError> {
+        for (quantity, vector) in [("angular velocity", &self.angular), ("velocity", &self.linear)] {
+            if let Some((index, value)) = first_non_finite(vector.as_slice()) {
+                return Err(KinematicsError::NotFinite { quantity, index, value });
+            }
+        }
+        // Scaled by the largest component first: the square of a tiny one is zero.
+        let largest = self.angular.amax();
+        if largest <= 0.0 {
+            return Ok(ScrewAxis::Translation { velocity: self.linear });
+        }
+        let speed = largest * (self.angular / largest).norm();
+        let direction = self.angular / largest / (speed / largest);
+        let velocity = self.linear / speed;
+        Ok(ScrewAxis::Screw { point: direction.cross(&velocity), direction, speed, pitch: direction.dot(&velocity) })
+    }
+}
+
+/// The unit vector along a vector.
+fn direction(axis: &Vector3<f64>) -> Result<Vector3<f64>, KinematicsError> {
+    if let Some((index, value)) = first_non_finite(axis.as_slice()) {
+        return Err(KinematicsError::NotFinite { quantity: "axis", index, value });
+    }
+    let largest = axis.amax();
+    if largest <= 0.0 {
+        return Err(KinematicsError::NoDirection { quantity: "axis", length: largest });
+    }
+    Ok((axis / largest).normalize())
+}
+
+/// The matrix of Ad_g on (ω; v).
+///
+/// ```text
+/// Ad_g = ⎡ R      0⎤    R = Qᵀ
+///        ⎣ x^c×R  R⎦
+/// ```
+///
+/// # Example
+/// ```
+/// # use nalgebra::Vector3;
+/// # use piola_kinematics::{BodyPose, twist::adjoint};
+/// let aside = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
+/// assert_eq!(adjoint(&aside)[(4, 2)], -1.0); // turning about z at (1, 0, 0)
+/// ```
+#[must_use]
+pub fn adjoint<T: Real>(pose: &BodyPose<T>) -> Matrix6<T> {
+    let mut matrix = Matrix6::zeros();
+    for column in 0..6 {
+        let mut unit = BodyTwist::at_rest();
+        if column < 3 {
+            unit.angular[column] = T::one()
+        } else {
+            unit.linear[column - 3] = T::one()
+        }
+        let SpaceTwist { angular, linear, .. } = unit.in_space(pose);
+        for row in 0..3 {
+            matrix[(row, column)] = angular[row];
+            matrix[(row + 3, column)] = linear[row];
+        }
+    }
+    matrix
+}
+
+/// The pose of the last link of a chain of joints: the product of exponentials of their twists.
+///
+/// | symbol | argument | shape | unit |
+/// |---|---|---|---|
+/// | ξ_i | `joints`, where all coordinates are zero, from the base outwards | n | rad, m for each unit of the coordinate |
+/// | q | `q` | n | rad or m |
+/// | g(0) | `home`, the link where all coordinates are zero | pose | m |
+/// | g(q) | returned | pose | m |
+///
+/// # Errors
+/// [`KinematicsError::Count`] unless there are as many coordinates as joints.
+///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_kinematics::{BodyPose, SpaceTwist, twist::product_of_exponentials};
+/// // Two arms of 1 m along x with parallel joints: folded at the elbow, the hand is back at the shoulder.
+/// let joints = [SpaceTwist::revolute(&Vector3::zeros(), &Vector3::z())?, SpaceTwist::revolute(&Vector3::x(), &Vector3::z())?];
+/// let home = BodyPose { position: Vector3::new(2.0, 0.0, 0.0), ..BodyPose::at_rest() };
+/// let hand = product_of_exponentials(&joints, &[0.5, std::f64::consts::PI], &home)?;
+/// assert!(hand.position.amax() <= 4.0 * f64::EPSILON);
+/// # Ok::<(), piola_kinematics::KinematicsError>(())
+/// ```
+///
+/// # Source
+/// Brockett (1984).
+pub fn product_of_exponentials<T: Real>(
+    joints: &[SpaceTwist<f64>],
+    q: &[T],
+    home: &BodyPose<f64>,
+) -> Result<BodyPose<T>, KinematicsError> {
+    same_count("coordinates", joints.len(), q.len())?;
+    // From the hand inwards, so that each link is moved once.
+    Ok(joints.iter().zip(q).rev().fold(BodyPose::constant(home), |outer, (joint, &q)| {
+        SpaceTwist::constant(joint).scaled(q).exponential().product(&outer)
+    }))
+}
+
+/// The joints' twists where they are at q: the columns of the chain's Jacobian, `ξ_s = Σ q̇ⁱ columns[i]`.
+///
+/// # Errors
+/// [`KinematicsError::Count`] unless there are as many coordinates and columns as joints.
+///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_kinematics::{SpaceTwist, twist::joint_twists_into};
+/// let joints = [SpaceTwist::revolute(&Vector3::zeros(), &Vector3::z())?, SpaceTwist::prismatic(&Vector3::x())?];
+/// let mut columns = [SpaceTwist::at_rest(); 2];
+/// joint_twists_into(&joints, &[std::f64::consts::FRAC_PI_2, 0.0], &mut columns)?;
+/// assert!((columns[1].linear - Vector3::y()).amax() <= f64::EPSILON); // the slide has turned along
+/// # Ok::<(), piola_kinematics::KinematicsError>(())
+/// ```
+///
+/// # Source
+/// Brockett (1984).
+pub fn joint_twists_into<T: Real>(
+    joints: &[SpaceTwist<f64>],
+    q: &[T],
+    columns: &mut [SpaceTwist<T>],
+) -> Result<(), KinematicsError> {
+    same_count("coordinates", joints.len(), q.len())?;
+    same_count("columns", joints.len(), columns.len())?;
+    let mut reached = BodyPose::at_rest();
+    for ((joint, &q), column) in joints.iter().zip(q).zip(columns) {
+        let joint = SpaceTwist::constant(joint);
+        *column = joint.displaced(&reached);
+        reached = reached.product(&joint.scaled(q).exponential());
+    }
+    Ok(())
+}
+
+fn same_count(quantity: &'static str, expected: usize, found: usize) -> Result<(), KinematicsError> {
+    if found == expected { Ok(()) } else { Err(KinematicsError::Count { quantity, expected, found }) }
+}
