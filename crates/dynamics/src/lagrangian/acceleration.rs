@@ -30,6 +30,8 @@ pub struct Workspace<T = f64> {
     pub(super) moving: Vec<Jet<T, 0>>,
     /// …and with the time as the only one.
     pub(super) timed: Vec<Jet<T, 1>>,
+    /// What callers of other evaluations hold meanwhile: accelerations, a mass matrix.
+    pub(super) lent: Vec<T>,
     pub(super) mixed: Vec<Dual<Gradient<T, CHUNK>>>,
     pub(super) mixed_rates: Vec<Dual<Gradient<T, CHUNK>>>,
     pub(super) nested: Vec<Twice<T>>,
@@ -49,6 +51,7 @@ impl<T> Default for Workspace<T> {
             jets: Vec::new(),
             moving: Vec::new(),
             timed: Vec::new(),
+            lent: Vec::new(),
             mixed: Vec::new(),
             mixed_rates: Vec::new(),
             nested: Vec::new(),

@@ -74,7 +74,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ) -> Result<(), DynamicsError> {
         let n = q.len();
         check_length("q̈", n, a.len())?;
-        let mut mass_matrix = core::mem::take(&mut work.linear);
+        let mut mass_matrix = core::mem::take(&mut work.lent);
         mass_matrix.clear();
         mass_matrix.resize(n * n, T::zero());
         let formed = self.equations_into(work, q, v, t, &mut mass_matrix, out);
@@ -85,7 +85,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             }
             *out = sum;
         }
-        work.linear = mass_matrix;
+        work.lent = mass_matrix;
         formed
     }
 }

@@ -13,7 +13,6 @@ use nalgebra::DVector;
 use piola_integrators::{DormandPrince853, Field, IntegrationError, State, Tolerance};
 use piola_kinematics::{Holonomic, Placement};
 use piola_numerics::Real;
-use piola_numerics::linear::ldlt;
 
 use super::acceleration::Workspace;
 use super::{Forces, Lagrangian, NoForces, NoPotential, Potential};
@@ -202,9 +201,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         check_length("covector", q.len(), covector.len())?;
         check_finite("covector", covector)?;
         self.form_inertia_metric(work, q, t);
-        let solved = ldlt::factor_in_place(&mut work.metric, q.len())
-            .and_then(|()| ldlt::solve_in_place(&work.metric, q.len(), covector));
-        solved.map_err(|error| self.explain(error, [("q", q), ("q", q)], t, work))
+        self.solve_with_metric(work, (q, q, t), covector)
     }
 
     /// Lowers the index of a vector: x_Δ = g_ΔΓ x^Γ.

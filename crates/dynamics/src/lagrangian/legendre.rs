@@ -97,7 +97,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// Overwrites b with the solution of g x = b, g being in `work.metric`; from rows where g is ill-conditioned.
-    fn solve_with_metric<T: Real>(
+    pub(super) fn solve_with_metric<T: Real>(
         &self,
         work: &mut Workspace<T>,
         (q, p, t): (&[T], &[T], T),

@@ -181,11 +181,11 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         t: T,
         body: impl FnOnce(&mut Workspace<T>, &[T]) -> Result<R, DynamicsError>,
     ) -> Result<R, DynamicsError> {
-        let mut acceleration = core::mem::take(&mut work.linear);
+        let mut acceleration = core::mem::take(&mut work.lent);
         acceleration.clear();
         acceleration.resize(q.len(), T::zero());
         let result = self.acceleration_into(work, q, v, t, &mut acceleration).and_then(|()| body(work, &acceleration));
-        work.linear = acceleration;
+        work.lent = acceleration;
         result
     }
 }

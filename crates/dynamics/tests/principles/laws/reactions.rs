@@ -143,6 +143,14 @@ fn friction_is_a_working_constraint_force_and_the_normal_force_is_not() {
     assert_close("power", &[power], &[-3.0], Tol::ulps(16.0));
 }
 
+#[test]
+fn reactions_in_single_precision_equal_those_in_double() {
+    let wire = Lagrangian::of(Wire).with_gravity(10.0).with_forces(Friction);
+    let single = wire.reactions(&[0.5_f32], &[1.0], 0.0).unwrap()[0];
+    let actual: Vec<f64> = single.force().iter().map(|&f| f64::from(f)).collect();
+    assert_close("normal force", &actual, &[9.6, 0.0, 12.8], Tol::ulps32(8.0));
+}
+
 /// Many coordinates in chunks: a chain whose last link alone is pushed.
 struct Chain;
 impl Holonomic for Chain {
