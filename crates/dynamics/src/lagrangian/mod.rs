@@ -12,8 +12,16 @@
 //! |---|---|
 //! | q̈ | [`Lagrangian::acceleration`] |
 //! | the inertia metric, Christoffel symbols | [`Lagrangian::inertia_metric`], [`Lagrangian::christoffel_first`], [`Lagrangian::christoffel_second`] |
+//! | covariant acceleration, raised and lowered indices, geodesics | [`Lagrangian::covariant_acceleration`], [`Lagrangian::raise`], [`Lagrangian::lower`], [`Lagrangian::geodesic`] |
 //! | energies, momenta, the Jacobi integral | [`Lagrangian::energies`], [`Lagrangian::momenta`], [`Lagrangian::jacobi_integral`] |
 //! | the motion in time | [`Lagrangian::integrate`], or a field for any integrator: [`Lagrangian::motion`], [`Lagrangian::canonical_motion`] |
+//! | the force and moment by which a constraint holds each part | [`Lagrangian::reactions`] |
+//! | whether a constraint is ideal; the virtual work of any forces | [`Lagrangian::ideal_constraint_test`], [`Lagrangian::virtual_work`] |
+//! | where power and energy come from, of drives and actuators too | [`Lagrangian::power_balance`], [`Lagrangian::actuator_powers_into`], [`Lagrangian::work_account`] |
+//! | the forces that a prescribed motion needs | [`Lagrangian::driving_forces`] |
+//! | momentum and moment of momentum in space | [`Lagrangian::system_momentum`] |
+//! | the action and its variation; Hamilton's principle on samples | [`Lagrangian::action`], [`Lagrangian::first_variation`], [`Lagrangian::stationarity_of_samples`] |
+//! | the same system in other coordinates | [`Lagrangian::in_coordinates`] |
 //!
 //! Any other regular Lagrangian is given as one function: [`Lagrangian::from_function`].
 //!
