@@ -80,7 +80,7 @@ impl MeshSolid {
     /// use piola_kinematics::{KinematicsError, mesh::MeshSolid};
     /// let vertices = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
     /// let open = MeshSolid::new(&vertices, &[[0, 2, 1], [0, 1, 3], [0, 3, 2]]);
-    /// assert_eq!(open, Err(KinematicsError::MeshNotClosed { edge: (1, 3), triangle: 1 }));
+    /// assert_eq!(open, Err(KinematicsError::MeshNotClosed { edge: (1, 2), triangle: 0 }));
     /// ```
     pub fn new(vertices: &[Vector3<f64>], triangles: &[[usize; 3]]) -> Result<Self, KinematicsError> {
         for (vertex, position) in vertices.iter().enumerate() {

@@ -328,7 +328,7 @@ impl<T: Real> BodyPose<T> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::BodyPose;
-    /// let step = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// let step = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
     /// assert_eq!(step.product(&step).position.x, 2.0);
     /// ```
     #[must_use]
@@ -342,7 +342,7 @@ impl<T: Real> BodyPose<T> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::BodyPose;
-    /// let step = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// let step = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
     /// assert_eq!(step.product(&step.inverse()), BodyPose::at_rest());
     /// ```
     #[must_use]

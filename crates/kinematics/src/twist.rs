@@ -104,7 +104,7 @@ impl<T: Real, F> Twist<T, F> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::BodyTwist;
-    /// assert_eq!(BodyTwist::new(Vector3::x(), Vector3::z()).linear.z, 1.0);
+    /// assert_eq!(BodyTwist::new(Vector3::<f64>::x(), Vector3::z()).linear.z, 1.0);
     /// ```
     #[inline]
     #[must_use]
@@ -157,7 +157,7 @@ impl<T: Real, F> Twist<T, F> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::SpaceTwist;
-    /// let turn = SpaceTwist::new(Vector3::z(), Vector3::zeros());
+    /// let turn = SpaceTwist::new(Vector3::<f64>::z(), Vector3::zeros());
     /// assert_eq!(turn.plus(&turn).angular.z, 2.0);
     /// ```
     #[inline]
@@ -196,8 +196,9 @@ impl<T: Real, F> Twist<T, F> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::BodyTwist;
-    /// let twist = BodyTwist::new(Vector3::new(0.0, 0.0, 1.0e-9), Vector3::x());
-    /// assert_eq!(BodyTwist::logarithm(&twist.exponential()), twist);
+    /// let twist = BodyTwist::new(Vector3::new(0.0, 0.0, 1.0e-9_f64), Vector3::x());
+    /// let back = BodyTwist::logarithm(&twist.exponential());
+    /// assert!(back.angular == twist.angular && (back.linear - twist.linear).amax() <= f64::EPSILON);
     /// ```
     #[must_use]
     pub fn logarithm(pose: &BodyPose<T>) -> Self {
@@ -216,7 +217,8 @@ impl<T: Real, F> Twist<T, F> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::SpaceTwist;
-    /// let (turn, slide) = (SpaceTwist::new(Vector3::z(), Vector3::zeros()), SpaceTwist::new(Vector3::zeros(), Vector3::x()));
+    /// let turn = SpaceTwist::new(Vector3::<f64>::z(), Vector3::zeros());
+    /// let slide = SpaceTwist::new(Vector3::zeros(), Vector3::x());
     /// assert_eq!(turn.commutator(&slide).linear, Vector3::y());
     /// ```
     #[must_use]
@@ -267,7 +269,7 @@ impl<T: Real> BodyTwist<T> {
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::{BodyPose, BodyTwist};
     /// // Turning about its own axis at (1, 0, 0): a point of it at the origin would move along −e₂.
-    /// let pose = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// let pose = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
     /// assert_eq!(BodyTwist::new(Vector3::z(), Vector3::zeros()).in_space(&pose).linear.y, -1.0);
     /// ```
     #[must_use]
@@ -285,7 +287,7 @@ impl<T: Real> SpaceTwist<T> {
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::{BodyPose, BodyVelocity, SpaceTwist};
     /// // A wheel that rolls along x at 1 m/s, its contact at the origin: that point rests.
-    /// let pose = BodyPose { position: Vector3::z(), ..BodyPose::at_rest() };
+    /// let pose = BodyPose { position: Vector3::<f64>::z(), ..BodyPose::at_rest() };
     /// let rolling = BodyVelocity { velocity: Vector3::x(), angular_velocity: Vector3::y() };
     /// assert_eq!(SpaceTwist::of_motion(&pose, &rolling).linear, Vector3::zeros());
     /// ```
@@ -304,7 +306,7 @@ impl<T: Real> SpaceTwist<T> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::{BodyPose, SpaceTwist};
-    /// let pose = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// let pose = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
     /// let velocity = SpaceTwist::new(Vector3::z(), Vector3::zeros()).velocity(&pose);
     /// assert_eq!(velocity.velocity, Vector3::y());
     /// ```
@@ -340,7 +342,7 @@ impl<T: Real> SpaceTwist<T> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::{BodyPose, SpaceTwist};
-    /// let pose = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// let pose = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
     /// assert_eq!(SpaceTwist::new(Vector3::z(), Vector3::zeros()).in_body(&pose).linear.y, 1.0);
     /// ```
     #[must_use]
@@ -355,7 +357,7 @@ impl<T: Real> SpaceTwist<T> {
     /// ```
     /// # use nalgebra::Vector3;
     /// # use piola_kinematics::{BodyPose, SpaceTwist};
-    /// let aside = BodyPose { position: Vector3::x(), ..BodyPose::at_rest() };
+    /// let aside = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
     /// let moved = SpaceTwist::new(Vector3::z(), Vector3::zeros()).displaced(&aside);
     /// assert_eq!(moved.velocity_at(&Vector3::x()), Vector3::zeros());
     /// ```

@@ -11,6 +11,7 @@ mod meshes;
 mod orders;
 mod systems;
 mod traps;
+mod twists;
 
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
