@@ -1,6 +1,7 @@
 //! Nanoseconds of the accelerations that Lagrange's equations give, and of their parts.
 //!
-//! An item is one state. Pendulum chains of n links: by Piola from the placement alone, from the closed form
+//! An item is one state. The systems of the reference data stand beside their equations, coded by hand, and so
+//! do chains of one to 64 links, with the exponent with which their cost grows. Pendulum chains of n links: by Piola from the placement alone, from the closed form
 //! of the chain (`by hand`), and from the same placement by the dual numbers of `num-dual` in two passes.
 
 use std::error::Error;
@@ -10,13 +11,26 @@ use std::time::Duration;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 use nalgebra::Vector3;
-use piola_benches::chain::{Chain, GRAVITY, NUM_DUAL};
+use piola_benches::chain::{Chain, GRAVITY, Links, LinksWork, NUM_DUAL};
+use piola_benches::golden_systems::{self as by_hand, Case};
 use piola_benches::notes::Notes;
 use piola_benches::problems::DoublePendulum;
 use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Placement, Potential, Workspace};
 use piola_integrators::Field;
 use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_numerics::Real;
+
+#[path = "../../crates/dynamics/tests/it/systems.rs"]
+#[expect(dead_code, reason = "the tests place more systems than the data has")]
+mod systems;
+
+use systems::{
+    BeadOnHoop, CartPole, Cylindrical, ElasticPendulum, Foucault, HeavyTop, Height, HingedBodies, Lorentz,
+    RadialSpring, SphericalPendulum, Torsion, Torus,
+};
+
+/// The reference data.
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../testdata/golden/lagrange.json");
 
 /// States in one iteration.
 const STATES: usize = 64;
@@ -39,7 +53,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     chain::<16>(&mut group, &mut notes);
     skips(&mut group);
     heavy_top(&mut group, &mut notes)?;
+    reference_systems(&mut group, &mut notes)?;
+    for n in LINKS {
+        links(&mut group, n)?;
+    }
     group.finish();
+    growth(&mut notes)?;
     criterion.final_summary();
     Ok(notes.write()?)
 }
@@ -261,5 +280,220 @@ fn heavy_top(group: &mut Group<'_>, notes: &mut Notes) -> Result<(), Box<dyn Err
     bench(group, "acceleration heavy top by hand", &states, |q, v| {
         black_box(top_by_hand(q, v));
     });
+    Ok(())
+}
+
+/// States near that of a case.
+fn states_near<const N: usize>(case: &Case) -> States<N> {
+    let near = |values: &[f64], k: usize| core::array::from_fn(|i| values[i] + 0.05 * ((3 * k + 2 * i) as f64).sin());
+    (0..STATES).map(|k| (near(&case.q, k), near(&case.v, k))).collect()
+}
+
+/// A case by placement and by hand, which must agree.
+fn reference_system<S: Holonomic, P: Potential, const N: usize>(
+    (group, notes): (&mut Group<'_>, &mut Notes),
+    case: &Case,
+    lagrangian: &Lagrangian<S, P>,
+    by_hand: impl Fn(&[f64; N], &[f64; N]) -> [f64; N],
+) -> Result<(), Box<dyn Error>> {
+    let states = states_near::<N>(case);
+    let name = format!("reference {}", case.name);
+    let mut error = 0.0_f64;
+    for (q, v) in &states {
+        let (found, expected) = (lagrangian.acceleration(q, v, case.time)?, by_hand(q, v));
+        let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
+        error = found.iter().zip(expected).fold(error, |error, (a, b)| worse(error, (a - b).abs() / scale));
+    }
+    if error.is_nan() || 1e-11 < error {
+        return Err(format!("{} by placement and by hand differ by {error}", case.name).into());
+    }
+    notes.error(&name, error);
+    let mut work = Workspace::default();
+    let (mut out, time) = ([0.0; N], case.time);
+    bench(group, &name, &states, |q, v| {
+        let _ = black_box(lagrangian.acceleration_into(&mut work, q, v, black_box(time), &mut out));
+        black_box(&mut out);
+    });
+    bench(group, &format!("{name} by hand"), &states, |q, v| {
+        black_box(by_hand(q, v));
+    });
+    Ok(())
+}
+
+/// All systems of the reference data, without the numbers that are applied to some as forces.
+fn reference_systems(group: &mut Group<'_>, notes: &mut Notes) -> Result<(), Box<dyn Error>> {
+    let data: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(DATA)?)?;
+    let cases = data["cases"].as_array().ok_or("no cases")?;
+    for case in cases {
+        let case = &Case::of(case).ok_or("a case without state")?;
+        let p = |name: &str| case.parameter(name);
+        let to = (&mut *group, &mut *notes);
+        let g = p("g");
+        match case.system.as_str() {
+            "double_pendulum" => {
+                let system = systems::DoublePendulum { mass: [p("m1"), p("m2")], length: [p("l1"), p("l2")] };
+                let constants = [p("m1"), p("m2"), p("l1"), p("l2"), g];
+                let lagrangian = Lagrangian::of(system).with_uniform_gravity([0.0, -g, 0.0]);
+                reference_system(to, case, &lagrangian, |q, v| by_hand::double_pendulum(constants, q, v))?;
+            }
+            "spherical_pendulum" => {
+                let lagrangian = Lagrangian::of(SphericalPendulum { mass: p("m"), length: p("l") }).with_gravity(g);
+                let constants = [p("l"), g];
+                reference_system(to, case, &lagrangian, |q, v| by_hand::spherical_pendulum(constants, q, v))?;
+            }
+            "cart_pole" => {
+                let system = CartPole { cart: p("M"), mass: p("m"), length: p("l") };
+                let lagrangian = Lagrangian::of(system).with_uniform_gravity([0.0, -g, 0.0]);
+                let constants = [p("M"), p("m"), p("l"), g];
+                reference_system(to, case, &lagrangian, |q, v| by_hand::cart_pole(constants, q, v))?;
+            }
+            "bead_on_hoop" => {
+                let [mass, radius, rate, wobble, frequency] = ["m", "R", "Omega", "epsilon", "nu"].map(p);
+                let system = BeadOnHoop { mass, radius, rate, wobble, frequency };
+                let constants = [radius, g, rate, wobble, frequency];
+                let lagrangian = Lagrangian::of(system).with_gravity(g);
+                let time = case.time;
+                let closed = |q: &[f64; 1], _: &[f64; 1]| by_hand::bead_on_hoop(constants, q, black_box(time));
+                reference_system(to, case, &lagrangian, closed)?;
+            }
+            "heavy_top" => {
+                let constants = ["m", "h", "A", "C", "g"].map(p);
+                let lagrangian = Lagrangian::of(HeavyTop::new(p("m"), p("h"), p("A"), p("C"))).with_gravity(g);
+                reference_system(to, case, &lagrangian, |q, v| by_hand::heavy_top(constants, q, v))?;
+            }
+            "elastic_pendulum" => {
+                let spring = RadialSpring { stiffness: p("k"), rest: p("l0") };
+                let system = ElasticPendulum { mass: p("m") };
+                let lagrangian = Lagrangian::of(system).with_gravity(g).with_potential(spring);
+                let constants = ["m", "k", "l0", "g"].map(p);
+                reference_system(to, case, &lagrangian, |q, v| by_hand::elastic_pendulum(constants, q, v))?;
+            }
+            "torus" => {
+                let system = Torus { mass: p("m"), large: p("R"), small: p("a") };
+                let lagrangian = Lagrangian::of(system).with_gravity(g);
+                let constants = ["R", "a", "g"].map(p);
+                reference_system(to, case, &lagrangian, |q, v| by_hand::torus(constants, q, v))?;
+            }
+            "charged_particle" => {
+                let (electric, magnetic) = (["E1", "E2", "E3"].map(p), ["B1", "B2", "B3"].map(p));
+                let lorentz = Lorentz { charge: p("e"), electric, magnetic };
+                let lagrangian = Lagrangian::of(Cylindrical { mass: p("m") }).with_potential(lorentz);
+                let (ratio, fields) = (p("e") / p("m"), [electric, magnetic].map(Vector3::from));
+                reference_system(to, case, &lagrangian, |q, v| by_hand::charged_particle(ratio, fields, q, v))?;
+            }
+            "foucault" => {
+                let pendulum = Foucault { mass: p("m"), length: p("l"), rate: p("Omega"), latitude: p("lam") };
+                let height = Height { pendulum: &pendulum, gravity: g };
+                let lagrangian = Lagrangian::of(&pendulum).with_potential(height);
+                let (sine, cosine) = p("lam").sin_cos();
+                let constants = [p("l"), g, p("Omega"), sine, cosine];
+                reference_system(to, case, &lagrangian, |q, v| by_hand::foucault(constants, q, v))?;
+            }
+            "hinge_planar" => {
+                let system = HingedBodies::new([p("m1"), p("m2")], [p("I1"), p("I2")], [p("a1"), p("a2")]);
+                let torsion = Torsion { stiffness: p("k") };
+                let lagrangian = Lagrangian::of(system).with_uniform_gravity([0.0, -g, 0.0]).with_potential(torsion);
+                let constants = ["m1", "m2", "I1", "I2", "a1", "a2", "g", "k"].map(p);
+                reference_system(to, case, &lagrangian, |q, v| by_hand::hinge_planar(constants, q, v))?;
+            }
+            other => return Err(format!("unknown system {other}").into()),
+        }
+    }
+    Ok(())
+}
+
+/// Numbers of links that are known at run time only.
+const LINKS: [usize; 12] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64];
+/// States of a long chain in one iteration.
+const LONG_STATES: usize = 8;
+
+/// Accelerations of a chain, by placement and by hand.
+struct Evaluations {
+    lagrangian: Lagrangian<Links>,
+    states: Vec<(Vec<f64>, Vec<f64>)>,
+    work: Workspace,
+    work_by_hand: LinksWork,
+    out: Vec<f64>,
+}
+
+impl Evaluations {
+    fn of(n: usize) -> Self {
+        let state = |k: usize| {
+            let q = (0..n).map(|i| 2.0 * ((7 * k + 3 * i) as f64 * 0.37).sin()).collect();
+            (q, (0..n).map(|i| ((5 * k + i) as f64 * 0.73).cos()).collect())
+        };
+        Self {
+            lagrangian: Lagrangian::of(Links::varied(n)).with_gravity(GRAVITY),
+            states: (0..LONG_STATES).map(state).collect(),
+            work: Workspace::default(),
+            work_by_hand: LinksWork::default(),
+            out: vec![0.0; n],
+        }
+    }
+
+    fn by_placement(&mut self) {
+        for (q, v) in black_box(&self.states) {
+            let _ = black_box(self.lagrangian.acceleration_into(&mut self.work, q, v, 0.0, &mut self.out));
+            black_box(&mut self.out);
+        }
+    }
+
+    fn by_hand(&mut self) {
+        let chain = self.lagrangian.system();
+        for (q, v) in black_box(&self.states) {
+            let _ = black_box(chain.acceleration_by_hand(&mut self.work_by_hand, q, v, &mut self.out));
+            black_box(&mut self.out);
+        }
+    }
+}
+
+fn links(group: &mut Group<'_>, n: usize) -> Result<(), Box<dyn Error>> {
+    let mut evaluations = Evaluations::of(n);
+    evaluations.by_hand();
+    let expected = evaluations.out.clone();
+    evaluations.by_placement();
+    let scale = expected.iter().fold(0.0_f64, |scale, x| scale.max(x.abs()));
+    let error = evaluations.out.iter().zip(&expected).fold(0.0, |error, (a, b)| worse(error, (a - b).abs() / scale));
+    if error.is_nan() || 1e-10 < error {
+        return Err(format!("{n} links by placement and by hand differ by {error}").into());
+    }
+    group.throughput(Throughput::Elements(LONG_STATES as u64));
+    group.bench_function(format!("links {n}"), |bencher| bencher.iter(|| evaluations.by_placement()));
+    group.bench_function(format!("links {n} by hand"), |bencher| bencher.iter(|| evaluations.by_hand()));
+    Ok(())
+}
+
+/// The shortest time of many calls, s.
+fn shortest(mut run: impl FnMut()) -> f64 {
+    (0..60).fold(f64::INFINITY, |least, _| {
+        let start = std::time::Instant::now();
+        run();
+        least.min(start.elapsed().as_secs_f64())
+    })
+}
+
+/// The exponents with which cost grows with the number of links: over all numbers from eight on, by least
+/// squares of logarithms, and from 32 to 64.
+fn growth(notes: &mut Notes) -> Result<(), Box<dyn Error>> {
+    let long: Vec<usize> = LINKS.into_iter().filter(|&n| 8 <= n).collect();
+    let times: Vec<[f64; 2]> = long
+        .iter()
+        .map(|&n| {
+            let mut evaluations = Evaluations::of(n);
+            [shortest(|| evaluations.by_placement()), shortest(|| evaluations.by_hand())]
+        })
+        .collect();
+    for (way, name) in ["links", "links by hand"].into_iter().enumerate() {
+        let points: Vec<(f64, f64)> =
+            long.iter().zip(&times).map(|(&n, times)| ((n as f64).ln(), times[way].ln())).collect();
+        let mean = |f: &dyn Fn(&(f64, f64)) -> f64| points.iter().map(f).sum::<f64>() / points.len() as f64;
+        let (x, y) = (mean(&|p| p.0), mean(&|p| p.1));
+        let slope = mean(&|p| (p.0 - x) * (p.1 - y)) / mean(&|p| (p.0 - x) * (p.0 - x));
+        let at = |n: usize| long.iter().position(|&m| m == n).map(|k| times[k][way]).ok_or("not measured");
+        let end = (at(64)? / at(32)?).log2();
+        notes.number(name, "exponent", slope);
+        notes.number(name, "exponent from 32 to 64", end);
+        eprintln!("lagrangian/{name}: time ~ n^{slope:.2} from 8 to 64 links, n^{end:.2} from 32 to 64");
+    }
     Ok(())
 }

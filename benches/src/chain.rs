@@ -5,6 +5,7 @@ use num_dual::{Derivative, Dual2_64, DualSVec64};
 use piola_dynamics::lagrangian::{Holonomic, Placement};
 use piola_kinematics::{Attitude, RigidBody};
 use piola_numerics::Real;
+use piola_numerics::linear::ldlt;
 
 /// The crate `num-dual`, with the version that these benches ask for.
 pub const NUM_DUAL: &str = "num-dual 0.15";
@@ -45,20 +46,103 @@ impl<const N: usize, const DECLARED: bool> Holonomic for Chain<N, DECLARED> {
     }
 }
 
+/// The same with a number of links that is known at run time only.
+#[derive(Clone, Debug)]
+pub struct Links {
+    masses: Vec<f64>,
+    lengths: Vec<f64>,
+}
+
+impl Links {
+    /// A chain of `n` different masses and lengths.
+    #[must_use]
+    pub fn varied(n: usize) -> Self {
+        let vary = |by: f64| (0..n).map(|i| 1.0 - by * i as f64 / n as f64).collect();
+        Self { masses: vary(0.4), lengths: vary(0.3) }
+    }
+
+    /// The accelerations from the closed form, into `out`, with the memory of `work` and the factorisation that
+    /// Piola uses.
+    ///
+    /// # Errors
+    /// Never, in a chain of positive masses.
+    pub fn acceleration_by_hand(
+        &self,
+        work: &mut LinksWork,
+        q: &[f64],
+        v: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), piola_numerics::Error> {
+        let n = q.len();
+        let LinksWork { sin_cos, below, metric } = work;
+        sin_cos.clear();
+        sin_cos.extend(q.iter().map(|q| q.sin_cos()));
+        below.clear();
+        below.extend_from_slice(&self.masses);
+        for i in (1..n).rev() {
+            below[i - 1] += below[i];
+        }
+        metric.resize(n * n, 0.0);
+        out.fill(0.0);
+        for i in 0..n {
+            let (si, ci) = sin_cos[i];
+            out[i] -= below[i] * GRAVITY * self.lengths[i] * si;
+            let column = &mut metric[i * n..(i + 1) * n];
+            column[i] = below[i] * self.lengths[i] * self.lengths[i];
+            for j in i + 1..n {
+                let weight = below[j] * self.lengths[i] * self.lengths[j];
+                let (sj, cj) = sin_cos[j];
+                column[j] = weight * (ci * cj + si * sj);
+                let coupling = weight * (si * cj - ci * sj);
+                out[i] -= coupling * v[j] * v[j];
+                out[j] += coupling * v[i] * v[i];
+            }
+        }
+        ldlt::factor_in_place(metric, n)?;
+        ldlt::solve_in_place(metric, n, out)
+    }
+}
+
+/// The memory of [`Links::acceleration_by_hand`].
+#[derive(Clone, Debug, Default)]
+pub struct LinksWork {
+    sin_cos: Vec<(f64, f64)>,
+    below: Vec<f64>,
+    metric: Vec<f64>,
+}
+
+impl Holonomic for Links {
+    fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        let (mut x, mut z) = (T::zero(), T::zero());
+        for (&angle, (&mass, &length)) in q.iter().zip(self.masses.iter().zip(&self.lengths)) {
+            let (sine, cosine) = angle.sin_cos();
+            x += T::lit(length) * sine;
+            z -= T::lit(length) * cosine;
+            bodies.particle(mass, Vector3::new(x, T::zero(), z));
+        }
+    }
+}
+
 /// A metric and generalised forces.
-struct Equations<const N: usize> {
-    metric: SMatrix<f64, N, N>,
-    force: SVector<f64, N>,
+#[derive(Clone, Copy, Debug)]
+pub struct Equations<const N: usize> {
+    /// Its lower triangle.
+    pub metric: SMatrix<f64, N, N>,
+    /// The forces.
+    pub force: SVector<f64, N>,
 }
 
 impl<const N: usize> Equations<N> {
-    fn zero() -> Self {
+    /// Nothing yet.
+    #[must_use]
+    pub fn zero() -> Self {
         Self { metric: SMatrix::zeros(), force: SVector::zeros() }
     }
 
     /// Solves with L D Lᵀ; only the lower triangle of the metric is used.
     #[inline]
-    fn solve(self) -> SVector<f64, N> {
+    #[must_use]
+    pub fn solve(self) -> SVector<f64, N> {
         let Self { metric: mut a, force: mut b } = self;
         for j in 0..N {
             let inverse = 1.0 / a[(j, j)];

@@ -5,6 +5,7 @@
 //! | [`problems`] | initial value problems with known solutions, hand-coded as their authors' peers would |
 //! | [`peers`] | the same equations given to other crates |
 //! | [`chain`] | pendulum chains three ways: by placement, hand-coded, by the dual numbers of another crate |
+//! | [`golden_systems`] | the systems of the reference data, hand-coded |
 //! | [`stability`] | rounding at inputs made to spoil the result |
 //! | [`work_precision`] | error against time for many methods and parameters, measured in turn |
 //! | [`figure`] | such a table as a figure |
@@ -12,6 +13,7 @@
 
 pub mod chain;
 pub mod figure;
+pub mod golden_systems;
 pub mod notes;
 pub mod peers;
 pub mod problems;

@@ -35,6 +35,11 @@ impl Notes {
         self.note(bench, "peer", json!(peer));
     }
 
+    /// Notes any other number of a bench.
+    pub fn number(&mut self, bench: &str, key: &str, number: f64) {
+        self.note(bench, key, json!(number));
+    }
+
     fn note(&mut self, bench: &str, key: &str, value: Value) {
         let notes = self.notes.entry(bench).or_insert_with(|| json!({}));
         if let Some(notes) = notes.as_object_mut() {
