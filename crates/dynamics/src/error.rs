@@ -193,4 +193,41 @@ pub enum DynamicsError {
         /// The rows of the matrix.
         rows: usize,
     },
+    /// The vectors of a frame, or the quasi-velocities of a coframe, depend on each other.
+    #[error(
+        "the frame is singular: quasi-velocity {index} depends on the others (pivot {pivot:e} against {scale:e}); the \
+         combination {combination:?} vanishes"
+    )]
+    SingularFrame {
+        /// The quasi-velocity at which the elimination stopped.
+        index: usize,
+        /// The pivot found there.
+        pivot: f64,
+        /// The magnitude it is compared with.
+        scale: f64,
+        /// Weights of the vectors, or of the quasi-velocities where these are given, whose sum vanishes.
+        combination: Vec<f64>,
+    },
+    /// An index beyond the last quasi-velocity.
+    #[error("there is no quasi-velocity {index}: the frame has {count}")]
+    NoSuchQuasiVelocity {
+        /// The index asked for.
+        index: usize,
+        /// The number of quasi-velocities.
+        count: usize,
+    },
+    /// One quasi-velocity held by two conditions.
+    #[error("quasi-velocity {index} is held twice")]
+    HeldTwice {
+        /// The index given twice.
+        index: usize,
+    },
+    /// A length that violates 0 < l < ∞.
+    #[error("the {quantity} is {value} m; it must satisfy 0 < l < ∞")]
+    InvalidLength {
+        /// What has that length.
+        quantity: &'static str,
+        /// The value given.
+        value: f64,
+    },
 }

@@ -3,6 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`lagrangian`] | Lagrange's equations of any placement map, with a potential and applied forces |
+//! | [`anholonomic`] | quasi-velocities: structure coefficients, Boltzmann–Hamel equations, rolling |
 //! | [`small_motions`] | equilibria, linearisation about any state, normal and complex modes, stability |
 //! | [`hamiltonian`] | Hamilton's equations of any function H(q, p, t) |
 //! | [`newton_euler`] | Newton's and Euler's laws of particles and rigid bodies |
@@ -13,6 +14,7 @@
 #![expect(clippy::doc_markdown, reason = "symbols with indices, as g_ΔΓ, are not code")]
 #![expect(clippy::needless_range_loop, reason = "the indices are those of the equations")]
 
+pub mod anholonomic;
 mod check;
 mod error;
 pub mod gravitation;
