@@ -127,6 +127,9 @@ impl<'a> NewtonEuler<'a> {
     }
 
     /// The body.
+    ///
+    /// # Example
+    /// See [`NewtonEuler`].
     #[must_use]
     pub const fn body(&self) -> &'a RigidBody {
         self.body

@@ -94,6 +94,12 @@ impl<A: Path, B: Path> Path for Varied<'_, A, B> {
 }
 
 /// An action, J s, with a bound of its error.
+///
+/// # Example
+/// See [`Lagrangian::action`].
+///
+/// # Source
+/// W(7.10).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Action {
@@ -104,6 +110,12 @@ pub struct Action {
 }
 
 /// The first variation of an action, J s per unit of the variation, and its two parts.
+///
+/// # Example
+/// See [`Lagrangian::first_variation`].
+///
+/// # Source
+/// W(7.18).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FirstVariation {

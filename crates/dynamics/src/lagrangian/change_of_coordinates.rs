@@ -106,7 +106,9 @@ impl<C: ChangeOfCoordinates<N>, const N: usize> ChangeOfCoordinates<N> for &C {
 ///         [new[0] * c, new[0] * s]
 ///     }
 /// }
-/// let metric = Lagrangian::of(InCoordinates::new(Cartesian, Polar)).inertia_metric(&[3.0, 0.0], 0.0);
+/// let seen = InCoordinates::new(Cartesian, Polar);
+/// assert_eq!(seen.change().old_coordinates(&[3.0, 0.0], 0.0), [3.0, 0.0]);
+/// let metric = Lagrangian::of(seen).inertia_metric(&[3.0, 0.0], 0.0);
 /// assert_eq!((metric[(0, 0)], metric[(0, 1)], metric[(1, 1)]), (4.0, 0.0, 36.0));
 /// assert_eq!(Polar.tangent(&[3.0, 0.0], 0.0, 1), [0.0, 3.0]); // ∂x/∂φ, ∂y/∂φ
 /// ```
@@ -121,16 +123,25 @@ pub struct InCoordinates<S, C, const N: usize> {
 
 impl<S, C: ChangeOfCoordinates<N>, const N: usize> InCoordinates<S, C, N> {
     /// The thing `old` seen through the change.
+    ///
+    /// # Example
+    /// See [`InCoordinates`].
     pub const fn new(old: S, change: C) -> Self {
         Self { old, change }
     }
 
     /// What is seen.
+    ///
+    /// # Example
+    /// See [`InCoordinates`].
     pub const fn old(&self) -> &S {
         &self.old
     }
 
     /// The change.
+    ///
+    /// # Example
+    /// See [`InCoordinates`].
     pub const fn change(&self) -> &C {
         &self.change
     }

@@ -59,6 +59,12 @@ impl<S: Holonomic, T: Real> Field<T> for GeodesicMotion<'_, S, T> {
 }
 
 /// The end of a piece of a geodesic.
+///
+/// # Example
+/// See [`Lagrangian::geodesic`].
+///
+/// # Source
+/// W(6.10).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct GeodesicEnd {
@@ -133,6 +139,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`covariant_acceleration`](Self::covariant_acceleration).
+    ///
+    /// # Example
+    /// See [`covariant_acceleration`](Self::covariant_acceleration).
+    ///
+    /// # Source
+    /// W(6.8–6.10).
     pub fn covariant_acceleration_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -191,6 +203,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`raise`](Self::raise).
+    ///
+    /// # Example
+    /// See [`raise`](Self::raise).
+    ///
+    /// # Source
+    /// W(6.8).
     pub fn raise_in_place<T: Real>(
         &self,
         work: &mut Workspace<T>,

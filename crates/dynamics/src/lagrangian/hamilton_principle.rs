@@ -23,7 +23,7 @@ use crate::check::{check_finite, check_length};
 /// ```
 /// use piola_dynamics::lagrangian::SampledMotion;
 /// let samples = SampledMotion::new(1, vec![0.0, 0.5, 2.0], vec![0.0, 1.0, 4.0], vec![2.0, 2.0, 2.0])?;
-/// assert_eq!(samples.coordinates(1), [1.0]);
+/// assert_eq!((samples.times()[1], samples.coordinates(1), samples.velocities(1)), (0.5, &[1.0][..], &[2.0][..]));
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +40,9 @@ impl SampledMotion {
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::TimesNotIncreasing`].
+    ///
+    /// # Example
+    /// See [`SampledMotion`].
     pub fn new(
         freedom: usize,
         times: Vec<f64>,
@@ -63,6 +66,26 @@ impl SampledMotion {
     ///
     /// # Errors
     /// [`DynamicsError::TimesNotIncreasing`] for a run backwards.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement, SampledMotion};
+    /// # use piola_numerics::Real;
+    /// use piola_integrators::Tolerance;
+    /// # struct Stone;
+    /// # impl Holonomic for Stone {
+    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    /// #         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0]));
+    /// #     }
+    /// # }
+    /// // A stone of 2 kg thrown up with 10 m/s under 10 m/s²: I = −200/3 J s.
+    /// let stone = Lagrangian::of(Stone).with_gravity(10.0);
+    /// let run = stone.integrate(&[0.0], &[10.0], 0.0..2.0, Tolerance::relative(1e-12)?)?;
+    /// let action = stone.action_of_samples(&SampledMotion::of_run(&run)?)?;
+    /// assert!((action.value + 200.0 / 3.0).abs() < 1e-10);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn of_run(run: &Run) -> Result<Self, DynamicsError> {
         let freedom = run.last().0.len();
         let steps = 0..run.times().len();
@@ -72,12 +95,18 @@ impl SampledMotion {
     }
 
     /// The times, s.
+    ///
+    /// # Example
+    /// See [`SampledMotion`].
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
     /// The coordinates of a sample; empty beyond the last.
+    ///
+    /// # Example
+    /// See [`SampledMotion`].
     #[must_use]
     pub fn coordinates(&self, sample: usize) -> &[f64] {
         let n = self.freedom;
@@ -85,6 +114,9 @@ impl SampledMotion {
     }
 
     /// The velocities of a sample; empty beyond the last.
+    ///
+    /// # Example
+    /// See [`SampledMotion`].
     #[must_use]
     pub fn velocities(&self, sample: usize) -> &[f64] {
         let n = self.freedom;
@@ -107,6 +139,12 @@ impl SampledMotion {
 }
 
 /// How far samples are from making the discrete action stationary.
+///
+/// # Example
+/// See [`Lagrangian::stationarity_of_samples`].
+///
+/// # Source
+/// W(7.13–7.18).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct StationarityResidual {

@@ -17,6 +17,12 @@ use crate::DynamicsError;
 use crate::check::check_length;
 
 /// Momentum and moment of momentum, space components.
+///
+/// # Example
+/// See [`Lagrangian::system_momentum`].
+///
+/// # Source
+/// W(1.18), W(2.35).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SystemMomentum<T: Real = f64> {
     /// Σ m v, kg m/s.
@@ -104,6 +110,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`].
+    ///
+    /// # Example
+    /// See [`system_momentum`](Self::system_momentum).
+    ///
+    /// # Source
+    /// W(1.18), W(2.35).
     pub fn system_momentum_with<T: Real>(
         &self,
         work: &mut Workspace<T>,

@@ -41,6 +41,9 @@ pub struct PowerBalance<T = f64> {
 impl<T: Real> PowerBalance<T> {
     /// P, W: the power of all that acts. Along the motion it is dE/dt.
     ///
+    /// # Example
+    /// See [`Lagrangian::power_balance`].
+    ///
     /// # Source
     /// W(5.17).
     pub fn total(self) -> T {
@@ -50,6 +53,9 @@ impl<T: Real> PowerBalance<T> {
     /// The power that leaves or enters the system, W: of the applied forces, the moving constraint, and the time in
     /// the potential. Along the motion it is d/dt (E + V − q̇·∂V/∂q̇), gravity's energy included.
     ///
+    /// # Example
+    /// See [`Lagrangian::power_balance`].
+    ///
     /// # Source
     /// W(5.17), W(7.9).
     pub fn energy_rate(self) -> T {
@@ -57,12 +63,21 @@ impl<T: Real> PowerBalance<T> {
     }
 
     /// dE/dt − P, W: zero to rounding along a motion that obeys Lagrange's equations.
+    ///
+    /// # Example
+    /// See [`Lagrangian::power_balance_at_acceleration`].
     pub fn residual(self) -> T {
         self.kinetic_energy_rate - self.total()
     }
 }
 
 /// Q_{n+1}: the component along the time of the generalised force, W.
+///
+/// # Example
+/// See [`Lagrangian::force_along_time`].
+///
+/// # Source
+/// W(5.15).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ForceAlongTime<T = f64> {
@@ -74,12 +89,24 @@ pub struct ForceAlongTime<T = f64> {
 
 impl<T: Real> ForceAlongTime<T> {
     /// Q_{n+1}, W.
+    ///
+    /// # Example
+    /// See [`Lagrangian::force_along_time`].
+    ///
+    /// # Source
+    /// W(5.15).
     pub fn total(self) -> T {
         self.external + self.constraint
     }
 }
 
 /// The power of what is applied to one part, W.
+///
+/// # Example
+/// See [`Lagrangian::actuator_powers_into`].
+///
+/// # Source
+/// W(5.13).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PartPower<T = f64> {
@@ -122,7 +149,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// let balance = Lagrangian::of(Bead).power_balance(&[1.0], &[5.0], 0.0)?;
     /// // The rod pushes with 2 m Ω ṙ = 60 N across, at Ω r = 3 m/s.
     /// assert_eq!(balance.moving_constraint, 180.0);
-    /// assert_eq!(balance.kinetic_energy_rate, 180.0);
+    /// assert_eq!((balance.kinetic_energy_rate, balance.total(), balance.energy_rate()), (180.0, 180.0, 180.0));
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     ///
@@ -136,6 +163,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`power_balance`](Self::power_balance).
+    ///
+    /// # Example
+    /// See [`power_balance`](Self::power_balance).
+    ///
+    /// # Source
+    /// W(5.13–5.17).
     pub fn power_balance_with<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -282,7 +315,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///     }
     /// }
     /// let force = Lagrangian::of(Rising).with_gravity(10.0).force_along_time(&[0.0], &[0.0], 0.0)?;
-    /// assert_eq!((force.external, force.constraint), (-60.0, 60.0)); // weight and rod at 3 m/s
+    /// assert_eq!((force.external, force.constraint, force.total()), (-60.0, 60.0, 0.0)); // weight and rod at 3 m/s
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     ///

@@ -21,6 +21,12 @@ use crate::check::{check_finite, check_length};
 /// A force and a moment on one part.
 ///
 /// On a particle the moment is zero and plays no role; on a body the force acts at the centre of mass.
+///
+/// # Example
+/// See [`Lagrangian::virtual_work`].
+///
+/// # Source
+/// W(5.1–5.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartForce<T: Real = f64> {
     /// N, space components.
@@ -51,6 +57,13 @@ impl<T: Real> PartForce<T> {
 /// let held = Reaction::Particle { position: Vector3::new(2.0, 0.0, 0.0), force: Vector3::new(0.0, 0.0, 5.0) };
 /// // r × f about the origin: −x f_z along y.
 /// assert_eq!(held.moment_about(&Vector3::zeros()), Vector3::new(0.0, -10.0, 0.0));
+///
+/// // A body turned by a half turn about z: its x axis points to −x.
+/// use piola_kinematics::Attitude;
+/// let attitude = Attitude { w: 0.0, x: 0.0, y: 0.0, z: 1.0 };
+/// let (position, force) = (Vector3::zeros(), Vector3::new(0.0, 0.0, 5.0));
+/// let held = Reaction::Body { position, attitude, force, moment: Vector3::new(3.0, 0.0, 0.0) };
+/// assert_eq!((held.force().z, held.moment_in_body().x, held.moment_in_space().x), (5.0, 3.0, -3.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reaction<T: Real = f64> {
@@ -89,6 +102,9 @@ impl<T: Real> Reaction<T> {
     }
 
     /// Where the force acts: the particle or the centre of mass, m.
+    ///
+    /// # Example
+    /// See [`Reaction`].
     #[must_use]
     pub const fn position(&self) -> &Vector3<T> {
         match self {
@@ -97,6 +113,12 @@ impl<T: Real> Reaction<T> {
     }
 
     /// f_c or F_c, N, space components.
+    ///
+    /// # Example
+    /// See [`Reaction`].
+    ///
+    /// # Source
+    /// W(5.1–5.2).
     #[must_use]
     pub const fn force(&self) -> &Vector3<T> {
         match self {
@@ -105,6 +127,12 @@ impl<T: Real> Reaction<T> {
     }
 
     /// G_c about the centre of mass, N m, body components; zero for a particle.
+    ///
+    /// # Example
+    /// See [`Reaction`].
+    ///
+    /// # Source
+    /// W(5.3).
     #[must_use]
     pub fn moment_in_body(&self) -> Vector3<T> {
         match self {
@@ -114,6 +142,12 @@ impl<T: Real> Reaction<T> {
     }
 
     /// G_c about the centre of mass, N m, space components; zero for a particle.
+    ///
+    /// # Example
+    /// See [`Reaction`].
+    ///
+    /// # Source
+    /// W(5.3).
     #[must_use]
     pub fn moment_in_space(&self) -> Vector3<T> {
         match self {
@@ -123,6 +157,12 @@ impl<T: Real> Reaction<T> {
     }
 
     /// The moment about a point fixed in space, N m, space components: (x − o)×f_c + G_c.
+    ///
+    /// # Example
+    /// See [`Reaction`].
+    ///
+    /// # Source
+    /// W(4.6).
     #[must_use]
     pub fn moment_about(&self, point: &Vector3<T>) -> Vector3<T> {
         let arm = self.position() - point;
@@ -209,6 +249,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// As [`acceleration`](Self::acceleration); [`DynamicsError::DimensionMismatch`] when `out` does not have one
     /// place for each [part](Self::parts).
+    ///
+    /// # Example
+    /// See [`reactions`](Self::reactions).
+    ///
+    /// # Source
+    /// W(5.1–5.3).
     pub fn reactions_into<T: Real>(
         &self,
         work: &mut Workspace<T>,

@@ -31,6 +31,12 @@ pub struct IdealConstraintTest {
 }
 
 /// Whether a constraint is ideal.
+///
+/// # Example
+/// See [`Lagrangian::ideal_constraint_test`].
+///
+/// # Source
+/// W(5.5).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ConstraintVerdict {
@@ -49,12 +55,21 @@ pub enum ConstraintVerdict {
 
 impl IdealConstraintTest {
     /// Σ f_c·h_Δ for each coordinate: N where the coordinate is a length, N m where it is an angle.
+    ///
+    /// # Example
+    /// See [`Lagrangian::ideal_constraint_test`].
+    ///
+    /// # Source
+    /// W(5.8).
     #[must_use]
     pub fn powers(&self) -> &[f64] {
         &self.powers
     }
 
     /// The sums of the magnitudes of the terms, against which the powers are small when the constraint is ideal.
+    ///
+    /// # Example
+    /// See [`Lagrangian::ideal_constraint_test`].
     #[must_use]
     pub fn scales(&self) -> &[f64] {
         &self.scales
@@ -62,6 +77,9 @@ impl IdealConstraintTest {
 
     /// The coordinate along which the power is largest against its scale, and that ratio, which lies in [0, 1].
     /// `None` for a system without coordinates.
+    ///
+    /// # Example
+    /// See [`Lagrangian::ideal_constraint_test`].
     #[must_use]
     pub fn worst(&self) -> Option<(usize, f64)> {
         let ratio = |(power, scale): (&f64, &f64)| if 0.0 < *scale { power.abs() / scale } else { 0.0 };
@@ -72,8 +90,14 @@ impl IdealConstraintTest {
         })
     }
 
-    /// The verdict: ideal when no power exceeds `tolerance` times its scale. Reactions computed in `f64` pass at
-    /// 1e-12.
+    /// The verdict: ideal when no power exceeds `tolerance` times its scale. A few dozen ulp times the condition
+    /// number of the metric, scaled to unit diagonal, are what the reactions of an ideal constraint need.
+    ///
+    /// # Example
+    /// See [`Lagrangian::ideal_constraint_test`].
+    ///
+    /// # Source
+    /// W(5.5).
     #[must_use]
     pub fn verdict(&self, tolerance: f64) -> ConstraintVerdict {
         match self.worst() {
@@ -185,6 +209,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`virtual_work`](Self::virtual_work).
+    ///
+    /// # Example
+    /// See [`virtual_work`](Self::virtual_work).
+    ///
+    /// # Source
+    /// W(5.9).
     pub fn virtual_work_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -205,7 +235,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// virtual displacement.
     ///
     /// The [reactions](Self::reactions) of a system without potential and generalised forces pass to rounding;
-    /// friction does not.
+    /// friction does not. Forces that are nothing but rounding have no meaningful scale: the reactions on a particle
+    /// that is free, say. [`reaction_test`](Self::reaction_test) compares with what they are the difference of.
     ///
     /// # Errors
     /// As [`virtual_work`](Self::virtual_work); [`DynamicsError::NonFinite`].
@@ -227,6 +258,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// // A quarter of the normal force rubs.
     /// let rough = slide.ideal_constraint_test(&[PartForce::force([-2.0, 0.0, 8.0])], &[0.0], 0.0)?;
     /// assert_eq!(rough.verdict(1e-12), ConstraintVerdict::Working { coordinate: 0, power: -2.0, scale: 2.0 });
+    /// assert_eq!((rough.powers(), rough.scales(), rough.worst()), (&[-2.0][..], &[2.0][..], Some((0, 1.0))));
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     ///
@@ -248,6 +280,57 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             scales.extend_from_slice(&sums.scale[..directions]);
         }
         check_finite("power of the constraint forces", &powers)?;
+        Ok(IdealConstraintTest { powers, scales })
+    }
+
+    /// Tests whether the reactions along the motion are those of an ideal constraint, against the inertia and the
+    /// external forces that they are the difference of.
+    ///
+    /// What a potential and generalised forces do is in the reactions: the powers are then theirs. In a system
+    /// without them the powers show how well Lagrange's equations have been solved.
+    ///
+    /// # Errors
+    /// As [`acceleration`](Self::acceleration).
+    ///
+    /// # Example
+    /// A particle in free fall: no reaction, whatever rounding leaves of m a − m g.
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_dynamics::lagrangian::{ConstraintVerdict, Holonomic, Lagrangian, Placement};
+    /// # use piola_numerics::Real;
+    /// struct Free;
+    /// impl Holonomic for Free {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         bodies.particle(0.3, Vector3::new(q[0], q[1], q[2]));
+    ///     }
+    /// }
+    /// let test = Lagrangian::of(Free).with_gravity(10.0).reaction_test(&[0.0; 3], &[1.0; 3], 0.0)?;
+    /// assert_eq!((test.scales(), test.verdict(1e-15)), (&[0.0, 0.0, 6.0][..], ConstraintVerdict::Ideal)); // 2 m g
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(5.5–5.8).
+    pub fn reaction_test(&self, q: &[f64], v: &[f64], t: f64) -> Result<IdealConstraintTest, DynamicsError> {
+        let mut work = Workspace::default();
+        let (mut reactions, mut magnitudes) = (Vec::new(), Vec::new());
+        self.with_acceleration(&mut work, q, v, t, |work, a| {
+            self.tour(work, (q, v, a), t, |_part, part| {
+                let mut reaction = PartForce::force(part.reaction());
+                let size = |a: [f64; 3], b: [f64; 3], c: [f64; 3]| -> [f64; 3] {
+                    core::array::from_fn(|k| a[k].abs() + b[k].abs() + c[k].abs())
+                };
+                let mut magnitude = PartForce::force(size(part.inertia_force, part.weight, part.force));
+                if let Some(turning) = part.turning {
+                    reaction.moment = turning.reaction().into();
+                    magnitude.moment = size(turning.inertia_moment, turning.moment, [0.0; 3]).into();
+                }
+                reactions.push(reaction);
+                magnitudes.push(magnitude);
+            })
+        })?;
+        let IdealConstraintTest { powers, .. } = self.ideal_constraint_test(&reactions, q, t)?;
+        let IdealConstraintTest { scales, .. } = self.ideal_constraint_test(&magnitudes, q, t)?;
         Ok(IdealConstraintTest { powers, scales })
     }
 

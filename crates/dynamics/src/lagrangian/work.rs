@@ -16,6 +16,12 @@ use crate::DynamicsError;
 use crate::check::{check_finite, check_length};
 
 /// Works since the start, J.
+///
+/// # Example
+/// See [`Lagrangian::motion_with_work`].
+///
+/// # Source
+/// W(5.17), W(7.9).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Works<T = f64> {
@@ -29,6 +35,9 @@ pub struct Works<T = f64> {
 
 impl<T: Real> Works<T> {
     /// What entered the system, J.
+    ///
+    /// # Example
+    /// See [`Lagrangian::work_account`].
     pub fn total(self) -> T {
         self.applied + self.moving_constraint + self.potential_by_time
     }
@@ -51,6 +60,9 @@ impl<S: Holonomic, P: Potential, F: Forces, T: Real> MotionWithWork<'_, S, P, F,
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`].
+    ///
+    /// # Example
+    /// See [`Lagrangian::motion_with_work`].
     pub fn works(&self, y: &[T]) -> Result<Works<T>, DynamicsError> {
         check_length("y", Field::<T>::dimension(self), y.len())?;
         let works = &y[2 * self.coordinates..];
@@ -88,6 +100,12 @@ impl<S: Holonomic, P: Potential, F: Forces, T: Real> Field<T> for MotionWithWork
 }
 
 /// The works of a run and the energy they explain.
+///
+/// # Example
+/// See [`Lagrangian::work_account`].
+///
+/// # Source
+/// W(5.17).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -106,6 +124,9 @@ pub struct WorkAccount {
 
 impl WorkAccount {
     /// The energy that the works do not explain, relative to the energies met: the error of the run.
+    ///
+    /// # Example
+    /// See [`Lagrangian::work_account`].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
         let scale = self.energy_scale.max(self.works.total().abs());
@@ -186,7 +207,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// let account = Lagrangian::of(Platform).with_gravity(10.0).work_account(
     ///     &[0.0], &[1.0], 0.0..5.0, Tolerance::relative(1e-12)?,
     /// )?;
-    /// assert!((account.works.moving_constraint - 300.0).abs() < 1e-9 && account.imbalance() < 1e-12);
+    /// assert!((account.works.total() - 300.0).abs() < 1e-9 && account.imbalance() < 1e-12);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

@@ -41,11 +41,13 @@ fn jacobian(change: &Wavy, r: &[f64], t: f64) -> DMatrix<f64> {
 
 proptest! {
     #[test]
-    fn inertia_metric_is_a_covariant_tensor(change in changes(), (r, _, t) in states()) {
+    fn inertia_metric_is_a_positive_definite_covariant_tensor(change in changes(), (r, _, t) in states()) {
         let slopes = jacobian(&change, &r, t);
         let q = change.old_coordinates(&r, t);
         let expected = slopes.transpose() * driven().inertia_metric(&q, t) * &slopes;
         let metric = Lagrangian::of(InCoordinates::new(Arm::<true>::new(), change)).inertia_metric(&r, t);
+        assert_close("symmetric", metric.as_slice(), metric.transpose().as_slice(), Tol::ulps(0.0));
+        prop_assert!(metric.clone().cholesky().is_some(), "positive definite: {metric}");
         let condition = condition_of(&slopes);
         assert_close("metric", metric.as_slice(), expected.as_slice(), Tol::ulps(32.0).times(condition));
     }

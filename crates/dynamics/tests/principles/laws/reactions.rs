@@ -48,6 +48,9 @@ proptest! {
         prop_assert_eq!(test.verdict(tol.value()), ConstraintVerdict::Ideal);
         let work = system.virtual_work(&reactions, &q, t).unwrap();
         assert_close("power", test.powers(), work.as_slice(), Tol::ulps(0.0));
+        let of_motion = system.reaction_test(&q, &v, t).unwrap();
+        prop_assert_eq!(of_motion.verdict(tol.value()), ConstraintVerdict::Ideal);
+        assert_close("power", of_motion.powers(), work.as_slice(), Tol::ulps(0.0));
     }
 
     /// What a potential and generalised forces do is in the reactions, and no more.
