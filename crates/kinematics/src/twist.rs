@@ -1,6 +1,6 @@
 //! Twists: the velocity of a body as one quantity, screws, and the exponential map of rigid motions.
 //!
-//! A pose g takes points of the body to space, x = x^c + yⁱ f_i. Its velocity is six numbers, the angular velocity
+//! A pose g takes points of the body to space, x = x^c + yⁱ `f_i`. Its velocity is six numbers, the angular velocity
 //! and the velocity of one embedded point. Which point, and along which basis, makes two kinds of twist:
 //!
 //! ```text
@@ -473,7 +473,7 @@ fn direction(axis: &Vector3<f64>) -> Result<Vector3<f64>, KinematicsError> {
     Ok((axis / largest).normalize())
 }
 
-/// The matrix of Ad_g on (ω; v).
+/// The matrix of `Ad_g` on (ω; v).
 ///
 /// ```text
 /// Ad_g = ⎡ R      0⎤    R = Qᵀ
@@ -493,9 +493,9 @@ pub fn adjoint<T: Real>(pose: &BodyPose<T>) -> Matrix6<T> {
     for column in 0..6 {
         let mut unit = BodyTwist::at_rest();
         if column < 3 {
-            unit.angular[column] = T::one()
+            unit.angular[column] = T::one();
         } else {
-            unit.linear[column - 3] = T::one()
+            unit.linear[column - 3] = T::one();
         }
         let SpaceTwist { angular, linear, .. } = unit.in_space(pose);
         for row in 0..3 {
@@ -510,7 +510,7 @@ pub fn adjoint<T: Real>(pose: &BodyPose<T>) -> Matrix6<T> {
 ///
 /// | symbol | argument | shape | unit |
 /// |---|---|---|---|
-/// | ξ_i | `joints`, where all coordinates are zero, from the base outwards | n | rad, m for each unit of the coordinate |
+/// | `ξ_i` | `joints`, where all coordinates are zero, from the base outwards | n | rad, m for each unit of the coordinate |
 /// | q | `q` | n | rad or m |
 /// | g(0) | `home`, the link where all coordinates are zero | pose | m |
 /// | g(q) | returned | pose | m |

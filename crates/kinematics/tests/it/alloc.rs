@@ -5,7 +5,8 @@ use piola_kinematics::curve::{Curve, Frenet};
 use piola_kinematics::particle::Motion;
 use piola_kinematics::placement::PlacementEvaluator;
 use piola_kinematics::{
-    Attitude, BodyMotion, BodyPose, BodyVelocity, EulerAngles, EulerSequence, Inertia, ParticleSystem,
+    Attitude, BodyMotion, BodyPose, BodyVelocity, EulerAngles, EulerChart, EulerSequence, Inertia, ParticleSystem,
+    RotationVector,
 };
 use piola_numerics::Real;
 use piola_testkit::allocations_in;
@@ -45,6 +46,10 @@ fn attitudes_inertia_systems_and_curves_allocate_nothing() {
     let (allocations, ()) = allocations_in(|| {
         let attitude = Attitude::from_rotation_vector(&points[0]);
         let _ = EulerAngles::of_attitude(EulerSequence::Zyz, attitude).angles().rates(&points[1]).expect("regular");
+        let chart = EulerAngles::of_attitude(EulerSequence::Zyx, attitude).angles();
+        let mut chart = EulerChart::new(chart, [0.1, 0.2, 0.3], 2.0).expect("a chart");
+        let _ = chart.change_if_degraded().expect("finite");
+        let _ = RotationVector(points[0]).rate_from_body(&points[1]);
         let _ = Inertia::principal([1.0, 2.0, 2.5]).expect("a body").rotated(attitude).principal_axes();
         let system = ParticleSystem::new(&[1.0, 2.0, 3.0], &points, &points).expect("a system");
         let _ = (system.kinetic_energy(), system.moment_of_momentum(&points[0]), system.inertia_about_centre_of_mass());

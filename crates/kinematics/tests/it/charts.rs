@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use piola_kinematics::euler_angles::AnglesOfAttitude;
 use piola_kinematics::{Attitude, EulerAngles, EulerChart, EulerSequence, KinematicsError};
-use piola_numerics::{Dual, Gradient, Jet};
+use piola_numerics::{Dual, Gradient, Jet, Lanes, Real};
 use piola_testkit::strategies::{finite, rotation, vector};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
@@ -154,6 +154,25 @@ proptest! {
     }
 
     #[test]
+    fn angles_in_lanes_and_in_f32_equal_those_in_f64(angles in angles(), rates in triple()) {
+        let sequence = angles.sequence;
+        let lanes = EulerAngles::new(sequence, angles.theta.map(|x| Lanes([x, 0.5 * x])));
+        let in_lanes = lanes.angular_velocity_in_body(rates.map(Lanes::<f64, 2>::lit));
+        let halves = EulerAngles::new(sequence, angles.theta.map(|x| 0.5 * x));
+        for (lane, alone) in [angles, halves].iter().enumerate() {
+            close("ω", &in_lanes.map(|x| x.primal(lane)), &alone.angular_velocity_in_body(rates), 8.0);
+            let back = EulerAngles::away_from_gimbal(sequence, lanes.attitude()).theta.map(|x| x.primal(lane));
+            let expected = EulerAngles::away_from_gimbal(sequence, alone.attitude()).theta;
+            let condition = alone.condition_number();
+            // ±π are one angle.
+            let apart = back.iter().zip(expected).map(|(a, b)| (0.5 * (a - b)).sin().abs()).fold(0.0, f64::max);
+            assert_close_at_scale("θ", &[apart], &[0.0], 1.0, FEW.times(condition));
+        }
+        let single = EulerAngles::new(sequence, angles.theta.map(f32::lit)).matrix().map(f64::from);
+        assert_close("Q in f32", single.as_slice(), angles.matrix().as_slice(), Tol::ulps32(16.0));
+    }
+
+    #[test]
     fn change_of_chart_keeps_attitude_and_angular_velocity(attitude in attitude(), omega in triple()) {
         let omega = Vector3::from(omega);
         for sequence in EulerSequence::ALL {
@@ -232,10 +251,9 @@ fn extrapolated_step(f: impl Fn(f64, &Vector3<f64>) -> Vector3<f64>, t: f64, y: 
         }
         // The last stage averaged with an Eulerian step cancels the weak instability.
         let mut refined = (before + now + f(t + h, &(y + now)) * step) * 0.5;
-        for column in 0..row {
+        for (column, entry) in table.iter_mut().take(row).enumerate() {
             let ratio = (parts(row) / parts(row - column - 1)).powi(2);
-            let coarser = table[column];
-            table[column] = refined;
+            let coarser = core::mem::replace(entry, refined);
             refined += (refined - coarser) / (ratio - 1.0);
         }
         table[row] = refined;

@@ -63,7 +63,7 @@ fn ulps(found: &Matrix3<f64>, exact: &Matrix3<DoubleDouble>) -> f64 {
 fn derivative_of_exponential_equals_its_series_in_doubled_precision() {
     let axes = [Vector3::new(0.6, 0.0, 0.8), Vector3::new(1.0, -2.0, 2.0) / 3.0, Vector3::z()];
     let mut angles =
-        vec![0.0, 1.0e-300, 1.0e-160, 1.0e-16, 1.0e-12, 1.0e-8, 1.0e-4, 0.01, 0.3, 0.9999999, 1.0, 1.0000001];
+        vec![0.0, 1.0e-300, 1.0e-160, 1.0e-16, 1.0e-12, 1.0e-8, 1.0e-4, 0.01, 0.3, 0.999_999_9, 1.0, 1.000_000_1];
     angles.extend([1.5, 2.0, 2.5, 3.0, PI, 3.3, 4.0, 5.0, 6.0, 6.2]);
     for angle in angles {
         let (mut worst, mut worst_inverse) = (0.0_f64, 0.0_f64);

@@ -9,6 +9,7 @@ mod golden;
 mod laws;
 mod meshes;
 mod orders;
+mod rounding;
 mod systems;
 mod traps;
 mod twists;

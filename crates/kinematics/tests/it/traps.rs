@@ -327,6 +327,7 @@ fn wrong_buffers_and_states_are_refused_by_name() {
 #[cfg(feature = "serde")]
 #[test]
 fn what_is_read_is_validated() {
+    use piola_kinematics::RotationVector;
     use serde::de::IntoDeserializer;
     use serde::de::value::{MapDeserializer, SeqDeserializer};
 
@@ -344,6 +345,14 @@ fn what_is_read_is_validated() {
         <EulerAngles<f64> as serde::Deserialize>::deserialize(fields)
     };
     assert!(angles(2.0).is_ok() && angles(f64::NAN).is_err());
+    let angles: EulerAngles<f64> = serde_json::from_str(r#"{"theta": [0.1, 0.2, 0.3]}"#).expect("angles");
+    assert_eq!(angles, EulerAngles::zyz([0.1, 0.2, 0.3]));
+    let angles: EulerAngles<f64> =
+        serde_json::from_str(r#"{"sequence": "zyx", "theta": [0.1, 0.2, 0.3]}"#).expect("angles");
+    assert_eq!(angles.sequence, EulerSequence::Zyx);
+    assert!(serde_json::from_str::<EulerAngles<f64>>(r#"{"sequence": "zzx", "theta": [0.1, 0.2, 0.3]}"#).is_err());
+    let phi: RotationVector<f64> = serde_json::from_str("[0.1, 0.2, 0.3]").expect("a vector");
+    assert_eq!(phi, RotationVector(Vector3::new(0.1, 0.2, 0.3)));
     let attitude = Attitude::about_x(0.3);
     let text = serde_json::to_string(&attitude).expect("text");
     assert_eq!(serde_json::from_str::<Attitude<f64>>(&text).expect("an attitude"), attitude);

@@ -193,9 +193,9 @@ fn exponential_of_a_screw_equals_a_helix() {
 #[test]
 fn exponential_equals_that_in_doubled_precision() {
     let mut worst = 0.0_f64;
-    for exponent in -12..4_i32 {
+    for exponent in -12..1_i32 {
         for direction in [Vector3::new(0.6, 0.48, 0.64), Vector3::new(-0.28, 0.96, 0.0)] {
-            let twist = SpaceTwist::new(direction * 3.0 * 10.0_f64.powi(exponent.min(0)), Vector3::new(0.3, -1.1, 0.7));
+            let twist = SpaceTwist::new(direction * 3.0 * 10.0_f64.powi(exponent), Vector3::new(0.3, -1.1, 0.7));
             let pose = twist.exponential();
             let exact = SpaceTwist::<DoubleDouble>::constant(&twist).exponential();
             for (found, exact) in pose.position.iter().zip(exact.position.iter()) {
