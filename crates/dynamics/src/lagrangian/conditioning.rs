@@ -55,7 +55,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         work.force.clear();
         work.force.resize(q.len(), T::zero());
         self.add_forces_without_parts(work, q, v, t);
-        self.solve_by_rows(work, sound, out)
+        solve_by_rows(work, sound, out)
     }
 
     /// Replaces velocities, the solution of g q̇ = p − b, by those from rows. The right-hand side is in
@@ -71,36 +71,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ) -> Result<bool, Error> {
         work.rows.clear();
         self.collect_rows_from(work, q, t, 0);
-        self.solve_by_rows(work, sound, out)
-    }
-
-    /// The rows with what is left of the forces on them, and `work.force` beside them.
-    fn solve_by_rows<T: Real>(&self, work: &mut Workspace<T>, sound: T::Mask, out: &mut [T]) -> Result<bool, Error> {
-        let n = out.len();
-        let Workspace { rows, force, least_squares, linear, .. } = work;
-        least_squares.begin(n);
-        linear.clear();
-        linear.resize(n, T::zero());
-        for (number, &mass) in rows.weights.iter().enumerate() {
-            linear.fill(T::zero());
-            rows.row_into(number, linear);
-            let left = rows.residual.get(number).copied().unwrap_or_else(T::zero);
-            if 0.0 < mass {
-                let root = T::lit(mass.sqrt());
-                least_squares.add_row(linear.iter().map(|&partial| root * partial), left / root)?;
-            } else {
-                // Forces on what has no mass act on the coordinates alone.
-                for (force, &partial) in force.iter_mut().zip(&*linear) {
-                    *force += partial * left;
-                }
-            }
-        }
-        let share = if is_single::<T>() { TRUSTED_ROW_SINGLE } else { TRUSTED_ROW };
-        least_squares.solve_in_place(force, share)?;
-        for (out, &from_rows) in out.iter_mut().zip(&*force) {
-            *out = T::select(sound, *out, from_rows);
-        }
-        Ok(true)
+        solve_by_rows(work, sound, out)
     }
 
     /// Whether ∂²V/∂q̇∂q̇ is zero at a state.
@@ -114,4 +85,33 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         work.linear = hessian;
         linear
     }
+}
+
+/// The rows with what is left of the forces on them, and `work.force` beside them.
+fn solve_by_rows<T: Real>(work: &mut Workspace<T>, sound: T::Mask, out: &mut [T]) -> Result<bool, Error> {
+    let n = out.len();
+    let Workspace { rows, force, least_squares, linear, .. } = work;
+    least_squares.begin(n);
+    linear.clear();
+    linear.resize(n, T::zero());
+    for (number, &mass) in rows.weights.iter().enumerate() {
+        linear.fill(T::zero());
+        rows.row_into(number, linear);
+        let left = rows.residual.get(number).copied().unwrap_or_else(T::zero);
+        if 0.0 < mass {
+            let root = T::lit(mass.sqrt());
+            least_squares.add_row(linear.iter().map(|&partial| root * partial), left / root)?;
+        } else {
+            // Forces on what has no mass act on the coordinates alone.
+            for (force, &partial) in force.iter_mut().zip(&*linear) {
+                *force += partial * left;
+            }
+        }
+    }
+    let share = if is_single::<T>() { TRUSTED_ROW_SINGLE } else { TRUSTED_ROW };
+    least_squares.solve_in_place(force, share)?;
+    for (out, &from_rows) in out.iter_mut().zip(&*force) {
+        *out = T::select(sound, *out, from_rows);
+    }
+    Ok(true)
 }

@@ -1,5 +1,7 @@
 //! Coordinates in which the mass matrix is the unit matrix.
 
+use core::cmp::Ordering;
+
 use nalgebra::{ComplexField, DMatrix, DVector};
 use piola_numerics::linear::ldlt;
 use piola_numerics::{Error, Real};
@@ -22,12 +24,10 @@ impl Reduction {
         ldlt::factor_in_place(factors.as_mut_slice(), n).map_err(|error| singular(mass_matrix, error))?;
         let root = DMatrix::from_fn(n, n, |i, j| {
             let pivot = factors[(j, j)].sqrt() * units[i];
-            if i == j {
-                pivot
-            } else if j < i {
-                factors[(i, j)] * pivot
-            } else {
-                0.0
+            match i.cmp(&j) {
+                Ordering::Less => 0.0,
+                Ordering::Equal => pivot,
+                Ordering::Greater => factors[(i, j)] * pivot,
             }
         });
         Ok(Self { root })

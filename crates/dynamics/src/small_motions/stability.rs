@@ -64,8 +64,8 @@ impl Linearisation {
         let circulatory = reduction.of_form(&self.circulatory).amax();
         let rounding = 16.0 * n as f64 * f64::EPSILON;
         if circulatory <= rounding * stiffness.amax() {
-            let (least_stiffness, stiffest) = extremes(stiffness)?;
-            let (least_damping, most) = extremes(damping)?;
+            let (least_stiffness, stiffest) = extremes(&stiffness)?;
+            let (least_damping, most) = extremes(&damping)?;
             let held = rounding * stiffest < least_stiffness;
             // What is left where the velocity terms of a turning placement cancel.
             let noise = rounding * most.max(stiffest.sqrt()).max(reduction.of_form(&self.gyroscopic).amax());
@@ -96,9 +96,9 @@ impl Linearisation {
 }
 
 /// The least eigenvalue of a symmetric matrix, and the largest in size.
-fn extremes(matrix: DMatrix<f64>) -> Result<(f64, f64), DynamicsError> {
+fn extremes(matrix: &DMatrix<f64>) -> Result<(f64, f64), DynamicsError> {
     let n = matrix.nrows();
-    let symmetric = (&matrix + matrix.transpose()) * 0.5;
+    let symmetric = (matrix + matrix.transpose()) * 0.5;
     let eigen =
         SymmetricEigen::try_new(symmetric, f64::EPSILON, SWEEPS * n).ok_or(DynamicsError::NoEigenvalues { rows: n })?;
     let least = eigen.eigenvalues.iter().fold(f64::INFINITY, |least, &x| least.min(x));

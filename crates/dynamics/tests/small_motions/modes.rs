@@ -34,7 +34,7 @@ fn row_of_masses_frequencies_equal_twice_root_k_over_m_times_sines() {
         let angle = |mode: usize| PI * (mode + 1) as f64 / (2 * (n + 1)) as f64;
         let expected: Vec<f64> = (0..n).map(|mode| 2.0 * (k / m).sqrt() * angle(mode).sin()).collect();
         assert_close("ω", &modes.angular_frequencies(), &expected, Tol::ulps(16.0));
-        for mode in 0..n {
+        for (mode, &frequency) in expected.iter().enumerate() {
             // φ_i = √(2/(m(n+1))) sin(2 angle (i+1)), the largest component positive.
             let shape: Vec<f64> = (0..n).map(|i| (2.0 * angle(mode) * (i + 1) as f64).sin()).collect();
             let sign = (shape[0] * modes.shapes[(0, mode)]).signum();
@@ -42,7 +42,7 @@ fn row_of_masses_frequencies_equal_twice_root_k_over_m_times_sines() {
             let shape: Vec<f64> = shape.iter().map(|x| size * x).collect();
             assert_close("φ", modes.shapes.column(mode).as_slice(), &shape, Tol::ulps(64.0).times((n * n) as f64));
             let (square, uncertainty) = (modes.squares[mode], modes.uncertainties[mode]);
-            assert!((square - expected[mode] * expected[mode]).abs() <= uncertainty, "{mode} of {n}");
+            assert!((square - frequency * frequency).abs() <= uncertainty, "{mode} of {n}");
         }
     }
 }

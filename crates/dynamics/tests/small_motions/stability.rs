@@ -1,7 +1,7 @@
 //! Verdicts on stability at known thresholds.
 
 use nalgebra::{DMatrix, dmatrix};
-use piola_dynamics::small_motions::{Linearisation, Stability};
+use piola_dynamics::small_motions::{ComplexMode, Linearisation, Stability};
 use piola_testkit::{Tol, assert_close};
 
 use crate::systems::{GRAVITY, Still, TOP, linear, standing};
@@ -23,7 +23,7 @@ fn sleeping_top_is_stable_above_four_a_m_g_h_over_c_squared() {
         let top = spinning(factor * threshold);
         assert_eq!(verdict(&top), Stability::Unstable, "{factor}");
         let modes = top.complex_modes().unwrap().modes;
-        let growth = modes.iter().map(|mode| mode.growth_rate()).fold(0.0, f64::max);
+        let growth = modes.iter().map(ComplexMode::growth_rate).fold(0.0, f64::max);
         // Re λ = √(4 A m g h − C²ω²)/2A; it is sensitive to the spin near the threshold.
         let expected = (overturning / transverse * (1.0 - factor * factor)).sqrt();
         assert_close("growth", &[growth], &[expected], Tol::ulps(64.0).times(1.0 / (1.0 - factor)));
@@ -36,7 +36,7 @@ fn circulatory_forces_make_equal_frequencies_flutter() {
     let (k, n) = (4.0_f64, 0.5);
     let flutter = linear(DMatrix::identity(2, 2), &DMatrix::zeros(2, 2), &dmatrix![k, n; -n, k]);
     assert_eq!(verdict(&flutter), Stability::Unstable);
-    let growth = flutter.complex_modes().unwrap().modes.iter().map(|m| m.growth_rate()).fold(0.0, f64::max);
+    let growth = flutter.complex_modes().unwrap().modes.iter().map(ComplexMode::growth_rate).fold(0.0, f64::max);
     let size = k.hypot(n);
     assert_close("growth", &[growth], &[((size - k) / 2.0).sqrt()], Tol::ulps(256.0));
     // Damping of d holds it where n < d √k.

@@ -113,8 +113,8 @@ pub fn factor_and_grade_in_place<T: Real>(a: &mut [T], n: usize, share: f64) -> 
             sound = sound & well;
         }
         let inverse = pivot.recip();
-        for i in j + 1..n {
-            column[i] *= inverse;
+        for entry in &mut column[j + 1..] {
+            *entry *= inverse;
         }
     }
     Ok(sound)

@@ -1,10 +1,10 @@
-//! Weighted least squares: A x ≈ b and AᵀA x = Aᵀb + h without forming AᵀA.
+//! Weighted least squares: A x ≈ b and `AᵀA x = Aᵀb + h` without forming `AᵀA`.
 //!
 //! ```text
 //! minimise ½|A x − b|² − h·x        AᵀA x = Aᵀ b + h
 //! ```
 //!
-//! A metric of condition number κ that is formed, g = AᵀA, has lost κ ulp before it is factored, whatever is
+//! A metric of condition number κ that is formed, `g = AᵀA`, has lost κ ulp before it is factored, whatever is
 //! done to it afterwards. Its rows A have the condition number √κ:
 //!
 //! ```text
@@ -88,10 +88,10 @@ impl<T: Real> LeastSquares<T> {
         check_dimension("row", self.rows.len(), self.right.len() * self.columns)
     }
 
-    /// Overwrites h with the solution of AᵀA x = Aᵀb + h, and the rows with their factors: begin anew after it.
+    /// Overwrites h with the solution of `AᵀA x = Aᵀb + h`, and the rows with their factors: begin anew after it.
     ///
     /// What is left of a column when those before it are taken out must be more than `share` of it, or n ulp
-    /// if that is more. In a metric g = AᵀA the pivots are the squares of these: dₖ/gₖₖ is share².
+    /// if that is more. In a metric `g = AᵀA` the pivots are the squares of these: dₖ/gₖₖ is share².
     ///
     /// # Errors
     /// [`Error::Dimension`]; [`Error::Singular`] with the unknown that depends on others, also when a number is

@@ -3,7 +3,7 @@
 //! | the matrix is | use |
 //! |---|---|
 //! | symmetric positive definite: a metric, a mass matrix | [`ldlt`] |
-//! | AᵀA of rows A: a metric too ill-conditioned to be formed | [`least_squares`] |
+//! | `AᵀA` of rows A: a metric too ill-conditioned to be formed | [`least_squares`] |
 //! | any regular matrix | [`lu`] |
 //! | 3×3, in a kernel or in lanes | [`matrix3`] |
 //!
