@@ -153,3 +153,31 @@ fn more_new_coordinates_than_old_ones_are_named_as_dependent() {
     let DynamicsError::SingularMetric { coordinate: 1, direction, .. } = found else { panic!("{found}") };
     piola_testkit::assert_close("null direction", &direction, &[-1.0, 1.0], Tol::ulps(4.0));
 }
+
+/// A heavy bob hangs from a light one, 10¹² times lighter, both still and far from the origin.
+struct Hanging {
+    origin: f64,
+}
+impl Holonomic for Hanging {
+    fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        let mut end = Vector3::new(T::lit(self.origin), T::zero(), T::zero());
+        for (mass, angle) in [1e-9, 1e3].into_iter().zip(q) {
+            let (s, c) = angle.sin_cos();
+            end += Vector3::new(s, T::zero(), -c);
+            bodies.particle(mass, end);
+        }
+    }
+}
+
+/// The rods together hold each bob by its weight and by what bends its path.
+#[test]
+fn mass_ratio_of_a_million_millions_and_a_far_origin_leave_reactions_their_digits() {
+    for origin in [0.0, 1e12] {
+        let chain = Lagrangian::of(Hanging { origin }).with_gravity(10.0);
+        let [light, heavy] = chain.reactions(&[0.0; 2], &[1.0, 2.0], 0.0).unwrap()[..] else { panic!("two parts") };
+        // Upwards accelerations: 1² of the light bob, 1² + 2² of the heavy one.
+        let tol = Tol::ulps(4.0);
+        piola_testkit::assert_close("light", light.force().as_slice(), &[0.0, 0.0, 1e-9 * (10.0 + 1.0)], tol);
+        piola_testkit::assert_close("heavy", heavy.force().as_slice(), &[0.0, 0.0, 1e3 * (10.0 + 5.0)], tol);
+    }
+}
