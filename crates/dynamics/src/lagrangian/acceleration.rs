@@ -92,11 +92,11 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// not noticed here, but by `check`.
     ///
     /// # Accuracy
-    /// A few ulp times κ, the condition number of the metric scaled to unit diagonal, as long as κ is below 10⁸
+    /// A few ulp times κ, the condition number of the metric scaled to unit diagonal, as long as κ is below 10⁷
     /// or so. Beyond, the accelerations are found from the rows √m ∂x/∂q of the placement, without the metric:
-    /// then the error is of a few ulp times √κ, and κ ulp only of those parts of the reactions of the
-    /// constraints that the accelerations do not exceed. The difference is noticed by the pivots of the metric,
-    /// at no cost. Where the potential is not linear in the velocities, the metric is used throughout.
+    /// the error is then of a few ulp times √κ, and κ ulp only of what an ulp of q or of a force on the
+    /// coordinates themselves would change too. The difference is noticed by the pivots of the metric, at no
+    /// cost. Where the potential is not linear in the velocities, the metric is used throughout.
     ///
     /// # Example
     /// See [`Lagrangian`].

@@ -14,8 +14,8 @@ use super::{Forces, Lagrangian, Potential};
 
 /// A pivot of the metric is trusted when it is more than this share of the diagonal entry it comes from. Its
 /// reciprocal is at most the condition number of the metric scaled to unit diagonal, and seldom much less: all
-/// those beyond 10¹⁰ are met with a margin of a hundred.
-const TRUSTED_PIVOT: f64 = 1e-8;
+/// those beyond 10¹⁰ are met with a margin of a thousand.
+const TRUSTED_PIVOT: f64 = 1e-7;
 /// The same over f32.
 const TRUSTED_PIVOT_SINGLE: f64 = 1e-3;
 /// A row is trusted as long as more than this share of it is left: the root of a pivot. Placements round, and

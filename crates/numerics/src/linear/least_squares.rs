@@ -11,6 +11,8 @@
 //! error of x, relative        by AᵀA:  κ ulp        by A:  √κ ulp + κ ulp · |A x − b|/(|A||x|)
 //! ```
 //!
+//! An ulp of h is κ ulp of x, whatever the method.
+//!
 //! The rows may differ in size by any factor: by Householder reflections with exchanges of rows and columns
 //! each row keeps its own digits (M. J. D. Powell, J. K. Reid, 1969; A. J. Cox, N. J. Higham, *Stability of
 //! Householder QR factorization for weighted least squares problems*, 1998). Columns are scaled by powers of
