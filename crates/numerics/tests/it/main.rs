@@ -6,6 +6,7 @@ mod formulas;
 mod golden;
 mod lanes;
 mod laws;
+mod least_squares;
 mod linear;
 mod peers;
 mod scalars;
