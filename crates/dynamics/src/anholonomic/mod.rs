@@ -32,6 +32,7 @@ mod frame;
 mod in_frame;
 mod map;
 mod nonholonomic;
+pub mod rolling;
 mod rotation;
 mod solve;
 

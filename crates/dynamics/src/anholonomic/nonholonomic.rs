@@ -118,6 +118,10 @@ impl<S, P, F, W> InFrame<S, P, F, W> {
 }
 
 impl<S, P, F, W> Nonholonomic<S, P, F, W> {
+    /// Indices known to increase, held at zero.
+    pub(super) fn at_rest(system: InFrame<S, P, F, W>, held: &[usize]) -> Self {
+        Self { system, held: held.to_vec(), values: vec![0.0; held.len()] }
+    }
     /// The system with all its quasi-velocities.
     pub const fn unconstrained(&self) -> &InFrame<S, P, F, W> {
         &self.system

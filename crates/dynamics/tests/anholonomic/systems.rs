@@ -7,7 +7,7 @@ use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_numerics::Real;
 
 /// Three coordinates each.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum System {
     /// A body that turns about its centre of mass: Eulerian angles.
     Top(RigidBody),
@@ -43,6 +43,7 @@ impl Holonomic for System {
 }
 
 /// V = m g h cos θ².
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Height(pub(crate) f64);
 
 impl Potential for Height {
@@ -52,6 +53,7 @@ impl Potential for Height {
 }
 
 /// Constant forces along the coordinates, and a drag.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Applied {
     pub(crate) constant: [f64; 3],
     pub(crate) drag: f64,
@@ -67,7 +69,7 @@ impl Forces for Applied {
 }
 
 /// Frames of three vectors.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Frame {
     /// Along a blade, across it, and its turning.
     Blade,
@@ -77,6 +79,8 @@ pub(crate) enum Frame {
     Random([f64; 9]),
     /// No vectors at all.
     Nothing,
+    /// Two vectors that are one, and a third.
+    Equal,
 }
 
 impl AnholonomicFrame for Frame {
@@ -109,12 +113,13 @@ impl AnholonomicFrame for Frame {
                 }
             }
             Self::Nothing => rows.fill(zero),
+            Self::Equal => rows.copy_from_slice(&[one, one, zero, one, one, zero, zero, zero, one]),
         }
     }
 }
 
 /// Coframes of three quasi-velocities.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Forms {
     /// The angular velocity in body axes.
     Body(BodyAngularVelocity),
@@ -138,6 +143,79 @@ impl Coframe for Forms {
                 let across = T::lit(-0.5) * q[0].sin();
                 rows.copy_from_slice(&[one, q[1].cos(), zero, c * q[2], one, c * q[0], across, zero, one]);
             }
+        }
+    }
+}
+
+/// A frame that changes with time and drifts; the same numbers as a coframe.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moving(pub(crate) [f64; 9]);
+
+impl Moving {
+    fn rows<T: Real>(&self, q: &[T], t: T, rows: &mut [T]) {
+        Frame::Random(self.0).frame(q, t, rows);
+        for (k, row) in rows.iter_mut().enumerate() {
+            *row += T::lit(0.25 * self.0[k]) * (t + q[(k + 2) % 3]).cos();
+        }
+    }
+    fn slip<T: Real>(&self, q: &[T], t: T, drift: &mut [T]) {
+        for (k, drift) in drift.iter_mut().enumerate() {
+            *drift = T::lit(self.0[k]) * t.sin() + T::lit(self.0[k + 3]) * q[k] * q[(k + 1) % 3];
+        }
+    }
+}
+
+impl AnholonomicFrame for Moving {
+    const TIME_DEPENDENT: bool = true;
+    const DRIFT: bool = true;
+    fn frame<T: Real>(&self, q: &[T], t: T, rows: &mut [T]) {
+        self.rows(q, t, rows);
+    }
+    fn drift<T: Real>(&self, q: &[T], t: T, drift: &mut [T]) {
+        self.slip(q, t, drift);
+    }
+}
+
+impl Coframe for Moving {
+    const TIME_DEPENDENT: bool = true;
+    const DRIFT: bool = true;
+    fn coframe<T: Real>(&self, q: &[T], t: T, rows: &mut [T]) {
+        self.rows(q, t, rows);
+    }
+    fn drift<T: Real>(&self, q: &[T], t: T, drift: &mut [T]) {
+        self.slip(q, t, drift);
+    }
+}
+
+/// The coframe of a moving frame, inverted by cofactors; u = A q̇ − A d.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inverted(pub(crate) Moving);
+
+impl Coframe for Inverted {
+    const TIME_DEPENDENT: bool = true;
+    const DRIFT: bool = true;
+    fn coframe<T: Real>(&self, q: &[T], t: T, rows: &mut [T]) {
+        let mut k = [T::zero(); 9];
+        self.0.rows(q, t, &mut k);
+        let minor = |i: usize, j: usize| {
+            let [a, b] = [(i + 1) % 3, (i + 2) % 3];
+            let [c, d] = [(j + 1) % 3, (j + 2) % 3];
+            k[3 * a + c] * k[3 * b + d] - k[3 * a + d] * k[3 * b + c]
+        };
+        let determinant = k[0] * minor(0, 0) + k[1] * minor(0, 1) + k[2] * minor(0, 2);
+        for i in 0..3 {
+            for j in 0..3 {
+                rows[3 * i + j] = minor(i, j) / determinant; // A^A_C k_B^C = δ^A_B
+            }
+        }
+    }
+    fn drift<T: Real>(&self, q: &[T], t: T, drift: &mut [T]) {
+        let mut rows = [T::zero(); 9];
+        let mut slip = [T::zero(); 3];
+        self.coframe(q, t, &mut rows);
+        self.0.slip(q, t, &mut slip);
+        for (row, drift) in rows.chunks_exact(3).zip(drift) {
+            *drift = -(row[0] * slip[0] + row[1] * slip[1] + row[2] * slip[2]);
         }
     }
 }
