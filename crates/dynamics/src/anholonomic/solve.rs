@@ -134,7 +134,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
         work.map.differentiate(self.map(), q, t, (&work.velocity, T::one()));
         work.map.velocity_change_into::<W>(&work.quasi, &work.velocity, &mut work.change)?;
         for (force, row) in forcing.iter_mut().zip(matrix.chunks_exact(n.max(1))) {
-            *force = *force - dot(row, &work.change);
+            *force -= dot(row, &work.change);
         }
 
         let m = work.free.len();

@@ -51,7 +51,7 @@ fn check_boltzmann_hamel<W: QuasiVelocities>(what: &str, system: &Driven<W>, q: 
     assert_close_at_scale(what, terms.residual().as_slice(), &[0.0; 3], scale, rounding());
 }
 
-/// K^k_ij of a Lie algebra that has the cross product as its bracket.
+/// `K^k_ij` of a Lie algebra that has the cross product as its bracket.
 fn epsilon(k: usize, i: usize, j: usize) -> f64 {
     match (k, i, j) {
         (0, 1, 2) | (1, 2, 0) | (2, 0, 1) => 1.0,

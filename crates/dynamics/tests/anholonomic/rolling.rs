@@ -214,10 +214,10 @@ fn blade_on_incline_draws_a_cycloid() {
 
 #[test]
 fn chaplygin_sleigh_follows_its_hyperbolic_functions() {
-    let (mass, moment, ahead) = (2.0, 0.5, 0.375);
+    let (mass, moment, ahead) = (2.0_f64, 0.5, 0.375);
     let system = KnifeEdge::new(mass, moment, ahead).unwrap().on_plane([0.0, 0.0, -9.8]);
     // v̇ = a φ̇², v² + φ̇²/k² = v∞², k² = M/(J + M a²)
-    let k = (mass / (moment + mass * ahead * ahead) as f64).sqrt();
+    let k = (mass / (moment + mass * ahead * ahead)).sqrt();
     let (start, terminal) = (-1.0_f64, 2.0);
     let at = |t: f64| {
         let phase = (start / terminal).atanh() + ahead * k * k * terminal * t;
