@@ -121,6 +121,8 @@ impl<T: Real> Attitude<T> {
     /// q = q_z(θ¹) q_y(θ²) q_z(θ³)        Q = A₃(θ³) A₂(θ²) A₁(θ¹)
     /// ```
     ///
+    /// Other sequences: [`EulerAngles::attitude`](crate::EulerAngles::attitude).
+    ///
     /// # Example
     /// ```
     /// # use piola_kinematics::Attitude;
@@ -145,6 +147,8 @@ impl<T: Real> Attitude<T> {
     /// ```text
     /// q = ( cos(|φ|/2),  φ sin(|φ|/2)/|φ| )
     /// ```
+    ///
+    /// Its derivative and the inverse of that: [`RotationVector`](crate::RotationVector).
     ///
     /// Both functions are entire in φ·φ and are computed as such below one radian, so that values and
     /// derivatives of any order are right at φ = 0 as well.

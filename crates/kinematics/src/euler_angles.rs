@@ -25,7 +25,9 @@
 //!
 //! # Which one?
 //! [`Attitude`] to hold and to integrate an attitude; [`EulerAngles`] to read, print or prescribe one;
-//! [`EulerChart`] to follow a tumbling body in angles, in whichever sequence is well conditioned.
+//! [`EulerChart`] to follow a tumbling body in angles, in whichever sequence is well conditioned. A placement map
+//! whose coordinates are angles holds the sequence as a field, `EulerAngles::new(self.sequence, [q[0], q[1], q[2]])`,
+//! and is given the new one with the new coordinates.
 //!
 //! # References
 //! W(2.22–2.28), W(5.30).

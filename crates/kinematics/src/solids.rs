@@ -8,12 +8,18 @@
 //! |---|---|---|
 //! | cuboid a×b×c | edges along x, y, z, origin at the centre | (b²+c²)/12, (c²+a²)/12, (a²+b²)/12 |
 //! | cylinder R, h | axis z, origin at the centre | R²/4 + h²/12 (twice), R²/2 |
+//! | hollow cylinder r < R, h | axis z, origin at the centre | (R²+r²)/4 + h²/12 (twice), (R²+r²)/2 |
+//! | capsule R, h | axis z, origin at the centre; h between the centres of its caps | of its parts, see below |
+//! | torus R, a | axis z, origin at the centre; a ≤ R the radius of the tube | R²/2 + 5a²/8 (twice), R² + 3a²/4 |
 //! | sphere R | origin at the centre | 2R²/5 |
 //! | spherical shell R | origin at the centre, no thickness | 2R²/3 |
 //! | cone R, h | apex at the origin, axis +z, base at z = h | 3R²/20 + 3h²/80 (twice), 3R²/10 |
 //! | ellipsoid a, b, c | semi-axes along x, y, z, origin at the centre | (b²+c²)/5, (c²+a²)/5, (a²+b²)/5 |
 //! | disc R | normal z, origin at the centre, no thickness | R²/4 (twice), R²/2 |
 //! | tetrahedron | by its vertices | – |
+//!
+//! The parts of a capsule are a cylinder of mass m and two half balls of mass n together, m : n = h : 4R/3:
+//! m(R²/4 + h²/12) + n(2R²/5 + h²/4 + 3hR/8) across, mR²/2 + 2nR²/5 about the axis.
 //!
 //! A thin rod has no attitude about its own axis and is no rigid body here (see [`Inertia`]); use
 //! [`thin_rod`], whose three particles move as the rod does.
@@ -51,6 +57,29 @@ pub enum Solid {
         radius: f64,
         /// Height along z.
         height: f64,
+    },
+    /// A circular cylinder with a coaxial hole all through.
+    HollowCylinder {
+        /// Radius of the hole.
+        inner_radius: f64,
+        /// Radius.
+        outer_radius: f64,
+        /// Height along z.
+        height: f64,
+    },
+    /// A cylinder with half balls on both ends.
+    Capsule {
+        /// Radius of the cylinder and the caps.
+        radius: f64,
+        /// Height of the cylinder alone, along z.
+        height: f64,
+    },
+    /// A ring of circular cross-section.
+    Torus {
+        /// Radius of the ring's centre line.
+        radius: f64,
+        /// Radius of the cross-section.
+        tube_radius: f64,
     },
     /// A ball.
     Sphere {
@@ -104,6 +133,11 @@ impl Solid {
         Ok(match *self {
             Self::Cuboid { edges: [a, b, c] } => a * b * c,
             Self::Cylinder { radius, height } => PI * radius * radius * height,
+            Self::HollowCylinder { inner_radius, outer_radius, height } => {
+                PI * (outer_radius - inner_radius) * (outer_radius + inner_radius) * height
+            }
+            Self::Capsule { radius, height } => PI * radius * radius * (height + 4.0 / 3.0 * radius),
+            Self::Torus { radius, tube_radius } => 2.0 * PI * PI * radius * tube_radius * tube_radius,
             Self::Sphere { radius } | Self::SphericalShell { radius } => 4.0 / 3.0 * PI * radius * radius * radius,
             Self::Cone { radius, height } => PI * radius * radius * height / 3.0,
             Self::Ellipsoid { semi_axes: [a, b, c] } => 4.0 / 3.0 * PI * a * b * c,
@@ -158,6 +192,24 @@ impl Solid {
                 let across = radius * radius / 4.0 + height * height / 12.0;
                 diagonal(across, across, radius * radius / 2.0)
             }
+            Self::HollowCylinder { inner_radius, outer_radius, height } => {
+                let squares = inner_radius * inner_radius + outer_radius * outer_radius;
+                let across = squares / 4.0 + height * height / 12.0;
+                diagonal(across, across, squares / 2.0)
+            }
+            Self::Capsule { radius, height } => {
+                let share = height / (height + 4.0 / 3.0 * radius);
+                let (m, n) = (share, 1.0 - share);
+                let square = radius * radius;
+                let caps = 0.4 * square + 0.25 * height * height + 0.375 * height * radius;
+                let across = m * (square / 4.0 + height * height / 12.0) + n * caps;
+                diagonal(across, across, m * square / 2.0 + n * 0.4 * square)
+            }
+            Self::Torus { radius, tube_radius } => {
+                let (ring, tube) = (radius * radius, tube_radius * tube_radius);
+                let across = 0.5 * ring + 0.625 * tube;
+                diagonal(across, across, ring + 0.75 * tube)
+            }
             Self::Sphere { radius } => {
                 let moment = 0.4 * radius * radius;
                 diagonal(moment, moment, moment)
@@ -210,7 +262,22 @@ impl Solid {
             Self::Sphere { radius } | Self::SphericalShell { radius } | Self::Disc { radius } => {
                 positive("radius", &[*radius])
             }
-            Self::Cylinder { radius, height } | Self::Cone { radius, height } => {
+            Self::HollowCylinder { inner_radius, outer_radius, height } => {
+                positive("inner radius", &[*inner_radius])?;
+                positive("outer radius", &[*outer_radius])?;
+                positive("height", &[*height])?;
+                positive("outer radius less inner radius", &[outer_radius - inner_radius])
+            }
+            Self::Torus { radius, tube_radius } => {
+                positive("radius", &[*radius])?;
+                positive("tube radius", &[*tube_radius])?;
+                if *radius < *tube_radius {
+                    let quantity = "radius less tube radius";
+                    return Err(KinematicsError::NonPositiveSize { quantity, value: radius - tube_radius });
+                }
+                Ok(())
+            }
+            Self::Cylinder { radius, height } | Self::Cone { radius, height } | Self::Capsule { radius, height } => {
                 positive("radius", &[*radius])?;
                 positive("height", &[*height])
             }

@@ -35,10 +35,16 @@ use crate::rotation_vector::RotationVector;
 use crate::vector::{cross, first_non_finite, scaled};
 
 /// Components along the body basis, the velocity that of the body's reference point.
+///
+/// # Example
+/// See [`BodyTwist::of_motion`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InBody;
 
 /// Components along the space basis, the velocity that of the embedded point at the origin.
+///
+/// # Example
+/// See [`SpaceTwist::of_motion`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InSpace;
 
@@ -68,9 +74,15 @@ pub struct Twist<T: Real, F> {
 }
 
 /// The twist of a body in body components, of its reference point.
+///
+/// # Example
+/// See [`Twist::new`].
 pub type BodyTwist<T> = Twist<T, InBody>;
 
 /// The twist of a body in space components, of its point at the origin.
+///
+/// # Example
+/// See [`Twist`].
 pub type SpaceTwist<T> = Twist<T, InSpace>;
 
 /// The axis of a twist: every rigid motion is a screw at every moment.

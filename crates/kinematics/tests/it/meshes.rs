@@ -12,6 +12,9 @@ use proptest::prelude::*;
 
 const FEW: Tol = Tol::ulps(64.0);
 
+/// The profile of a solid of revolution at a fineness.
+type Profile = fn(usize) -> Vec<[f64; 2]>;
+
 type Mesh = (Vec<Vector3<f64>>, Vec<[usize; 3]>);
 
 fn tetrahedron(corners: [Vector3<f64>; 4]) -> Mesh {
@@ -49,6 +52,82 @@ fn sphere(levels: u32) -> Mesh {
         triangles = finer;
     }
     (vertices, triangles)
+}
+
+/// A closed profile (ρ, z), counter-clockwise seen with ρ to the right and z upwards, turned about z in n steps.
+fn revolved(profile: &[[f64; 2]], steps: usize) -> Mesh {
+    let mut vertices = Vec::new();
+    let mut rings = Vec::new();
+    for &[rho, z] in profile {
+        let first = vertices.len();
+        let count = if rho <= 0.0 { 1 } else { steps };
+        vertices.extend((0..count).map(|i| {
+            let (s, c) = (core::f64::consts::TAU * i as f64 / steps as f64).sin_cos();
+            Vector3::new(rho * c, rho * s, z)
+        }));
+        rings.push((first, count));
+    }
+    let mut triangles = Vec::new();
+    for (ring, next) in rings.iter().zip(rings.iter().cycle().skip(1)) {
+        for i in 0..steps {
+            let at = |(first, count): (usize, usize), i: usize| first + i % count;
+            let (a, b, c, d) = (at(*ring, i), at(*ring, i + 1), at(*next, i + 1), at(*next, i));
+            // At the axis one or both of the triangles are none.
+            triangles.extend([[a, b, c], [a, c, d]].into_iter().filter(|[a, b, c]| a != b && b != c && c != a));
+        }
+    }
+    (vertices, triangles)
+}
+
+/// Points on an arc of the profile, from angle to angle.
+fn arc(centre: [f64; 2], radius: f64, from: f64, to: f64, steps: usize) -> Vec<[f64; 2]> {
+    (0..=steps)
+        .map(|i| {
+            let (s, c) = (from + (to - from) * i as f64 / steps as f64).sin_cos();
+            // Exactly on the axis at the poles.
+            let rho = centre[0] + radius * c;
+            [if rho.abs() <= 1.0e-12 { 0.0 } else { rho }, centre[1] + radius * s]
+        })
+        .collect()
+}
+
+#[test]
+fn inertia_of_solids_of_revolution_is_the_limit_of_their_meshes_at_order_two() {
+    use core::f64::consts::{FRAC_PI_2, TAU};
+    let solids: [(Solid, Profile); 6] = [
+        (Solid::Cylinder { radius: 0.5, height: 2.0 }, |_| vec![[0.0, -1.0], [0.5, -1.0], [0.5, 1.0], [0.0, 1.0]]),
+        (Solid::Cone { radius: 0.5, height: 2.0 }, |_| vec![[0.0, 0.0], [0.5, 2.0], [0.0, 2.0]]),
+        (Solid::HollowCylinder { inner_radius: 0.5, outer_radius: 0.75, height: 2.0 }, |_| {
+            vec![[0.5, -1.0], [0.75, -1.0], [0.75, 1.0], [0.5, 1.0]]
+        }),
+        (Solid::Capsule { radius: 0.5, height: 1.5 }, |n| {
+            [arc([0.0, -0.75], 0.5, -FRAC_PI_2, 0.0, n), arc([0.0, 0.75], 0.5, 0.0, FRAC_PI_2, n)].concat()
+        }),
+        (Solid::Torus { radius: 1.0, tube_radius: 0.375 }, |n| {
+            let mut ring = arc([1.0, 0.0], 0.375, 0.0, TAU, 4 * n);
+            ring.pop();
+            ring
+        }),
+        (Solid::Sphere { radius: 1.5 }, |n| arc([0.0, 0.0], 1.5, -FRAC_PI_2, FRAC_PI_2, 2 * n)),
+    ];
+    for (shape, profile) in solids {
+        let (mut steps, mut volumes, mut moments) = (Vec::new(), Vec::new(), [Vec::new(), Vec::new()]);
+        let (volume, inertia) = (shape.volume().expect("a volume"), shape.inertia(1.0).expect("a body").matrix());
+        for level in 2..5_u32 {
+            let n = 2_usize.pow(level);
+            let found = solid(&revolved(&profile(n), 4 * n));
+            steps.push(1.0 / n as f64);
+            volumes.push((found.volume() - volume).abs());
+            let found = found.inertia(1.0).expect("a body").matrix();
+            moments[0].push((found[(0, 0)] - inertia[(0, 0)]).abs());
+            moments[1].push((found[(2, 2)] - inertia[(2, 2)]).abs());
+        }
+        let what = format!("{shape:?}");
+        assert_order(&format!("V of {what}"), &steps, &volumes, 2.0, 0.1);
+        for moments in &moments {
+            assert_order(&format!("I of {what}"), &steps, moments, 2.0, 0.1);
+        }
+    }
 }
 
 fn solid((vertices, triangles): &Mesh) -> MeshSolid {
@@ -218,6 +297,19 @@ fn hollow_mesh_equals_outside_less_inside() {
     let expected =
         solid(&outer).inertia(24.0).expect("a body").matrix() - solid(&inner).inertia(1.0).expect("a body").matrix();
     assert_close("I", hollow.inertia(23.0).expect("a body").matrix().as_slice(), expected.as_slice(), FEW);
+}
+
+#[test]
+fn bad_rings_are_refused_by_name() {
+    let refused = Solid::HollowCylinder { inner_radius: 1.0, outer_radius: 1.0, height: 1.0 }.volume();
+    assert!(matches!(refused, Err(KinematicsError::NonPositiveSize { .. })), "{refused:?}");
+    let refused = Solid::Torus { radius: 1.0, tube_radius: 1.5 }.inertia(1.0);
+    let expected = KinematicsError::NonPositiveSize { quantity: "radius less tube radius", value: -0.5 };
+    assert_eq!(refused, Err(expected));
+    assert!(matches!(
+        Solid::Capsule { radius: -1.0, height: 1.0 }.body(1.0),
+        Err(KinematicsError::NonPositiveSize { .. })
+    ));
 }
 
 #[test]
