@@ -80,6 +80,9 @@ pub trait Coframe {
 }
 
 /// Either of the two, as the equations take them: [`ByFrame`] or [`ByCoframe`].
+///
+/// # Example
+/// See [`structure_coefficients`](super::structure_coefficients).
 pub trait QuasiVelocities {
     /// Whether the matrix is the coframe.
     const COFRAME: bool;
@@ -94,10 +97,16 @@ pub trait QuasiVelocities {
 }
 
 /// Quasi-velocities by the vectors of an [`AnholonomicFrame`].
+///
+/// # Example
+/// See [`structure_coefficients`](super::structure_coefficients).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ByFrame<K>(pub K);
 
 /// Quasi-velocities as a [`Coframe`] gives them.
+///
+/// # Example
+/// See [`BodyAngularVelocity`](super::BodyAngularVelocity).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ByCoframe<C>(pub C);
 

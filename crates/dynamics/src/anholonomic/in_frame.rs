@@ -35,8 +35,19 @@ use crate::lagrangian::{Energies, Forces, Lagrangian, Potential};
 ///     }
 /// }
 /// let particle = Lagrangian::of(Polar).in_frame(Polar);
-/// let rates = particle.acceleration(&[0.5, 0.0], &[1.0, 3.0], 0.0)?;
-/// assert_eq!(rates.as_slice(), [18.0, -6.0]);
+/// let (q, u) = ([0.5, 0.0], [1.0, 3.0]);
+/// assert_eq!(particle.acceleration(&q, &u, 0.0)?.as_slice(), [18.0, -6.0]);
+/// // φ̈ = −2 ṙφ̇/r
+/// assert_eq!(particle.coordinate_acceleration(&q, &u, 0.0)?.as_slice(), [18.0, -24.0]);
+///
+/// assert_eq!(particle.velocities(&q, &u, 0.0)?.as_slice(), [1.0, 6.0]); // φ̇ = u₂/r
+/// assert_eq!(particle.quasi_velocities(&q, &[1.0, 6.0], 0.0)?.as_slice(), u);
+/// assert_eq!(particle.frame_matrix(&q, 0.0)?[(1, 1)], 2.0);
+/// assert_eq!(particle.coframe_matrix(&q, 0.0)?[(1, 1)], 0.5);
+/// assert_eq!(particle.inertia_metric(&q, 0.0)?[(1, 1)], 2.0); // ḡ = m δ
+/// assert_eq!(particle.momenta(&q, &u, 0.0)?.as_slice(), [2.0, 6.0]);
+/// assert_eq!(particle.generalised_forces(&q, &u, 0.0)?.as_slice(), [0.0, 0.0]);
+/// assert_eq!(particle.energies(&q, &u, 0.0)?.kinetic, 10.0);
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 ///
@@ -68,10 +79,16 @@ impl<S, P, F> Lagrangian<S, P, F> {
 
 impl<S, P, F, W> InFrame<S, P, F, W> {
     /// The Lagrangian.
+    ///
+    /// # Example
+    /// See [`InFrame`].
     pub const fn lagrangian(&self) -> &Lagrangian<S, P, F> {
         &self.lagrangian
     }
     /// The quasi-velocities.
+    ///
+    /// # Example
+    /// See [`InFrame`].
     pub const fn map(&self) -> &W {
         &self.map
     }
@@ -167,6 +184,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::SingularFrame`] where
     /// a coframe has no inverse.
+    ///
+    /// # Example
+    /// See [`InFrame`].
     pub fn velocities<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
         let mut out = DVector::from_element(q.len(), T::zero());
         self.velocities_into(&mut Workspace::default(), q, u, t, out.as_mut_slice())?;
@@ -177,6 +197,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// As [`velocities`](Self::velocities).
+    ///
+    /// # Example
+    /// See [`InFrame`].
     pub fn velocities_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -202,7 +225,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// the frame does not span the velocities.
     ///
     /// # Example
-    /// See [`Nonholonomic`](super::Nonholonomic).
+    /// See [`InFrame`].
     pub fn quasi_velocities<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
         check_length("q̇", q.len(), v.len())?;
         for (quantity, values) in [("q", q), ("q̇", v), ("t", &[t])] {
@@ -220,6 +243,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// [`DynamicsError::NonFinite`]; [`DynamicsError::SingularFrame`] where a coframe has no inverse.
+    ///
+    /// # Example
+    /// See [`InFrame`].
     pub fn frame_matrix<T: Real>(&self, q: &[T], t: T) -> Result<DMatrix<T>, DynamicsError> {
         let n = q.len();
         check_finite("q", q)?;
@@ -233,6 +259,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// [`DynamicsError::NonFinite`], [`DynamicsError::SingularFrame`].
+    ///
+    /// # Example
+    /// See [`InFrame`].
     pub fn coframe_matrix<T: Real>(&self, q: &[T], t: T) -> Result<DMatrix<T>, DynamicsError> {
         let n = q.len();
         check_finite("q", q)?;
@@ -249,6 +278,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// # Errors
     /// As [`frame_matrix`](Self::frame_matrix).
     ///
+    /// # Example
+    /// See [`InFrame`].
+    ///
     /// # Source
     /// W(6.15).
     pub fn inertia_metric<T: Real>(&self, q: &[T], t: T) -> Result<DMatrix<T>, DynamicsError> {
@@ -261,6 +293,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// As [`velocities`](Self::velocities).
+    ///
+    /// # Example
+    /// See [`InFrame`].
     ///
     /// # Source
     /// W(6.29).
@@ -275,6 +310,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// # Errors
     /// As [`velocities`](Self::velocities).
     ///
+    /// # Example
+    /// See [`InFrame`].
+    ///
     /// # Source
     /// W(6.21).
     pub fn generalised_forces<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
@@ -287,6 +325,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// As [`velocities`](Self::velocities).
+    ///
+    /// # Example
+    /// See [`InFrame`].
     pub fn energies<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<Energies<T>, DynamicsError> {
         let v = self.velocities(q, u, t)?;
         self.lagrangian.energies(q, v.as_slice(), t)
@@ -330,6 +371,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
+    ///
+    /// # Example
+    /// See [`InFrame`].
     pub fn acceleration_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -354,7 +398,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// As [`acceleration`](Self::acceleration).
     ///
     /// # Example
-    /// See [`InFrame`]; in the polar plane r̈ = u₂²/r, φ̈ = −2 ṙφ̇/r.
+    /// See [`InFrame`].
     pub fn coordinate_acceleration<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
         let mut work = Workspace::default();
         let mut rates = vec![T::zero(); q.len()];

@@ -48,8 +48,15 @@ use crate::lagrangian::{Energies, Forces, Potential, Reaction};
 /// let on_ice = Lagrangian::of(Skate).with_uniform_gravity([0.0, -3.0, 0.0]).in_coframe(Skate).holding(&[1])?;
 /// let (q, w) = ([0.0; 3], [5.0, 2.0]);
 /// assert_eq!(on_ice.acceleration(&q, &w, 0.0)?.as_slice(), [0.0, 0.0]);
+/// assert_eq!(on_ice.held(), [1]);
 /// // It holds the weight 6 N and turns the momentum 10 kg m/s at 2 rad/s.
 /// assert_eq!(on_ice.reactions(&q, &w, 0.0)?[0], 26.0);
+/// assert_eq!(on_ice.coordinate_reactions(&q, &w, 0.0)?.as_slice(), [0.0, 26.0, 0.0]);
+///
+/// assert_eq!(on_ice.quasi_velocities(&q, &w)?.as_slice(), [5.0, 0.0, 2.0]);
+/// assert_eq!(on_ice.velocities(&q, &w, 0.0)?.as_slice(), [5.0, 0.0, 2.0]);
+/// assert_eq!(on_ice.coordinate_acceleration(&q, &w, 0.0)?.as_slice(), [0.0, 10.0, 0.0]); // v φ̇ across
+/// assert_eq!(on_ice.energies(&q, &w, 0.0)?.kinetic, 29.0); // ½ 2·25 + ½ 2·4
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 ///
@@ -123,10 +130,16 @@ impl<S, P, F, W> Nonholonomic<S, P, F, W> {
         Self { system, held: held.to_vec(), values: vec![0.0; held.len()] }
     }
     /// The system with all its quasi-velocities.
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     pub const fn unconstrained(&self) -> &InFrame<S, P, F, W> {
         &self.system
     }
     /// The indices held, increasing: the order of [`reactions`](Self::reactions).
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     #[must_use]
     pub fn held(&self) -> &[usize] {
         &self.held
@@ -162,6 +175,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NoSuchQuasiVelocity`].
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     pub fn quasi_velocities<T: Real>(&self, q: &[T], w: &[T]) -> Result<DVector<T>, DynamicsError> {
         let mut work = Workspace::default();
         self.spread(&mut work, q, w)?;
@@ -172,6 +188,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`quasi_velocities`](Self::quasi_velocities) and [`InFrame::velocities`].
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     pub fn velocities<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
         self.system.velocities(q, self.quasi_velocities(q, w)?.as_slice(), t)
     }
@@ -180,6 +199,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`velocities`](Self::velocities).
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     pub fn energies<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<Energies<T>, DynamicsError> {
         self.system.energies(q, self.quasi_velocities(q, w)?.as_slice(), t)
     }
@@ -211,6 +233,16 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_dynamics::anholonomic::{Workspace, rolling::KnifeEdge};
+    /// let blade = KnifeEdge::new(1.0, 0.1, 0.0)?.on_plane([8.0, 0.0, -6.0]);
+    /// let (mut work, mut rates) = (Workspace::default(), [0.0; 2]);
+    /// blade.acceleration_into(&mut work, &[0.0; 3], &[1.0, 2.0], 0.0, &mut rates)?;
+    /// assert_eq!(rates, [8.0, 0.0]);
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     pub fn acceleration_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -229,6 +261,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     pub fn coordinate_acceleration<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
         let mut work = Workspace::default();
         self.solve(&mut work, q, w, t)?;
@@ -258,6 +293,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     pub fn reactions_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -278,6 +316,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     pub fn coordinate_reactions<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
         let mut work = Workspace::default();
         self.solve(&mut work, q, w, t)?;
@@ -311,6 +352,9 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// # Errors
     /// As [`part_reactions`](Self::part_reactions); [`DynamicsError::DimensionMismatch`] when `out` does not have
     /// one place for each part.
+    ///
+    /// # Example
+    /// See [`Nonholonomic`].
     pub fn part_reactions_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -328,7 +372,19 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// The motion of n coordinates as a field in y = (q, w).
     ///
     /// # Example
-    /// See [`rolling`](super::rolling).
+    /// A blade on an incline, started at rest and turning with 2 rad/s, draws cycloids: it does not run away down the
+    /// incline, but sideways.
+    /// ```
+    /// use piola_dynamics::anholonomic::rolling::KnifeEdge;
+    /// use piola_integrators::{DormandPrince853, State, Tolerance};
+    /// let blade = KnifeEdge::new(1.0, 0.1, 0.0)?.on_plane([8.0, 0.0, -6.0]); // 8 m/s² down along x
+    /// let mut state = State::new(0.0, vec![0.0_f64, 0.0, 0.0, 0.0, 2.0])?; // x, y, φ, speed, φ̇
+    /// let mut method = DormandPrince853::new(Tolerance::relative(1e-12)?);
+    /// method.integrate_to(&mut blade.motion(3), &mut state, std::f64::consts::PI)?;
+    /// // After a full turn: x = 0, y = 8/(2·2²) · 2π
+    /// assert!(state.values[0].abs() < 1e-10 && (state.values[1] - 2.0 * std::f64::consts::PI).abs() < 1e-10);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn motion<T: Real>(&self, coordinates: usize) -> ConstrainedMotion<'_, S, P, F, W, T> {
         ConstrainedMotion { system: self, coordinates, work: Workspace::default() }
     }

@@ -11,6 +11,9 @@ use crate::check::check_finite;
 use crate::lagrangian::{self, Forces, Potential};
 
 /// The buffers of one thread: grown at the first evaluation, then never again.
+///
+/// # Example
+/// See [`Nonholonomic::acceleration_into`](super::Nonholonomic::acceleration_into).
 #[derive(Clone, Debug)]
 pub struct Workspace<T = f64> {
     pub(super) lagrangian: lagrangian::Workspace<T>,

@@ -6,6 +6,7 @@ use piola_dynamics::anholonomic::rolling::{KnifeEdge, OnPlane, RollingDisc, Roll
 use piola_dynamics::lagrangian::Holonomic;
 use piola_integrators::{DormandPrince853, State, Tolerance};
 use piola_kinematics::Attitude;
+use piola_numerics::{Lanes, Real};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -226,5 +227,20 @@ fn chaplygin_sleigh_follows_its_hyperbolic_functions() {
     for end in [0.5, 1.0, 3.0] {
         let (_, w) = run(&system, &[0.0, 0.0, 0.25], &at(0.0), end);
         assert_close(&format!("after {end} s"), &w, &at(end), integrated());
+    }
+}
+
+#[test]
+fn discs_in_lanes_equal_discs_one_by_one() {
+    let system = RollingDisc::homogeneous(2.0, 0.5).unwrap().on_plane([0.5, 0.0, -9.8]);
+    let place = |lane: usize| [0.0, 0.5, 0.25, 1.0 + 0.125 * lane as f64, 0.75];
+    let rates = |lane: usize| [0.5 * lane as f64, -0.25, 6.0];
+    let q: [Lanes<f64, 4>; 5] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| place(lane)[i])));
+    let w: [Lanes<f64, 4>; 3] = core::array::from_fn(|i| Lanes(core::array::from_fn(|lane| rates(lane)[i])));
+    let all = system.acceleration(&q, &w, Real::lit(0.0)).unwrap();
+    for lane in 0..4 {
+        let found: Vec<f64> = all.iter().map(|x| x.primal(lane)).collect();
+        let expected = system.acceleration(&place(lane), &rates(lane), 0.0).unwrap();
+        assert_close("rates", &found, expected.as_slice(), Tol::ulps(64.0));
     }
 }

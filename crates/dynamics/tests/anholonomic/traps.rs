@@ -96,3 +96,19 @@ fn bodies_that_cannot_roll_are_refused() {
     assert!(KnifeEdge::new(1.0, 1.0, f64::NAN).is_err());
     assert!(RollingDisc::homogeneous(1.0, 1.0).unwrap().steady_spin(0.0, 1.0, 9.8).is_err());
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn what_is_read_equals_what_was_written_and_is_checked() {
+    let sphere = RollingSphere::homogeneous(1.0, 0.5).unwrap().on_turntable(2.0).unwrap();
+    let text = serde_json::to_string(&sphere).unwrap();
+    assert_eq!(serde_json::from_str::<RollingSphere>(&text).unwrap(), sphere);
+    assert!(serde_json::from_str::<RollingSphere>(&text.replace("\"radius\":0.5", "\"radius\":-0.5")).is_err());
+    let disc = RollingDisc::hoop(1.0, 0.5).unwrap();
+    let text = serde_json::to_string(&disc).unwrap();
+    assert_eq!(serde_json::from_str::<RollingDisc>(&text).unwrap(), disc);
+    assert!(serde_json::from_str::<RollingDisc>(&text.replace("\"radius\":0.5", "\"radius\":0.0")).is_err());
+    let edge = KnifeEdge::new(1.0, 0.5, -0.25).unwrap();
+    let text = serde_json::to_string(&edge).unwrap();
+    assert_eq!(serde_json::from_str::<KnifeEdge>(&text).unwrap(), edge);
+}

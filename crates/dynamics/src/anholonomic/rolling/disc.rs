@@ -37,6 +37,7 @@ use crate::lagrangian::{Holonomic, Lagrangian, Placement};
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct RollingDisc {
     body: RigidBody,
     radius: f64,
@@ -50,6 +51,9 @@ impl RollingDisc {
     ///
     /// # Errors
     /// [`DynamicsError::InvalidLength`].
+    ///
+    /// # Example
+    /// See [`RollingDisc`].
     pub fn new(body: RigidBody, radius: f64) -> Result<Self, DynamicsError> {
         Ok(Self { body, radius: check_length("radius", radius)? })
     }
@@ -70,6 +74,13 @@ impl RollingDisc {
     ///
     /// # Errors
     /// As [`homogeneous`](Self::homogeneous).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_dynamics::anholonomic::rolling::RollingDisc;
+    /// assert_eq!(RollingDisc::hoop(2.0, 0.5)?.body().inertia().matrix()[(2, 2)], 0.5); // M R²
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     pub fn hoop(mass: f64, radius: f64) -> Result<Self, DynamicsError> {
         let moment = 0.5 * mass * check_length("radius", radius)?.powi(2);
         Self::new(RigidBody::new(mass, Inertia::principal([moment, moment, 2.0 * moment])?)?, radius)
@@ -86,12 +97,18 @@ impl RollingDisc {
     }
 
     /// The body.
+    ///
+    /// # Example
+    /// See [`hoop`](Self::hoop).
     #[must_use]
     pub const fn body(&self) -> &RigidBody {
         &self.body
     }
 
     /// The radius, m.
+    ///
+    /// # Example
+    /// See [`RollingDisc`].
     #[must_use]
     pub const fn radius(&self) -> f64 {
         self.radius
@@ -176,5 +193,22 @@ impl AnholonomicFrame for RollingDisc {
             zero,
             zero,
         ]);
+    }
+}
+
+/// What is read, before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    body: RigidBody,
+    radius: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for RollingDisc {
+    type Error = DynamicsError;
+    fn try_from(disc: Unchecked) -> Result<Self, DynamicsError> {
+        Self::new(disc.body, disc.radius)
     }
 }

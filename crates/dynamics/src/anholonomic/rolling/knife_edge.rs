@@ -31,6 +31,7 @@ use crate::lagrangian::{Holonomic, Lagrangian, Placement};
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct KnifeEdge {
     body: RigidBody,
     ahead: f64,
@@ -57,6 +58,9 @@ impl KnifeEdge {
     ///
     /// # Errors
     /// [`DynamicsError::NonFinite`].
+    ///
+    /// # Example
+    /// See [`KnifeEdge`].
     pub fn of_body(body: RigidBody, ahead: f64) -> Result<Self, DynamicsError> {
         check_finite("distance of the centre of mass", &[ahead])?;
         Ok(Self { body, ahead })
@@ -85,5 +89,22 @@ impl AnholonomicFrame for KnifeEdge {
     fn frame<T: Real>(&self, q: &[T], _t: T, rows: &mut [T]) {
         let ((s, c), zero) = (q[2].sin_cos(), T::zero());
         rows.copy_from_slice(&[c, s, zero, -s, c, zero, zero, zero, T::one()]);
+    }
+}
+
+/// What is read, before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    body: RigidBody,
+    ahead: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for KnifeEdge {
+    type Error = DynamicsError;
+    fn try_from(edge: Unchecked) -> Result<Self, DynamicsError> {
+        Self::of_body(edge.body, edge.ahead)
     }
 }

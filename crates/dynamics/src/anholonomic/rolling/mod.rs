@@ -38,6 +38,9 @@ use crate::DynamicsError;
 use crate::lagrangian::{NoForces, NoPotential};
 
 /// A system on its plane: placement, frame and conditions.
+///
+/// # Example
+/// See the [module](self).
 pub type OnPlane<S> = Nonholonomic<S, NoPotential, NoForces, ByFrame<S>>;
 
 fn check_length(quantity: &'static str, value: f64) -> Result<f64, DynamicsError> {

@@ -35,6 +35,7 @@ use crate::lagrangian::{Holonomic, Lagrangian, Placement};
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct RollingSphere {
     body: RigidBody,
     radius: f64,
@@ -49,6 +50,9 @@ impl RollingSphere {
     ///
     /// # Errors
     /// [`DynamicsError::InvalidLength`].
+    ///
+    /// # Example
+    /// See [`RollingSphere`].
     pub fn new(body: RigidBody, radius: f64) -> Result<Self, DynamicsError> {
         Ok(Self { body, radius: check_length("radius", radius)?, table_rate: 0.0 })
     }
@@ -101,6 +105,9 @@ impl RollingSphere {
     }
 
     /// The radius, m.
+    ///
+    /// # Example
+    /// See [`RollingSphere`].
     #[must_use]
     pub const fn radius(&self) -> f64 {
         self.radius
@@ -137,5 +144,24 @@ impl AnholonomicFrame for RollingSphere {
         let rate = T::lit(self.table_rate);
         drift[0] = -rate * q[1];
         drift[1] = rate * q[0];
+    }
+}
+
+/// What is read, before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    body: RigidBody,
+    radius: f64,
+    #[serde(default)]
+    table_rate: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for RollingSphere {
+    type Error = DynamicsError;
+    fn try_from(sphere: Unchecked) -> Result<Self, DynamicsError> {
+        Self::new(sphere.body, sphere.radius)?.on_turntable(sphere.table_rate)
     }
 }
