@@ -170,13 +170,16 @@ impl<T: Real> Workspace<T> {
         if ldlt::null_direction_into(&self.metric, m, pivot, &mut direction).is_err() {
             return error.into();
         }
+        // The lane that failed is the one with this pivot.
+        let of_lane = |lane: usize| self.metric[pivot * (m + 1)].primal(lane).to_bits() == value.to_bits();
+        let lane = (0..T::LANES).find(|&lane| of_lane(lane)).unwrap_or(0);
         let mut combination = vec![0.0; n];
         let (mut motion, mut parts) = (vec![0.0; n], vec![0.0; n]);
         for (&a, weight) in self.free.iter().zip(direction) {
-            let weight = weight.primal(0);
+            let weight = weight.primal(lane);
             combination[a] = weight;
             for c in 0..n {
-                let part = weight * self.map.frame[a * n + c].primal(0);
+                let part = weight * self.map.frame[a * n + c].primal(lane);
                 motion[c] += part;
                 parts[c] += part.abs();
             }

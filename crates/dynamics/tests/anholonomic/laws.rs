@@ -6,6 +6,7 @@ use piola_dynamics::anholonomic::{
     structure_coefficients,
 };
 use piola_dynamics::lagrangian::{self, Lagrangian};
+use piola_integrators::{DormandPrince853, State, Tolerance};
 use piola_kinematics::EulerSequence;
 use piola_numerics::{Dual, Real};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
@@ -260,6 +261,7 @@ fn check_reactions<W: QuasiVelocities>(system: Driven<W>, q: &[f64], u: &[f64], 
     let tolerance = rounding().times(10.0 * condition);
 
     let constrained = system.holding_at(&values).unwrap();
+    let rates = constrained.acceleration(q, &w, t).unwrap();
     let reactions = constrained.reactions(q, &w, t).unwrap();
     assert_close_at_scale("λ", reactions.as_slice(), &solution.as_slice()[3..], scale, tolerance);
     let accelerations = constrained.coordinate_acceleration(q, &w, t).unwrap();
@@ -270,7 +272,38 @@ fn check_reactions<W: QuasiVelocities>(system: Driven<W>, q: &[f64], u: &[f64], 
         let expected = if held.contains(&a) { *of_held.next().unwrap() } else { 0.0 };
         assert_close_at_scale("k_A·R", &[works[a]], &[expected], scale, tolerance);
     }
-    // The power of the reactions is that of what is held and does not rest.
     let full = constrained.quasi_velocities(q, &w).unwrap();
     assert_eq!(full.as_slice(), u);
+
+    // The Boltzmann–Hamel equations of the vectors that are held leave the reactions over.
+    let mut all_rates = [0.0; 3];
+    for (a, &rate) in (0..3).filter(|a| !held.contains(a)).zip(rates.iter()) {
+        all_rates[a] = rate;
+    }
+    let left = constrained.unconstrained().boltzmann_hamel(q, u, &all_rates, t).unwrap().residual();
+    assert_close_at_scale("left over", left.as_slice(), works.as_slice(), scale, tolerance);
+
+    // Energy changes at the power of applied forces and of reactions, which is not zero where what is held moves.
+    let moved = (moving(q, v.as_slice()), moving(v.as_slice(), accelerations.as_slice()));
+    let lagrangian = constrained.unconstrained().lagrangian();
+    let rate = lagrangian.energies(&moved.0, &moved.1, Dual::constant(t)).unwrap().total().tangent;
+    let applied = lagrangian.generalised_forces(q, v.as_slice(), t).unwrap();
+    let power = v.dot(&(applied + constrained.coordinate_reactions(q, &w, t).unwrap()));
+    assert_close_at_scale("power", &[rate], &[power], scale * (1.0 + v.amax()), tolerance);
+}
+
+#[test]
+fn motion_in_quasi_velocities_equals_motion_in_velocities() {
+    let spin = driven(true).in_coframe(Forms::Body(BodyAngularVelocity::default()));
+    let (q, u) = ([0.25, 1.0, -0.5], [1.0, -0.5, 2.0]);
+    let v = spin.velocities(&q, &u, 0.0).unwrap();
+    let mut method = DormandPrince853::new(Tolerance::relative(1e-13).unwrap());
+    let mut in_quasi = State::new(0.0, [q, u].concat()).unwrap();
+    method.integrate_to(&mut spin.motion(3), &mut in_quasi, 1.0).unwrap();
+    let mut in_rates = State::new(0.0, [&q[..], v.as_slice()].concat()).unwrap();
+    method.integrate_to(&mut spin.lagrangian().motion(3), &mut in_rates, 1.0).unwrap();
+    let tolerance = Tol::stated(1e-11, "hundred times the tolerance of a step");
+    assert_close("angles", &in_quasi.values[..3], &in_rates.values[..3], tolerance);
+    let end = spin.velocities(&in_quasi.values[..3], &in_quasi.values[3..], 1.0).unwrap();
+    assert_close("rates", end.as_slice(), &in_rates.values[3..], tolerance);
 }
