@@ -86,6 +86,8 @@ struct ProjectReadMe;
 mod book {
     #[doc = include_str!("../../../docs/placements.md")]
     struct Placements;
+    #[doc = include_str!("../../../docs/mechanisms.md")]
+    struct Mechanisms;
     #[doc = include_str!("../../../docs/integrators.md")]
     struct Integrators;
     #[doc = include_str!("../../../docs/scalars.md")]
