@@ -17,6 +17,7 @@
 //! | u̇, and q̈ | [`InFrame::acceleration`], [`InFrame::coordinate_acceleration`] |
 //! | the Boltzmann–Hamel equations term by term | [`InFrame::boltzmann_hamel`] |
 //! | the motion with some u held, its reactions | [`InFrame::holding`], [`Nonholonomic`] |
+//! | the motion in time | [`Nonholonomic::integrate`], or a field for any integrator: [`Nonholonomic::motion`] |
 //! | a sphere, a disc, a blade on a plane | [`rolling`] |
 //! | the angular velocity in body axes | [`BodyAngularVelocity`] |
 //!
@@ -34,6 +35,7 @@ mod map;
 mod nonholonomic;
 pub mod rolling;
 mod rotation;
+mod run;
 mod solve;
 
 pub use boltzmann_hamel::BoltzmannHamel;
@@ -41,4 +43,5 @@ pub use frame::{AnholonomicFrame, ByCoframe, ByFrame, Coframe, QuasiVelocities};
 pub use in_frame::{InFrame, QuasiMotion, drift_coefficients, structure_coefficients};
 pub use nonholonomic::{ConstrainedMotion, Nonholonomic};
 pub use rotation::BodyAngularVelocity;
+pub use run::ConstrainedRun;
 pub use solve::Workspace;

@@ -154,7 +154,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     }
 
     /// All quasi-velocities from the free ones.
-    fn spread<T: Real>(&self, work: &mut Workspace<T>, q: &[T], w: &[T]) -> Result<(), DynamicsError> {
+    pub(super) fn spread<T: Real>(&self, work: &mut Workspace<T>, q: &[T], w: &[T]) -> Result<(), DynamicsError> {
         let n = q.len();
         work.hold(n, &self.held)?;
         check_length("free quasi-velocities", n - self.held.len(), w.len())?;

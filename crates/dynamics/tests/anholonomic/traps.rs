@@ -3,6 +3,7 @@
 use piola_dynamics::DynamicsError;
 use piola_dynamics::anholonomic::rolling::{KnifeEdge, RollingDisc, RollingSphere};
 use piola_dynamics::anholonomic::{BodyAngularVelocity, ByCoframe, structure_coefficients};
+use piola_integrators::Tolerance;
 use piola_testkit::{Tol, assert_close_at_scale};
 
 use crate::systems::{All, Applied, Forms, Frame, System, all, body};
@@ -50,6 +51,11 @@ fn disc_flat_on_the_plane_is_refused() {
     let disc = RollingDisc::homogeneous(2.0, 0.5).unwrap().on_plane([0.0, 0.0, -9.8]);
     let error = disc.acceleration(&[0.0; 5], &[1.0, 0.0, 0.0], 0.0).unwrap_err();
     assert!(matches!(error, DynamicsError::SingularMetric { .. }), "{error}");
+    let tolerance = Tolerance::relative(1e-10).unwrap();
+    let error = disc.integrate(&[0.0; 5], &[1.0, 0.0, 0.0], 0.0..1.0, tolerance).unwrap_err();
+    assert!(error.to_string().contains("the motion along"), "{error}");
+    let error = disc.integrate(&[f64::NAN; 5], &[1.0, 0.0, 0.0], 0.0..1.0, tolerance).unwrap_err();
+    assert!(matches!(error, DynamicsError::NonFinite { quantity: "q", index: 0, .. }), "{error}");
 }
 
 #[test]

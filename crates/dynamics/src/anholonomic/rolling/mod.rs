@@ -5,6 +5,10 @@
 //! placement and a frame at once, whose last quasi-velocities are those of the point of contact; `on_plane` holds
 //! these at zero.
 //!
+//! Contacts hold in both directions: nothing lifts off, and friction has no limit. The force of contact says whether
+//! a real plane would do that: pull where its z component is negative, slip where its share of the normal force is
+//! too large.
+//!
 //! | system | q | w | held |
 //! |---|---|---|---|
 //! | [`RollingSphere`] | x, y of the centre, quaternion | ω in space | slip along x, y, length of the quaternion |
