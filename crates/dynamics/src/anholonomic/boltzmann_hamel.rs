@@ -4,7 +4,7 @@ use nalgebra::DVector;
 use piola_kinematics::Holonomic;
 use piola_numerics::Dual;
 
-use super::map::{dot, zeros};
+use super::map::dot;
 use super::solve::Workspace;
 use super::{InFrame, QuasiVelocities};
 use crate::DynamicsError;
@@ -120,7 +120,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
         let (mut momentum_rate, mut lagrangian_derivative) = (DVector::zeros(n), DVector::zeros(n));
         let mut vector_rate = vec![0.0; n];
         for a in 0..n {
-            // d/dt (k_A·p): the rate of k_A is that of q̇ for u = (0 … 1 … 0), without the drift's.
+            // d/dt (k_A·p) along the motion, by which the frame was last differentiated.
             map.vector_rate_into::<W>(a, &mut vector_rate)?;
             let of_momenta: f64 = vector(a).iter().zip(&momenta).map(|(k, p)| k * p.tangent).sum();
             momentum_rate[a] = of_momenta + dot(&vector_rate, &values);
@@ -137,11 +137,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
         let mut coefficients = Vec::new();
         map.structure_into(self.map(), q, t, &mut coefficients)?;
         let mut structure_term = DVector::zeros(n);
-        let mut of_frame = Vec::new();
-        zeros(&mut of_frame, n);
-        for (a, momentum) in of_frame.iter_mut().enumerate() {
-            *momentum = dot(vector(a), &values);
-        }
+        let of_frame: Vec<f64> = (0..n).map(|a| dot(vector(a), &values)).collect();
         for a in 0..n {
             for b in 0..=n {
                 let start = n * (b + (n + 1) * a);
