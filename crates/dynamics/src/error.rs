@@ -230,4 +230,66 @@ pub enum DynamicsError {
         /// The value given.
         value: f64,
     },
+    /// A constraint that depends on others, where that is [refused](crate::constraints::Redundancy::Refused).
+    #[error("constraint {constraint}{} depends on others: its gradient is their combination {combination:?}", of(name))]
+    RedundantConstraint {
+        /// The constraint.
+        constraint: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+        /// The weights of the others in its gradient.
+        combination: Vec<f64>,
+    },
+    /// A constraint that contradicts others: its gradient is a combination of theirs, its residual is not.
+    #[error(
+        "constraint {constraint}{} contradicts others: where it should be their combination {combination:?} it differs \
+         by {residual:e}",
+        of(name)
+    )]
+    InconsistentConstraint {
+        /// The constraint.
+        constraint: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+        /// The residual (of the position, or its rate) less that of the combination.
+        residual: f64,
+        /// The weights of the others in its gradient.
+        combination: Vec<f64>,
+    },
+    /// No state near the guess satisfies the constraints.
+    #[error("no state near the guess satisfies constraint {constraint}{}: {residual:e} is left of it", of(name))]
+    NotAssembled {
+        /// The constraint that is farthest from being satisfied.
+        constraint: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+        /// Its residual, or the rate of it.
+        residual: f64,
+    },
+    /// The number of independent constraints changes: the motion may branch there.
+    #[error(
+        "at time {time} s constraint {constraint}{} becomes dependent on others, or ceases to be: the position is singular",
+        of(name)
+    )]
+    SingularConstraint {
+        /// The constraint.
+        constraint: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+        /// The time.
+        time: f64,
+    },
+    /// A constraint that uses the time but does not say so: its rate would be wrong.
+    #[error("constraint {constraint}{} depends on time: declare `const TIME_DEPENDENT: bool = true`", of(name))]
+    UndeclaredTimeInConstraint {
+        /// The constraint.
+        constraint: usize,
+        /// Its name, if it has one.
+        name: Option<String>,
+    },
+}
+
+/// A name as it stands behind an index.
+fn of(name: &Option<String>) -> String {
+    name.as_ref().map(|name| format!(" ({name})")).unwrap_or_default()
 }

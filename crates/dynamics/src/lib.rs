@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`lagrangian`] | Lagrange's equations of any placement map, with a potential and applied forces |
 //! | [`anholonomic`] | quasi-velocities: structure coefficients, Boltzmann–Hamel equations, rolling |
+//! | [`constraints`] | constraints φ(q, t) = 0 with multipliers: closed loops, redundancy, RATTLE |
 //! | [`small_motions`] | equilibria, linearisation about any state, normal and complex modes, stability |
 //! | [`hamiltonian`] | Hamilton's equations of any function H(q, p, t) |
 //! | [`newton_euler`] | Newton's and Euler's laws of particles and rigid bodies |
@@ -16,6 +17,7 @@
 
 pub mod anholonomic;
 mod check;
+pub mod constraints;
 mod error;
 pub mod gravitation;
 pub mod hamiltonian;

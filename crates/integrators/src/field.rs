@@ -21,6 +21,43 @@ pub trait Field<T: Real = f64> {
     fn is_second_order(&self) -> bool {
         false
     }
+    /// Brings the end of an accepted step back to where the field lives, as onto the constraints of a mechanism.
+    ///
+    /// [`DormandPrince853`](crate::DormandPrince853) calls it before it takes the rate at the end of the step, so
+    /// that a projection costs no evaluation of the field; a step whose end cannot be projected is tried again
+    /// shorter. The correction must be of the size of the error of the step. The default changes nothing, and so
+    /// do the other methods.
+    ///
+    /// # Errors
+    /// Whatever keeps the state from being projected.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_integrators::{DormandPrince853, Field, State, Tolerance};
+    /// struct Turning; // on the unit circle
+    /// impl Field for Turning {
+    ///     type Error = core::convert::Infallible;
+    ///     fn dimension(&self) -> usize {
+    ///         2
+    ///     }
+    ///     fn rate(&mut self, _t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
+    ///         rate.copy_from_slice(&[-y[1], y[0]]);
+    ///         Ok(())
+    ///     }
+    ///     fn project(&mut self, _t: f64, y: &mut [f64]) -> Result<(), Self::Error> {
+    ///         let length = y[0].hypot(y[1]);
+    ///         y.iter_mut().for_each(|y| *y /= length);
+    ///         Ok(())
+    ///     }
+    /// }
+    /// let mut state = State::new(0.0, vec![1.0, 0.0])?;
+    /// DormandPrince853::new(Tolerance::relative(1e-3)?).integrate_to(&mut Turning, &mut state, 100.0)?;
+    /// assert!((state.values[0].hypot(state.values[1]) - 1.0).abs() < 1e-15);
+    /// # Ok::<(), piola_integrators::IntegrationError>(())
+    /// ```
+    fn project(&mut self, _t: f64, _y: &mut [T]) -> Result<(), Self::Error> {
+        Ok(())
+    }
     /// Writes the magnitude against which the error of each component is relative.
     ///
     /// The default is each component's own block: y is a block of positions and a block of velocities of
