@@ -16,7 +16,7 @@ use piola_benches::golden_systems::{self as by_hand, Case};
 use piola_benches::notes::Notes;
 use piola_benches::problems::DoublePendulum;
 use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Placement, Potential, Workspace};
-use piola_integrators::Field;
+use piola_integrators::Field as _;
 use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_numerics::Real;
 
@@ -203,6 +203,46 @@ impl Holonomic for Shaken {
     }
 }
 
+/// A potential of first degree in the velocities, which may say so.
+struct Field<const DECLARED: bool>;
+
+impl<const DECLARED: bool> Potential for Field<DECLARED> {
+    const VELOCITY_DEPENDENT: bool = true;
+    const LINEAR_IN_VELOCITIES: bool = DECLARED;
+    fn potential<T: Real>(&self, q: &[T], v: &[T], _t: T) -> T {
+        (q[0] + q[1]).sin() * v[0] - q[0] * v[1]
+    }
+}
+
+fn gravity_and<P: Potential>(potential: P) -> Lagrangian<Chain<2>, P> {
+    Lagrangian::of(Chain::<2>::varied()).with_gravity(GRAVITY).with_potential(potential)
+}
+
+/// The same chain with bodies at the ends of its rods, which turn with them.
+struct Rods {
+    lengths: [f64; 2],
+    bodies: [RigidBody; 2],
+}
+
+impl Rods {
+    fn of(chain: &Chain<2>) -> Result<Self, piola_kinematics::KinematicsError> {
+        let body = |mass: f64| RigidBody::new(mass, Inertia::principal([0.1, 0.1, 0.1])?);
+        Ok(Self { lengths: chain.lengths, bodies: [body(chain.masses[0])?, body(chain.masses[1])?] })
+    }
+}
+
+impl Holonomic for Rods {
+    #[inline(always)]
+    fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        let mut end = Vector3::new(T::zero(), T::zero(), T::zero());
+        for (&angle, (body, &length)) in q.iter().zip(self.bodies.iter().zip(&self.lengths)) {
+            let (sine, cosine) = angle.sin_cos();
+            end += Vector3::new(T::lit(length) * sine, T::zero(), -T::lit(length) * cosine);
+            bodies.body(body, end, Attitude::about_y(-angle));
+        }
+    }
+}
+
 /// What is saved by what a system does not have.
 fn skips(group: &mut Group<'_>) {
     let (two, eight) = (states::<2>(), states::<8>());
@@ -228,6 +268,12 @@ fn skips(group: &mut Group<'_>) {
     });
     let shaken = Lagrangian::of(Shaken(plain)).with_gravity(GRAVITY);
     acceleration(group, "skips chain 2 shaken", &two, &shaken);
+    acceleration(group, "skips chain 2 in a field", &two, &gravity_and(Field::<false>));
+    acceleration(group, "skips chain 2 in a field declared linear", &two, &gravity_and(Field::<true>));
+    let rods = Rods::of(&plain).map(|rods| Lagrangian::of(rods).with_gravity(GRAVITY));
+    if let Ok(rods) = rods {
+        acceleration(group, "skips chain 2 of bodies", &two, &rods);
+    }
     let plain = Lagrangian::of(Chain::<8>::varied()).with_gravity(GRAVITY);
     acceleration(group, "skips chain 8", &eight, &plain);
     acceleration(group, "skips chain 8 with springs", &eight, &plain.with_potential(Springs));

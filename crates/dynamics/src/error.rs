@@ -89,6 +89,9 @@ pub enum DynamicsError {
         /// The part's number in the order of placement.
         part: usize,
     },
+    /// A potential that is not of first degree in the velocities but says so: its accelerations would be wrong.
+    #[error("the potential is not linear in the velocities: leave out `const LINEAR_IN_VELOCITIES: bool = true`")]
+    NonlinearPotential,
     /// The inertia metric, or the Hessian ∂²L/∂v∂v, is not positive definite.
     #[error(
         "the inertia metric is singular: pivot {pivot:e} of coordinate {coordinate} is not positive against {diagonal:e}; \

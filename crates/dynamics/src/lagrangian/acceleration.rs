@@ -380,7 +380,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         for (force, partial) in force.iter_mut().zip(value.tangent.partials) {
             *force += partial;
         }
-        self.subtract_velocity_hessian(&mut work.nested, q, v, t, metric, N);
+        if !P::LINEAR_IN_VELOCITIES {
+            self.subtract_velocity_hessian(&mut work.nested, q, v, t, metric, N);
+        }
     }
 
     /// The same for more coordinates than one pass serves: g = JᵀmJ from stored rows.
@@ -412,7 +414,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         work.force.resize(n, T::zero());
         work.rows.add_forces(&mut work.force);
         self.add_forces_without_parts(work, q, v, t);
-        if P::VELOCITY_DEPENDENT {
+        if P::VELOCITY_DEPENDENT && !P::LINEAR_IN_VELOCITIES {
             self.subtract_velocity_hessian(&mut work.nested, q, v, t, &mut work.metric, n);
         }
     }

@@ -167,6 +167,7 @@ impl<S: Holonomic, C: ChangeOfCoordinates<N>, const N: usize> Holonomic for InCo
 
 impl<P: Potential, C: ChangeOfCoordinates<N>, const N: usize> Potential for InCoordinates<P, C, N> {
     const VELOCITY_DEPENDENT: bool = P::VELOCITY_DEPENDENT;
+    const LINEAR_IN_VELOCITIES: bool = P::LINEAR_IN_VELOCITIES;
     const PRESENT: bool = P::PRESENT;
     fn potential<T: Real>(&self, q: &[T], v: &[T], t: T) -> T {
         let old = self.change.old_coordinates(q, t);

@@ -48,7 +48,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         sound: T::Mask,
         out: &mut [T],
     ) -> Result<bool, Error> {
-        if P::VELOCITY_DEPENDENT && !self.is_linear_in_velocities(work, q, v, t) {
+        if P::VELOCITY_DEPENDENT && !P::LINEAR_IN_VELOCITIES && !self.is_linear_in_velocities(work, q, v, t) {
             return Ok(false);
         }
         self.collect_rows_with_rates(work, q, v, t);
@@ -75,7 +75,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// Whether ∂²V/∂q̇∂q̇ is zero at a state.
-    fn is_linear_in_velocities<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) -> bool {
+    pub(super) fn is_linear_in_velocities<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) -> bool {
         let n = q.len();
         let mut hessian = core::mem::take(&mut work.linear);
         hessian.clear();

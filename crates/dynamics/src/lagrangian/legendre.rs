@@ -24,7 +24,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// ∂L/∂q̇ (q, q̇, t) = p
     /// ```
     ///
-    /// One solve with the metric when the potential does not depend on velocities. Otherwise Newton's iteration
+    /// One solve with the metric when the potential does not depend on velocities, or is declared linear in
+    /// them. Otherwise Newton's iteration
     /// from q̇ = 0, with steps that are halved where they leave the domain of L or overshoot: it converges when
     /// L is convex in q̇ and p lies in the range of ∂L/∂q̇.
     ///
@@ -65,7 +66,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let n = q.len();
         check_length("p", n, p.len())?;
         check_length("q̇", n, out.len())?;
-        if P::VELOCITY_DEPENDENT {
+        if P::VELOCITY_DEPENDENT && !P::LINEAR_IN_VELOCITIES {
             // The buffers are lent, so that the workspace can be used beside them.
             let mut residual = core::mem::take(&mut work.linear);
             let mut step = core::mem::take(&mut work.force);
@@ -75,7 +76,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             result?;
         } else {
             out.copy_from_slice(p);
-            if S::TIME_DEPENDENT {
+            if S::TIME_DEPENDENT || P::VELOCITY_DEPENDENT {
                 let mut linear = core::mem::take(&mut work.linear);
                 linear.clear();
                 linear.resize(2 * n, T::zero());

@@ -166,13 +166,15 @@ impl<S, P, F> Lagrangian<S, P, F> {
 
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// Checks what evaluations trust: finite coordinates, time and gravity, masses 0 ≤ m < ∞, parts that are
-    /// somewhere, attitudes of length one, and that a placement without declared time dependence has none.
+    /// somewhere, attitudes of length one, that a placement without declared time dependence has none, and that a
+    /// potential declared linear in the velocities is.
     ///
     /// [`integrate`](Self::integrate) calls it; call it once yourself before many evaluations.
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::InvalidMass`],
-    /// [`DynamicsError::AttitudeNotUnit`], [`DynamicsError::UndeclaredTimeDependence`].
+    /// [`DynamicsError::AttitudeNotUnit`], [`DynamicsError::UndeclaredTimeDependence`],
+    /// [`DynamicsError::NonlinearPotential`].
     ///
     /// # Example
     /// ```
@@ -203,6 +205,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             {
                 return Err(DynamicsError::UndeclaredTimeDependence { part });
             }
+        }
+        if P::VELOCITY_DEPENDENT
+            && P::LINEAR_IN_VELOCITIES
+            && !self.is_linear_in_velocities(&mut Workspace::default(), q, v, t)
+        {
+            return Err(DynamicsError::NonlinearPotential);
         }
         Ok(())
     }

@@ -24,6 +24,10 @@ use piola_numerics::Real;
 pub trait Potential {
     /// Whether V depends on the velocities. One that does not is never differentiated with respect to them.
     const VELOCITY_DEPENDENT: bool = false;
+    /// Whether a velocity-dependent V is of first degree in the velocities at most, as that of a charge in a
+    /// magnetic field: then it adds nothing to the mass matrix, and its second derivatives with respect to the
+    /// velocities are not formed. [`check`](super::Lagrangian::check) finds out what is declared wrongly.
+    const LINEAR_IN_VELOCITIES: bool = false;
     /// Whether there is a potential at all.
     const PRESENT: bool = true;
     /// V(q, q̇, t), J. `v` is empty unless the potential declares itself velocity-dependent.

@@ -159,6 +159,7 @@ pub(crate) struct Lorentz {
 
 impl Potential for Lorentz {
     const VELOCITY_DEPENDENT: bool = true;
+    const LINEAR_IN_VELOCITIES: bool = true;
     fn potential<T: Real>(&self, q: &[T], v: &[T], _t: T) -> T {
         let (s, c) = q[1].sin_cos();
         let x = [q[0] * c, q[0] * s, q[2]];

@@ -1,6 +1,7 @@
 //! Tests of equilibria, linearisation, modes and stability.
 
 mod conditioning;
+mod counts;
 mod equilibria;
 mod linearisation;
 mod modes;
