@@ -123,6 +123,16 @@ pub enum DynamicsError {
         /// Why.
         source: Box<piola_integrators::IntegrationError<DynamicsError>>,
     },
+    /// A run whose steps are kept failed before its end.
+    #[error("the run stopped at time {time} s after {} steps, which are kept: {source}", run.steps())]
+    Unfinished {
+        /// The time reached.
+        time: f64,
+        /// Why.
+        source: Box<piola_integrators::IntegrationError<DynamicsError>>,
+        /// The motion up to there.
+        run: Box<crate::Run>,
+    },
     /// 0 < g_ΔΓ v^Δ v^Γ violated by the direction of a geodesic.
     #[error("the direction has the squared length {squared_length} in the inertia metric; it must be positive")]
     NoDirection {

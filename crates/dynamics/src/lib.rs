@@ -24,9 +24,11 @@ pub mod hamiltonian;
 pub mod lagrangian;
 pub mod newton_euler;
 pub mod rigid_motion;
+mod run;
 pub mod small_motions;
 
 pub use error::DynamicsError;
+pub use run::Run;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

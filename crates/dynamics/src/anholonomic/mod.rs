@@ -43,5 +43,4 @@ pub use frame::{AnholonomicFrame, ByCoframe, ByFrame, Coframe, QuasiVelocities};
 pub use in_frame::{InFrame, QuasiMotion, drift_coefficients, structure_coefficients};
 pub use nonholonomic::{ConstrainedMotion, Nonholonomic};
 pub use rotation::BodyAngularVelocity;
-pub use run::ConstrainedRun;
 pub use solve::Workspace;

@@ -53,6 +53,7 @@ mod run;
 mod virtual_work;
 mod work;
 
+pub use crate::run::Run;
 pub use acceleration::Workspace;
 pub use action::{Action, FirstVariation, Path, Varied};
 pub use change_of_coordinates::{ChangeOfCoordinates, InCoordinates};
@@ -67,7 +68,6 @@ pub use piola_kinematics::{Holonomic, Placement};
 pub use potential::{NoPotential, Potential};
 pub use power::{ForceAlongTime, PartPower, PowerBalance};
 pub use reactions::{PartForce, Reaction};
-pub use run::Run;
 pub use virtual_work::{ConstraintVerdict, IdealConstraintTest};
 pub use work::{MotionWithWork, WorkAccount, Works};
 

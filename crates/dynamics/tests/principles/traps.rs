@@ -3,14 +3,14 @@
 use nalgebra::Vector3;
 use piola_dynamics::DynamicsError;
 use piola_dynamics::lagrangian::{
-    ChangeOfCoordinates, Forces, Holonomic, Lagrangian, PartForce, PartPower, Path, Placement, Reaction, SampledMotion,
-    Workspace,
+    ChangeOfCoordinates, Forces, Holonomic, Lagrangian, PartForce, PartPower, Path, Placement, Potential, Reaction,
+    SampledMotion, Workspace,
 };
 use piola_dynamics::newton_euler::{NewtonEuler, particle_acceleration};
 use piola_integrators::Tolerance;
 use piola_kinematics::{EulerAngles, Inertia, KinematicsError, RigidBody};
 use piola_numerics::Real;
-use piola_testkit::Tol;
+use piola_testkit::{Tol, assert_close};
 
 use crate::systems::*;
 
@@ -178,6 +178,28 @@ fn mass_ratio_of_a_million_millions_and_a_far_origin_leave_reactions_their_digit
         // Upwards accelerations: 1² of the light bob, 1² + 2² of the heavy one.
         let tol = Tol::ulps(4.0);
         piola_testkit::assert_close("light", light.force().as_slice(), &[0.0, 0.0, 1e-9 * (10.0 + 1.0)], tol);
-        piola_testkit::assert_close("heavy", heavy.force().as_slice(), &[0.0, 0.0, 1e3 * (10.0 + 5.0)], tol);
+        assert_close("heavy", heavy.force().as_slice(), &[0.0, 0.0, 1e3 * (10.0 + 5.0)], tol);
     }
+}
+
+/// A force that is defined before q = 1 only.
+struct Wall;
+
+impl Potential for Wall {
+    fn potential<T: Real>(&self, q: &[T], _v: &[T], _t: T) -> T {
+        -(T::one() - q[0]).powf(T::lit(1.5))
+    }
+}
+
+#[test]
+fn run_that_fails_keeps_the_steps_before() {
+    let system = Lagrangian::of(Line).with_potential(Wall);
+    let tolerance = Tolerance::relative(1e-10).expect("tolerance");
+    let error = system.integrate(&[0.0], &[2.0], 0.0..5.0, tolerance).unwrap_err();
+    let DynamicsError::Unfinished { time, run, .. } = &error else { panic!("{error}") };
+    assert!(0 < run.steps() && run.times().len() as u64 == run.steps() + 1, "{error}");
+    let (q, _) = run.last();
+    assert!(0.9 < q[0] && q[0] <= 1.0, "stopped at {q:?}");
+    assert_close("time", &[*time], &[run.times()[run.times().len() - 1]], Tol::ulps(0.0));
+    assert!(run.error_estimate().is_infinite() && run.energy_drift() < 1e-8);
 }
