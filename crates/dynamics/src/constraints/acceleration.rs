@@ -278,8 +278,3 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         }
     }
 }
-
-/// The rates that a velocity gives the constraints, by the largest terms: what rounding is measured by.
-pub(super) fn magnitude(row: &[f64], values: impl Iterator<Item = f64>) -> f64 {
-    row.iter().zip(values).map(|(&g, x)| (g * x).abs()).sum()
-}

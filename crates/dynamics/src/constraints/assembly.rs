@@ -7,7 +7,6 @@
 
 use piola_kinematics::Holonomic;
 
-use super::acceleration::magnitude;
 use super::workspace::Workspace;
 use super::{Constrained, Constraints};
 use crate::DynamicsError;
@@ -25,9 +24,9 @@ pub struct Assembly {
     pub coordinates: Vec<f64>,
     /// The velocities q̇.
     pub velocities: Vec<f64>,
-    /// The largest |φᵢ|, relative to Σ |∂φᵢ/∂q| max(|q|, 1).
+    /// The largest |φᵢ|, relative to Σ |∂φᵢ/∂q| max(|q|, 1), or to a thousandth of the largest of these.
     pub residual: f64,
-    /// The largest |φ̇ᵢ|, relative to Σ |∂φᵢ/∂q q̇| of the velocities given.
+    /// The largest |φ̇ᵢ|, relative in the same way to Σ |∂φᵢ/∂q| max |q̇|.
     pub rate_residual: f64,
     /// The iterations made.
     pub iterations: usize,
@@ -108,20 +107,10 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         Ok(Closeness { residual, rate_residual, iterations })
     }
 
-    /// The largest |φᵢ| relative to Σ |∂φᵢ/∂q| max(|q|, 1), and which it is.
+    /// The largest residual of a position, relative, and which it is.
     fn violation(work: &Workspace, q: &[f64]) -> (usize, f64) {
         let unit = q.iter().fold(1.0, |m: f64, q| m.max(q.abs()));
-        let rows = work.gradients.rows.chunks_exact(q.len().max(1));
-        let mut worst = (0, 0.0);
-        for (i, (row, &residual)) in rows.zip(&work.gradients.residuals).enumerate() {
-            let scale = magnitude(row, q.iter().map(|_| unit));
-            let violation = if residual.abs() <= 0.0 { 0.0 } else { residual.abs() / scale };
-            // NaN is the worst.
-            if !(violation <= worst.1) {
-                worst = (i, violation);
-            }
-        }
-        worst
+        worst(&work.gradients.residuals, &work.gradients.rows, unit, q.len())
     }
 
     fn project_position(
@@ -198,11 +187,9 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     pub(super) fn relative_residuals(&self, work: &mut Workspace, q: &[f64], v: &[f64], t: f64) -> (f64, f64) {
         self.differentiate(work, q, v, t);
         let (_, residual) = Self::violation(work, q);
-        let rows = work.gradients.rows.chunks_exact(q.len().max(1));
-        let rates = rows.zip(&work.gradients.rates).map(|(row, &rate)| {
-            if rate.abs() <= 0.0 { 0.0 } else { rate.abs() / magnitude(row, v.iter().copied()).max(rate.abs()) }
-        });
-        (residual, rates.fold(0.0, f64::max))
+        let fastest = v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+        let (_, rate) = worst(&work.gradients.rates, &work.gradients.rows, fastest, q.len());
+        (residual, rate)
     }
 
     /// The constraint that contradicts others, or else that which is farthest from being satisfied.
@@ -241,21 +228,13 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     fn project_velocity(&self, work: &mut Workspace, q: &[f64], v: &mut [f64], t: f64) -> Result<f64, DynamicsError> {
         let n = q.len();
         let mut weights = core::mem::take(&mut work.multipliers);
-        let mut scales = core::mem::take(&mut work.acceleration);
-        scales.clear();
-        scales.resize(self.constraints.count(), 0.0);
+        let mut fastest = 0.0_f64;
         let mut before = f64::INFINITY;
-        let mut violation = 0.0;
+        let (mut constraint, mut violation) = (0, 0.0);
         for iteration in 0..8 {
             self.differentiate(work, q, v, t);
-            violation = 0.0_f64;
-            for (i, row) in work.gradients.rows.chunks_exact(n.max(1)).enumerate() {
-                let rate = work.gradients.rates[i].abs();
-                scales[i] = scales[i].max(magnitude(row, v.iter().copied()).max(rate));
-                if 0.0 < rate {
-                    violation = violation.max(rate / scales[i]);
-                }
-            }
+            fastest = v.iter().fold(fastest, |m, v| m.max(v.abs()));
+            (constraint, violation) = worst(&work.gradients.rates, &work.gradients.rows, fastest, n);
             if violation <= f64::EPSILON || 0.25 * before <= violation {
                 break;
             }
@@ -270,18 +249,29 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
             work.independence.solve_metric(&mut work.along)?;
             v.iter_mut().zip(&work.along).for_each(|(v, step)| *v -= step);
         }
-        (work.multipliers, work.acceleration) = (weights, scales);
+        work.multipliers = weights;
         if violation <= SATISFIED {
             return Ok(violation);
         }
-        let worst = |work: &Workspace| {
-            let rates = work.gradients.rates.iter().enumerate();
-            rates.fold((0, 0.0_f64), |worst, (i, r)| if worst.1 < r.abs() { (i, r.abs()) } else { worst }).0
-        };
         let found = self.contradiction(work, |work| &work.gradients.rates);
-        let constraint = worst(work);
         let residual = work.gradients.rates[constraint];
         let name = self.name_of(constraint);
         Err(found.unwrap_or(DynamicsError::NotAssembled { constraint, name, residual }))
     }
+}
+
+/// The constraint of the largest residual, relative to Σ |∂φᵢ/∂q| `unit`, or to a thousandth of the largest of these:
+/// where a gradient nearly vanishes its own terms do not tell what rounding is. Infinite where nothing moves.
+fn worst(residuals: &[f64], rows: &[f64], unit: f64, n: usize) -> (usize, f64) {
+    let scale = |i: usize| rows[i * n..(i + 1) * n].iter().map(|g| g.abs()).sum::<f64>() * unit;
+    let least = 1e-3 * (0..residuals.len()).map(scale).fold(0.0, f64::max);
+    let mut worst = (0, 0.0);
+    for (i, residual) in residuals.iter().map(|r| r.abs()).enumerate() {
+        let violation = if residual <= 0.0 { 0.0 } else { residual / scale(i).max(least) };
+        // NaN is the worst.
+        if worst.1 < violation || violation.is_nan() {
+            worst = (i, violation);
+        }
+    }
+    worst
 }

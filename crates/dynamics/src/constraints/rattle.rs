@@ -237,25 +237,27 @@ impl Rattle {
                 change = change.max(relative(new - self.end[i], scale_q));
                 self.end[i] = new;
             }
-            // What is left of the constraints, brought to zero by impulses along G₀.
-            self.weights.resize(count, 0.0);
-            system.constraints.residuals(&self.end[..n], to, &mut self.weights);
-            self.work.independence.weigh(&mut self.weights).map_err(|error| at(to)(error.into()))?;
-            Constrained::<S, P, F, C>::gather(&mut self.work, &self.weights, n);
-            for (impulse, along) in self.impulse.iter_mut().zip(&self.work.along) {
-                *impulse -= along / h;
-            }
-            self.work.independence.solve_metric(&mut self.work.along).map_err(|error| at(to)(error.into()))?;
-            for (q, along) in self.end[..n].iter_mut().zip(&self.work.along) {
-                *q -= along;
-            }
-            change = change.max(relative(largest(&self.work.along), scale_q));
             let scale_p = largest(&self.start[n..]).max(largest(&y[n..]));
             for i in 0..n {
                 let new = y[n + i] + (half * self.rate[n + i] + self.impulse[i]);
                 change = change.max(relative(new - self.start[n + i], scale_p));
                 self.start[n + i] = new;
             }
+            // What is left of the constraints, brought to zero by impulses along G₀. Rounding of φ is a rounding of
+            // the impulse times q/(h v); it is judged by what it does to q, and ends with the step.
+            self.weights.resize(count, 0.0);
+            system.constraints.residuals(&self.end[..n], to, &mut self.weights);
+            self.work.independence.weigh(&mut self.weights).map_err(|error| at(to)(error.into()))?;
+            Constrained::<S, P, F, C>::gather(&mut self.work, &self.weights, n);
+            for (k, along) in self.work.along.iter().enumerate() {
+                self.impulse[k] -= along / h;
+                self.start[n + k] -= along / h;
+            }
+            self.work.independence.solve_metric(&mut self.work.along).map_err(|error| at(to)(error.into()))?;
+            for (q, along) in self.end[..n].iter_mut().zip(&self.work.along) {
+                *q -= along;
+            }
+            change = change.max(relative(largest(&self.work.along), scale_q));
             if !change.is_finite() || sweep == MOST_SWEEPS {
                 return Err(IntegrationError::StagesDiverged { time: from, step: h, iterations: sweep, change });
             }
