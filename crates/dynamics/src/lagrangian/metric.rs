@@ -86,11 +86,14 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
         let mut metric = Metric([[T::zero(); N]; N]);
         self.system.place(&coordinates[..n], Gradient::constant(t), &mut metric);
-        work.metric.clear();
-        for i in 0..n {
-            for j in 0..n {
-                work.metric.push(if i <= j { metric.0[i][j] } else { metric.0[j][i] });
+        for j in 0..N {
+            for i in 0..j {
+                metric.0[j][i] = metric.0[i][j];
             }
+        }
+        work.metric.clear();
+        for column in metric.0.iter().take(n) {
+            work.metric.extend_from_slice(&column[..n]);
         }
     }
 
