@@ -17,11 +17,12 @@
 //! constrained body obey these laws as if it were free.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_kinematics::{EulerAngles, RigidBody};
+use piola_kinematics::{EulerAngles, KinematicsError, RigidBody};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{self, cross, dot};
 
 use crate::DynamicsError;
+use crate::check::check_finite;
 
 /// The acceleration of a particle, m/s².
 ///
@@ -30,7 +31,7 @@ use crate::DynamicsError;
 /// ```
 ///
 /// # Errors
-/// [`DynamicsError::InvalidMass`] unless 0 < m < ∞.
+/// [`DynamicsError::InvalidMass`] unless 0 < m < ∞; [`DynamicsError::NonFinite`].
 ///
 /// # Example
 /// ```
@@ -43,11 +44,11 @@ use crate::DynamicsError;
 /// # Source
 /// W(4.2).
 pub fn particle_acceleration<T: Real>(mass: f64, force: &Vector3<T>) -> Result<Vector3<T>, DynamicsError> {
-    if 0.0 < mass && mass < f64::INFINITY {
-        Ok(force.map(|f| f / T::lit(mass)))
-    } else {
-        Err(DynamicsError::InvalidMass { part: 0, mass })
+    if !(0.0 < mass && mass < f64::INFINITY) {
+        return Err(DynamicsError::InvalidMass { part: 0, mass });
     }
+    check_finite("force", force.as_slice())?;
+    Ok(force.map(|f| f / T::lit(mass)))
 }
 
 /// The angular acceleration in principal axes, rad/s²: Euler's equations.
@@ -65,6 +66,9 @@ pub fn particle_acceleration<T: Real>(mass: f64, force: &Vector3<T>) -> Result<V
 /// The differences of the moments are taken exactly once, so that a body with two equal moments keeps the third
 /// component of ω to the last bit.
 ///
+/// # Errors
+/// [`DynamicsError::Kinematics`] unless 0 < I₁, I₂, I₃; [`DynamicsError::NonFinite`].
+///
 /// # Accuracy
 /// A few ulp of the larger of the two terms.
 ///
@@ -73,8 +77,9 @@ pub fn particle_acceleration<T: Real>(mass: f64, force: &Vector3<T>) -> Result<V
 /// use nalgebra::Vector3;
 /// use piola_dynamics::newton_euler::principal_angular_acceleration;
 /// let free = Vector3::zeros();
-/// let rate = principal_angular_acceleration([1.0, 2.0, 4.0], &free, &Vector3::new(3.0, 5.0, 7.0));
+/// let rate = principal_angular_acceleration([1.0, 2.0, 4.0], &free, &Vector3::new(3.0, 5.0, 7.0))?;
 /// assert_eq!(rate, Vector3::new(-70.0, 31.5, -3.75)); // −2·35/1, 3·21/2, −1·15/4
+/// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 ///
 /// # Source
@@ -83,16 +88,26 @@ pub fn principal_angular_acceleration<T: Real>(
     moments: [f64; 3],
     moment: &Vector3<T>,
     angular_velocity: &Vector3<T>,
-) -> Vector3<T> {
+) -> Result<Vector3<T>, DynamicsError> {
+    check_finite("moments of inertia", &moments)?;
+    check_finite("moment", moment.as_slice())?;
+    check_finite("angular velocity", angular_velocity.as_slice())?;
+    if !moments.iter().all(|&i| 0.0 < i) {
+        let mut principal_moments = moments;
+        principal_moments.sort_by(f64::total_cmp);
+        return Err(KinematicsError::InertiaNotPositiveDefinite { principal_moments }.into());
+    }
     let component = |i: usize| {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
         let gyroscopic = T::lit(moments[j] - moments[k]) * angular_velocity[j] * angular_velocity[k];
         (moment[i] + gyroscopic) / T::lit(moments[i])
     };
-    Vector3::new(component(0), component(1), component(2))
+    Ok(Vector3::new(component(0), component(1), component(2)))
 }
 
 /// The laws of motion of one rigid body.
+///
+/// Its methods are formulas of the state over any scalar: what is not finite shows in their results.
 ///
 /// # Example
 /// A ball of 2 kg and 0.5 kg m², rolling on a table, is pushed by 7 N at its centre. Friction holds it back with 2 N

@@ -87,7 +87,8 @@ impl Run {
     }
 
     fn state(&self, step: usize) -> Option<&[f64]> {
-        self.states.get(self.dimension * step..self.dimension * (step + 1))
+        let start = self.dimension.checked_mul(step)?;
+        self.states.get(start..start.checked_add(self.dimension)?)
     }
 }
 

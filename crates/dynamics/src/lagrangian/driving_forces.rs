@@ -11,7 +11,7 @@ use piola_numerics::Real;
 use super::acceleration::Workspace;
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
-use crate::check::check_length;
+use crate::check::{check_finite, check_length};
 
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The generalised forces that drives must add so that the system moves with given accelerations: what is left
@@ -92,6 +92,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             *out = sum;
         }
         work.lent = mass_matrix;
-        formed
+        formed?;
+        check_finite("q̈", a)?;
+        self.finite([("q", q), ("q̇", v)], t, ("driving forces", out))
     }
 }

@@ -52,7 +52,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The kinetic and the potential energy of a state.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// ```
@@ -90,7 +90,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         check_length("q̇", q.len(), v.len())?;
         work.duals.clear();
         work.duals.extend(q.iter().zip(v).map(|(&q, &v)| Dual::new(q, v)));
-        Ok(self.energies_over(&work.duals, q, v, t))
+        let energies = self.energies_over(&work.duals, q, v, t);
+        self.finite([("q", q), ("q̇", v)], t, ("energies", &[energies.kinetic, energies.potential]))?;
+        Ok(energies)
     }
 
     /// The energies from coordinates that carry their rates.
@@ -150,7 +152,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The generalised momenta p_Δ = ∂L/∂q̇^Δ.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// ```
@@ -193,13 +195,13 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         check_length("q̇", q.len(), v.len())?;
         check_length("p", q.len(), out.len())?;
         self.differentiate(work, v, q, t, With::Velocities, out);
-        Ok(())
+        self.finite([("q", q), ("q̇", v)], t, ("p", out))
     }
 
     /// ∂L/∂q at fixed velocities.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// ```
@@ -225,13 +227,14 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         check_length("q̇", q.len(), v.len())?;
         let mut out = DVector::from_element(q.len(), T::zero());
         self.differentiate(&mut Workspace::default(), v, q, t, With::Coordinates, out.as_mut_slice());
+        self.finite([("q", q), ("q̇", v)], t, ("∂L/∂q", out.as_slice()))?;
         Ok(out)
     }
 
     /// ∂L/∂t at fixed coordinates and velocities, J/s.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// ```
@@ -262,7 +265,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// It is E + V when the placement does not depend on time and the potential not on velocities.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// ```
@@ -297,7 +300,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The generalised forces Q_Δ of the applied forces alone: not of gravity, nor of the potential.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// ```
@@ -330,6 +333,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     pub fn generalised_forces<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
         let mut out = DVector::from_element(q.len(), T::zero());
         self.add_generalised_forces(&mut Workspace::default(), q, v, t, out.as_mut_slice())?;
+        self.finite([("q", q), ("q̇", v)], t, ("Q", out.as_slice()))?;
         Ok(out)
     }
 

@@ -225,7 +225,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// Lowers the index of a vector: x_Δ = g_ΔΓ x^Γ.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// See [`raise`](Self::raise).
@@ -238,7 +238,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let mut work = Workspace::default();
         self.form_inertia_metric(&mut work, q, t);
         let row = |i: usize| (0..n).fold(T::zero(), |sum, j| sum + work.metric[i + j * n] * vector[j]);
-        Ok(DVector::from_fn(n, |i, _| row(i)))
+        let lowered = DVector::from_fn(n, |i, _| row(i));
+        self.finite([("q", q), ("vector", vector)], t, ("covector", lowered.as_slice()))?;
+        Ok(lowered)
     }
 
     /// Geodesics of the inertia metric as a field in (q, dq/ds), over the arc length or, what is the same, the

@@ -49,8 +49,8 @@ impl SampledMotion {
         coordinates: Vec<f64>,
         velocities: Vec<f64>,
     ) -> Result<Self, DynamicsError> {
-        check_length("coordinates", freedom * times.len(), coordinates.len())?;
-        check_length("velocities", freedom * times.len(), velocities.len())?;
+        check_length("coordinates", freedom.saturating_mul(times.len()), coordinates.len())?;
+        check_length("velocities", freedom.saturating_mul(times.len()), velocities.len())?;
         check_finite("times", &times)?;
         check_finite("coordinates", &coordinates)?;
         check_finite("velocities", &velocities)?;
@@ -110,7 +110,7 @@ impl SampledMotion {
     #[must_use]
     pub fn coordinates(&self, sample: usize) -> &[f64] {
         let n = self.freedom;
-        self.coordinates.get(n * sample..n * (sample + 1)).unwrap_or(&[])
+        self.coordinates.chunks_exact(n.max(1)).nth(sample).unwrap_or(&[])
     }
 
     /// The velocities of a sample; empty beyond the last.
@@ -120,7 +120,7 @@ impl SampledMotion {
     #[must_use]
     pub fn velocities(&self, sample: usize) -> &[f64] {
         let n = self.freedom;
-        self.velocities.get(n * sample..n * (sample + 1)).unwrap_or(&[])
+        self.velocities.chunks_exact(n.max(1)).nth(sample).unwrap_or(&[])
     }
 
     /// Hermite's cubic between two samples, at the fraction s: q and q̇.

@@ -73,7 +73,7 @@ pub use work::{MotionWithWork, WorkAccount, Works};
 
 use nalgebra::Vector3;
 use piola_kinematics::{Attitude, RigidBody};
-use piola_numerics::Real;
+use piola_numerics::{Mask, Real};
 
 use crate::DynamicsError;
 use crate::check::{check_finite, check_length};
@@ -213,6 +213,18 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             return Err(DynamicsError::NonlinearPotential);
         }
         Ok(())
+    }
+
+    /// Refuses a result that is not finite, by the name of what is not finite of the state it comes from.
+    #[inline(always)]
+    fn finite<T: Real>(
+        &self,
+        state: [(&'static str, &[T]); 2],
+        t: T,
+        result: (&'static str, &[T]),
+    ) -> Result<(), DynamicsError> {
+        let all = result.1.iter().fold(T::Mask::splat(true), |all, x| all & x.is_finite());
+        if all.all() { Ok(()) } else { Err(self.explain_non_finite(state, t, result)) }
     }
 
     /// The first thing wrong with coordinates, velocities or momenta, time, gravity or parts. The first list

@@ -14,7 +14,7 @@ use super::acceleration::Workspace;
 use super::collect::{cross, inertia_times, turning};
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
-use crate::check::check_length;
+use crate::check::{check_finite, check_length};
 
 /// Momentum and moment of momentum, space components.
 ///
@@ -75,7 +75,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// reactions.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// ```
@@ -109,7 +109,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// [`system_momentum`](Self::system_momentum) without allocation once `work` has been used.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// See [`system_momentum`](Self::system_momentum).
@@ -130,6 +130,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let zero = [T::zero(); 3];
         let mut sums = Sums { about: (*about).into(), momentum: zero, moment: zero };
         self.system.place(&work.duals, time, &mut sums);
+        check_finite("about", &sums.about)?;
+        self.finite([("q", q), ("q̇", v)], t, ("momentum", &sums.momentum))?;
+        self.finite([("q", q), ("q̇", v)], t, ("moment of momentum", &sums.moment))?;
         Ok(SystemMomentum { momentum: sums.momentum.into(), moment_of_momentum: sums.moment.into() })
     }
 }

@@ -243,6 +243,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let terms = [balance.kinetic_energy_rate, balance.total(), balance.potential_by_time];
         if let Err(error) = check_finite("power", &terms) {
             self.check_given([("q", q), ("q̇", v)], t)?;
+            check_finite("q̈", a)?;
             return Err(error);
         }
         Ok(balance)
@@ -340,6 +341,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 }
             })
         })?;
+        self.finite([("q", q), ("q̇", v)], t, ("force along time", &[force.external, force.constraint]))?;
         Ok(force)
     }
 
@@ -355,7 +357,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// `work` has been used.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
     ///
     /// # Example
     /// ```
@@ -418,6 +420,10 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         for (power, &v) in coordinates.iter_mut().zip(v) {
             *power *= v;
         }
-        Ok(())
+        let state = [("q", q), ("q̇", v)];
+        for power in &*parts {
+            self.finite(state, t, ("powers of the parts", &[power.force, power.moment]))?;
+        }
+        self.finite(state, t, ("powers of the coordinates", coordinates))
     }
 }

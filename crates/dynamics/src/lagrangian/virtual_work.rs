@@ -101,7 +101,8 @@ impl IdealConstraintTest {
     #[must_use]
     pub fn verdict(&self, tolerance: f64) -> ConstraintVerdict {
         match self.worst() {
-            Some((coordinate, ratio)) if tolerance < ratio => {
+            // A tolerance that is no number tolerates nothing.
+            Some((coordinate, ratio)) if tolerance < ratio || tolerance.is_nan() => {
                 let (power, scale) = (self.powers[coordinate], self.scales[coordinate]);
                 ConstraintVerdict::Working { coordinate, power, scale }
             }
@@ -174,7 +175,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// They are the components of a covector: in other coordinates Q̄_Δ = Q_Γ ∂q^Γ/∂q̄^Δ.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless there is one force for each [part](Self::parts).
+    /// [`DynamicsError::DimensionMismatch`] unless there is one force for each [part](Self::parts);
+    /// [`DynamicsError::NonFinite`].
     ///
     /// # Accuracy
     /// A few ulp of the sum of the terms' magnitudes.
@@ -224,11 +226,16 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         out: &mut [T],
     ) -> Result<(), DynamicsError> {
         check_length("Q", q.len(), out.len())?;
+        self.one_force_each_part(forces, q, t)?;
         for (first, out) in (0..q.len()).step_by(CHUNK).zip(out.chunks_mut(CHUNK)) {
             let sums = self.virtual_work_along(work, forces, (q, t), first)?;
             out.copy_from_slice(&sums.work[..out.len()]);
         }
-        Ok(())
+        for force in forces {
+            check_finite("force", force.force.as_slice())?;
+            check_finite("moment", force.moment.as_slice())?;
+        }
+        self.finite([("q", q), ("q", q)], t, ("Q", out))
     }
 
     /// Tests whether given constraint forces are those of an ideal constraint: whether they have no power in any
@@ -239,7 +246,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// that is free, say. [`reaction_test`](Self::reaction_test) compares with what they are the difference of.
     ///
     /// # Errors
-    /// As [`virtual_work`](Self::virtual_work); [`DynamicsError::NonFinite`].
+    /// As [`virtual_work`](Self::virtual_work).
     ///
     /// # Example
     /// ```
@@ -271,6 +278,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         t: f64,
     ) -> Result<IdealConstraintTest, DynamicsError> {
         self.check_given([("q", q), ("q", q)], t)?;
+        self.one_force_each_part(forces, q, t)?;
         let mut work = Workspace::default();
         let (mut powers, mut scales) = (Vec::with_capacity(q.len()), Vec::with_capacity(q.len()));
         for first in (0..q.len()).step_by(CHUNK) {
@@ -280,6 +288,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             scales.extend_from_slice(&sums.scale[..directions]);
         }
         check_finite("power of the constraint forces", &powers)?;
+        check_finite("power of the constraint forces", &scales)?;
         Ok(IdealConstraintTest { powers, scales })
     }
 
@@ -332,6 +341,11 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let IdealConstraintTest { powers, .. } = self.ideal_constraint_test(&reactions, q, t)?;
         let IdealConstraintTest { scales, .. } = self.ideal_constraint_test(&magnitudes, q, t)?;
         Ok(IdealConstraintTest { powers, scales })
+    }
+
+    /// Without coordinates no pass would count the parts.
+    fn one_force_each_part<T: Real>(&self, forces: &[PartForce<T>], q: &[T], t: T) -> Result<(), DynamicsError> {
+        if q.is_empty() { check_length("forces", self.parts(q, t), forces.len()) } else { Ok(()) }
     }
 
     /// The virtual work along the coordinates from `first` on.

@@ -193,7 +193,8 @@ impl Linearisation {
     /// λ² + λD + K by singular values, and one or two Newton steps for λ with them.
     ///
     /// # Errors
-    /// [`DynamicsError::SingularMetric`], [`DynamicsError::NonFinite`], [`DynamicsError::NoEigenvalues`].
+    /// [`DynamicsError::DimensionMismatch`] unless all matrices are n×n; [`DynamicsError::SingularMetric`],
+    /// [`DynamicsError::NonFinite`], [`DynamicsError::NoEigenvalues`].
     ///
     /// # Accuracy
     /// Each λ to its `uncertainty`: 8n ulp of |λ|² + |λ||D| + |K| over the rate at which the pencil changes
@@ -203,9 +204,7 @@ impl Linearisation {
     /// See [`ComplexModes`].
     pub fn complex_modes(&self) -> Result<ComplexModes, DynamicsError> {
         let n = self.coordinates();
-        for (quantity, matrix) in self.matrices() {
-            crate::check::check_finite(quantity, matrix.as_slice())?;
-        }
+        self.check()?;
         if n == 0 {
             return Ok(ComplexModes { modes: Vec::new() });
         }

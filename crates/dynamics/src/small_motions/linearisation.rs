@@ -7,7 +7,7 @@ use piola_numerics::{Dual, Real};
 
 use super::reduction;
 use crate::DynamicsError;
-use crate::check::check_length;
+use crate::check::{check_finite, check_length};
 use crate::lagrangian::{Forces, Lagrangian, Potential, Workspace};
 
 /// The equations of motion to first order about a state (q, q̇, t), split by what does work.
@@ -169,7 +169,30 @@ fn split<T: Real>(matrix: &DMatrix<T>) -> [DMatrix<T>; 2] {
 }
 
 impl<T: Real> Linearisation<T> {
+    /// Refuses matrices that are not all n×n, and entries that are not finite.
+    pub(super) fn check(&self) -> Result<(), DynamicsError> {
+        let n = self.coordinates();
+        check_length("acceleration", n, self.acceleration.len())?;
+        check_finite("acceleration", self.acceleration.as_slice())?;
+        let matrices = [
+            ("mass matrix", &self.mass_matrix),
+            ("damping", &self.damping),
+            ("gyroscopic matrix", &self.gyroscopic),
+            ("stiffness", &self.stiffness),
+            ("circulatory matrix", &self.circulatory),
+        ];
+        for (quantity, matrix) in matrices {
+            check_length(quantity, n, matrix.nrows())?;
+            check_length(quantity, n, matrix.ncols())?;
+            check_finite(quantity, matrix.as_slice())?;
+        }
+        Ok(())
+    }
+
     /// The number of coordinates, n.
+    ///
+    /// # Example
+    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn coordinates(&self) -> usize {
         self.mass_matrix.nrows()
@@ -197,6 +220,7 @@ impl<T: Real> Linearisation<T> {
     /// ```
     ///
     /// # Errors
+    /// [`DynamicsError::DimensionMismatch`] unless all matrices are n×n; [`DynamicsError::NonFinite`];
     /// [`DynamicsError::SingularMetric`].
     ///
     /// # Accuracy
@@ -219,6 +243,7 @@ impl<T: Real> Linearisation<T> {
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     pub fn state_matrix(&self) -> Result<DMatrix<T>, DynamicsError> {
+        self.check()?;
         let n = self.coordinates();
         let factors = self.mass_factors()?;
         let mut matrix = DMatrix::from_element(2 * n, 2 * n, T::zero());
@@ -249,10 +274,30 @@ impl<T: Real> Linearisation<T> {
     /// vector of Δ; for a force on a particle the derivatives of its place.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless W has n rows; [`DynamicsError::SingularMetric`].
+    /// [`DynamicsError::DimensionMismatch`] unless W has n rows and all matrices are n×n; [`DynamicsError::NonFinite`];
+    /// [`DynamicsError::SingularMetric`].
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_dynamics::small_motions::Linearisation;
+    /// # use nalgebra::{dmatrix, dvector};
+    /// let zero = dmatrix![0.0];
+    /// let mass = Linearisation {
+    ///     acceleration: dvector![0.0],
+    ///     mass_matrix: dmatrix![2.0],
+    ///     damping: zero.clone(),
+    ///     gyroscopic: zero.clone(),
+    ///     stiffness: zero.clone(),
+    ///     circulatory: zero,
+    /// };
+    /// assert_eq!(mass.input_matrix(&dmatrix![1.0])?, dmatrix![0.0; 0.5]); // 1 N moves 2 kg with 0.5 m/s²
+    /// # Ok::<(), piola_dynamics::DynamicsError>(())
+    /// ```
     pub fn input_matrix(&self, inputs: &DMatrix<T>) -> Result<DMatrix<T>, DynamicsError> {
+        self.check()?;
         let n = self.coordinates();
         check_length("inputs", n, inputs.nrows())?;
+        check_finite("inputs", inputs.as_slice())?;
         let factors = self.mass_factors()?;
         let mut matrix = DMatrix::from_element(2 * n, inputs.ncols(), T::zero());
         for j in 0..inputs.ncols() {

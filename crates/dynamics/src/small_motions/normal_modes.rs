@@ -99,7 +99,8 @@ impl Linearisation {
     /// order in that of the shape.
     ///
     /// # Errors
-    /// [`DynamicsError::SingularMetric`], [`DynamicsError::NonFinite`], [`DynamicsError::NoEigenvalues`].
+    /// [`DynamicsError::DimensionMismatch`] unless all matrices are n×n; [`DynamicsError::SingularMetric`],
+    /// [`DynamicsError::NonFinite`], [`DynamicsError::NoEigenvalues`].
     ///
     /// # Accuracy
     /// Each ω² to a few n ulp of Σ|φ_i||K_ij||φ_j|, which `uncertainties` holds; shapes to some n ulp ×
@@ -109,12 +110,15 @@ impl Linearisation {
     /// See [`NormalModes`].
     pub fn normal_modes(&self) -> Result<NormalModes, DynamicsError> {
         let n = self.coordinates();
-        crate::check::check_finite("mass matrix", self.mass_matrix.as_slice())?;
-        crate::check::check_finite("stiffness", self.stiffness.as_slice())?;
+        self.check()?;
+        if n == 0 {
+            let (squares, uncertainties) = (DVector::zeros(0), DVector::zeros(0));
+            return Ok(NormalModes { squares, uncertainties, shapes: DMatrix::zeros(0, 0) });
+        }
         let reduction = Reduction::of(&self.mass_matrix)?;
         let reduced = reduction.of_form(&self.stiffness);
         let reduced = (&reduced + reduced.transpose()) * 0.5;
-        let eigen = SymmetricEigen::try_new(reduced, f64::EPSILON, SWEEPS * n.max(1))
+        let eigen = SymmetricEigen::try_new(reduced, f64::EPSILON, SWEEPS * n)
             .ok_or(DynamicsError::NoEigenvalues { rows: n })?;
         let mut modes: Vec<(f64, f64, DVector<f64>)> = eigen
             .eigenvectors

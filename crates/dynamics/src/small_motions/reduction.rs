@@ -19,6 +19,12 @@ pub(super) struct Reduction {
 impl Reduction {
     pub(super) fn of(mass_matrix: &DMatrix<f64>) -> Result<Self, DynamicsError> {
         let n = mass_matrix.nrows();
+        // The root of a diagonal entry that is not positive would hide it.
+        if let Some((pivot, value)) = (0..n).map(|i| (i, mass_matrix[(i, i)])).find(|&(_, x)| x <= 0.0) {
+            let mut direction = vec![0.0; n];
+            direction[pivot] = 1.0;
+            return Err(DynamicsError::SingularMetric { coordinate: pivot, pivot: value, diagonal: value, direction });
+        }
         let units = DVector::from_fn(n, |i, _| mass_matrix[(i, i)].sqrt());
         let mut factors = DMatrix::from_fn(n, n, |i, j| mass_matrix[(i, j)] / (units[i] * units[j]));
         ldlt::factor_in_place(factors.as_mut_slice(), n).map_err(|error| singular(mass_matrix, error))?;

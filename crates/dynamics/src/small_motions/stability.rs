@@ -52,12 +52,10 @@ impl Linearisation {
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     pub fn stability(&self) -> Result<Stability, DynamicsError> {
+        self.check()?;
         let n = self.coordinates();
         if n == 0 {
             return Ok(Stability::Stable);
-        }
-        for (quantity, matrix) in self.matrices() {
-            crate::check::check_finite(quantity, matrix.as_slice())?;
         }
         let reduction = Reduction::of(&self.mass_matrix)?;
         let (stiffness, damping) = (reduction.of_form(&self.stiffness), reduction.of_form(&self.damping));
@@ -82,16 +80,6 @@ impl Linearisation {
             });
         }
         Ok(self.complex_modes()?.stability())
-    }
-
-    pub(super) fn matrices(&self) -> [(&'static str, &DMatrix<f64>); 5] {
-        [
-            ("mass matrix", &self.mass_matrix),
-            ("damping", &self.damping),
-            ("gyroscopic matrix", &self.gyroscopic),
-            ("stiffness", &self.stiffness),
-            ("circulatory matrix", &self.circulatory),
-        ]
     }
 }
 

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use piola_dynamics::DynamicsError;
 use piola_dynamics::lagrangian::{
-    ChangeOfCoordinates, Forces, Holonomic, Lagrangian, PartForce, PartPower, Path, Placement, Potential, Reaction,
-    SampledMotion, Workspace,
+    ChangeOfCoordinates, ConstraintVerdict, Forces, Holonomic, Lagrangian, PartForce, PartPower, Path, Placement,
+    Potential, Reaction, SampledMotion, Workspace,
 };
-use piola_dynamics::newton_euler::{NewtonEuler, particle_acceleration};
+use piola_dynamics::newton_euler::{NewtonEuler, particle_acceleration, principal_angular_acceleration};
 use piola_integrators::Tolerance;
 use piola_kinematics::{EulerAngles, Inertia, KinematicsError, RigidBody};
 use piola_numerics::Real;
@@ -54,6 +54,94 @@ fn non_finite_input_is_refused_by_name() {
     let forces = [PartForce::force([0.0, f64::NAN, 0.0]); 3];
     let found = refusal(system.ideal_constraint_test(&forces, &q, 0.0));
     assert!(matches!(found, DynamicsError::NonFinite { .. }), "{found}");
+}
+
+#[test]
+fn results_that_are_not_finite_are_refused_by_the_name_of_their_cause() {
+    let system = driven();
+    let named = |error: DynamicsError, name: &str, at: usize| {
+        let DynamicsError::NonFinite { quantity, index, .. } = error else { panic!("{error}") };
+        assert_eq!((quantity, index), (name, at));
+    };
+    let (good, bad) = ([0.25; 3], [0.25, f64::NAN, 0.25]);
+    let mut work = Workspace::default();
+    let (mut parts, mut powers) = ([PartPower::default(); 3], [0.0; 3]);
+    for (q, v, t, name, at) in [
+        (&bad, &good, 0.0, "q", 1),
+        (&good, &[0.25, 0.25, f64::INFINITY], 0.0, "q̇", 2),
+        (&good, &good, f64::NAN, "t", 0),
+    ] {
+        named(refusal(system.energies(q, v, t)), name, at);
+        named(refusal(system.momenta(q, v, t)), name, at);
+        named(refusal(system.jacobi_integral(q, v, t)), name, at);
+        named(refusal(system.coordinate_gradient(q, v, t)), name, at);
+        named(refusal(system.time_derivative(q, v, t)), name, at);
+        named(refusal(system.generalised_forces(q, v, t)), name, at);
+        named(refusal(system.system_momentum(q, v, t, &Vector3::zeros())), name, at);
+        named(refusal(system.actuator_powers_into(&mut work, q, v, t, &mut parts, &mut powers)), name, at);
+    }
+    let force = |x: f64| [PartForce::force([0.0, 0.0, x]); 3];
+    named(refusal(system.virtual_work(&force(1.0), &bad, 0.0)), "q", 1);
+    named(refusal(system.virtual_work(&force(f64::NAN), &good, 0.0)), "force", 2);
+    named(refusal(system.lower(&good, &bad, 0.0)), "vector", 1);
+    named(refusal(system.lower(&bad, &good, 0.0)), "q", 1);
+    named(refusal(system.system_momentum(&good, &good, 0.0, &Vector3::from(bad))), "about", 1);
+    named(refusal(system.driving_forces(&good, &good, &bad, 0.0)), "q̈", 1);
+    named(refusal(system.power_balance_at_acceleration(&mut work, (&good, &good, &bad), 0.0)), "q̈", 1);
+}
+
+/// A weight that cannot move: a system without coordinates.
+struct Fixed;
+impl Holonomic for Fixed {
+    fn place<T: Real>(&self, _q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+        bodies.particle(2.0, Vector3::from([T::zero(); 3]));
+    }
+}
+
+#[test]
+fn forces_on_a_system_without_coordinates_are_counted() {
+    let fixed = Lagrangian::of(Fixed).with_gravity(10.0);
+    let two = [PartForce::<f64>::force([1.0; 3]); 2];
+    let wrong = DynamicsError::DimensionMismatch { quantity: "forces", expected: 1, found: 2 };
+    assert_eq!(refusal(fixed.virtual_work(&two, &[], 0.0)), wrong);
+    assert_eq!(refusal(fixed.ideal_constraint_test(&two, &[], 0.0)), wrong);
+    assert_eq!(fixed.virtual_work(&two[..1], &[], 0.0).unwrap().len(), 0);
+    let held = fixed.reactions(&[], &[], 0.0).unwrap();
+    assert_close("reaction", held[0].force().as_slice(), &[0.0, 0.0, 20.0], Tol::ulps(0.0));
+}
+
+#[test]
+fn tolerance_that_is_no_number_tolerates_nothing() {
+    let forces = [PartForce::force([1.0, 0.0, 0.0]); 3];
+    let test = driven().ideal_constraint_test(&forces, &[0.25; 3], 0.0).unwrap();
+    assert!(matches!(test.verdict(f64::NAN), ConstraintVerdict::Working { .. }));
+}
+
+#[test]
+fn samples_beyond_the_last_are_none() {
+    let refused = refusal(SampledMotion::new(usize::MAX, vec![0.0, 1.0], vec![], vec![]));
+    let expected = usize::MAX;
+    assert_eq!(refused, DynamicsError::DimensionMismatch { quantity: "coordinates", expected, found: 0 });
+    let samples = SampledMotion::new(1, vec![0.0, 1.0], vec![2.0, 3.0], vec![0.0; 2]).unwrap();
+    assert_eq!(
+        (samples.coordinates(1), samples.velocities(2), samples.coordinates(usize::MAX)),
+        (&[3.0][..], &[][..], &[][..])
+    );
+}
+
+#[test]
+fn impossible_moments_of_inertia_are_refused() {
+    let (zero, nan) = (Vector3::zeros(), Vector3::new(0.0, f64::NAN, 0.0));
+    let found = refusal(principal_angular_acceleration([2.0, 0.0, 1.0], &zero, &zero));
+    let expected = KinematicsError::InertiaNotPositiveDefinite { principal_moments: [0.0, 1.0, 2.0] };
+    assert_eq!(found, DynamicsError::Kinematics(expected));
+    for found in [
+        refusal(principal_angular_acceleration([1.0; 3], &nan, &zero)),
+        refusal(principal_angular_acceleration([1.0; 3], &zero, &nan)),
+        refusal(particle_acceleration(1.0, &nan)),
+    ] {
+        assert!(matches!(found, DynamicsError::NonFinite { index: 1, .. }), "{found}");
+    }
 }
 
 /// Forces that are not numbers on the second part.
@@ -151,7 +239,7 @@ impl Holonomic for Line {
 fn more_new_coordinates_than_old_ones_are_named_as_dependent() {
     let found = refusal(Lagrangian::of(Line).in_coordinates(Sum).acceleration(&[0.0; 2], &[1.0; 2], 0.0));
     let DynamicsError::SingularMetric { coordinate: 1, direction, .. } = found else { panic!("{found}") };
-    piola_testkit::assert_close("null direction", &direction, &[-1.0, 1.0], Tol::ulps(4.0));
+    assert_close("null direction", &direction, &[-1.0, 1.0], Tol::ulps(4.0));
 }
 
 /// A heavy bob hangs from a light one, 10¹² times lighter, both still and far from the origin.
@@ -177,7 +265,7 @@ fn mass_ratio_of_a_million_millions_and_a_far_origin_leave_reactions_their_digit
         let [light, heavy] = chain.reactions(&[0.0; 2], &[1.0, 2.0], 0.0).unwrap()[..] else { panic!("two parts") };
         // Upwards accelerations: 1² of the light bob, 1² + 2² of the heavy one.
         let tol = Tol::ulps(4.0);
-        piola_testkit::assert_close("light", light.force().as_slice(), &[0.0, 0.0, 1e-9 * (10.0 + 1.0)], tol);
+        assert_close("light", light.force().as_slice(), &[0.0, 0.0, 1e-9 * (10.0 + 1.0)], tol);
         assert_close("heavy", heavy.force().as_slice(), &[0.0, 0.0, 1e3 * (10.0 + 5.0)], tol);
     }
 }

@@ -198,6 +198,41 @@ fn matrix_without_inertia_or_number_is_refused() {
     let strange = linear(DMatrix::identity(1, 1), &DMatrix::zeros(1, 1), &dmatrix![f64::NAN]);
     assert!(matches!(strange.normal_modes(), Err(DynamicsError::NonFinite { quantity: "stiffness", .. })));
     assert!(matches!(strange.complex_modes(), Err(DynamicsError::NonFinite { .. })));
+    assert!(matches!(strange.state_matrix(), Err(DynamicsError::NonFinite { quantity: "stiffness", .. })));
+    assert!(matches!(strange.input_matrix(&dmatrix![1.0]), Err(DynamicsError::NonFinite { .. })));
+    let whole = linear(DMatrix::identity(1, 1), &DMatrix::zeros(1, 1), &DMatrix::identity(1, 1));
+    let found = whole.input_matrix(&dmatrix![f64::NAN]).unwrap_err();
+    assert!(matches!(found, DynamicsError::NonFinite { quantity: "inputs", .. }), "{found}");
+    let negative = linear(dmatrix![1.0, 0.0; 0.0, -2.0], &DMatrix::zeros(2, 2), &DMatrix::identity(2, 2));
+    let found = negative.normal_modes().unwrap_err();
+    let direction = vec![0.0, 1.0];
+    assert_eq!(found, DynamicsError::SingularMetric { coordinate: 1, pivot: -2.0, diagonal: -2.0, direction });
+}
+
+#[test]
+fn matrices_of_different_orders_are_refused_by_name() {
+    let fits = linear(DMatrix::identity(2, 2), &DMatrix::zeros(2, 2), &DMatrix::identity(2, 2));
+    let wrong = |quantity, expected, found| DynamicsError::DimensionMismatch { quantity, expected, found };
+    for (strange, refusal) in [
+        (Linearisation { stiffness: DMatrix::zeros(1, 1), ..fits.clone() }, wrong("stiffness", 2, 1)),
+        (Linearisation { damping: DMatrix::zeros(2, 3), ..fits.clone() }, wrong("damping", 2, 3)),
+        (Linearisation { mass_matrix: DMatrix::zeros(2, 3), ..fits.clone() }, wrong("mass matrix", 2, 3)),
+        (Linearisation { acceleration: DVector::zeros(0), ..fits }, wrong("acceleration", 2, 0)),
+    ] {
+        assert_eq!(strange.normal_modes().unwrap_err(), refusal);
+        assert_eq!(strange.complex_modes().unwrap_err(), refusal);
+        assert_eq!(strange.stability().unwrap_err(), refusal);
+        assert_eq!(strange.state_matrix().unwrap_err(), refusal);
+        assert_eq!(strange.input_matrix(&DMatrix::zeros(2, 1)).unwrap_err(), refusal);
+    }
+}
+
+#[test]
+fn modes_of_nothing_are_none() {
+    let nothing = linear(DMatrix::zeros(0, 0), &DMatrix::zeros(0, 0), &DMatrix::zeros(0, 0));
+    assert_eq!(nothing.normal_modes().unwrap().squares.len(), 0);
+    assert_eq!(nothing.complex_modes().unwrap().modes.len(), 0);
+    assert_eq!(nothing.state_matrix().unwrap().len(), 0);
 }
 
 /// Random matrices of order n: a positive definite M of moderate condition, and any D and K.
