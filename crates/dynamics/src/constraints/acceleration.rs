@@ -195,11 +195,14 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         self.lagrangian.equations_into(lagrangian, q, v, t, mass_matrix, forcing)?;
         self.differentiate(work, q, v, t);
         let finite = |values: &[T]| values.iter().fold(T::Mask::splat(true), |all, a| all & a.is_finite()).all();
-        if finite(&work.gradients.second_rates) && finite(&work.gradients.rows) {
-            Ok(())
-        } else {
-            self.check_gradients(work)
+        let gradients = &work.gradients;
+        if finite(&gradients.rates) && finite(&gradients.second_rates) && finite(&gradients.rows) {
+            return Ok(());
         }
+        check_finite("q", q)?;
+        check_finite("q̇", v)?;
+        check_finite("t", &[t])?;
+        self.check_gradients(work)
     }
 
     /// Factors the metric and brings the gradients to its scale.

@@ -129,19 +129,16 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
             // The metric need not be that of the last iteration: it says only what is near.
             if iteration == 0 || SATISFIED.sqrt() < before {
                 self.form(work, q, v, t)?;
+                self.factor(work, false)?;
             } else {
                 self.differentiate(work, q, v, t);
+                work.independence.scale(&work.gradients.rows, self.constraints.count());
             }
             let (_, violation) = Self::violation(work, q);
             let small = violation <= SATISFIED;
             if violation <= 0.5 * f64::EPSILON || small && 0.25 * before <= violation {
                 outcome = Some((violation, iteration));
                 break;
-            }
-            if iteration == 0 || SATISFIED.sqrt() < before {
-                self.factor(work, false)?;
-            } else {
-                work.independence.scale(&work.gradients.rows, self.constraints.count());
             }
             before = violation;
             weights.clear();
@@ -175,10 +172,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         }
         (work.multipliers, work.acceleration) = (weights, trial);
         match outcome {
-            Some((residual, iterations)) => {
-                work.independence.scale(&work.gradients.rows, self.constraints.count());
-                Ok((residual, iterations))
-            }
+            Some(closeness) => Ok(closeness),
             None => Err(self.explain_assembly(work, q, v, t)),
         }
     }
@@ -235,7 +229,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
             self.differentiate(work, q, v, t);
             fastest = v.iter().fold(fastest, |m, v| m.max(v.abs()));
             (constraint, violation) = worst(&work.gradients.rates, &work.gradients.rows, fastest, n);
-            if violation <= f64::EPSILON || 0.25 * before <= violation {
+            if violation <= f64::EPSILON || 0 < iteration && 0.25 * before <= violation {
                 break;
             }
             before = violation;

@@ -236,6 +236,15 @@ impl<T: Real> Independence<T> {
         self.unwhiten(acceleration);
     }
 
+    /// The least change, in the metric, that takes these residuals (or rates) away: −M⁻¹Gᵀ (G M⁻¹Gᵀ)⁻¹ φ, by the
+    /// constraints taken.
+    pub(super) fn correct(&mut self, residuals: &[T], change: &mut [T]) {
+        let mut zero = core::mem::take(&mut self.scaled);
+        zeros(&mut zero, change.len());
+        self.accelerate(&zero, residuals, change);
+        self.scaled = zero;
+    }
+
     /// The multipliers of the last accelerations: Σ λᵢ gᵢ = f − M q̈, those of least Σ (λᵢ sᵢ)².
     ///
     /// To be called after [`choose`](Self::choose).

@@ -15,7 +15,7 @@ use core::ops::ControlFlow;
 use piola_integrators::{Ending, Field, IntegrationError, Report, State, Step};
 use piola_kinematics::Holonomic;
 
-use super::workspace::{Workspace, zeros};
+use super::workspace::{Workspace, dot, zeros};
 use super::{Constrained, Constraints};
 use crate::DynamicsError;
 use crate::lagrangian::{self, CanonicalMotion, Forces, Potential};
@@ -65,9 +65,12 @@ pub struct Rattle {
     end: Vec<f64>,
     rate: Vec<f64>,
     velocity: Vec<f64>,
-    /// h/2 G₀ᵀλ, with its sign.
+    /// −h/2 G₀ᵀλ.
     impulse: Vec<f64>,
-    weights: Vec<f64>,
+    residuals: Vec<f64>,
+    /// A correction of positions or velocities, and the momentum of it.
+    change: Vec<f64>,
+    push: Vec<f64>,
     saved: Vec<f64>,
 }
 
@@ -95,7 +98,9 @@ impl Rattle {
             rate: buffer(),
             velocity: buffer(),
             impulse: buffer(),
-            weights: buffer(),
+            residuals: buffer(),
+            change: buffer(),
+            push: buffer(),
             saved: buffer(),
         })
     }
@@ -196,8 +201,9 @@ impl Rattle {
         for buffer in [&mut self.start, &mut self.end, &mut self.rate] {
             zeros(buffer, length);
         }
-        zeros(&mut self.velocity, length / 2);
-        zeros(&mut self.impulse, length / 2);
+        for buffer in [&mut self.velocity, &mut self.impulse, &mut self.change, &mut self.push] {
+            zeros(buffer, length / 2);
+        }
     }
 
     /// One step. `work` holds the metric and the gradients at its start, and afterwards those at its end.
@@ -214,7 +220,14 @@ impl Rattle {
         let at = |time: f64| move |source: DynamicsError| IntegrationError::Field { time, source };
         let count = system.constraints.count();
         let half = 0.5 * h;
-        // The impulse of the last step is the first guess for a step of the same length.
+        // The impulse of the last step, along the gradients of this one, is the first guess.
+        self.change.copy_from_slice(&self.impulse);
+        self.work.independence.solve_metric(&mut self.change).map_err(|error| at(from)(error.into()))?;
+        self.residuals.clear();
+        let rows = self.work.gradients.rows.chunks_exact(n.max(1));
+        self.residuals.extend(rows.map(|row| -dot(row, &self.change)));
+        self.work.independence.correct(&self.residuals, &mut self.change);
+        momentum_of(&self.work.mass_matrix, &self.change, &mut self.impulse);
         self.start.copy_from_slice(y);
         self.end.copy_from_slice(y);
         for (p, impulse) in self.start[n..].iter_mut().zip(&self.impulse) {
@@ -245,19 +258,16 @@ impl Rattle {
             }
             // What is left of the constraints, brought to zero by impulses along G₀. Rounding of φ is a rounding of
             // the impulse times q/(h v); it is judged by what it does to q, and ends with the step.
-            self.weights.resize(count, 0.0);
-            system.constraints.residuals(&self.end[..n], to, &mut self.weights);
-            self.work.independence.weigh(&mut self.weights).map_err(|error| at(to)(error.into()))?;
-            Constrained::<S, P, F, C>::gather(&mut self.work, &self.weights, n);
-            for (k, along) in self.work.along.iter().enumerate() {
-                self.impulse[k] -= along / h;
-                self.start[n + k] -= along / h;
+            self.residuals.resize(count, 0.0);
+            system.constraints.residuals(&self.end[..n], to, &mut self.residuals);
+            self.work.independence.correct(&self.residuals, &mut self.change);
+            momentum_of(&self.work.mass_matrix, &self.change, &mut self.push);
+            for i in 0..n {
+                self.end[i] += self.change[i];
+                self.impulse[i] += self.push[i] / h;
+                self.start[n + i] += self.push[i] / h;
             }
-            self.work.independence.solve_metric(&mut self.work.along).map_err(|error| at(to)(error.into()))?;
-            for (q, along) in self.end[..n].iter_mut().zip(&self.work.along) {
-                *q -= along;
-            }
-            change = change.max(relative(largest(&self.work.along), scale_q));
+            change = change.max(relative(largest(&self.change), scale_q));
             if !change.is_finite() || sweep == MOST_SWEEPS {
                 return Err(IntegrationError::StagesDiverged { time: from, step: h, iterations: sweep, change });
             }
@@ -284,12 +294,10 @@ impl Rattle {
                 .velocities_into(&mut self.lagrangian, position, momentum, to, &mut self.velocity)
                 .map_err(at(to))?;
             system.differentiate(&mut self.work, position, &self.velocity, to);
-            self.weights.clear();
-            self.weights.extend_from_slice(&self.work.gradients.rates);
-            self.work.independence.weigh(&mut self.weights).map_err(|error| at(to)(error.into()))?;
-            Constrained::<S, P, F, C>::gather(&mut self.work, &self.weights, n);
-            for (p, along) in momentum.iter_mut().zip(&self.work.along) {
-                *p -= along;
+            self.work.independence.correct(&self.work.gradients.rates, &mut self.change);
+            momentum_of(&self.work.mass_matrix, &self.change, &mut self.push);
+            for (p, push) in momentum.iter_mut().zip(&self.push) {
+                *p += push;
             }
         }
         if let Some(index) = self.end.iter().position(|x| !x.is_finite()) {
@@ -311,7 +319,15 @@ fn hold<S: Holonomic, P: Potential, F: Forces, C: Constraints>(
     velocity.fill(0.0);
     system.form(work, q, velocity, t)?;
     system.factor(work, false)?;
-    Ok(work.independence.factor_corrections()?)
+    work.independence.choose(system.least_share);
+    system.refuse_redundancy(work)
+}
+
+/// M v, for n² entries of M.
+fn momentum_of(mass_matrix: &[f64], v: &[f64], out: &mut [f64]) {
+    for (row, out) in mass_matrix.chunks_exact(v.len().max(1)).zip(out) {
+        *out = dot(row, v);
+    }
 }
 
 /// The largest |x|.

@@ -25,7 +25,7 @@ pub(crate) fn state(psi: f64, rate: f64) -> ([f64; 6], [f64; 6]) {
 }
 
 pub(crate) fn bricard() -> Constrained<System, Spring, Drive, Ties> {
-    mechanism(System::Bricard, GRAVITY, 0.0).with_constraints(Ties::Bricard)
+    mechanism(System::Bricard { sixth: false }, GRAVITY, 0.0).with_constraints(Ties::Bricard)
 }
 
 fn compare(psi: f64, rate: f64) -> (ConstrainedRun, f64) {

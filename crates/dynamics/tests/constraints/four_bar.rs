@@ -10,7 +10,7 @@ use crate::systems::{System, Ties, bar_angles, mechanism};
 pub(crate) const GRAVITY: [f64; 3] = [0.0, -9.80665, 0.0];
 const TIGHT: f64 = 1e-13;
 /// The crank's rate at the start, rad/s: it turns round.
-pub(crate) const RATE: f64 = 20.0;
+pub(crate) const RATE: f64 = 10.0;
 
 /// The angles and their rates at a crank angle and its rate.
 pub(crate) fn state(crank: f64, rate: f64) -> ([f64; 3], [f64; 3]) {

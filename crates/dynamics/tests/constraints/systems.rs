@@ -21,8 +21,9 @@ pub(crate) enum System {
     FourBar,
     /// The same by the crank's angle, the others by the closed triangle.
     FourBarCrank,
-    /// Bricard's loop in its six joint angles.
-    Bricard,
+    /// Bricard's loop in its six joint angles; unless the sixth link, which is fixed, is given a mass, nothing that
+    /// the last angle moves has inertia.
+    Bricard { sixth: bool },
     /// The same by the one parameter of its symmetric motion.
     BricardSymmetric,
     /// Andrews' squeezing mechanism.
@@ -43,8 +44,8 @@ impl Holonomic for System {
         match self {
             Self::FourBar => place_bars([q[0], q[1], q[2]], bodies),
             Self::FourBarCrank => place_bars(bar_angles(q[0]), bodies),
-            Self::Bricard => place_loop(q, bodies),
-            Self::BricardSymmetric => place_loop(&loop_angles(q[0]), bodies),
+            Self::Bricard { sixth } => place_loop(q, if *sixth { 6 } else { 5 }, bodies),
+            Self::BricardSymmetric => place_loop(&loop_angles(q[0]), 5, bodies),
             Self::Squeezer(squeezer) => squeezer.place(q, bodies),
             Self::Particles { last_has_mass } => {
                 let count = q.len().div_ceil(3);
@@ -65,7 +66,7 @@ impl Holonomic for System {
     }
 }
 
-/// Bars of 1, 3 and 2 kg, their centres of mass half way.
+/// Bars of 1, 3 and 2 kg, their centres of mass half way; the crank carries a flywheel.
 fn place_bars<T: Real>(angles: [T; 3], bodies: &mut impl Placement<T>) {
     let [a, b, c, d] = BARS.map(T::lit);
     let half = T::lit(0.5);
@@ -74,7 +75,7 @@ fn place_bars<T: Real>(angles: [T; 3], bodies: &mut impl Placement<T>) {
         Vector3::new(length * c, length * s, T::zero())
     };
     let [crank, coupler, rocker] = angles;
-    bodies.body(&body(1.0, 0.001), along(a * half, crank), Attitude::about_z(crank));
+    bodies.body(&body(1.0, 0.2), along(a * half, crank), Attitude::about_z(crank));
     bodies.body(&body(3.0, 0.03), along(a, crank) + along(b * half, coupler), Attitude::about_z(coupler));
     let pivot = Vector3::new(d, T::zero(), T::zero());
     bodies.body(&body(2.0, 0.015), pivot + along(c * half, rocker), Attitude::about_z(rocker));
@@ -111,10 +112,10 @@ fn walk<T: Real>(q: &[T], mut visit: impl FnMut(usize, Vector3<T>, Attitude<T>))
     (place, attitude)
 }
 
-/// Five links of different masses; the sixth is fixed.
-fn place_loop<T: Real>(q: &[T], bodies: &mut impl Placement<T>) {
+/// The first links, of different masses.
+fn place_loop<T: Real>(q: &[T], links: usize, bodies: &mut impl Placement<T>) {
     walk(q, |i, start, attitude| {
-        if i < 5 {
+        if i < links {
             let mass = 1.0 + 0.25 * i as f64;
             let centre = Vector3::new(T::lit(0.5 * LINK), T::lit(0.05), T::lit(-0.02));
             bodies.body(&body(mass, 0.02 * mass), start + attitude.to_space(&centre), attitude);
@@ -132,6 +133,7 @@ pub(crate) fn loop_angles<T: Real>(psi: T) -> [T; 6] {
 }
 
 /// The spring of the squeezer.
+#[derive(Clone)]
 pub(crate) struct Spring(pub(crate) System);
 
 impl Potential for Spring {
@@ -141,6 +143,7 @@ impl Potential for Spring {
 }
 
 /// A moment on the first coordinate.
+#[derive(Clone)]
 pub(crate) struct Drive(pub(crate) f64);
 
 impl Forces for Drive {
