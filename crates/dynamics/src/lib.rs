@@ -26,6 +26,8 @@ pub mod newton_euler;
 pub mod rigid_motion;
 mod run;
 pub mod small_motions;
+#[cfg(feature = "serde")]
+mod written;
 
 pub use error::DynamicsError;
 pub use run::Run;

@@ -27,6 +27,7 @@ use crate::check::{check_finite, check_length};
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct SampledMotion {
     freedom: usize,
     times: Vec<f64>,
@@ -305,5 +306,25 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
         check_finite("residual", &[worst.worst])?;
         Ok(worst)
+    }
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    freedom: usize,
+    times: Vec<f64>,
+    coordinates: Vec<f64>,
+    velocities: Vec<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for SampledMotion {
+    type Error = DynamicsError;
+
+    fn try_from(samples: Unchecked) -> Result<Self, DynamicsError> {
+        Self::new(samples.freedom, samples.times, samples.coordinates, samples.velocities)
     }
 }

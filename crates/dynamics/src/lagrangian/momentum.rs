@@ -24,10 +24,20 @@ use crate::check::{check_finite, check_length};
 /// # Source
 /// W(1.18), W(2.35).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        deny_unknown_fields,
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct SystemMomentum<T: Real = f64> {
     /// Σ m v, kg m/s.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
     pub momentum: Vector3<T>,
     /// Σ (x − o)×m v + Iω, kg m²/s.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
     pub moment_of_momentum: Vector3<T>,
 }
 

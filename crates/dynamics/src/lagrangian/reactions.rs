@@ -28,10 +28,20 @@ use crate::check::{check_finite, check_length};
 /// # Source
 /// W(5.1–5.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        deny_unknown_fields,
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct PartForce<T: Real = f64> {
     /// N, space components.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
     pub force: Vector3<T>,
     /// N m, about the centre of mass, body components.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
     pub moment: Vector3<T>,
 }
 
@@ -66,23 +76,34 @@ impl<T: Real> PartForce<T> {
 /// assert_eq!((held.force().z, held.moment_in_body().x, held.moment_in_space().x), (5.0, 3.0, -3.0));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "part", rename_all = "snake_case", deny_unknown_fields))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
 pub enum Reaction<T: Real = f64> {
     /// On a particle.
     Particle {
         /// Where it is, m.
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
         position: Vector3<T>,
         /// f_c, N, space components.
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
         force: Vector3<T>,
     },
     /// On a body.
     Body {
         /// The centre of mass, m.
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
         position: Vector3<T>,
         /// Body → space.
         attitude: Attitude<T>,
         /// F_c at the centre of mass, N, space components.
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
         force: Vector3<T>,
         /// G_c about the centre of mass, N m, body components.
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
         moment: Vector3<T>,
     },
 }

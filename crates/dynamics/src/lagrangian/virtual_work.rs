@@ -24,7 +24,7 @@ use crate::check::{check_finite, check_length};
 /// # Example
 /// See [`Lagrangian::ideal_constraint_test`].
 #[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct IdealConstraintTest {
     powers: Vec<f64>,
     scales: Vec<f64>,
@@ -38,7 +38,8 @@ pub struct IdealConstraintTest {
 /// # Source
 /// W(5.5).
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum ConstraintVerdict {
     /// The forces have no power in any virtual displacement, to the tolerance asked for.
     Ideal,
@@ -363,5 +364,26 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         self.system.place(&work.coordinates, Gradient::constant(t), &mut sums);
         check_length("forces", sums.parts, forces.len())?;
         Ok(sums)
+    }
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    powers: Vec<f64>,
+    scales: Vec<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for IdealConstraintTest {
+    type Error = DynamicsError;
+
+    fn try_from(Unchecked { powers, scales }: Unchecked) -> Result<Self, DynamicsError> {
+        check_length("scales", powers.len(), scales.len())?;
+        check_finite("powers", &powers)?;
+        check_finite("scales", &scales)?;
+        Ok(Self { powers, scales })
     }
 }

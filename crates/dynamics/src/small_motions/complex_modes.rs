@@ -5,6 +5,8 @@ use nalgebra::{Complex, DMatrix, DVector, SVD, Schur};
 use super::reduction::Reduction;
 use super::{Linearisation, Stability};
 use crate::DynamicsError;
+#[cfg(feature = "serde")]
+use crate::check::check_finite;
 
 /// Sweeps of the iterations for eigenvalues and singular values, for each row.
 const SWEEPS: usize = 100;
@@ -13,12 +15,14 @@ const ATTEMPTS: usize = 4;
 
 /// One complex frequency λ with its shape: δq = Re(φ e^λt).
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct ComplexMode {
     /// λ, 1/s, with 0 ≤ Im λ: the conjugate, where there is one, belongs to the conjugate shape.
     pub eigenvalue: Complex<f64>,
     /// How far λ may be wrong by rounding, 1/s. Near √ulp of the frequencies where two modes merge.
     pub uncertainty: f64,
     /// φ, of length one in M, the largest component, measured by √M_ii, real and positive.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::column"))]
     pub shape: DVector<Complex<f64>>,
 }
 
@@ -63,6 +67,8 @@ impl ComplexMode {
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ComplexModes {
     /// The modes: n of them if all oscillate, one more for each pair that does not.
     pub modes: Vec<ComplexMode>,
@@ -242,5 +248,30 @@ impl Linearisation {
         let mut turned = shape.map(|x| x * phase);
         turned[first].im = 0.0;
         turned
+    }
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    eigenvalue: Complex<f64>,
+    uncertainty: f64,
+    #[serde(deserialize_with = "crate::written::column::deserialize")]
+    shape: DVector<Complex<f64>>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for ComplexMode {
+    type Error = DynamicsError;
+
+    fn try_from(Unchecked { eigenvalue, uncertainty, shape }: Unchecked) -> Result<Self, DynamicsError> {
+        check_finite("eigenvalue", &[eigenvalue.re, eigenvalue.im])?;
+        check_finite("uncertainty", &[uncertainty])?;
+        for component in &shape {
+            check_finite("shape", &[component.re, component.im])?;
+        }
+        Ok(Self { eigenvalue, uncertainty, shape })
     }
 }

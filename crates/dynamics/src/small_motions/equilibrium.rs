@@ -6,6 +6,8 @@ use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
 use super::linearisation::Sweep;
 use super::{Linearisation, Stability};
 use crate::DynamicsError;
+#[cfg(feature = "serde")]
+use crate::check::{check_finite, check_length};
 use crate::lagrangian::{Forces, Lagrangian, Potential};
 
 /// Newton steps after which the search is given up.
@@ -15,8 +17,10 @@ const HALVINGS: usize = 40;
 
 /// A place where the system stays at rest, with what shows that it is one.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct Equilibrium {
     /// q.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::column"))]
     pub coordinates: DVector<f64>,
     /// The largest force left, by units of mass, over the forces that balance: a few ulp.
     pub residual: f64,
@@ -280,5 +284,32 @@ impl Placement<f64> for Mass {
     }
     fn body(&mut self, body: &RigidBody, _centre: Vector3<f64>, _attitude: Attitude<f64>) {
         self.0 += body.mass();
+    }
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    #[serde(deserialize_with = "crate::written::column::deserialize")]
+    coordinates: DVector<f64>,
+    residual: f64,
+    condition: f64,
+    iterations: usize,
+    linearisation: Linearisation,
+    stability: Stability,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for Equilibrium {
+    type Error = DynamicsError;
+
+    fn try_from(given: Unchecked) -> Result<Self, DynamicsError> {
+        let Unchecked { coordinates, residual, condition, iterations, linearisation, stability } = given;
+        check_length("coordinates", linearisation.coordinates(), coordinates.len())?;
+        check_finite("coordinates", coordinates.as_slice())?;
+        check_finite("residual and condition", &[residual, condition])?;
+        Ok(Self { coordinates, residual, condition, iterations, linearisation, stability })
     }
 }

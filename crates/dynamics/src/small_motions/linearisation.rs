@@ -23,18 +23,32 @@ use crate::lagrangian::{Forces, Lagrangian, Potential, Workspace};
 /// # Example
 /// See [`Lagrangian::linearise`].
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Unchecked<T>",
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Linearisation<T: Real = f64> {
     /// q̈₀, the accelerations at the state; zero at an equilibrium.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::column"))]
     pub acceleration: DVector<T>,
     /// M, symmetric.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::matrix"))]
     pub mass_matrix: DMatrix<T>,
     /// C, the symmetric part of −∂f/∂q̇: positive where the motion loses energy.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::matrix"))]
     pub damping: DMatrix<T>,
     /// G, the skew part of −∂f/∂q̇.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::matrix"))]
     pub gyroscopic: DMatrix<T>,
     /// K, the symmetric part of −∂f/∂q.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::matrix"))]
     pub stiffness: DMatrix<T>,
     /// N, the skew part of −∂f/∂q: zero where forces have a potential.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::matrix"))]
     pub circulatory: DMatrix<T>,
 }
 
@@ -312,5 +326,36 @@ impl<T: Real> Linearisation<T> {
 
     fn mass_factors(&self) -> Result<Ldlt<T>, DynamicsError> {
         Ldlt::new(&self.mass_matrix).map_err(|error| reduction::singular(&self.mass_matrix, error))
+    }
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields, bound(deserialize = "T: Real + serde::Deserialize<'de>"))]
+struct Unchecked<T: Real> {
+    #[serde(deserialize_with = "crate::written::column::deserialize")]
+    acceleration: DVector<T>,
+    #[serde(deserialize_with = "crate::written::matrix::deserialize")]
+    mass_matrix: DMatrix<T>,
+    #[serde(deserialize_with = "crate::written::matrix::deserialize")]
+    damping: DMatrix<T>,
+    #[serde(deserialize_with = "crate::written::matrix::deserialize")]
+    gyroscopic: DMatrix<T>,
+    #[serde(deserialize_with = "crate::written::matrix::deserialize")]
+    stiffness: DMatrix<T>,
+    #[serde(deserialize_with = "crate::written::matrix::deserialize")]
+    circulatory: DMatrix<T>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for Linearisation<T> {
+    type Error = DynamicsError;
+
+    fn try_from(given: Unchecked<T>) -> Result<Self, DynamicsError> {
+        let Unchecked { acceleration, mass_matrix, damping, gyroscopic, stiffness, circulatory } = given;
+        let linearisation = Self { acceleration, mass_matrix, damping, gyroscopic, stiffness, circulatory };
+        linearisation.check()?;
+        Ok(linearisation)
     }
 }

@@ -6,6 +6,8 @@ use piola_numerics::sums::CompensatedSum;
 use super::Linearisation;
 use super::reduction::Reduction;
 use crate::DynamicsError;
+#[cfg(feature = "serde")]
+use crate::check::{check_finite, check_length};
 
 /// Sweeps of the iteration for eigenvalues, for each row of the matrix.
 pub(super) const SWEEPS: usize = 100;
@@ -37,12 +39,16 @@ pub(super) const SWEEPS: usize = 100;
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct NormalModes {
     /// ω², 1/s², rising; negative for a motion that runs away.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::column"))]
     pub squares: DVector<f64>,
     /// How far each ω² may be wrong by rounding, 1/s².
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::column"))]
     pub uncertainties: DVector<f64>,
     /// φ, one in each column: orthonormal in M, the largest component, measured by √M_ii, being positive.
+    #[cfg_attr(feature = "serde", serde(with = "crate::written::matrix"))]
     pub shapes: DMatrix<f64>,
 }
 
@@ -160,5 +166,33 @@ fn oriented(shape: DVector<f64>, mass_matrix: &DMatrix<f64>) -> DVector<f64> {
     match (0..shape.len()).find(|&i| (1.0 - 1e-6) * largest <= share(i)) {
         Some(i) if shape[i] < 0.0 => -shape,
         _ => shape,
+    }
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    #[serde(deserialize_with = "crate::written::column::deserialize")]
+    squares: DVector<f64>,
+    #[serde(deserialize_with = "crate::written::column::deserialize")]
+    uncertainties: DVector<f64>,
+    #[serde(deserialize_with = "crate::written::matrix::deserialize")]
+    shapes: DMatrix<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for NormalModes {
+    type Error = DynamicsError;
+
+    fn try_from(Unchecked { squares, uncertainties, shapes }: Unchecked) -> Result<Self, DynamicsError> {
+        check_length("uncertainties", squares.len(), uncertainties.len())?;
+        check_length("shapes", squares.len(), shapes.nrows())?;
+        check_length("shapes", squares.len(), shapes.ncols())?;
+        check_finite("squares", squares.as_slice())?;
+        check_finite("uncertainties", uncertainties.as_slice())?;
+        check_finite("shapes", shapes.as_slice())?;
+        Ok(Self { squares, uncertainties, shapes })
     }
 }

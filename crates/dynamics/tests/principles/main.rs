@@ -6,6 +6,8 @@ mod laws;
 mod orders;
 mod systems;
 mod traps;
+#[cfg(feature = "serde")]
+mod written;
 
 #[global_allocator]
 static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
