@@ -355,10 +355,13 @@ pub fn thin_rod(
 /// # Example
 /// See [`body_of_particles`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct PlacedBody {
     /// The body; its axes are parallel to those of the given positions.
     pub body: RigidBody,
     /// Its centre of mass in those axes (m).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub centre_of_mass: Vector3<f64>,
 }
 

@@ -63,11 +63,22 @@ pub struct InSpace;
 /// # Source
 /// W(2.13), W(2.19).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        deny_unknown_fields,
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct Twist<T: Real, F> {
     /// ω.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub angular: Vector3<T>,
     /// v.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub linear: Vector3<T>,
+    #[cfg_attr(feature = "serde", serde(skip))]
     frame: PhantomData<F>,
 }
 
@@ -88,12 +99,16 @@ pub type SpaceTwist<T> = Twist<T, InSpace>;
 /// # Example
 /// See [`SpaceTwist::screw_axis`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "motion", rename_all = "snake_case", deny_unknown_fields))]
 pub enum ScrewAxis {
     /// Rotation about a line and translation along it.
     Screw {
         /// The point of the axis nearest to the origin (m).
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
         point: Vector3<f64>,
         /// Unit vector along the axis, towards which ω points.
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
         direction: Vector3<f64>,
         /// |ω| (rad/s).
         speed: f64,
@@ -103,6 +118,7 @@ pub enum ScrewAxis {
     /// No rotation.
     Translation {
         /// v (m/s).
+        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
         velocity: Vector3<f64>,
     },
 }

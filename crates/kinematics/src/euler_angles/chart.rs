@@ -35,6 +35,7 @@ use crate::euler_angles::{EulerAngles, EulerSequence};
 /// # Source
 /// W(2.22–2.28).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct EulerChart {
     /// The angles, in the present sequence.
     pub angles: EulerAngles<f64>,
@@ -48,6 +49,8 @@ pub struct EulerChart {
 /// # Example
 /// See [`EulerChart`].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ChartChange {
     /// The sequence that was left.
     pub from: EulerSequence,
@@ -128,5 +131,24 @@ impl EulerChart {
             }
         }
         Ok(())
+    }
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked {
+    angles: EulerAngles<f64>,
+    rates: [f64; 3],
+    leave_above: f64,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Unchecked> for EulerChart {
+    type Error = KinematicsError;
+
+    fn try_from(chart: Unchecked) -> Result<Self, KinematicsError> {
+        Self::new(chart.angles, chart.rates, chart.leave_above)
     }
 }

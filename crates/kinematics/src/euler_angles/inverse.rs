@@ -18,6 +18,8 @@ use crate::error::KinematicsError;
 /// assert!(matches!(upright, AnglesOfAttitude::Gimbal { sum, .. } if (sum - 0.5).abs() < 1.0e-15));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(tag = "chart", rename_all = "snake_case", deny_unknown_fields))]
 pub enum AnglesOfAttitude {
     /// All three angles are determined.
     Regular {
@@ -72,8 +74,11 @@ impl AnglesOfAttitude {
 /// # Ok::<(), piola_kinematics::KinematicsError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct EulerRates {
     /// θ̇ (rad/s).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::triple"))]
     pub rates: [f64; 3],
     /// cond W = (1 + |c₂|)/|s₂|.
     pub condition_number: f64,

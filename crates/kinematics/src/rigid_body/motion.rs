@@ -27,8 +27,17 @@ use crate::vector::cross;
 /// # Source
 /// W(2.10).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        deny_unknown_fields,
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct BodyPose<T: Real> {
     /// x^c (m, space components).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub position: Vector3<T>,
     /// Body to space.
     pub attitude: Attitude<T>,
@@ -128,10 +137,20 @@ impl<T: Real> BodyPose<T> {
 /// # Source
 /// W(2.13), W(3.5).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        deny_unknown_fields,
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct BodyVelocity<T: Real> {
     /// v^c, or ∂x^c/∂q^Δ (space components).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub velocity: Vector3<T>,
     /// ω, or `ω_Δ` (body components).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub angular_velocity: Vector3<T>,
 }
 
@@ -163,18 +182,31 @@ impl<T: Real> BodyVelocity<T> {
 /// # Source
 /// W(2.10–2.19).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        deny_unknown_fields,
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct BodyMotion<T: Real> {
     /// x^c (m, space components).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub position: Vector3<T>,
     /// Body to space.
     pub attitude: Attitude<T>,
     /// v^c (m/s, space components).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub velocity: Vector3<T>,
     /// ω (rad/s, body components).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub angular_velocity: Vector3<T>,
     /// a^c (m/s², space components).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub acceleration: Vector3<T>,
     /// ω̇ (rad/s², body components).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
     pub angular_acceleration: Vector3<T>,
 }
 

@@ -13,6 +13,8 @@ mod rounding;
 mod systems;
 mod traps;
 mod twists;
+#[cfg(feature = "serde")]
+mod written;
 
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
