@@ -244,7 +244,7 @@ pub enum DynamicsError {
         value: f64,
     },
     /// A constraint that depends on others, where that is [refused](crate::constraints::Redundancy::Refused).
-    #[error("constraint {constraint}{} depends on others: its gradient is their combination {combination:?}", of(name))]
+    #[error("constraint {constraint}{} depends on others: its gradient is their combination {combination:?}", of(name.as_ref()))]
     RedundantConstraint {
         /// The constraint.
         constraint: usize,
@@ -257,7 +257,7 @@ pub enum DynamicsError {
     #[error(
         "constraint {constraint}{} contradicts others: where it should be their combination {combination:?} it differs \
          by {residual:e}",
-        of(name)
+        of(name.as_ref())
     )]
     InconsistentConstraint {
         /// The constraint.
@@ -270,7 +270,7 @@ pub enum DynamicsError {
         combination: Vec<f64>,
     },
     /// No state near the guess satisfies the constraints.
-    #[error("no state near the guess satisfies constraint {constraint}{}: {residual:e} is left of it", of(name))]
+    #[error("no state near the guess satisfies constraint {constraint}{}: {residual:e} is left of it", of(name.as_ref()))]
     NotAssembled {
         /// The constraint that is farthest from being satisfied.
         constraint: usize,
@@ -282,7 +282,7 @@ pub enum DynamicsError {
     /// The number of independent constraints changes: the motion may branch there.
     #[error(
         "at time {time} s constraint {constraint}{} becomes dependent on others, or ceases to be: the position is singular",
-        of(name)
+        of(name.as_ref())
     )]
     SingularConstraint {
         /// The constraint.
@@ -293,7 +293,7 @@ pub enum DynamicsError {
         time: f64,
     },
     /// A constraint that uses the time but does not say so: its rate would be wrong.
-    #[error("constraint {constraint}{} depends on time: declare `const TIME_DEPENDENT: bool = true`", of(name))]
+    #[error("constraint {constraint}{} depends on time: declare `const TIME_DEPENDENT: bool = true`", of(name.as_ref()))]
     UndeclaredTimeInConstraint {
         /// The constraint.
         constraint: usize,
@@ -303,6 +303,6 @@ pub enum DynamicsError {
 }
 
 /// A name as it stands behind an index.
-fn of(name: &Option<String>) -> String {
-    name.as_ref().map(|name| format!(" ({name})")).unwrap_or_default()
+fn of(name: Option<&String>) -> String {
+    name.map(|name| format!(" ({name})")).unwrap_or_default()
 }

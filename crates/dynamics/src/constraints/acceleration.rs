@@ -202,7 +202,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         check_finite("q", q)?;
         check_finite("q̇", v)?;
         check_finite("t", &[t])?;
-        self.check_gradients(work)
+        Self::check_gradients(work)
     }
 
     /// Factors the metric and brings the gradients to its scale.
@@ -215,7 +215,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         if work.independence.factor_metric(&work.mass_matrix, n).is_err() {
             self.add_constraints(work, chosen_only);
             if let Err(error) = work.independence.factor_metric(&work.mass_matrix, n) {
-                return Err(self.explain(error, work));
+                return Err(Self::explain(error, work));
             }
         }
         work.independence.scale(&work.gradients.rows, count);
@@ -249,7 +249,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
 
     /// A motion that the constraints leave and that has no inertia.
     #[cold]
-    fn explain<T: Real>(&self, error: Error, work: &Workspace<T>) -> DynamicsError {
+    fn explain<T: Real>(error: Error, work: &Workspace<T>) -> DynamicsError {
         let Error::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
         let n = work.forcing.len();
         let mut direction = vec![T::zero(); n];

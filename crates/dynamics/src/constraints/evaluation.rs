@@ -99,7 +99,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         self.lagrangian.check(q, v, t)?;
         let mut work = Workspace::default();
         self.differentiate(&mut work, q, v, t);
-        self.check_gradients(&work)?;
+        Self::check_gradients(&work)?;
         if !C::TIME_DEPENDENT {
             // Time that is not a number leaves no trace where it is not used.
             let without_time = self.residuals(q, f64::NAN);
@@ -112,7 +112,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     }
 
     /// Residuals, rates and gradients that are not finite, by name.
-    pub(super) fn check_gradients<T: Real>(&self, work: &Workspace<T>) -> Result<(), DynamicsError> {
+    pub(super) fn check_gradients<T: Real>(work: &Workspace<T>) -> Result<(), DynamicsError> {
         let Gradients { residuals, rates, second_rates, rows } = &work.gradients;
         check_finite("φ", residuals)?;
         check_finite("φ̇", rates)?;

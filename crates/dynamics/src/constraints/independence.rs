@@ -121,7 +121,9 @@ impl<T: Real> Independence<T> {
             // A gradient that vanishes is left as it is: nothing is of its direction.
             if 0.0 < size(*length) {
                 let inverse = length.recip();
-                row.iter_mut().for_each(|entry| *entry *= inverse);
+                for entry in row {
+                    *entry *= inverse;
+                }
             }
         }
     }
@@ -197,7 +199,9 @@ impl<T: Real> Independence<T> {
         }
         let length = dot(unit, unit).sqrt();
         let inverse = length.recip();
-        unit.iter_mut().for_each(|x| *x *= inverse);
+        for x in unit.iter_mut() {
+            *x *= inverse;
+        }
         self.coefficients[place * count + constraint] = length;
         for &other in &self.order[place + 1..end] {
             let row = &mut self.rows[other * n..(other + 1) * n];

@@ -113,16 +113,16 @@ impl Squeezer {
 }
 
 /// The published problem: parameters, start and solution at t = 0.03, each (q, q̇, q̈, λ).
-struct Published {
-    squeezer: Squeezer,
-    moment: f64,
-    start: Vec<f64>,
+pub(crate) struct Published {
+    pub(crate) squeezer: Squeezer,
+    pub(crate) moment: f64,
+    pub(crate) start: Vec<f64>,
     solution: Vec<f64>,
     /// The solution in 30 digits.
     precise: Vec<f64>,
 }
 
-fn published() -> Published {
+pub(crate) fn published() -> Published {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../testdata/reference/andrews_squeezer.json");
     let file: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let p = |name: &str| file["parameters"][name].as_f64().unwrap();
