@@ -11,8 +11,8 @@
 //! ```
 //!
 //! The centres of mass follow from the entries of the mass matrix in E. Hairer, G. Wanner, *Solving Ordinary
-//! Differential Equations II*, VII.7: m₁₁ shows K1 at r_a along the crank and K2 at d_a along the slider, m₃₃ K3 at
-//! (s_a, s_b), m₅₄ and m₇₆ K4 and K6 at e − e_a and z_f − f_a from their joints. The pivot B lies at
+//! Differential Equations II*, VII.7: m₁₁ shows K1 at `ra` along the crank and K2 at `da` along the slider, m₃₃ K3 at
+//! (`sa`, `sb`), m₅₄ and m₇₆ K4 and K6 at `e − ea` and `zf − fa` from their joints. The pivot B lies at
 //! x = −0.03635 m: the closure at the published start says so.
 
 use nalgebra::Vector3;
