@@ -44,7 +44,6 @@ fn error_of_rattle_falls_with_the_second_and_of_its_composition_with_the_fourth_
     let second = steps.map(|h| error(Rattle::new(h).unwrap()));
     let long_steps = steps.map(|h| 4.0 * h);
     let fourth = long_steps.map(|h| error(Rattle::new(h).unwrap().of_order_four()));
-    println!("{second:?} {fourth:?}");
     assert_order("RATTLE", &steps, &second, 2.0, 0.1);
     assert_order("RATTLE, composed", &long_steps, &fourth, 4.0, 0.2);
 }
@@ -62,7 +61,6 @@ fn rattle_run_backwards_returns_to_its_start() {
         assert!(0.5 < travelled, "{travelled}");
         Rattle::new(0.002).unwrap().integrate_to(&system, &mut state, 0.0).unwrap();
         let n = q.len();
-        println!("{:?}", state.values.iter().zip(&start.values).map(|(a, b)| a - b).collect::<Vec<_>>());
         let tol = Tol::stated(1e-11, "a thousand steps, each rounded, on a motion that does not damp");
         assert_close_at_scale("q", &state.values[..n], &start.values[..n], 1.0, tol);
         assert_close_at_scale("p", &state.values[n..], &start.values[n..], 1.0, tol);
@@ -94,14 +92,13 @@ fn energy_of_rattle_does_not_drift_and_loops_stay_closed() {
                 ControlFlow::Continue(())
             })
             .unwrap();
-        println!("energy {first:e} {second:e}, loops {open:e}, at {slip}");
         assert!(second < 1.05 * first, "energy drifts: {first:e} then {second:e}");
         // Angles grow by many turns; a rounding of them opens the loops.
         assert_close_at_scale("loops", &[open], &[0.0], slip.max(1.0), Tol::ulps(8.0));
     }
 }
 
-/// The step maps the states on the constraint to each other; in the coordinates (s, p_s) of a system with one degree of
+/// The step maps the states on the constraint to each other; in the coordinates (θ, p) of a system with one degree of
 /// freedom its Jacobian has the determinant one.
 #[test]
 fn step_of_rattle_preserves_the_area_of_phase_space() {
@@ -129,7 +126,7 @@ fn step_of_rattle_preserves_the_area_of_phase_space() {
     assert_close_at_scale("determinant", &[determinant], &[1.0], 1.0, tol);
 }
 
-/// p_Δ ∂q^Δ/∂θ: the momentum of the crank's angle.
+/// Σ p ∂q/∂θ: the momentum of the crank's angle.
 fn reduced_momentum(_linkage: &Tied, y: &State) -> f64 {
     let (_, tangent) = state(y.values[0], 1.0);
     y.values[3..].iter().zip(tangent).map(|(p, q)| p * q).sum()

@@ -27,7 +27,7 @@ pub(crate) enum System {
     /// The same by the one parameter of its symmetric motion.
     BricardSymmetric,
     /// Andrews' squeezing mechanism.
-    Squeezer(Squeezer),
+    Squeezer(&'static Squeezer),
     /// Particles of 1 kg, 2 kg, … at (q₀, q₁, q₂), …; without the last coordinate's inertia.
     Particles { last_has_mass: bool },
     /// A bead of 2 kg in polar coordinates (r, φ).
@@ -168,7 +168,7 @@ pub(crate) enum Ties {
     FourBarThrice,
     /// Bricard's loop: three components of place, three of attitude.
     Bricard,
-    Squeezer(Squeezer),
+    Squeezer(&'static Squeezer),
     /// Σ aᵢ qᵢ = b + c t for each row [b, c, a…].
     Linear(Vec<Vec<f64>>),
     /// Distances between particles, squared, over twice the distance: (first, second, distance).
