@@ -19,7 +19,7 @@ pub(crate) fn finite_vector<'de, D: Deserializer<'de>, T: Real + Deserialize<'de
 pub(crate) mod column {
     use serde::{Serialize, Serializer};
 
-    use super::*;
+    use super::{DVector, Deserialize, Deserializer, Scalar};
 
     pub(crate) fn serialize<N: Scalar + Serialize, S: Serializer>(
         column: &DVector<N>,
@@ -39,7 +39,7 @@ pub(crate) mod column {
 pub(crate) mod matrix {
     use serde::{Serialize, Serializer};
 
-    use super::*;
+    use super::{DMatrix, Deserialize, Deserializer, Error, Scalar};
     use crate::check::check_length;
 
     pub(crate) fn serialize<N: Scalar + Serialize, S: Serializer>(

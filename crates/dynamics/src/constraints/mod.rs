@@ -31,7 +31,7 @@ mod redundancy;
 mod workspace;
 
 pub use assembly::Assembly;
-pub use motion::{ConstrainedMotion, ConstrainedRun};
+pub use motion::ConstrainedMotion;
 pub use rattle::Rattle;
 pub use redundancy::Dependency;
 pub use workspace::Workspace;

@@ -1,14 +1,15 @@
 //! The motion under constraints as a field that projects itself, and a run with a method chosen for it.
 
-use core::ops::{ControlFlow, Range};
+use core::ops::Range;
 
-use piola_integrators::{DormandPrince853, Ending, Field, IntegrationError, Report, State, Tolerance};
+use piola_integrators::{Field, Tolerance};
 use piola_kinematics::Holonomic;
 
 use super::workspace::Workspace;
 use super::{Constrained, Constraints};
 use crate::DynamicsError;
-use crate::lagrangian::{Forces, Potential};
+use crate::lagrangian::{self, Forces, Potential};
+use crate::run::{Certificate, Run, record};
 
 /// The motion in positions and velocities, y = (q, q̇), brought back to φ = 0 and φ̇ = 0 after every accepted step.
 ///
@@ -76,7 +77,8 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     /// [`motion`](Self::motion) to an integrator.
     ///
     /// # Errors
-    /// What [`assemble`](Self::assemble) refuses; [`DynamicsError::Run`] when the run fails.
+    /// What [`assemble`](Self::assemble) refuses; [`DynamicsError::Unfinished`] when the run fails: it holds the
+    /// steps made until then.
     ///
     /// # Example
     /// ```
@@ -112,54 +114,24 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         v: &[f64],
         times: Range<f64>,
         tolerance: Tolerance,
-    ) -> Result<ConstrainedRun, DynamicsError> {
+    ) -> Result<Run, DynamicsError> {
         let assembly = self.assemble(q, v, times.start)?;
-        let mut start = assembly.coordinates;
-        start.extend(assembly.velocities);
         let n = q.len();
-        let mut run = ConstrainedRun {
-            coordinates: n,
-            times: vec![times.start],
-            states: start.clone(),
-            report: Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached },
-            residual: assembly.residual,
-            rate_residual: assembly.rate_residual,
-            error_estimate: 0.0,
-        };
-        let stopped = |error: IntegrationError| DynamicsError::Run {
-            time: times.start,
-            source: Box::new(error.with_field_error()),
-        };
-        let mut state = State::new(times.start, start.clone()).map_err(stopped)?;
-        run.report = DormandPrince853::new(tolerance)
-            .integrate(&mut self.motion(n), &mut state, times.end, |step| {
-                run.times.push(step.time());
-                run.states.extend_from_slice(step.values());
-                ControlFlow::Continue(())
-            })
-            .map_err(|error| DynamicsError::Run { time: state.time, source: Box::new(error) })?;
-        self.certify(&mut run);
-
-        let finer = Tolerance::new(tolerance.relative_part() * 0.01, tolerance.absolute_part() * 0.01);
-        let mut reference = State::new(times.start, start).map_err(stopped)?;
-        DormandPrince853::new(finer.map_err(stopped)?)
-            .integrate_to(&mut self.motion(n), &mut reference, times.end)
-            .map_err(|error| DynamicsError::Run { time: reference.time, source: Box::new(error) })?;
-        let differences = state.values[..n].iter().zip(&reference.values).map(|(a, b)| (a - b).abs());
-        run.error_estimate = differences.fold(0.0, f64::max);
-        Ok(run)
-    }
-
-    /// The largest residuals of a run.
-    fn certify(&self, run: &mut ConstrainedRun) {
-        let mut work = Workspace::default();
-        let n = run.coordinates;
-        for (state, &time) in run.states.chunks_exact(2 * n.max(1)).zip(&run.times) {
-            let (q, v) = state.split_at(n);
-            let (residual, rate) = self.relative_residuals(&mut work, q, v, time);
-            run.residual = run.residual.max(residual);
-            run.rate_residual = run.rate_residual.max(rate);
-        }
+        let start = [assembly.coordinates, assembly.velocities].concat();
+        let (mut work, mut unconstrained) = (Workspace::default(), lagrangian::Workspace::default());
+        record(
+            || self.motion(n),
+            n,
+            &start,
+            times,
+            tolerance,
+            |time, state| {
+                let (q, v) = state.split_at(n);
+                let (residual, rate_residual) = self.relative_residuals(&mut work, q, v, time);
+                let energies = self.lagrangian.energies_with(&mut unconstrained, q, v, time)?;
+                Ok(Certificate { integral: energies.total(), kinetic: energies.kinetic, residual, rate_residual })
+            },
+        )
     }
 }
 
@@ -205,68 +177,5 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Field for Constraine
             independence.rank = before;
         }
         changed
-    }
-}
-
-/// A motion under constraints that has been computed: every accepted step, and how good it is.
-#[derive(Clone, Debug)]
-pub struct ConstrainedRun {
-    coordinates: usize,
-    times: Vec<f64>,
-    states: Vec<f64>,
-    report: Report,
-    residual: f64,
-    rate_residual: f64,
-    error_estimate: f64,
-}
-
-impl ConstrainedRun {
-    /// The number of accepted steps.
-    #[must_use]
-    pub const fn steps(&self) -> u64 {
-        self.report.steps
-    }
-    /// What the run cost.
-    #[must_use]
-    pub const fn report(&self) -> Report {
-        self.report
-    }
-    /// The largest residual of a position met, relative as that of an [`Assembly`](super::Assembly).
-    #[must_use]
-    pub const fn residual(&self) -> f64 {
-        self.residual
-    }
-    /// The largest residual of a velocity met, relative as that of an [`Assembly`](super::Assembly).
-    #[must_use]
-    pub const fn rate_residual(&self) -> f64 {
-        self.rate_residual
-    }
-    /// The largest difference of a coordinate at the end to a second run with a hundredth of the tolerance: an
-    /// estimate of the global error.
-    #[must_use]
-    pub const fn error_estimate(&self) -> f64 {
-        self.error_estimate
-    }
-    /// The times of the steps, the first being the start, s.
-    #[must_use]
-    pub fn times(&self) -> &[f64] {
-        &self.times
-    }
-    /// The coordinates at the step of this number; 0 is the start.
-    #[must_use]
-    pub fn coordinates(&self, step: usize) -> Option<&[f64]> {
-        let n = self.coordinates;
-        self.states.get(2 * n * step..2 * n * step + n)
-    }
-    /// The velocities at the step of this number; 0 is the start.
-    #[must_use]
-    pub fn velocities(&self, step: usize) -> Option<&[f64]> {
-        let n = self.coordinates;
-        self.states.get(2 * n * step + n..2 * n * (step + 1))
-    }
-    /// The coordinates and velocities at the end.
-    #[must_use]
-    pub fn last(&self) -> (&[f64], &[f64]) {
-        self.states[self.states.len() - 2 * self.coordinates..].split_at(self.coordinates)
     }
 }
