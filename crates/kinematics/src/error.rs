@@ -187,3 +187,11 @@ pub(crate) fn positive_mass(mass: f64) -> Result<(), KinematicsError> {
     }
     Ok(())
 }
+
+/// |values| < ∞.
+pub(crate) fn finite(quantity: &'static str, values: &[f64]) -> Result<(), KinematicsError> {
+    match crate::vector::first_non_finite(values) {
+        None => Ok(()),
+        Some((index, value)) => Err(KinematicsError::NotFinite { quantity, index, value }),
+    }
+}

@@ -23,6 +23,7 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::sums::CompensatedSum;
 
 use crate::error::KinematicsError;
+use crate::error::finite;
 use crate::inertia::Inertia;
 use crate::rigid_body::RigidBody;
 use crate::solids::{FLAT, PlacedBody};
@@ -102,7 +103,8 @@ impl MeshSolid {
         let first = Moments::about(&origin, &Vector3::zeros(), vertices, triangles);
         let extent = (high * 0.5 - low * 0.5).amax() * 2.0;
         let volume = first.volume();
-        if volume.abs() <= FLAT * extent * extent * extent || volume.is_nan() {
+        finite("volume of the mesh", &[volume])?;
+        if volume.abs() <= FLAT * extent * extent * extent {
             return Err(KinematicsError::NoVolume { volume });
         }
         if volume < 0.0 {
@@ -110,12 +112,18 @@ impl MeshSolid {
         }
         let centre = first.centre();
         let second = Moments::about(&origin, &centre, vertices, triangles);
-        Ok(Self {
+        let solid = Self {
             volume: second.volume(),
             surface_area: second.area.value(),
             centre_of_mass: origin + (centre + second.centre()),
             mean_squares: second.mean_squares(),
-        })
+        };
+        // Fifth powers of the size leave the range of numbers long before it does.
+        finite("volume of the mesh", &[solid.volume])?;
+        finite("surface area of the mesh", &[solid.surface_area])?;
+        finite("centre of mass of the mesh", solid.centre_of_mass.as_slice())?;
+        finite("moments of the mesh", solid.mean_squares.as_slice())?;
+        Ok(solid)
     }
 
     /// The volume enclosed (m³).

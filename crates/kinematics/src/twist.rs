@@ -19,18 +19,19 @@
 //! W(2.10–2.19).
 
 mod chain;
+mod screw;
 
 use core::marker::PhantomData;
 
 use nalgebra::{Matrix6, Vector3};
 use piola_numerics::Real;
 
-use crate::error::KinematicsError;
 use crate::rigid_body::{BodyPose, BodyVelocity};
 use crate::rotation_vector::RotationVector;
-use crate::vector::{cross, first_non_finite, scaled};
+use crate::vector::{cross, scaled};
 
 pub use chain::{joint_twists_into, product_of_exponentials};
+pub use screw::ScrewAxis;
 
 /// Components along the body basis, the velocity that of the body's reference point.
 ///
@@ -93,35 +94,6 @@ pub type BodyTwist<T> = Twist<T, InBody>;
 /// # Example
 /// See [`Twist`].
 pub type SpaceTwist<T> = Twist<T, InSpace>;
-
-/// The axis of a twist: every rigid motion is a screw at every moment.
-///
-/// # Example
-/// See [`SpaceTwist::screw_axis`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(tag = "motion", rename_all = "snake_case", deny_unknown_fields))]
-pub enum ScrewAxis {
-    /// Rotation about a line and translation along it.
-    Screw {
-        /// The point of the axis nearest to the origin (m).
-        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
-        point: Vector3<f64>,
-        /// Unit vector along the axis, towards which ω points.
-        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
-        direction: Vector3<f64>,
-        /// |ω| (rad/s).
-        speed: f64,
-        /// Advance for each radian (m/rad).
-        pitch: f64,
-    },
-    /// No rotation.
-    Translation {
-        /// v (m/s).
-        #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::finite::vector"))]
-        velocity: Vector3<f64>,
-    },
-}
 
 impl<T: Real, F> Twist<T, F> {
     /// A twist of the given angular and linear velocity.
@@ -392,111 +364,6 @@ impl<T: Real> SpaceTwist<T> {
     pub fn displaced(&self, by: &BodyPose<T>) -> Self {
         BodyTwist::new(self.angular, self.linear).in_space(by)
     }
-}
-
-impl SpaceTwist<f64> {
-    /// Rotation about the line through `point` (m) along `axis`, of any length but zero, at 1 rad/s.
-    ///
-    /// # Errors
-    /// As [`screw`](Self::screw).
-    ///
-    /// # Example
-    /// See [`Twist`].
-    pub fn revolute(point: &Vector3<f64>, axis: &Vector3<f64>) -> Result<Self, KinematicsError> {
-        Self::screw(point, axis, 0.0)
-    }
-
-    /// Translation along `axis`, of any length but zero, at 1 m/s.
-    ///
-    /// # Errors
-    /// As [`screw`](Self::screw).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::SpaceTwist;
-    /// assert_eq!(SpaceTwist::prismatic(&(Vector3::z() * 3.0))?.linear, Vector3::z());
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
-    pub fn prismatic(axis: &Vector3<f64>) -> Result<Self, KinematicsError> {
-        Ok(Self::new(Vector3::zeros(), direction(axis)?))
-    }
-
-    /// Rotation about the line through `point` (m) along `axis`, of any length but zero, at 1 rad/s, and advance
-    /// along it by `pitch` (m/rad).
-    ///
-    /// # Errors
-    /// [`KinematicsError::NotFinite`]; [`KinematicsError::NoDirection`] when the axis is zero.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::SpaceTwist;
-    /// use std::f64::consts::TAU;
-    /// // A thread of 2 mm: one turn advances by as much.
-    /// let thread = SpaceTwist::screw(&Vector3::zeros(), &Vector3::z(), 2.0e-3 / TAU)?;
-    /// assert!((thread.scaled(TAU).exponential().position.z - 2.0e-3).abs() <= f64::EPSILON);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
-    pub fn screw(point: &Vector3<f64>, axis: &Vector3<f64>, pitch: f64) -> Result<Self, KinematicsError> {
-        for (quantity, values) in [("point", point.as_slice()), ("pitch", &[pitch])] {
-            if let Some((index, value)) = first_non_finite(values) {
-                return Err(KinematicsError::NotFinite { quantity, index, value });
-            }
-        }
-        let angular = direction(axis)?;
-        Ok(Self::new(angular, cross(point, &angular) + angular * pitch))
-    }
-
-    /// The axis about which and along which the motion is at this moment.
-    ///
-    /// ```text
-    /// point ω×v/|ω|²     pitch ω·v/|ω|²
-    /// ```
-    ///
-    /// # Errors
-    /// [`KinematicsError::NotFinite`].
-    ///
-    /// # Accuracy
-    /// The point to a few ulps of |v|/|ω|.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::{SpaceTwist, twist::ScrewAxis};
-    /// let motion = SpaceTwist::screw(&Vector3::x(), &Vector3::z(), 0.25)?.scaled(2.0);
-    /// let expected = ScrewAxis::Screw { point: Vector3::x(), direction: Vector3::z(), speed: 2.0, pitch: 0.25 };
-    /// assert_eq!(motion.screw_axis()?, expected);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
-    pub fn screw_axis(&self) -> Result<ScrewAxis, KinematicsError> {
-        for (quantity, vector) in [("angular velocity", &self.angular), ("velocity", &self.linear)] {
-            if let Some((index, value)) = first_non_finite(vector.as_slice()) {
-                return Err(KinematicsError::NotFinite { quantity, index, value });
-            }
-        }
-        // Scaled by the largest component first: the square of a tiny one is zero.
-        let largest = self.angular.amax();
-        if largest <= 0.0 {
-            return Ok(ScrewAxis::Translation { velocity: self.linear });
-        }
-        let speed = largest * (self.angular / largest).norm();
-        let direction = self.angular / largest / (speed / largest);
-        let velocity = self.linear / speed;
-        Ok(ScrewAxis::Screw { point: direction.cross(&velocity), direction, speed, pitch: direction.dot(&velocity) })
-    }
-}
-
-/// The unit vector along a vector.
-fn direction(axis: &Vector3<f64>) -> Result<Vector3<f64>, KinematicsError> {
-    if let Some((index, value)) = first_non_finite(axis.as_slice()) {
-        return Err(KinematicsError::NotFinite { quantity: "axis", index, value });
-    }
-    let largest = axis.amax();
-    if largest <= 0.0 {
-        return Err(KinematicsError::NoDirection { quantity: "axis", length: largest });
-    }
-    Ok((axis / largest).normalize())
 }
 
 /// The matrix of `Ad_g` on (ω; v).

@@ -255,7 +255,8 @@ impl EulerAngles<f64> {
         let layout = Layout::of(sequence);
         let (sine, cosine) = layout.half_angle(attitude);
         let parallel = sine <= GIMBAL * cosine;
-        if !parallel && GIMBAL * sine < cosine {
+        let opposite = cosine <= GIMBAL * sine;
+        if !parallel && !opposite {
             let angles = Self::away_from_gimbal(sequence, attitude);
             return AnglesOfAttitude::Regular { angles, condition_number: sequence.condition_number(attitude) };
         }

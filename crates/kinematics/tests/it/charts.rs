@@ -342,3 +342,13 @@ fn rate_matrix_in_space_equals_that_of_the_body_turned() {
         );
     }
 }
+
+#[test]
+fn angles_of_an_attitude_that_is_no_number_are_no_gimbal_point() {
+    let broken = Attitude { w: f64::NAN, x: 0.0, y: 0.0, z: 0.0 };
+    for sequence in [EulerSequence::Zyz, EulerSequence::Xyz, EulerSequence::Zyx, EulerSequence::Zxz] {
+        let found = EulerAngles::of_attitude(sequence, broken);
+        let AnglesOfAttitude::Regular { condition_number, .. } = found else { panic!("{found:?}") };
+        assert!(condition_number.is_nan());
+    }
+}

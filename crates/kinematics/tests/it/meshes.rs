@@ -341,3 +341,15 @@ fn bad_meshes_are_refused_by_name() {
     let flat: Vec<_> = vertices.iter().map(|x| Vector3::new(x.x + 0.3 * x.y, x.y, 0.7 * x.x)).collect();
     assert!(matches!(refused(&flat, &triangles), KinematicsError::NoVolume { .. }));
 }
+
+#[test]
+fn meshes_beyond_the_range_of_numbers_are_refused() {
+    let triangles = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+    let corner = |size: f64| [Vector3::zeros(), Vector3::x() * size, Vector3::y() * size, Vector3::z() * size];
+    for size in [1e80, 1e120, 1e300] {
+        let found = MeshSolid::new(&corner(size), &triangles).expect_err("too large");
+        assert!(matches!(found, KinematicsError::NotFinite { .. }), "{size}: {found}");
+    }
+    let large = MeshSolid::new(&corner(1e60), &triangles).expect("a solid");
+    assert_close("volume", &[large.volume()], &[1e180 / 6.0], Tol::ulps(8.0));
+}

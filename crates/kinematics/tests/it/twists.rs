@@ -235,3 +235,16 @@ fn bad_axes_and_counts_are_refused_by_name() {
     let refused = joint_twists_into(&[slide; 2], &[0.0; 2], &mut [SpaceTwist::at_rest(); 3]);
     assert_eq!(refused, Err(KinematicsError::Count { quantity: "columns", expected: 2, found: 3 }));
 }
+
+#[test]
+fn axis_too_far_away_for_numbers_is_refused() {
+    let slow = SpaceTwist::new(Vector3::new(0.0, 0.0, 1e-310), Vector3::x());
+    let found = slow.screw_axis().expect_err("an axis at 1e310 m");
+    assert!(matches!(found, KinematicsError::NotFinite { quantity: "point", .. }), "{found}");
+    let fast = SpaceTwist::new(Vector3::repeat(f64::MAX), Vector3::x());
+    let found = fast.screw_axis().expect_err("√3 of the largest number");
+    assert!(matches!(found, KinematicsError::NotFinite { quantity: "speed", .. }), "{found}");
+    let found =
+        SpaceTwist::screw(&Vector3::repeat(f64::MAX), &Vector3::new(1.0, 1.0, -1.0), 0.0).expect_err("overflow");
+    assert!(matches!(found, KinematicsError::NotFinite { quantity: "velocity", .. }), "{found}");
+}
