@@ -88,6 +88,8 @@ mod book {
     struct Placements;
     #[doc = include_str!("../../../docs/mechanisms.md")]
     struct Mechanisms;
+    #[doc = include_str!("../../../docs/constraints.md")]
+    struct Constraints;
     #[doc = include_str!("../../../docs/integrators.md")]
     struct Integrators;
     #[doc = include_str!("../../../docs/scalars.md")]
