@@ -12,6 +12,9 @@ use crate::DynamicsError;
 use crate::check::check_length;
 
 /// The energies of a state, J.
+///
+/// # Example
+/// See [`Lagrangian::energies`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energies<T = f64> {
@@ -23,16 +26,25 @@ pub struct Energies<T = f64> {
 
 impl<T: Real> Energies<T> {
     /// E + V.
+    ///
+    /// # Example
+    /// See [`Lagrangian::energies`].
     pub fn total(self) -> T {
         self.kinetic + self.potential
     }
     /// L = E − V.
+    ///
+    /// # Example
+    /// See [`Lagrangian::energies`].
     pub fn lagrangian(self) -> T {
         self.kinetic - self.potential
     }
 }
 
 /// The parts of E = ½ g q̇ q̇ + b·q̇ + E₀ of a time-dependent placement.
+///
+/// # Example
+/// See [`Lagrangian::kinetic_energy_parts`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct KineticEnergyParts<T: Real = f64> {
     /// b_Δ = Σ m ∂x/∂t·∂x/∂q^Δ + …: zero without time dependence.
@@ -67,6 +79,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// }
     /// let energies = Lagrangian::of(Stone).with_gravity(10.0).energies(&[5.0], &[3.0], 0.0)?;
     /// assert_eq!((energies.kinetic, energies.potential), (9.0, 100.0));
+    /// assert_eq!((energies.total(), energies.lagrangian()), (109.0, -91.0)); // E + V and E − V
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     ///
@@ -80,6 +93,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`energies`](Self::energies).
+    ///
+    /// # Example
+    /// See [`energies`](Self::energies).
     pub fn energies_with<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -184,6 +200,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`momenta`](Self::momenta).
+    ///
+    /// # Example
+    /// See [`momenta`](Self::momenta).
     pub fn momenta_into<T: Real>(
         &self,
         work: &mut Workspace<T>,

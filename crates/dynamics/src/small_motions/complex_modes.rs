@@ -14,6 +14,9 @@ const SWEEPS: usize = 100;
 const ATTEMPTS: usize = 4;
 
 /// One complex frequency λ with its shape: δq = Re(φ e^λt).
+///
+/// # Example
+/// See [`ComplexModes`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct ComplexMode {
@@ -28,16 +31,25 @@ pub struct ComplexMode {
 
 impl ComplexMode {
     /// |Im λ|, rad/s.
+    ///
+    /// # Example
+    /// See [`ComplexModes`].
     #[must_use]
     pub fn angular_frequency(&self) -> f64 {
         self.eigenvalue.im
     }
     /// Re λ, 1/s: negative where the motion decays.
+    ///
+    /// # Example
+    /// See [`ComplexModes`].
     #[must_use]
     pub fn growth_rate(&self) -> f64 {
         self.eigenvalue.re
     }
     /// ζ = −Re λ/|λ|: one at and beyond critical damping, negative for growth, zero for λ = 0.
+    ///
+    /// # Example
+    /// See [`ComplexModes`].
     #[must_use]
     pub fn damping_ratio(&self) -> f64 {
         let size = self.eigenvalue.norm();
@@ -51,7 +63,7 @@ impl ComplexMode {
 /// A unit mass on a spring of 25 N/m with a damper of 6 N s/m: λ = −3 ± 4i.
 /// ```
 /// use nalgebra::{dmatrix, dvector};
-/// use piola_dynamics::small_motions::Linearisation;
+/// use piola_dynamics::small_motions::{Linearisation, Stability};
 /// let zero = dmatrix![0.0];
 /// let oscillator = Linearisation {
 ///     acceleration: dvector![0.0],
@@ -61,9 +73,11 @@ impl ComplexMode {
 ///     stiffness: dmatrix![25.0],
 ///     circulatory: zero,
 /// };
-/// let mode = &oscillator.complex_modes()?.modes[0];
+/// let modes = oscillator.complex_modes()?;
+/// let mode = &modes.modes[0];
 /// assert!((mode.growth_rate() + 3.0).abs() < 1e-14 && (mode.angular_frequency() - 4.0).abs() < 1e-14);
 /// assert!((mode.damping_ratio() - 0.6).abs() < 1e-15);
+/// assert_eq!(modes.stability(), Stability::Asymptotic);
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -77,6 +91,9 @@ pub struct ComplexModes {
 impl ComplexModes {
     /// The verdict of the real parts, each against its uncertainty; [`Linearisation::stability`] looks at
     /// energies first.
+    ///
+    /// # Example
+    /// See [`ComplexModes`].
     #[must_use]
     pub fn stability(&self) -> Stability {
         if self.modes.iter().any(|mode| mode.uncertainty < mode.eigenvalue.re) {

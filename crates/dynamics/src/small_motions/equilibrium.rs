@@ -16,6 +16,9 @@ const NEWTON_ITERATIONS: usize = 100;
 const HALVINGS: usize = 40;
 
 /// A place where the system stays at rest, with what shows that it is one.
+///
+/// # Example
+/// See [`Lagrangian::equilibrium`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct Equilibrium {

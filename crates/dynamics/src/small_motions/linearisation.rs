@@ -213,6 +213,9 @@ impl<T: Real> Linearisation<T> {
     }
 
     /// C + G, what multiplies δq̇.
+    ///
+    /// # Example
+    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn velocity_matrix(&self) -> DMatrix<T> {
         let n = self.coordinates();
@@ -220,6 +223,9 @@ impl<T: Real> Linearisation<T> {
     }
 
     /// K + N, what multiplies δq.
+    ///
+    /// # Example
+    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn position_matrix(&self) -> DMatrix<T> {
         let n = self.coordinates();
@@ -254,6 +260,9 @@ impl<T: Real> Linearisation<T> {
     ///     circulatory: zero,
     /// };
     /// assert_eq!(spring_and_damper.state_matrix()?, dmatrix![0.0, 1.0; -4.0, -3.0]);
+    /// assert_eq!(spring_and_damper.position_matrix(), dmatrix![8.0]);
+    /// assert_eq!(spring_and_damper.velocity_matrix(), dmatrix![6.0]);
+    /// assert_eq!(spring_and_damper.coordinates(), 1);
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     pub fn state_matrix(&self) -> Result<DMatrix<T>, DynamicsError> {

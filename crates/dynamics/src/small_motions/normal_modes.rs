@@ -36,6 +36,9 @@ pub(super) const SWEEPS: usize = 100;
 /// assert!((modes.squares[0] - 1.0).abs() < 1e-15 && (modes.squares[1] - 3.0).abs() < 1e-15);
 /// assert!((modes.shapes[(0, 0)] - modes.shapes[(1, 0)]).abs() < 1e-15); // side by side
 /// assert!((modes.shapes[(0, 1)] + modes.shapes[(1, 1)]).abs() < 1e-15); // against each other
+/// let Some(ModeMotion::Oscillation { angular_frequency }) = modes.motion(1) else { panic!("it oscillates") };
+/// assert!((angular_frequency - 3.0_f64.sqrt()).abs() < 1e-15);
+/// assert_eq!((modes.angular_frequencies().len(), modes.motion(2)), (2, None));
 /// # Ok::<(), piola_dynamics::DynamicsError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +56,9 @@ pub struct NormalModes {
 }
 
 /// How the amplitude of a normal mode changes with time.
+///
+/// # Example
+/// See [`NormalModes`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -73,6 +79,9 @@ pub enum ModeMotion {
 
 impl NormalModes {
     /// How mode number `mode` moves; `None` beyond the last.
+    ///
+    /// # Example
+    /// See [`NormalModes`].
     #[must_use]
     pub fn motion(&self, mode: usize) -> Option<ModeMotion> {
         let (&square, &uncertainty) = (self.squares.get(mode)?, self.uncertainties.get(mode)?);
@@ -86,6 +95,9 @@ impl NormalModes {
     }
 
     /// ω of the modes that oscillate, rad/s, rising.
+    ///
+    /// # Example
+    /// See [`NormalModes`].
     #[must_use]
     pub fn angular_frequencies(&self) -> Vec<f64> {
         let oscillating = |mode| match self.motion(mode) {

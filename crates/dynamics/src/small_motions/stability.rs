@@ -8,6 +8,9 @@ use super::reduction::Reduction;
 use crate::DynamicsError;
 
 /// What becomes of a small disturbance.
+///
+/// # Example
+/// See [`Linearisation::stability`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

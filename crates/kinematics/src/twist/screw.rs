@@ -49,7 +49,7 @@ impl SpaceTwist<f64> {
     /// As [`screw`](Self::screw).
     ///
     /// # Example
-    /// See [`Twist`].
+    /// See [`Twist`](crate::twist::Twist).
     pub fn revolute(point: &Vector3<f64>, axis: &Vector3<f64>) -> Result<Self, KinematicsError> {
         Self::screw(point, axis, 0.0)
     }
