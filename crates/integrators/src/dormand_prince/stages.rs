@@ -41,9 +41,7 @@ impl<T: Real> DormandPrince853<T> {
         stage!(11, c::A12);
         let error = self.finish(field, state, h);
         if error <= 1.0 {
-            field
-                .project(t + h, &mut self.trial)
-                .map_err(|source| IntegrationError::Field { time: t + h, source })?;
+            field.project(t + h, &mut self.trial).map_err(|source| IntegrationError::Field { time: t + h, source })?;
             report.evaluations += 1;
             evaluate(field, t + h, &self.trial, &mut self.stages[12])?;
             check_finite(t, &self.stages[12])?;
