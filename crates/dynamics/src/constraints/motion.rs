@@ -34,7 +34,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     /// The motion of n coordinates as a field in (q, q̇), for any integrator. Start it from an
     /// [assembled](Self::assemble) state.
     ///
-    /// [`DormandPrince853`] projects every accepted step ([`Field::project`]); with other methods the residuals
+    /// [`DormandPrince853`](piola_integrators::DormandPrince853) projects every accepted step ([`Field::project`]); with other methods the residuals
     /// grow slowly, by the error of each step.
     ///
     /// # Example
