@@ -1,7 +1,8 @@
 //! Nanoseconds of the accelerations that Lagrange's equations give, and of their parts.
 //!
-//! An item is one state. The systems of the reference data stand beside their equations, coded by hand, and so
-//! do chains of one to 64 links, with the exponent with which their cost grows. Pendulum chains of n links: by Piola from the placement alone, from the closed form
+//! An item is one state. The systems of the reference data stand beside their equations, coded by hand, and beside
+//! their placement alone, of plain numbers, which any method has to pay that calls it; so do chains of one to 64
+//! links (by hand), with the exponent with which their cost grows. Pendulum chains of n links: by Piola from the placement alone, from the closed form
 //! of the chain (`by hand`), and from the same placement by the dual numbers of `num-dual` in two passes.
 
 use std::error::Error;
@@ -102,6 +103,33 @@ fn acceleration<S: Holonomic, P: Potential, F: Forces, const N: usize>(
     });
 }
 
+/// Looks at where parts are, and does nothing else.
+struct Looked;
+
+impl Placement<f64> for Looked {
+    #[inline(always)]
+    fn particle(&mut self, _mass: f64, position: Vector3<f64>) {
+        black_box(position);
+    }
+    #[inline(always)]
+    fn body(&mut self, _body: &RigidBody, centre: Vector3<f64>, attitude: Attitude<f64>) {
+        black_box((centre, attitude));
+    }
+}
+
+/// The placement of plain numbers, without derivatives and equations: no method that calls the placement is
+/// faster.
+fn placement_alone<S: Holonomic, const N: usize>(
+    group: &mut Group<'_>,
+    name: &str,
+    states: &States<N>,
+    (system, time): (&S, f64),
+) {
+    bench(group, &format!("{name} placement alone"), states, |q, _v| {
+        system.place(q, black_box(time), &mut Looked);
+    });
+}
+
 /// The larger error; NaN is the largest.
 fn worse(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
@@ -141,6 +169,7 @@ fn chain<const N: usize>(group: &mut Group<'_>, notes: &mut Notes) {
     bench(group, &format!("{name} by hand"), &states, |q, v| {
         black_box(chain.acceleration_by_hand(q, v));
     });
+    placement_alone(group, &name, &states, (&chain, 0.0));
     bench(group, &by_num_dual, &states, |q, v| {
         black_box(chain.acceleration_by_num_dual(q, v));
     });
@@ -363,6 +392,7 @@ fn reference_system<S: Holonomic, P: Potential, const N: usize>(
     bench(group, &format!("{name} by hand"), &states, |q, v| {
         black_box(by_hand(q, v));
     });
+    placement_alone(group, &name, &states, (lagrangian.system(), time));
     Ok(())
 }
 

@@ -260,7 +260,7 @@ impl<T: Real> Attitude<T> {
     #[must_use]
     pub fn to_space(self, in_body: &Vector3<T>) -> Vector3<T> {
         let u = self.vector();
-        let twice = scaled(&cross(&u, in_body), T::lit(2.0));
+        let twice = cross(&u, in_body).map(|x| x + x);
         in_body + scaled(&twice, self.w) + cross(&u, &twice)
     }
 

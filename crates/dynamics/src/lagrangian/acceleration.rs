@@ -8,7 +8,7 @@ use piola_numerics::{Dual, Error, Gradient, Jet, Mask, Real};
 
 use super::collect::{Equations, Pass, Rows};
 use super::conditioning::trusted_pivot;
-use super::directions::{CHUNK, HESSIAN_CHUNK, LARGEST, with_directions};
+use super::directions::{CHUNK, HESSIAN_CHUNK, LARGEST, with_directions, with_exact_directions};
 use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
 use crate::check::{check_finite, check_length};
@@ -126,7 +126,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let n = q.len();
         check_length("q̇", n, v.len())?;
         check_length("q̈", n, out.len())?;
-        let solved = with_directions!(n, N => self.acceleration_in_one_pass::<T, N>(work, q, v, t, out),
+        let solved = with_exact_directions!(n, N => self.acceleration_in_one_pass::<T, N>(work, q, v, t, out),
             beyond => self.acceleration_by_rows(work, q, v, t, out));
         // NaN velocities and forces leave the metric as it is: they show in the result only.
         let finite = out.iter().fold(T::Mask::splat(true), |all, a| all & a.is_finite());
@@ -283,9 +283,10 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let Equations { mut metric, mut force, .. } = equations;
 
         if P::PRESENT {
-            self.subtract_gradient::<T, N>(q, v, t, &mut force[..n]);
             if P::VELOCITY_DEPENDENT {
                 self.add_velocity_dependence::<T, N>(work, q, v, t, metric.as_flattened_mut(), &mut force);
+            } else {
+                self.subtract_gradient::<T, N>(q, t, &mut force[..n]);
             }
         }
         if F::GENERALISED {
@@ -341,24 +342,27 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
     }
 
-    /// −∂V/∂q at fixed velocities.
+    /// −∂V/∂q where V does not depend on velocities.
     #[inline(always)]
-    fn subtract_gradient<T: Real, const N: usize>(&self, q: &[T], v: &[T], t: T, force: &mut [T]) {
+    fn subtract_gradient<T: Real, const N: usize>(&self, q: &[T], t: T, force: &mut [T]) {
         let n = q.len();
         let mut coordinates = [Gradient::<T, N>::constant(T::zero()); N];
-        let mut rates = [Gradient::<T, N>::constant(T::zero()); N];
-        for i in 0..n {
-            coordinates[i] = Gradient::variable(q[i], i);
-            rates[i] = Gradient::constant(v[i]);
+        for (i, (coordinate, &q)) in coordinates.iter_mut().zip(q).enumerate() {
+            *coordinate = Gradient::variable(q, i);
         }
-        let rates = if P::VELOCITY_DEPENDENT { &rates[..n] } else { &[] };
-        let value = self.potential.potential(&coordinates[..n], rates, Gradient::constant(t));
+        let value = self.potential.potential(&coordinates[..n], &[], Gradient::constant(t));
         for (force, partial) in force.iter_mut().zip(value.partials) {
             *force -= partial;
         }
     }
 
-    /// What d/dt(∂V/∂q̇) adds: −∂²V/∂q̇∂q̇ to the metric and (∂²V/∂q̇∂q) q̇ + ∂²V/∂q̇∂t to the force.
+    /// What a potential of velocities adds: −∂²V/∂q̇∂q̇ to the metric, and to the force, in one pass,
+    ///
+    /// ```text
+    /// (∂²V/∂q̇∂q) q̇ + ∂²V/∂q̇∂t − ∂V/∂q = ∂/∂ε d/dt V(q, q̇ + ε, t)   along   q̇ − ε,  ṫ = 1,  q̈ = 0
+    /// ```
+    ///
+    /// The coordinates move slower by the ε by which the velocities are more: see [`moving_against`].
     fn add_velocity_dependence<T: Real, const N: usize>(
         &self,
         work: &mut Workspace<T>,
@@ -373,8 +377,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let mut moving = [Dual::constant(zero); N];
         let mut rates = [Dual::constant(zero); N];
         for i in 0..n {
-            moving[i] = Dual::new(Gradient::constant(q[i]), Gradient::constant(v[i]));
-            rates[i] = Dual::constant(Gradient::variable(v[i], i));
+            [moving[i], rates[i]] = moving_against(q[i], v[i], i);
         }
         let value = self.potential.potential(&moving[..n], &rates[..n], Dual::variable(Gradient::constant(t)));
         for (force, partial) in force.iter_mut().zip(value.tangent.partials) {
@@ -422,9 +425,10 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// Adds to `work.force` what does not act on parts: the potential's and the generalised forces.
     pub(super) fn add_forces_without_parts<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
         if P::PRESENT {
-            self.subtract_gradient_by_chunks(work, q, v, t);
             if P::VELOCITY_DEPENDENT {
                 self.add_velocity_dependence_by_chunks(work, q, v, t);
+            } else {
+                self.subtract_gradient_by_chunks(work, q, t);
             }
         }
         if F::GENERALISED {
@@ -453,16 +457,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
     }
 
-    fn subtract_gradient_by_chunks<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+    fn subtract_gradient_by_chunks<T: Real>(&self, work: &mut Workspace<T>, q: &[T], t: T) {
         let n = q.len();
-        work.constants.clear();
-        if P::VELOCITY_DEPENDENT {
-            work.constants.extend(v.iter().map(|&v| Gradient::constant(v)));
-        }
         for first in (0..n).step_by(CHUNK) {
             work.coordinates.clear();
             work.coordinates.extend(q.iter().enumerate().map(|(i, &q)| Gradient::variable(q, i.wrapping_sub(first))));
-            let value = self.potential.potential(&work.coordinates, &work.constants, Gradient::constant(t));
+            let value = self.potential.potential(&work.coordinates, &[], Gradient::constant(t));
             for (force, partial) in work.force[first..].iter_mut().zip(value.partials) {
                 *force -= partial;
             }
@@ -473,10 +473,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let n = q.len();
         for first in (0..n).step_by(CHUNK) {
             work.mixed.clear();
-            work.mixed.extend(q.iter().zip(v).map(|(&q, &v)| Dual::new(Gradient::constant(q), Gradient::constant(v))));
             work.mixed_rates.clear();
-            let variable = |(i, &v): (usize, &T)| Dual::constant(Gradient::variable(v, i.wrapping_sub(first)));
-            work.mixed_rates.extend(v.iter().enumerate().map(variable));
+            for (i, (&q, &v)) in q.iter().zip(v).enumerate() {
+                let [moving, rate] = moving_against(q, v, i.wrapping_sub(first));
+                work.mixed.push(moving);
+                work.mixed_rates.push(rate);
+            }
             let time = Dual::variable(Gradient::constant(t));
             let value = self.potential.potential(&work.mixed, &work.mixed_rates, time);
             for (force, partial) in work.force[first..].iter_mut().zip(value.tangent.partials) {
@@ -517,6 +519,15 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             }
         }
     }
+}
+
+/// A coordinate that moves at v − ε, and its velocity v + ε, ε in the given direction: what d/dt V along them has
+/// of ε is d/dt(∂V/∂q̇) − ∂V/∂q.
+#[inline(always)]
+fn moving_against<T: Real, const N: usize>(q: T, v: T, direction: usize) -> [Dual<Gradient<T, N>>; 2] {
+    let mut slower = Gradient::variable(v, direction);
+    slower.partials = slower.partials.map(|partial| -partial);
+    [Dual::new(Gradient::constant(q), slower), Dual::constant(Gradient::variable(v, direction))]
 }
 
 impl<T: Real> Workspace<T> {

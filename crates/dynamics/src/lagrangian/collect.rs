@@ -11,12 +11,12 @@ use super::{Forces, Lagrangian, Potential};
 /// unit quaternion q.
 #[inline(always)]
 pub(super) fn turning<T: Real>(q: [T; 4], r: [T; 4]) -> [T; 3] {
-    let [w, x, y, z] = q;
-    let two = T::lit(2.0);
+    // Doubled before and not after, exactly: once for all rates of one attitude.
+    let [w, x, y, z] = q.map(|q| q + q);
     [
-        two * (w * r[1] - x * r[0] - y * r[3] + z * r[2]),
-        two * (w * r[2] + x * r[3] - y * r[0] - z * r[1]),
-        two * (w * r[3] - x * r[2] + y * r[1] - z * r[0]),
+        w * r[1] - x * r[0] - y * r[3] + z * r[2],
+        w * r[2] + x * r[3] - y * r[0] - z * r[1],
+        w * r[3] - x * r[2] + y * r[1] - z * r[0],
     ]
 }
 
@@ -39,6 +39,10 @@ fn attitude_of<T: Real>([w, x, y, z]: [T; 4]) -> Attitude<T> {
 #[inline(always)]
 pub(super) fn inertia_times<T: Real>(body: &RigidBody, a: [T; 3]) -> [T; 3] {
     let i = body.inertia().matrix();
+    let beside = i[(0, 1)].abs().max(i[(0, 2)].abs()).max(i[(1, 2)].abs());
+    if beside <= 0.0 {
+        return core::array::from_fn(|k| T::lit(i[(k, k)]) * a[k]); // about principal axes
+    }
     core::array::from_fn(|row| T::lit(i[(row, 0)]) * a[0] + T::lit(i[(row, 1)]) * a[1] + T::lit(i[(row, 2)]) * a[2])
 }
 

@@ -1,4 +1,6 @@
 //! The systems of the reference data, each as a placement map with what acts on it.
+//!
+//! Benches share this file: in them, as wherever speed matters, placements are inlined.
 
 use nalgebra::{Matrix3, Vector3};
 use piola_dynamics::lagrangian::{Holonomic, Placement, Potential};
@@ -16,6 +18,7 @@ pub(crate) struct DoublePendulum {
 }
 
 impl Holonomic for DoublePendulum {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let mut end = point(T::zero(), T::zero(), T::zero());
         for ((angle, mass), length) in q.iter().zip(self.mass).zip(self.length) {
@@ -34,6 +37,7 @@ pub(crate) struct SphericalPendulum {
 }
 
 impl Holonomic for SphericalPendulum {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let ((s, c), (sp, cp)) = (q[0].sin_cos(), q[1].sin_cos());
         let l = T::lit(self.length);
@@ -48,6 +52,7 @@ pub(crate) struct CartPole {
 }
 
 impl Holonomic for CartPole {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let (s, c) = q[1].sin_cos();
         let l = T::lit(self.length);
@@ -67,6 +72,7 @@ pub(crate) struct BeadOnHoop {
 
 impl Holonomic for BeadOnHoop {
     const TIME_DEPENDENT: bool = true;
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
         let turn = T::lit(self.rate) * t + T::lit(self.wobble) * (T::lit(self.frequency) * t).sin();
         let ((s, c), (sp, cp)) = (q[0].sin_cos(), turn.sin_cos());
@@ -91,6 +97,7 @@ impl HeavyTop {
 }
 
 impl Holonomic for HeavyTop {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let attitude = Attitude::from_euler_zyz([q[0], q[1], q[2]]);
         let centre = attitude.to_space(&point(T::zero(), T::zero(), T::lit(self.height)));
@@ -104,6 +111,7 @@ pub(crate) struct ElasticPendulum {
 }
 
 impl Holonomic for ElasticPendulum {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let (s, c) = q[1].sin_cos();
         bodies.particle(self.mass, point(q[0] * s, T::zero(), -q[0] * c));
@@ -117,6 +125,7 @@ pub(crate) struct RadialSpring {
 }
 
 impl Potential for RadialSpring {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn potential<T: Real>(&self, q: &[T], _v: &[T], _t: T) -> T {
         let stretch = q[0] - T::lit(self.rest);
         T::lit(0.5 * self.stiffness) * stretch * stretch
@@ -130,6 +139,7 @@ pub(crate) struct Torus {
 }
 
 impl Holonomic for Torus {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let ((su, cu), (sv, cv)) = (q[0].sin_cos(), q[1].sin_cos());
         let (large, small) = (T::lit(self.large), T::lit(self.small));
@@ -144,6 +154,7 @@ pub(crate) struct Cylindrical {
 }
 
 impl Holonomic for Cylindrical {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let (s, c) = q[1].sin_cos();
         bodies.particle(self.mass, point(q[0] * c, q[0] * s, q[2]));
@@ -160,6 +171,7 @@ pub(crate) struct Lorentz {
 impl Potential for Lorentz {
     const VELOCITY_DEPENDENT: bool = true;
     const LINEAR_IN_VELOCITIES: bool = true;
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn potential<T: Real>(&self, q: &[T], v: &[T], _t: T) -> T {
         let (s, c) = q[1].sin_cos();
         let x = [q[0] * c, q[0] * s, q[2]];
@@ -196,10 +208,11 @@ impl Foucault {
 
 impl Holonomic for Foucault {
     const TIME_DEPENDENT: bool = true;
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
         let (s, c) = self.latitude.sin_cos();
-        let axis = Vector3::new(0.0, c, s);
-        let turn = Attitude::from_rotation_vector(&axis.map(|component| T::lit(self.rate * component) * t));
+        let (sine, cosine) = (T::lit(0.5 * self.rate) * t).sin_cos();
+        let turn = Attitude { w: cosine, x: T::zero(), y: T::lit(c) * sine, z: T::lit(s) * sine };
         bodies.particle(self.mass, turn.to_space(&point(q[0], q[1], self.height(q))));
     }
 }
@@ -211,6 +224,7 @@ pub(crate) struct Height<'a> {
 }
 
 impl Potential for Height<'_> {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn potential<T: Real>(&self, q: &[T], _v: &[T], _t: T) -> T {
         T::lit(self.pendulum.mass * self.gravity) * self.pendulum.height(q)
     }
@@ -234,6 +248,7 @@ impl HingedBodies {
 }
 
 impl Holonomic for HingedBodies {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let first = point(q[0], q[1], T::zero());
         let arm = |i: usize| {
@@ -252,6 +267,7 @@ pub(crate) struct Torsion {
 }
 
 impl Potential for Torsion {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn potential<T: Real>(&self, q: &[T], _v: &[T], _t: T) -> T {
         let turn = q[3] - q[2];
         T::lit(0.5 * self.stiffness) * turn * turn
@@ -264,6 +280,7 @@ pub(crate) struct Chain {
 }
 
 impl Holonomic for Chain {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let mut end = point(T::zero(), T::zero(), T::zero());
         for angle in q.iter().take(self.links) {
@@ -287,6 +304,7 @@ impl FreeBody {
 }
 
 impl Holonomic for FreeBody {
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         bodies.body(&self.body, point(q[0], q[1], q[2]), Attitude::from_euler_zyz([q[3], q[4], q[5]]));
     }
