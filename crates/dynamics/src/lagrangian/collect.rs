@@ -39,10 +39,6 @@ fn attitude_of<T: Real>([w, x, y, z]: [T; 4]) -> Attitude<T> {
 #[inline(always)]
 pub(super) fn inertia_times<T: Real>(body: &RigidBody, a: [T; 3]) -> [T; 3] {
     let i = body.inertia().matrix();
-    let beside = i[(0, 1)].abs().max(i[(0, 2)].abs()).max(i[(1, 2)].abs());
-    if beside <= 0.0 {
-        return core::array::from_fn(|k| T::lit(i[(k, k)]) * a[k]); // about principal axes
-    }
     core::array::from_fn(|row| T::lit(i[(row, 0)]) * a[0] + T::lit(i[(row, 1)]) * a[1] + T::lit(i[(row, 2)]) * a[2])
 }
 
