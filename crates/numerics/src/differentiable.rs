@@ -15,7 +15,7 @@ pub(crate) fn one_minus_square<T: crate::Real>(x: T) -> T {
 
 /// Implements the operators and `Real` for a differentiable number over `T: Real`.
 macro_rules! implement_real {
-    ($type:ty, [$($parameters:tt)*], [$($constants:tt)*]) => {
+    ($type:ty, $order:literal, [$($parameters:tt)*], [$($constants:tt)*]) => {
         impl<$($parameters)*> core::ops::Add for $type {
             type Output = Self;
             #[inline(always)]
@@ -95,6 +95,7 @@ macro_rules! implement_real {
         impl<$($parameters)*> crate::Real for $type {
             type Mask = T::Mask;
             const LANES: usize = T::LANES;
+            const ORDER: usize = T::ORDER + $order;
 
             #[inline(always)]
             fn lit(value: f64) -> Self {
@@ -103,6 +104,10 @@ macro_rules! implement_real {
             #[inline(always)]
             fn primal(self, lane: usize) -> f64 {
                 self.value.primal(lane)
+            }
+            #[inline(always)]
+            fn frozen(self) -> Self {
+                Self::constant(self.value.frozen())
             }
             #[inline(always)]
             fn less_than(self, other: Self) -> Self::Mask {

@@ -66,4 +66,4 @@ impl<T: Real> Dual<T> {
     }
 }
 
-crate::differentiable::implement_real!(Dual<T>, [T: Real], []);
+crate::differentiable::implement_real!(Dual<T>, 1, [T: Real], []);

@@ -72,4 +72,4 @@ impl<T: Real, const N: usize> Gradient<T, N> {
     }
 }
 
-crate::differentiable::implement_real!(Gradient<T, N>, [T: Real, const N: usize], [const N: usize]);
+crate::differentiable::implement_real!(Gradient<T, N>, 1, [T: Real, const N: usize], [const N: usize]);

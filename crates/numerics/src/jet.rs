@@ -110,4 +110,4 @@ impl<T: Real, const N: usize> Jet<T, N> {
     }
 }
 
-crate::differentiable::implement_real!(Jet<T, N>, [T: Real, const N: usize], [const N: usize]);
+crate::differentiable::implement_real!(Jet<T, N>, 2, [T: Real, const N: usize], [const N: usize]);

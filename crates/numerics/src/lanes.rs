@@ -449,6 +449,7 @@ macro_rules! lane_function {
 impl<T: Element, const N: usize> Real for Lanes<T, N> {
     type Mask = LaneMask<T::Bits, N>;
     const LANES: usize = N;
+    const ORDER: usize = 0;
 
     #[inline(always)]
     fn lit(value: f64) -> Self {
@@ -457,6 +458,10 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
     #[inline(always)]
     fn primal(self, lane: usize) -> f64 {
         self.0[lane].widen()
+    }
+    #[inline(always)]
+    fn frozen(self) -> Self {
+        self
     }
     #[inline(always)]
     fn less_than(self, other: Self) -> Self::Mask {

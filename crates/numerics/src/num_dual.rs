@@ -36,10 +36,11 @@ impl<T: Scalar + Zero, const R: usize, const C: usize> Vanishes for Derivative<T
 }
 
 macro_rules! real_for_num_dual {
-    ($([$($constants:tt)*] $type:ty, $float:ident, [$($part:ident),*];)*) => {$(
+    ($([$($constants:tt)*] $type:ty, $order:literal, $float:ident, [$($part:ident),*];)*) => {$(
         impl<$($constants)*> Real for $type {
             type Mask = bool;
             const LANES: usize = 1;
+            const ORDER: usize = $order;
 
             #[inline]
             fn lit(value: f64) -> Self {
@@ -48,6 +49,10 @@ macro_rules! real_for_num_dual {
             #[inline]
             fn primal(self, _lane: usize) -> f64 {
                 f64::from(self.re)
+            }
+            #[inline]
+            fn frozen(self) -> Self {
+                Self::from(self.re)
             }
             #[inline]
             fn less_than(self, other: Self) -> bool {
@@ -159,20 +164,20 @@ macro_rules! real_for_num_dual {
 }
 
 real_for_num_dual! {
-    [] Dual<f64>, f64, [eps];
-    [] Dual<f32>, f32, [eps];
-    [] Dual2<f64>, f64, [v1, v2];
-    [] Dual2<f32>, f32, [v1, v2];
-    [] Dual3<f64>, f64, [v1, v2, v3];
-    [] Dual3<f32>, f32, [v1, v2, v3];
-    [] HyperDual<f64>, f64, [eps1, eps2, eps1eps2];
-    [] HyperDual<f32>, f32, [eps1, eps2, eps1eps2];
-    [] HyperHyperDual<f64>, f64, [eps1, eps2, eps3, eps1eps2, eps1eps3, eps2eps3, eps1eps2eps3];
-    [] HyperHyperDual<f32>, f32, [eps1, eps2, eps3, eps1eps2, eps1eps3, eps2eps3, eps1eps2eps3];
-    [const N: usize] DualVec<f64, Const<N>>, f64, [eps];
-    [const N: usize] DualVec<f32, Const<N>>, f32, [eps];
-    [const N: usize] Dual2Vec<f64, Const<N>>, f64, [v1, v2];
-    [const N: usize] Dual2Vec<f32, Const<N>>, f32, [v1, v2];
-    [const M: usize, const N: usize] HyperDualVec<f64, Const<M>, Const<N>>, f64, [eps1, eps2, eps1eps2];
-    [const M: usize, const N: usize] HyperDualVec<f32, Const<M>, Const<N>>, f32, [eps1, eps2, eps1eps2];
+    [] Dual<f64>, 1, f64, [eps];
+    [] Dual<f32>, 1, f32, [eps];
+    [] Dual2<f64>, 2, f64, [v1, v2];
+    [] Dual2<f32>, 2, f32, [v1, v2];
+    [] Dual3<f64>, 3, f64, [v1, v2, v3];
+    [] Dual3<f32>, 3, f32, [v1, v2, v3];
+    [] HyperDual<f64>, 2, f64, [eps1, eps2, eps1eps2];
+    [] HyperDual<f32>, 2, f32, [eps1, eps2, eps1eps2];
+    [] HyperHyperDual<f64>, 3, f64, [eps1, eps2, eps3, eps1eps2, eps1eps3, eps2eps3, eps1eps2eps3];
+    [] HyperHyperDual<f32>, 3, f32, [eps1, eps2, eps3, eps1eps2, eps1eps3, eps2eps3, eps1eps2eps3];
+    [const N: usize] DualVec<f64, Const<N>>, 1, f64, [eps];
+    [const N: usize] DualVec<f32, Const<N>>, 1, f32, [eps];
+    [const N: usize] Dual2Vec<f64, Const<N>>, 2, f64, [v1, v2];
+    [const N: usize] Dual2Vec<f32, Const<N>>, 2, f32, [v1, v2];
+    [const M: usize, const N: usize] HyperDualVec<f64, Const<M>, Const<N>>, 2, f64, [eps1, eps2, eps1eps2];
+    [const M: usize, const N: usize] HyperDualVec<f32, Const<M>, Const<N>>, 2, f32, [eps1, eps2, eps1eps2];
 }

@@ -88,6 +88,11 @@ pub trait Real:
 
     /// How many independent values one scalar holds.
     const LANES: usize;
+    /// The highest order of the derivatives that the scalar carries: 0 for floats and lanes, 2 for a dual of a dual.
+    ///
+    /// For algorithms that compute with values first, on [`frozen`](Self::frozen) scalars, and then need to
+    /// know how many terms or steps bring in all derivatives.
+    const ORDER: usize;
 
     /// The constant `value`, rounded to this scalar, with zero derivatives, in every lane.
     #[must_use]
@@ -97,6 +102,14 @@ pub trait Real:
     /// `lane` is below [`LANES`](Self::LANES).
     #[must_use]
     fn primal(self, lane: usize) -> f64;
+    /// The same value in every lane, with zero derivatives.
+    ///
+    /// ```
+    /// use piola_numerics::{Dual, Real};
+    /// assert_eq!(Dual::variable(3.0).frozen(), Dual::lit(3.0));
+    /// ```
+    #[must_use]
+    fn frozen(self) -> Self;
 
     /// `self < other`.
     #[must_use]
@@ -217,6 +230,7 @@ macro_rules! real_for_float {
         impl Real for $float {
             type Mask = bool;
             const LANES: usize = 1;
+            const ORDER: usize = 0;
 
             #[inline(always)]
             #[expect(
@@ -230,6 +244,10 @@ macro_rules! real_for_float {
             #[inline(always)]
             fn primal(self, _lane: usize) -> f64 {
                 f64::from(self)
+            }
+            #[inline(always)]
+            fn frozen(self) -> Self {
+                self
             }
             #[inline(always)]
             fn less_than(self, other: Self) -> bool {

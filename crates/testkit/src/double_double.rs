@@ -102,12 +102,16 @@ fn newton(start: TwoFloat, excess: DoubleDouble, slope: DoubleDouble) -> DoubleD
 impl Real for DoubleDouble {
     type Mask = bool;
     const LANES: usize = 1;
+    const ORDER: usize = 0;
 
     fn lit(value: f64) -> Self {
         Self(TwoFloat::from_f64(value))
     }
     fn primal(self, _lane: usize) -> f64 {
         self.0.hi()
+    }
+    fn frozen(self) -> Self {
+        self
     }
     fn less_than(self, other: Self) -> bool {
         self.0 < other.0
