@@ -1,0 +1,13 @@
+//! Continuum mechanics: deformation, strain, stress, rates and balance.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+pub mod deformation;
+mod error;
+pub mod stress;
+pub mod tensor;
+
+pub use deformation::{Deformation, DeformationGradient, DisplacementGradient};
+pub use error::ContinuumError;
+pub use stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+pub use tensor::Symmetric;

@@ -1,0 +1,211 @@
+//! Symmetric tensors of second order, with six stored components.
+
+use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
+use nalgebra::Matrix3;
+use piola_numerics::{Mask, Real};
+
+use super::rows::Rows;
+use crate::ContinuumError;
+use crate::error::check_finite;
+
+/// A symmetric tensor: its components in Voigt's order 11, 22, 33, 12, 23, 13, shears not doubled.
+///
+/// # Example
+/// ```
+/// use piola_continuum::Symmetric;
+/// let tensor = Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
+/// assert_eq!(tensor.trace(), 6.0);
+/// assert_eq!(tensor.matrix()[(0, 2)], 6.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(transparent)]
+pub struct Symmetric<T = f64> {
+    /// 11, 22, 33, 12, 23, 13.
+    pub components: [T; 6],
+}
+
+impl<T: Real> Symmetric<T> {
+    /// From the components 11, 22, 33, 12, 23, 13.
+    #[inline(always)]
+    pub const fn new(xx: T, yy: T, zz: T, xy: T, yz: T, xz: T) -> Self {
+        Self { components: [xx, yy, zz, xy, yz, xz] }
+    }
+
+    /// 0.
+    #[inline(always)]
+    #[must_use]
+    pub fn zero() -> Self {
+        Self { components: [T::zero(); 6] }
+    }
+
+    /// 1.
+    #[inline(always)]
+    #[must_use]
+    pub fn identity() -> Self {
+        let (o, l) = (T::zero(), T::one());
+        Self { components: [l, l, l, o, o, o] }
+    }
+
+    /// diag(a, b, c).
+    #[inline(always)]
+    #[must_use]
+    pub fn diagonal(diagonal: [T; 3]) -> Self {
+        let o = T::zero();
+        Self { components: [diagonal[0], diagonal[1], diagonal[2], o, o, o] }
+    }
+
+    /// ½ (A + Aᵀ).
+    #[inline(always)]
+    #[must_use]
+    pub fn symmetric_part(a: Rows<T>) -> Self {
+        let half = T::lit(0.5);
+        Self {
+            components: [
+                a[0][0],
+                a[1][1],
+                a[2][2],
+                half * (a[0][1] + a[1][0]),
+                half * (a[1][2] + a[2][1]),
+                half * (a[0][2] + a[2][0]),
+            ],
+        }
+    }
+
+    /// The symmetric tensor with the upper triangle of A: for a product known to be symmetric.
+    #[inline(always)]
+    #[must_use]
+    pub fn upper_triangle(a: Rows<T>) -> Self {
+        Self { components: [a[0][0], a[1][1], a[2][2], a[0][1], a[1][2], a[0][2]] }
+    }
+
+    /// From a matrix that is symmetric to rounding.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotSymmetric`] when two opposite entries differ by more
+    /// than 32 ulp of the largest entry.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::Symmetric;
+    /// assert!(Symmetric::from_matrix(&Matrix3::<f64>::identity()).is_ok());
+    /// assert!(Symmetric::from_matrix(&Matrix3::new(0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0)).is_err());
+    /// ```
+    pub fn from_matrix(matrix: &Matrix3<T>) -> Result<Self, ContinuumError> {
+        let rows = piola_numerics::linear::matrix3::rows_of(matrix);
+        check_finite("tensor", rows.as_flattened())?;
+        let scale = rows.as_flattened().iter().fold(T::zero(), |scale, x| scale.max(x.abs()));
+        let tolerance = scale * T::lit(32.0 * piola_numerics::sums::unit_in_last_place::<T>());
+        for (row, column) in [(0, 1), (1, 2), (0, 2)] {
+            let difference = rows[row][column] - rows[column][row];
+            if !difference.abs().at_most(tolerance).all() {
+                let lane =
+                    (0..T::LANES).find(|&lane| tolerance.primal(lane) < difference.primal(lane).abs()).unwrap_or(0);
+                return Err(ContinuumError::NotSymmetric {
+                    quantity: "tensor",
+                    row,
+                    column,
+                    difference: difference.primal(lane),
+                    scale: scale.primal(lane),
+                });
+            }
+        }
+        Ok(Self::symmetric_part(rows))
+    }
+
+    /// All nine components as an array of rows.
+    #[inline(always)]
+    #[must_use]
+    pub fn rows(&self) -> Rows<T> {
+        let [xx, yy, zz, xy, yz, xz] = self.components;
+        [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+    }
+
+    /// All nine components as a matrix.
+    #[inline(always)]
+    #[must_use]
+    pub fn matrix(&self) -> Matrix3<T> {
+        piola_numerics::linear::matrix3::from_rows(self.rows())
+    }
+
+    /// tr A.
+    #[inline(always)]
+    #[must_use]
+    pub fn trace(&self) -> T {
+        self.components[0] + self.components[1] + self.components[2]
+    }
+
+    /// det A.
+    #[inline(always)]
+    #[must_use]
+    pub fn determinant(&self) -> T {
+        piola_numerics::linear::matrix3::determinant(self.rows())
+    }
+
+    /// A : B = Aᵢⱼ Bᵢⱼ.
+    #[inline(always)]
+    #[must_use]
+    pub fn double_contraction(&self, other: &Self) -> T {
+        let (a, b) = (self.components, other.components);
+        a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + T::lit(2.0) * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+    }
+
+    /// A v.
+    #[inline(always)]
+    #[must_use]
+    pub fn apply(&self, v: [T; 3]) -> [T; 3] {
+        super::rows::apply(self.rows(), v)
+    }
+
+    #[inline(always)]
+    fn each(a: [T; 6], b: [T; 6], f: impl Fn(T, T) -> T) -> Self {
+        Self { components: [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3]), f(a[4], b[4]), f(a[5], b[5])] }
+    }
+}
+
+impl<T: Real> Add for Symmetric<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self::each(self.components, other.components, |a, b| a + b)
+    }
+}
+
+impl<T: Real> Sub for Symmetric<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self::each(self.components, other.components, |a, b| a - b)
+    }
+}
+
+impl<T: Real> AddAssign for Symmetric<T> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<T: Real> SubAssign for Symmetric<T> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<T: Real> Neg for Symmetric<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::each(self.components, self.components, |a, _| -a)
+    }
+}
+
+impl<T: Real> Mul<T> for Symmetric<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: T) -> Self {
+        Self::each(self.components, self.components, |a, _| a * factor)
+    }
+}
