@@ -8,6 +8,7 @@ mod features;
 mod fmt;
 mod ledger;
 mod package;
+mod scenes;
 mod stability;
 mod test;
 mod tidy;
@@ -39,6 +40,7 @@ const COMMANDS: &[Command] = &[
     docs::COMMAND,
     features::COMMAND,
     package::COMMAND,
+    scenes::COMMAND,
     ledger::COMMAND,
     bench::COMMAND,
     work_precision::COMMAND,

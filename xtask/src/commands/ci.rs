@@ -1,6 +1,6 @@
 //! `cargo xtask ci`
 
-use super::{Command, bench, clippy, docs, features, fmt, ledger, package, test, tidy};
+use super::{Command, bench, clippy, docs, features, fmt, ledger, package, scenes, test, tidy};
 use crate::options::Options;
 
 /// In the order that fails soonest for the least time.
@@ -13,6 +13,7 @@ const PARTS: &[&Command] = &[
     &ledger::COMMAND,
     &features::COMMAND,
     &package::COMMAND,
+    &scenes::COMMAND,
     &bench::COMPILE,
 ];
 
@@ -20,8 +21,8 @@ pub(super) const COMMAND: Command = Command {
     name: "ci",
     usage: "[--skip COMMAND]...",
     help: "everything that must hold before a change goes in
-It is the steps of fmt, tidy, clippy, test, docs, ledger, features, package and the compilation of the benches, in this
-order; `--skip test`, say, leaves the steps of one out.",
+It is the steps of fmt, tidy, clippy, test, docs, ledger, features, package, scenes and the compilation of the
+benches, in this order; `--skip test`, say, leaves the steps of one out.",
     prepare: |shell, workspace, options| {
         let skipped = options.values("--skip")?;
         if let Some(unknown) = skipped.iter().find(|name| PARTS.iter().all(|part| part.name != **name)) {
