@@ -61,6 +61,7 @@
 //! | scalars, exact derivatives, lanes, small linear systems, compensated sums | [`numerics`] | always |
 //! | particles, bodies, attitudes, inertia, placement maps | [`kinematics`] | `kinematics` |
 //! | Lagrange's and Hamilton's equations, gravitation | [`dynamics`] | `dynamics` |
+//! | deformation, strain, stress, rates, balance; batches in lanes | [`continuum`] | `continuum` |
 //! | time stepping | [`integrators`] | `integrators` |
 //!
 //! # Features
@@ -68,6 +69,8 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+#[cfg(feature = "continuum")]
+pub use piola_continuum as continuum;
 #[cfg(feature = "dynamics")]
 pub use piola_dynamics as dynamics;
 #[cfg(feature = "integrators")]
