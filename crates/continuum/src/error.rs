@@ -55,6 +55,116 @@ pub enum ContinuumError {
         /// Its value.
         value: f64,
     },
+    /// 0 < |n| is violated: a normal has no direction.
+    #[error("the zero vector has no direction: it is no normal")]
+    ZeroNormal,
+    /// 0 < |dev T| is violated where a ratio to it is asked for.
+    #[error("the deviator is zero: a stress of mean {mean:e} in all directions has no triaxiality")]
+    ZeroDeviator {
+        /// ⅓ tr T.
+        mean: f64,
+    },
+    /// The degree of a quadrature is above the limit.
+    #[error("quadrature of degree {degree} is asked for; the highest is {limit}")]
+    DegreeTooHigh {
+        /// The degree that was asked for.
+        degree: usize,
+        /// The highest degree.
+        limit: usize,
+    },
+    /// 0 < length is violated.
+    #[error("{quantity} {index} is {value}, not positive")]
+    NonPositiveLength {
+        /// Which length.
+        quantity: &'static str,
+        /// Its index where there are several, otherwise 0.
+        index: usize,
+        /// Its value, m.
+        value: f64,
+    },
+    /// An integrand is infinite or NaN at a point of the quadrature.
+    #[error("component {component} of the integrand is {value} at {position:?}")]
+    NonFiniteIntegrand {
+        /// The place.
+        position: [f64; 3],
+        /// Which component, in the order of storage.
+        component: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// No rule up to the highest degree gives an integral to the tolerance.
+    #[error("the integral is uncertain by {error:e} at degree {degree}, more than the tolerance {tolerance:e}")]
+    IntegralNotConverged {
+        /// Difference of the two best rules.
+        error: f64,
+        /// The tolerance.
+        tolerance: f64,
+        /// The degree of the best rule.
+        degree: usize,
+    },
+    /// A mesh has no elements.
+    #[error("the mesh has no elements")]
+    EmptyMesh,
+    /// An element names a vertex that does not exist.
+    #[error("element {element} names vertex {vertex}, but there are only {count}")]
+    NoSuchVertex {
+        /// The element.
+        element: usize,
+        /// The vertex that it names.
+        vertex: usize,
+        /// The number of vertices.
+        count: usize,
+    },
+    /// An element names a vertex twice.
+    #[error("element {element} names vertex {vertex} twice")]
+    RepeatedVertex {
+        /// The element.
+        element: usize,
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A vertex belongs to no element.
+    #[error("vertex {vertex} belongs to no element")]
+    UnusedVertex {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// 0 < V is violated for an element: it is turned inside out.
+    #[error("element {element} is turned inside out: its volume is {volume:e}")]
+    InvertedElement {
+        /// The element.
+        element: usize,
+        /// Its volume with sign, m³.
+        volume: f64,
+    },
+    /// An element has no volume within rounding, or a volume that is no number.
+    #[error("element {element} is flat: its volume is {volume:e} with an edge of {longest_edge:e}")]
+    FlatElement {
+        /// The element.
+        element: usize,
+        /// Its volume, m³.
+        volume: f64,
+        /// Its longest edge, m.
+        longest_edge: f64,
+    },
+    /// Two elements lie on the same side of a face, or more than two meet there.
+    #[error("elements {elements:?} lie on the same side of the face with vertices {face:?}")]
+    OverlappingElements {
+        /// The vertices of the face.
+        face: [usize; 3],
+        /// The elements.
+        elements: [usize; 2],
+    },
+    /// A list has the wrong length.
+    #[error("{quantity} has length {found}; {expected} is expected")]
+    WrongLength {
+        /// What the list is.
+        quantity: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length that is expected.
+        expected: usize,
+    },
 }
 
 /// The first number that is infinite or NaN in any lane, by name and position.

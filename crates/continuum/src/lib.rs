@@ -4,10 +4,12 @@
 
 pub mod deformation;
 mod error;
+pub mod fields;
 pub mod stress;
 pub mod tensor;
 
 pub use deformation::{Deformation, DeformationGradient, DisplacementGradient};
 pub use error::ContinuumError;
 pub use stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+pub use stress::{ReferenceNormal, UnitNormal};
 pub use tensor::Symmetric;

@@ -1,0 +1,3 @@
+//! Fields and motions over bodies, their derivatives and integrals.
+
+pub mod integral;
