@@ -191,7 +191,7 @@ macro_rules! operations {
                     f.write_str(if i == 0 { "[" } else { ", [" })?;
                     for (j, component) in row.iter().enumerate() {
                         f.write_str(if j == 0 { "" } else { ", " })?;
-                        component.fmt(f)?;
+                        fmt::Display::fmt(component, f)?;
                     }
                     f.write_str("]")?;
                 }
@@ -290,7 +290,7 @@ general_measure! {
     /// let turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
     /// // The traction (0, 3, 0) on the first face is (3, 0, 0) before the quarter turn.
     /// let first_piola = FirstPiola::new(Matrix3::new(0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
-    /// let biot = BiotStress::of_first_piola(&first_piola, &turn);
+    /// let biot: BiotStress = first_piola.biot_of_rotation(&turn)?;
     /// assert_eq!(biot.0[(0, 0)], 3.0);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```

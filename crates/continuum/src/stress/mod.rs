@@ -5,6 +5,23 @@
 //! Biot       Rᵀ P             second Piola–Kirchhoff S = F⁻¹ P          Mandel  C S
 //! ```
 
+mod area;
+mod conversions;
+mod deviator;
+pub mod gradients;
+pub mod invariants;
+pub mod kernels;
 mod measures;
+mod normal;
+mod power;
+mod scale;
+mod symmetry;
+mod traction;
+mod transformation;
 
+pub use area::{DeformedArea, reference_body_force, reference_surface_force};
+pub use invariants::HaighWestergaard;
 pub use measures::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+pub use normal::{ReferenceNormal, UnitNormal};
+pub use symmetry::moment_residual;
+pub use traction::oblique_traction;

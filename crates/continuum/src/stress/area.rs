@@ -1,0 +1,134 @@
+//! Areas, surface forces and body forces carried from the reference to the deformed body.
+//!
+//! ```text
+//! n da = J F⁻ᵀ N dA = Cof F N dA        N dA = J⁻¹ Fᵀ n da                  Nanson
+//! g = J |F⁻ᵀ N| g̃                       f = J f̃                             B(4.39), B(4.38)
+//! ```
+//! with g̃, f̃ per deformed area and volume and g, f per reference area and volume.
+
+use nalgebra::Vector3;
+use piola_numerics::Real;
+
+use super::kernels::{cofactor, cofactor_and_jacobian};
+use super::normal::normalized;
+use super::scale::norm;
+use super::{ReferenceNormal, UnitNormal};
+use crate::Deformation;
+use crate::tensor::rows::{apply, transpose};
+
+/// What a deformation makes of a unit of area, by Nanson's formula.
+///
+/// # Example
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use piola_continuum::{DeformationGradient, ReferenceNormal};
+/// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[2.0, 3.0, 4.0].into()))?;
+/// let area = ReferenceNormal::new(Vector3::x())?.deformed(&stretch);
+/// assert_eq!(area.vector, Vector3::new(12.0, 0.0, 0.0)); // a face of 1 by 1 has become one of 3 by 4
+/// assert_eq!((area.ratio, area.normal.vector()), (12.0, Vector3::x()));
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+///
+/// # Source
+/// B(4.39).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeformedArea<T = f64> {
+    /// n da/dA = J F⁻ᵀ N.
+    pub vector: Vector3<T>,
+    /// da/dA = J |F⁻ᵀ N|.
+    pub ratio: T,
+    /// n.
+    pub normal: UnitNormal<T>,
+}
+
+impl<T: Real> ReferenceNormal<T> {
+    /// n da = J F⁻ᵀ N dA: the deformed area for each unit of reference area, see [`DeformedArea`].
+    ///
+    /// # Accuracy
+    /// A few ulp of |F|² for the vector; no division, so also for nearly flattened bodies.
+    #[inline(always)]
+    #[must_use]
+    pub fn deformed(&self, deformation: &impl Deformation<T>) -> DeformedArea<T> {
+        let vector = apply(cofactor(deformation.gradient_rows()), self.components());
+        DeformedArea {
+            vector: Vector3::from(vector),
+            ratio: norm(vector),
+            normal: UnitNormal::trusted(normalized(vector)),
+        }
+    }
+}
+
+impl<T: Real> UnitNormal<T> {
+    /// N and dA/da of the surface that the deformation has brought here: N dA = J⁻¹ Fᵀ n da.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::{DeformationGradient, UnitNormal};
+    /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[2.0, 4.0, 4.0].into()))?;
+    /// let (normal, ratio) = UnitNormal::new(Vector3::x())?.reference(&stretch);
+    /// assert_eq!((normal.vector(), ratio), (Vector3::x(), 0.0625));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn reference(&self, deformation: &impl Deformation<T>) -> (ReferenceNormal<T>, T) {
+        let f = deformation.gradient_rows();
+        let vector = apply(transpose(f), self.components());
+        let (_, jacobian) = cofactor_and_jacobian(f);
+        (ReferenceNormal::trusted(normalized(vector)), norm(vector) / jacobian)
+    }
+}
+
+/// g = J |F⁻ᵀ N| g̃: a surface force per deformed area, as one per reference area.
+///
+/// | symbol | argument | shape | unit |
+/// |---|---|---|---|
+/// | F | `deformation` | 3×3 | – |
+/// | N | `normal` | 3, unit | – |
+/// | g̃ | `force` | 3 | N per deformed m² |
+/// | g | returned | 3 | N per reference m² |
+///
+/// # Example
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use piola_continuum::stress::reference_surface_force;
+/// use piola_continuum::{DeformationGradient, ReferenceNormal};
+/// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[1.0, 3.0, 4.0].into()))?;
+/// let normal = ReferenceNormal::new(Vector3::x())?;
+/// assert_eq!(reference_surface_force(&stretch, &normal, &Vector3::y()), Vector3::new(0.0, 12.0, 0.0));
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+///
+/// # Source
+/// B(4.39).
+#[inline(always)]
+#[must_use]
+pub fn reference_surface_force<T: Real>(
+    deformation: &impl Deformation<T>,
+    normal: &ReferenceNormal<T>,
+    force: &Vector3<T>,
+) -> Vector3<T> {
+    let ratio = norm(apply(cofactor(deformation.gradient_rows()), normal.components()));
+    Vector3::new(force[0] * ratio, force[1] * ratio, force[2] * ratio)
+}
+
+/// f = J f̃: a body force per deformed volume, as one per reference volume.
+///
+/// # Example
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use piola_continuum::{DeformationGradient, stress::reference_body_force};
+/// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[1.0, 3.0, 4.0].into()))?;
+/// assert_eq!(reference_body_force(&stretch, &Vector3::z()), Vector3::new(0.0, 0.0, 12.0));
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+///
+/// # Source
+/// B(4.38).
+#[inline(always)]
+#[must_use]
+pub fn reference_body_force<T: Real>(deformation: &impl Deformation<T>, force: &Vector3<T>) -> Vector3<T> {
+    let jacobian = deformation.jacobian();
+    Vector3::new(force[0] * jacobian, force[1] * jacobian, force[2] * jacobian)
+}

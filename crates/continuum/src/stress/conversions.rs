@@ -1,0 +1,225 @@
+//! Conversions between the measures of stress: each needs the deformation.
+//!
+//! ```text
+//! to ↓ from →   T               τ               P               S
+//! T             ·               τ/J             sym(P Fᵀ)/J     F S Fᵀ/J
+//! τ = J T       J T             ·               sym(P Fᵀ)       F S Fᵀ
+//! P = τ F⁻ᵀ     T Cof F         τ F⁻ᵀ           ·               F S
+//! S = F⁻¹ P     F⁻¹ J T F⁻ᵀ     F⁻¹ τ F⁻ᵀ       sym(F⁻¹ P)      ·
+//! M = Fᵀ P      Fᵀ T Cof F      Fᵀ τ F⁻ᵀ        Fᵀ P            C S
+//! Biot Rᵀ P, and P = F⁻ᵀ M = R Biot
+//! ```
+//!
+//! A general P, M or Biot stress becomes a symmetric measure by its symmetric part: what is left out is zero
+//! for a stress that obeys the balance of moment of momentum W(17.35); how large it is tells
+//! [`FirstPiola::moment_residual`], and [`FirstPiola::check_moment`] refuses it.
+//!
+//! # Accuracy
+//! A few ulp × |F| |F⁻¹| of the result's norm at most; without a division where the table shows none.
+
+use nalgebra::Matrix3;
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::rows_of;
+
+use super::kernels::{
+    cauchy_of_first_piola, cauchy_of_second_piola, cofactor_and_jacobian, congruence, first_piola_of_cauchy,
+    first_piola_of_kirchhoff, first_piola_of_mandel, product_symmetrized, second_piola_of_cauchy,
+    second_piola_of_first_piola,
+};
+use super::transformation::check_rotation;
+use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+use crate::tensor::rows::{product, scaled, transpose, transposed_product};
+use crate::{ContinuumError, Deformation, Symmetric};
+
+impl<T: Real> CauchyStress<T> {
+    /// τ = J T.
+    #[inline(always)]
+    #[must_use]
+    pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
+        KirchhoffStress(self.0 * deformation.jacobian())
+    }
+
+    /// P = T Cof F, W(17.21): force per area before the deformation.
+    #[inline(always)]
+    #[must_use]
+    pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        FirstPiola::from_rows(first_piola_of_cauchy(deformation.gradient_rows(), &self.0))
+    }
+
+    /// S = J F⁻¹ T F⁻ᵀ, B(4.57).
+    #[inline(always)]
+    #[must_use]
+    pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
+        SecondPiola(second_piola_of_cauchy(deformation.gradient_rows(), &self.0))
+    }
+
+    /// M = Fᵀ T Cof F.
+    #[inline(always)]
+    #[must_use]
+    pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
+        self.first_piola(deformation).mandel(deformation)
+    }
+}
+
+impl<T: Real> KirchhoffStress<T> {
+    /// T = τ/J.
+    #[inline(always)]
+    #[must_use]
+    pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
+        CauchyStress(self.0 * deformation.jacobian().recip())
+    }
+
+    /// P = τ F⁻ᵀ.
+    #[inline(always)]
+    #[must_use]
+    pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        FirstPiola::from_rows(first_piola_of_kirchhoff(deformation.gradient_rows(), &self.0))
+    }
+
+    /// S = F⁻¹ τ F⁻ᵀ.
+    #[inline(always)]
+    #[must_use]
+    pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
+        let (cofactor, jacobian) = cofactor_and_jacobian(deformation.gradient_rows());
+        let inverse = scaled(transpose(cofactor), jacobian.recip());
+        SecondPiola(congruence(inverse, &self.0))
+    }
+
+    /// M = Fᵀ τ F⁻ᵀ.
+    #[inline(always)]
+    #[must_use]
+    pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
+        self.first_piola(deformation).mandel(deformation)
+    }
+}
+
+impl<T: Real> FirstPiola<T> {
+    /// T = sym(P Fᵀ)/J, W(17.21).
+    #[inline(always)]
+    #[must_use]
+    pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
+        CauchyStress(cauchy_of_first_piola(deformation.gradient_rows(), self.rows()))
+    }
+
+    /// τ = sym(P Fᵀ).
+    #[inline(always)]
+    #[must_use]
+    pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
+        KirchhoffStress(product_symmetrized(self.rows(), deformation.gradient_rows()))
+    }
+
+    /// S = sym(F⁻¹ P), B(4.57).
+    #[inline(always)]
+    #[must_use]
+    pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
+        SecondPiola(second_piola_of_first_piola(deformation.gradient_rows(), self.rows()))
+    }
+
+    /// M = Fᵀ P.
+    #[inline(always)]
+    #[must_use]
+    pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
+        MandelStress::from_rows(transposed_product(deformation.gradient_rows(), self.rows()))
+    }
+
+    /// Biot's stress Rᵀ P where the rotation R of F is known.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    pub fn biot_of_rotation(&self, rotation: &Matrix3<T>) -> Result<BiotStress<T>, ContinuumError> {
+        check_rotation(rotation)?;
+        Ok(BiotStress::from_rows(transposed_product(rows_of(rotation), self.rows())))
+    }
+}
+
+impl<T: Real> SecondPiola<T> {
+    /// T = F S Fᵀ/J, B(4.57).
+    #[inline(always)]
+    #[must_use]
+    pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
+        CauchyStress(cauchy_of_second_piola(deformation.gradient_rows(), &self.0))
+    }
+
+    /// τ = F S Fᵀ.
+    #[inline(always)]
+    #[must_use]
+    pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
+        KirchhoffStress(congruence(deformation.gradient_rows(), &self.0))
+    }
+
+    /// P = F S, B(4.57).
+    #[inline(always)]
+    #[must_use]
+    pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        FirstPiola::from_rows(product(deformation.gradient_rows(), self.rows()))
+    }
+
+    /// M = C S, as Fᵀ (F S).
+    #[inline(always)]
+    #[must_use]
+    pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
+        self.first_piola(deformation).mandel(deformation)
+    }
+
+    /// M = C S where the right Cauchy–Green tensor is all that is known.
+    #[inline(always)]
+    #[must_use]
+    pub fn mandel_of_right_cauchy_green(&self, right_cauchy_green: &Symmetric<T>) -> MandelStress<T> {
+        MandelStress::from_rows(product(right_cauchy_green.rows(), self.rows()))
+    }
+
+    /// Biot's stress U S where the right stretch is all that is known.
+    #[inline(always)]
+    #[must_use]
+    pub fn biot_of_right_stretch(&self, right_stretch: &Symmetric<T>) -> BiotStress<T> {
+        BiotStress::from_rows(product(right_stretch.rows(), self.rows()))
+    }
+}
+
+impl<T: Real> MandelStress<T> {
+    /// P = F⁻ᵀ M.
+    #[inline(always)]
+    #[must_use]
+    pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        FirstPiola::from_rows(first_piola_of_mandel(deformation.gradient_rows(), self.rows()))
+    }
+
+    /// T = sym(F⁻ᵀ M Fᵀ)/J.
+    #[inline(always)]
+    #[must_use]
+    pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
+        self.first_piola(deformation).cauchy(deformation)
+    }
+
+    /// τ = sym(F⁻ᵀ M Fᵀ).
+    #[inline(always)]
+    #[must_use]
+    pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
+        self.first_piola(deformation).kirchhoff(deformation)
+    }
+
+    /// S = sym(C⁻¹ M), as F⁻¹ (F⁻ᵀ M).
+    #[inline(always)]
+    #[must_use]
+    pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
+        self.first_piola(deformation).second_piola(deformation)
+    }
+}
+
+impl<T: Real> BiotStress<T> {
+    /// P = R Biot where the rotation R of F is known.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    pub fn first_piola_of_rotation(&self, rotation: &Matrix3<T>) -> Result<FirstPiola<T>, ContinuumError> {
+        check_rotation(rotation)?;
+        Ok(FirstPiola::from_rows(product(rows_of(rotation), self.rows())))
+    }
+
+    /// Its symmetric part, conjugate to U: ½ (Rᵀ P + Pᵀ R) = ½ (U S + S U).
+    #[inline(always)]
+    #[must_use]
+    pub fn symmetric_part(&self) -> Symmetric<T> {
+        Symmetric::symmetric_part(self.rows())
+    }
+}

@@ -1,0 +1,316 @@
+//! Invariants of a stress: mean, deviator, J₂, J₃, von Mises, Tresca, Lode angle.
+//!
+//! ```text
+//! m = ⅓ tr T = −p        D = T − m 1        J₂ = ½ D : D        J₃ = det D
+//! von Mises  √(3 J₂)     octahedral shear  √(⅔ J₂)              Tresca  σ₁ − σ₃ = 2 √J₂ cos θₛ
+//! ```
+//!
+//! # Lode angle
+//! Two conventions are in use, both found here by the arctangent of two numbers without cancellation:
+//!
+//! | | definition | triaxial extension σ₁ > σ₂ = σ₃ | pure shear | triaxial compression σ₁ = σ₂ > σ₃ |
+//! |---|---|---|---|---|
+//! | [`lode_angle`] | cos 3θ = (3√3/2) J₃/J₂^(3/2) | 0 | π/6 | π/3 |
+//! | [`lode_angle_from_shear`] | sin 3θₛ = (3√3/2) J₃/J₂^(3/2) | π/6 | 0 | −π/6 |
+//!
+//! θₛ = π/6 − θ. Some texts give θₛ the opposite sign. Tension is positive throughout.
+//!
+//! # Accuracy
+//! All deviatoric quantities are made of differences of stresses: they keep their digits under any pressure. Those
+//! of the dimension of a stress are scaled by powers of two, so that they neither overflow nor vanish for
+//! stresses of 10⁻³⁰⁰ or 10³⁰⁰ Pa.
+//!
+//! # Derivatives
+//! Over differentiable numbers the functions have the derivatives of [`gradients`](super::gradients), with zero
+//! where the function has a corner: √J₂ at the deviator zero and the Lode angle at its ends.
+//!
+//! # References
+//! W. Lode, *Versuche über den Einfluß der mittleren Hauptspannung auf das Fließen der Metalle*, Z. Physik 36
+//! (1926); R. Hill, *The Mathematical Theory of Plasticity* (1950), II.1.
+
+use piola_numerics::{Mask, Real};
+
+use super::deviator::{self, Coordinates};
+use crate::{ContinuumError, Symmetric};
+
+/// The mean stress m = ⅓ tr T, Pa.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::mean};
+/// assert_eq!(mean(&Symmetric::diagonal([1.0, 2.0, 6.0])), 3.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn mean<T: Real>(stress: &Symmetric<T>) -> T {
+    stress.trace() / T::lit(3.0)
+}
+
+/// The deviator D = T − m 1, Pa, from differences of stresses.
+///
+/// # Accuracy
+/// 2 ulp of the largest difference of stresses, whatever the mean.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::deviator};
+/// let stress = Symmetric::new(1e9 + 2.0, 1e9 - 1.0, 1e9 - 1.0, 0.5, 0.0, 0.0);
+/// assert_eq!(deviator(&stress), Symmetric::new(2.0, -1.0, -1.0, 0.5, 0.0, 0.0));
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn deviator<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
+    let [xx, yy, zz, xy, yz, xz] = stress.components;
+    let three = T::lit(3.0);
+    Symmetric::new(
+        ((xx - yy) + (xx - zz)) / three,
+        ((yy - xx) + (yy - zz)) / three,
+        ((zz - xx) + (zz - yy)) / three,
+        xy,
+        yz,
+        xz,
+    )
+}
+
+/// The principal invariants (I₁, I₂, I₃) = (tr T, sum of the principal minors, det T) in Pa, Pa², Pa³.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::principal_invariants};
+/// assert_eq!(principal_invariants(&Symmetric::diagonal([1.0, 2.0, 3.0])), [6.0, 11.0, 6.0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn principal_invariants<T: Real>(stress: &Symmetric<T>) -> [T; 3] {
+    let [xx, yy, zz, xy, yz, xz] = stress.components;
+    let second = (xx * yy - xy * xy) + (yy * zz - yz * yz) + (xx * zz - xz * xz);
+    [stress.trace(), second, stress.determinant()]
+}
+
+/// J₂ = ½ D : D, Pa².
+///
+/// # Accuracy
+/// 6 ulp; over- and underflows where the number itself does.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::j2};
+/// assert_eq!(j2(&Symmetric::new(5.0, 5.0, 5.0, 3.0, 0.0, 0.0)), 9.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn j2<T: Real>(stress: &Symmetric<T>) -> T {
+    deviator::j2(stress)
+}
+
+/// J₃ = det D = ⅓ tr D³, Pa³.
+///
+/// # Accuracy
+/// A few ulp of J₂^(3/2); over- and underflows where the number itself does.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::j3};
+/// assert_eq!(j3(&Symmetric::diagonal([3.0, 0.0, 0.0])), 2.0); // D = diag(2, −1, −1)
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn j3<T: Real>(stress: &Symmetric<T>) -> T {
+    deviator::j3(stress)
+}
+
+/// Von Mises' stress √(3 J₂), Pa: the tension of a bar with the same J₂.
+///
+/// # Accuracy
+/// 4 ulp at any pressure, for stresses of any size.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::von_mises};
+/// assert_eq!(von_mises(&Symmetric::diagonal([250.0, 0.0, 0.0])), 250.0);
+/// assert_eq!(von_mises(&Symmetric::diagonal([1e9 + 250.0, 1e9, 1e9])), 250.0); // the pressure does nothing
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn von_mises<T: Real>(stress: &Symmetric<T>) -> T {
+    Coordinates::of(stress).von_mises()
+}
+
+/// The octahedral shear stress √(⅔ J₂), Pa: the shear on the planes that meet all principal axes at equal angles.
+///
+/// # Accuracy
+/// As [`von_mises`], and an ulp.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::octahedral_shear};
+/// let shear: f64 = octahedral_shear(&Symmetric::diagonal([3.0, 0.0, 0.0]));
+/// assert!((shear - 2.0_f64.sqrt()).abs() <= 2.0 * f64::EPSILON);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn octahedral_shear<T: Real>(stress: &Symmetric<T>) -> T {
+    von_mises(stress) * T::lit(core::f64::consts::SQRT_2 / 3.0)
+}
+
+/// Tresca's stress σ₁ − σ₃, Pa: twice the largest shear.
+///
+/// ```text
+/// σ₁ − σ₃ = 2 √J₂ cos θₛ
+/// ```
+///
+/// # Accuracy
+/// 8 ulp at any pressure, for stresses of any size, coalescent ones too.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::tresca};
+/// let stress: f64 = tresca(&Symmetric::diagonal([7.0, 3.0, 5.0]));
+/// assert!((stress - 4.0).abs() <= 8.0 * f64::EPSILON * 4.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn tresca<T: Real>(stress: &Symmetric<T>) -> T {
+    let coordinates = Coordinates::of(stress);
+    let (sine, cosine) = coordinates.triple_angle();
+    let from_shear = cosine.atan2(sine) / T::lit(3.0);
+    coordinates.von_mises() * from_shear.cos() * T::lit(TWO_OVER_ROOT_3)
+}
+
+/// 2/√3.
+const TWO_OVER_ROOT_3: f64 = 1.154_700_538_379_251_5;
+
+/// The largest shear stress ½ (σ₁ − σ₃), Pa, over all planes.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::maximum_shear};
+/// let shear: f64 = maximum_shear(&Symmetric::new(0.0, 0.0, 0.0, 40.0, 0.0, 0.0));
+/// assert!((shear - 40.0).abs() <= 8.0 * f64::EPSILON * 40.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn maximum_shear<T: Real>(stress: &Symmetric<T>) -> T {
+    tresca(stress) * T::lit(0.5)
+}
+
+/// The Lode angle θ ∈ [0, π/3], counted from triaxial extension: cos 3θ = (3√3/2) J₃/J₂^(3/2).
+///
+/// For the deviator zero, where there is no angle, it is 0.
+///
+/// # Accuracy
+/// A few ulp of one, near 0 and π/3 too, where the arccosine keeps only half of the digits.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::lode_angle};
+/// use std::f64::consts::FRAC_PI_3;
+/// assert_eq!(lode_angle(&Symmetric::diagonal([3.0, 0.0, 0.0])), 0.0); // extension
+/// assert_eq!(lode_angle(&Symmetric::diagonal([-3.0, 0.0, 0.0])), FRAC_PI_3); // compression
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn lode_angle<T: Real>(stress: &Symmetric<T>) -> T {
+    let (sine, cosine) = Coordinates::of(stress).triple_angle();
+    sine.atan2(cosine) / T::lit(3.0)
+}
+
+/// The Lode angle θₛ ∈ [−π/6, π/6], counted from pure shear towards extension: sin 3θₛ = (3√3/2) J₃/J₂^(3/2).
+///
+/// θₛ = π/6 − θ with [`lode_angle`]'s θ; for the deviator zero it is π/6.
+///
+/// # Accuracy
+/// A few ulp of one; near pure shear a few ulp of J₃/J₂^(3/2) with the error of [`j3`].
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::lode_angle_from_shear};
+/// assert_eq!(lode_angle_from_shear(&Symmetric::new(1.0, 1.0, 1.0, 40.0, 0.0, 0.0)), 0.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn lode_angle_from_shear<T: Real>(stress: &Symmetric<T>) -> T {
+    let (sine, cosine) = Coordinates::of(stress).triple_angle();
+    cosine.atan2(sine) / T::lit(3.0)
+}
+
+/// Triaxiality: the mean stress over von Mises' stress.
+///
+/// # Errors
+/// [`ContinuumError::ZeroDeviator`] when, in any lane, von Mises' stress is zero.
+///
+/// # Accuracy
+/// That of [`mean`], and 5 ulp.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::triaxiality};
+/// assert_eq!(triaxiality(&Symmetric::diagonal([6.0, 0.0, 0.0]))?, 1.0 / 3.0);
+/// assert!(triaxiality(&Symmetric::<f64>::identity()).is_err());
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+pub fn triaxiality<T: Real>(stress: &Symmetric<T>) -> Result<T, ContinuumError> {
+    let (mean, von_mises) = (mean(stress), von_mises(stress));
+    let exists = T::zero().less_than(von_mises);
+    if exists.all() {
+        return Ok(mean / von_mises);
+    }
+    let lane = (0..T::LANES).find(|&lane| von_mises.primal(lane) <= 0.0).unwrap_or(0);
+    Err(ContinuumError::ZeroDeviator { mean: mean.primal(lane) })
+}
+
+/// Haigh's and Westergaard's coordinates of a stress: cylindrical ones about the axis σ₁ = σ₂ = σ₃.
+///
+/// ```text
+/// ξ = tr T/√3        ρ = |D| = √(2 J₂)        θ the Lode angle
+/// σₖ = ξ/√3 + √⅔ ρ cos(θ − 2πk/3),   k = 0, 1, 2, descending
+/// ```
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::invariants::HaighWestergaard};
+/// let point = HaighWestergaard::of(&Symmetric::diagonal([3.0, 0.0, 0.0]));
+/// assert_eq!(point.lode_angle, 0.0);
+/// assert!((point.hydrostatic - 3.0_f64.sqrt()).abs() <= 4.0 * f64::EPSILON);
+/// assert!((point.deviatoric - 6.0_f64.sqrt()).abs() <= 4.0 * f64::EPSILON);
+/// assert!((point.principal_values()[0] - 3.0).abs() <= 8.0 * f64::EPSILON);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HaighWestergaard<T = f64> {
+    /// ξ = tr T/√3, Pa: the distance along the hydrostatic axis.
+    pub hydrostatic: T,
+    /// ρ = √(2 J₂), Pa: the distance from that axis.
+    pub deviatoric: T,
+    /// θ ∈ [0, π/3].
+    pub lode_angle: T,
+}
+
+impl<T: Real> HaighWestergaard<T> {
+    /// Of a stress.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(stress: &Symmetric<T>) -> Self {
+        let coordinates = Coordinates::of(stress);
+        let (sine, cosine) = coordinates.triple_angle();
+        Self {
+            hydrostatic: stress.trace() * T::lit(1.0 / ROOT_3),
+            deviatoric: coordinates.von_mises() * T::lit(ROOT_2_3),
+            lode_angle: sine.atan2(cosine) / T::lit(3.0),
+        }
+    }
+
+    /// The principal stresses, descending, Pa.
+    #[inline(always)]
+    #[must_use]
+    pub fn principal_values(&self) -> [T; 3] {
+        let (mean, radius) = (self.hydrostatic * T::lit(1.0 / ROOT_3), self.deviatoric * T::lit(ROOT_2_3));
+        let turn = T::lit(2.0 * core::f64::consts::FRAC_PI_3);
+        let value = |angle: T| mean + radius * angle.cos();
+        [value(self.lode_angle), value(self.lode_angle - turn), value(self.lode_angle + turn)]
+    }
+}
+
+/// √3.
+const ROOT_3: f64 = 1.732_050_807_568_877_2;
+/// √⅔.
+const ROOT_2_3: f64 = 0.816_496_580_927_726;

@@ -1,0 +1,220 @@
+//! Kernels of the stress measures on arrays of rows: without a branch, inlined, so that they run in lanes.
+//!
+//! ```text
+//! Cof F = J F⁻ᵀ        P = T Cof F        T = J⁻¹ P Fᵀ = J⁻¹ F S Fᵀ        S = J⁻¹ (Cof F)ᵀ T Cof F
+//! ```
+//!
+//! The types of [`stress`](crate::stress) call these; so do batches, which know what their arrays mean.
+
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::{cross, dot};
+
+use crate::Symmetric;
+use crate::tensor::rows::{Rows, product, product_transposed, scaled, transposed_product};
+
+/// Cof F = J F⁻ᵀ, the matrix of cofactors; it exists for singular F too.
+///
+/// # Example
+/// ```
+/// use piola_continuum::stress::kernels::cofactor;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
+/// assert_eq!(cofactor(f)[0], [12.0, 0.0, 0.0]); // the area of the face normal to the first axis grows 3·4 times
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn cofactor<T: Real>(f: Rows<T>) -> Rows<T> {
+    [cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])]
+}
+
+/// (Cof F, J).
+///
+/// # Example
+/// ```
+/// use piola_continuum::stress::kernels::cofactor_and_jacobian;
+/// let (_, jacobian) = cofactor_and_jacobian([[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]]);
+/// assert_eq!(jacobian, 24.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn cofactor_and_jacobian<T: Real>(f: Rows<T>) -> (Rows<T>, T) {
+    let cofactor = cofactor(f);
+    (cofactor, dot(f[0], cofactor[0]))
+}
+
+/// A S Aᵀ for symmetric S: 18 + 18 products, and symmetric to the last bit.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::kernels::congruence};
+/// let a = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.0]];
+/// let s = congruence(a, &Symmetric::new(1.0, 1.0, 1.0, 1.0, 0.0, 0.0));
+/// assert_eq!(s, Symmetric::new(4.0, 9.0, 1.0, 6.0, 0.0, 0.0));
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn congruence<T: Real>(a: Rows<T>, s: &Symmetric<T>) -> Symmetric<T> {
+    product_symmetrized(product(a, s.rows()), a)
+}
+
+/// sym(A Bᵀ).
+///
+/// # Example
+/// ```
+/// use piola_continuum::stress::kernels::product_symmetrized;
+/// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let a = [[1.0, 4.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(product_symmetrized(a, one).components[3], 3.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn product_symmetrized<T: Real>(a: Rows<T>, b: Rows<T>) -> Symmetric<T> {
+    let half = T::lit(0.5);
+    Symmetric {
+        components: [
+            dot(a[0], b[0]),
+            dot(a[1], b[1]),
+            dot(a[2], b[2]),
+            half * (dot(a[0], b[1]) + dot(a[1], b[0])),
+            half * (dot(a[1], b[2]) + dot(a[2], b[1])),
+            half * (dot(a[0], b[2]) + dot(a[2], b[0])),
+        ],
+    }
+}
+
+/// P = T Cof F of Cauchy's stress.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::kernels::first_piola_of_cauchy};
+/// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
+/// // A bar of half the width: 8 Pa on a quarter of the area are 2 Pa on the area before.
+/// assert_eq!(first_piola_of_cauchy(f, &Symmetric::diagonal([8.0, 0.0, 0.0]))[0][0], 2.0);
+/// ```
+///
+/// # Source
+/// W(17.21), B(4.52).
+#[inline(always)]
+#[must_use]
+pub fn first_piola_of_cauchy<T: Real>(f: Rows<T>, cauchy: &Symmetric<T>) -> Rows<T> {
+    product(cauchy.rows(), cofactor(f))
+}
+
+/// T = J⁻¹ sym(P Fᵀ) of the first Piola–Kirchhoff stress.
+///
+/// # Example
+/// ```
+/// use piola_continuum::stress::kernels::cauchy_of_first_piola;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
+/// assert_eq!(cauchy_of_first_piola(f, [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).components[0], 8.0);
+/// ```
+///
+/// # Source
+/// W(17.21).
+#[inline(always)]
+#[must_use]
+pub fn cauchy_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) -> Symmetric<T> {
+    let (_, jacobian) = cofactor_and_jacobian(f);
+    product_symmetrized(first_piola, f) * jacobian.recip()
+}
+
+/// S = J⁻¹ (Cof F)ᵀ T Cof F of Cauchy's stress.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::kernels::second_piola_of_cauchy};
+/// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
+/// assert_eq!(second_piola_of_cauchy(f, &Symmetric::diagonal([8.0, 0.0, 0.0])).components[0], 1.0);
+/// ```
+///
+/// # Source
+/// B(4.57).
+#[inline(always)]
+#[must_use]
+pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, cauchy: &Symmetric<T>) -> Symmetric<T> {
+    let (cofactor, jacobian) = cofactor_and_jacobian(f);
+    congruence(crate::tensor::rows::transpose(cofactor), cauchy) * jacobian.recip()
+}
+
+/// T = J⁻¹ F S Fᵀ of the second Piola–Kirchhoff stress.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::kernels::cauchy_of_second_piola};
+/// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
+/// assert_eq!(cauchy_of_second_piola(f, &Symmetric::diagonal([1.0, 0.0, 0.0])).components[0], 8.0);
+/// ```
+///
+/// # Source
+/// B(4.57).
+#[inline(always)]
+#[must_use]
+pub fn cauchy_of_second_piola<T: Real>(f: Rows<T>, second_piola: &Symmetric<T>) -> Symmetric<T> {
+    let (_, jacobian) = cofactor_and_jacobian(f);
+    congruence(f, second_piola) * jacobian.recip()
+}
+
+/// S = F⁻¹ P, its symmetric part.
+///
+/// # Example
+/// ```
+/// use piola_continuum::stress::kernels::second_piola_of_first_piola;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
+/// assert_eq!(second_piola_of_first_piola(f, [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).components[0], 1.0);
+/// ```
+///
+/// # Source
+/// B(4.57).
+#[inline(always)]
+#[must_use]
+pub fn second_piola_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) -> Symmetric<T> {
+    let (cofactor, jacobian) = cofactor_and_jacobian(f);
+    Symmetric::symmetric_part(transposed_product(cofactor, first_piola)) * jacobian.recip()
+}
+
+/// P = F⁻ᵀ M of Mandel's stress.
+///
+/// # Example
+/// ```
+/// use piola_continuum::stress::kernels::first_piola_of_mandel;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
+/// assert_eq!(first_piola_of_mandel(f, [[4.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])[0][0], 2.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn first_piola_of_mandel<T: Real>(f: Rows<T>, mandel: Rows<T>) -> Rows<T> {
+    let (cofactor, jacobian) = cofactor_and_jacobian(f);
+    scaled(product(cofactor, mandel), jacobian.recip())
+}
+
+/// P = τ F⁻ᵀ of Kirchhoff's stress.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, stress::kernels::first_piola_of_kirchhoff};
+/// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
+/// assert_eq!(first_piola_of_kirchhoff(f, &Symmetric::diagonal([4.0, 0.0, 0.0]))[0][0], 2.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn first_piola_of_kirchhoff<T: Real>(f: Rows<T>, kirchhoff: &Symmetric<T>) -> Rows<T> {
+    let (cofactor, jacobian) = cofactor_and_jacobian(f);
+    scaled(product(kirchhoff.rows(), cofactor), jacobian.recip())
+}
+
+/// P Fᵀ − F Pᵀ as the vector of its entries 32, 13, 21: zero for a stress that obeys W(17.35).
+///
+/// # Example
+/// ```
+/// use piola_continuum::stress::kernels::moment_of_first_piola;
+/// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(moment_of_first_piola(one, [[0.0, 1.0, 0.0], [3.0, 0.0, 0.0], [0.0; 3]]), [0.0, 0.0, 2.0]);
+/// ```
+///
+/// # Source
+/// W(17.35).
+#[inline(always)]
+#[must_use]
+pub fn moment_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) -> [T; 3] {
+    let kirchhoff = product_transposed(first_piola, f);
+    [kirchhoff[2][1] - kirchhoff[1][2], kirchhoff[0][2] - kirchhoff[2][0], kirchhoff[1][0] - kirchhoff[0][1]]
+}

@@ -1,0 +1,177 @@
+//! Stress power: the rate of working of the stress, per volume of the deformed or of the reference body.
+//!
+//! ```text
+//! per deformed volume     T : D = tr(T L)                                                  W(20.8)
+//! per reference volume    τ : D = P : Ḟ = S : Ė = sym(Rᵀ P) : U̇ = M : F⁻¹ Ḟ   = J tr(T L)   W(20.15)
+//! ```
+//!
+//! | stress | conjugate rate | per deformed volume | per reference volume |
+//! |---|---|---|---|
+//! | Cauchy T | L = Ḟ F⁻¹ | `power_per_deformed_volume(L)` | times J |
+//! | Kirchhoff τ | L | | `power_per_reference_volume(L)` |
+//! | first Piola–Kirchhoff P | Ḟ | `power_per_deformed_volume(Ḟ, F)` | `power_per_reference_volume(Ḟ)` |
+//! | second Piola–Kirchhoff S | Ė | `power_per_deformed_volume(Ė, F)` | `power_per_reference_volume(Ė)` |
+//! | Biot | U̇ | | `power_per_reference_volume(U̇)` |
+//! | Mandel M | F⁻¹ Ḟ | | `power_per_reference_volume(F⁻¹ Ḟ)` |
+//!
+//! Rates are per second, powers in W/m³.
+//!
+//! # Accuracy
+//! 6 ulp of |stress| |rate|.
+
+use nalgebra::Matrix3;
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::rows_of;
+
+use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+use crate::tensor::rows::double_contraction;
+use crate::{Deformation, Symmetric};
+
+/// A : sym B for symmetric A.
+#[inline(always)]
+fn contraction<T: Real>(stress: &Symmetric<T>, rate: &Matrix3<T>) -> T {
+    stress.double_contraction(&Symmetric::symmetric_part(rows_of(rate)))
+}
+
+impl<T: Real> CauchyStress<T> {
+    /// tr(T L) = T : D, W per deformed m³, for the velocity gradient L, 1/s.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::CauchyStress;
+    /// let shearing = Matrix3::new(0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); // v = (3 y, 0, 0)
+    /// let stress = CauchyStress::new(0.0, 0.0, 0.0, 5.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.power_per_deformed_volume(&shearing), 15.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(20.8–20.9).
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_deformed_volume(&self, velocity_gradient: &Matrix3<T>) -> T {
+        contraction(&self.0, velocity_gradient)
+    }
+
+    /// J tr(T L), W per reference m³.
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_reference_volume(&self, velocity_gradient: &Matrix3<T>, deformation: &impl Deformation<T>) -> T {
+        contraction(&self.0, velocity_gradient) * deformation.jacobian()
+    }
+}
+
+impl<T: Real> KirchhoffStress<T> {
+    /// τ : D = tr(τ L), W per reference m³.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::KirchhoffStress;
+    /// let swelling = Matrix3::from_diagonal_element(0.5);
+    /// let stress = KirchhoffStress::new(1.0, 2.0, 3.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.power_per_reference_volume(&swelling), 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_reference_volume(&self, velocity_gradient: &Matrix3<T>) -> T {
+        contraction(&self.0, velocity_gradient)
+    }
+}
+
+impl<T: Real> FirstPiola<T> {
+    /// P : Ḟ, W per reference m³.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::FirstPiola;
+    /// let rate = Matrix3::new(0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    /// let stress = FirstPiola::new(Matrix3::new(0.0, 5.0, 0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
+    /// assert_eq!(stress.power_per_reference_volume(&rate), 15.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(20.15).
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_reference_volume(&self, rate: &Matrix3<T>) -> T {
+        double_contraction(self.rows(), rows_of(rate))
+    }
+
+    /// P : Ḟ/J, W per deformed m³.
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_deformed_volume(&self, rate: &Matrix3<T>, deformation: &impl Deformation<T>) -> T {
+        self.power_per_reference_volume(rate) / deformation.jacobian()
+    }
+}
+
+impl<T: Real> SecondPiola<T> {
+    /// S : Ė, W per reference m³, for the rate of Green's strain.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{SecondPiola, Symmetric};
+    /// let rate = Symmetric::new(0.5, 0.0, 0.0, 1.0, 0.0, 0.0);
+    /// let stress = SecondPiola::new(2.0, 0.0, 0.0, 3.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.power_per_reference_volume(&rate), 7.0); // 2·½ + 2·3·1
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(20.15), B(4.60).
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_reference_volume(&self, rate: &Symmetric<T>) -> T {
+        self.0.double_contraction(rate)
+    }
+
+    /// S : Ė/J, W per deformed m³.
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_deformed_volume(&self, rate: &Symmetric<T>, deformation: &impl Deformation<T>) -> T {
+        self.power_per_reference_volume(rate) / deformation.jacobian()
+    }
+}
+
+impl<T: Real> BiotStress<T> {
+    /// sym(Rᵀ P) : U̇, W per reference m³.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{BiotStress, Symmetric};
+    /// let stress = BiotStress::new(Matrix3::new(2.0, 1.0, 0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
+    /// let rate = Symmetric::new(0.5, 0.0, 0.0, 1.0, 0.0, 0.0);
+    /// assert_eq!(stress.power_per_reference_volume(&rate), 7.0); // 2·½ + (1 + 5)·1
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_reference_volume(&self, rate: &Symmetric<T>) -> T {
+        self.symmetric_part().double_contraction(rate)
+    }
+}
+
+impl<T: Real> MandelStress<T> {
+    /// M : F⁻¹ Ḟ, W per reference m³.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::MandelStress;
+    /// let rate = Matrix3::new(0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    /// let stress = MandelStress::new(Matrix3::new(0.0, 5.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
+    /// assert_eq!(stress.power_per_reference_volume(&rate), 15.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn power_per_reference_volume(&self, pulled_back_velocity_gradient: &Matrix3<T>) -> T {
+        double_contraction(self.rows(), rows_of(pulled_back_velocity_gradient))
+    }
+}
