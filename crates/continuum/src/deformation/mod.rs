@@ -9,7 +9,7 @@
 //! generic over [`Deformation`] and take from it what they need.
 
 mod displacement;
-mod gradient;
+pub(crate) mod gradient;
 
 pub use displacement::DisplacementGradient;
 pub use gradient::DeformationGradient;
