@@ -44,7 +44,9 @@ pub fn load(name: &str) -> Golden {
     let meta = file["meta"].take();
     assert!(meta["what"].is_string(), "{name}.json does not say what it is: meta.what");
     assert!(
-        meta["source"].is_string() || meta["source_equations"].is_string(),
+        meta["source"].is_string()
+            || meta["source_equations"].is_string()
+            || meta["source_equations"].as_object().is_some_and(|equations| !equations.is_empty()),
         "{name}.json does not say where it comes from: meta.source or meta.source_equations"
     );
     let Value::Array(cases) = file["cases"].take() else { panic!("{name}.json has no list `cases`") };
