@@ -204,9 +204,9 @@ pub fn maximum_shear<T: Real>(stress: &Symmetric<T>) -> T {
 /// # Example
 /// ```
 /// use piola_continuum::{Symmetric, stress::invariants::lode_angle};
-/// use std::f64::consts::FRAC_PI_3;
+/// use std::f64::consts::PI;
 /// assert_eq!(lode_angle(&Symmetric::diagonal([3.0, 0.0, 0.0])), 0.0); // extension
-/// assert_eq!(lode_angle(&Symmetric::diagonal([-3.0, 0.0, 0.0])), FRAC_PI_3); // compression
+/// assert_eq!(lode_angle(&Symmetric::diagonal([-3.0, 0.0, 0.0])), PI / 3.0); // compression
 /// ```
 #[inline(always)]
 #[must_use]

@@ -12,6 +12,7 @@ pub mod gradients;
 pub mod invariants;
 pub mod kernels;
 mod measures;
+mod methods;
 mod normal;
 mod power;
 mod scale;

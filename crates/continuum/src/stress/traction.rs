@@ -49,7 +49,7 @@ impl<T: Real> CauchyStress<T> {
     /// ```
     /// use nalgebra::Vector3;
     /// use piola_continuum::{CauchyStress, UnitNormal};
-    /// let stress = CauchyStress::new(0.0, 0.0, 0.0, 5.0, 0.0, 0.0)?;
+    /// let stress: CauchyStress = CauchyStress::new(0.0, 0.0, 0.0, 5.0, 0.0, 0.0)?;
     /// let diagonal = UnitNormal::new(Vector3::new(1.0, 1.0, 0.0))?;
     /// assert!((stress.normal_traction(&diagonal) - 5.0).abs() <= 4.0 * f64::EPSILON); // pure shear pulls there
     /// # Ok::<(), piola_continuum::ContinuumError>(())

@@ -1,0 +1,13 @@
+//! The tests of stress: measures, tractions, invariants, power.
+
+mod alloc;
+mod cases;
+mod golden;
+mod laws;
+mod scalars;
+mod traps;
+#[cfg(feature = "serde")]
+mod written;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
