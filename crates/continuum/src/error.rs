@@ -155,6 +155,22 @@ pub enum ContinuumError {
         /// The elements.
         elements: [usize; 2],
     },
+    /// 0 < m is violated for a mass, or it is no number.
+    #[error("mass {index} is {mass}, not positive")]
+    NonPositiveMass {
+        /// Which mass: the number of the node or of the element.
+        index: usize,
+        /// The mass, kg.
+        mass: f64,
+    },
+    /// 0 ≤ c is violated for the damping of a node.
+    #[error("damping of node {node} is {damping}, negative")]
+    NegativeDamping {
+        /// The node.
+        node: usize,
+        /// Its damping, kg/s.
+        damping: f64,
+    },
     /// A list has the wrong length.
     #[error("{quantity} has length {found}; {expected} is expected")]
     WrongLength {
@@ -164,6 +180,25 @@ pub enum ContinuumError {
         found: usize,
         /// The length that is expected.
         expected: usize,
+    },
+    /// No particle is found at a place, or none for certain.
+    #[error(
+        "no certain particle at {place:?}: the best, {best:?}, misses it by {residual:e} after {iterations} steps \
+         (det F = {determinant:e}, Kantorovich's h = {kantorovich:e} must be at most 1/2)"
+    )]
+    InversionFailed {
+        /// The place x, m.
+        place: [f64; 3],
+        /// The best X, m.
+        best: [f64; 3],
+        /// |x − x(X, t)|, m.
+        residual: f64,
+        /// det F there.
+        determinant: f64,
+        /// Kantorovich's h, infinite when the steps ran out before it was computed.
+        kantorovich: f64,
+        /// Newton steps taken.
+        iterations: usize,
     },
 }
 

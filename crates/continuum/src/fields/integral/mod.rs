@@ -1,13 +1,23 @@
 //! Integrals over bodies and parts of space, and what they state: resultants, transport, balance, virtual work.
 
+mod balance;
+mod element;
 mod estimate;
 mod integrand;
 mod mesh;
 mod quadrature;
 mod region;
+mod resultants;
+mod transport;
 
+pub use balance::{
+    Actions, EnergyBalance, IntegralBalance, MassBalance, StoredEnergy, mass_balance, strain_energy, stress_power,
+};
+pub use element::{ExplicitMotion, LinearTetrahedra, MaterialPoint, QuadraticTetrahedra, TetrahedralElements};
 pub use estimate::{AdaptiveQuadrature, Estimate, EstimatedQuadrature};
 pub use integrand::Integrand;
 pub use mesh::{BoundaryTriangle, TetrahedralMesh};
 pub use quadrature::Quadrature;
-pub use region::{Ball, Cuboid, Cylinder, Ellipsoid, Region, SphericalShell, SurfacePoint, VolumePoint};
+pub use region::{Ball, Cuboid, Cylinder, Ellipsoid, MovedRegion, Region, SphericalShell, SurfacePoint, VolumePoint};
+pub use resultants::{ForceResultants, Resultants};
+pub use transport::{SpatialField, Transport, divergence_theorem, transport_of_mass};

@@ -7,6 +7,9 @@ mod build;
 mod faces;
 mod points;
 
+pub(super) use build::EDGES;
+pub(super) use points::{normal_and_area, weighted};
+
 use nalgebra::Vector3;
 
 use crate::ContinuumError;
@@ -59,7 +62,7 @@ struct WrittenMesh {
 }
 
 /// The local vertices of the faces, outward.
-const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+pub(super) const FACES: [[usize; 3]; 4] = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
 
 impl TetrahedralMesh {
     /// A mesh from vertices (m) and the four vertices of each element.

@@ -43,12 +43,12 @@ impl<T: Real> Region<T> for TetrahedralMesh {
 }
 
 /// The point with barycentric coordinates `share`.
-pub(super) fn weighted<const N: usize>(share: &[f64; N], corners: &[Vector3<f64>; N]) -> Vector3<f64> {
+pub(in crate::fields::integral) fn weighted<const N: usize>(share: &[f64; N], corners: &[Vector3<f64>; N]) -> Vector3<f64> {
     share.iter().zip(corners).fold(Vector3::zeros(), |sum, (&share, corner)| sum + corner * share)
 }
 
 /// The unit normal, by which the corners run counter-clockwise, and the area.
-pub(super) fn normal_and_area(corners: &[Vector3<f64>; 3]) -> (Vector3<f64>, f64) {
+pub(in crate::fields::integral) fn normal_and_area(corners: &[Vector3<f64>; 3]) -> (Vector3<f64>, f64) {
     let product = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
     let length = product.norm();
     (product / length, 0.5 * length)

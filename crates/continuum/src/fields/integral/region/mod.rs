@@ -14,22 +14,23 @@
 
 mod cuboid;
 mod cylinder;
-//mod moved;
+mod moved;
 mod round;
 
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
-//pub use moved::MovedRegion;
+pub use moved::MovedRegion;
 pub use round::{Ball, Ellipsoid, SphericalShell};
 
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3::{adjugate, dot};
+use piola_numerics::linear::matrix3::dot;
 
 use super::Quadrature;
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::rows::{Rows, apply, transpose};
+use crate::stress::kernels::cofactor;
+use crate::tensor::rows::{Rows, apply};
 
 /// A point of a rule inside a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -102,11 +103,11 @@ pub(super) fn lift<T: Real>(vector: &Vector3<f64>) -> Vector3<T> {
 /// The image of a surface element under a map with gradient F: the unit normal n and da/dA.
 ///
 /// ```text
-/// n da = (Cof F) N dA,    Cof F = (adj F)ᵀ        B(4.39)
+/// n da = (Cof F) N dA        B(4.39)
 /// ```
 #[inline(always)]
 pub(super) fn moved_element<T: Real>(gradient: Rows<T>, normal: &Vector3<T>) -> (Vector3<T>, T) {
-    let moved = apply(transpose(adjugate(gradient)), [normal.x, normal.y, normal.z]);
+    let moved = apply(cofactor(gradient), [normal.x, normal.y, normal.z]);
     let ratio = dot(moved, moved).sqrt();
     let scale = ratio.recip();
     (Vector3::from(moved.map(|component| component * scale)), ratio)

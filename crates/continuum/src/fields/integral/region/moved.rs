@@ -1,0 +1,79 @@
+//! The image of a region under a motion.
+
+use piola_numerics::Real;
+
+use super::{Region, SurfacePoint, VolumePoint, moved_element};
+use crate::ContinuumError;
+use crate::Deformation;
+use crate::fields::Motion;
+use crate::fields::integral::Quadrature;
+
+/// The region that a motion makes of another one at a time: χ(𝒫, t).
+///
+/// ```text
+/// ∫ g dv over χ(𝒫, t) = ∫ g(χ(X, t)) J dV over 𝒫,        n da = J F⁻ᵀ N dA
+/// ```
+///
+/// With a time that is a [`Dual`](piola_numerics::Dual) variable, an integral over it carries its derivative with
+/// respect to time, exact to rounding: the rate of change of an integral over a moving region.
+///
+/// # Errors
+/// Visiting its points refuses, with [`ContinuumError::NonPositiveJacobian`], places where 0 < J is violated, and
+/// whatever the motion refuses.
+///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_continuum::fields::Motion;
+/// use piola_continuum::fields::integral::{Ball, MovedRegion, Quadrature};
+/// use piola_numerics::{Dual, Real};
+/// struct Swelling;
+/// impl Motion for Swelling {
+///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+///         reference * (T::lit(1.0) + time)
+///     }
+/// }
+/// let ball = Ball::new(Vector3::zeros(), 1.0)?;
+/// let moved = MovedRegion { region: &ball, motion: &Swelling, time: Dual::variable(1.0) };
+/// let volume = Quadrature::of_degree(0)?.volume_integral(&moved, |_: &_| Dual::lit(1.0))?;
+/// let unit = 4.0 / 3.0 * core::f64::consts::PI;
+/// assert!((volume.value - 8.0 * unit).abs() < 1e-13); // (1 + t)³
+/// assert!((volume.tangent - 12.0 * unit).abs() < 1e-13); // 3 (1 + t)²
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct MovedRegion<'a, R, M, T = f64> {
+    /// The region in the reference configuration.
+    pub region: &'a R,
+    /// The motion.
+    pub motion: &'a M,
+    /// The time, s.
+    pub time: T,
+}
+
+impl<T: Real, R: Region<T>, M: Motion> Region<T> for MovedRegion<'_, R, M, T> {
+    fn volume_points(
+        &self,
+        quadrature: &Quadrature,
+        mut visit: impl FnMut(VolumePoint<T>) -> Result<(), ContinuumError>,
+    ) -> Result<(), ContinuumError> {
+        self.region.volume_points(quadrature, |point| {
+            let deformation = self.motion.deformation_gradient(&point.position, self.time)?;
+            let position = self.motion.place(&point.position, self.time);
+            visit(VolumePoint { position, weight: point.weight * deformation.jacobian(), element: point.element })
+        })
+    }
+
+    fn surface_points(
+        &self,
+        quadrature: &Quadrature,
+        mut visit: impl FnMut(SurfacePoint<T>) -> Result<(), ContinuumError>,
+    ) -> Result<(), ContinuumError> {
+        self.region.surface_points(quadrature, |point| {
+            let deformation = self.motion.deformation_gradient(&point.position, self.time)?;
+            let position = self.motion.place(&point.position, self.time);
+            let (normal, ratio) = moved_element(deformation.gradient_rows(), &point.normal);
+            visit(SurfacePoint { position, normal, weight: point.weight * ratio, face: point.face })
+        })
+    }
+}

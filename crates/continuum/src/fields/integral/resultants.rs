@@ -1,0 +1,246 @@
+//! Mass, momentum, moment of momentum and energy of a body; forces and moments on it.
+
+use nalgebra::Vector3;
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::{cross, dot};
+
+use super::integrand::RunningIntegral;
+use super::region::lift;
+use super::{Quadrature, Region};
+use crate::ContinuumError;
+use crate::FirstPiola;
+use crate::fields::Motion;
+use crate::fields::motion::kernels::velocity;
+use crate::tensor::rows::apply;
+
+/// Mass, momentum, moment of momentum and kinetic energy of a body.
+///
+/// ```text
+/// m = ∫ ρ dv = ∫ ρ_κ dV                      p = ∫ ρ v dv = ∫ ρ_κ ẋ dV            c = ∫ ρ x dv / m
+/// h = ∫ ρ (x − o) × v dv = ∫ ρ_κ (x − o) × ẋ dV                  K = ½ ∫ ρ v·v dv = ½ ∫ ρ_κ ẋ·ẋ dV
+/// ```
+///
+/// # Source
+/// W(15.8), W(15.12–15.13).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resultants<T = f64> {
+    /// m, kg.
+    pub mass: T,
+    /// ∫ ρ (x − o) dv about the pole o, kg m.
+    pub first_moment: Vector3<T>,
+    /// p, kg m/s.
+    pub momentum: Vector3<T>,
+    /// h about the pole o, kg m²/s.
+    pub moment_of_momentum: Vector3<T>,
+    /// K, J.
+    pub kinetic_energy: T,
+}
+
+impl<T: Real> Resultants<T> {
+    /// Of a body in motion, by integrals over the reference configuration.
+    ///
+    /// | symbol | argument | shape | unit |
+    /// |---|---|---|---|
+    /// | 𝒫 | `region` in the reference configuration | | |
+    /// | ρ_κ(X) | `density` | scalar | kg/m³ |
+    /// | o | `pole` | 3 | m |
+    ///
+    /// With a time that is a dual variable, the results carry their rates, exact to rounding.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::fields::Motion;
+    /// use piola_continuum::fields::integral::{Ball, Quadrature, Resultants};
+    /// use piola_numerics::Real;
+    /// struct Spin; // one radian a second about the third axis
+    /// impl Motion for Spin {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+    ///         let (s, c) = time.sin_cos();
+    ///         Vector3::new(c * reference.x - s * reference.y, s * reference.x + c * reference.y, reference.z)
+    ///     }
+    /// }
+    /// let ball = Ball::new(Vector3::zeros(), 1.0)?;
+    /// let density = |_: &Vector3<f64>| 3.0 / (4.0 * core::f64::consts::PI); // one kilogram
+    /// let of = Resultants::in_reference(&Quadrature::of_degree(2)?, &ball, &Spin, density, &Vector3::zeros(), 0.5)?;
+    /// assert!((of.moment_of_momentum.z - 0.4).abs() < 1e-15); // 2/5 m R² ω
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn in_reference(
+        quadrature: &Quadrature,
+        region: &impl Region<f64>,
+        motion: &impl Motion,
+        mut density: impl FnMut(&Vector3<f64>) -> f64,
+        pole: &Vector3<f64>,
+        time: T,
+    ) -> Result<Self, ContinuumError> {
+        let mut integral = RunningIntegral::new();
+        region.volume_points(quadrature, |point| {
+            let particle = lift(&point.position);
+            let place = motion.position(&particle, time)?;
+            let density = T::lit(density(&point.position));
+            let of_particle = densities(density, place - lift(pole), velocity(motion, &particle, time));
+            integral.add(&of_particle, T::lit(point.weight), &particle)
+        })?;
+        Ok(Self::from_array(&integral.value()))
+    }
+
+    /// Of what is in a region of space at present, from the density ρ(x) and the velocity v(x).
+    ///
+    /// The region of a body in motion is a [`MovedRegion`](super::MovedRegion).
+    ///
+    /// # Errors
+    /// [`ContinuumError::NonFiniteIntegrand`]; what the region refuses.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, Quadrature, Resultants};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let flow = |x: &Vector3<f64>| Vector3::new(2.0 * x.y, 0.0, 0.0);
+    /// let of = Resultants::in_space(&Quadrature::of_degree(2)?, &unit, |_| 3.0, flow, &Vector3::zeros())?;
+    /// assert!((of.mass - 3.0).abs() < 1e-15 && (of.momentum.x - 3.0).abs() < 1e-15);
+    /// assert!((of.kinetic_energy - 2.0).abs() < 1e-15); // ½ · 3 · 4/3
+    /// assert!((of.centre_of_mass(&Vector3::zeros()).z - 0.5).abs() < 1e-15);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn in_space(
+        quadrature: &Quadrature,
+        region: &impl Region<T>,
+        mut density: impl FnMut(&Vector3<T>) -> T,
+        mut velocity: impl FnMut(&Vector3<T>) -> Vector3<T>,
+        pole: &Vector3<T>,
+    ) -> Result<Self, ContinuumError> {
+        let mut integral = RunningIntegral::new();
+        region.volume_points(quadrature, |point| {
+            let place = point.position;
+            integral.add(&densities(density(&place), place - pole, velocity(&place)), point.weight, &place)
+        })?;
+        Ok(Self::from_array(&integral.value()))
+    }
+
+    /// c, m, for the pole that the resultants were taken about.
+    #[must_use]
+    pub fn centre_of_mass(&self, pole: &Vector3<f64>) -> Vector3<T> {
+        let mass = self.mass;
+        lift(pole) + self.first_moment.map(|moment| moment / mass)
+    }
+
+    fn from_array(a: &[T; 11]) -> Self {
+        Self {
+            mass: a[0],
+            first_moment: Vector3::new(a[1], a[2], a[3]),
+            momentum: Vector3::new(a[4], a[5], a[6]),
+            moment_of_momentum: Vector3::new(a[7], a[8], a[9]),
+            kinetic_energy: a[10],
+        }
+    }
+}
+
+/// ρ, ρ r, ρ v, ρ r × v, ½ ρ v·v.
+fn densities<T: Real>(density: T, arm: Vector3<T>, velocity: Vector3<T>) -> [T; 11] {
+    let (r, v): ([T; 3], [T; 3]) = (arm.into(), velocity.into());
+    let p = v.map(|v| density * v);
+    let h = cross(r, p);
+    let s = r.map(|r| density * r);
+    let energy = T::lit(0.5) * dot(p, v);
+    [density, s[0], s[1], s[2], p[0], p[1], p[2], h[0], h[1], h[2], energy]
+}
+
+/// The force and moment that act on a body and the power they expend.
+///
+/// ```text
+/// f = ∫ ρ_κ b dV + ∮ P N dA,     m = ∫ ρ_κ (x − o) × b dV + ∮ (x − o) × P N dA,     power = ∫ ρ_κ b·ẋ dV + ∮ P N·ẋ dA
+/// ```
+///
+/// # Source
+/// W(15.16), W(15.18), W(21.4).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceResultants {
+    /// f, N.
+    pub force: Vector3<f64>,
+    /// m about the pole o, N m.
+    pub moment: Vector3<f64>,
+    /// The power, W.
+    pub power: f64,
+}
+
+impl ForceResultants {
+    /// Of body forces b(X), per unit mass, with the density ρ_κ(X).
+    ///
+    /// # Errors
+    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+    pub fn of_body_force(
+        quadrature: &Quadrature,
+        region: &impl Region<f64>,
+        motion: &impl Motion,
+        mut density: impl FnMut(&Vector3<f64>) -> f64,
+        mut body_force: impl FnMut(&Vector3<f64>) -> Vector3<f64>,
+        pole: &Vector3<f64>,
+        time: f64,
+    ) -> Result<Self, ContinuumError> {
+        let mut integral = RunningIntegral::new();
+        region.volume_points(quadrature, |point| {
+            let force = body_force(&point.position) * density(&point.position);
+            let acting = acting(&force, motion, &point.position, pole, time)?;
+            integral.add(&acting, point.weight, &point.position)
+        })?;
+        Ok(Self::from_array(&integral.value()))
+    }
+
+    /// Of the tractions P N of a stress P(X) on the boundary.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion or the stress refuses.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::fields::{Affine, integral::{Cuboid, ForceResultants, Quadrature}};
+    /// use piola_continuum::{DeformationGradient, FirstPiola};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let rest = Affine::new(DeformationGradient::new(Matrix3::identity())?, Vector3::zeros())?;
+    /// // Pressure z under water of unit weight: buoyancy is the weight of the water displaced.
+    /// let pressure = |x: &Vector3<f64>| Ok(FirstPiola(Matrix3::from_diagonal_element(x.z - 1.0)));
+    /// let rules = Quadrature::of_degree(2)?;
+    /// let of = ForceResultants::of_tractions(&rules, &unit, &rest, pressure, &Vector3::zeros(), 0.0)?;
+    /// assert!((of.force - Vector3::z()).norm() < 1e-15);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn of_tractions(
+        quadrature: &Quadrature,
+        region: &impl Region<f64>,
+        motion: &impl Motion,
+        mut stress: impl FnMut(&Vector3<f64>) -> Result<FirstPiola, ContinuumError>,
+        pole: &Vector3<f64>,
+        time: f64,
+    ) -> Result<Self, ContinuumError> {
+        let mut integral = RunningIntegral::new();
+        region.surface_points(quadrature, |point| {
+            let traction = Vector3::from(apply(stress(&point.position)?.rows(), point.normal.into()));
+            let acting = acting(&traction, motion, &point.position, pole, time)?;
+            integral.add(&acting, point.weight, &point.position)
+        })?;
+        Ok(Self::from_array(&integral.value()))
+    }
+
+    fn from_array(a: &[f64; 7]) -> Self {
+        Self { force: Vector3::new(a[0], a[1], a[2]), moment: Vector3::new(a[3], a[4], a[5]), power: a[6] }
+    }
+}
+
+/// f, (x − o) × f, f·ẋ.
+fn acting(
+    force: &Vector3<f64>,
+    motion: &impl Motion,
+    particle: &Vector3<f64>,
+    pole: &Vector3<f64>,
+    time: f64,
+) -> Result<[f64; 7], ContinuumError> {
+    let moment = (motion.position(particle, time)? - pole).cross(force);
+    let power = velocity(motion, particle, time).dot(force);
+    Ok([force.x, force.y, force.z, moment.x, moment.y, moment.z, power])
+}
