@@ -79,6 +79,16 @@ macro_rules! unit_normal {
             }
         }
 
+        /// The normal of the other side.
+        impl<T: Real> core::ops::Neg for $name<T> {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                let [x, y, z] = self.components;
+                Self { components: [-x, -y, -z] }
+            }
+        }
+
         impl<T: Real> TryFrom<[T; 3]> for $name<T> {
             type Error = ContinuumError;
             /// As [`new`](Self::new); components of length one to 4 ulp are kept to the last bit.
