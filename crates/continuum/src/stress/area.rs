@@ -9,7 +9,7 @@
 use nalgebra::Vector3;
 use piola_numerics::Real;
 
-use super::kernels::{cofactor, cofactor_and_jacobian};
+use super::kernels::cofactor;
 use super::normal::normalized;
 use super::scale::norm;
 use super::{ReferenceNormal, UnitNormal};
@@ -75,8 +75,7 @@ impl<T: Real> UnitNormal<T> {
     pub fn reference(&self, deformation: &impl Deformation<T>) -> (ReferenceNormal<T>, T) {
         let f = deformation.gradient_rows();
         let vector = apply(transpose(f), self.components());
-        let (_, jacobian) = cofactor_and_jacobian(f);
-        (ReferenceNormal::trusted(normalized(vector)), norm(vector) / jacobian)
+        (ReferenceNormal::trusted(normalized(vector)), norm(vector) / deformation.jacobian())
     }
 }
 

@@ -22,13 +22,13 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
 use super::kernels::{
-    cauchy_of_first_piola, cauchy_of_second_piola, cofactor_and_jacobian, congruence, first_piola_of_cauchy,
+    cauchy_of_first_piola, cauchy_of_second_piola, cofactor, congruence, first_piola_of_cauchy,
     first_piola_of_kirchhoff, first_piola_of_mandel, product_symmetrized, second_piola_of_cauchy,
     second_piola_of_first_piola,
 };
 use super::transformation::check_rotation;
 use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
-use crate::tensor::rows::{product, scaled, transpose, transposed_product};
+use crate::tensor::rows::{Rows, product, scaled, transpose, transposed_product};
 use crate::{ContinuumError, Deformation, Symmetric};
 
 impl<T: Real> CauchyStress<T> {
@@ -50,7 +50,7 @@ impl<T: Real> CauchyStress<T> {
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
-        SecondPiola(second_piola_of_cauchy(deformation.gradient_rows(), &self.0))
+        SecondPiola(second_piola_of_cauchy(deformation.gradient_rows(), deformation.jacobian(), &self.0))
     }
 
     /// M = Fᵀ T Cof F.
@@ -73,16 +73,14 @@ impl<T: Real> KirchhoffStress<T> {
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-        FirstPiola::from_rows(first_piola_of_kirchhoff(deformation.gradient_rows(), &self.0))
+        FirstPiola::from_rows(first_piola_of_kirchhoff(deformation.gradient_rows(), deformation.jacobian(), &self.0))
     }
 
     /// S = F⁻¹ τ F⁻ᵀ.
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
-        let (cofactor, jacobian) = cofactor_and_jacobian(deformation.gradient_rows());
-        let inverse = scaled(transpose(cofactor), jacobian.recip());
-        SecondPiola(congruence(inverse, &self.0))
+        SecondPiola(congruence(inverse(deformation), &self.0))
     }
 
     /// M = Fᵀ τ F⁻ᵀ.
@@ -98,7 +96,7 @@ impl<T: Real> FirstPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
-        CauchyStress(cauchy_of_first_piola(deformation.gradient_rows(), self.rows()))
+        CauchyStress(cauchy_of_first_piola(deformation.gradient_rows(), deformation.jacobian(), self.rows()))
     }
 
     /// τ = sym(P Fᵀ).
@@ -112,7 +110,7 @@ impl<T: Real> FirstPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
-        SecondPiola(second_piola_of_first_piola(deformation.gradient_rows(), self.rows()))
+        SecondPiola(second_piola_of_first_piola(deformation.gradient_rows(), deformation.jacobian(), self.rows()))
     }
 
     /// M = Fᵀ P.
@@ -137,7 +135,7 @@ impl<T: Real> SecondPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
-        CauchyStress(cauchy_of_second_piola(deformation.gradient_rows(), &self.0))
+        CauchyStress(cauchy_of_second_piola(deformation.gradient_rows(), deformation.jacobian(), &self.0))
     }
 
     /// τ = F S Fᵀ.
@@ -181,7 +179,7 @@ impl<T: Real> MandelStress<T> {
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-        FirstPiola::from_rows(first_piola_of_mandel(deformation.gradient_rows(), self.rows()))
+        FirstPiola::from_rows(first_piola_of_mandel(deformation.gradient_rows(), deformation.jacobian(), self.rows()))
     }
 
     /// T = sym(F⁻ᵀ M Fᵀ)/J.
@@ -222,4 +220,10 @@ impl<T: Real> BiotStress<T> {
     pub fn symmetric_part(&self) -> Symmetric<T> {
         Symmetric::symmetric_part(self.rows())
     }
+}
+
+/// F⁻¹.
+#[inline(always)]
+fn inverse<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
+    scaled(transpose(cofactor(deformation.gradient_rows())), deformation.jacobian().recip())
 }

@@ -4,7 +4,9 @@
 //! Cof F = J F⁻ᵀ        P = T Cof F        T = J⁻¹ P Fᵀ = J⁻¹ F S Fᵀ        S = J⁻¹ (Cof F)ᵀ T Cof F
 //! ```
 //!
-//! The types of [`stress`](crate::stress) call these; so do batches, which know what their arrays mean.
+//! The types of [`stress`](crate::stress) call these; so do batches, which know what their arrays mean. J is an
+//! argument, because [`Deformation::jacobian`](crate::Deformation::jacobian) knows it to more digits than the
+//! products of the entries of F have for large ratios of stretches.
 
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{cross, dot};
@@ -24,21 +26,6 @@ use crate::tensor::rows::{Rows, product, product_transposed, scaled, transposed_
 #[must_use]
 pub fn cofactor<T: Real>(f: Rows<T>) -> Rows<T> {
     [cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])]
-}
-
-/// (Cof F, J).
-///
-/// # Example
-/// ```
-/// use piola_continuum::stress::kernels::cofactor_and_jacobian;
-/// let (_, jacobian) = cofactor_and_jacobian([[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]]);
-/// assert_eq!(jacobian, 24.0);
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn cofactor_and_jacobian<T: Real>(f: Rows<T>) -> (Rows<T>, T) {
-    let cofactor = cofactor(f);
-    (cofactor, dot(f[0], cofactor[0]))
 }
 
 /// A S Aᵀ for symmetric S: 18 + 18 products, and symmetric to the last bit.
@@ -105,15 +92,14 @@ pub fn first_piola_of_cauchy<T: Real>(f: Rows<T>, cauchy: &Symmetric<T>) -> Rows
 /// ```
 /// use piola_continuum::stress::kernels::cauchy_of_first_piola;
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
-/// assert_eq!(cauchy_of_first_piola(f, [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).components[0], 8.0);
+/// assert_eq!(cauchy_of_first_piola(f, 0.5, [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).components[0], 8.0);
 /// ```
 ///
 /// # Source
 /// W(17.21).
 #[inline(always)]
 #[must_use]
-pub fn cauchy_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) -> Symmetric<T> {
-    let (_, jacobian) = cofactor_and_jacobian(f);
+pub fn cauchy_of_first_piola<T: Real>(f: Rows<T>, jacobian: T, first_piola: Rows<T>) -> Symmetric<T> {
     product_symmetrized(first_piola, f) * jacobian.recip()
 }
 
@@ -123,16 +109,15 @@ pub fn cauchy_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) -> Symme
 /// ```
 /// use piola_continuum::{Symmetric, stress::kernels::second_piola_of_cauchy};
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
-/// assert_eq!(second_piola_of_cauchy(f, &Symmetric::diagonal([8.0, 0.0, 0.0])).components[0], 1.0);
+/// assert_eq!(second_piola_of_cauchy(f, 0.5, &Symmetric::diagonal([8.0, 0.0, 0.0])).components[0], 1.0);
 /// ```
 ///
 /// # Source
 /// B(4.57).
 #[inline(always)]
 #[must_use]
-pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, cauchy: &Symmetric<T>) -> Symmetric<T> {
-    let (cofactor, jacobian) = cofactor_and_jacobian(f);
-    congruence(crate::tensor::rows::transpose(cofactor), cauchy) * jacobian.recip()
+pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, jacobian: T, cauchy: &Symmetric<T>) -> Symmetric<T> {
+    congruence(crate::tensor::rows::transpose(cofactor(f)), cauchy) * jacobian.recip()
 }
 
 /// T = J⁻¹ F S Fᵀ of the second Piola–Kirchhoff stress.
@@ -141,15 +126,14 @@ pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, cauchy: &Symmetric<T>) -> Sym
 /// ```
 /// use piola_continuum::{Symmetric, stress::kernels::cauchy_of_second_piola};
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
-/// assert_eq!(cauchy_of_second_piola(f, &Symmetric::diagonal([1.0, 0.0, 0.0])).components[0], 8.0);
+/// assert_eq!(cauchy_of_second_piola(f, 0.5, &Symmetric::diagonal([1.0, 0.0, 0.0])).components[0], 8.0);
 /// ```
 ///
 /// # Source
 /// B(4.57).
 #[inline(always)]
 #[must_use]
-pub fn cauchy_of_second_piola<T: Real>(f: Rows<T>, second_piola: &Symmetric<T>) -> Symmetric<T> {
-    let (_, jacobian) = cofactor_and_jacobian(f);
+pub fn cauchy_of_second_piola<T: Real>(f: Rows<T>, jacobian: T, second_piola: &Symmetric<T>) -> Symmetric<T> {
     congruence(f, second_piola) * jacobian.recip()
 }
 
@@ -159,16 +143,15 @@ pub fn cauchy_of_second_piola<T: Real>(f: Rows<T>, second_piola: &Symmetric<T>) 
 /// ```
 /// use piola_continuum::stress::kernels::second_piola_of_first_piola;
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
-/// assert_eq!(second_piola_of_first_piola(f, [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).components[0], 1.0);
+/// assert_eq!(second_piola_of_first_piola(f, 0.5, [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).components[0], 1.0);
 /// ```
 ///
 /// # Source
 /// B(4.57).
 #[inline(always)]
 #[must_use]
-pub fn second_piola_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) -> Symmetric<T> {
-    let (cofactor, jacobian) = cofactor_and_jacobian(f);
-    Symmetric::symmetric_part(transposed_product(cofactor, first_piola)) * jacobian.recip()
+pub fn second_piola_of_first_piola<T: Real>(f: Rows<T>, jacobian: T, first_piola: Rows<T>) -> Symmetric<T> {
+    Symmetric::symmetric_part(transposed_product(cofactor(f), first_piola)) * jacobian.recip()
 }
 
 /// P = F⁻ᵀ M of Mandel's stress.
@@ -177,13 +160,12 @@ pub fn second_piola_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) ->
 /// ```
 /// use piola_continuum::stress::kernels::first_piola_of_mandel;
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
-/// assert_eq!(first_piola_of_mandel(f, [[4.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])[0][0], 2.0);
+/// assert_eq!(first_piola_of_mandel(f, 0.5, [[4.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])[0][0], 2.0);
 /// ```
 #[inline(always)]
 #[must_use]
-pub fn first_piola_of_mandel<T: Real>(f: Rows<T>, mandel: Rows<T>) -> Rows<T> {
-    let (cofactor, jacobian) = cofactor_and_jacobian(f);
-    scaled(product(cofactor, mandel), jacobian.recip())
+pub fn first_piola_of_mandel<T: Real>(f: Rows<T>, jacobian: T, mandel: Rows<T>) -> Rows<T> {
+    scaled(product(cofactor(f), mandel), jacobian.recip())
 }
 
 /// P = τ F⁻ᵀ of Kirchhoff's stress.
@@ -192,13 +174,12 @@ pub fn first_piola_of_mandel<T: Real>(f: Rows<T>, mandel: Rows<T>) -> Rows<T> {
 /// ```
 /// use piola_continuum::{Symmetric, stress::kernels::first_piola_of_kirchhoff};
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
-/// assert_eq!(first_piola_of_kirchhoff(f, &Symmetric::diagonal([4.0, 0.0, 0.0]))[0][0], 2.0);
+/// assert_eq!(first_piola_of_kirchhoff(f, 0.5, &Symmetric::diagonal([4.0, 0.0, 0.0]))[0][0], 2.0);
 /// ```
 #[inline(always)]
 #[must_use]
-pub fn first_piola_of_kirchhoff<T: Real>(f: Rows<T>, kirchhoff: &Symmetric<T>) -> Rows<T> {
-    let (cofactor, jacobian) = cofactor_and_jacobian(f);
-    scaled(product(kirchhoff.rows(), cofactor), jacobian.recip())
+pub fn first_piola_of_kirchhoff<T: Real>(f: Rows<T>, jacobian: T, kirchhoff: &Symmetric<T>) -> Rows<T> {
+    scaled(product(kirchhoff.rows(), cofactor(f)), jacobian.recip())
 }
 
 /// P Fᵀ − F Pᵀ as the vector of its entries 32, 13, 21: zero for a stress that obeys W(17.35).
