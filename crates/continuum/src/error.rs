@@ -39,6 +39,55 @@ pub enum ContinuumError {
         /// The largest entry.
         scale: f64,
     },
+    /// `W_ij` = −`W_ji` is violated.
+    #[error(
+        "not skew: entries ({row},{column}) and ({column},{row}) add up to {sum:e}, \
+         more than rounding of the largest entry {scale:e}"
+    )]
+    NotSkew {
+        /// Row of the entry on or above the diagonal, from 0.
+        row: usize,
+        /// Column of that entry, from 0.
+        column: usize,
+        /// `W_ij + W_ji`.
+        sum: f64,
+        /// The largest entry.
+        scale: f64,
+    },
+    /// `C_ijkl` = `C_jikl` or `C_ijkl` = `C_ijlk` is violated.
+    #[error(
+        "a fourth-order tensor lacks a minor symmetry: entry {entry:?} differs by {difference:e} from the one with \
+         two indices exchanged, more than rounding of the largest entry {scale:e}"
+    )]
+    NotMinorSymmetric {
+        /// Indices i, j, k, l of the entry, from 0.
+        entry: [usize; 4],
+        /// The difference.
+        difference: f64,
+        /// The largest entry.
+        scale: f64,
+    },
+    /// `C_ijkl` = `C_klij` is violated.
+    #[error(
+        "a fourth-order tensor lacks the major symmetry: entry {entry:?} differs by {difference:e} from the one with \
+         the pairs exchanged, more than rounding of the largest entry {scale:e}"
+    )]
+    NotMajorSymmetric {
+        /// Indices i, j, k, l of the entry, from 0.
+        entry: [usize; 4],
+        /// `C_ijkl − C_klij`.
+        difference: f64,
+        /// The largest entry.
+        scale: f64,
+    },
+    /// det A ≠ 0 is violated for a tensor that should be inverted.
+    #[error("the tensor is singular: divided by {scale:e} its determinant, or a pivot, is {relative_determinant:e}")]
+    SingularTensor {
+        /// The determinant, or the pivot, of A/scale.
+        relative_determinant: f64,
+        /// The size of the components of A, a power of two.
+        scale: f64,
+    },
     /// QᵀQ = 1 or 0 < det Q is violated for what should be a rotation.
     #[error("not a rotation: QᵀQ − 1 has an entry {defect:e}, det Q = {determinant}")]
     NotARotation {
@@ -199,6 +248,24 @@ pub enum ContinuumError {
         kantorovich: f64,
         /// Newton steps taken.
         iterations: usize,
+    },
+    /// A point where coordinates have no basis: an axis, a pole or a place outside their range.
+    #[error("the coordinates {coordinates:?} have no basis there: volume element {volume_element:e}")]
+    SingularCoordinates {
+        /// The coordinates.
+        coordinates: [f64; 3],
+        /// det ∂x/∂q, or the radius that is not positive.
+        volume_element: f64,
+    },
+    /// gᵢ·gⱼ = 0 is violated where physical components are asked for.
+    #[error("the coordinate lines {row} and {column} are not orthogonal: the cosine between them is {cosine:e}")]
+    NotOrthogonal {
+        /// i, from 0.
+        row: usize,
+        /// j, from 0.
+        column: usize,
+        /// cos ∠(gᵢ, gⱼ).
+        cosine: f64,
     },
 }
 

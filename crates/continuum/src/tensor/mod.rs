@@ -7,7 +7,14 @@
 //!
 //! Meaning is added by the types of [`stress`](crate::stress), which wrap these.
 
+mod linear_space;
+pub(crate) mod rotation;
 pub mod rows;
+pub(crate) mod scale;
+mod skew;
+mod slots;
 pub mod symmetric;
 
+pub use skew::Skew;
+pub use slots::{PAIR, SLOT, Slots};
 pub use symmetric::Symmetric;

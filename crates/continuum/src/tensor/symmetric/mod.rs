@@ -1,11 +1,19 @@
 //! Symmetric tensors of second order, with six stored components.
+//!
+//! Operators and conversions are in the files beside this one, products with vectors and tensors too.
 
-use core::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+mod conversions;
+mod measures;
+mod products;
+
+use core::ops::{Index, IndexMut};
 
 use nalgebra::Matrix3;
 use piola_numerics::{Mask, Real};
 
+use super::linear_space::linear_space;
 use super::rows::Rows;
+use super::slots::SLOT;
 use crate::ContinuumError;
 use crate::error::check_finite;
 
@@ -19,6 +27,15 @@ use crate::error::check_finite;
 /// assert_eq!(tensor.matrix()[(0, 2)], 6.0);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "[T; 6]",
+        into = "[T; 6]",
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 #[repr(transparent)]
 pub struct Symmetric<T = f64> {
     /// 11, 22, 33, 12, 23, 13.
@@ -159,53 +176,29 @@ impl<T: Real> Symmetric<T> {
     }
 
     #[inline(always)]
-    fn each(a: [T; 6], b: [T; 6], f: impl Fn(T, T) -> T) -> Self {
+    fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
+        let (a, b) = (a.components, b.components);
         Self { components: [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3]), f(a[4], b[4]), f(a[5], b[5])] }
     }
 }
 
-impl<T: Real> Add for Symmetric<T> {
-    type Output = Self;
+linear_space!(Symmetric);
+
+/// A component by row and column, from 0; (i, j) and (j, i) are one number.
+///
+/// # Panics
+/// When an index is above 2, as indexing does everywhere.
+impl<T> Index<(usize, usize)> for Symmetric<T> {
+    type Output = T;
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self::each(self.components, other.components, |a, b| a + b)
+    fn index(&self, (row, column): (usize, usize)) -> &T {
+        &self.components[SLOT[row][column]]
     }
 }
 
-impl<T: Real> Sub for Symmetric<T> {
-    type Output = Self;
+impl<T> IndexMut<(usize, usize)> for Symmetric<T> {
     #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Self::each(self.components, other.components, |a, b| a - b)
-    }
-}
-
-impl<T: Real> AddAssign for Symmetric<T> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl<T: Real> SubAssign for Symmetric<T> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl<T: Real> Neg for Symmetric<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Self::each(self.components, self.components, |a, _| -a)
-    }
-}
-
-impl<T: Real> Mul<T> for Symmetric<T> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, factor: T) -> Self {
-        Self::each(self.components, self.components, |a, _| a * factor)
+    fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut T {
+        &mut self.components[SLOT[row][column]]
     }
 }
