@@ -1,6 +1,16 @@
 //! Fields and motions over bodies, their derivatives and integrals.
 
+pub mod coordinates;
+mod field;
+pub mod frames;
 pub mod integral;
 pub mod motion;
+mod residual;
+pub(crate) mod value;
 
+pub use coordinates::{Cartesian, Coordinates, Cylindrical, LocalBasis, PhysicalFrame, Spherical};
+pub use field::{Field, Uniform, ValueOf};
+pub use frames::{Eulerian, Following, Inversion, Material, Preimage, Spatial};
 pub use motion::{Affine, AffineHistory, Homogeneous, Motion, Rigid, RigidHistory};
+pub use residual::{Residual, VectorResidual};
+pub use value::{FieldValue, TensorValue};
