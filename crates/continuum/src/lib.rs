@@ -5,6 +5,7 @@
 pub mod deformation;
 mod error;
 pub mod fields;
+pub mod spectral;
 pub mod stress;
 pub mod tensor;
 
