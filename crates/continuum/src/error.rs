@@ -107,6 +107,18 @@ pub enum ContinuumError {
     /// 0 < |n| is violated: a normal has no direction.
     #[error("the zero vector has no direction: it is no normal")]
     ZeroNormal,
+    /// A number is not between its bounds.
+    #[error("{quantity} = {value} is not between {least} and {largest}")]
+    OutOfRange {
+        /// What the number is.
+        quantity: &'static str,
+        /// The number itself.
+        value: f64,
+        /// The lower bound.
+        least: f64,
+        /// The upper bound.
+        largest: f64,
+    },
     /// 0 < |dev T| is violated where a ratio to it is asked for.
     #[error("the deviator is zero: a stress of mean {mean:e} in all directions has no triaxiality")]
     ZeroDeviator {

@@ -13,8 +13,8 @@ use super::kernels::cofactor;
 use super::normal::normalized;
 use super::scale::norm;
 use super::{ReferenceNormal, UnitNormal};
-use crate::Deformation;
 use crate::tensor::rows::{apply, transpose};
+use crate::{ContinuumError, Deformation};
 
 /// What a deformation makes of a unit of area, by Nanson's formula.
 ///
@@ -31,7 +31,18 @@ use crate::tensor::rows::{apply, transpose};
 ///
 /// # Source
 /// B(4.39).
+///
+/// With serde it is the vector alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "[T; 3]",
+        into = "[T; 3]",
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct DeformedArea<T = f64> {
     /// n da/dA = J F⁻ᵀ N.
     pub vector: Vector3<T>,
@@ -49,12 +60,33 @@ impl<T: Real> ReferenceNormal<T> {
     #[inline(always)]
     #[must_use]
     pub fn deformed(&self, deformation: &impl Deformation<T>) -> DeformedArea<T> {
-        let vector = apply(cofactor(deformation.gradient_rows()), self.components());
-        DeformedArea {
-            vector: Vector3::from(vector),
-            ratio: norm(vector),
-            normal: UnitNormal::trusted(normalized(vector)),
-        }
+        DeformedArea::of_vector(apply(cofactor(deformation.gradient_rows()), self.components()))
+    }
+}
+
+impl<T: Real> DeformedArea<T> {
+    /// The ratio and the normal of an area vector that is not zero.
+    #[inline(always)]
+    fn of_vector(vector: [T; 3]) -> Self {
+        Self { vector: Vector3::from(vector), ratio: norm(vector), normal: UnitNormal::trusted(normalized(vector)) }
+    }
+}
+
+/// From the vector n da/dA.
+///
+/// # Errors
+/// [`ContinuumError::NotFinite`], [`ContinuumError::ZeroNormal`].
+impl<T: Real> TryFrom<[T; 3]> for DeformedArea<T> {
+    type Error = ContinuumError;
+    fn try_from(vector: [T; 3]) -> Result<Self, ContinuumError> {
+        UnitNormal::new(Vector3::from(vector))?;
+        Ok(Self::of_vector(vector))
+    }
+}
+
+impl<T: Real> From<DeformedArea<T>> for [T; 3] {
+    fn from(area: DeformedArea<T>) -> Self {
+        [area.vector[0], area.vector[1], area.vector[2]]
     }
 }
 

@@ -31,6 +31,7 @@
 use piola_numerics::{Mask, Real};
 
 use super::deviator::{self, Coordinates};
+use crate::error::check_finite;
 use crate::{ContinuumError, Symmetric};
 
 /// The mean stress m = ⅓ tr T, Pa.
@@ -276,6 +277,15 @@ pub fn triaxiality<T: Real>(stress: &Symmetric<T>) -> Result<T, ContinuumError> 
 /// assert!((point.principal_values()[0] - 3.0).abs() <= 8.0 * f64::EPSILON);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "[T; 3]",
+        into = "[T; 3]",
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct HaighWestergaard<T = f64> {
     /// ξ = tr T/√3, Pa: the distance along the hydrostatic axis.
     pub hydrostatic: T,
@@ -286,6 +296,17 @@ pub struct HaighWestergaard<T = f64> {
 }
 
 impl<T: Real> HaighWestergaard<T> {
+    /// From (ξ, ρ, θ).
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::OutOfRange`] unless 0 ≤ ρ and 0 ≤ θ ≤ π/3.
+    pub fn new(hydrostatic: T, deviatoric: T, lode_angle: T) -> Result<Self, ContinuumError> {
+        check_finite("Haigh-Westergaard coordinate", &[hydrostatic, deviatoric, lode_angle])?;
+        check_range("deviatoric coordinate", deviatoric, f64::INFINITY)?;
+        check_range("Lode angle", lode_angle, T::lit(core::f64::consts::PI).primal(0) / 3.0)?;
+        Ok(Self { hydrostatic, deviatoric, lode_angle })
+    }
+
     /// Of a stress.
     #[inline(always)]
     #[must_use]
@@ -307,6 +328,29 @@ impl<T: Real> HaighWestergaard<T> {
         let turn = T::lit(2.0 * core::f64::consts::FRAC_PI_3);
         let value = |angle: T| mean + radius * angle.cos();
         [value(self.lode_angle), value(self.lode_angle - turn), value(self.lode_angle + turn)]
+    }
+}
+
+/// 0 ≤ value ≤ largest, to an ulp of that, in every lane.
+fn check_range<T: Real>(quantity: &'static str, value: T, largest: f64) -> Result<(), ContinuumError> {
+    let slack = largest.min(1.0) * piola_numerics::sums::unit_in_last_place::<T>();
+    let within = |x: f64| 0.0 <= x && x <= largest + slack;
+    match (0..T::LANES).map(|lane| value.primal(lane)).find(|&x| !within(x)) {
+        None => Ok(()),
+        Some(value) => Err(ContinuumError::OutOfRange { quantity, value, least: 0.0, largest }),
+    }
+}
+
+impl<T: Real> TryFrom<[T; 3]> for HaighWestergaard<T> {
+    type Error = ContinuumError;
+    fn try_from([hydrostatic, deviatoric, lode_angle]: [T; 3]) -> Result<Self, ContinuumError> {
+        Self::new(hydrostatic, deviatoric, lode_angle)
+    }
+}
+
+impl<T> From<HaighWestergaard<T>> for [T; 3] {
+    fn from(point: HaighWestergaard<T>) -> Self {
+        [point.hydrostatic, point.deviatoric, point.lode_angle]
     }
 }
 

@@ -1,7 +1,7 @@
 //! The types of the measures of stress.
 
 use core::fmt;
-use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use nalgebra::Matrix3;
 use piola_numerics::Real;
@@ -15,6 +15,15 @@ macro_rules! symmetric_measure {
     ($(#[$documentation:meta])* $name:ident, $quantity:literal) => {
         $(#[$documentation])*
         #[derive(Clone, Copy, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(
+            feature = "serde",
+            serde(
+                try_from = "[T; 6]",
+                into = "[T; 6]",
+                bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+            )
+        )]
         #[repr(transparent)]
         pub struct $name<T = f64>(
             /// The components.
@@ -27,9 +36,7 @@ macro_rules! symmetric_measure {
             /// # Errors
             /// [`ContinuumError::NotFinite`].
             pub fn new(xx: T, yy: T, zz: T, xy: T, yz: T, xz: T) -> Result<Self, ContinuumError> {
-                let stress = Symmetric::new(xx, yy, zz, xy, yz, xz);
-                check_finite($quantity, &stress.components)?;
-                Ok(Self(stress))
+                Self::try_from([xx, yy, zz, xy, yz, xz])
             }
 
             /// From a matrix that is symmetric to rounding.
@@ -58,6 +65,21 @@ macro_rules! symmetric_measure {
             }
         }
 
+        /// The components 11, 22, 33, 12, 23, 13.
+        impl<T: Real> TryFrom<[T; 6]> for $name<T> {
+            type Error = ContinuumError;
+            fn try_from(components: [T; 6]) -> Result<Self, ContinuumError> {
+                check_finite($quantity, &components)?;
+                Ok(Self(Symmetric { components }))
+            }
+        }
+        /// The components 11, 22, 33, 12, 23, 13.
+        impl<T: Real> From<$name<T>> for [T; 6] {
+            fn from(stress: $name<T>) -> Self {
+                stress.0.components
+            }
+        }
+
         operations!($name, Symmetric::zero(), |a, b| a + b, |a, b| a - b, |a| -a, |a, s| a * s);
     };
 }
@@ -66,6 +88,15 @@ macro_rules! general_measure {
     ($(#[$documentation:meta])* $name:ident, $quantity:literal) => {
         $(#[$documentation])*
         #[derive(Clone, Copy, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(
+            feature = "serde",
+            serde(
+                try_from = "[[T; 3]; 3]",
+                into = "[[T; 3]; 3]",
+                bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+            )
+        )]
         #[repr(transparent)]
         pub struct $name<T = f64>(
             /// The components, `(i, A)` at row i and column A.
@@ -78,8 +109,7 @@ macro_rules! general_measure {
             /// # Errors
             /// [`ContinuumError::NotFinite`].
             pub fn new(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
-                check_finite($quantity, rows_of(&matrix).as_flattened())?;
-                Ok(Self(matrix))
+                Self::try_from(rows_of(&matrix))
             }
 
             /// From an array of rows that a kernel has computed.
@@ -94,6 +124,19 @@ macro_rules! general_measure {
             #[must_use]
             pub fn rows(&self) -> Rows<T> {
                 rows_of(&self.0)
+            }
+        }
+
+        impl<T: Real> TryFrom<Rows<T>> for $name<T> {
+            type Error = ContinuumError;
+            fn try_from(rows: Rows<T>) -> Result<Self, ContinuumError> {
+                check_finite($quantity, rows.as_flattened())?;
+                Ok(Self::from_rows(rows))
+            }
+        }
+        impl<T: Real> From<$name<T>> for Rows<T> {
+            fn from(stress: $name<T>) -> Self {
+                stress.rows()
             }
         }
 
@@ -175,12 +218,23 @@ macro_rules! operations {
                 Self($scaled)
             }
         }
+        impl<T: Real> MulAssign<T> for $name<T> {
+            #[inline(always)]
+            fn mul_assign(&mut self, factor: T) {
+                *self = *self * factor;
+            }
+        }
         impl<T: Real> Div<T> for $name<T> {
             type Output = Self;
             /// Times the reciprocal, rounded once more than a division.
             #[inline(always)]
             fn div(self, divisor: T) -> Self {
                 self * divisor.recip()
+            }
+        }
+        impl<T: Real> core::iter::Sum for $name<T> {
+            fn sum<I: Iterator<Item = Self>>(stresses: I) -> Self {
+                stresses.fold(Self::zero(), |sum, stress| sum + stress)
             }
         }
         /// The rows, in brackets; a precision is that of each component.

@@ -8,6 +8,8 @@
 mod area;
 mod conversions;
 mod deviator;
+#[cfg(feature = "glam")]
+mod glam;
 pub mod gradients;
 pub mod invariants;
 pub mod kernels;

@@ -2,6 +2,8 @@
 
 mod alloc;
 mod cases;
+#[cfg(feature = "glam")]
+mod edges;
 mod golden;
 mod laws;
 mod scalars;
