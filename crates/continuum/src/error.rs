@@ -104,6 +104,18 @@ pub enum ContinuumError {
         /// Its value.
         value: f64,
     },
+    /// A tensor that belongs to a deformation has a negative leading minor.
+    #[error("{quantity} is not positive definite: its leading minor of order {order} is {minor:e} when its entries are divided by {scale:e}")]
+    NotPositiveDefinite {
+        /// The tensor, for a strain the squared length that it stands for.
+        quantity: &'static str,
+        /// 1, 2 or 3: how many rows the minor has.
+        order: usize,
+        /// The minor of the tensor divided by `scale`.
+        minor: f64,
+        /// The largest entry.
+        scale: f64,
+    },
     /// 0 < |n| is violated: a normal has no direction.
     #[error("the zero vector has no direction: it is no normal")]
     ZeroNormal,

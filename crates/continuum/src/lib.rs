@@ -6,10 +6,11 @@ pub mod deformation;
 mod error;
 pub mod fields;
 pub mod spectral;
+pub mod strain;
 pub mod stress;
 pub mod tensor;
 
-pub use deformation::{Deformation, DeformationGradient, DisplacementGradient};
+pub use deformation::{Deformation, DeformationGradient, DisplacementGradient, HomogeneousDeformation};
 pub use error::ContinuumError;
 pub use stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 pub use stress::{ReferenceNormal, UnitNormal};

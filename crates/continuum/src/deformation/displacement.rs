@@ -1,16 +1,21 @@
 //! The displacement gradient ∇u = F − 1.
 
 use nalgebra::Matrix3;
-use piola_numerics::Real;
-use piola_numerics::linear::matrix3::{determinant, rows_of};
+use piola_numerics::linear::matrix3::{from_rows, rows_of};
+use piola_numerics::{Mask, Real};
 
-use super::gradient::check_jacobian;
-use super::{Deformation, volume_change};
+use super::gradient::{check_jacobian, checked_axes};
+use super::volume::{determinant, volume_change_of_displacement};
+use super::{Deformation, DeformationGradient};
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::rows::{Rows, identity, sum};
+use crate::stress::kernels::congruence;
+use crate::tensor::Symmetric;
+use crate::tensor::rows::{Rows, identity, product, scaled, sum};
 
 /// The displacement gradient ∇u = ∂u/∂X = F − 1 with 0 < det F, B(4.28): no cancellation at small strain.
+///
+/// Read and written as an array of rows; what is read is checked.
 ///
 /// # Example
 /// ```
@@ -20,8 +25,20 @@ use crate::tensor::rows::{Rows, identity, sum};
 /// assert_eq!(tiny.volume_change(), 3e-20); // F itself would be 1 to the last bit
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
+///
+/// # Source
+/// B(4.28).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "[[T; 3]; 3]",
+        into = "[[T; 3]; 3]",
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct DisplacementGradient<T = f64> {
     matrix: Matrix3<T>,
 }
@@ -32,10 +49,91 @@ impl<T: Real> DisplacementGradient<T> {
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveJacobian`], in any lane.
     pub fn new(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
-        let rows = rows_of(&matrix);
+        Self::from_rows(rows_of(&matrix))
+    }
+
+    /// From ∇u as an array of rows.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DisplacementGradient};
+    /// let gradient = DisplacementGradient::from_rows([[0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.0]])?;
+    /// assert_eq!(gradient.jacobian(), 3.0); // 1.5 · 2
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn from_rows(rows: Rows<T>) -> Result<Self, ContinuumError> {
         check_finite("∇u", rows.as_flattened())?;
-        check_jacobian(determinant(sum(rows, identity())))?;
-        Ok(Self { matrix })
+        let gradient = Self { matrix: from_rows(rows) };
+        check_jacobian(gradient.jacobian())?;
+        Ok(gradient)
+    }
+
+    /// 0: nothing is deformed.
+    #[inline(always)]
+    #[must_use]
+    pub fn zero() -> Self {
+        Self { matrix: Matrix3::from_element(T::zero()) }
+    }
+
+    /// diag(λ₁ − 1, λ₂ − 1, λ₃ − 1) of the elongations λᵢ − 1 along the axes of coordinates.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveStretch`] unless −1 is below each elongation.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DisplacementGradient};
+    /// assert_eq!(DisplacementGradient::diagonal([1e-20, 2e-20, 0.0])?.volume_change(), 3e-20);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn diagonal(elongations: [T; 3]) -> Result<Self, ContinuumError> {
+        check_elongations(elongations)?;
+        Self::from_rows(Symmetric::diagonal(elongations).rows())
+    }
+
+    /// ∇u = k e₂ ⊗ e₁: simple shear by k along direction 2, varying along direction 1.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DisplacementGradient};
+    /// assert_eq!(DisplacementGradient::simple_shear(1e-9)?.volume_change(), 0.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn simple_shear(amount: T) -> Result<Self, ContinuumError> {
+        let o = T::zero();
+        Self::from_rows([[o, o, o], [amount, o, o], [o, o, o]])
+    }
+
+    /// ∇u = Σ (λᵢ − 1) nᵢ ⊗ nᵢ: the pure stretch with elongations λᵢ − 1 along the columns nᵢ of `axes`.
+    ///
+    /// # Errors
+    /// As [`diagonal`](Self::diagonal); [`ContinuumError::NotARotation`] unless the axes are orthonormal to 64 ulp and
+    /// right-handed.
+    ///
+    /// # Accuracy
+    /// 8 ulp of the largest elongation.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DisplacementGradient;
+    /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    /// let gradient = DisplacementGradient::from_principal_elongations([1e-20, 2e-20, 0.0], &quarter_turn)?;
+    /// assert_eq!(gradient.matrix()[(0, 0)], 2e-20);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(14.12), W(14.13).
+    pub fn from_principal_elongations(elongations: [T; 3], axes: &Matrix3<T>) -> Result<Self, ContinuumError> {
+        check_elongations(elongations)?;
+        Self::from_rows(congruence(checked_axes(axes)?, &Symmetric::diagonal(elongations)).rows())
     }
 
     /// ∇u as a matrix.
@@ -44,6 +142,75 @@ impl<T: Real> DisplacementGradient<T> {
     pub const fn matrix(&self) -> &Matrix3<T> {
         &self.matrix
     }
+
+    /// F⁻¹ − 1 = −F⁻¹ ∇u: the inverse deformation, with the relative accuracy of ∇u.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`] and [`ContinuumError::NonPositiveJacobian`] when the inverse is beyond the range of
+    /// the scalar.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DisplacementGradient;
+    /// let inverse = DisplacementGradient::simple_shear(1e-20)?.inverse()?;
+    /// assert_eq!(inverse, DisplacementGradient::simple_shear(-1e-20)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn inverse(&self) -> Result<Self, ContinuumError> {
+        Self::from_rows(scaled(self.spatial_displacement_rows(), -T::one()))
+    }
+
+    /// F₂ F₁ − 1 = ∇u₂ + ∇u₁ + ∇u₂ ∇u₁ with ∇u₂ = `self`: first `first`, then this deformation.
+    ///
+    /// # Errors
+    /// As [`inverse`](Self::inverse).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DisplacementGradient;
+    /// let shear = DisplacementGradient::simple_shear(1e-20)?;
+    /// assert_eq!(shear.compose(&shear)?, DisplacementGradient::simple_shear(2e-20)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn compose(&self, first: &Self) -> Result<Self, ContinuumError> {
+        let (second, first) = (self.displacement_rows(), first.displacement_rows());
+        Self::from_rows(sum(sum(second, first), product(second, first)))
+    }
+
+    /// F = 1 + ∇u, rounded: strains below 10⁻¹⁶ are lost.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NonPositiveJacobian`] when det F is so small that rounding turns the body inside out.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, DisplacementGradient};
+    /// let rounded = DisplacementGradient::simple_shear(0.5)?.to_deformation_gradient()?;
+    /// assert_eq!(rounded, DeformationGradient::simple_shear(0.5)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn to_deformation_gradient(&self) -> Result<DeformationGradient<T>, ContinuumError> {
+        DeformationGradient::from_rows(self.gradient_rows())
+    }
+}
+
+impl<T: Real> Default for DisplacementGradient<T> {
+    fn default() -> Self {
+        Self::zero()
+    }
+}
+
+/// −1 < λᵢ − 1 < ∞ in every lane.
+fn check_elongations<T: Real>(elongations: [T; 3]) -> Result<(), ContinuumError> {
+    check_finite("principal elongations", &elongations)?;
+    for (index, elongation) in elongations.iter().enumerate() {
+        if !(-T::one()).less_than(*elongation).all() {
+            let stretches = |lane: usize| -1.0 < elongation.primal(lane);
+            let lane = (0..T::LANES).find(|&lane| !stretches(lane)).unwrap_or(0);
+            return Err(ContinuumError::NonPositiveStretch { index, value: 1.0 + elongation.primal(lane) });
+        }
+    }
+    Ok(())
 }
 
 impl<T: Real> Deformation<T> for DisplacementGradient<T> {
@@ -57,10 +224,14 @@ impl<T: Real> Deformation<T> for DisplacementGradient<T> {
     }
     #[inline(always)]
     fn jacobian(&self) -> T {
-        determinant(self.gradient_rows())
+        let change = self.volume_change();
+        let near = change.abs().less_than(T::lit(0.5));
+        // Far from 1 the determinant of F, which is exact where it is small, has more digits than 1 + (J − 1).
+        let beyond = if near.all() { change } else { determinant(self.gradient_rows()) };
+        T::select(near, T::one() + change, beyond)
     }
     #[inline(always)]
     fn volume_change(&self) -> T {
-        volume_change(rows_of(&self.matrix))
+        volume_change_of_displacement(rows_of(&self.matrix))
     }
 }

@@ -1,15 +1,21 @@
 //! The deformation gradient F = ∂x/∂X.
 
 use nalgebra::Matrix3;
-use piola_numerics::linear::matrix3::{determinant, rows_of};
+use piola_numerics::linear::matrix3::{from_rows, rows_of};
+use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
-use super::{Deformation, volume_change};
+use super::volume::{determinant, volume_change_of_gradient};
+use super::{Deformation, DisplacementGradient};
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::rows::{Rows, difference, identity};
+use crate::stress::kernels::congruence;
+use crate::tensor::Symmetric;
+use crate::tensor::rows::{Rows, difference, identity, product, transposed_product};
 
 /// The deformation gradient F = ∂x/∂X with 0 < det F, W(14.7–14.8).
+///
+/// Read and written as an array of rows; what is read is checked.
 ///
 /// # Example
 /// ```
@@ -20,8 +26,20 @@ use crate::tensor::rows::{Rows, difference, identity};
 /// assert!(DeformationGradient::new(-Matrix3::<f64>::identity()).is_err());
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
+///
+/// # Source
+/// W(14.7), W(14.8).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "[[T; 3]; 3]",
+        into = "[[T; 3]; 3]",
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct DeformationGradient<T = f64> {
     matrix: Matrix3<T>,
 }
@@ -32,10 +50,181 @@ impl<T: Real> DeformationGradient<T> {
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveJacobian`], in any lane.
     pub fn new(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
-        let rows = rows_of(&matrix);
+        Self::from_rows(rows_of(&matrix))
+    }
+
+    /// From F as an array of rows.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DeformationGradient;
+    /// // The rows are dependent; in plain arithmetic the determinant would be 6.7e-16.
+    /// assert!(DeformationGradient::from_rows([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]]).is_err());
+    /// ```
+    pub fn from_rows(rows: Rows<T>) -> Result<Self, ContinuumError> {
         check_finite("F", rows.as_flattened())?;
         check_jacobian(determinant(rows))?;
-        Ok(Self { matrix })
+        Ok(Self { matrix: from_rows(rows) })
+    }
+
+    /// The deformation gradient of a displacement gradient, kept as ∇u so that small strains keep their digits.
+    ///
+    /// F = 1 + ∇u itself cannot hold a strain below 10⁻¹⁶; therefore the result is a [`DisplacementGradient`],
+    /// which every formula over [`Deformation`] takes as well. To round it to F, see
+    /// [`DisplacementGradient::to_deformation_gradient`].
+    ///
+    /// # Errors
+    /// As [`DisplacementGradient::new`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::strain::GreenStrain;
+    /// let gradient = Matrix3::from_diagonal_element(1e-20);
+    /// let deformation = DeformationGradient::from_displacement_gradient(gradient)?;
+    /// assert_eq!(GreenStrain::of(&deformation).0.components[0], 1e-20);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// B(4.28).
+    pub fn from_displacement_gradient(gradient: Matrix3<T>) -> Result<DisplacementGradient<T>, ContinuumError> {
+        DisplacementGradient::new(gradient)
+    }
+
+    /// 1: nothing is deformed.
+    #[inline(always)]
+    #[must_use]
+    pub fn identity() -> Self {
+        Self { matrix: from_rows(identity()) }
+    }
+
+    /// diag(λ₁, λ₂, λ₃): stretches along the axes of coordinates.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveStretch`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DeformationGradient};
+    /// assert_eq!(DeformationGradient::diagonal([2.0, 3.0, 0.5])?.jacobian(), 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn diagonal(stretches: [T; 3]) -> Result<Self, ContinuumError> {
+        check_stretches(stretches)?;
+        Self::from_rows(Symmetric::diagonal(stretches).rows())
+    }
+
+    /// F = λ 1: the same stretch in all directions.
+    ///
+    /// # Errors
+    /// As [`diagonal`](Self::diagonal).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DeformationGradient};
+    /// assert_eq!(DeformationGradient::dilatation(2.0)?.jacobian(), 8.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn dilatation(stretch: T) -> Result<Self, ContinuumError> {
+        Self::diagonal([stretch; 3])
+    }
+
+    /// diag(λ, λₜ, λₜ): a bar along the first axis, stretched by λ, with stretch λₜ across.
+    ///
+    /// # Errors
+    /// As [`diagonal`](Self::diagonal).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DeformationGradient};
+    /// assert_eq!(DeformationGradient::uniaxial(4.0, 0.5)?.jacobian(), 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn uniaxial(axial: T, transverse: T) -> Result<Self, ContinuumError> {
+        Self::diagonal([axial, transverse, transverse])
+    }
+
+    /// F = 1 + k e₂ ⊗ e₁: simple shear by k along direction 2, varying along direction 1.
+    ///
+    /// The only entry off the diagonal is F₂₁ = k. For other directions, see
+    /// [`simple_shear_along`](Self::simple_shear_along).
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{Deformation, DeformationGradient};
+    /// let shear = DeformationGradient::simple_shear(0.5)?;
+    /// assert_eq!(shear.line_element(Vector3::x()), Vector3::new(1.0, 0.5, 0.0));
+    /// assert_eq!(shear.jacobian(), 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn simple_shear(amount: T) -> Result<Self, ContinuumError> {
+        let (o, l) = (T::zero(), T::one());
+        Self::from_rows([[l, o, o], [amount, l, o], [o, o, l]])
+    }
+
+    /// F = 1 + k d ⊗ n: simple shear by k along d of the planes normal to n.
+    ///
+    /// d and n are unit vectors at right angles, the first two columns of `axes`.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotARotation`] unless `axes` is orthonormal and right-handed.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DeformationGradient;
+    /// // Along the second axis, normal to the third.
+    /// let axes = Matrix3::new(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0);
+    /// assert_eq!(DeformationGradient::simple_shear_along(0.5, &axes)?.matrix()[(1, 2)], 0.5);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn simple_shear_along(amount: T, axes: &Matrix3<T>) -> Result<Self, ContinuumError> {
+        let q = checked_axes(axes)?;
+        let mut rows: Rows<T> = identity();
+        for (i, row) in rows.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry += amount * q[i][0] * q[j][1];
+            }
+        }
+        Self::from_rows(rows)
+    }
+
+    /// F = Σ λᵢ nᵢ ⊗ nᵢ: the pure stretch with principal stretches λᵢ along the columns nᵢ of `axes`.
+    ///
+    /// With a rotation R, `rotation.compose(&stretch)` is R U.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveStretch`]; [`ContinuumError::NotARotation`] unless the
+    /// axes are orthonormal to 64 ulp and right-handed.
+    ///
+    /// # Accuracy
+    /// 8 ulp of the largest stretch: a stretch that is smaller than that cannot be kept in F unless its axis is an
+    /// axis of coordinates.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DeformationGradient;
+    /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    /// let stretch = DeformationGradient::from_principal_stretches([2.0, 3.0, 4.0], &quarter_turn)?;
+    /// assert_eq!(stretch.matrix()[(0, 0)], 3.0); // the second axis is now the first of space
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(14.12), W(14.13).
+    pub fn from_principal_stretches(stretches: [T; 3], axes: &Matrix3<T>) -> Result<Self, ContinuumError> {
+        check_stretches(stretches)?;
+        Self::from_rows(congruence(checked_axes(axes)?, &Symmetric::diagonal(stretches)).rows())
     }
 
     /// F as a matrix.
@@ -44,17 +233,104 @@ impl<T: Real> DeformationGradient<T> {
     pub const fn matrix(&self) -> &Matrix3<T> {
         &self.matrix
     }
+
+    /// F⁻¹, the deformation from the deformed to the reference configuration.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`] and [`ContinuumError::NonPositiveJacobian`] when the inverse is beyond the range of
+    /// the scalar.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DeformationGradient;
+    /// let inverse = DeformationGradient::simple_shear(3.0)?.inverse()?;
+    /// assert_eq!(inverse, DeformationGradient::simple_shear(-3.0)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn inverse(&self) -> Result<Self, ContinuumError> {
+        Self::from_rows(self.inverse_rows())
+    }
+
+    /// F₂ F₁ with F₂ = `self`: first `first`, then this deformation.
+    ///
+    /// # Errors
+    /// As [`inverse`](Self::inverse).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DeformationGradient;
+    /// let shear = DeformationGradient::simple_shear(0.5)?;
+    /// assert_eq!(shear.compose(&shear)?, DeformationGradient::simple_shear(1.0)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn compose(&self, first: &Self) -> Result<Self, ContinuumError> {
+        Self::from_rows(product(self.gradient_rows(), first.gradient_rows()))
+    }
+
+    /// ∇u = F − 1 as a type of its own; entries of F below 10⁻¹⁶ on the diagonal are lost.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NonPositiveJacobian`] when det F is so small that the loss turns the body inside out.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DeformationGradient;
+    /// let gradient = DeformationGradient::dilatation(1.5)?.to_displacement_gradient()?;
+    /// assert_eq!(gradient.matrix()[(0, 0)], 0.5);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn to_displacement_gradient(&self) -> Result<DisplacementGradient<T>, ContinuumError> {
+        DisplacementGradient::from_rows(self.displacement_rows())
+    }
 }
 
-/// 0 < det F in every lane.
+impl<T: Real> Default for DeformationGradient<T> {
+    fn default() -> Self {
+        Self::identity()
+    }
+}
+
+/// 0 < det F < ∞ in every lane.
 #[inline]
 pub(crate) fn check_jacobian<T: Real>(determinant: T) -> Result<(), ContinuumError> {
-    if T::zero().less_than(determinant).all() {
+    if (T::zero().less_than(determinant) & determinant.is_finite()).all() {
         return Ok(());
     }
-    let positive = |lane: usize| 0.0 < determinant.primal(lane);
-    let lane = (0..T::LANES).find(|&lane| !positive(lane)).unwrap_or(0);
-    Err(ContinuumError::NonPositiveJacobian { determinant: determinant.primal(lane) })
+    let fits = |lane: usize| 0.0 < determinant.primal(lane) && determinant.primal(lane).is_finite();
+    let lane = (0..T::LANES).find(|&lane| !fits(lane)).unwrap_or(0);
+    let determinant = determinant.primal(lane);
+    if 0.0 < determinant {
+        return Err(ContinuumError::NotFinite { quantity: "det F", index: 0, value: determinant });
+    }
+    Err(ContinuumError::NonPositiveJacobian { determinant })
+}
+
+/// 0 < λᵢ < ∞ in every lane.
+fn check_stretches<T: Real>(stretches: [T; 3]) -> Result<(), ContinuumError> {
+    check_finite("principal stretches", &stretches)?;
+    for (index, stretch) in stretches.iter().enumerate() {
+        if !T::zero().less_than(*stretch).all() {
+            let positive = |lane: usize| 0.0 < stretch.primal(lane);
+            let lane = (0..T::LANES).find(|&lane| !positive(lane)).unwrap_or(0);
+            return Err(ContinuumError::NonPositiveStretch { index, value: stretch.primal(lane) });
+        }
+    }
+    Ok(())
+}
+
+/// The rows of a matrix with orthonormal, right-handed columns.
+pub(super) fn checked_axes<T: Real>(axes: &Matrix3<T>) -> Result<Rows<T>, ContinuumError> {
+    let q = rows_of(axes);
+    check_finite("axes", q.as_flattened())?;
+    let defects = difference(transposed_product(q, q), identity());
+    let defect = defects.as_flattened().iter().fold(T::zero(), |largest, x| largest.max(x.abs()));
+    let (tolerance, determinant) = (64.0 * unit_in_last_place::<T>(), determinant(q));
+    if (defect.at_most(T::lit(tolerance)) & T::zero().less_than(determinant)).all() {
+        return Ok(q);
+    }
+    let fits = |lane: usize| defect.primal(lane) <= tolerance && 0.0 < determinant.primal(lane);
+    let lane = (0..T::LANES).find(|&lane| !fits(lane)).unwrap_or(0);
+    Err(ContinuumError::NotARotation { defect: defect.primal(lane), determinant: determinant.primal(lane) })
 }
 
 impl<T: Real> Deformation<T> for DeformationGradient<T> {
@@ -72,6 +348,6 @@ impl<T: Real> Deformation<T> for DeformationGradient<T> {
     }
     #[inline(always)]
     fn volume_change(&self) -> T {
-        volume_change(self.displacement_rows())
+        volume_change_of_gradient(rows_of(&self.matrix))
     }
 }

@@ -1,0 +1,48 @@
+//! Checks of strains that come from outside.
+
+use nalgebra::Matrix3;
+use piola_numerics::sums::unit_in_last_place;
+use piola_numerics::{Mask, Real};
+
+use crate::{ContinuumError, Symmetric};
+
+/// The components of a matrix that is symmetric to rounding, with errors that name the quantity.
+pub(crate) fn symmetric<T: Real>(name: &'static str, matrix: &Matrix3<T>) -> Result<[T; 6], ContinuumError> {
+    let named = |error| match error {
+        ContinuumError::NotFinite { index, value, .. } => ContinuumError::NotFinite { quantity: name, index, value },
+        ContinuumError::NotSymmetric { row, column, difference, scale, .. } => {
+            ContinuumError::NotSymmetric { quantity: name, row, column, difference, scale }
+        }
+        other => other,
+    };
+    Ok(Symmetric::from_matrix(matrix).map_err(named)?.components)
+}
+
+/// The leading minors are not negative beyond rounding, in any lane.
+///
+/// What a formula has computed for stretches of very different size may be indefinite by rounding; it is accepted.
+pub(crate) fn positive_definite<T: Real>(quantity: &'static str, a: &Symmetric<T>) -> Result<(), ContinuumError> {
+    let [xx, yy, zz, xy, yz, xz] = a.components;
+    let scale = [yy, zz, xy, yz, xz].iter().fold(xx.abs(), |largest, x| largest.max(x.abs()));
+    let tolerance = T::lit(-64.0 * unit_in_last_place::<T>());
+    // Divided by the size, so that no product leaves the range of the scalar.
+    let unit = a.components.map(|x| x / scale);
+    let scaled = Symmetric { components: unit };
+    let minors = [unit[0], unit[0] * unit[1] - unit[3] * unit[3], scaled.determinant()];
+    for (i, minor) in minors.into_iter().enumerate() {
+        let fits = if i == 0 { T::zero().less_than(minor) } else { tolerance.at_most(minor) };
+        if !fits.all() {
+            let fits = |lane: usize| {
+                if i == 0 { 0.0 < minor.primal(lane) } else { tolerance.primal(lane) <= minor.primal(lane) }
+            };
+            let lane = (0..T::LANES).find(|&lane| !fits(lane)).unwrap_or(0);
+            return Err(ContinuumError::NotPositiveDefinite {
+                quantity,
+                order: i + 1,
+                minor: minor.primal(lane),
+                scale: scale.primal(lane),
+            });
+        }
+    }
+    Ok(())
+}

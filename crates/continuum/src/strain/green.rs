@@ -1,0 +1,149 @@
+//! Green's and Almansi's strains: polynomials of ∇u and of F⁻¹ ∇u, without spectral theory.
+
+use nalgebra::Matrix3;
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::rows_of;
+
+use super::kernels;
+use super::measures::symmetric_measure;
+use crate::stress::kernels::congruence;
+use crate::tensor::rows::{product, transpose};
+use crate::{Deformation, Symmetric};
+
+symmetric_measure! {
+    /// Green–St. Venant's strain E = ½ (C − 1) = ½ (∇u + ∇uᵀ + ∇uᵀ ∇u).
+    ///
+    /// Half the change of the square of a material line's length for each square of it; zero exactly for rigid motions.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::strain::GreenStrain;
+    /// let bar = DeformationGradient::uniaxial(2.0, 1.0)?;
+    /// assert_eq!(GreenStrain::of(&bar).0.components[0], 1.5); // ½ (2² − 1)
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// B(4.33), whose ½ the scan has lost.
+    GreenStrain, "E", "1 + 2E", |e| e + e + Symmetric::identity()
+}
+
+symmetric_measure! {
+    /// Almansi's strain e = ½ (1 − B⁻¹), in the deformed configuration.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::strain::AlmansiStrain;
+    /// let bar = DeformationGradient::uniaxial(2.0, 1.0)?;
+    /// assert_eq!(AlmansiStrain::of(&bar).0.components[0], 0.375); // ½ (1 − 1/4)
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    AlmansiStrain, "e", "1 - 2e", |e| Symmetric::identity() - e - e
+}
+
+impl<T: Real> GreenStrain<T> {
+    /// E = ½ (∇u + ∇uᵀ + ∇uᵀ ∇u).
+    ///
+    /// # Accuracy
+    /// 2 ulp of its norm at small strain, 3 ulp at large strain; for a rotation 3 ulp of 1.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(deformation: &impl Deformation<T>) -> Self {
+        Self(kernels::green(deformation.displacement_rows()))
+    }
+
+    /// dE = sym(Fᵀ dF) along the direction dF; with Ḟ for dF the rate Ė = Fᵀ D F.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::strain::GreenStrain;
+    /// let stretch = DeformationGradient::dilatation(3.0)?;
+    /// assert_eq!(GreenStrain::derivative(&stretch, &Matrix3::identity()).components[0], 3.0); // d ½ λ² = λ dλ
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn derivative(deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Symmetric<T> {
+        kernels::green_derivative(deformation.gradient_rows(), rows_of(direction))
+    }
+
+    /// d²E = sym(d₁Fᵀ d₂F), the same at every deformation.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::strain::GreenStrain;
+    /// let one = Matrix3::identity();
+    /// assert_eq!(GreenStrain::second_derivative(&one, &one).components[0], 1.0); // d² ½ λ² = dλ²
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn second_derivative(first: &Matrix3<T>, second: &Matrix3<T>) -> Symmetric<T> {
+        kernels::green_derivative(rows_of(first), rows_of(second))
+    }
+}
+
+impl<T: Real> AlmansiStrain<T> {
+    /// e = ½ (G + Gᵀ − Gᵀ G) with G = F⁻¹ ∇u.
+    ///
+    /// # Accuracy
+    /// A few ulp × the condition number of F, of its own norm: nothing cancels at small strain.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(deformation: &impl Deformation<T>) -> Self {
+        Self(kernels::almansi(deformation.spatial_displacement_rows()))
+    }
+
+    /// de = sym(F⁻ᵀ F⁻¹ dF F⁻¹) along the direction dF; with Ḟ for dF the rate of e.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::strain::AlmansiStrain;
+    /// let stretch = DeformationGradient::dilatation(2.0)?;
+    /// assert_eq!(AlmansiStrain::derivative(&stretch, &Matrix3::identity()).components[0], 0.125); // λ⁻³ dλ
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn derivative(deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Symmetric<T> {
+        kernels::almansi_derivative(deformation.inverse_rows(), rows_of(direction))
+    }
+
+    /// d²e along two directions.
+    ///
+    /// ```text
+    /// d²e = −½ d²(F⁻ᵀ F⁻¹) = −F⁻ᵀ sym(a b + b a + aᵀ b) F⁻¹,        a = F⁻¹ d₁F,   b = F⁻¹ d₂F
+    /// ```
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::strain::AlmansiStrain;
+    /// let one = Matrix3::identity();
+    /// let stretch = DeformationGradient::dilatation(2.0)?;
+    /// let second = AlmansiStrain::second_derivative(&stretch, &one, &one);
+    /// assert_eq!(second.components[0], -3.0 / 16.0); // −3 λ⁻⁴ dλ²
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn second_derivative(
+        deformation: &impl Deformation<T>,
+        first: &Matrix3<T>,
+        second: &Matrix3<T>,
+    ) -> Symmetric<T> {
+        let inverse = deformation.inverse_rows();
+        let (a, b) = (product(inverse, rows_of(first)), product(inverse, rows_of(second)));
+        let middle = Symmetric::symmetric_part(product(a, b))
+            + Symmetric::symmetric_part(product(b, a))
+            + kernels::green_derivative(a, b);
+        -congruence(transpose(inverse), &middle)
+    }
+}

@@ -1,0 +1,164 @@
+//! Kernels of strains on arrays of rows: without a branch, inlined, so that they run in lanes.
+//!
+//! ```text
+//! C = Fᵀ F        B = F Fᵀ        2E = C − 1 = H + Hᵀ + Hᵀ H        B − 1 = H + Hᵀ + H Hᵀ        H = ∇u
+//! e = ½ (1 − B⁻¹) = ½ (G + Gᵀ − Gᵀ G)        G = F⁻¹ H
+//! ```
+
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::dot;
+
+use crate::Symmetric;
+use crate::stress::kernels::product_symmetrized;
+use crate::tensor::rows::{Rows, product, transpose};
+
+/// A Aᵀ, symmetric to the last bit.
+#[inline(always)]
+fn square_of_rows<T: Real>(a: Rows<T>) -> Symmetric<T> {
+    Symmetric::new(dot(a[0], a[0]), dot(a[1], a[1]), dot(a[2], a[2]), dot(a[0], a[1]), dot(a[1], a[2]), dot(a[0], a[2]))
+}
+
+/// C = Fᵀ F.
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::right_cauchy_green;
+/// let shear = [[1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(right_cauchy_green(shear).components, [5.0, 1.0, 1.0, 2.0, 0.0, 0.0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn right_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
+    square_of_rows(transpose(f))
+}
+
+/// B = F Fᵀ.
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::left_cauchy_green;
+/// let shear = [[1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(left_cauchy_green(shear).components, [1.0, 5.0, 1.0, 2.0, 0.0, 0.0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn left_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
+    square_of_rows(f)
+}
+
+/// A + Aᵀ + s A Aᵀ, the strain part and the quadratic part rounded once each.
+#[inline(always)]
+fn doubled_and_squared<T: Real>(a: Rows<T>, square: Symmetric<T>) -> Symmetric<T> {
+    let [xx, yy, zz, xy, yz, xz] = square.components;
+    Symmetric::new(
+        (a[0][0] + a[0][0]) + xx,
+        (a[1][1] + a[1][1]) + yy,
+        (a[2][2] + a[2][2]) + zz,
+        (a[0][1] + a[1][0]) + xy,
+        (a[1][2] + a[2][1]) + yz,
+        (a[0][2] + a[2][0]) + xz,
+    )
+}
+
+/// C − 1 = H + Hᵀ + Hᵀ H, of a displacement gradient, without cancellation.
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::right_cauchy_green_minus_one;
+/// let shear = [[0.0, 0.0, 0.0], [1e-20, 0.0, 0.0], [0.0, 0.0, 0.0]];
+/// assert_eq!(right_cauchy_green_minus_one(shear).components, [1e-40, 0.0, 0.0, 1e-20, 0.0, 0.0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn right_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
+    doubled_and_squared(h, square_of_rows(transpose(h)))
+}
+
+/// B − 1 = H + Hᵀ + H Hᵀ, of a displacement gradient, without cancellation.
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::left_cauchy_green_minus_one;
+/// let shear = [[0.0, 0.0, 0.0], [1e-20, 0.0, 0.0], [0.0, 0.0, 0.0]];
+/// assert_eq!(left_cauchy_green_minus_one(shear).components, [0.0, 1e-40, 0.0, 1e-20, 0.0, 0.0]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn left_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
+    doubled_and_squared(h, square_of_rows(h))
+}
+
+/// E = ½ (C − 1) of a displacement gradient.
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::green;
+/// let stretch = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+/// assert_eq!(green(stretch).components[0], 1.5); // ½ (2² − 1)
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn green<T: Real>(h: Rows<T>) -> Symmetric<T> {
+    right_cauchy_green_minus_one(h) * T::lit(0.5)
+}
+
+/// e = ½ (G + Gᵀ − Gᵀ G) of G = 1 − F⁻¹.
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::almansi;
+/// let stretch = [[0.5, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+/// assert_eq!(almansi(stretch).components[0], 0.375); // ½ (1 − 1/2²)
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn almansi<T: Real>(g: Rows<T>) -> Symmetric<T> {
+    doubled_and_squared(g, -square_of_rows(transpose(g))) * T::lit(0.5)
+}
+
+/// sym(Fᵀ δF), the change of E.
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::green_derivative;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let direction = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+/// assert_eq!(green_derivative(f, direction).components[0], 2.0); // d ½ λ² = λ dλ
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
+    product_symmetrized(transpose(f), transpose(direction))
+}
+
+/// 2 sym(δF Fᵀ), the change of B.
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::left_cauchy_green_derivative;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let direction = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+/// assert_eq!(left_cauchy_green_derivative(f, direction).components[0], 4.0); // d λ² = 2 λ dλ
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn left_cauchy_green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
+    product_symmetrized(direction, f) * T::lit(2.0)
+}
+
+/// sym(F⁻ᵀ F⁻¹ l) with l = δF F⁻¹, the change of e = ½ (1 − B⁻¹).
+///
+/// # Example
+/// ```
+/// use piola_continuum::strain::kernels::almansi_derivative;
+/// let inverse = [[0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let direction = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+/// assert_eq!(almansi_derivative(inverse, direction).components[0], 0.125); // d ½(1 − λ⁻²) = λ⁻³ dλ
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn almansi_derivative<T: Real>(inverse: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
+    // F⁻ᵀ (F⁻¹ δF) F⁻¹, symmetrised: both factors F⁻ᵀ, F⁻¹ outermost keep the result's own scale.
+    let middle = Symmetric::symmetric_part(product(inverse, direction));
+    crate::stress::kernels::congruence(transpose(inverse), &middle)
+}

@@ -1,0 +1,97 @@
+//! The linear strain and the engineering strain vector.
+
+use piola_numerics::Real;
+
+use super::measures::symmetric_measure;
+use crate::{Deformation, Symmetric};
+
+symmetric_measure! {
+    /// The linear strain ε = ½ (∇u + ∇uᵀ), the limit of every strain for ∇u → 0.
+    ///
+    /// It is not invariant under rotation: a rotation by φ about an axis has ε = (cos φ − 1) across the axis.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::DisplacementGradient;
+    /// use piola_continuum::strain::LinearStrain;
+    /// let shear = DisplacementGradient::simple_shear(0.5)?;
+    /// assert_eq!(LinearStrain::of(&shear), LinearStrain::new(0.0, 0.0, 0.0, 0.25, 0.0, 0.0)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// B(4.71).
+    LinearStrain, "ε", "1", |_strain| Symmetric::<T>::identity()
+}
+
+impl<T: Real> LinearStrain<T> {
+    /// ε = ½ (∇u + ∇uᵀ).
+    ///
+    /// # Accuracy
+    /// ½ ulp of each component, from ∇u.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(deformation: &impl Deformation<T>) -> Self {
+        Self(Symmetric::symmetric_part(deformation.displacement_rows()))
+    }
+
+    /// The engineering strain vector in Voigt's order, [ε₁₁, ε₂₂, ε₃₃, γ₁₂, γ₂₃, γ₁₃] with γᵢⱼ = 2 εᵢⱼ = uᵢ,ⱼ + uⱼ,ᵢ.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::strain::LinearStrain;
+    /// let strain = LinearStrain::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)?;
+    /// assert_eq!(strain.engineering(), [1.0, 2.0, 3.0, 8.0, 10.0, 12.0]);
+    /// assert_eq!(LinearStrain::from_engineering(strain.engineering())?, strain);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn engineering(&self) -> [T; 6] {
+        let [xx, yy, zz, xy, yz, xz] = self.0.components;
+        [xx, yy, zz, xy + xy, yz + yz, xz + xz]
+    }
+
+    /// The engineering strain vector in Bro-Nielsen's order, [u_x, v_y, w_z, u_y + v_x, u_z + w_x, v_z + w_y].
+    ///
+    /// Its last two shears, 13 and 23, are exchanged against those of [`engineering`](Self::engineering).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::strain::LinearStrain;
+    /// let strain = LinearStrain::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)?;
+    /// assert_eq!(strain.engineering_bro_nielsen(), [1.0, 2.0, 3.0, 8.0, 12.0, 10.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
+    /// # Source
+    /// B(4.73).
+    #[inline(always)]
+    #[must_use]
+    pub fn engineering_bro_nielsen(&self) -> [T; 6] {
+        let [xx, yy, zz, xy, yz, xz] = self.engineering();
+        [xx, yy, zz, xy, xz, yz]
+    }
+
+    /// From the engineering strain vector in Voigt's order, with doubled shears.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`](crate::ContinuumError::NotFinite).
+    pub fn from_engineering(vector: [T; 6]) -> Result<Self, crate::ContinuumError> {
+        let half = T::lit(0.5);
+        let [xx, yy, zz, xy, yz, xz] = vector;
+        Self::try_from([xx, yy, zz, half * xy, half * yz, half * xz])
+    }
+
+    /// From the engineering strain vector in Bro-Nielsen's order, with doubled shears.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`](crate::ContinuumError::NotFinite).
+    ///
+    /// # Source
+    /// B(4.73).
+    pub fn from_engineering_bro_nielsen(vector: [T; 6]) -> Result<Self, crate::ContinuumError> {
+        let [xx, yy, zz, xy, xz, yz] = vector;
+        Self::from_engineering([xx, yy, zz, xy, yz, xz])
+    }
+}
