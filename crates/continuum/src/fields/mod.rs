@@ -1,5 +1,6 @@
 //! Fields and motions over bodies, their derivatives and integrals.
 
+pub mod balance;
 pub mod coordinates;
 mod field;
 pub mod frames;
@@ -8,6 +9,7 @@ pub mod motion;
 mod residual;
 pub(crate) mod value;
 
+pub use balance::{Body, Flow, equilibrium_residual, symmetry_residual};
 pub use coordinates::{Cartesian, Coordinates, Cylindrical, LocalBasis, PhysicalFrame, Spherical};
 pub use field::{Field, Uniform, ValueOf};
 pub use frames::{Eulerian, Following, Inversion, Material, Preimage, Spatial};

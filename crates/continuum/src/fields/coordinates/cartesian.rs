@@ -20,6 +20,12 @@ impl Coordinates for Cartesian {
         *coordinates
     }
 
+    #[inline]
+    fn scale_factors<T: Real>(&self, coordinates: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
+        check_finite("coordinates", coordinates.as_slice())?;
+        Ok([T::one(); 3])
+    }
+
     /// (div T)ᵢ = ∂Tᵢⱼ/∂xⱼ, W(17.12).
     #[inline]
     fn divergence_terms<T: Real>(

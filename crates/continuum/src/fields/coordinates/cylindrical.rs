@@ -35,6 +35,12 @@ impl Coordinates for Cylindrical {
     }
 
     #[inline]
+    fn scale_factors<T: Real>(&self, coordinates: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
+        self.check_domain(coordinates)?;
+        Ok([T::one(), coordinates[0], T::one()])
+    }
+
+    #[inline]
     fn divergence_terms<T: Real>(
         &self,
         coordinates: &Vector3<T>,

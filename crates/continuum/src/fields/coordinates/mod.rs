@@ -104,6 +104,14 @@ pub trait Coordinates {
         self.local_basis(coordinates)?.physical_frame()
     }
 
+    /// hᵢ = |∂x/∂qⁱ| of an orthogonal system, m or m/rad.
+    ///
+    /// # Errors
+    /// See [the trait](Coordinates#errors).
+    fn scale_factors<T: Real>(&self, coordinates: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
+        Ok(self.physical_frame(coordinates)?.scale_factors)
+    }
+
     /// The terms of (div T)ᵢ, from the physical components Tᵢⱼ at q and their partial derivatives ∂Tᵢⱼ/∂qᵏ,
     /// `[k][i][j]`: what [`divergence`](Self::divergence) sums.
     ///
@@ -231,8 +239,8 @@ pub trait Coordinates {
     ) -> Result<Vector3<T>, ContinuumError> {
         check_point(coordinates, time)?;
         let partials = value_and_partials(scalar, coordinates, time).1;
-        let frame = self.physical_frame(coordinates)?;
-        finite::<Vector3<f64>, T>("gradient", Vector3::from_fn(|i, _| partials[i] / frame.scale_factors[i]))
+        let h = self.scale_factors(coordinates)?;
+        finite::<Vector3<f64>, T>("gradient", Vector3::from_fn(|i, _| partials[i] / h[i]))
     }
 
     /// Δf = div grad f of a field of scalars, [f]/m², in any system, orthogonal or not.
@@ -281,6 +289,10 @@ impl<C: Coordinates> Coordinates for &C {
     #[inline]
     fn check_domain<T: Real>(&self, coordinates: &Vector3<T>) -> Result<(), ContinuumError> {
         (**self).check_domain(coordinates)
+    }
+    #[inline]
+    fn scale_factors<T: Real>(&self, coordinates: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
+        (**self).scale_factors(coordinates)
     }
     #[inline]
     fn divergence_terms<T: Real>(

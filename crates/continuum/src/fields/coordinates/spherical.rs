@@ -41,6 +41,12 @@ impl Coordinates for Spherical {
     }
 
     #[inline]
+    fn scale_factors<T: Real>(&self, coordinates: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
+        let (r, s, _) = radii(coordinates)?;
+        Ok([T::one(), s, r])
+    }
+
+    #[inline]
     fn divergence_terms<T: Real>(
         &self,
         coordinates: &Vector3<T>,
