@@ -116,6 +116,15 @@ pub enum ContinuumError {
         /// The largest entry.
         scale: f64,
     },
+    /// λ₁ > λ₂ > λ₃ is violated where single principal axes are asked for.
+    #[error("the principal stretches {stretches:?} coalesce to rounding: their axes have no rate")]
+    CoalescentStretches {
+        /// The stretches.
+        stretches: [f64; 3],
+    },
+    /// An eigenvalue of F is zero or negative where the principal logarithm is asked for.
+    #[error("F has no real principal logarithm: an eigenvalue is zero or negative")]
+    NoPrincipalLogarithm,
     /// 0 < |n| is violated: a normal has no direction.
     #[error("the zero vector has no direction: it is no normal")]
     ZeroNormal,

@@ -5,6 +5,7 @@
 pub mod deformation;
 mod error;
 pub mod fields;
+pub mod rates;
 pub mod spectral;
 pub mod strain;
 pub mod stress;

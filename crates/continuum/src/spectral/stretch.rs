@@ -302,6 +302,14 @@ impl<T: Real> StretchAnalysis<T> {
         self.spatial(self.frame_function(f))
     }
 
+    /// (qₖ by rows, R qₖ by rows, S): a frame, its image, and U in it, diagonal but for rounding and derivatives.
+    #[inline(always)]
+    pub(crate) fn in_frame(&self) -> (Rows<T>, Rows<T>, [T; 6]) {
+        let [xx, yy, zz, xy, yz, xz] = self.frame_stretch();
+        let shift = self.shift;
+        (self.axes, self.turned_frame(), [xx + shift, yy + shift, zz + shift, xy, yz, xz])
+    }
+
     /// Σ Mₖₗ qₖ ⊗ qₗ.
     #[inline(always)]
     fn material(&self, components: [T; 6]) -> Symmetric<T> {

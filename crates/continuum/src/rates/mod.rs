@@ -1,0 +1,38 @@
+//! Rates: velocity gradient, stretching and spin; rates of strain and of the polar factors; objective rates of stress;
+//! relative deformation; exponential motions.
+//!
+//! | to get | use |
+//! |---|---|
+//! | L, D, W, J̇, grad a | [`VelocityGradient`], [`Stretching`], [`Spin`], [`AccelerationGradient`] |
+//! | Ċ, Ė, Ḃ, ė | [`strain`] |
+//! | U̇, V̇, Ṙ, (ln U)˙, (ln V)˙, spins of R, of ln V, of the principal axes | [`StretchRates`] |
+//! | rates of stress that any observer agrees on | [`objective`] |
+//! | F_t(τ), C_t; tensors of Rivlin–Ericksen and White–Metzner | [`RelativeDeformation`], [`RivlinEricksen`], [`WhiteMetzner`] |
+//! | exp(Kt), its derivative, ln F of a general F | [`exponential`], [`exponential_derivative`], [`logarithm`] |
+//! | motions F(t) of your own with all rates, linear and exponential ones | [`HomogeneousMotion`], [`LinearMotion`], [`ExponentialMotion`] |
+//!
+//! Ḟ is a [`GradientRate`]; the deformation may be given as F or as ∇u. Strains are those of the reference
+//! configuration or of space as their names say; skew tensors are stored as axial vectors, Ω v = ω × v.
+
+mod exponential;
+pub mod kernels;
+mod motion;
+pub mod objective;
+mod quantities;
+mod relative;
+pub mod strain;
+mod stretch;
+mod velocity_gradient;
+
+pub use exponential::{
+    exponential, exponential_derivative, exponential_minus_identity, exponential_minus_identity_rows, exponential_rows,
+    logarithm, rotation_minus_identity,
+};
+pub use motion::{ExponentialMotion, HomogeneousMotion, LinearMotion};
+pub use objective::{
+    Carrier, GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, MaterialRate, SpatialStress,
+    TruesdellRate, UpperConvectedRate,
+};
+pub use relative::{RelativeDeformation, RivlinEricksen, WhiteMetzner, gradients_of_rates, steady_gradients};
+pub use stretch::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, SpatialTwirl, StretchRates};
+pub use velocity_gradient::{AccelerationGradient, GradientRate, GradientSecondRate, Spin, Stretching, VelocityGradient};

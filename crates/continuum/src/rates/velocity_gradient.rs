@@ -1,0 +1,240 @@
+//! The velocity gradient, stretching and spin.
+
+use nalgebra::{Matrix3, Vector3};
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
+
+use super::kernels::{axial_of_difference, skew_of_axial};
+use super::quantities::{general_rate, skew_rate, symmetric_rate};
+use crate::error::check_finite;
+use crate::tensor::rows::{Rows, difference, product, product_transposed, sum, trace};
+use crate::{ContinuumError, Deformation, Symmetric};
+
+general_rate! {
+    /// The rate of the deformation gradient, Ḟ = Grad v, 1/s; also that of the displacement gradient.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, VelocityGradient}};
+    /// let twice = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
+    /// let rate = GradientRate::new(Matrix3::from_diagonal_element(6.0))?;
+    /// assert_eq!(VelocityGradient::of(&twice, &rate).divergence(), 9.0); // 3 · 6/2
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    GradientRate, "rate of F"
+}
+
+general_rate! {
+    /// The second rate of the deformation gradient, F̈ = Grad a, 1/s².
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::rates::GradientSecondRate;
+    /// assert!(GradientSecondRate::new(Matrix3::from_element(f64::NAN)).is_err());
+    /// ```
+    GradientSecondRate, "second rate of F"
+}
+
+general_rate! {
+    /// The velocity gradient L = grad v = Ḟ F⁻¹, Lᵢⱼ = ∂vᵢ/∂xⱼ, 1/s.
+    ///
+    /// ```text
+    /// L = Ḟ F⁻¹ = D + W        D = ½ (L + Lᵀ),   W = ½ (L − Lᵀ)
+    /// ```
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::rates::VelocityGradient;
+    /// // Simple shear at the rate 2: half of it stretches, half of it turns.
+    /// let shear = VelocityGradient::new(Matrix3::new(0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
+    /// assert_eq!(shear.stretching().0.components, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    /// assert_eq!(shear.spin().axial.z, -1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    /// # Source
+    /// W(14.20–14.21), W(14.30), B(4.34–4.35).
+    VelocityGradient, "velocity gradient"
+}
+
+general_rate! {
+    /// The acceleration gradient grad a = F̈ F⁻¹ = L̇ + L², 1/s².
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::rates::{AccelerationGradient, VelocityGradient};
+    /// // Steady rotation at 3 rad/s: L̇ = 0, so grad a = L² is the centripetal acceleration −9 r.
+    /// let turn = VelocityGradient::new(Matrix3::new(0.0, -3.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
+    /// let acceleration = AccelerationGradient::of_rate(&turn, &Matrix3::zeros());
+    /// assert_eq!(acceleration.0[(0, 0)], -9.0);
+    /// assert_eq!(acceleration.velocity_gradient_rate(&turn), Matrix3::zeros());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    AccelerationGradient, "acceleration gradient"
+}
+
+symmetric_rate! {
+    /// The stretching D = ½ (L + Lᵀ), the rate of strain per present length, 1/s.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::Stretching;
+    /// let pull = Stretching::new(2.0, -1.0, -1.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(pull.0.trace(), 0.0); // no change of volume
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    /// # Source
+    /// W(14.29), B(4.34).
+    Stretching, "stretching"
+}
+
+skew_rate! {
+    /// The spin W = ½ (L − Lᵀ), by its axial vector ½ curl v, 1/s.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::rates::Spin;
+    /// let spin = Spin::new(Vector3::new(0.0, 0.0, 3.0))?;
+    /// assert_eq!(spin.vorticity().z, 6.0);
+    /// assert_eq!(spin.matrix()[(1, 0)], 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    /// # Source
+    /// W(14.28), B(4.35).
+    Spin, "spin"
+}
+
+impl<T: Real> Spin<T> {
+    /// The vorticity curl v, twice the axial vector, 1/s.
+    #[inline(always)]
+    #[must_use]
+    pub fn vorticity(&self) -> Vector3<T> {
+        Vector3::new(self.axial[0] + self.axial[0], self.axial[1] + self.axial[1], self.axial[2] + self.axial[2])
+    }
+}
+
+impl<T: Real> GradientRate<T> {
+    /// Ḟ = L F, W(14.21).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, VelocityGradient}};
+    /// let twice = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
+    /// let growth = VelocityGradient::new(Matrix3::from_diagonal_element(3.0))?;
+    /// assert_eq!(GradientRate::of(&twice, &growth).0[(0, 0)], 6.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn of(deformation: &impl Deformation<T>, velocity_gradient: &VelocityGradient<T>) -> Self {
+        // L + L ∇u: what is stored of a small displacement gradient is not rounded away.
+        let l = velocity_gradient.rows();
+        Self::from_rows(sum(l, product(l, deformation.displacement_rows())))
+    }
+}
+
+impl<T: Real> VelocityGradient<T> {
+    /// L = Ḟ F⁻¹, W(14.21).
+    ///
+    /// # Accuracy
+    /// A few ulp × the condition number of F.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> Self {
+        Self::from_rows(product(rate.rows(), inverse_and_determinant(deformation.gradient_rows()).0))
+    }
+
+    /// L = D + W, W(14.30).
+    #[inline(always)]
+    #[must_use]
+    pub fn of_parts(stretching: &Stretching<T>, spin: &Spin<T>) -> Self {
+        Self::from_rows(sum(stretching.rows(), spin.rows()))
+    }
+
+    /// D = ½ (L + Lᵀ), W(14.29).
+    #[inline(always)]
+    #[must_use]
+    pub fn stretching(&self) -> Stretching<T> {
+        Stretching(Symmetric::symmetric_part(self.rows()))
+    }
+
+    /// W = ½ (L − Lᵀ), W(14.28).
+    #[inline(always)]
+    #[must_use]
+    pub fn spin(&self) -> Spin<T> {
+        Spin::of_axial(axial_of_difference(self.rows()).map(|w| T::lit(0.5) * w))
+    }
+
+    /// div v = tr L, the rate of volume per present volume, 1/s.
+    #[inline(always)]
+    #[must_use]
+    pub fn divergence(&self) -> T {
+        trace(self.rows())
+    }
+
+    /// J̇ = J tr L, 1/s.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{DeformationGradient, rates::VelocityGradient};
+    /// let twice = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
+    /// let growth = VelocityGradient::new(Matrix3::from_diagonal_element(0.5))?;
+    /// assert_eq!(growth.jacobian_rate(&twice), 12.0); // 8 · 3/2
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn jacobian_rate(&self, deformation: &impl Deformation<T>) -> T {
+        deformation.jacobian() * self.divergence()
+    }
+
+    /// L seen by an observer who turns: Q L Qᵀ + Ω, with Ω = Q̇ Qᵀ of axial vector `angular_velocity`.
+    ///
+    /// ```text
+    /// x* = Q x + c:   L* = Q L Qᵀ + Q̇ Qᵀ,   D* = Q D Qᵀ,   W* = Q W Qᵀ + Q̇ Qᵀ
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn seen_from(&self, rotation: &Matrix3<T>, angular_velocity: &Vector3<T>) -> Self {
+        let q = rows_of(rotation);
+        let turned = product(q, product_transposed(self.rows(), q));
+        Self::from_rows(sum(turned, skew_of_axial([angular_velocity[0], angular_velocity[1], angular_velocity[2]])))
+    }
+}
+
+impl<T: Real> AccelerationGradient<T> {
+    /// grad a = F̈ F⁻¹.
+    #[inline(always)]
+    #[must_use]
+    pub fn of(deformation: &impl Deformation<T>, second_rate: &GradientSecondRate<T>) -> Self {
+        Self::from_rows(product(second_rate.rows(), inverse_and_determinant(deformation.gradient_rows()).0))
+    }
+
+    /// grad a = L̇ + L².
+    #[inline(always)]
+    #[must_use]
+    pub fn of_rate(velocity_gradient: &VelocityGradient<T>, rate: &Matrix3<T>) -> Self {
+        let l = velocity_gradient.rows();
+        Self::from_rows(sum(rows_of(rate), product(l, l)))
+    }
+
+    /// L̇ = grad a − L², the material derivative of the velocity gradient, 1/s².
+    #[inline(always)]
+    #[must_use]
+    pub fn velocity_gradient_rate(&self, velocity_gradient: &VelocityGradient<T>) -> Matrix3<T> {
+        let l = velocity_gradient.rows();
+        from_rows(difference(self.rows(), product(l, l)))
+    }
+
+    /// F̈ = (grad a) F.
+    #[inline(always)]
+    #[must_use]
+    pub fn gradient_second_rate(&self, deformation: &impl Deformation<T>) -> GradientSecondRate<T> {
+        GradientSecondRate::from_rows(product(self.rows(), deformation.gradient_rows()))
+    }
+}
