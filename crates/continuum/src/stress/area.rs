@@ -11,9 +11,9 @@ use piola_numerics::Real;
 
 use super::kernels::cofactor;
 use super::normal::normalized;
-use super::scale::norm;
 use super::{ReferenceNormal, UnitNormal};
 use crate::tensor::rows::{apply, transpose};
+use crate::tensor::scale::norm;
 use crate::{ContinuumError, Deformation};
 
 /// What a deformation makes of a unit of area, by Nanson's formula.

@@ -26,8 +26,9 @@ use super::kernels::{
     first_piola_of_kirchhoff, first_piola_of_mandel, product_symmetrized, second_piola_of_cauchy,
     second_piola_of_first_piola,
 };
-use super::transformation::check_rotation;
 use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+use crate::spectral::StretchAnalysis;
+use crate::tensor::rotation::check_rotation;
 use crate::tensor::rows::{Rows, product, scaled, transpose, transposed_product};
 use crate::{ContinuumError, Deformation, Symmetric};
 
@@ -59,6 +60,13 @@ impl<T: Real> CauchyStress<T> {
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
         self.first_piola(deformation).mandel(deformation)
     }
+
+    /// Biot's stress Rᵀ T Cof F.
+    #[inline(always)]
+    #[must_use]
+    pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
+        self.first_piola(deformation).biot(deformation)
+    }
 }
 
 impl<T: Real> KirchhoffStress<T> {
@@ -89,6 +97,13 @@ impl<T: Real> KirchhoffStress<T> {
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
         self.first_piola(deformation).mandel(deformation)
     }
+
+    /// Biot's stress Rᵀ τ F⁻ᵀ.
+    #[inline(always)]
+    #[must_use]
+    pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
+        self.first_piola(deformation).biot(deformation)
+    }
 }
 
 impl<T: Real> FirstPiola<T> {
@@ -118,6 +133,20 @@ impl<T: Real> FirstPiola<T> {
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
         MandelStress::from_rows(transposed_product(deformation.gradient_rows(), self.rows()))
+    }
+
+    /// Biot's stress Rᵀ P; its rotation R is computed, see [`StretchAnalysis`].
+    #[inline(always)]
+    #[must_use]
+    pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
+        self.biot_of_analysis(&StretchAnalysis::of(deformation))
+    }
+
+    /// Biot's stress Rᵀ P where the stretches are known already.
+    #[inline(always)]
+    #[must_use]
+    pub fn biot_of_analysis(&self, stretches: &StretchAnalysis<T>) -> BiotStress<T> {
+        BiotStress::from_rows(transposed_product(stretches.rotation(), self.rows()))
     }
 
     /// Biot's stress Rᵀ P where the rotation R of F is known.
@@ -166,6 +195,13 @@ impl<T: Real> SecondPiola<T> {
         MandelStress::from_rows(product(right_cauchy_green.rows(), self.rows()))
     }
 
+    /// Biot's stress U S, as Rᵀ (F S).
+    #[inline(always)]
+    #[must_use]
+    pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
+        self.first_piola(deformation).biot(deformation)
+    }
+
     /// Biot's stress U S where the right stretch is all that is known.
     #[inline(always)]
     #[must_use]
@@ -196,6 +232,13 @@ impl<T: Real> MandelStress<T> {
         self.first_piola(deformation).kirchhoff(deformation)
     }
 
+    /// Biot's stress U⁻¹ M, as Rᵀ (F⁻ᵀ M).
+    #[inline(always)]
+    #[must_use]
+    pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
+        self.first_piola(deformation).biot(deformation)
+    }
+
     /// S = sym(C⁻¹ M), as F⁻¹ (F⁻ᵀ M).
     #[inline(always)]
     #[must_use]
@@ -205,6 +248,48 @@ impl<T: Real> MandelStress<T> {
 }
 
 impl<T: Real> BiotStress<T> {
+    /// P = R Biot; the rotation R is computed, see [`StretchAnalysis`].
+    #[inline(always)]
+    #[must_use]
+    pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        self.first_piola_of_analysis(&StretchAnalysis::of(deformation))
+    }
+
+    /// P = R Biot where the stretches are known already.
+    #[inline(always)]
+    #[must_use]
+    pub fn first_piola_of_analysis(&self, stretches: &StretchAnalysis<T>) -> FirstPiola<T> {
+        FirstPiola::from_rows(product(stretches.rotation(), self.rows()))
+    }
+
+    /// T = sym(R Biot Fᵀ)/J.
+    #[inline(always)]
+    #[must_use]
+    pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
+        self.first_piola(deformation).cauchy(deformation)
+    }
+
+    /// τ = sym(R Biot Fᵀ).
+    #[inline(always)]
+    #[must_use]
+    pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
+        self.first_piola(deformation).kirchhoff(deformation)
+    }
+
+    /// S = sym(U⁻¹ Biot), as F⁻¹ (R Biot).
+    #[inline(always)]
+    #[must_use]
+    pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
+        self.first_piola(deformation).second_piola(deformation)
+    }
+
+    /// M = U Biot, as Fᵀ (R Biot).
+    #[inline(always)]
+    #[must_use]
+    pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
+        self.first_piola(deformation).mandel(deformation)
+    }
+
     /// P = R Biot where the rotation R of F is known.
     ///
     /// # Errors

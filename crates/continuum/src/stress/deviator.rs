@@ -11,8 +11,8 @@
 
 use piola_numerics::Real;
 
-use super::scale::{largest, power_of_two_scale, square_root};
 use crate::Symmetric;
+use crate::tensor::scale::{largest, power_of_two_scale, square_root};
 
 /// Coordinates of a deviator, in units of `unscale`.
 #[derive(Clone, Copy, Debug)]

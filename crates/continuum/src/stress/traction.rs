@@ -14,10 +14,10 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
 
 use super::invariants::{deviator, mean};
-use super::scale::norm;
 use super::{CauchyStress, FirstPiola, ReferenceNormal, UnitNormal};
 use crate::ContinuumError;
 use crate::tensor::rows::apply;
+use crate::tensor::scale::norm;
 
 impl<T: Real> CauchyStress<T> {
     /// The traction t = T n, Pa: the force per deformed area on the side from which n points.

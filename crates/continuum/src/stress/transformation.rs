@@ -14,7 +14,7 @@ use piola_numerics::linear::matrix3::rows_of;
 use super::kernels::congruence;
 use super::{CauchyStress, FirstPiola, KirchhoffStress};
 use crate::ContinuumError;
-pub(crate) use crate::tensor::rotation::check_rotation;
+use crate::tensor::rotation::check_rotation;
 use crate::tensor::rows::product;
 
 impl<T: Real> CauchyStress<T> {

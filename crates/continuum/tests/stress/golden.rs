@@ -161,3 +161,21 @@ fn von_mises_keeps_its_digits_under_pressure_and_at_any_scale() {
         }
     }
 }
+
+#[test]
+fn principal_stresses_and_projectors_equal_reference() {
+    for case in cases() {
+        let principal = case.stress.principal();
+        case.assert("principal_stresses", &principal.values());
+        case.assert("max_shear", &[principal.maximum_shear()]);
+        case.assert("max_shear", &[principal.mohr_circles()[0].radius]);
+        let Value::Array(expected) = &case.output["principal_projectors"] else { continue };
+        let [d1, d2, d3] = principal.deviatoric;
+        // A direction turns by the relative change of the stress over the relative gap.
+        let gap = |k: usize| [d1 - d2, (d1 - d2).min(d2 - d3), d2 - d3][k] / d1.max(-d3);
+        for (k, projector) in principal.projectors().iter().enumerate() {
+            let what = format!("{}: projector {k}", case.id);
+            assert_close(&what, &nine(projector), &rows(&expected[k]), TOLERANCE.times(1.0 / gap(k)));
+        }
+    }
+}

@@ -3,7 +3,10 @@
 use core::f64::consts::{FRAC_PI_3, FRAC_PI_6};
 
 use nalgebra::{Matrix3, Vector3};
-use piola_continuum::stress::{invariants, moment_residual, oblique_traction, reference_surface_force};
+use piola_continuum::spectral::{self, StretchAnalysis};
+use piola_continuum::stress::{
+    MohrCircle, gradients, invariants, moment_residual, oblique_traction, reference_surface_force,
+};
 use piola_continuum::{
     CauchyStress, Deformation, DeformationGradient, DisplacementGradient, FirstPiola, ReferenceNormal, SecondPiola,
     Symmetric, UnitNormal,
@@ -11,7 +14,7 @@ use piola_continuum::{
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, assert_order};
 use proptest::prelude::*;
 
-use super::cases::{deformation, direction, nine, rate, rotation, size, stress};
+use super::cases::{deformation, direction, matrix, nine, rate, rotation, size, stress};
 
 /// Stretches between ½ and 2: each conversion multiplies errors by cond F ≤ 4 at most, and sums three terms.
 fn conversions(count: f64) -> Tol {
@@ -22,7 +25,7 @@ fn flat(matrix: &Matrix3<f64>) -> Vec<f64> {
     matrix.transpose().as_slice().to_vec()
 }
 
-/// The components of all measures but Biot's, from a measure that has the conversions.
+/// The components of all measures, from a measure that has the conversions.
 macro_rules! all_of {
     ($stress:expr, $f:expr) => {
         [
@@ -31,6 +34,7 @@ macro_rules! all_of {
             flat(&$stress.first_piola($f).0),
             nine(&$stress.second_piola($f).0),
             flat(&$stress.mandel($f).0),
+            flat(&$stress.biot($f).0),
         ]
     };
 }
@@ -39,7 +43,7 @@ macro_rules! all_of {
 macro_rules! itself {
     ($name:ident, $method:ident) => {
         impl Itself for piola_continuum::$name {
-            fn all(&self, f: &DeformationGradient) -> [Vec<f64>; 5] {
+            fn all(&self, f: &DeformationGradient) -> [Vec<f64>; 6] {
                 trait Same: Sized + Copy {
                     fn $method(&self, _: &DeformationGradient) -> Self {
                         *self
@@ -52,15 +56,16 @@ macro_rules! itself {
     };
 }
 trait Itself {
-    fn all(&self, f: &DeformationGradient) -> [Vec<f64>; 5];
+    fn all(&self, f: &DeformationGradient) -> [Vec<f64>; 6];
 }
 itself!(CauchyStress, cauchy);
 itself!(KirchhoffStress, kirchhoff);
 itself!(FirstPiola, first_piola);
 itself!(SecondPiola, second_piola);
 itself!(MandelStress, mandel);
+itself!(BiotStress, biot);
 
-const NAMES: [&str; 5] = ["Cauchy", "Kirchhoff", "first Piola", "second Piola", "Mandel"];
+const NAMES: [&str; 6] = ["Cauchy", "Kirchhoff", "first Piola", "second Piola", "Mandel", "Biot"];
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(10_000))]
@@ -73,15 +78,16 @@ proptest! {
             t.first_piola(&f).all(&f),
             t.second_piola(&f).all(&f),
             t.mandel(&f).all(&f),
+            t.biot(&f).all(&f),
         ];
         for (way, by) in ways.iter().zip(&NAMES[1..]) {
             for ((actual, expected), to) in way.iter().zip(&direct).zip(NAMES) {
                 assert_close(&format!("{to} by {by}"), actual, expected, conversions(3.0));
             }
         }
-        // Through all five in turn and back.
-        let around = t.kirchhoff(&f).mandel(&f).second_piola(&f).first_piola(&f).cauchy(&f);
-        assert_close("around", &nine(&around.0), &direct[0], conversions(5.0));
+        // Through all six in turn and back.
+        let around = t.kirchhoff(&f).mandel(&f).second_piola(&f).biot(&f).first_piola(&f).cauchy(&f);
+        assert_close("around", &nine(&around.0), &direct[0], conversions(6.0));
     }
 
     #[test]
@@ -97,6 +103,76 @@ proptest! {
         let c = Symmetric::symmetric_part((f.matrix().transpose() * f.matrix()).transpose().data.0);
         let s = t.second_piola(&f);
         assert_close("M", &flat(&s.mandel_of_right_cauchy_green(&c).0), &flat(&s.mandel(&f).0), conversions(2.0));
+    }
+
+    #[test]
+    fn biot_stress_equals_right_stretch_times_second_piola(t in stress(), f in deformation()) {
+        let analysis = StretchAnalysis::of(&f);
+        let (s, p) = (t.second_piola(&f), t.first_piola(&f));
+        let expected = flat(&s.biot_of_right_stretch(&analysis.right_stretch()).0);
+        assert_close("U S", &flat(&t.biot(&f).0), &expected, conversions(3.0));
+        assert_close("analysed", &flat(&p.biot_of_analysis(&analysis).0), &flat(&p.biot(&f).0), Tol::ulps(0.0));
+        let r = matrix(analysis.rotation());
+        let biot = p.biot_of_rotation(&r).expect("a rotation");
+        assert_close("Rᵀ P", &flat(&biot.0), &flat(&(r.transpose() * p.0)), Tol::ulps(8.0));
+        assert_close("R Rᵀ P", &flat(&biot.first_piola_of_rotation(&r).expect("a rotation").0), &flat(&p.0), conversions(1.0));
+        // ½ (U S + S U), symmetric though Biot's stress is not.
+        let symmetric = nine(&biot.symmetric_part());
+        let both = 0.5 * (biot.0 + biot.0.transpose());
+        assert_close("sym", &symmetric, &flat(&both), Tol::ulps(2.0));
+        let left_out = biot.skew_residual();
+        let skew = both - biot.0;
+        assert_close_at_scale("skew", &[2.0 * skew[(1, 2)]], &[left_out.x], size(&symmetric), Tol::ulps(2.0));
+    }
+
+    #[test]
+    fn biot_stress_power_equals_that_of_first_piola(t in stress(), f in deformation(), l in rate()) {
+        // U̇ from the derivative of √C along Ċ = 2 Fᵀ D F.
+        let c = Symmetric::symmetric_part((f.matrix().transpose() * f.matrix()).transpose().data.0);
+        let rate = f.matrix().transpose() * (l + l.transpose()) * f.matrix();
+        let rate = Symmetric::symmetric_part(rate.transpose().data.0);
+        let stretching = spectral::derivative(&spectral::SquareRoot, &c, &rate);
+        let power = t.biot(&f).power_per_reference_volume(&stretching);
+        let expected = t.first_piola(&f).power_per_reference_volume(&(l * f.matrix()));
+        let scale = 9.0 * size(&nine(&t.0)) * size(&flat(&l)) * f.jacobian();
+        // U̇ depends on C by 1/(λᵢ + λⱼ) ≤ 1 and on F by cond F.
+        assert_close_at_scale("sym(RᵀP) : U̇", &[power], &[expected], scale, conversions(8.0));
+    }
+
+    #[test]
+    fn principal_stresses_compose_the_stress(t in stress(), n in direction()) {
+        let principal = t.principal();
+        let size = size(&nine(&t.0));
+        let [s1, s2, s3] = principal.values();
+        let [p1, p2, p3] = principal.projectors();
+        prop_assert!(s2 <= s1 && s3 <= s2);
+        let sum = p1 * s1 + p2 * s2 + p3 * s3;
+        assert_close_at_scale("Σ σₖ Pₖ", &nine(&sum), &nine(&t.0), size, Tol::ulps(16.0));
+        assert_close_at_scale("Haigh–Westergaard", &t.haigh_westergaard().principal_values(), &[s1, s2, s3], size, Tol::ulps(16.0));
+        assert_close_at_scale("shear", &[principal.maximum_shear()], &[t.maximum_shear()], size, Tol::ulps(16.0));
+        for (k, direction) in principal.directions().iter().enumerate() {
+            let traction = t.traction(direction);
+            let expected = direction.vector() * principal.values()[k];
+            assert_close_at_scale("T n = σ n", traction.as_slice(), expected.as_slice(), size, Tol::ulps(16.0));
+        }
+        // The tractions of every plane lie in the outer circle of Mohr and outside of the inner ones.
+        let n = UnitNormal::new(n).expect("a direction");
+        let (normal, shear) = (t.normal_traction(&n), t.shear_traction_size(&n));
+        let slack = 32.0 * f64::EPSILON * size * size;
+        let power = |circle: MohrCircle| (normal - circle.centre).powi(2) + shear * shear - circle.radius.powi(2);
+        let [outer, upper, lower] = principal.mohr_circles();
+        prop_assert!(power(outer) <= slack && -slack <= power(upper) && -slack <= power(lower));
+    }
+
+    #[test]
+    fn gradient_of_tresca_equals_difference_of_projectors(t in stress()) {
+        let principal = t.principal();
+        let [p1, _, p3] = principal.projectors();
+        let [d1, d2, d3] = principal.deviatoric;
+        let gap = (d1 - d2).min(d2 - d3);
+        prop_assume!(1e-6 * d1 < gap);
+        let tolerance = Tol::ulps(64.0).times(size(&nine(&t.0)) / gap);
+        assert_close("n₁⊗n₁ − n₃⊗n₃", &nine(&gradients::tresca(&t.0)), &nine(&(p1 - p3)), tolerance);
     }
 
     #[test]
