@@ -1,6 +1,7 @@
 //! Fields and motions over bodies, their derivatives and integrals.
 
 pub mod balance;
+pub mod compatibility;
 pub mod coordinates;
 mod field;
 pub mod frames;
