@@ -28,6 +28,7 @@ use super::kernels::{
 };
 use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use crate::spectral::StretchAnalysis;
+use crate::strain::RightCauchyGreen;
 use crate::tensor::rotation::check_rotation;
 use crate::tensor::rows::{Rows, product, scaled, transpose, transposed_product};
 use crate::{ContinuumError, Deformation, Symmetric};
@@ -191,7 +192,7 @@ impl<T: Real> SecondPiola<T> {
     /// M = C S where the right Cauchy–Green tensor is all that is known.
     #[inline(always)]
     #[must_use]
-    pub fn mandel_of_right_cauchy_green(&self, right_cauchy_green: &Symmetric<T>) -> MandelStress<T> {
+    pub fn mandel_of_right_cauchy_green(&self, right_cauchy_green: &RightCauchyGreen<T>) -> MandelStress<T> {
         MandelStress::from_rows(product(right_cauchy_green.rows(), self.rows()))
     }
 

@@ -80,7 +80,7 @@ macro_rules! symmetric_measure {
             }
         }
 
-        operations!($name, Symmetric::zero(), |a, b| a + b, |a, b| a - b, |a| -a, |a, s| a * s);
+        operations!($name, Symmetric::zero(), |a, b| a + b, |a, b| a - b, |a| -a, |a, s| a * s, |a, s| a / s);
     };
 }
 
@@ -146,14 +146,15 @@ macro_rules! general_measure {
             |a, b| from_rows(rows::sum(rows_of(&a), rows_of(&b))),
             |a, b| from_rows(rows::difference(rows_of(&a), rows_of(&b))),
             |a| from_rows(rows::scaled(rows_of(&a), -T::one())),
-            |a, s| from_rows(rows::scaled(rows_of(&a), s))
+            |a, s| from_rows(rows::scaled(rows_of(&a), s)),
+            |a, s| from_rows(rows_of(&a).map(|row| row.map(|component| component / s)))
         );
     };
 }
 
 macro_rules! operations {
     ($name:ident, $zero:expr, |$a:ident, $b:ident| $sum:expr, |$c:ident, $d:ident| $difference:expr,
-     |$e:ident| $negative:expr, |$f:ident, $s:ident| $scaled:expr) => {
+     |$e:ident| $negative:expr, |$f:ident, $s:ident| $scaled:expr, |$g:ident, $r:ident| $divided:expr) => {
         impl<T: Real> $name<T> {
             /// No stress.
             #[inline(always)]
@@ -226,10 +227,10 @@ macro_rules! operations {
         }
         impl<T: Real> Div<T> for $name<T> {
             type Output = Self;
-            /// Times the reciprocal, rounded once more than a division.
             #[inline(always)]
             fn div(self, divisor: T) -> Self {
-                self * divisor.recip()
+                let ($g, $r) = (self.0, divisor);
+                Self($divided)
             }
         }
         impl<T: Real> core::iter::Sum for $name<T> {

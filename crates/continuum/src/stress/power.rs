@@ -24,13 +24,14 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
 use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+use crate::rates::{GradientRate, VelocityGradient};
 use crate::tensor::rows::double_contraction;
 use crate::{Deformation, Symmetric};
 
 /// A : sym B for symmetric A.
 #[inline(always)]
-fn contraction<T: Real>(stress: &Symmetric<T>, rate: &Matrix3<T>) -> T {
-    stress.double_contraction(&Symmetric::symmetric_part(rows_of(rate)))
+fn contraction<T: Real>(stress: &Symmetric<T>, rate: &VelocityGradient<T>) -> T {
+    stress.double_contraction(&Symmetric::symmetric_part(rate.rows()))
 }
 
 impl<T: Real> CauchyStress<T> {
@@ -39,8 +40,9 @@ impl<T: Real> CauchyStress<T> {
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::CauchyStress;
-    /// let shearing = Matrix3::new(0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); // v = (3 y, 0, 0)
+    /// use piola_continuum::{CauchyStress, rates::VelocityGradient};
+    /// // v = (3 y, 0, 0)
+    /// let shearing = VelocityGradient::new(Matrix3::new(0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
     /// let stress = CauchyStress::new(0.0, 0.0, 0.0, 5.0, 0.0, 0.0)?;
     /// assert_eq!(stress.power_per_deformed_volume(&shearing), 15.0);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
@@ -50,14 +52,18 @@ impl<T: Real> CauchyStress<T> {
     /// W(20.8–20.9).
     #[inline(always)]
     #[must_use]
-    pub fn power_per_deformed_volume(&self, velocity_gradient: &Matrix3<T>) -> T {
+    pub fn power_per_deformed_volume(&self, velocity_gradient: &VelocityGradient<T>) -> T {
         contraction(&self.0, velocity_gradient)
     }
 
     /// J tr(T L), W per reference m³.
     #[inline(always)]
     #[must_use]
-    pub fn power_per_reference_volume(&self, velocity_gradient: &Matrix3<T>, deformation: &impl Deformation<T>) -> T {
+    pub fn power_per_reference_volume(
+        &self,
+        velocity_gradient: &VelocityGradient<T>,
+        deformation: &impl Deformation<T>,
+    ) -> T {
         contraction(&self.0, velocity_gradient) * deformation.jacobian()
     }
 }
@@ -68,15 +74,15 @@ impl<T: Real> KirchhoffStress<T> {
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::KirchhoffStress;
-    /// let swelling = Matrix3::from_diagonal_element(0.5);
+    /// use piola_continuum::{KirchhoffStress, rates::VelocityGradient};
+    /// let swelling = VelocityGradient::new(Matrix3::from_diagonal_element(0.5))?;
     /// let stress = KirchhoffStress::new(1.0, 2.0, 3.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(stress.power_per_reference_volume(&swelling), 3.0);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     #[inline(always)]
     #[must_use]
-    pub fn power_per_reference_volume(&self, velocity_gradient: &Matrix3<T>) -> T {
+    pub fn power_per_reference_volume(&self, velocity_gradient: &VelocityGradient<T>) -> T {
         contraction(&self.0, velocity_gradient)
     }
 }
@@ -87,8 +93,8 @@ impl<T: Real> FirstPiola<T> {
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::FirstPiola;
-    /// let rate = Matrix3::new(0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    /// use piola_continuum::{FirstPiola, rates::GradientRate};
+    /// let rate = GradientRate::new(Matrix3::new(0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
     /// let stress = FirstPiola::new(Matrix3::new(0.0, 5.0, 0.0, 5.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
     /// assert_eq!(stress.power_per_reference_volume(&rate), 15.0);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
@@ -98,20 +104,21 @@ impl<T: Real> FirstPiola<T> {
     /// W(20.15).
     #[inline(always)]
     #[must_use]
-    pub fn power_per_reference_volume(&self, rate: &Matrix3<T>) -> T {
-        double_contraction(self.rows(), rows_of(rate))
+    pub fn power_per_reference_volume(&self, rate: &GradientRate<T>) -> T {
+        double_contraction(self.rows(), rate.rows())
     }
 
     /// P : Ḟ/J, W per deformed m³.
     #[inline(always)]
     #[must_use]
-    pub fn power_per_deformed_volume(&self, rate: &Matrix3<T>, deformation: &impl Deformation<T>) -> T {
+    pub fn power_per_deformed_volume(&self, rate: &GradientRate<T>, deformation: &impl Deformation<T>) -> T {
         self.power_per_reference_volume(rate) / deformation.jacobian()
     }
 }
 
 impl<T: Real> SecondPiola<T> {
-    /// S : Ė, W per reference m³, for the rate of Green's strain.
+    /// S : Ė, W per reference m³, for the rate of Green's strain:
+    /// [`green_rate`](crate::rates::strain::green_rate).
     ///
     /// # Example
     /// ```
@@ -139,7 +146,8 @@ impl<T: Real> SecondPiola<T> {
 }
 
 impl<T: Real> BiotStress<T> {
-    /// sym(Rᵀ P) : U̇, W per reference m³.
+    /// sym(Rᵀ P) : U̇, W per reference m³, for the rate of the right stretch:
+    /// [`StretchRates::right_stretch`](crate::rates::StretchRates::right_stretch).
     ///
     /// # Example
     /// ```

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The normal and the shear traction are computed from the deviator, so that shear of 1 Pa under a pressure of
-//! 1 GPa keeps all its digits.
+//! 10⁹ Pa keeps all its digits.
 
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;

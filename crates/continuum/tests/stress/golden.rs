@@ -1,7 +1,7 @@
 //! Reference values of stress measures, tractions, areas and invariants.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_continuum::{CauchyStress, Deformation, DeformationGradient, ReferenceNormal, Symmetric, UnitNormal};
+use piola_continuum::{CauchyStress, Deformation, DeformationGradient, ReferenceNormal, UnitNormal};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
 use serde_json::Value;
 

@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::stress::DeformedArea;
 use piola_continuum::{
-    BiotStress, CauchyStress, DeformationGradient, FirstPiola, KirchhoffStress, MandelStress, ReferenceNormal,
-    SecondPiola, UnitNormal,
+    BiotStress, CauchyStress, DeformationGradient, KirchhoffStress, MandelStress, ReferenceNormal, SecondPiola,
+    UnitNormal,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
