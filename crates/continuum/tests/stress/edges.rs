@@ -3,6 +3,7 @@
 use glam::{DMat3, DVec3, Mat3, Vec3};
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::{CauchyStress, ContinuumError, FirstPiola, ReferenceNormal, UnitNormal};
+use piola_numerics::Real;
 
 #[test]
 fn stresses_and_normals_of_glam_equal_those_of_nalgebra() {
@@ -11,7 +12,7 @@ fn stresses_and_normals_of_glam_equal_those_of_nalgebra() {
     let matrix = DMat3::from(stress);
     assert_eq!(matrix.row(0), DVec3::new(1.0, 2.0, 3.0));
     assert_eq!(FirstPiola::try_from(matrix), Ok(stress));
-    let single = FirstPiola::new(entries.map(|x: f64| x as f32)).expect("finite");
+    let single = FirstPiola::new(entries.map(f32::lit)).expect("finite");
     assert_eq!(FirstPiola::try_from(Mat3::from(single)), Ok(single));
     assert!(matches!(CauchyStress::try_from(matrix), Err(ContinuumError::NotSymmetric { .. })));
     let stress: CauchyStress<f32> = CauchyStress::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0).expect("finite");

@@ -133,7 +133,7 @@ proptest! {
 
     #[test]
     fn single_precision_equals_double_to_its_own_rounding(t in stress(), f in deformation(), n in direction()) {
-        let narrow = |x: f64| x as f32;
+        let narrow = f32::lit;
         let components = t.0.components.map(narrow);
         let t32 = CauchyStress(Symmetric { components });
         let t = CauchyStress(Symmetric { components: components.map(f64::from) });
