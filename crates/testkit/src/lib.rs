@@ -9,6 +9,7 @@
 //! | check a derivative against differences of values | [`difference_quotient`] |
 //! | draw random inputs for an identity | [`strategies`] |
 //! | tell rounding from the rest | [`DoubleDouble`] |
+//! | judge a polar decomposition or a tensor logarithm | [`spectral`] |
 //! | prove that a step allocates nothing | [`CountingAllocator`], [`allocations_in`] |
 //!
 //! The functions here fail by panicking: they are called from tests only.
@@ -19,6 +20,7 @@ mod differences;
 mod double_double;
 pub mod golden;
 mod orders;
+pub mod spectral;
 pub mod strategies;
 mod tolerance;
 
