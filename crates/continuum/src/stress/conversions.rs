@@ -1,21 +1,4 @@
-//! Conversions between the measures of stress: each needs the deformation.
-//!
-//! ```text
-//! to ↓ from →   T               τ               P               S
-//! T             ·               τ/J             sym(P Fᵀ)/J     F S Fᵀ/J
-//! τ = J T       J T             ·               sym(P Fᵀ)       F S Fᵀ
-//! P = τ F⁻ᵀ     T Cof F         τ F⁻ᵀ           ·               F S
-//! S = F⁻¹ P     F⁻¹ J T F⁻ᵀ     F⁻¹ τ F⁻ᵀ       sym(F⁻¹ P)      ·
-//! M = Fᵀ P      Fᵀ T Cof F      Fᵀ τ F⁻ᵀ        Fᵀ P            C S
-//! Biot Rᵀ P, and P = F⁻ᵀ M = R Biot
-//! ```
-//!
-//! A general P, M or Biot stress becomes a symmetric measure by its symmetric part: what is left out is zero
-//! for a stress that obeys the balance of moment of momentum W(17.35); how large it is tells
-//! [`FirstPiola::moment_residual`], and [`FirstPiola::check_moment`] refuses it.
-//!
-//! # Accuracy
-//! A few ulp × |F| |F⁻¹| of the result's norm at most; without a division where the table shows none.
+//! Conversions between the measures of stress: the table is in the documentation of [`stress`](crate::stress).
 
 use nalgebra::Matrix3;
 use piola_numerics::Real;

@@ -332,7 +332,7 @@ impl<T: Real> HaighWestergaard<T> {
 }
 
 /// 0 ≤ value ≤ largest, to an ulp of that, in every lane.
-fn check_range<T: Real>(quantity: &'static str, value: T, largest: f64) -> Result<(), ContinuumError> {
+pub(super) fn check_range<T: Real>(quantity: &'static str, value: T, largest: f64) -> Result<(), ContinuumError> {
     let slack = largest.min(1.0) * piola_numerics::sums::unit_in_last_place::<T>();
     let within = |x: f64| 0.0 <= x && x <= largest + slack;
     match (0..T::LANES).map(|lane| value.primal(lane)).find(|&x| !within(x)) {

@@ -8,12 +8,20 @@
 //! directions keep their digits under any pressure.
 
 use piola_numerics::Real;
+#[cfg(feature = "serde")]
+use piola_numerics::linear::matrix3::from_rows;
 
+#[cfg(feature = "serde")]
+use super::invariants::check_range;
 use super::invariants::{deviator, mean};
 use super::{CauchyStress, KirchhoffStress, UnitNormal};
 use crate::Symmetric;
 use crate::spectral::decompose;
+#[cfg(feature = "serde")]
+use crate::tensor::rotation::check_rotation;
 use crate::tensor::rows::Rows;
+#[cfg(feature = "serde")]
+use crate::{ContinuumError, error::check_finite};
 
 /// Principal stresses and directions of a symmetric stress tensor.
 ///
@@ -36,6 +44,14 @@ use crate::tensor::rows::Rows;
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Unchecked<T>",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct PrincipalStresses<T = f64> {
     /// The mean stress m, Pa.
     pub mean: T,
@@ -56,11 +72,63 @@ pub struct PrincipalStresses<T = f64> {
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "UncheckedCircle<T>",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct MohrCircle<T = f64> {
     /// The normal traction at the centre, Pa.
     pub centre: T,
     /// The largest shear traction, Pa.
     pub radius: T,
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    mean: T,
+    deviatoric: [T; 3],
+    axes: Rows<T>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for PrincipalStresses<T> {
+    type Error = ContinuumError;
+
+    fn try_from(Unchecked { mean, deviatoric, axes }: Unchecked<T>) -> Result<Self, ContinuumError> {
+        check_finite("principal stress", &[mean, deviatoric[0], deviatoric[1], deviatoric[2]])?;
+        check_rotation(&from_rows(axes))?;
+        for pair in deviatoric.windows(2) {
+            check_range("difference of principal stresses", pair[0] - pair[1], f64::INFINITY)?;
+        }
+        Ok(Self { mean, deviatoric, axes })
+    }
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct UncheckedCircle<T> {
+    centre: T,
+    radius: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<UncheckedCircle<T>> for MohrCircle<T> {
+    type Error = ContinuumError;
+
+    fn try_from(UncheckedCircle { centre, radius }: UncheckedCircle<T>) -> Result<Self, ContinuumError> {
+        check_finite("circle", &[centre, radius])?;
+        check_range("radius", radius, f64::INFINITY)?;
+        Ok(Self { centre, radius })
+    }
 }
 
 impl<T: Real> PrincipalStresses<T> {

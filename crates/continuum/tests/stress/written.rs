@@ -47,6 +47,11 @@ fn normals_and_areas_are_read_as_written() {
     read_and_refuse(&area, ["12.0", "0.0"]);
     let point = CauchyStress(piola_continuum::Symmetric::diagonal([3.0, 1.0, 0.5])).haigh_westergaard();
     read_and_refuse(&point, ["[", "[0.0,"]);
+    let principal = CauchyStress(piola_continuum::Symmetric::diagonal([3.0, 1.0, 0.5])).principal();
+    read_and_refuse(&principal, ["\"deviatoric\":[", "\"deviatoric\":[-9.0,"]);
+    read_and_refuse(&principal, ["\"mean\":1.5", "\"mean\":null"]);
+    read_and_refuse(&principal, ["[1.0,0.0,0.0]", "[2.0,0.0,0.0]"]);
+    read_and_refuse(&principal.mohr_circles()[0], ["\"radius\":", "\"radius\":-"]);
     assert!(serde_json::from_str::<piola_continuum::stress::HaighWestergaard>("[1.0,-1.0,0.5]").is_err());
     assert!(serde_json::from_str::<piola_continuum::stress::HaighWestergaard>("[1.0,1.0,1.5]").is_err());
 }
