@@ -154,14 +154,14 @@ pub enum ContinuumError {
         /// The highest degree.
         limit: usize,
     },
-    /// 0 < length is violated.
+    /// 0 < x is violated for a length or another quantity.
     #[error("{quantity} {index} is {value}, not positive")]
-    NonPositiveLength {
-        /// Which length.
+    NotPositive {
+        /// Which quantity.
         quantity: &'static str,
         /// Its index where there are several, otherwise 0.
         index: usize,
-        /// Its value, m.
+        /// Its value.
         value: f64,
     },
     /// An integrand is infinite or NaN at a point of the quadrature.
@@ -300,6 +300,21 @@ pub enum ContinuumError {
         /// cos ∠(gᵢ, gⱼ).
         cosine: f64,
     },
+    /// Points of a batch are bad; the outputs of all others are computed.
+    #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
+    BadPoints {
+        /// All bad points, in order.
+        points: Vec<crate::batch::BadPoint>,
+        /// The number of points of the batch.
+        count: usize,
+        /// How many good points took the slow path of the analysis of the stretches.
+        slow_path: usize,
+    },
+}
+
+/// The first bad point in words.
+fn first_of(points: &[crate::batch::BadPoint]) -> String {
+    points.first().map_or_else(String::new, |point| format!("at point {}, {}", point.index, point.error))
 }
 
 /// The first number that is infinite or NaN in any lane, by name and position.

@@ -18,45 +18,11 @@ use piola_numerics::{Dual, Gradient, Real};
 
 use super::integrand::RunningIntegral;
 use super::region::lift;
-use super::{EstimatedQuadrature, ForceResultants, MovedRegion, Quadrature, Region, Resultants, SpatialField};
-use crate::fields::Motion;
+use super::{Estimate, EstimatedQuadrature, ForceResultants, MovedRegion, Quadrature, Region, Resultants};
 use crate::fields::motion::kernels::{gradient, gradient_and_rate};
+use crate::fields::{Body, Field, Material, Motion, Residual, Spatial, VectorResidual};
 use crate::tensor::rows::double_contraction;
 use crate::{ContinuumError, FirstPiola};
-
-/// What acts in a body in motion: mass, stress and body force at each particle.
-///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_continuum::fields::integral::Actions;
-/// use piola_continuum::{ContinuumError, FirstPiola};
-/// /// Free fall.
-/// struct Fall;
-/// impl Actions for Fall {
-///     fn density(&self, _: &Vector3<f64>) -> f64 {
-///         1000.0
-///     }
-///     fn stress(&self, _: &Vector3<f64>, _: f64) -> Result<FirstPiola, ContinuumError> {
-///         Ok(FirstPiola::zero())
-///     }
-///     fn body_force(&self, _: &Vector3<f64>, _: f64) -> Vector3<f64> {
-///         Vector3::new(0.0, 0.0, -9.81)
-///     }
-/// }
-/// assert_eq!(Fall.density(&Vector3::zeros()), 1000.0);
-/// ```
-pub trait Actions {
-    /// ρ_κ(X), kg per reference m³.
-    fn density(&self, reference: &Vector3<f64>) -> f64;
-    /// P(X, t), Pa.
-    ///
-    /// # Errors
-    /// Whatever the stress refuses.
-    fn stress(&self, reference: &Vector3<f64>, time: f64) -> Result<FirstPiola, ContinuumError>;
-    /// b(X, t), N/kg.
-    fn body_force(&self, reference: &Vector3<f64>, time: f64) -> Vector3<f64>;
-}
 
 /// Stored energy of a hyperelastic body, stated once over any scalar.
 ///
@@ -82,9 +48,9 @@ pub trait StoredEnergy {
     fn density<T: Real>(&self, reference: &Vector3<f64>, gradient: &Matrix3<T>) -> T;
 
     /// P = ∂W/∂F, W(20.13), by exact derivatives.
-    fn stress(&self, reference: &Vector3<f64>, gradient: &Matrix3<f64>) -> FirstPiola {
+    fn stress<T: Real>(&self, reference: &Vector3<f64>, gradient: &Matrix3<T>) -> FirstPiola<T> {
         let rows = rows_of(gradient);
-        let variable = |i: usize, j: usize| Gradient::<f64, 9>::variable(rows[i][j], 3 * i + j);
+        let variable = |i: usize, j: usize| Gradient::<T, 9>::variable(rows[i][j], 3 * i + j);
         let energy = self.density(reference, &Matrix3::from_fn(variable));
         FirstPiola::from_rows(core::array::from_fn(|i| core::array::from_fn(|j| energy.partials[3 * i + j])))
     }
@@ -96,11 +62,11 @@ pub trait StoredEnergy {
 /// See [`of`](Self::of).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IntegralBalance {
-    /// ∫ ρ_κ dV and what is in the region of space: values and rates.
+    /// Mass, momenta and kinetic energy, with their rates.
     pub resultants: Resultants<Dual<f64>>,
-    /// Body forces.
+    /// Of body forces.
     pub body: ForceResultants,
-    /// Tractions.
+    /// Of tractions.
     pub surface: ForceResultants,
     /// ∫ P : Ḟ dV, W.
     pub stress_power: f64,
@@ -111,18 +77,20 @@ impl IntegralBalance {
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
-    /// | ρ_κ, P, b | `actions` | kg/m³, Pa, N/kg |
+    /// | x(X, t), ρ_κ(X) | `body` | m, kg/m³ |
+    /// | P(X, t) | `stress` | Pa |
+    /// | b(X, t) | `body_force`, per unit mass | m/s² |
     /// | o | `pole` | m |
     ///
     /// # Errors
-    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion or the stress refuses.
+    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
     ///
     /// # Example
     /// ```
     /// use nalgebra::Vector3;
-    /// use piola_continuum::fields::Motion;
-    /// use piola_continuum::fields::integral::{Actions, Ball, IntegralBalance, Quadrature};
-    /// use piola_continuum::{ContinuumError, FirstPiola};
+    /// use piola_continuum::FirstPiola;
+    /// use piola_continuum::fields::integral::{Cuboid, IntegralBalance, Quadrature};
+    /// use piola_continuum::fields::{Body, Material, Motion, Uniform};
     /// use piola_numerics::Real;
     /// struct Fall;
     /// impl Motion for Fall {
@@ -130,89 +98,86 @@ impl IntegralBalance {
     ///         reference - Vector3::new(T::lit(0.0), T::lit(0.0), T::lit(5.0) * time * time)
     ///     }
     /// }
-    /// impl Actions for Fall {
-    ///     fn density(&self, _: &Vector3<f64>) -> f64 {
-    ///         3.0 / (4.0 * core::f64::consts::PI)
-    ///     }
-    ///     fn stress(&self, _: &Vector3<f64>, _: f64) -> Result<FirstPiola, ContinuumError> {
-    ///         Ok(FirstPiola::zero())
-    ///     }
-    ///     fn body_force(&self, _: &Vector3<f64>, _: f64) -> Vector3<f64> {
-    ///         Vector3::new(0.0, 0.0, -10.0)
-    ///     }
-    /// }
-    /// let ball = Ball::new(Vector3::zeros(), 1.0)?;
-    /// let terms = IntegralBalance::of(&Quadrature::of_degree(2)?, &ball, &Fall, &Fall, &Vector3::zeros(), 1.0)?;
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
+    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
+    /// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
+    /// let terms = IntegralBalance::of(&rules, &unit, &body, &free, &weight, &pole, 1.0)?;
     /// assert!((terms.body.power - 100.0).abs() < 1e-12); // 10 N at 10 m/s
-    /// assert!(terms.momentum_residual().norm() < 1e-14 && terms.power_residual().abs() < 1e-12);
+    /// assert!(terms.momentum_residual().relative() < 1e-15 && terms.power_residual().relative() < 1e-15);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     pub fn of(
         quadrature: &Quadrature,
         region: &impl Region<f64>,
-        motion: &impl Motion,
-        actions: &impl Actions,
+        body: &Body<impl Motion, impl Field<Value = f64>>,
+        stress: &Material<impl Field<Value = FirstPiola>>,
+        body_force: &Material<impl Field<Value = Vector3<f64>>>,
         pole: &Vector3<f64>,
         time: f64,
     ) -> Result<Self, ContinuumError> {
-        let density = |particle: &Vector3<f64>| actions.density(particle);
-        let body_force = |particle: &Vector3<f64>| actions.body_force(particle, time);
-        let stress = |particle: &Vector3<f64>| actions.stress(particle, time);
-        let now = Dual::variable(time);
         Ok(Self {
-            resultants: Resultants::in_reference(quadrature, region, motion, density, pole, now)?,
-            body: ForceResultants::of_body_force(quadrature, region, motion, density, body_force, pole, time)?,
-            surface: ForceResultants::of_tractions(quadrature, region, motion, stress, pole, time)?,
-            stress_power: stress_power(quadrature, region, motion, stress, time)?,
+            resultants: Resultants::in_reference(quadrature, region, body, pole, Dual::variable(time))?,
+            body: ForceResultants::of_body_force(quadrature, region, body, body_force, pole, time)?,
+            surface: ForceResultants::of_tractions(quadrature, region, &body.motion, stress, pole, time)?,
+            stress_power: stress_power(quadrature, region, &body.motion, stress, time)?,
         })
     }
 
-    /// d/dt ∫ ρ_κ ẋ dV − f.
+    /// d/dt ∫ ρ_κ ẋ dV − f, N, W(15.16).
     #[must_use]
-    pub fn momentum_residual(&self) -> Vector3<f64> {
-        self.resultants.momentum.map(|p| p.tangent) - (self.body.force + self.surface.force)
+    pub fn momentum_residual(&self) -> VectorResidual {
+        residual_of(&self.resultants.momentum, &self.body.force, &self.surface.force)
     }
 
-    /// d/dt ∫ ρ_κ (x − o) × ẋ dV − m.
+    /// d/dt ∫ ρ_κ (x − o) × ẋ dV − m, N m, W(15.18).
     #[must_use]
-    pub fn moment_residual(&self) -> Vector3<f64> {
-        self.resultants.moment_of_momentum.map(|h| h.tangent) - (self.body.moment + self.surface.moment)
+    pub fn moment_residual(&self) -> VectorResidual {
+        residual_of(&self.resultants.moment_of_momentum, &self.body.moment, &self.surface.moment)
     }
 
-    /// K̇ + ∫ P : Ḟ dV − external power.
+    /// K̇ + ∫ P : Ḟ dV − external power, W, W(21.4).
     #[must_use]
-    pub fn power_residual(&self) -> f64 {
-        self.resultants.kinetic_energy.tangent + self.stress_power - (self.body.power + self.surface.power)
+    pub fn power_residual(&self) -> Residual {
+        let rates = Residual::zero().plus(self.resultants.kinetic_energy.tangent).plus(self.stress_power);
+        rates.plus(-self.body.power).plus(-self.surface.power)
     }
 
-    /// All residuals: momentum, moment of momentum, power.
-    #[must_use]
-    pub fn residuals(&self) -> [f64; 7] {
-        let (p, h) = (self.momentum_residual(), self.moment_residual());
-        [p.x, p.y, p.z, h.x, h.y, h.z, self.power_residual()]
-    }
-
-    /// The residuals with an estimate of the error of quadrature: a residual that exceeds it is one of the
-    /// motion, not of the rule.
+    /// All residuals with an estimate of the error of quadrature: one that exceeds it is an error of the fields,
+    /// not of the rule. In the order momentum, moment of momentum, power.
     ///
     /// # Errors
     /// As [`of`](Self::of).
     pub fn estimated_residuals(
         quadrature: &EstimatedQuadrature,
         region: &impl Region<f64>,
-        motion: &impl Motion,
-        actions: &impl Actions,
+        body: &Body<impl Motion, impl Field<Value = f64>>,
+        stress: &Material<impl Field<Value = FirstPiola>>,
+        body_force: &Material<impl Field<Value = Vector3<f64>>>,
         pole: &Vector3<f64>,
         time: f64,
-    ) -> Result<super::Estimate<[f64; 7]>, ContinuumError> {
-        quadrature.estimate(|rule| Ok(Self::of(rule, region, motion, actions, pole, time)?.residuals()))
+    ) -> Result<Estimate<[f64; 7]>, ContinuumError> {
+        quadrature.estimate(|rule| {
+            let terms = Self::of(rule, region, body, stress, body_force, pole, time)?;
+            let (p, h) = (terms.momentum_residual().value, terms.moment_residual().value);
+            Ok([p.x, p.y, p.z, h.x, h.y, h.z, terms.power_residual().value])
+        })
     }
+}
+
+/// Rate − body − surface.
+fn residual_of(momentum: &Vector3<Dual<f64>>, body: &Vector3<f64>, surface: &Vector3<f64>) -> VectorResidual {
+    let component = |i: usize| Residual::zero().plus(momentum[i].tangent).plus(-body[i]).plus(-surface[i]);
+    [component(0), component(1), component(2)].into()
 }
 
 /// ∫ P : Ḟ dV, the power of the stress, W.
 ///
 /// # Errors
-/// [`ContinuumError::NonFiniteIntegrand`]; what the motion or the stress refuses.
+/// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+///
+/// # Example
+/// See [`IntegralBalance`].
 ///
 /// # Source
 /// W(20.8–20.9), W(21.4).
@@ -220,17 +185,19 @@ pub fn stress_power(
     quadrature: &Quadrature,
     region: &impl Region<f64>,
     motion: &impl Motion,
-    mut stress: impl FnMut(&Vector3<f64>) -> Result<FirstPiola, ContinuumError>,
+    stress: &Material<impl Field<Value = FirstPiola>>,
     time: f64,
 ) -> Result<f64, ContinuumError> {
     quadrature.volume_integral_of(region, |point| {
         motion.deformation_gradient(&point.position, time)?;
         let (_, rate) = gradient_and_rate(motion, &point.position, time);
-        Ok(double_contraction(stress(&point.position)?.rows(), rate))
+        Ok(double_contraction(stress.0.at(&point.position, time).rows(), rate))
     })
 }
 
 /// ∫ W(F) dV, the strain energy of a body in motion, J.
+///
+/// With a time that is a dual variable it carries its rate.
 ///
 /// # Errors
 /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
@@ -255,39 +222,75 @@ pub fn strain_energy<T: Real>(
     Ok(total)
 }
 
-/// Both sides of the balance of mass: ∫ ρ dv over the moved region, with its rate, and ∫ ρ_κ dV.
+/// The mass of a part of a body: at present, with its rate, and in the reference configuration.
 ///
-/// `field` is the density in space, ρ(x, t). Its residuals are `present.value` − `reference` and `present.tangent`.
-///
-/// # Errors
-/// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_continuum::fields::integral::{Cuboid, MassBalance, Quadrature};
+/// use piola_continuum::fields::{Body, Motion, Spatial, Uniform};
+/// use piola_numerics::Real;
+/// struct Swelling;
+/// impl Motion for Swelling {
+///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+///         reference * (T::lit(1.0) + time)
+///     }
+/// }
+/// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+/// let body = Body { motion: Swelling, reference_density: Uniform(8.0) };
+/// // The density in space does not thin out as it should: mass grows.
+/// let wrong = Spatial(Uniform(1.0));
+/// let mass = MassBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &wrong, 1.0)?;
+/// assert!(mass.residual().value.abs() < 1e-14); // 8 m³ of 1 kg/m³ now,
+/// assert!((mass.present.tangent - 12.0).abs() < 1e-14); // but not later
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
 ///
 /// # Source
-/// W(17.7), B(4.40) integrated.
-pub fn mass_balance<R: Region<f64> + Region<Dual<f64>>>(
-    quadrature: &Quadrature,
-    region: &R,
-    motion: &impl Motion,
-    mut density: impl FnMut(&Vector3<f64>) -> f64,
-    field: &impl SpatialField<1>,
-    time: f64,
-) -> Result<MassBalance, ContinuumError> {
-    let moving = MovedRegion { region, motion, time: Dual::variable(time) };
-    let [present] = quadrature.volume_integral(&moving, |place: &Vector3<Dual<f64>>| field.at(place, moving.time))?;
-    let reference = quadrature.volume_integral(region, |particle: &Vector3<f64>| density(particle))?;
-    Ok(MassBalance { present, reference })
-}
-
-/// The mass of a part at present, with its rate, and in the reference configuration: see [`mass_balance`].
+/// W(17.7), B(4.40), integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MassBalance {
-    /// ∫ ρ dv and its rate, kg, kg/s.
+    /// ∫ ρ dv over the moved region, with its rate, kg, kg/s.
     pub present: Dual<f64>,
     /// ∫ ρ_κ dV, kg.
     pub reference: f64,
 }
 
-/// The terms of the balance of energy of a hyperelastic body: see the [module](self).
+impl MassBalance {
+    /// Of the part `region` with a density given in space.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+    pub fn of<R: Region<f64> + Region<Dual<f64>>>(
+        quadrature: &Quadrature,
+        region: &R,
+        body: &Body<impl Motion, impl Field<Value = f64>>,
+        density: &Spatial<impl Field<Value = f64>>,
+        time: f64,
+    ) -> Result<Self, ContinuumError> {
+        let moving = MovedRegion { region, motion: &body.motion, time: Dual::variable(time) };
+        let present =
+            quadrature.volume_integral(&moving, |place: &Vector3<Dual<f64>>| density.0.at(place, moving.time))?;
+        let reference =
+            quadrature.volume_integral(region, |particle: &Vector3<f64>| body.reference_density.at(particle, time))?;
+        Ok(Self { present, reference })
+    }
+
+    /// ∫ ρ dv − ∫ ρ_κ dV, kg; the rate of the first is zero when mass stays.
+    #[must_use]
+    pub fn residual(&self) -> Residual {
+        Residual::zero().plus(self.present.value).plus(-self.reference)
+    }
+}
+
+/// The terms of the balance of energy of a hyperelastic body, P = ∂W/∂F.
+///
+/// ```text
+/// d/dt [½ ∫ ρ_κ ẋ·ẋ dV + ∫ W(F) dV] = ∫ ρ_κ b·ẋ dV + ∮ P N·ẋ dA
+/// ```
+///
+/// # Example
+/// See [`StoredEnergy`] for the energy and [`IntegralBalance`] for the body.
 ///
 /// # Source
 /// W(20.4).
@@ -297,40 +300,41 @@ pub struct EnergyBalance {
     pub kinetic: Dual<f64>,
     /// Stored energy ∫ W dV and its rate, J, W.
     pub stored: Dual<f64>,
-    /// The power of body forces and tractions, W.
-    pub external_power: f64,
+    /// Of body forces, W.
+    pub body_power: f64,
+    /// Of tractions, W.
+    pub surface_power: f64,
 }
 
 impl EnergyBalance {
-    /// The terms for the part `region`, whose stress is ∂W/∂F.
+    /// The terms for the part `region`.
     ///
     /// # Errors
     /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
     pub fn of(
         quadrature: &Quadrature,
         region: &impl Region<f64>,
-        motion: &impl Motion,
+        body: &Body<impl Motion, impl Field<Value = f64>>,
         energy: &impl StoredEnergy,
-        density: impl Fn(&Vector3<f64>) -> f64,
-        body_force: impl Fn(&Vector3<f64>) -> Vector3<f64>,
+        body_force: &Material<impl Field<Value = Vector3<f64>>>,
         time: f64,
     ) -> Result<Self, ContinuumError> {
-        let (now, pole) = (Dual::variable(time), Vector3::zeros());
-        let stress = |particle: &Vector3<f64>| {
-            Ok(energy.stress(particle, &from_rows(gradient(motion, particle, time))))
-        };
-        let body = ForceResultants::of_body_force(quadrature, region, motion, &density, body_force, &pole, time)?;
-        let surface = ForceResultants::of_tractions(quadrature, region, motion, stress, &pole, time)?;
+        let (motion, pole, now) = (&body.motion, Vector3::zeros(), Dual::variable(time));
+        let stress = |particle: &Vector3<f64>| energy.stress(particle, &from_rows(gradient(motion, particle, time)));
+        let forces = ForceResultants::of_body_force(quadrature, region, body, body_force, &pole, time)?;
+        let tractions = ForceResultants::of_stress_on_boundary(quadrature, region, motion, stress, &pole, time)?;
         Ok(Self {
-            kinetic: Resultants::in_reference(quadrature, region, motion, &density, &pole, now)?.kinetic_energy,
+            kinetic: Resultants::in_reference(quadrature, region, body, &pole, now)?.kinetic_energy,
             stored: strain_energy(quadrature, region, motion, energy, now)?,
-            external_power: body.power + surface.power,
+            body_power: forces.power,
+            surface_power: tractions.power,
         })
     }
 
-    /// d/dt (K + ∫ W dV) − external power.
+    /// d/dt (K + ∫ W dV) − power of body forces and tractions, W.
     #[must_use]
-    pub fn residual(&self) -> f64 {
-        self.kinetic.tangent + self.stored.tangent - self.external_power
+    pub fn residual(&self) -> Residual {
+        let rates = Residual::zero().plus(self.kinetic.tangent).plus(self.stored.tangent);
+        rates.plus(-self.body_power).plus(-self.surface_power)
     }
 }

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::sums::two_sum;
 use piola_numerics::{Dual, Element, Gradient, Jet, Lanes, Mask, Real};
 
+use crate::fields::FieldValue;
 use crate::{ContinuumError, Symmetric};
 
 /// A value with components that can be weighted and added.
@@ -165,6 +166,44 @@ impl<V: Integrand> RunningIntegral<V> {
             *sum = V::Scalar::select(carry.is_finite(), *sum + carry, *sum);
         }
         self.sum
+    }
+}
+
+/// A running integral of the values of a field.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FieldIntegral<V: FieldValue, T: Real> {
+    sum: V::Over<T>,
+    carry: V::Over<T>,
+}
+
+impl<V: FieldValue, T: Real> FieldIntegral<V, T> {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        let zero = V::from_components(|_| T::lit(0.0));
+        Self { sum: zero, carry: zero }
+    }
+
+    /// Adds `weight` × `term`, a value at `position`.
+    #[inline(always)]
+    pub(super) fn add(&mut self, term: &V::Over<T>, weight: T, position: &Vector3<T>) -> Result<(), ContinuumError> {
+        let not_finite_at = |i: &usize| !V::component::<T>(term, *i).is_finite().all();
+        if let Some(component) = (0..V::COMPONENTS).find(not_finite_at) {
+            return Err(not_finite(component, V::component(term, component), position));
+        }
+        let step = |i| two_sum(V::component::<T>(&self.sum, i), V::component::<T>(term, i) * weight);
+        let carry = V::from_components(|i| V::component::<T>(&self.carry, i) + step(i).1);
+        self.sum = V::from_components(|i| step(i).0);
+        self.carry = carry;
+        Ok(())
+    }
+
+    #[inline(always)]
+    pub(super) fn value(self) -> V::Over<T> {
+        V::from_components(|i| {
+            let (sum, carry) = (V::component::<T>(&self.sum, i), V::component::<T>(&self.carry, i));
+            // After an overflow the carry is NaN and the plain sum tells what happened.
+            T::select(carry.is_finite(), sum + carry, sum)
+        })
     }
 }
 

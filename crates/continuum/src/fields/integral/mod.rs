@@ -11,7 +11,7 @@ mod resultants;
 mod transport;
 
 pub use balance::{
-    Actions, EnergyBalance, IntegralBalance, MassBalance, StoredEnergy, mass_balance, strain_energy, stress_power,
+    EnergyBalance, IntegralBalance, MassBalance, StoredEnergy, strain_energy, stress_power,
 };
 pub use element::{ExplicitMotion, LinearTetrahedra, MaterialPoint, QuadraticTetrahedra, TetrahedralElements};
 pub use estimate::{AdaptiveQuadrature, Estimate, EstimatedQuadrature};
@@ -20,4 +20,4 @@ pub use mesh::{BoundaryTriangle, TetrahedralMesh};
 pub use quadrature::Quadrature;
 pub use region::{Ball, Cuboid, Cylinder, Ellipsoid, MovedRegion, Region, SphericalShell, SurfacePoint, VolumePoint};
 pub use resultants::{ForceResultants, Resultants};
-pub use transport::{SpatialField, Transport, divergence_theorem, transport_of_mass};
+pub use transport::{Transport, divergence_theorem, tensor_divergence_theorem, transport, transport_of_mass};

@@ -21,7 +21,7 @@ pub(super) type SimplexNode<const N: usize> = ([f64; N], f64);
 /// | interval | Gauss–Legendre | ⌈(d+1)/2⌉ |
 /// | circle | equally spaced | d + 1 |
 /// | triangle | symmetric, positive weights, of Witherden and Vincent up to d = 20; then collapsed Gauss–Legendre | 1, 3, 6, 6, 7, … |
-/// | tetrahedron | the same up to d = 10; then collapsed Gauss–Legendre | 1, 4, 6, 11, 14, … |
+/// | tetrahedron | the same up to d = 10; then collapsed Gauss–Legendre | 1, 4, 8, 14, 14, … |
 ///
 /// Regions make of these their rules in space: products on boxes, radius × height × circle in balls and
 /// cylinders, one simplex after another in meshes. Everything is computed when the rules are made;

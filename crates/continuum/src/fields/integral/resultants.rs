@@ -9,8 +9,8 @@ use super::region::lift;
 use super::{Quadrature, Region};
 use crate::ContinuumError;
 use crate::FirstPiola;
-use crate::fields::Motion;
 use crate::fields::motion::kernels::velocity;
+use crate::fields::{Body, Field, Material, Motion, Spatial};
 use crate::tensor::rows::apply;
 
 /// Mass, momentum, moment of momentum and kinetic energy of a body.
@@ -42,7 +42,7 @@ impl<T: Real> Resultants<T> {
     /// | symbol | argument | shape | unit |
     /// |---|---|---|---|
     /// | 𝒫 | `region` in the reference configuration | | |
-    /// | ρ_κ(X) | `density` | scalar | kg/m³ |
+    /// | x(X, t), ρ_κ(X) | `body` | | m, kg/m³ |
     /// | o | `pole` | 3 | m |
     ///
     /// With a time that is a dual variable, the results carry their rates, exact to rounding.
@@ -52,43 +52,43 @@ impl<T: Real> Resultants<T> {
     ///
     /// # Example
     /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::fields::Motion;
+    /// use nalgebra::Vector3;
     /// use piola_continuum::fields::integral::{Ball, Quadrature, Resultants};
+    /// use piola_continuum::fields::{Body, Rigid, RigidHistory, Uniform};
     /// use piola_numerics::Real;
     /// struct Spin; // one radian a second about the third axis
-    /// impl Motion for Spin {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         let (s, c) = time.sin_cos();
-    ///         Vector3::new(c * reference.x - s * reference.y, s * reference.x + c * reference.y, reference.z)
+    /// impl RigidHistory for Spin {
+    ///     fn attitude<T: Real>(&self, time: T) -> [T; 4] {
+    ///         let (s, c) = (T::lit(0.5) * time).sin_cos();
+    ///         [c, T::lit(0.0), T::lit(0.0), s]
     ///     }
     /// }
     /// let ball = Ball::new(Vector3::zeros(), 1.0)?;
-    /// let density = |_: &Vector3<f64>| 3.0 / (4.0 * core::f64::consts::PI); // one kilogram
-    /// let of = Resultants::in_reference(&Quadrature::of_degree(2)?, &ball, &Spin, density, &Vector3::zeros(), 0.5)?;
+    /// let one_kilogram = Uniform(3.0 / (4.0 * core::f64::consts::PI));
+    /// let body = Body { motion: Rigid(Spin), reference_density: one_kilogram };
+    /// let of = Resultants::in_reference(&Quadrature::of_degree(2)?, &ball, &body, &Vector3::zeros(), 0.5)?;
     /// assert!((of.moment_of_momentum.z - 0.4).abs() < 1e-15); // 2/5 m R² ω
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     pub fn in_reference(
         quadrature: &Quadrature,
         region: &impl Region<f64>,
-        motion: &impl Motion,
-        mut density: impl FnMut(&Vector3<f64>) -> f64,
+        body: &Body<impl Motion, impl Field<Value = f64>>,
         pole: &Vector3<f64>,
         time: T,
     ) -> Result<Self, ContinuumError> {
         let mut integral = RunningIntegral::new();
         region.volume_points(quadrature, |point| {
             let particle = lift(&point.position);
-            let place = motion.position(&particle, time)?;
-            let density = T::lit(density(&point.position));
-            let of_particle = densities(density, place - lift(pole), velocity(motion, &particle, time));
+            let place = body.motion.position(&particle, time)?;
+            let density = body.reference_density.at(&particle, time);
+            let of_particle = densities(density, place - lift(pole), velocity(&body.motion, &particle, time));
             integral.add(&of_particle, T::lit(point.weight), &particle)
         })?;
         Ok(Self::from_array(&integral.value()))
     }
 
-    /// Of what is in a region of space at present, from the density ρ(x) and the velocity v(x).
+    /// Of what is in a region of space at a time, from density and velocity as fields in space.
     ///
     /// The region of a body in motion is a [`MovedRegion`](super::MovedRegion).
     ///
@@ -99,25 +99,36 @@ impl<T: Real> Resultants<T> {
     /// ```
     /// use nalgebra::Vector3;
     /// use piola_continuum::fields::integral::{Cuboid, Quadrature, Resultants};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let flow = |x: &Vector3<f64>| Vector3::new(2.0 * x.y, 0.0, 0.0);
-    /// let of = Resultants::in_space(&Quadrature::of_degree(2)?, &unit, |_| 3.0, flow, &Vector3::zeros())?;
+    /// use piola_continuum::fields::{Field, Spatial, Uniform};
+    /// use piola_numerics::Real;
+    /// struct Shear;
+    /// impl Field for Shear {
+    ///     type Value = Vector3<f64>;
+    ///     fn at<T: Real>(&self, place: &Vector3<T>, _: T) -> Vector3<T> {
+    ///         Vector3::new(T::lit(2.0) * place.y, T::lit(0.0), T::lit(0.0))
+    ///     }
+    /// }
+    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
+    /// let (rules, density) = (Quadrature::of_degree(2)?, Spatial(Uniform(3.0)));
+    /// let of = Resultants::in_space(&rules, &unit, &density, &Spatial(Shear), &pole, 0.0)?;
     /// assert!((of.mass - 3.0).abs() < 1e-15 && (of.momentum.x - 3.0).abs() < 1e-15);
     /// assert!((of.kinetic_energy - 2.0).abs() < 1e-15); // ½ · 3 · 4/3
-    /// assert!((of.centre_of_mass(&Vector3::zeros()).z - 0.5).abs() < 1e-15);
+    /// assert!((of.centre_of_mass(&pole).z - 0.5).abs() < 1e-15);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     pub fn in_space(
         quadrature: &Quadrature,
         region: &impl Region<T>,
-        mut density: impl FnMut(&Vector3<T>) -> T,
-        mut velocity: impl FnMut(&Vector3<T>) -> Vector3<T>,
-        pole: &Vector3<T>,
+        density: &Spatial<impl Field<Value = f64>>,
+        velocity: &Spatial<impl Field<Value = Vector3<f64>>>,
+        pole: &Vector3<f64>,
+        time: T,
     ) -> Result<Self, ContinuumError> {
         let mut integral = RunningIntegral::new();
         region.volume_points(quadrature, |point| {
             let place = point.position;
-            integral.add(&densities(density(&place), place - pole, velocity(&place)), point.weight, &place)
+            let of_place = densities(density.0.at(&place, time), place - lift(pole), velocity.0.at(&place, time));
+            integral.add(&of_place, point.weight, &place)
         })?;
         Ok(Self::from_array(&integral.value()))
     }
@@ -169,44 +180,51 @@ pub struct ForceResultants {
 }
 
 impl ForceResultants {
-    /// Of body forces b(X), per unit mass, with the density ρ_κ(X).
+    /// Of body forces b(X, t) per unit mass.
     ///
     /// # Errors
     /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
     pub fn of_body_force(
         quadrature: &Quadrature,
         region: &impl Region<f64>,
-        motion: &impl Motion,
-        mut density: impl FnMut(&Vector3<f64>) -> f64,
-        mut body_force: impl FnMut(&Vector3<f64>) -> Vector3<f64>,
+        body: &Body<impl Motion, impl Field<Value = f64>>,
+        body_force: &Material<impl Field<Value = Vector3<f64>>>,
         pole: &Vector3<f64>,
         time: f64,
     ) -> Result<Self, ContinuumError> {
         let mut integral = RunningIntegral::new();
         region.volume_points(quadrature, |point| {
-            let force = body_force(&point.position) * density(&point.position);
-            let acting = acting(&force, motion, &point.position, pole, time)?;
-            integral.add(&acting, point.weight, &point.position)
+            let particle = &point.position;
+            let force = body_force.0.at(particle, time) * body.reference_density.at(particle, time);
+            integral.add(&acting(&force, &body.motion, particle, pole, time)?, point.weight, particle)
         })?;
         Ok(Self::from_array(&integral.value()))
     }
 
-    /// Of the tractions P N of a stress P(X) on the boundary.
+    /// Of the tractions P N of a stress P(X, t) on the boundary.
     ///
     /// # Errors
-    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion or the stress refuses.
+    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
     ///
     /// # Example
+    /// Under water of unit weight, the pressure lifts a unit cube by the weight of the water displaced.
     /// ```
     /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::fields::{Affine, integral::{Cuboid, ForceResultants, Quadrature}};
+    /// use piola_continuum::fields::integral::{Cuboid, ForceResultants, Quadrature};
+    /// use piola_continuum::fields::{Affine, Field, Material};
     /// use piola_continuum::{DeformationGradient, FirstPiola};
+    /// use piola_numerics::Real;
+    /// struct Water;
+    /// impl Field for Water {
+    ///     type Value = FirstPiola;
+    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _: T) -> FirstPiola<T> {
+    ///         FirstPiola(Matrix3::from_diagonal(&Vector3::repeat(particle.z - T::lit(1.0))))
+    ///     }
+    /// }
     /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
     /// let rest = Affine::new(DeformationGradient::new(Matrix3::identity())?, Vector3::zeros())?;
-    /// // Pressure z under water of unit weight: buoyancy is the weight of the water displaced.
-    /// let pressure = |x: &Vector3<f64>| Ok(FirstPiola(Matrix3::from_diagonal_element(x.z - 1.0)));
-    /// let rules = Quadrature::of_degree(2)?;
-    /// let of = ForceResultants::of_tractions(&rules, &unit, &rest, pressure, &Vector3::zeros(), 0.0)?;
+    /// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
+    /// let of = ForceResultants::of_tractions(&rules, &unit, &rest, &Material(Water), &pole, 0.0)?;
     /// assert!((of.force - Vector3::z()).norm() < 1e-15);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
@@ -214,15 +232,27 @@ impl ForceResultants {
         quadrature: &Quadrature,
         region: &impl Region<f64>,
         motion: &impl Motion,
-        mut stress: impl FnMut(&Vector3<f64>) -> Result<FirstPiola, ContinuumError>,
+        stress: &Material<impl Field<Value = FirstPiola>>,
+        pole: &Vector3<f64>,
+        time: f64,
+    ) -> Result<Self, ContinuumError> {
+        Self::of_stress_on_boundary(quadrature, region, motion, |particle| stress.0.at(particle, time), pole, time)
+    }
+
+    /// As [`of_tractions`](Self::of_tractions), of any function of the particle.
+    pub(super) fn of_stress_on_boundary(
+        quadrature: &Quadrature,
+        region: &impl Region<f64>,
+        motion: &impl Motion,
+        stress: impl Fn(&Vector3<f64>) -> FirstPiola,
         pole: &Vector3<f64>,
         time: f64,
     ) -> Result<Self, ContinuumError> {
         let mut integral = RunningIntegral::new();
         region.surface_points(quadrature, |point| {
-            let traction = Vector3::from(apply(stress(&point.position)?.rows(), point.normal.into()));
-            let acting = acting(&traction, motion, &point.position, pole, time)?;
-            integral.add(&acting, point.weight, &point.position)
+            let particle = &point.position;
+            let traction = Vector3::from(apply(stress(particle).rows(), point.normal.into()));
+            integral.add(&acting(&traction, motion, particle, pole, time)?, point.weight, particle)
         })?;
         Ok(Self::from_array(&integral.value()))
     }

@@ -9,43 +9,24 @@
 //! right sides integrate the spatial derivatives of g and the velocity gradient L, or the flux through the boundary.
 
 use nalgebra::Vector3;
-use piola_numerics::{Dual, Gradient, Real};
+use piola_numerics::{Dual, Gradient};
 
-use super::integrand::RunningIntegral;
-use super::region::lift;
+use super::integrand::FieldIntegral;
+use super::region::moved_element;
 use super::{MovedRegion, Quadrature, Region};
-use crate::ContinuumError;
-use crate::fields::Motion;
-use crate::fields::motion::kernels::velocity;
+use crate::fields::motion::kernels::{variables, velocity};
+use crate::fields::value::map;
+use crate::fields::{Body, Field, FieldValue, Motion, Spatial, TensorValue, ValueOf};
+use crate::{ContinuumError, Deformation};
 
-/// A field of N components over space and time, stated once over any scalar.
-///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_continuum::fields::integral::SpatialField;
-/// use piola_numerics::Real;
-/// struct Wave;
-/// impl SpatialField<1> for Wave {
-///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> [T; 1] {
-///         [(place.x - time).sin()]
-///     }
-/// }
-/// assert_eq!(Wave.at(&Vector3::new(2.0, 0.0, 0.0), 2.0), [0.0]);
-/// ```
-pub trait SpatialField<const N: usize> {
-    /// g(x, t).
-    fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> [T; N];
-}
-
-/// Both sides of the transport theorem for the part that a motion carries.
+/// Both sides of the transport theorem for the part that a motion carries; V is the kind of value of the field.
 ///
 /// # Example
 /// The volume of a ball that swells: g = 1.
 /// ```
 /// use nalgebra::Vector3;
-/// use piola_continuum::fields::Motion;
-/// use piola_continuum::fields::integral::{Ball, Quadrature, SpatialField, Transport};
+/// use piola_continuum::fields::integral::{Ball, Quadrature, transport};
+/// use piola_continuum::fields::{Motion, Spatial, Uniform};
 /// use piola_numerics::Real;
 /// struct Swelling;
 /// impl Motion for Swelling {
@@ -53,92 +34,96 @@ pub trait SpatialField<const N: usize> {
 ///         reference * (T::lit(1.0) + time)
 ///     }
 /// }
-/// struct One;
-/// impl SpatialField<1> for One {
-///     fn at<T: Real>(&self, _: &Vector3<T>, _: T) -> [T; 1] {
-///         [T::lit(1.0)]
-///     }
-/// }
 /// let ball = Ball::new(Vector3::zeros(), 1.0)?;
-/// let sides = Transport::new(&Quadrature::of_degree(4)?, &ball, &Swelling, &One, 0.0)?;
+/// let sides = transport(&Quadrature::of_degree(4)?, &ball, &Swelling, &Spatial(Uniform(1.0)), 0.0)?;
 /// let area = 4.0 * core::f64::consts::PI;
-/// assert!((sides.rate[0] - area).abs() < 1e-14 && (sides.flux[0] - area).abs() < 1e-14);
-/// assert!(sides.residual()[0].abs() < 1e-14 && sides.flux_residual()[0].abs() < 1e-14);
+/// assert!((sides.rate - area).abs() < 1e-14 && (sides.flux - area).abs() < 1e-14);
+/// assert!(sides.residual.abs() < 1e-14 && sides.flux_residual.abs() < 1e-14);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 ///
 /// # Source
 /// B(4.25), W(17.1–17.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Transport<const N: usize> {
+pub struct Transport<V> {
     /// d/dt ∫ g dv, by differentiation of the integral.
-    pub rate: [f64; N],
+    pub rate: V,
     /// ∫ ∂g/∂t dv.
-    pub local: [f64; N],
+    pub local: V,
     /// ∫ div(g v) dv = ∫ (grad g·v + g div v) dv.
-    pub convected: [f64; N],
+    pub convected: V,
     /// ∮ g v·n da.
-    pub flux: [f64; N],
-}
-
-impl<const N: usize> Transport<N> {
-    /// The terms for the part whose place in the reference configuration is `region`.
-    ///
-    /// The motion need not be that of matter: with the velocity of any moving boundary it is Reynolds' theorem.
-    ///
-    /// # Errors
-    /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
-    pub fn new<R: Region<f64> + Region<Dual<f64>>>(
-        quadrature: &Quadrature,
-        region: &R,
-        motion: &impl Motion,
-        field: &impl SpatialField<N>,
-        time: f64,
-    ) -> Result<Self, ContinuumError> {
-        let moving = MovedRegion { region, motion, time: Dual::variable(time) };
-        let total: [Dual<f64>; N] =
-            quadrature.volume_integral(&moving, |place: &Vector3<Dual<f64>>| field.at(place, moving.time))?;
-
-        let (mut local, mut convected) = (RunningIntegral::new(), RunningIntegral::new());
-        Region::<f64>::volume_points(region, quadrature, |point| {
-            let particle = point.position;
-            let volume = point.weight * crate::Deformation::jacobian(&motion.deformation_gradient(&particle, time)?);
-            let place = motion.place(&particle, time);
-            let (g, rate, gradient) = value_and_derivatives(field, &place, time);
-            let v = velocity(motion, &particle, time);
-            let divergence = motion.velocity_gradient(&particle, time)?.trace();
-            let along: [f64; N] = core::array::from_fn(|k| gradient[k].dot(&v) + g[k] * divergence);
-            local.add(&rate, volume, &place)?;
-            convected.add(&along, volume, &place)
-        })?;
-        let mut flux = RunningIntegral::new();
-        Region::<f64>::surface_points(region, quadrature, |point| {
-            let particle = point.position;
-            let gradient = motion.deformation_gradient(&particle, time)?;
-            let rows = crate::Deformation::gradient_rows(&gradient);
-            let (normal, ratio) = super::region::moved_element(rows, &point.normal);
-            let place = motion.place(&particle, time);
-            let across = velocity(motion, &particle, time).dot(&normal);
-            flux.add(&field.at(&place, time).map(|g| g * across), point.weight * ratio, &place)
-        })?;
-        let rate = total.map(|g| g.tangent);
-        Ok(Self { rate, local: local.value(), convected: convected.value(), flux: flux.value() })
-    }
-
+    pub flux: V,
     /// d/dt ∫ g dv − ∫ [∂g/∂t + div(g v)] dv.
-    #[must_use]
-    pub fn residual(&self) -> [f64; N] {
-        core::array::from_fn(|k| self.rate[k] - (self.local[k] + self.convected[k]))
-    }
-
+    pub residual: V,
     /// d/dt ∫ g dv − ∫ ∂g/∂t dv − ∮ g v·n da.
-    #[must_use]
-    pub fn flux_residual(&self) -> [f64; N] {
-        core::array::from_fn(|k| self.rate[k] - (self.local[k] + self.flux[k]))
-    }
+    pub flux_residual: V,
 }
 
-/// Both sides of d/dt ∫ ρ Φ dv = ∫ ρ Φ̇ dv for a body with the density ρ_κ(X): (left, right).
+/// The terms of the transport theorem for the part whose place in the reference configuration is `region`.
+///
+/// | symbol | argument | unit |
+/// |---|---|---|
+/// | g(x, t) | `field`: scalar, vector or tensor | [g] |
+/// | x(X, t) | `motion` | m |
+///
+/// The motion need not be that of matter: with that of any moving boundary it is Reynolds' theorem.
+///
+/// # Errors
+/// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+///
+/// # Example
+/// See [`Transport`].
+///
+/// # Source
+/// B(4.25), W(17.1–17.3).
+pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
+    quadrature: &Quadrature,
+    region: &R,
+    motion: &impl Motion,
+    field: &Spatial<F>,
+    time: f64,
+) -> Result<Transport<ValueOf<F, f64>>, ContinuumError> {
+    let moving = MovedRegion { region, motion, time: Dual::variable(time) };
+    let mut total = FieldIntegral::<F::Value, Dual<f64>>::new();
+    moving.volume_points(quadrature, |point| {
+        total.add(&field.0.at(&point.position, moving.time), point.weight, &point.position)
+    })?;
+    let rate = map::<F::Value, _, _>(&total.value(), |total: Dual<f64>| total.tangent);
+
+    let (mut local, mut convected) = (FieldIntegral::<F::Value, f64>::new(), FieldIntegral::<F::Value, f64>::new());
+    Region::<f64>::volume_points(region, quadrature, |point| {
+        let particle = point.position;
+        let volume = point.weight * motion.deformation_gradient(&particle, time)?.jacobian();
+        let place = motion.place(&particle, time);
+        let g = field.0.at(&place_variables(&place), Gradient::variable(time, 3));
+        let v = velocity(motion, &particle, time);
+        let divergence = motion.velocity_gradient(&particle, time)?.trace();
+        let carried = |g: Gradient<f64, 4>| {
+            let [x, y, z, _] = g.partials;
+            x * v.x + y * v.y + z * v.z + g.value * divergence
+        };
+        local.add(&map::<F::Value, _, _>(&g, |g: Gradient<f64, 4>| g.partials[3]), volume, &place)?;
+        convected.add(&map::<F::Value, _, _>(&g, carried), volume, &place)
+    })?;
+    let mut flux = FieldIntegral::<F::Value, f64>::new();
+    Region::<f64>::surface_points(region, quadrature, |point| {
+        let particle = point.position;
+        let deformation = motion.deformation_gradient(&particle, time)?;
+        let place = motion.place(&particle, time);
+        let (normal, ratio) = moved_element(deformation.gradient_rows(), &point.normal);
+        let across = velocity(motion, &particle, time).dot(&normal);
+        let through = map::<F::Value, _, _>(&field.0.at(&place, time), |g: f64| g * across);
+        flux.add(&through, point.weight * ratio, &place)
+    })?;
+    let (local, convected, flux) = (local.value(), convected.value(), flux.value());
+    let of = |value: &ValueOf<F, f64>, i: usize| F::Value::component::<f64>(value, i);
+    let left_by = |other: &ValueOf<F, f64>| F::Value::from_components(|i| of(&rate, i) - (of(&local, i) + of(other, i)));
+    let (residual, flux_residual) = (left_by(&convected), left_by(&flux));
+    Ok(Transport { rate, local, convected, flux, residual, flux_residual })
+}
+
+/// Both sides of d/dt ∫ ρ Φ dv = ∫ ρ Φ̇ dv for a part of a body: (left, right).
 ///
 /// The left side integrates ρ Φ over the moving region, with ρ = ρ_κ/J, and differentiates; the right side
 /// integrates ρ_κ (∂Φ/∂t + grad Φ·v) over the reference configuration.
@@ -146,51 +131,74 @@ impl<const N: usize> Transport<N> {
 /// # Errors
 /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
 ///
+/// # Example
+/// The height Φ of a body that rises at 2 m/s: the mass times that.
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_continuum::fields::integral::{Cuboid, Quadrature, transport_of_mass};
+/// use piola_continuum::fields::{Body, Field, Motion, Spatial, Uniform};
+/// use piola_numerics::Real;
+/// struct Rise;
+/// impl Motion for Rise {
+///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+///         reference + Vector3::new(T::lit(0.0), T::lit(0.0), T::lit(2.0) * time)
+///     }
+/// }
+/// struct Height;
+/// impl Field for Height {
+///     type Value = f64;
+///     fn at<T: Real>(&self, place: &Vector3<T>, _: T) -> T {
+///         place.z
+///     }
+/// }
+/// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+/// let body = Body { motion: Rise, reference_density: Uniform(3.0) };
+/// let (left, right) = transport_of_mass(&Quadrature::of_degree(2)?, &unit, &body, &Spatial(Height), 1.0)?;
+/// assert!((left - 6.0).abs() < 1e-14 && (right - 6.0).abs() < 1e-14);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+///
 /// # Source
 /// W(15.4).
-pub fn transport_of_mass<const N: usize, R: Region<f64> + Region<Dual<f64>>>(
+pub fn transport_of_mass<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     quadrature: &Quadrature,
     region: &R,
-    motion: &impl Motion,
-    mut density: impl FnMut(&Vector3<f64>) -> f64,
-    field: &impl SpatialField<N>,
+    body: &Body<impl Motion, impl Field<Value = f64>>,
+    field: &Spatial<F>,
     time: f64,
-) -> Result<([f64; N], [f64; N]), ContinuumError> {
-    let now = Dual::variable(time);
-    let mut left = RunningIntegral::new();
+) -> Result<(ValueOf<F, f64>, ValueOf<F, f64>), ContinuumError> {
+    let (motion, now) = (&body.motion, Dual::variable(time));
+    let mut left = FieldIntegral::<F::Value, Dual<f64>>::new();
     Region::<Dual<f64>>::volume_points(region, quadrature, |point| {
         let particle = point.position;
-        let jacobian = crate::Deformation::jacobian(&motion.deformation_gradient(&particle, now)?);
-        let present = Dual::constant(density(&particle.map(|x| x.value))) / jacobian;
+        let jacobian = motion.deformation_gradient(&particle, now)?.jacobian();
+        let density = body.reference_density.at(&particle, now) / jacobian;
         let place = motion.place(&particle, now);
-        left.add(&field.at(&place, now).map(|phi| present * phi), point.weight * jacobian, &place)
+        let weighted = map::<F::Value, _, _>(&field.0.at(&place, now), |phi: Dual<f64>| density * phi);
+        left.add(&weighted, point.weight * jacobian, &place)
     })?;
-    let mut right = RunningIntegral::new();
+    let mut right = FieldIntegral::<F::Value, f64>::new();
     Region::<f64>::volume_points(region, quadrature, |point| {
         let particle = point.position;
         let place = motion.position(&particle, time)?;
-        let (_, rate, gradient) = value_and_derivatives(field, &place, time);
+        let phi = field.0.at(&place_variables(&place), Gradient::variable(time, 3));
         let v = velocity(motion, &particle, time);
-        let material: [f64; N] = core::array::from_fn(|k| rate[k] + gradient[k].dot(&v));
-        right.add(&material, point.weight * density(&particle), &particle)
+        let material = |phi: Gradient<f64, 4>| {
+            let [x, y, z, rate] = phi.partials;
+            rate + (x * v.x + y * v.y + z * v.z)
+        };
+        let density = body.reference_density.at(&particle, time);
+        right.add(&map::<F::Value, _, _>(&phi, material), point.weight * density, &particle)
     })?;
-    Ok((left.value().map(|total| total.tangent), right.value()))
+    Ok((map::<F::Value, _, _>(&left.value(), |total: Dual<f64>| total.tangent), right.value()))
 }
 
-/// g, ∂g/∂t, grad g.
-fn value_and_derivatives<const N: usize>(
-    field: &impl SpatialField<N>,
-    place: &Vector3<f64>,
-    time: f64,
-) -> ([f64; N], [f64; N], [Vector3<f64>; N]) {
-    let variable = |i: usize| Gradient::<f64, 4>::variable(place[i], i);
-    let g = field.at(&Vector3::new(variable(0), variable(1), variable(2)), Gradient::variable(time, 3));
-    let gradient = |g: &Gradient<f64, 4>| Vector3::new(g.partials[0], g.partials[1], g.partials[2]);
-    (g.map(|g| g.value), g.map(|g| g.partials[3]), core::array::from_fn(|k| gradient(&g[k])))
+/// The coordinates of a place as the first three of four variables.
+fn place_variables(place: &Vector3<f64>) -> Vector3<Gradient<f64, 4>> {
+    Vector3::from_fn(|i, _| Gradient::variable(place[i], i))
 }
 
-/// Both sides of the divergence theorem for fields of N vectors, (∫ div g dv, ∮ g n da); field 3k + j is
-/// component j of vector k, so that N = 3 with the rows of a tensor gives ∫ div T dv = ∮ T n da.
+/// Both sides of the divergence theorem for a vector field, ∫ div g dv and ∮ g·n da.
 ///
 /// # Errors
 /// [`ContinuumError::NonFiniteIntegrand`]; what the region refuses.
@@ -198,37 +206,65 @@ fn value_and_derivatives<const N: usize>(
 /// # Example
 /// ```
 /// use nalgebra::Vector3;
-/// use piola_continuum::fields::integral::{Ball, Quadrature, SpatialField, divergence_theorem};
+/// use piola_continuum::fields::integral::{Ball, Quadrature, divergence_theorem};
+/// use piola_continuum::fields::{Field, Spatial};
 /// use piola_numerics::Real;
 /// struct Place;
-/// impl SpatialField<3> for Place {
-///     fn at<T: Real>(&self, place: &Vector3<T>, _: T) -> [T; 3] {
-///         (*place).into()
+/// impl Field for Place {
+///     type Value = Vector3<f64>;
+///     fn at<T: Real>(&self, place: &Vector3<T>, _: T) -> Vector3<T> {
+///         *place
 ///     }
 /// }
 /// let ball = Ball::new(Vector3::zeros(), 1.0)?;
-/// let ([inside], [through]) = divergence_theorem(&Quadrature::of_degree(2)?, &ball, &Place, 0.0)?;
+/// let (inside, through) = divergence_theorem(&Quadrature::of_degree(2)?, &ball, &Spatial(Place), 0.0)?;
 /// assert!((inside - 4.0 * core::f64::consts::PI).abs() < 1e-14 && (inside - through).abs() < 1e-14);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
-pub fn divergence_theorem<const N: usize, const M: usize>(
+pub fn divergence_theorem(
     quadrature: &Quadrature,
     region: &impl Region<f64>,
-    field: &impl SpatialField<N>,
+    field: &Spatial<impl Field<Value = Vector3<f64>>>,
     time: f64,
-) -> Result<([f64; M], [f64; M]), ContinuumError> {
-    const { assert!(N == 3 * M, "three components for each vector") };
-    let mut inside = RunningIntegral::new();
-    region.volume_points(quadrature, |point| {
-        let (_, _, gradient) = value_and_derivatives(field, &point.position, time);
-        let divergence: [f64; M] = core::array::from_fn(|k| (0..3).map(|j| gradient[3 * k + j][j]).sum());
-        inside.add(&divergence, point.weight, &point.position)
+) -> Result<(f64, f64), ContinuumError> {
+    let inside = quadrature.volume_integral(region, |place: &Vector3<f64>| {
+        let g = field.0.at(&variables(place), Gradient::constant(time));
+        g.x.partials[0] + g.y.partials[1] + g.z.partials[2]
     })?;
-    let mut through = RunningIntegral::new();
-    region.surface_points(quadrature, |point| {
-        let g = field.at(&lift(&point.position), time);
-        let across: [f64; M] = core::array::from_fn(|k| (0..3).map(|j| g[3 * k + j] * point.normal[j]).sum());
-        through.add(&across, point.weight, &point.position)
+    let through = quadrature.surface_integral(region, |point| field.0.at(&point.position, time).dot(&point.normal))?;
+    Ok((inside, through))
+}
+
+/// Both sides of the divergence theorem for a tensor field, ∫ div T dv and ∮ T n da; div contracts the last index.
+///
+/// With [`FirstPiola`](crate::FirstPiola) on a region of the reference configuration it is ∫ Div P dV = ∮ P N dA.
+///
+/// # Errors
+/// [`ContinuumError::NonFiniteIntegrand`]; what the region refuses.
+///
+/// # Example
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use piola_continuum::fields::integral::{Cuboid, Quadrature, tensor_divergence_theorem};
+/// use piola_continuum::fields::{Spatial, Uniform};
+/// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+/// let uniform = Spatial(Uniform(Matrix3::<f64>::identity()));
+/// let (inside, through) = tensor_divergence_theorem(&Quadrature::of_degree(0)?, &unit, &uniform, 0.0)?;
+/// assert_eq!((inside, through), (Vector3::zeros(), Vector3::zeros()));
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+pub fn tensor_divergence_theorem<V: TensorValue>(
+    quadrature: &Quadrature,
+    region: &impl Region<f64>,
+    field: &Spatial<impl Field<Value = V>>,
+    time: f64,
+) -> Result<(Vector3<f64>, Vector3<f64>), ContinuumError> {
+    let inside = quadrature.volume_integral(region, |place: &Vector3<f64>| {
+        let rows = V::rows(&field.0.at(&variables(place), Gradient::constant(time)));
+        Vector3::from_fn(|i, _| rows[i][0].partials[0] + rows[i][1].partials[1] + rows[i][2].partials[2])
     })?;
-    Ok((inside.value(), through.value()))
+    let through = quadrature.surface_integral(region, |point| {
+        Vector3::from(crate::tensor::rows::apply(V::rows(&field.0.at(&point.position, time)), point.normal.into()))
+    })?;
+    Ok((inside, through))
 }

@@ -105,7 +105,7 @@ impl<const N: usize> TetrahedralElements<N> {
     /// A step below which explicit motion with lumped masses is stable: 2/ω with a bound ω of all frequencies.
     ///
     /// ```text
-    /// ω² ≤ κ max_elements  ∫ Σ_a |∇N_a|² dV / min_a (m_a/ρ)
+    /// ω² ≤ κ max_elements λ_max(A),     A_ab = ∫ ∇N_a·∇N_b dV / √(m_a m_b),  masses of uniform density one
     /// ```
     ///
     /// | symbol | argument | unit |
@@ -113,26 +113,53 @@ impl<const N: usize> TetrahedralElements<N> {
     /// | κ | `stiffness`: largest eigenvalue of ∂P/∂F over ρ_κ; small isotropic strain: max(3λ + 2μ, 2μ)/ρ_κ | m²/s² |
     ///
     /// # Errors
-    /// [`ContinuumError::NonPositiveLength`] unless 0 < κ; a body's own.
+    /// [`ContinuumError::NotPositive`] unless 0 < κ.
+    ///
+    /// # Accuracy
+    /// λ_max is bounded from above by ‖A¹⁶‖^(1/16), at most 4 % more. The frequencies of the body are lower than
+    /// those of its elements: on the meshes of the tests the step is 0.7 to 0.8 of the largest stable one.
     ///
     /// # Source
     /// Fried (1972): no frequency of the body exceeds the largest of an element.
     pub fn stable_step(&self, stiffness: f64) -> Result<f64, ContinuumError> {
         if !(0.0 < stiffness && stiffness.is_finite()) {
-            return Err(ContinuumError::NonPositiveLength { quantity: "stiffness", index: 0, value: stiffness });
+            return Err(ContinuumError::NotPositive { quantity: "stiffness", index: 0, value: stiffness });
         }
         let mut largest = 0.0_f64;
         for element in 0..self.elements.len() {
-            let (shares, volume) = self.lumped_shares(element, &mut |_| 1.0);
-            let smallest = shares.into_iter().fold(f64::INFINITY, f64::min) * volume;
-            let mut squares = 0.0;
+            let (shares, _) = self.lumped_shares(element, &mut |_| 1.0);
+            let mut matrix = [[0.0; N]; N];
             for number in 0..self.inside.len() {
-                let slopes = self.slopes(element, number);
-                let weight = self.inside[number].weight * volume;
-                squares += weight * slopes.iter().map(|&slope| dot(slope, slope)).sum::<f64>();
+                let (slopes, weight) = (self.slopes(element, number), self.inside[number].weight);
+                for a in 0..N {
+                    for b in 0..N {
+                        // The volume stands in the integral and in both masses.
+                        matrix[a][b] += weight * dot(slopes[a], slopes[b]) / (shares[a] * shares[b]).sqrt();
+                    }
+                }
             }
-            largest = largest.max(squares / smallest);
+            largest = largest.max(largest_eigenvalue_bound(matrix));
         }
         Ok(2.0 / (stiffness * largest).sqrt())
     }
+}
+
+/// An upper bound of the eigenvalues of a symmetric matrix without negative ones: ‖A¹⁶‖^(1/16).
+fn largest_eigenvalue_bound<const N: usize>(mut matrix: [[f64; N]; N]) -> f64 {
+    let norm = |matrix: &[[f64; N]; N]| matrix.iter().flatten().map(|entry| entry * entry).sum::<f64>().sqrt();
+    let (mut bound, mut root) = (1.0, 1.0);
+    for _ in 0..4 {
+        // The matrix is kept near one so that its powers stay in the range of numbers.
+        let size = norm(&matrix);
+        if size <= 0.0 {
+            return 0.0;
+        }
+        bound *= size.powf(root);
+        root *= 0.5;
+        let scaled = matrix.map(|row| row.map(|entry| entry / size));
+        matrix = core::array::from_fn(|a| {
+            core::array::from_fn(|b| (0..N).map(|k| scaled[a][k] * scaled[k][b]).sum::<f64>())
+        });
+    }
+    bound * norm(&matrix).powf(root)
 }

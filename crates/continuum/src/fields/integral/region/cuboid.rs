@@ -33,7 +33,7 @@ impl Cuboid {
     /// The box between two corners, m.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveLength`] of the edge that is not positive.
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotPositive`] of the edge that is not positive.
     pub fn new(lower: Vector3<f64>, upper: Vector3<f64>) -> Result<Self, ContinuumError> {
         check_finite("lower corner", lower.as_slice())?;
         check_finite("upper corner", upper.as_slice())?;
@@ -41,7 +41,7 @@ impl Cuboid {
         check_finite("edge", edges.as_slice())?;
         for (index, &value) in edges.iter().enumerate() {
             if value <= 0.0 {
-                return Err(ContinuumError::NonPositiveLength { quantity: "edge", index, value });
+                return Err(ContinuumError::NotPositive { quantity: "edge", index, value });
             }
         }
         Ok(Self { lower, upper })

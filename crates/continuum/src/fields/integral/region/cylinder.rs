@@ -35,14 +35,14 @@ impl Cylinder {
     /// The cylinder from the centre of its base along `axis`, which has its height, between two radii, m.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveLength`] unless 0 < |axis|, 0 ≤ R₁, R₁ < R₂.
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotPositive`] unless 0 < |axis|, 0 ≤ R₁, R₁ < R₂.
     pub fn new(base: Vector3<f64>, axis: Vector3<f64>, radii: [f64; 2]) -> Result<Self, ContinuumError> {
         check_finite("centre of the base", base.as_slice())?;
         check_finite("axis", axis.as_slice())?;
         check_finite("radius", &radii)?;
         check_length("height", axis.norm())?;
         if radii[0] < 0.0 {
-            return Err(ContinuumError::NonPositiveLength { quantity: "inner radius", index: 0, value: radii[0] });
+            return Err(ContinuumError::NotPositive { quantity: "inner radius", index: 0, value: radii[0] });
         }
         check_length("thickness", radii[1] - radii[0])?;
         Ok(Self { base, axis, radii })

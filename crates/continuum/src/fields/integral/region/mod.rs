@@ -116,7 +116,7 @@ pub(super) fn moved_element<T: Real>(gradient: Rows<T>, normal: &Vector3<T>) -> 
 /// 0 < a length, finite.
 fn check_length(quantity: &'static str, value: f64) -> Result<(), ContinuumError> {
     check_finite(quantity, &[value])?;
-    if 0.0 < value { Ok(()) } else { Err(ContinuumError::NonPositiveLength { quantity, index: 0, value }) }
+    if 0.0 < value { Ok(()) } else { Err(ContinuumError::NotPositive { quantity, index: 0, value }) }
 }
 
 /// A right-handed orthonormal basis (as columns) whose third vector is the given unit vector.

@@ -32,7 +32,7 @@ impl Ball {
     /// The ball about `centre` with `radius`, m.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveLength`].
+    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotPositive`].
     pub fn new(centre: Vector3<f64>, radius: f64) -> Result<Self, ContinuumError> {
         check_finite("centre", centre.as_slice())?;
         check_length("radius", radius)?;
@@ -76,7 +76,7 @@ impl SphericalShell {
     /// The shell about `centre` between two radii, m.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveLength`] unless 0 < R₁ and 0 < R₂ − R₁.
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotPositive`] unless 0 < R₁ and 0 < R₂ − R₁.
     pub fn new(centre: Vector3<f64>, radii: [f64; 2]) -> Result<Self, ContinuumError> {
         check_finite("centre", centre.as_slice())?;
         check_length("inner radius", radii[0])?;
