@@ -192,6 +192,12 @@ impl<T: Real> DisplacementGradient<T> {
     pub fn to_deformation_gradient(&self) -> Result<DeformationGradient<T>, ContinuumError> {
         DeformationGradient::from_rows(self.gradient_rows())
     }
+
+    /// From rows that are known to be those of ∇u with 0 < det F, or whose result will not be used.
+    #[inline(always)]
+    pub(crate) fn trusted(rows: Rows<T>) -> Self {
+        Self { matrix: from_rows(rows) }
+    }
 }
 
 impl<T: Real> Default for DisplacementGradient<T> {

@@ -2,7 +2,6 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
-use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
 use super::volume::{determinant, volume_change_of_gradient};
@@ -11,7 +10,8 @@ use crate::ContinuumError;
 use crate::error::check_finite;
 use crate::stress::kernels::congruence;
 use crate::tensor::Symmetric;
-use crate::tensor::rows::{Rows, difference, identity, product, transposed_product};
+use crate::tensor::rotation::check_rotation;
+use crate::tensor::rows::{Rows, difference, identity, product};
 
 /// The deformation gradient F = ∂x/∂X with 0 < det F, W(14.7–14.8).
 ///
@@ -282,6 +282,12 @@ impl<T: Real> DeformationGradient<T> {
     pub fn to_displacement_gradient(&self) -> Result<DisplacementGradient<T>, ContinuumError> {
         DisplacementGradient::from_rows(self.displacement_rows())
     }
+
+    /// From rows that are known to be those of F with 0 < det F, or whose result will not be used.
+    #[inline(always)]
+    pub(crate) fn trusted(rows: Rows<T>) -> Self {
+        Self { matrix: from_rows(rows) }
+    }
 }
 
 impl<T: Real> Default for DeformationGradient<T> {
@@ -320,17 +326,8 @@ fn check_stretches<T: Real>(stretches: [T; 3]) -> Result<(), ContinuumError> {
 
 /// The rows of a matrix with orthonormal, right-handed columns.
 pub(super) fn checked_axes<T: Real>(axes: &Matrix3<T>) -> Result<Rows<T>, ContinuumError> {
-    let q = rows_of(axes);
-    check_finite("axes", q.as_flattened())?;
-    let defects = difference(transposed_product(q, q), identity());
-    let defect = defects.as_flattened().iter().fold(T::zero(), |largest, x| largest.max(x.abs()));
-    let (tolerance, determinant) = (64.0 * unit_in_last_place::<T>(), determinant(q));
-    if (defect.at_most(T::lit(tolerance)) & T::zero().less_than(determinant)).all() {
-        return Ok(q);
-    }
-    let fits = |lane: usize| defect.primal(lane) <= tolerance && 0.0 < determinant.primal(lane);
-    let lane = (0..T::LANES).find(|&lane| !fits(lane)).unwrap_or(0);
-    Err(ContinuumError::NotARotation { defect: defect.primal(lane), determinant: determinant.primal(lane) })
+    check_rotation(axes)?;
+    Ok(rows_of(axes))
 }
 
 impl<T: Real> Deformation<T> for DeformationGradient<T> {

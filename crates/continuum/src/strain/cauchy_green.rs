@@ -5,6 +5,7 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
 use super::kernels;
+use super::lines::derivatives_of_measure;
 use super::measures::symmetric_measure;
 use crate::stress::kernels::product_symmetrized;
 use crate::{Deformation, Symmetric};
@@ -44,6 +45,9 @@ symmetric_measure! {
     /// W(14.11).
     LeftCauchyGreen, "B", "B", |b| b
 }
+
+derivatives_of_measure!(RightCauchyGreen, whole);
+derivatives_of_measure!(LeftCauchyGreen, whole);
 
 impl<T: Real> RightCauchyGreen<T> {
     /// C = Fᵀ F.

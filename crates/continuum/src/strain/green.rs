@@ -4,7 +4,9 @@ use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
+use super::RightCauchyGreen;
 use super::kernels;
+use super::lines::derivatives_of_measure;
 use super::measures::symmetric_measure;
 use crate::stress::kernels::congruence;
 use crate::tensor::rows::{product, transpose};
@@ -43,6 +45,9 @@ symmetric_measure! {
     AlmansiStrain, "e", "1 - 2e", |e| Symmetric::identity() - e - e
 }
 
+derivatives_of_measure!(GreenStrain, whole);
+derivatives_of_measure!(AlmansiStrain, whole);
+
 impl<T: Real> GreenStrain<T> {
     /// E = ½ (∇u + ∇uᵀ + ∇uᵀ ∇u).
     ///
@@ -52,6 +57,13 @@ impl<T: Real> GreenStrain<T> {
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self(kernels::green(deformation.displacement_rows()))
+    }
+
+    /// C = 1 + 2E.
+    #[inline(always)]
+    #[must_use]
+    pub fn right_cauchy_green(&self) -> RightCauchyGreen<T> {
+        RightCauchyGreen(self.0 + self.0 + Symmetric::identity())
     }
 
     /// dE = sym(Fᵀ dF) along the direction dF; with Ḟ for dF the rate Ė = Fᵀ D F.

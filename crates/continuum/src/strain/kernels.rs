@@ -10,7 +10,7 @@ use piola_numerics::linear::matrix3::dot;
 
 use crate::Symmetric;
 use crate::stress::kernels::product_symmetrized;
-use crate::tensor::rows::{Rows, product, transpose};
+use crate::tensor::rows::{Rows, product, scaled, transpose};
 
 /// A Aᵀ, symmetric to the last bit.
 #[inline(always)]
@@ -46,20 +46,6 @@ pub fn left_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
     square_of_rows(f)
 }
 
-/// A + Aᵀ + s A Aᵀ, the strain part and the quadratic part rounded once each.
-#[inline(always)]
-fn doubled_and_squared<T: Real>(a: Rows<T>, square: Symmetric<T>) -> Symmetric<T> {
-    let [xx, yy, zz, xy, yz, xz] = square.components;
-    Symmetric::new(
-        (a[0][0] + a[0][0]) + xx,
-        (a[1][1] + a[1][1]) + yy,
-        (a[2][2] + a[2][2]) + zz,
-        (a[0][1] + a[1][0]) + xy,
-        (a[1][2] + a[2][1]) + yz,
-        (a[0][2] + a[2][0]) + xz,
-    )
-}
-
 /// C − 1 = H + Hᵀ + Hᵀ H, of a displacement gradient, without cancellation.
 ///
 /// # Example
@@ -71,7 +57,16 @@ fn doubled_and_squared<T: Real>(a: Rows<T>, square: Symmetric<T>) -> Symmetric<T
 #[inline(always)]
 #[must_use]
 pub fn right_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
-    doubled_and_squared(h, square_of_rows(transpose(h)))
+    // Grouped so that for a rotation, too, each rounding is one of a small number.
+    let two = T::lit(2.0);
+    Symmetric::new(
+        h[0][0] * (two + h[0][0]) + (h[1][0] * h[1][0] + h[2][0] * h[2][0]),
+        h[1][1] * (two + h[1][1]) + (h[0][1] * h[0][1] + h[2][1] * h[2][1]),
+        h[2][2] * (two + h[2][2]) + (h[0][2] * h[0][2] + h[1][2] * h[1][2]),
+        (h[0][1] + h[1][0]) + ((h[0][0] * h[0][1] + h[1][0] * h[1][1]) + h[2][0] * h[2][1]),
+        (h[1][2] + h[2][1]) + ((h[1][1] * h[1][2] + h[2][1] * h[2][2]) + h[0][1] * h[0][2]),
+        (h[0][2] + h[2][0]) + ((h[0][0] * h[0][2] + h[2][0] * h[2][2]) + h[1][0] * h[1][2]),
+    )
 }
 
 /// B − 1 = H + Hᵀ + H Hᵀ, of a displacement gradient, without cancellation.
@@ -85,7 +80,7 @@ pub fn right_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
 #[inline(always)]
 #[must_use]
 pub fn left_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
-    doubled_and_squared(h, square_of_rows(h))
+    right_cauchy_green_minus_one(transpose(h))
 }
 
 /// E = ½ (C − 1) of a displacement gradient.
@@ -113,7 +108,7 @@ pub fn green<T: Real>(h: Rows<T>) -> Symmetric<T> {
 #[inline(always)]
 #[must_use]
 pub fn almansi<T: Real>(g: Rows<T>) -> Symmetric<T> {
-    doubled_and_squared(g, -square_of_rows(transpose(g))) * T::lit(0.5)
+    right_cauchy_green_minus_one(scaled(g, -T::one())) * T::lit(-0.5)
 }
 
 /// sym(Fᵀ δF), the change of E.
