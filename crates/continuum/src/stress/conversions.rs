@@ -18,6 +18,15 @@ use crate::{ContinuumError, Deformation, Symmetric};
 
 impl<T: Real> CauchyStress<T> {
     /// τ = J T.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
@@ -25,6 +34,15 @@ impl<T: Real> CauchyStress<T> {
     }
 
     /// P = T Cof F, W(17.21): force per area before the deformation.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.first_piola(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
@@ -32,6 +50,15 @@ impl<T: Real> CauchyStress<T> {
     }
 
     /// S = J F⁻¹ T F⁻ᵀ, B(4.57).
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
@@ -39,6 +66,15 @@ impl<T: Real> CauchyStress<T> {
     }
 
     /// M = Fᵀ T Cof F.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.mandel(&bar).0[(0, 0)], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
@@ -46,6 +82,15 @@ impl<T: Real> CauchyStress<T> {
     }
 
     /// Biot's stress Rᵀ T Cof F.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.biot(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
@@ -55,6 +100,15 @@ impl<T: Real> CauchyStress<T> {
 
 impl<T: Real> KirchhoffStress<T> {
     /// T = τ/J.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, KirchhoffStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = KirchhoffStress::new(4.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.cauchy(&bar).0.components[0], 8.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
@@ -62,6 +116,15 @@ impl<T: Real> KirchhoffStress<T> {
     }
 
     /// P = τ F⁻ᵀ.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, KirchhoffStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = KirchhoffStress::new(4.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.first_piola(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
@@ -69,6 +132,15 @@ impl<T: Real> KirchhoffStress<T> {
     }
 
     /// S = F⁻¹ τ F⁻ᵀ.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, KirchhoffStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = KirchhoffStress::new(4.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
@@ -76,6 +148,15 @@ impl<T: Real> KirchhoffStress<T> {
     }
 
     /// M = Fᵀ τ F⁻ᵀ.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, KirchhoffStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = KirchhoffStress::new(4.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.mandel(&bar).0[(0, 0)], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
@@ -83,6 +164,15 @@ impl<T: Real> KirchhoffStress<T> {
     }
 
     /// Biot's stress Rᵀ τ F⁻ᵀ.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, KirchhoffStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = KirchhoffStress::new(4.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.biot(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
@@ -92,6 +182,16 @@ impl<T: Real> KirchhoffStress<T> {
 
 impl<T: Real> FirstPiola<T> {
     /// T = sym(P Fᵀ)/J, W(17.21).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, FirstPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.cauchy(&bar).0.components[0], 8.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
@@ -99,6 +199,16 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// τ = sym(P Fᵀ).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, FirstPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
@@ -106,6 +216,16 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// S = sym(F⁻¹ P), B(4.57).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, FirstPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
@@ -113,6 +233,16 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// M = Fᵀ P.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, FirstPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.mandel(&bar).0[(0, 0)], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
@@ -120,6 +250,16 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// Biot's stress Rᵀ P; its rotation R is computed, see [`StretchAnalysis`].
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, FirstPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.biot(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
@@ -127,6 +267,17 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// Biot's stress Rᵀ P where the stretches are known already.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::spectral::StretchAnalysis;
+    /// use piola_continuum::{DeformationGradient, FirstPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?;
+    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.biot_of_analysis(&StretchAnalysis::of(&bar)).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot_of_analysis(&self, stretches: &StretchAnalysis<T>) -> BiotStress<T> {
@@ -137,6 +288,16 @@ impl<T: Real> FirstPiola<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::FirstPiola;
+    /// let turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0); // e₁ to e₂
+    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.biot_of_rotation(&turn)?.0[(1, 0)], -2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn biot_of_rotation(&self, rotation: &Matrix3<T>) -> Result<BiotStress<T>, ContinuumError> {
         check_rotation(rotation)?;
         Ok(BiotStress::from_rows(transposed_product(rows_of(rotation), self.rows())))
@@ -145,6 +306,15 @@ impl<T: Real> FirstPiola<T> {
 
 impl<T: Real> SecondPiola<T> {
     /// T = F S Fᵀ/J, B(4.57).
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, SecondPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.cauchy(&bar).0.components[0], 8.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
@@ -152,6 +322,15 @@ impl<T: Real> SecondPiola<T> {
     }
 
     /// τ = F S Fᵀ.
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, SecondPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
@@ -159,6 +338,15 @@ impl<T: Real> SecondPiola<T> {
     }
 
     /// P = F S, B(4.57).
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, SecondPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.first_piola(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
@@ -166,6 +354,15 @@ impl<T: Real> SecondPiola<T> {
     }
 
     /// M = C S, as Fᵀ (F S).
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, SecondPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.mandel(&bar).0[(0, 0)], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
@@ -173,6 +370,15 @@ impl<T: Real> SecondPiola<T> {
     }
 
     /// M = C S where the right Cauchy–Green tensor is all that is known.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{SecondPiola, strain::RightCauchyGreen};
+    /// let squares = RightCauchyGreen::new(4.0, 0.25, 0.25, 0.0, 0.0, 0.0)?;
+    /// let stress = SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.mandel_of_right_cauchy_green(&squares).0[(0, 0)], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn mandel_of_right_cauchy_green(&self, right_cauchy_green: &RightCauchyGreen<T>) -> MandelStress<T> {
@@ -180,6 +386,15 @@ impl<T: Real> SecondPiola<T> {
     }
 
     /// Biot's stress U S, as Rᵀ (F S).
+    ///
+    /// # Example
+    /// ```
+    /// # use piola_continuum::{DeformationGradient, SecondPiola};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.biot(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
@@ -187,6 +402,14 @@ impl<T: Real> SecondPiola<T> {
     }
 
     /// Biot's stress U S where the right stretch is all that is known.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{SecondPiola, Symmetric};
+    /// let stress = SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.biot_of_right_stretch(&Symmetric::diagonal([2.0, 0.5, 0.5])).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot_of_right_stretch(&self, right_stretch: &Symmetric<T>) -> BiotStress<T> {
@@ -196,6 +419,16 @@ impl<T: Real> SecondPiola<T> {
 
 impl<T: Real> MandelStress<T> {
     /// P = F⁻ᵀ M.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, MandelStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.first_piola(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
@@ -203,6 +436,16 @@ impl<T: Real> MandelStress<T> {
     }
 
     /// T = sym(F⁻ᵀ M Fᵀ)/J.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, MandelStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.cauchy(&bar).0.components[0], 8.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
@@ -210,6 +453,16 @@ impl<T: Real> MandelStress<T> {
     }
 
     /// τ = sym(F⁻ᵀ M Fᵀ).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, MandelStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
@@ -217,6 +470,16 @@ impl<T: Real> MandelStress<T> {
     }
 
     /// Biot's stress U⁻¹ M, as Rᵀ (F⁻ᵀ M).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, MandelStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.biot(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
@@ -224,6 +487,16 @@ impl<T: Real> MandelStress<T> {
     }
 
     /// S = sym(C⁻¹ M), as F⁻¹ (F⁻ᵀ M).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, MandelStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
@@ -233,6 +506,16 @@ impl<T: Real> MandelStress<T> {
 
 impl<T: Real> BiotStress<T> {
     /// P = R Biot; the rotation R is computed, see [`StretchAnalysis`].
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.first_piola(&bar).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
@@ -240,6 +523,17 @@ impl<T: Real> BiotStress<T> {
     }
 
     /// P = R Biot where the stretches are known already.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::spectral::StretchAnalysis;
+    /// use piola_continuum::{BiotStress, DeformationGradient};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?;
+    /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.first_piola_of_analysis(&StretchAnalysis::of(&bar)).0[(0, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first_piola_of_analysis(&self, stretches: &StretchAnalysis<T>) -> FirstPiola<T> {
@@ -247,6 +541,16 @@ impl<T: Real> BiotStress<T> {
     }
 
     /// T = sym(R Biot Fᵀ)/J.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.cauchy(&bar).0.components[0], 8.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
@@ -254,6 +558,16 @@ impl<T: Real> BiotStress<T> {
     }
 
     /// τ = sym(R Biot Fᵀ).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
@@ -261,6 +575,16 @@ impl<T: Real> BiotStress<T> {
     }
 
     /// S = sym(U⁻¹ Biot), as F⁻¹ (R Biot).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
@@ -268,6 +592,16 @@ impl<T: Real> BiotStress<T> {
     }
 
     /// M = U Biot, as Fᵀ (R Biot).
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Matrix3;
+    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+    /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.mandel(&bar).0[(0, 0)], 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
@@ -278,12 +612,31 @@ impl<T: Real> BiotStress<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::BiotStress;
+    /// let turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0); // e₁ to e₂
+    /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
+    /// assert_eq!(stress.first_piola_of_rotation(&turn)?.0[(1, 0)], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn first_piola_of_rotation(&self, rotation: &Matrix3<T>) -> Result<FirstPiola<T>, ContinuumError> {
         check_rotation(rotation)?;
         Ok(FirstPiola::from_rows(product(rows_of(rotation), self.rows())))
     }
 
     /// Its symmetric part, conjugate to U: ½ (Rᵀ P + Pᵀ R) = ½ (U S + S U).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::BiotStress;
+    /// let stress = BiotStress::new(Matrix3::new(0.0, 4.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
+    /// assert_eq!(stress.symmetric_part().components[3], 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn symmetric_part(&self) -> Symmetric<T> {

@@ -10,10 +10,28 @@ use super::invariants::{self, HaighWestergaard};
 use super::{CauchyStress, KirchhoffStress};
 use crate::{ContinuumError, Symmetric};
 
+/// The example of a bar pulled with 3 Pa, ending with a check.
+macro_rules! example {
+    ($name:ident, $check:literal) => {
+        concat!(
+            "```\nuse piola_continuum::{ContinuumError, ",
+            stringify!($name),
+            "};\nlet bar = ",
+            stringify!($name),
+            "::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;\n",
+            $check,
+            "\n# Ok::<(), ContinuumError>(())\n```"
+        )
+    };
+}
+
 macro_rules! invariants_of {
     ($name:ident) => {
         impl<T: Real> $name<T> {
             /// The mean stress ⅓ tr T, Pa: [`invariants::mean`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.mean(), 1.0);")]
             #[inline(always)]
             #[must_use]
             pub fn mean(&self) -> T {
@@ -21,6 +39,9 @@ macro_rules! invariants_of {
             }
 
             /// The pressure p = −⅓ tr T, Pa, positive in compression.
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.pressure(), -1.0); // a pulled bar")]
             #[inline(always)]
             #[must_use]
             pub fn pressure(&self) -> T {
@@ -28,6 +49,9 @@ macro_rules! invariants_of {
             }
 
             /// The hydrostatic part ⅓ tr T 1, Pa: [`invariants::mean`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.hydrostatic_part().0.components, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);")]
             #[inline(always)]
             #[must_use]
             pub fn hydrostatic_part(&self) -> Self {
@@ -36,6 +60,9 @@ macro_rules! invariants_of {
             }
 
             /// The deviator T − ⅓ tr T 1, Pa: [`invariants::deviator`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.deviator().0.components, [2.0, -1.0, -1.0, 0.0, 0.0, 0.0]);")]
             #[inline(always)]
             #[must_use]
             pub fn deviator(&self) -> Self {
@@ -43,6 +70,9 @@ macro_rules! invariants_of {
             }
 
             /// (I₁, I₂, I₃): [`invariants::principal_invariants`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.principal_invariants(), [3.0, 0.0, 0.0]);")]
             #[inline(always)]
             #[must_use]
             pub fn principal_invariants(&self) -> [T; 3] {
@@ -50,6 +80,9 @@ macro_rules! invariants_of {
             }
 
             /// J₂, Pa²: [`invariants::j2`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.j2(), 3.0);")]
             #[inline(always)]
             #[must_use]
             pub fn j2(&self) -> T {
@@ -57,6 +90,9 @@ macro_rules! invariants_of {
             }
 
             /// J₃, Pa³: [`invariants::j3`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.j3(), 2.0);")]
             #[inline(always)]
             #[must_use]
             pub fn j3(&self) -> T {
@@ -64,6 +100,9 @@ macro_rules! invariants_of {
             }
 
             /// Von Mises' stress √(3 J₂), Pa: [`invariants::von_mises`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.von_mises(), 3.0);")]
             #[inline(always)]
             #[must_use]
             pub fn von_mises(&self) -> T {
@@ -71,6 +110,9 @@ macro_rules! invariants_of {
             }
 
             /// The octahedral shear stress √(⅔ J₂), Pa: [`invariants::octahedral_shear`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert!((bar.octahedral_shear() - 2.0_f64.sqrt()).abs() < 1e-15);")]
             #[inline(always)]
             #[must_use]
             pub fn octahedral_shear(&self) -> T {
@@ -78,6 +120,9 @@ macro_rules! invariants_of {
             }
 
             /// Tresca's stress σ₁ − σ₃, Pa: [`invariants::tresca`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert!((bar.tresca() - 3.0_f64).abs() < 2e-15);")]
             #[inline(always)]
             #[must_use]
             pub fn tresca(&self) -> T {
@@ -85,6 +130,9 @@ macro_rules! invariants_of {
             }
 
             /// The largest shear stress ½ (σ₁ − σ₃), Pa: [`invariants::maximum_shear`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert!((bar.maximum_shear() - 1.5_f64).abs() < 1e-15);")]
             #[inline(always)]
             #[must_use]
             pub fn maximum_shear(&self) -> T {
@@ -92,6 +140,9 @@ macro_rules! invariants_of {
             }
 
             /// θ ∈ [0, π/3], from triaxial extension: [`invariants::lode_angle`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.lode_angle(), 0.0);")]
             #[inline(always)]
             #[must_use]
             pub fn lode_angle(&self) -> T {
@@ -99,6 +150,9 @@ macro_rules! invariants_of {
             }
 
             /// θₛ ∈ [−π/6, π/6], from pure shear: [`invariants::lode_angle_from_shear`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert!((bar.lode_angle_from_shear() - std::f64::consts::FRAC_PI_6).abs() < 1e-15);")]
             #[inline(always)]
             #[must_use]
             pub fn lode_angle_from_shear(&self) -> T {
@@ -109,12 +163,18 @@ macro_rules! invariants_of {
             ///
             /// # Errors
             /// [`ContinuumError::ZeroDeviator`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert_eq!(bar.triaxiality()?, 1.0 / 3.0);")]
             #[inline]
             pub fn triaxiality(&self) -> Result<T, ContinuumError> {
                 invariants::triaxiality(&self.0)
             }
 
             /// (ξ, ρ, θ): [`HaighWestergaard::of`].
+            ///
+            /// # Example
+            #[doc = example!($name, "assert!((bar.haigh_westergaard().deviatoric - 6.0_f64.sqrt()).abs() < 1e-15);")]
             #[inline(always)]
             #[must_use]
             pub fn haigh_westergaard(&self) -> HaighWestergaard<T> {
