@@ -10,9 +10,7 @@ mod region;
 mod resultants;
 mod transport;
 
-pub use balance::{
-    EnergyBalance, IntegralBalance, MassBalance, StoredEnergy, strain_energy, stress_power,
-};
+pub use balance::{EnergyBalance, IntegralBalance, MassBalance, StoredEnergy, strain_energy, stress_power};
 pub use element::{ExplicitMotion, LinearTetrahedra, MaterialPoint, QuadraticTetrahedra, TetrahedralElements};
 pub use estimate::{AdaptiveQuadrature, Estimate, EstimatedQuadrature};
 pub use integrand::Integrand;

@@ -118,7 +118,8 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     })?;
     let (local, convected, flux) = (local.value(), convected.value(), flux.value());
     let of = |value: &ValueOf<F, f64>, i: usize| F::Value::component::<f64>(value, i);
-    let left_by = |other: &ValueOf<F, f64>| F::Value::from_components(|i| of(&rate, i) - (of(&local, i) + of(other, i)));
+    let left_by =
+        |other: &ValueOf<F, f64>| F::Value::from_components(|i| of(&rate, i) - (of(&local, i) + of(other, i)));
     let (residual, flux_residual) = (left_by(&convected), left_by(&flux));
     Ok(Transport { rate, local, convected, flux, residual, flux_residual })
 }

@@ -229,8 +229,8 @@ impl<const N: usize> TetrahedralElements<N> {
         displacement: &[T],
         mut energy: impl FnMut(&MaterialPoint, &DisplacementGradient<T>) -> Result<T, ContinuumError>,
     ) -> Result<T, ContinuumError> {
-        let [total] =
-            self.integral(displacement, |point, _, gradient| Ok([energy(point, &checked_gradient(point, *gradient)?)?]))?;
+        let [total] = self
+            .integral(displacement, |point, _, gradient| Ok([energy(point, &checked_gradient(point, *gradient)?)?]))?;
         Ok(total)
     }
 

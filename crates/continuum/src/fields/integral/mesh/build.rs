@@ -21,16 +21,8 @@ pub(in crate::fields::integral) const EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], 
 
 /// The eight parts of an element by its corners 0–3 and the midpoints 4–9 of its [`EDGES`]: corners, then the
 /// octahedron about the diagonal from midpoint 02 to midpoint 13.
-const PARTS: [[usize; 4]; 8] = [
-    [0, 4, 6, 7],
-    [4, 1, 5, 8],
-    [6, 5, 2, 9],
-    [7, 8, 9, 3],
-    [4, 6, 7, 8],
-    [4, 6, 8, 5],
-    [6, 7, 8, 9],
-    [6, 8, 5, 9],
-];
+const PARTS: [[usize; 4]; 8] =
+    [[0, 4, 6, 7], [4, 1, 5, 8], [6, 5, 2, 9], [7, 8, 9, 3], [4, 6, 7, 8], [4, 6, 8, 5], [6, 7, 8, 9], [6, 8, 5, 9]];
 
 impl TetrahedralMesh {
     /// A box cut into cells, each cut into six tetrahedra around its diagonal.
