@@ -6,6 +6,7 @@ mod cases;
 mod edges;
 mod golden;
 mod laws;
+mod rounding;
 mod scalars;
 mod traps;
 #[cfg(feature = "serde")]
