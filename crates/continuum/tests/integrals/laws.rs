@@ -74,10 +74,10 @@ proptest! {
         motion in quadratic(), field in field(), time in -1.0..1.0_f64
     ) {
         let body = Body { motion, reference_density: AffineDensity([0.3, 0.0, 0.1]) };
-        let (left, right) = with_rules(5, |rules| {
+        let sides = with_rules(5, |rules| {
             transport_of_mass(rules, &unit_box(), &body, &Spatial(field), time).expect("regular")
         });
-        assert_close_at_scale("sides", left.as_slice(), right.as_slice(), 4.0, ROUNDING);
+        assert_close_at_scale("sides", sides.left.as_slice(), sides.right.as_slice(), 4.0, ROUNDING);
     }
 
     #[test]
@@ -205,10 +205,10 @@ impl Field for CubicTensor {
 fn integral_of_divergence_equals_flux_through_every_kind_of_boundary() {
     fn check(region: &impl Region<f64>) {
         let rules = Quadrature::of_degree(6).expect("rules");
-        let (inside, through) = divergence_theorem(&rules, region, &Spatial(Cubic), 0.7).expect("finite");
-        assert_close_at_scale("vector", &[inside], &[through], 4.0, ROUNDING);
-        let (inside, through) = tensor_divergence_theorem(&rules, region, &Spatial(CubicTensor), 0.7).expect("finite");
-        assert_close_at_scale("tensor", inside.as_slice(), through.as_slice(), 4.0, ROUNDING);
+        let sides = divergence_theorem(&rules, region, &Spatial(Cubic), 0.7).expect("finite");
+        assert_close_at_scale("vector", &[sides.left], &[sides.right], 4.0, ROUNDING);
+        let sides = tensor_divergence_theorem(&rules, region, &Spatial(CubicTensor), 0.7).expect("finite");
+        assert_close_at_scale("tensor", sides.left.as_slice(), sides.right.as_slice(), 4.0, ROUNDING);
     }
     check(&unit_box());
     check(&unit_ball());

@@ -88,7 +88,7 @@ impl Field for StressOf<'_> {
     }
 }
 
-/// The body force b = ẍ − Div P/ρ_κ that balances a [`Balanced`] body, times a factor.
+/// The body force b = ẍ − `Div P/ρ_κ` that balances a [`Balanced`] body, times a factor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ForceOf<'a>(pub(super) &'a Balanced, pub(super) f64);
 

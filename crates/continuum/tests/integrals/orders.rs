@@ -139,7 +139,7 @@ fn equilibrium<const N: usize>(body: &TetrahedralElements<N>) -> Vec<f64> {
     u
 }
 
-/// (‖u_h − u‖, ‖∇u_h − ∇u‖).
+/// `(‖u_h − u‖, ‖∇u_h − ∇u‖)`.
 fn errors<const N: usize>(body: &TetrahedralElements<N>, u: &[f64]) -> (f64, f64) {
     let squares = body.integral(u, |point: &MaterialPoint, u: &Vector3<f64>, gradient: &Matrix3<f64>| {
         let slope = gradient - exact_gradient(&point.position);
@@ -155,7 +155,7 @@ fn errors_of_equilibrium_fall_as_the_shape_functions_say() {
     let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0)).expect("a box");
     let mesh = |cells: usize| TetrahedralMesh::of_cuboid(&unit, [cells; 3]).expect("a mesh");
     let (mut values, mut slopes) = (Vec::new(), Vec::new());
-    for cells in [3, 6, 12] {
+    for cells in [2, 4, 8] {
         let body = LinearTetrahedra::new(mesh(cells), 4).expect("a body");
         let (value, slope) = errors(&body, &equilibrium(&body));
         values.push(value);
@@ -165,7 +165,7 @@ fn errors_of_equilibrium_fall_as_the_shape_functions_say() {
     assert_order("linear, ∇u", &[4.0, 2.0, 1.0], &slopes, 1.0, 0.1);
     values.clear();
     slopes.clear();
-    for cells in [2, 4, 8] {
+    for cells in [1, 2, 4] {
         let body = QuadraticTetrahedra::new(mesh(cells), 4).expect("a body");
         let (value, slope) = errors(&body, &equilibrium(&body));
         values.push(value);

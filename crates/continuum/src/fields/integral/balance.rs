@@ -77,7 +77,7 @@ impl IntegralBalance {
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
-    /// | x(X, t), ρ_κ(X) | `body` | m, kg/m³ |
+    /// | x(X, t), `ρ_κ(X)` | `body` | m, kg/m³ |
     /// | P(X, t) | `stress` | Pa |
     /// | b(X, t) | `body_force`, per unit mass | m/s² |
     /// | o | `pole` | m |
@@ -124,13 +124,13 @@ impl IntegralBalance {
         })
     }
 
-    /// d/dt ∫ ρ_κ ẋ dV − f, N, W(15.16).
+    /// d/dt ∫ `ρ_κ` ẋ dV − f, N, W(15.16).
     #[must_use]
     pub fn momentum_residual(&self) -> VectorResidual {
         residual_of(&self.resultants.momentum, &self.body.force, &self.surface.force)
     }
 
-    /// d/dt ∫ ρ_κ (x − o) × ẋ dV − m, N m, W(15.18).
+    /// d/dt ∫ `ρ_κ` (x − o) × ẋ dV − m, N m, W(15.18).
     #[must_use]
     pub fn moment_residual(&self) -> VectorResidual {
         residual_of(&self.resultants.moment_of_momentum, &self.body.moment, &self.surface.moment)
@@ -252,7 +252,7 @@ pub fn strain_energy<T: Real>(
 pub struct MassBalance {
     /// ∫ ρ dv over the moved region, with its rate, kg, kg/s.
     pub present: Dual<f64>,
-    /// ∫ ρ_κ dV, kg.
+    /// ∫ `ρ_κ` dV, kg.
     pub reference: f64,
 }
 
@@ -276,7 +276,7 @@ impl MassBalance {
         Ok(Self { present, reference })
     }
 
-    /// ∫ ρ dv − ∫ ρ_κ dV, kg; the rate of the first is zero when mass stays.
+    /// ∫ ρ dv − ∫ `ρ_κ` dV, kg; the rate of the first is zero when mass stays.
     #[must_use]
     pub fn residual(&self) -> Residual {
         Residual::zero().plus(self.present.value).plus(-self.reference)

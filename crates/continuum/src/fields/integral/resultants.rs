@@ -42,7 +42,7 @@ impl<T: Real> Resultants<T> {
     /// | symbol | argument | shape | unit |
     /// |---|---|---|---|
     /// | 𝒫 | `region` in the reference configuration | | |
-    /// | x(X, t), ρ_κ(X) | `body` | | m, kg/m³ |
+    /// | x(X, t), `ρ_κ(X)` | `body` | | m, kg/m³ |
     /// | o | `pole` | 3 | m |
     ///
     /// With a time that is a dual variable, the results carry their rates, exact to rounding.

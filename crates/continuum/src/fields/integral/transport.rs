@@ -60,6 +60,15 @@ pub struct Transport<V> {
     pub flux_residual: V,
 }
 
+/// Both sides of an identity, computed independently.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sides<V> {
+    /// As it stands on the left.
+    pub left: V,
+    /// As it stands on the right.
+    pub right: V,
+}
+
 /// The terms of the transport theorem for the part whose place in the reference configuration is `region`.
 ///
 /// | symbol | argument | unit |
@@ -124,10 +133,10 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     Ok(Transport { rate, local, convected, flux, residual, flux_residual })
 }
 
-/// Both sides of d/dt ∫ ρ Φ dv = ∫ ρ Φ̇ dv for a part of a body: (left, right).
+/// Both sides of d/dt ∫ ρ Φ dv = ∫ ρ Φ̇ dv for a part of a body.
 ///
-/// The left side integrates ρ Φ over the moving region, with ρ = ρ_κ/J, and differentiates; the right side
-/// integrates ρ_κ (∂Φ/∂t + grad Φ·v) over the reference configuration.
+/// The left side integrates ρ Φ over the moving region, with ρ = `ρ_κ/J`, and differentiates; the right side
+/// integrates `ρ_κ` (∂Φ/∂t + grad Φ·v) over the reference configuration.
 ///
 /// # Errors
 /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
@@ -154,8 +163,8 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
 /// }
 /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
 /// let body = Body { motion: Rise, reference_density: Uniform(3.0) };
-/// let (left, right) = transport_of_mass(&Quadrature::of_degree(2)?, &unit, &body, &Spatial(Height), 1.0)?;
-/// assert!((left - 6.0).abs() < 1e-14 && (right - 6.0).abs() < 1e-14);
+/// let sides = transport_of_mass(&Quadrature::of_degree(2)?, &unit, &body, &Spatial(Height), 1.0)?;
+/// assert!((sides.left - 6.0).abs() < 1e-14 && (sides.right - 6.0).abs() < 1e-14);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 ///
@@ -167,7 +176,7 @@ pub fn transport_of_mass<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     body: &Body<impl Motion, impl Field<Value = f64>>,
     field: &Spatial<F>,
     time: f64,
-) -> Result<(ValueOf<F, f64>, ValueOf<F, f64>), ContinuumError> {
+) -> Result<Sides<ValueOf<F, f64>>, ContinuumError> {
     let (motion, now) = (&body.motion, Dual::variable(time));
     let mut left = FieldIntegral::<F::Value, Dual<f64>>::new();
     Region::<Dual<f64>>::volume_points(region, quadrature, |point| {
@@ -191,7 +200,8 @@ pub fn transport_of_mass<F: Field, R: Region<f64> + Region<Dual<f64>>>(
         let density = body.reference_density.at(&particle, time);
         right.add(&map::<F::Value, _, _>(&phi, material), point.weight * density, &particle)
     })?;
-    Ok((map::<F::Value, _, _>(&left.value(), |total: Dual<f64>| total.tangent), right.value()))
+    let left = map::<F::Value, _, _>(&left.value(), |total: Dual<f64>| total.tangent);
+    Ok(Sides { left, right: right.value() })
 }
 
 /// The coordinates of a place as the first three of four variables.
@@ -218,8 +228,9 @@ fn place_variables(place: &Vector3<f64>) -> Vector3<Gradient<f64, 4>> {
 ///     }
 /// }
 /// let ball = Ball::new(Vector3::zeros(), 1.0)?;
-/// let (inside, through) = divergence_theorem(&Quadrature::of_degree(2)?, &ball, &Spatial(Place), 0.0)?;
-/// assert!((inside - 4.0 * core::f64::consts::PI).abs() < 1e-14 && (inside - through).abs() < 1e-14);
+/// let sides = divergence_theorem(&Quadrature::of_degree(2)?, &ball, &Spatial(Place), 0.0)?;
+/// let volumes = 4.0 * core::f64::consts::PI; // div x = 3
+/// assert!((sides.left - volumes).abs() < 1e-14 && (sides.right - volumes).abs() < 1e-14);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 pub fn divergence_theorem(
@@ -227,13 +238,13 @@ pub fn divergence_theorem(
     region: &impl Region<f64>,
     field: &Spatial<impl Field<Value = Vector3<f64>>>,
     time: f64,
-) -> Result<(f64, f64), ContinuumError> {
-    let inside = quadrature.volume_integral(region, |place: &Vector3<f64>| {
+) -> Result<Sides<f64>, ContinuumError> {
+    let left = quadrature.volume_integral(region, |place: &Vector3<f64>| {
         let g = field.0.at(&variables(place), Gradient::constant(time));
         g.x.partials[0] + g.y.partials[1] + g.z.partials[2]
     })?;
-    let through = quadrature.surface_integral(region, |point| field.0.at(&point.position, time).dot(&point.normal))?;
-    Ok((inside, through))
+    let right = quadrature.surface_integral(region, |point| field.0.at(&point.position, time).dot(&point.normal))?;
+    Ok(Sides { left, right })
 }
 
 /// Both sides of the divergence theorem for a tensor field, ∫ div T dv and ∮ T n da; div contracts the last index.
@@ -250,8 +261,8 @@ pub fn divergence_theorem(
 /// use piola_continuum::fields::{Spatial, Uniform};
 /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
 /// let uniform = Spatial(Uniform(Matrix3::<f64>::identity()));
-/// let (inside, through) = tensor_divergence_theorem(&Quadrature::of_degree(0)?, &unit, &uniform, 0.0)?;
-/// assert_eq!((inside, through), (Vector3::zeros(), Vector3::zeros()));
+/// let sides = tensor_divergence_theorem(&Quadrature::of_degree(0)?, &unit, &uniform, 0.0)?;
+/// assert_eq!((sides.left, sides.right), (Vector3::zeros(), Vector3::zeros()));
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 pub fn tensor_divergence_theorem<V: TensorValue>(
@@ -259,13 +270,13 @@ pub fn tensor_divergence_theorem<V: TensorValue>(
     region: &impl Region<f64>,
     field: &Spatial<impl Field<Value = V>>,
     time: f64,
-) -> Result<(Vector3<f64>, Vector3<f64>), ContinuumError> {
-    let inside = quadrature.volume_integral(region, |place: &Vector3<f64>| {
+) -> Result<Sides<Vector3<f64>>, ContinuumError> {
+    let left = quadrature.volume_integral(region, |place: &Vector3<f64>| {
         let rows = V::rows(&field.0.at(&variables(place), Gradient::constant(time)));
         Vector3::from_fn(|i, _| rows[i][0].partials[0] + rows[i][1].partials[1] + rows[i][2].partials[2])
     })?;
-    let through = quadrature.surface_integral(region, |point| {
+    let right = quadrature.surface_integral(region, |point| {
         Vector3::from(crate::tensor::rows::apply(V::rows(&field.0.at(&point.position, time)), point.normal.into()))
     })?;
-    Ok((inside, through))
+    Ok(Sides { left, right })
 }

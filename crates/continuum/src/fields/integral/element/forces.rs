@@ -11,7 +11,7 @@ use crate::tensor::rows::apply;
 use crate::{ContinuumError, DisplacementGradient, FirstPiola};
 
 impl<const N: usize> TetrahedralElements<N> {
-    /// Adds the forces of stress on the nodes, −∫ P ∇N_a dV.
+    /// Adds the forces of stress on the nodes, −∫ P ∇Nₐ dV.
     ///
     /// | symbol | argument | shape | unit |
     /// |---|---|---|---|
@@ -66,7 +66,7 @@ impl<const N: usize> TetrahedralElements<N> {
         Ok(())
     }
 
-    /// Adds the forces of a density of force per reference volume on the nodes, ∫ f N_a dV.
+    /// Adds the forces of a density of force per reference volume on the nodes, ∫ f Nₐ dV.
     ///
     /// # Errors
     /// [`ContinuumError::WrongLength`].
@@ -88,7 +88,7 @@ impl<const N: usize> TetrahedralElements<N> {
         Ok(())
     }
 
-    /// Adds the forces of tractions per reference area on the nodes, ∮ g N_a dA, with g = P N for a stress P.
+    /// Adds the forces of tractions per reference area on the nodes, ∮ g Nₐ dA, with g = P N for a stress P.
     ///
     /// # Errors
     /// [`ContinuumError::WrongLength`].

@@ -8,9 +8,9 @@ use super::{TetrahedralElements, check_length, value_of};
 use crate::ContinuumError;
 
 impl<const N: usize> TetrahedralElements<N> {
-    /// Adds the product of the consistent mass with a nodal vector, Σ_b M_ab a_b with M_ab = ∫ ρ_κ N_a N_b dV.
+    /// Adds the product of the consistent mass with a nodal vector, `Σ_b M_ab a_b` with `M_ab = ∫ ρ_κ N_a N_b dV`.
     ///
-    /// With c in place of ρ_κ it is the damping of c u̇.
+    /// With c in place of `ρ_κ` it is the damping of c u̇.
     ///
     /// # Errors
     /// [`ContinuumError::WrongLength`].
@@ -61,7 +61,7 @@ impl<const N: usize> TetrahedralElements<N> {
     /// ```
     ///
     /// It keeps the mass and is positive, which the sum of the rows is not at the corners of quadratic elements;
-    /// for linear elements of uniform density both are the same. With c in place of ρ_κ it lumps the damping.
+    /// for linear elements of uniform density both are the same. With c in place of `ρ_κ` it lumps the damping.
     ///
     /// # Errors
     /// [`ContinuumError::WrongLength`]; [`ContinuumError::NonPositiveMass`] of an element.
@@ -110,13 +110,13 @@ impl<const N: usize> TetrahedralElements<N> {
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
-    /// | κ | `stiffness`: largest eigenvalue of ∂P/∂F over ρ_κ; small isotropic strain: max(3λ + 2μ, 2μ)/ρ_κ | m²/s² |
+    /// | κ | `stiffness`: largest eigenvalue of ∂P/∂F over `ρ_κ`; small isotropic strain: `max(3λ + 2μ, 2μ)/ρ_κ` | m²/s² |
     ///
     /// # Errors
     /// [`ContinuumError::NotPositive`] unless 0 < κ.
     ///
     /// # Accuracy
-    /// λ_max is bounded from above by ‖A¹⁶‖^(1/16), at most 4 % more. The frequencies of the body are lower than
+    /// `λ_max` is bounded from above by ‖A¹⁶‖^(1/16), at most 4 % more. The frequencies of the body are lower than
     /// those of its elements: on the meshes of the tests the step is 0.7 to 0.8 of the largest stable one.
     ///
     /// # Source

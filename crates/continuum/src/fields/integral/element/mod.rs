@@ -1,8 +1,8 @@
 //! Displacements sampled at the nodes of a mesh: forces by virtual work, masses, integrals.
 //!
-//! The displacement is u = Σ N_a u_a with shape functions N_a of degree one (nodes at the vertices) or two (at
+//! The displacement is u = Σ Nₐ uₐ with shape functions Nₐ of degree one (nodes at the vertices) or two (at
 //! the midpoints of the edges too). The equation of motion, damped or not, B(4.58), and that of equilibrium,
-//! B(4.59), tested with η = Σ N_a η_a, give forces on the nodes:
+//! B(4.59), tested with η = Σ Nₐ ηₐ, give forces on the nodes:
 //!
 //! ```text
 //! ρ_κ ü + c u̇ = f + Div P
@@ -55,7 +55,7 @@ pub struct TetrahedralElements<const N: usize> {
     mesh: TetrahedralMesh,
     nodes: Vec<Vector3<f64>>,
     elements: Vec<[usize; N]>,
-    /// ∇λ_k of each element.
+    /// ∇λₖ of each element.
     gradients: Vec<[[f64; 3]; 4]>,
     inside: Box<[ShapePoint<N>]>,
     on_faces: [Box<[ShapePoint<N>]>; 4],
@@ -176,7 +176,7 @@ impl<const N: usize> TetrahedralElements<N> {
 
     /// ∫ h(X, u, ∇u) dV of a nodal field u: norms, energies, momenta.
     ///
-    /// The gradient is a plain matrix, (∇u)_ij = ∂u_i/∂X_j, which may belong to any field, not only to a
+    /// The gradient is a plain matrix, `∂u_i/∂X_j` at row i and column j, which may belong to any field, not only to a
     /// displacement.
     ///
     /// # Errors
@@ -244,7 +244,7 @@ impl<const N: usize> TetrahedralElements<N> {
         }
     }
 
-    /// ∇N_a at a point of the rule.
+    /// ∇Nₐ at a point of the rule.
     fn slopes(&self, element: usize, number: usize) -> [[f64; 3]; N] {
         let gradients = &self.gradients[element];
         self.inside[number].slopes.map(|slopes| {
@@ -279,7 +279,7 @@ fn barycentric_gradients(corners: &[Vector3<f64>; 4]) -> [[f64; 3]; 4] {
     gradients
 }
 
-/// Σ N_a u_a.
+/// Σ Nₐ uₐ.
 fn value_of<T: Real, const N: usize>(values: &[f64; N], local: &[[T; 3]; N]) -> [T; 3] {
     let mut value = [T::lit(0.0); 3];
     for (&shape, at_node) in values.iter().zip(local) {
@@ -290,7 +290,7 @@ fn value_of<T: Real, const N: usize>(values: &[f64; N], local: &[[T; 3]; N]) -> 
     value
 }
 
-/// Σ u_a ⊗ ∇N_a.
+/// Σ uₐ ⊗ ∇Nₐ.
 fn gradient_of<T: Real, const N: usize>(slopes: &[[f64; 3]; N], local: &[[T; 3]; N]) -> Rows<T> {
     let mut gradient = [[T::lit(0.0); 3]; 3];
     for (slope, at_node) in slopes.iter().zip(local) {

@@ -8,7 +8,7 @@
 use crate::fields::integral::Quadrature;
 use crate::fields::integral::mesh::{EDGES, FACES};
 
-/// The shape functions and their slopes ∂N_a/∂λ_k at a point of the rule in an element.
+/// The shape functions and their slopes ∂Nₐ/∂λₖ at a point of the rule in an element.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ShapePoint<const N: usize> {
     pub(super) share: [f64; 4],
