@@ -1,0 +1,15 @@
+//! Tests of motions, fields, coordinates, balances and compatibility.
+
+use piola_testkit::CountingAllocator;
+
+mod alloc;
+mod balances;
+mod compatibility;
+mod coordinates;
+mod fixtures;
+mod frames;
+mod motions;
+mod traps;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
