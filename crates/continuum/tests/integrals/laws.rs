@@ -89,7 +89,7 @@ proptest! {
 // A point of a ball or of a mesh costs as much, but exact rules need more points (720 and 276, with 121 and 300 on
 // the boundary): fewer cases keep the time within seconds.
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(2_000))]
 
     #[test]
     fn rate_of_integral_over_moving_ball_equals_local_rate_and_transport(
