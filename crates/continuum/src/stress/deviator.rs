@@ -10,6 +10,7 @@
 //! the pressure has no influence on their digits.
 
 use piola_numerics::Real;
+use piola_numerics::sums::unit_in_last_place;
 
 use crate::Symmetric;
 use crate::tensor::scale::{largest, power_of_two_scale, square_root};
@@ -99,7 +100,11 @@ impl<T: Real> Coordinates<T> {
     #[inline(always)]
     pub(super) fn triple_angle(&self) -> (T, T) {
         let v = square(self.u);
-        let (sine, cosine) = (square_root(wedge_squared(self.u, v)), inner(self.u, v));
+        let square_of_sine = wedge_squared(self.u, v);
+        // Rounding has a direction too, which must not become a derivative.
+        let apart = are_apart(self.u, v, square_of_sine);
+        let sine = square_root(T::select(apart, square_of_sine, square_of_sine.frozen()));
+        let cosine = inner(self.u, v);
         let exists = T::zero().less_than(largest(self.u));
         (T::select(exists, sine, T::zero()), T::select(exists, cosine, T::one()))
     }
@@ -118,7 +123,7 @@ impl<T: Real> Coordinates<T> {
         Symmetric::new(of(xx), of(yy), of(zz), of(xy), of(yz), of(xz))
     }
 
-    /// ∂θ/∂T = −E/(|E| |D|), E the part of dev(D²) that is normal to D; zero where there is none.
+    /// ∂θ/∂T = −E/(|E| |D|), E the part of dev(D²) that is normal to D; zero where there is none beyond rounding.
     #[inline(always)]
     pub(super) fn angle_gradient(&self) -> Symmetric<T> {
         let (u, v) = (self.u, square(self.u));
@@ -133,7 +138,7 @@ impl<T: Real> Coordinates<T> {
         let (scale, _) = power_of_two_scale(largest(normal));
         let normal = [normal[0] * scale, normal[1] * scale, normal[2] * scale, normal[3] * scale, normal[4] * scale];
         let size = inner(normal, normal) * inner(u, u);
-        let exists = T::zero().less_than(size);
+        let exists = T::zero().less_than(size) & are_apart(u, v, wedge_squared(u, v));
         // |E| |D| = 2 √(…), in units of stress.
         let factor = -T::lit(0.5) / T::select(exists, size, T::one()).sqrt() / self.unscale;
         let factor = T::select(exists, factor, T::zero());
@@ -152,4 +157,11 @@ fn wedge_squared<T: Real>(u: [T; 5], v: [T; 5]) -> T {
     let heavy = (area(0, 2) + area(0, 3) + area(0, 4)) + (area(2, 3) + area(2, 4) + area(3, 4));
     let light = (area(1, 0) + area(1, 2)) + (area(1, 3) + area(1, 4));
     heavy + light * T::lit(1.0 / 12.0)
+}
+
+/// Where D and dev(D²) are further from parallel than rounding: 32 ulp, sin 3θ, two principal stresses apart.
+#[inline(always)]
+fn are_apart<T: Real>(u: [T; 5], v: [T; 5], wedge_squared: T) -> T::Mask {
+    let least = 32.0 * unit_in_last_place::<T>();
+    (T::lit(least * least) * (inner(u, u) * inner(v, v))).less_than(wedge_squared)
 }

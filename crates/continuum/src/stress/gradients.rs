@@ -8,7 +8,7 @@
 //!
 //! # Where there is no derivative
 //! At the deviator zero von Mises' stress has a corner, and the Lode angle does not exist; where two principal
-//! stresses coincide, the Lode angle, and with it Tresca's stress, has a corner. There the subgradient of least
+//! stresses coincide (to 32 ulp of sin 3θ), the Lode angle, and with it Tresca's stress, has a corner. There the subgradient of least
 //! size is returned for von Mises' stress, zero, and zero for the Lode angle: Tresca's is then the mean of those of
 //! the two planes that meet. Nothing is NaN.
 //!

@@ -18,7 +18,7 @@
 //! # Accuracy
 //! All deviatoric quantities are made of differences of stresses: they keep their digits under any pressure. Those
 //! of the dimension of a stress are scaled by powers of two, so that they neither overflow nor vanish for
-//! stresses of 10⁻³⁰⁰ or 10³⁰⁰ Pa.
+//! stresses of 10⁻³⁰⁰ or 10³⁰⁰ Pa. Beyond 4 · 10³⁰⁷ Pa the differences themselves overflow.
 //!
 //! # Derivatives
 //! Over differentiable numbers the functions have the derivatives of [`gradients`](super::gradients), with zero

@@ -165,6 +165,15 @@ fn gradients_at_coincident_stresses_are_the_mean_of_both_sides() {
     assert_close("extension", &edge.components, &[1.0, -0.5, -0.5, 0.0, 0.0, 0.0], Tol::ulps(4.0));
     let edge = gradients::tresca(&diagonal([-250.0, 0.0, 0.0]));
     assert_close("compression", &edge.components, &[-1.0, 0.5, 0.5, 0.0, 0.0, 0.0], Tol::ulps(4.0));
+    // Also where rounding keeps the stresses from being equal to the last bit.
+    let q = Matrix3::new(0.6, -0.8, 0.0, 0.8, 0.6, 0.0, 0.0, 0.0, 1.0);
+    let turned = CauchyStress(diagonal([7.3, 0.0, 0.0])).rotated(&q).expect("a rotation");
+    let edge = gradients::tresca(&turned.0);
+    assert_close("turned", &edge.components, &[0.04, 0.46, -0.5, 0.72, 0.0, 0.0], Tol::ulps(8.0));
+    assert_eq!(gradients::lode_angle(&turned.0), Symmetric::zero());
+    let along = Symmetric { components: turned.0.components.map(|x| Dual::new(x, 1.0)) };
+    let tangents = [invariants::tresca(&along).tangent, invariants::lode_angle(&along).tangent];
+    assert_close("dual", &tangents, &[0.04 + 0.46 - 0.5 + 2.0 * 0.72, 0.0], Tol::ulps(16.0));
     // The tangent of numbers with derivatives is the same one.
     let dual = Symmetric { components: [250.0, 0.0, 0.0, 0.0, 0.0, 0.0].map(|x| Dual::new(x, 1.0)) };
     let tangent = invariants::tresca(&dual).tangent;
