@@ -4,9 +4,14 @@
 //! |---|---|---|
 //! | any second-order tensor | `nalgebra::Matrix3<T>` | 9 |
 //! | a symmetric one | [`Symmetric`] | 6 |
+//! | a skew one | [`Skew`] | 3 |
+//! | any fourth-order tensor | [`FourthOrder`] | 81 |
+//! | one with minor symmetries | [`MinorSymmetric`] | 36 |
+//! | one with the major symmetry too | [`MajorSymmetric`] | 21 |
 //!
 //! Meaning is added by the types of [`stress`](crate::stress), which wrap these.
 
+pub mod fourth;
 mod linear_space;
 pub(crate) mod rotation;
 pub mod rows;
@@ -15,6 +20,7 @@ mod skew;
 mod slots;
 pub mod symmetric;
 
+pub use fourth::{FourthOrder, Major, MajorSymmetric, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 pub use skew::Skew;
 pub use slots::{PAIR, SLOT, Slots};
 pub use symmetric::Symmetric;
