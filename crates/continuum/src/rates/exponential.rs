@@ -271,6 +271,9 @@ pub fn rotation_minus_identity<T: Real>(skew: Rows<T>) -> Rows<T> {
     let v = [w[0] / scale, w[1] / scale, w[2] / scale];
     let length = T::select(zero, T::one(), dot(v, v)).sqrt();
     let n = [v[0] / length, v[1] / length, v[2] / length];
+    // One step towards length one, so that the result is as orthogonal as its sine and cosine allow.
+    let step = T::lit(1.5) - T::lit(0.5) * dot(n, n);
+    let n = [n[0] * step, n[1] * step, n[2] * step];
     let angle = T::select(zero, T::zero(), length * scale);
     let (sine, _) = angle.sin_cos();
     let half_sine = (angle * T::lit(0.5)).sin();

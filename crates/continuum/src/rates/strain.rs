@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! Ċ = Ḟᵀ F + Fᵀ Ḟ = 2 Fᵀ D F        Ė = ½ Ċ = Fᵀ D F
+//! J̇ = Cof F : Ḟ = J tr L
 //! Ḃ = Ḟ Fᵀ + F Ḟᵀ = L B + B Lᵀ      ė = ½ (Lᵀ B⁻¹ + B⁻¹ L) = D − Lᵀ e − e L
 //! ```
 //! Those of U, V, ln U and ln V are of [`StretchRates`](super::StretchRates); that of any other function of F comes
@@ -11,12 +12,32 @@
 //! Ċ, Ė and Ḃ within 4 ulp of |F| |Ḟ|, without a division; ė within a few ulp × the condition number of F.
 
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3::inverse_and_determinant;
+use piola_numerics::linear::matrix3::{adjugate, inverse_and_determinant};
 
 use super::kernels::doubled_symmetric_part;
 use super::{GradientRate, VelocityGradient};
-use crate::tensor::rows::{product, product_transposed, transposed_product};
+use crate::tensor::rows::{double_contraction, product, product_transposed, transpose, transposed_product};
 use crate::{Deformation, Symmetric};
+
+/// J̇ = Cof F : Ḟ = J tr L, 1/s, without a division.
+///
+/// # Accuracy
+/// Within 8 ulp of |Cof F| |Ḟ|.
+///
+/// # Example
+/// ```
+/// use nalgebra::Matrix3;
+/// use piola_continuum::{DeformationGradient, rates::{GradientRate, strain}};
+/// let f = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
+/// let rate = GradientRate::new(Matrix3::from_diagonal_element(3.0))?;
+/// assert_eq!(strain::jacobian_rate(&f, &rate), 36.0); // (λ³)˙ = 3 λ² λ̇
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn jacobian_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> T {
+    double_contraction(transpose(adjugate(deformation.gradient_rows())), rate.rows())
+}
 
 /// Ċ = Ḟᵀ F + Fᵀ Ḟ, 1/s.
 ///
