@@ -22,7 +22,7 @@ use crate::tensor::rows::{Rows, identity, product, scaled, sum};
 /// use nalgebra::Matrix3;
 /// use piola_continuum::{Deformation, DisplacementGradient};
 /// let tiny = DisplacementGradient::new(Matrix3::from_diagonal_element(1e-20))?;
-/// assert_eq!(tiny.volume_change(), 3e-20); // F itself would be 1 to the last bit
+/// assert_eq!(tiny.volume_change(), 3.0 * 1e-20); // F itself would be 1 to the last bit
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 ///
@@ -86,7 +86,7 @@ impl<T: Real> DisplacementGradient<T> {
     /// # Example
     /// ```
     /// use piola_continuum::{Deformation, DisplacementGradient};
-    /// assert_eq!(DisplacementGradient::diagonal([1e-20, 2e-20, 0.0])?.volume_change(), 3e-20);
+    /// assert_eq!(DisplacementGradient::diagonal([1e-20, 2e-20, 0.0])?.volume_change(), 3.0 * 1e-20);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     pub fn diagonal(elongations: [T; 3]) -> Result<Self, ContinuumError> {

@@ -1,0 +1,194 @@
+//! Where results are written: arrays of structures, structures of arrays, strided numbers.
+
+use nalgebra::Matrix3;
+use piola_numerics::{Element, Lanes};
+
+use super::sources::transposed;
+use super::{BatchScalar, ColumnMajor, Components, Strided};
+use crate::{
+    BiotStress, CauchyStress, ContinuumError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
+};
+
+/// Memory of the caller for K components at each of many points; `Q` is what is written there.
+///
+/// | implemented by | layout |
+/// |---|---|
+/// | `&mut [T]` where K = 1; `&mut [Symmetric<T>]`, `&mut [Matrix3<T>]`, `&mut [[[T; 3]; 3]]`, `&mut [[T; K]]` | a structure for each point |
+/// | `&mut [CauchyStress<T>]` and the other measures, each only for that measure | so too |
+/// | [`ColumnMajor`] | nine numbers by columns for each point |
+/// | [`Strided`] | numbers at a stride |
+/// | [`Components`] | an array for each component |
+///
+/// A symmetric tensor fills all nine components of a `Matrix3<T>`.
+pub trait Destination<Q, T: Element, const K: usize>: Send + Sized {
+    /// The number of points.
+    fn count(&self) -> usize;
+
+    /// The first `middle` points and the rest.
+    fn split(self, middle: usize) -> (Self, Self);
+
+    /// Writes the components of one point.
+    fn put(&mut self, index: usize, components: [T; K]);
+
+    /// Writes the first `count` ≤ N lanes to the points from `first` on.
+    #[inline(always)]
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; K]) {
+        if count == N {
+            for lane in 0..N {
+                self.put(first + lane, lane_of(&values, lane));
+            }
+        } else {
+            for lane in 0..count {
+                self.put(first + lane, lane_of(&values, lane));
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn lane_of<T: Element, const N: usize, const K: usize>(values: &[Lanes<T, N>; K], lane: usize) -> [T; K] {
+    let mut point = [T::zero(); K];
+    let mut k = 0;
+    while k < K {
+        point[k] = values[k].0[lane];
+        k += 1;
+    }
+    point
+}
+
+macro_rules! slice {
+    ([$($generics:tt)*] $quantity:ty, $element:ty, $k:tt, |$components:ident| $structure:expr) => {
+        impl<$($generics)*> Destination<$quantity, T, $k> for &mut [$element] {
+            #[inline(always)]
+            fn count(&self) -> usize {
+                self.len()
+            }
+            #[inline(always)]
+            fn split(self, middle: usize) -> (Self, Self) {
+                self.split_at_mut(middle)
+            }
+            #[inline(always)]
+            fn put(&mut self, index: usize, $components: [T; $k]) {
+                self[index] = $structure;
+            }
+        }
+    };
+}
+
+slice!([Q, T: Element] Q, T, 1, |x| x[0]);
+slice!([Q, T: BatchScalar] Q, Symmetric<T>, 6, |x| Symmetric { components: x });
+slice!([Q, T: Element] Q, [[T; 3]; 3], 9, |x| [[x[0], x[1], x[2]], [x[3], x[4], x[5]], [x[6], x[7], x[8]]]);
+slice!([Q, T: Element] Q, Matrix3<T>, 9, |x| matrix(x));
+slice!([Q, T: Element] Q, Matrix3<T>, 6, |x| matrix([x[0], x[3], x[5], x[3], x[1], x[4], x[5], x[4], x[2]]));
+slice!([T: BatchScalar] CauchyStress, CauchyStress<T>, 6, |x| CauchyStress(Symmetric { components: x }));
+slice!([T: BatchScalar] KirchhoffStress, KirchhoffStress<T>, 6, |x| KirchhoffStress(Symmetric { components: x }));
+slice!([T: BatchScalar] SecondPiola, SecondPiola<T>, 6, |x| SecondPiola(Symmetric { components: x }));
+slice!([T: BatchScalar] FirstPiola, FirstPiola<T>, 9, |x| FirstPiola(matrix(x)));
+slice!([T: BatchScalar] MandelStress, MandelStress<T>, 9, |x| MandelStress(matrix(x)));
+slice!([T: BatchScalar] BiotStress, BiotStress<T>, 9, |x| BiotStress(matrix(x)));
+
+impl<Q, T: Element, const K: usize> Destination<Q, T, K> for &mut [[T; K]] {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.len()
+    }
+    #[inline(always)]
+    fn split(self, middle: usize) -> (Self, Self) {
+        self.split_at_mut(middle)
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, components: [T; K]) {
+        self[index] = components;
+    }
+}
+
+/// The matrix of nine components by rows.
+#[inline(always)]
+fn matrix<T: Element>(rows: [T; 9]) -> Matrix3<T> {
+    let [a, b, c, d, e, f, g, h, i] = transposed(rows);
+    Matrix3::from_array_storage(nalgebra::ArrayStorage([[a, b, c], [d, e, f], [g, h, i]]))
+}
+
+impl<Q, T: Element> Destination<Q, T, 9> for ColumnMajor<&mut [[T; 9]]> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.0.len()
+    }
+    #[inline(always)]
+    fn split(self, middle: usize) -> (Self, Self) {
+        let (head, tail) = self.0.split_at_mut(middle);
+        (Self(head), Self(tail))
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, components: [T; 9]) {
+        self.0[index] = transposed(components);
+    }
+}
+
+impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Strided<&mut [T], K> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.count
+    }
+    #[inline(always)]
+    fn split(self, middle: usize) -> (Self, Self) {
+        let place = (middle * self.stride).min(self.data.len());
+        let (head, tail) = self.data.split_at_mut(place);
+        (
+            Self { data: head, stride: self.stride, places: self.places, count: middle },
+            Self { data: tail, stride: self.stride, places: self.places, count: self.count - middle },
+        )
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, components: [T; K]) {
+        let data = &mut self.data[index * self.stride..];
+        for (place, component) in self.places.into_iter().zip(components) {
+            data[place] = component;
+        }
+    }
+}
+
+impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Components<&mut [T], K> {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.0[0].len()
+    }
+    #[inline(always)]
+    fn split(self, middle: usize) -> (Self, Self) {
+        let mut rest = self.0;
+        let head = core::array::from_fn(|k| {
+            let (head, tail) = core::mem::take(&mut rest[k]).split_at_mut(middle);
+            rest[k] = tail;
+            head
+        });
+        (Self(head), Self(rest))
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, components: [T; K]) {
+        for (array, component) in self.0.iter_mut().zip(components) {
+            array[index] = component;
+        }
+    }
+    #[inline(always)]
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; K]) {
+        for (array, lanes) in self.0.iter_mut().zip(values) {
+            lanes.store(&mut array[first..first + count]);
+        }
+    }
+}
+
+impl<'a, T, const K: usize> Components<&'a mut [T], K> {
+    /// From an array for each component.
+    ///
+    /// # Errors
+    /// [`ContinuumError::WrongLength`] when the arrays differ in length.
+    pub fn new_mut(arrays: [&'a mut [T]; K]) -> Result<Self, ContinuumError> {
+        let expected = arrays.first().map_or(0, |array| array.len());
+        match arrays.iter().find(|array| array.len() != expected) {
+            Some(odd) => {
+                Err(ContinuumError::WrongLength { quantity: "array of a component", found: odd.len(), expected })
+            }
+            None => Ok(Self(arrays)),
+        }
+    }
+}

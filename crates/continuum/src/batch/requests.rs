@@ -1,0 +1,176 @@
+//! What is asked of a batch: single outputs and tuples of them.
+
+use piola_numerics::{Lanes, Mask, Real};
+
+use super::point::Point;
+use super::{BatchScalar, Destination, Source};
+use crate::error::check_finite;
+use crate::{ContinuumError, Deformation};
+
+/// A quantity with K components, of the deformation and I components of something else.
+pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
+    /// What the I components are.
+    type Input;
+    /// What the K components are.
+    type Output;
+    /// Whether it is computed from the analysis of the stretches.
+    const NEEDS_STRETCH: bool;
+    /// What the I components are, for messages.
+    const INPUT: &'static str;
+
+    /// The value, at one point or in lanes: the formulas of the one-point types and no others.
+    fn of<T: Real, D: Deformation<T>>(point: &Point<T, D>, input: [T; I]) -> [T; K];
+}
+
+/// One output: what, from what beside the deformation, and where to.
+///
+/// Made by the functions of [`batch`](super), such as [`green_strain`](super::green_strain).
+#[derive(Clone, Copy, Debug)]
+pub struct Request<Q, S, V, const I: usize, const K: usize> {
+    pub(super) quantity: Q,
+    pub(super) source: S,
+    pub(super) to: V,
+}
+
+/// Outputs to be computed together: a [`Request`] or a tuple of up to eight.
+///
+/// What is not in the tuple is not computed, what several of them need is computed once; both are decided when the
+/// program is compiled.
+pub trait Requests<T: BatchScalar>: Send + Sized {
+    /// Whether an output is computed from the analysis of the stretches.
+    const NEEDS_STRETCH: bool;
+
+    /// Whether all views have the length of the batch.
+    ///
+    /// # Errors
+    /// [`ContinuumError::WrongLength`].
+    fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError>;
+
+    /// The requests for the first `middle` points and for the rest.
+    fn split(self, middle: usize) -> (Self, Self);
+
+    /// Computes the first `count` lanes of a block that starts at the destination's point `at` and at the source's
+    /// point `first`; tells in which lanes the input is finite.
+    fn block<const N: usize, D: Deformation<Lanes<T, N>>>(
+        &mut self,
+        first: usize,
+        at: usize,
+        count: usize,
+        point: &Point<Lanes<T, N>, D>,
+    ) -> <Lanes<T, N> as Real>::Mask;
+
+    /// Whether the input of a point is finite.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotFinite`].
+    fn check(&self, index: usize) -> Result<(), ContinuumError>;
+
+    /// Writes NaN at a point.
+    fn void(&mut self, at: usize);
+}
+
+impl<T, Q, S, V, const I: usize, const K: usize> Requests<T> for Request<Q, S, V, I, K>
+where
+    T: BatchScalar,
+    Q: Quantity<I, K>,
+    S: Source<Q::Input, T, I>,
+    V: Destination<Q::Output, T, K>,
+{
+    const NEEDS_STRETCH: bool = Q::NEEDS_STRETCH;
+
+    fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
+        let read = self.source.count().unwrap_or(expected);
+        if read != expected {
+            return Err(ContinuumError::WrongLength { quantity: Q::INPUT, found: read, expected });
+        }
+        let written = self.to.count();
+        if written != expected {
+            return Err(ContinuumError::WrongLength { quantity: "destination of a batch", found: written, expected });
+        }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn split(self, middle: usize) -> (Self, Self) {
+        let Self { quantity, source, to } = self;
+        let (head, tail) = to.split(middle);
+        (Self { quantity, source, to: head }, Self { quantity, source, to: tail })
+    }
+
+    #[inline(always)]
+    fn block<const N: usize, D: Deformation<Lanes<T, N>>>(
+        &mut self,
+        first: usize,
+        at: usize,
+        count: usize,
+        point: &Point<Lanes<T, N>, D>,
+    ) -> <Lanes<T, N> as Real>::Mask {
+        let input = self.source.load::<N>(first, count);
+        // x − x is zero but for ∞ and NaN.
+        let mut nothing = Lanes::splat(T::zero());
+        let mut i = 0;
+        while i < I {
+            nothing += input[i] - input[i];
+            i += 1;
+        }
+        self.to.store(at, count, Q::of(point, input));
+        if I == 0 { Mask::splat(true) } else { nothing.is_finite() }
+    }
+
+    fn check(&self, index: usize) -> Result<(), ContinuumError> {
+        if I == 0 { Ok(()) } else { check_finite(Q::INPUT, &self.source.point(index)) }
+    }
+
+    fn void(&mut self, at: usize) {
+        self.to.put(at, [T::lit(f64::NAN); K]);
+    }
+}
+
+macro_rules! tuple {
+    ($($name:ident $place:tt),+) => {
+        impl<T: BatchScalar, $($name: Requests<T>),+> Requests<T> for ($($name,)+) {
+            const NEEDS_STRETCH: bool = $($name::NEEDS_STRETCH)|+;
+
+            fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
+                $(self.$place.check_lengths(expected)?;)+
+                Ok(())
+            }
+
+            #[inline(always)]
+            fn split(self, middle: usize) -> (Self, Self) {
+                let parts = ($(self.$place.split(middle),)+);
+                (($(parts.$place.0,)+), ($(parts.$place.1,)+))
+            }
+
+            #[inline(always)]
+            fn block<const N: usize, De: Deformation<Lanes<T, N>>>(
+                &mut self,
+                first: usize,
+                at: usize,
+                count: usize,
+                point: &Point<Lanes<T, N>, De>,
+            ) -> <Lanes<T, N> as Real>::Mask {
+                let mut finite: <Lanes<T, N> as Real>::Mask = Mask::splat(true);
+                $(finite = finite & self.$place.block(first, at, count, point);)+
+                finite
+            }
+
+            fn check(&self, index: usize) -> Result<(), ContinuumError> {
+                $(self.$place.check(index)?;)+
+                Ok(())
+            }
+
+            fn void(&mut self, at: usize) {
+                $(self.$place.void(at);)+
+            }
+        }
+    };
+}
+tuple!(A 0);
+tuple!(A 0, B 1);
+tuple!(A 0, B 1, C 2);
+tuple!(A 0, B 1, C 2, D 3);
+tuple!(A 0, B 1, C 2, D 3, E 4);
+tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
+tuple!(A 0, B 1, C 2, D 3, E 4, F 5, G 6);
+tuple!(A 0, B 1, C 2, D 3, E 4, F 5, G 6, H 7);

@@ -1,0 +1,202 @@
+//! Where the components of points are read from: arrays of structures, structures of arrays, strided numbers.
+
+use nalgebra::Matrix3;
+use piola_numerics::{Element, Lanes};
+
+use super::{BatchScalar, ColumnMajor, Components, Strided};
+use crate::{
+    BiotStress, CauchyStress, ContinuumError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
+};
+
+/// K components at each of many points, read without a copy; `Q` is what they may be taken for.
+///
+/// Symmetric tensors have the components 11, 22, 33, 12, 23, 13, general ones nine by rows.
+///
+/// | implemented by | layout |
+/// |---|---|
+/// | `&[Symmetric<T>]`, `&[Matrix3<T>]`, `&[[[T; 3]; 3]]`, `&[[T; K]]` | a structure for each point |
+/// | `&[CauchyStress<T>]` and the other measures, each only where that measure is asked for | so too |
+/// | [`ColumnMajor`] | nine numbers by columns for each point |
+/// | [`Strided`] | numbers at a stride, from [`points_of`](super::points_of) where it is K |
+/// | [`Components`] | an array for each component |
+pub trait Source<Q, T: Element, const K: usize>: Copy + Send + Sync {
+    /// The number of points; none where nothing is read.
+    fn count(&self) -> Option<usize>;
+
+    /// The components at one point.
+    fn point(&self, index: usize) -> [T; K];
+
+    /// The components at `count` ≤ N points from `first` on, a point a lane; lanes beyond hold the last of them.
+    #[inline(always)]
+    fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; K] {
+        let mut lanes = [Lanes([T::zero(); N]); K];
+        for lane in 0..N {
+            let point = self.point(first + lane.min(count - 1));
+            for (lanes, component) in lanes.iter_mut().zip(point) {
+                lanes.0[lane] = component;
+            }
+        }
+        lanes
+    }
+}
+
+/// Nothing is read.
+impl<Q, T: Element> Source<Q, T, 0> for () {
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        None
+    }
+    #[inline(always)]
+    fn point(&self, _index: usize) -> [T; 0] {
+        []
+    }
+}
+
+impl<Q, T: BatchScalar> Source<Q, T, 6> for &[Symmetric<T>] {
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.len())
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; 6] {
+        self[index].components
+    }
+}
+
+impl<Q, T: Element, const K: usize> Source<Q, T, K> for &[[T; K]] {
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.len())
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; K] {
+        self[index]
+    }
+}
+
+impl<Q, T: Element> Source<Q, T, 9> for &[[[T; 3]; 3]] {
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.len())
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; 9] {
+        let [[a, b, c], [d, e, f], [g, h, i]] = self[index];
+        [a, b, c, d, e, f, g, h, i]
+    }
+}
+
+/// Nine numbers by rows of nine by columns.
+#[inline(always)]
+pub(super) fn transposed<T: Copy>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> [T; 9] {
+    [a, d, g, b, e, h, c, f, i]
+}
+
+/// The numbers of a nalgebra matrix by rows.
+#[inline(always)]
+pub(super) fn by_rows<T: Element>(matrix: &Matrix3<T>) -> [T; 9] {
+    let [[a, b, c], [d, e, f], [g, h, i]] = matrix.data.0;
+    transposed([a, b, c, d, e, f, g, h, i])
+}
+
+impl<Q, T: Element> Source<Q, T, 9> for &[Matrix3<T>] {
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.len())
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; 9] {
+        by_rows(&self[index])
+    }
+}
+
+impl<Q, T: Element> Source<Q, T, 9> for ColumnMajor<&[[T; 9]]> {
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.0.len())
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; 9] {
+        transposed(self.0[index])
+    }
+}
+
+impl<Q, T: Element, const K: usize> Source<Q, T, K> for Strided<&[T], K> {
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.count)
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; K] {
+        let data = &self.data[index * self.stride..];
+        self.places.map(|place| data[place])
+    }
+}
+
+impl<Q, T: Element, const K: usize> Source<Q, T, K> for Components<&[T], K> {
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.0[0].len())
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; K] {
+        self.0.map(|component| component[index])
+    }
+    #[inline(always)]
+    fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; K] {
+        let mut lanes = [Lanes([T::zero(); N]); K];
+        for (lanes, component) in lanes.iter_mut().zip(self.0) {
+            let points = &component[first..first + count];
+            *lanes = Lanes::load(points, points[count - 1]);
+        }
+        lanes
+    }
+}
+
+macro_rules! symmetric_measures {
+    ($($name:ident)*) => { $(
+        impl<T: BatchScalar> Source<$name, T, 6> for &[$name<T>] {
+            #[inline(always)]
+            fn count(&self) -> Option<usize> {
+                Some(self.len())
+            }
+            #[inline(always)]
+            fn point(&self, index: usize) -> [T; 6] {
+                self[index].0.components
+            }
+        }
+    )* };
+}
+symmetric_measures!(CauchyStress KirchhoffStress SecondPiola);
+
+macro_rules! general_measures {
+    ($($name:ident)*) => { $(
+        impl<T: BatchScalar> Source<$name, T, 9> for &[$name<T>] {
+            #[inline(always)]
+            fn count(&self) -> Option<usize> {
+                Some(self.len())
+            }
+            #[inline(always)]
+            fn point(&self, index: usize) -> [T; 9] {
+                by_rows(&self[index].0)
+            }
+        }
+    )* };
+}
+general_measures!(FirstPiola MandelStress BiotStress);
+
+impl<'a, T, const K: usize> Components<&'a [T], K> {
+    /// From an array for each component.
+    ///
+    /// # Errors
+    /// [`ContinuumError::WrongLength`] when the arrays differ in length.
+    pub fn new(arrays: [&'a [T]; K]) -> Result<Self, ContinuumError> {
+        let expected = arrays.first().map_or(0, |array| array.len());
+        match arrays.iter().find(|array| array.len() != expected) {
+            Some(odd) => {
+                Err(ContinuumError::WrongLength { quantity: "array of a component", found: odd.len(), expected })
+            }
+            None => Ok(Self(arrays)),
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Layouts of numbers that have no type of their own.
+
+use crate::ContinuumError;
+
+/// Nine numbers by columns for each point.
+///
+/// # Example
+/// ```
+/// use piola_continuum::batch::{self, ColumnMajor, Gradients};
+/// let numbers = [1.0, 2.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]; // F₂₁ = 2: simple shear
+/// let mut c = [[0.0; 6]];
+/// let f = Gradients(ColumnMajor(batch::points_of::<9, _>(&numbers)?));
+/// batch::evaluate(f, batch::right_cauchy_green(&mut c[..]))?;
+/// assert_eq!(c[0], [5.0, 1.0, 1.0, 2.0, 0.0, 0.0]);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct ColumnMajor<A>(
+    /// Nine numbers for each point: see [`points_of`].
+    pub A,
+);
+
+/// A structure of arrays: an array for each component, in the order of the components.
+///
+/// # Example
+/// ```
+/// use piola_continuum::batch::{self, Components, Gradients};
+/// let (o, l, k) = ([0.0; 100], [1.0; 100], [2.0; 100]);
+/// let f = Components::new([&l[..], &o, &o, &k, &l, &o, &o, &o, &l])?; // F₂₁ = 2 at a hundred points
+/// let mut j = [0.0; 100];
+/// batch::evaluate(Gradients(f), batch::jacobian(&mut j[..]))?;
+/// assert_eq!(j, [1.0; 100]);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Components<A, const K: usize>(pub(super) [A; K]);
+
+/// Component k of point i at `data[i stride + places[k]]`.
+///
+/// # Example
+/// ```
+/// use piola_continuum::batch::{self, Gradients, Strided};
+/// // Two points, the matrix by rows after a number that is something else.
+/// let numbers = [7.0, 2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 7.0, 3.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+/// let f = Strided::new(&numbers[..], 10, [1, 2, 3, 4, 5, 6, 7, 8, 9])?;
+/// let mut j = [0.0; 2];
+/// batch::evaluate(Gradients(f), batch::jacobian(&mut j[..]))?;
+/// assert_eq!(j, [2.0, 3.0]);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Strided<A, const K: usize> {
+    pub(super) data: A,
+    pub(super) stride: usize,
+    pub(super) places: [usize; K],
+    pub(super) count: usize,
+}
+
+impl<A, const K: usize> Strided<A, K> {
+    /// From numbers, the distance from point to point and the places of the components in a point.
+    ///
+    /// The last point may end with its last component.
+    ///
+    /// # Errors
+    /// [`ContinuumError::WrongLength`] when a component's place is not below the stride, or when the numbers end
+    /// within a point.
+    pub fn new<T>(data: A, stride: usize, places: [usize; K]) -> Result<Self, ContinuumError>
+    where
+        A: AsRef<[T]>,
+    {
+        let (found, span) = (data.as_ref().len(), places.into_iter().max().map_or(0, |place| place + 1));
+        if stride < span {
+            return Err(ContinuumError::WrongLength { quantity: "stride of a point", found: stride, expected: span });
+        }
+        let (whole, rest) = (found / stride.max(1), found % stride.max(1));
+        if rest != 0 && rest < span {
+            let expected = whole * stride + span;
+            return Err(ContinuumError::WrongLength { quantity: "numbers at a stride", found, expected });
+        }
+        Ok(Self { data, stride, places, count: whole + usize::from(rest != 0) })
+    }
+}
+
+/// Numbers as points of K components each, without a copy.
+///
+/// # Errors
+/// [`ContinuumError::WrongLength`] when the numbers end within a point.
+///
+/// # Example
+/// ```
+/// use piola_continuum::batch::points_of;
+/// assert_eq!(points_of::<2, _>(&[1.0, 2.0, 3.0, 4.0])?, &[[1.0, 2.0], [3.0, 4.0]]);
+/// assert!(points_of::<2, _>(&[1.0, 2.0, 3.0]).is_err());
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+pub fn points_of<const K: usize, T>(numbers: &[T]) -> Result<&[[T; K]], ContinuumError> {
+    match numbers.as_chunks() {
+        (points, []) => Ok(points),
+        (points, _) => Err(incomplete(numbers.len(), points.len() * K + K)),
+    }
+}
+
+/// As [`points_of`], to be written.
+///
+/// # Errors
+/// [`ContinuumError::WrongLength`] when the numbers end within a point.
+///
+/// # Example
+/// ```
+/// use piola_continuum::batch::points_of_mut;
+/// let mut numbers = [0.0; 4];
+/// points_of_mut::<2, _>(&mut numbers)?[1] = [3.0, 4.0];
+/// assert_eq!(numbers, [0.0, 0.0, 3.0, 4.0]);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+pub fn points_of_mut<const K: usize, T>(numbers: &mut [T]) -> Result<&mut [[T; K]], ContinuumError> {
+    let found = numbers.len();
+    match numbers.as_chunks_mut() {
+        (points, []) => Ok(points),
+        (points, _) => Err(incomplete(found, points.len() * K + K)),
+    }
+}
+
+fn incomplete(found: usize, expected: usize) -> ContinuumError {
+    ContinuumError::WrongLength { quantity: "numbers of points", found, expected }
+}
