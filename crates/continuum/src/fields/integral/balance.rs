@@ -202,6 +202,9 @@ pub fn stress_power(
 /// # Errors
 /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
 ///
+/// # Example
+/// See [`EnergyBalance`].
+///
 /// # Source
 /// B(4.61).
 pub fn strain_energy<T: Real>(
@@ -290,7 +293,34 @@ impl MassBalance {
 /// ```
 ///
 /// # Example
-/// See [`StoredEnergy`] for the energy and [`IntegralBalance`] for the body.
+/// A body that is stretched by its boundary without inertia to speak of, W = ½ |F − 1|².
+/// ```
+/// use nalgebra::{Matrix3, Vector3};
+/// use piola_continuum::fields::integral::{Cuboid, EnergyBalance, Quadrature, StoredEnergy};
+/// use piola_continuum::fields::{Body, Material, Motion, Uniform};
+/// use piola_numerics::Real;
+/// struct Springs;
+/// impl StoredEnergy for Springs {
+///     fn density<T: Real>(&self, _: &Vector3<f64>, gradient: &Matrix3<T>) -> T {
+///         let one = |i: usize| if i % 4 == 0 { T::lit(1.0) } else { T::lit(0.0) };
+///         let squares = gradient.iter().enumerate().map(|(i, &f)| (f - one(i)) * (f - one(i)));
+///         squares.fold(T::lit(0.0), |sum, square| sum + square) * T::lit(0.5)
+///     }
+/// }
+/// struct Pull;
+/// impl Motion for Pull {
+///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+///         Vector3::new(reference.x * (T::lit(1.0) + time), reference.y, reference.z)
+///     }
+/// }
+/// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+/// let body = Body { motion: Pull, reference_density: Uniform(1.0) };
+/// let none = Material(Uniform(Vector3::zeros()));
+/// let terms = EnergyBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &Springs, &none, 3.0)?;
+/// assert!((terms.stored.value - 4.5).abs() < 1e-14 && (terms.stored.tangent - 3.0).abs() < 1e-14);
+/// assert!((terms.surface_power - 3.0).abs() < 1e-14 && terms.residual().relative() < 1e-15);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
 ///
 /// # Source
 /// W(20.4).

@@ -96,8 +96,8 @@ impl Quadrature {
     ///
     /// | symbol | argument | shape | unit |
     /// |---|---|---|---|
-    /// | f | `integrand` | any [`Integrand`] | [f] |
-    /// | ∫ f dV | returned | the same | [f] m³ |
+    /// | f | `integrand` | any [`Integrand`] | that of f |
+    /// | ∫ f dV | returned | the same | that of f × m³ |
     ///
     /// # Errors
     /// [`ContinuumError::NonFiniteIntegrand`] with the place; what the region refuses.
@@ -147,6 +147,19 @@ impl Quadrature {
     ///
     /// # Errors
     /// The integrand's first error; as [`volume_integral`](Self::volume_integral).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, Quadrature, TetrahedralMesh, VolumePoint};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let mesh = TetrahedralMesh::of_cuboid(&unit, [1, 1, 1])?;
+    /// // A density by element: the first of six weighs 12 kg/m³, the others nothing.
+    /// let density = |point: &VolumePoint<f64>| Ok(if point.element == 0 { 12.0_f64 } else { 0.0 });
+    /// let mass = Quadrature::of_degree(0)?.volume_integral_of(&mesh, density)?;
+    /// assert!((mass - 2.0).abs() < 1e-15);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn volume_integral_of<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 use piola_numerics::{Dual, Gradient};
 
 use super::integrand::FieldIntegral;
-use super::region::moved_element;
+use super::region::{moved_element, placed};
 use super::{MovedRegion, Quadrature, Region};
 use crate::fields::motion::kernels::{variables, velocity};
 use crate::fields::value::map;
@@ -73,7 +73,7 @@ pub struct Sides<V> {
 ///
 /// | symbol | argument | unit |
 /// |---|---|---|
-/// | g(x, t) | `field`: scalar, vector or tensor | [g] |
+/// | g(x, t) | `field`: scalar, vector or tensor | that of g |
 /// | x(X, t) | `motion` | m |
 ///
 /// The motion need not be that of matter: with that of any moving boundary it is Reynolds' theorem.
@@ -103,8 +103,8 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     let (mut local, mut convected) = (FieldIntegral::<F::Value, f64>::new(), FieldIntegral::<F::Value, f64>::new());
     Region::<f64>::volume_points(region, quadrature, |point| {
         let particle = point.position;
-        let volume = point.weight * motion.deformation_gradient(&particle, time)?.jacobian();
-        let place = motion.place(&particle, time);
+        let (place, deformation) = placed(motion, &particle, time)?;
+        let volume = point.weight * deformation.jacobian();
         let g = field.0.at(&place_variables(&place), Gradient::variable(time, 3));
         let v = velocity(motion, &particle, time);
         let divergence = motion.velocity_gradient(&particle, time)?.trace();
@@ -118,8 +118,7 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     let mut flux = FieldIntegral::<F::Value, f64>::new();
     Region::<f64>::surface_points(region, quadrature, |point| {
         let particle = point.position;
-        let deformation = motion.deformation_gradient(&particle, time)?;
-        let place = motion.place(&particle, time);
+        let (place, deformation) = placed(motion, &particle, time)?;
         let (normal, ratio) = moved_element(deformation.gradient_rows(), &point.normal);
         let across = velocity(motion, &particle, time).dot(&normal);
         let through = map::<F::Value, _, _>(&field.0.at(&place, time), |g: f64| g * across);
@@ -181,9 +180,9 @@ pub fn transport_of_mass<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     let mut left = FieldIntegral::<F::Value, Dual<f64>>::new();
     Region::<Dual<f64>>::volume_points(region, quadrature, |point| {
         let particle = point.position;
-        let jacobian = motion.deformation_gradient(&particle, now)?.jacobian();
+        let (place, deformation) = placed(motion, &particle, now)?;
+        let jacobian = deformation.jacobian();
         let density = body.reference_density.at(&particle, now) / jacobian;
-        let place = motion.place(&particle, now);
         let weighted = map::<F::Value, _, _>(&field.0.at(&place, now), |phi: Dual<f64>| density * phi);
         left.add(&weighted, point.weight * jacobian, &place)
     })?;

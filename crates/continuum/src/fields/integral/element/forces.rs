@@ -66,10 +66,22 @@ impl<const N: usize> TetrahedralElements<N> {
         Ok(())
     }
 
-    /// Adds the forces of a density of force per reference volume on the nodes, ∫ f Nₐ dV.
+    /// Adds the forces of a density of force per reference volume on the nodes, ∫ f Nₐ dV, N.
     ///
     /// # Errors
     /// [`ContinuumError::WrongLength`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{LinearTetrahedra, MaterialPoint, TetrahedralMesh};
+    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+    /// let body = LinearTetrahedra::new(TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?, 1)?;
+    /// let mut forces = vec![0.0_f64; body.components()];
+    /// body.add_body_forces(|_: &MaterialPoint| Vector3::new(0.0, 0.0, -24.0), &mut forces)?;
+    /// assert!((forces[2] + 1.0).abs() < 1e-15); // a quarter of 24 · 1/6
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn add_body_forces<T: Real>(
         &self,
         mut density: impl FnMut(&MaterialPoint) -> Vector3<T>,
@@ -88,10 +100,24 @@ impl<const N: usize> TetrahedralElements<N> {
         Ok(())
     }
 
-    /// Adds the forces of tractions per reference area on the nodes, ∮ g Nₐ dA, with g = P N for a stress P.
+    /// Adds the forces of tractions per reference area on the nodes, ∮ g Nₐ dA, N, with g = P N for a stress P.
     ///
     /// # Errors
     /// [`ContinuumError::WrongLength`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{LinearTetrahedra, SurfacePoint, TetrahedralMesh};
+    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+    /// let body = LinearTetrahedra::new(TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?, 1)?;
+    /// let mut forces = vec![0.0_f64; body.components()];
+    /// // Pull on the face z = 0 only.
+    /// let pull = |point: &SurfacePoint<f64>| if point.normal.z == -1.0 { -Vector3::z() * 6.0 } else { Vector3::zeros() };
+    /// body.add_tractions(pull, &mut forces)?;
+    /// assert!((forces[2] + 1.0).abs() < 1e-15 && forces[11] == 0.0); // a third of 6 · ½; none on the tip
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn add_tractions<T: Real>(
         &self,
         mut traction: impl FnMut(&SurfacePoint<f64>) -> Vector3<T>,

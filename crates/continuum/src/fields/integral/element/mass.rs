@@ -66,6 +66,18 @@ impl<const N: usize> TetrahedralElements<N> {
     /// # Errors
     /// [`ContinuumError::WrongLength`]; [`ContinuumError::NonPositiveMass`] of an element.
     ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{LinearTetrahedra, TetrahedralMesh};
+    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+    /// let body = LinearTetrahedra::new(TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?, 2)?;
+    /// let mut masses = [0.0; 4];
+    /// body.lumped_mass_into(|_| 24.0, &mut masses)?;
+    /// assert!(masses.iter().all(|mass| (mass - 1.0).abs() < 1e-14));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
     /// # Source
     /// Hinton, Rock, Zienkiewicz (1976).
     pub fn lumped_mass_into(
@@ -118,6 +130,18 @@ impl<const N: usize> TetrahedralElements<N> {
     /// # Accuracy
     /// `λ_max` is bounded from above by ‖A¹⁶‖^(1/16), at most 4 % more. The frequencies of the body are lower than
     /// those of its elements: on the meshes of the tests the step is 0.7 to 0.8 of the largest stable one.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{LinearTetrahedra, TetrahedralMesh};
+    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+    /// let body = LinearTetrahedra::new(TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?, 1)?;
+    /// // Σ ∇λₐ ⊗ ∇λₐ = 1 + (1,1,1) ⊗ (1,1,1) has the eigenvalue 4, times four nodes: ω² ≤ 16 κ.
+    /// let step = body.stable_step(1.0)?;
+    /// assert!(step <= 0.5 && 0.49 < step);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     ///
     /// # Source
     /// Fried (1972): no frequency of the body exceeds the largest of an element.

@@ -162,6 +162,9 @@ impl<const N: usize> TetrahedralElements<N> {
     ///
     /// # Errors
     /// [`ContinuumError::WrongLength`].
+    ///
+    /// # Example
+    /// See [`integral`](Self::integral).
     pub fn sample_into<T: Real>(
         &self,
         mut field: impl FnMut(&Vector3<f64>) -> Vector3<T>,
@@ -221,6 +224,20 @@ impl<const N: usize> TetrahedralElements<N> {
     ///
     /// # Errors
     /// As [`integral`](Self::integral); [`ContinuumError::InvertedElement`] where 0 < det F is violated.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{LinearTetrahedra, MaterialPoint, TetrahedralMesh};
+    /// use piola_continuum::{Deformation, DisplacementGradient};
+    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+    /// let body = LinearTetrahedra::new(TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?, 0)?;
+    /// let mut displacement = vec![0.0; body.components()];
+    /// body.sample_into(|x| x * 1.0, &mut displacement)?; // doubled in size
+    /// let growth = |_: &MaterialPoint, gradient: &DisplacementGradient| Ok(gradient.volume_change());
+    /// assert!((body.strain_energy(&displacement, growth)? - 7.0 / 6.0).abs() < 1e-15);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     ///
     /// # Source
     /// B(4.61).

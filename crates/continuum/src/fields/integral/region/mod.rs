@@ -20,6 +20,7 @@ mod round;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub use moved::MovedRegion;
+pub(super) use moved::placed;
 pub use round::{Ball, Ellipsoid, SphericalShell};
 
 use nalgebra::{Matrix3, Vector3};

@@ -1,12 +1,15 @@
 //! The image of a region under a motion.
 
+use nalgebra::Vector3;
 use piola_numerics::Real;
+use piola_numerics::linear::matrix3::from_rows;
 
 use super::{Region, SurfacePoint, VolumePoint, moved_element};
-use crate::ContinuumError;
-use crate::Deformation;
 use crate::fields::Motion;
 use crate::fields::integral::Quadrature;
+use crate::fields::motion::check_event;
+use crate::fields::motion::kernels::place_and_gradient;
+use crate::{ContinuumError, Deformation, DeformationGradient};
 
 /// The region that a motion makes of another one at a time: χ(𝒫, t).
 ///
@@ -58,8 +61,7 @@ impl<T: Real, R: Region<T>, M: Motion> Region<T> for MovedRegion<'_, R, M, T> {
         mut visit: impl FnMut(VolumePoint<T>) -> Result<(), ContinuumError>,
     ) -> Result<(), ContinuumError> {
         self.region.volume_points(quadrature, |point| {
-            let deformation = self.motion.deformation_gradient(&point.position, self.time)?;
-            let position = self.motion.place(&point.position, self.time);
+            let (position, deformation) = placed(self.motion, &point.position, self.time)?;
             visit(VolumePoint { position, weight: point.weight * deformation.jacobian(), element: point.element })
         })
     }
@@ -70,10 +72,21 @@ impl<T: Real, R: Region<T>, M: Motion> Region<T> for MovedRegion<'_, R, M, T> {
         mut visit: impl FnMut(SurfacePoint<T>) -> Result<(), ContinuumError>,
     ) -> Result<(), ContinuumError> {
         self.region.surface_points(quadrature, |point| {
-            let deformation = self.motion.deformation_gradient(&point.position, self.time)?;
-            let position = self.motion.place(&point.position, self.time);
+            let (position, deformation) = placed(self.motion, &point.position, self.time)?;
             let (normal, ratio) = moved_element(deformation.gradient_rows(), &point.normal);
             visit(SurfacePoint { position, normal, weight: point.weight * ratio, face: point.face })
         })
     }
+}
+
+/// (x, F) of a particle, checked, in one pass.
+#[inline]
+pub(in crate::fields::integral) fn placed<T: Real>(
+    motion: &impl Motion,
+    particle: &Vector3<T>,
+    time: T,
+) -> Result<(Vector3<T>, DeformationGradient<T>), ContinuumError> {
+    check_event(motion, particle, time)?;
+    let (place, gradient) = place_and_gradient(motion, particle, time);
+    Ok((place, DeformationGradient::new(from_rows(gradient))?))
 }
