@@ -282,6 +282,48 @@ pub enum ContinuumError {
         /// Newton steps taken.
         iterations: usize,
     },
+    /// A list that must increase does not.
+    #[error("{quantity}[{index}] = {value} does not exceed the one before, {previous}")]
+    NotIncreasing {
+        /// What the list is.
+        quantity: &'static str,
+        /// The index of the offending entry.
+        index: usize,
+        /// The entry before.
+        previous: f64,
+        /// The entry.
+        value: f64,
+    },
+    /// 0 < det F is violated at a corner of a cell of samples.
+    #[error("cell {cell:?} is folded at time {time}: det F = {determinant:e} at a corner")]
+    FoldedCell {
+        /// The cell, from 0 along each axis.
+        cell: [usize; 3],
+        /// The index of the time.
+        time: usize,
+        /// det F by the edges that meet at the corner.
+        determinant: f64,
+    },
+    /// A particle or time lies outside the samples.
+    #[error("{value} lies outside the {quantity}, which reach from {low} to {high}")]
+    OutsideSamples {
+        /// Along which samples.
+        quantity: &'static str,
+        /// The coordinate or time.
+        value: f64,
+        /// The first sample.
+        low: f64,
+        /// The last sample.
+        high: f64,
+    },
+    /// A particle that does not exist.
+    #[error("particle {particle} does not exist: there are {count}")]
+    NoSuchParticle {
+        /// The index, from 0.
+        particle: usize,
+        /// The number of particles.
+        count: usize,
+    },
     /// A point where coordinates have no basis: an axis, a pole or a place outside their range.
     #[error("the coordinates {coordinates:?} have no basis there: volume element {volume_element:e}")]
     SingularCoordinates {

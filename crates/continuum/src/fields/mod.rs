@@ -8,6 +8,7 @@ pub mod frames;
 pub mod integral;
 pub mod motion;
 mod residual;
+pub mod sampled;
 pub(crate) mod value;
 
 pub use balance::{Body, Flow, equilibrium_residual, symmetry_residual};
@@ -16,4 +17,5 @@ pub use field::{Field, Uniform, ValueOf};
 pub use frames::{Eulerian, Following, Inversion, Material, Preimage, Spatial};
 pub use motion::{Affine, AffineHistory, Homogeneous, Motion, Rigid, RigidHistory};
 pub use residual::{Residual, VectorResidual};
+pub use sampled::{Interpolation, MotionSamples, SampledMotion, SampledTrajectories};
 pub use value::{FieldValue, TensorValue};

@@ -14,6 +14,7 @@
 //! | a formula u(X, t), with small strains | implement [`Motion::displacement`] too |
 //! | x = F(t) X + c(t) | [`Homogeneous`] |
 //! | x = R(t) X + c(t) | [`Rigid`] |
+//! | samples of places | [`SampledMotion`](crate::fields::SampledMotion) |
 
 mod affine;
 pub(crate) mod kernels;
