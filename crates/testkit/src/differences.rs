@@ -48,12 +48,26 @@ pub fn difference_quotient(f: impl Fn(&[f64]) -> Vec<f64>, x: &[f64], v: &[f64])
 /// ```
 #[must_use]
 pub fn condition_number(f: impl Fn(&[f64]) -> Vec<f64>, x: &[f64]) -> f64 {
+    condition_number_by_steps(2.0_f64.powi(-20), f, x)
+}
+
+/// The [`condition_number`] by differences with relative steps of another size: small ones where f varies over lengths
+/// below 10⁻⁶ of x, and is itself rounded only at the end.
+///
+/// # Example
+/// ```
+/// // x² − y² with x = 1 + 1e-9 and y = 1: κ ≈ 4/2e-9.
+/// let f = |x: &[f64]| vec![(x[0] - x[1]) * (x[0] + x[1])];
+/// let kappa = piola_testkit::condition_number_by_steps(2.0_f64.powi(-40), f, &[1.0 + 1e-9, 1.0]);
+/// assert!((kappa / 2e9 - 1.0).abs() < 1e-2);
+/// ```
+#[must_use]
+pub fn condition_number_by_steps(h: f64, f: impl Fn(&[f64]) -> Vec<f64>, x: &[f64]) -> f64 {
     let value = f(x);
     let size = value.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
     let mut sums = vec![0.0; value.len()];
     let mut moved = x.to_vec();
     for j in 0..x.len() {
-        let h = 2.0_f64.powi(-20);
         moved[j] = x[j] * (1.0 + h);
         let ahead = f(&moved);
         moved[j] = x[j] * (1.0 - h);

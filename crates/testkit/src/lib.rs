@@ -26,7 +26,7 @@ mod tolerance;
 
 pub use allocations::{CountingAllocator, allocations_in};
 pub use closeness::{assert_close, assert_close_at_scale, relative_error, ulps_between};
-pub use differences::{condition_number, difference_quotient};
+pub use differences::{condition_number, condition_number_by_steps, difference_quotient};
 pub use double_double::DoubleDouble;
 pub use orders::{assert_order, convergence_order};
 pub use tolerance::Tol;

@@ -89,7 +89,7 @@ impl<T: Real> GreenStrain<T> {
     /// ```
     /// use nalgebra::Matrix3;
     /// use piola_continuum::strain::GreenStrain;
-    /// let one = Matrix3::identity();
+    /// let one = Matrix3::<f64>::identity();
     /// assert_eq!(GreenStrain::second_derivative(&one, &one).components[0], 1.0); // d² ½ λ² = dλ²
     /// ```
     #[inline(always)]
