@@ -95,6 +95,14 @@ fn integrand_that_is_no_number_is_located() {
 }
 
 #[test]
+fn integral_beyond_the_range_of_numbers_is_refused() {
+    let rules = Quadrature::of_degree(1).expect("rules");
+    let vast = Cuboid::new(Vector3::zeros(), Vector3::repeat(1e120)).expect("a box");
+    let error = rules.volume_integral(&vast, |_: &Vector3<f64>| 1.0).expect_err("1e360");
+    assert!(matches!(error, ContinuumError::NotFinite { quantity: "integral", index: 0, .. }), "{error}");
+}
+
+#[test]
 fn motion_that_turns_a_region_inside_out_is_refused() {
     struct Fold;
     impl Motion for Fold {
@@ -155,6 +163,8 @@ fn masses_and_damping_that_cannot_be_are_named() {
     let error = body.lumped_mass_into(|_| -1.0, &mut masses).expect_err("negative");
     assert!(matches!(error, ContinuumError::NonPositiveMass { index: 0, .. }), "{error}");
     assert!(body.lumped_mass_into(|_| f64::NAN, &mut masses).is_err());
+    // More mass than none, but not everywhere.
+    assert!(body.lumped_mass_into(|x| if x.x < 0.2 { -1e3 } else { 1e3 }, &mut masses).is_err());
     assert!(body.stable_step(0.0).is_err() && body.stable_step(f64::NAN).is_err());
     let error = ExplicitMotion::new(&[1.0, 0.0], &[0.0; 2]).expect_err("no mass");
     assert_eq!(error, ContinuumError::NonPositiveMass { index: 1, mass: 0.0 });

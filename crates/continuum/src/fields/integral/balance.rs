@@ -221,7 +221,7 @@ pub fn strain_energy<T: Real>(
         let density = energy.density(&point.position, deformation.matrix());
         integral.add(&[density], T::lit(point.weight), &particle)
     })?;
-    let [total] = integral.value();
+    let [total] = integral.value()?;
     Ok(total)
 }
 

@@ -126,12 +126,12 @@ pub struct AdaptiveQuadrature {
 }
 
 impl AdaptiveQuadrature {
-    /// Rules of the degrees 1, 3, 5, 8, 12, 18, 27, … up to the given one.
+    /// Rules of the degrees 1, 3, 5, 8, 12, 18, 27, … up to the given one, which is at least 3.
     ///
     /// # Errors
     /// [`ContinuumError::DegreeTooHigh`].
     pub fn up_to_degree(degree: usize) -> Result<Self, ContinuumError> {
-        let mut degrees = vec![1, 3, 5];
+        let mut degrees = vec![1, 3];
         while let Some(&last) = degrees.last()
             && last < degree
         {
@@ -143,7 +143,8 @@ impl AdaptiveQuadrature {
 
     /// Whatever is made by integration, until two rules agree to `tolerance` times the largest component.
     ///
-    /// An integral that is zero by cancellation has no relative accuracy: add to it a component that is not.
+    /// An integral that is zero by cancellation has no relative accuracy: add to it a component that is not. Rules of
+    /// low degree may agree by chance, where an integrand varies only between their points: cut the region then.
     ///
     /// # Errors
     /// Those of the integration; [`ContinuumError::IntegralNotConverged`].

@@ -4,7 +4,9 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::sums::two_sum;
 use piola_numerics::{Dual, Element, Gradient, Jet, Lanes, Mask, Real};
 
+use crate::error::check_finite;
 use crate::fields::FieldValue;
+use crate::fields::field::finite;
 use crate::{ContinuumError, Symmetric};
 
 /// A value with components that can be weighted and added.
@@ -159,13 +161,15 @@ impl<V: Integrand> RunningIntegral<V> {
         Ok(())
     }
 
+    /// The integral, if it is in the range of numbers.
     #[inline(always)]
-    pub(super) fn value(mut self) -> V {
+    pub(super) fn value(mut self) -> Result<V, ContinuumError> {
         for (sum, &carry) in self.sum.components_mut().iter_mut().zip(self.carry.components()) {
             // After an overflow the carry is NaN and the plain sum tells what happened.
             *sum = V::Scalar::select(carry.is_finite(), *sum + carry, *sum);
         }
-        self.sum
+        check_finite("integral", self.sum.components())?;
+        Ok(self.sum)
     }
 }
 
@@ -197,13 +201,15 @@ impl<V: FieldValue, T: Real> FieldIntegral<V, T> {
         Ok(())
     }
 
+    /// The integral, if it is in the range of numbers.
     #[inline(always)]
-    pub(super) fn value(self) -> V::Over<T> {
-        V::from_components(|i| {
+    pub(super) fn value(self) -> Result<V::Over<T>, ContinuumError> {
+        let total = V::from_components(|i| {
             let (sum, carry) = (V::component::<T>(&self.sum, i), V::component::<T>(&self.carry, i));
             // After an overflow the carry is NaN and the plain sum tells what happened.
             T::select(carry.is_finite(), sum + carry, sum)
-        })
+        });
+        finite::<V, T>("integral", total)
     }
 }
 

@@ -100,7 +100,8 @@ impl Quadrature {
     /// | ∫ f dV | returned | the same | that of f × m³ |
     ///
     /// # Errors
-    /// [`ContinuumError::NonFiniteIntegrand`] with the place; what the region refuses.
+    /// [`ContinuumError::NonFiniteIntegrand`] with the place; [`ContinuumError::NotFinite`] for an integral beyond the
+    /// range of numbers; what the region refuses.
     ///
     /// # Example
     /// ```
@@ -167,7 +168,7 @@ impl Quadrature {
     ) -> Result<V, ContinuumError> {
         let mut integral = RunningIntegral::new();
         region.volume_points(self, |point| integral.add(&integrand(&point)?, point.weight, &point.position))?;
-        Ok(integral.value())
+        integral.value()
     }
 
     /// ∫ f dA with an integrand that may fail.
@@ -181,7 +182,7 @@ impl Quadrature {
     ) -> Result<V, ContinuumError> {
         let mut integral = RunningIntegral::new();
         region.surface_points(self, |point| integral.add(&integrand(&point)?, point.weight, &point.position))?;
-        Ok(integral.value())
+        integral.value()
     }
 }
 

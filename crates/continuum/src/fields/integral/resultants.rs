@@ -85,7 +85,7 @@ impl<T: Real> Resultants<T> {
             let of_particle = densities(density, place - lift(pole), velocity(&body.motion, &particle, time));
             integral.add(&of_particle, T::lit(point.weight), &particle)
         })?;
-        Ok(Self::from_array(&integral.value()))
+        Ok(Self::from_array(&integral.value()?))
     }
 
     /// Of what is in a region of space at a time, from density and velocity as fields in space.
@@ -130,7 +130,7 @@ impl<T: Real> Resultants<T> {
             let of_place = densities(density.0.at(&place, time), place - lift(pole), velocity.0.at(&place, time));
             integral.add(&of_place, point.weight, &place)
         })?;
-        Ok(Self::from_array(&integral.value()))
+        Ok(Self::from_array(&integral.value()?))
     }
 
     /// c, m, for the pole that the resultants were taken about.
@@ -198,7 +198,7 @@ impl ForceResultants {
             let force = body_force.0.at(particle, time) * body.reference_density.at(particle, time);
             integral.add(&acting(&force, &body.motion, particle, pole, time)?, point.weight, particle)
         })?;
-        Ok(Self::from_array(&integral.value()))
+        Ok(Self::from_array(&integral.value()?))
     }
 
     /// Of the tractions P N of a stress P(X, t) on the boundary.
@@ -254,7 +254,7 @@ impl ForceResultants {
             let traction = Vector3::from(apply(stress(particle).rows(), point.normal.into()));
             integral.add(&acting(&traction, motion, particle, pole, time)?, point.weight, particle)
         })?;
-        Ok(Self::from_array(&integral.value()))
+        Ok(Self::from_array(&integral.value()?))
     }
 
     fn from_array(a: &[f64; 7]) -> Self {

@@ -98,7 +98,7 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     moving.volume_points(quadrature, |point| {
         total.add(&field.0.at(&point.position, moving.time), point.weight, &point.position)
     })?;
-    let rate = map::<F::Value, _, _>(&total.value(), |total: Dual<f64>| total.tangent);
+    let rate = map::<F::Value, _, _>(&total.value()?, |total: Dual<f64>| total.tangent);
 
     let (mut local, mut convected) = (FieldIntegral::<F::Value, f64>::new(), FieldIntegral::<F::Value, f64>::new());
     Region::<f64>::volume_points(region, quadrature, |point| {
@@ -124,7 +124,7 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
         let through = map::<F::Value, _, _>(&field.0.at(&place, time), |g: f64| g * across);
         flux.add(&through, point.weight * ratio, &place)
     })?;
-    let (local, convected, flux) = (local.value(), convected.value(), flux.value());
+    let (local, convected, flux) = (local.value()?, convected.value()?, flux.value()?);
     let of = |value: &ValueOf<F, f64>, i: usize| F::Value::component::<f64>(value, i);
     let left_by =
         |other: &ValueOf<F, f64>| F::Value::from_components(|i| of(&rate, i) - (of(&local, i) + of(other, i)));
@@ -199,8 +199,8 @@ pub fn transport_of_mass<F: Field, R: Region<f64> + Region<Dual<f64>>>(
         let density = body.reference_density.at(&particle, time);
         right.add(&map::<F::Value, _, _>(&phi, material), point.weight * density, &particle)
     })?;
-    let left = map::<F::Value, _, _>(&left.value(), |total: Dual<f64>| total.tangent);
-    Ok(Sides { left, right: right.value() })
+    let left = map::<F::Value, _, _>(&left.value()?, |total: Dual<f64>| total.tangent);
+    Ok(Sides { left, right: right.value()? })
 }
 
 /// The coordinates of a place as the first three of four variables.

@@ -64,7 +64,8 @@ impl<const N: usize> TetrahedralElements<N> {
     /// for linear elements of uniform density both are the same. With c in place of `ρ_κ` it lumps the damping.
     ///
     /// # Errors
-    /// [`ContinuumError::WrongLength`]; [`ContinuumError::NonPositiveMass`] of an element.
+    /// [`ContinuumError::WrongLength`]; [`ContinuumError::NonPositiveMass`] of an element, or of one of its nodes where
+    /// the density changes sign.
     ///
     /// # Example
     /// ```
@@ -89,7 +90,8 @@ impl<const N: usize> TetrahedralElements<N> {
         masses.fill(0.0);
         for (element, nodes) in self.elements.iter().enumerate() {
             let (shares, mass) = self.lumped_shares(element, &mut density);
-            if !(0.0 < mass && mass.is_finite()) {
+            let is_positive = shares.iter().all(|&share| 0.0 < share && share.is_finite());
+            if !(is_positive && 0.0 < mass && mass.is_finite()) {
                 return Err(ContinuumError::NonPositiveMass { index: element, mass });
             }
             for (&node, share) in nodes.iter().zip(shares) {

@@ -217,7 +217,7 @@ impl<const N: usize> TetrahedralElements<N> {
                 integral.add(&term, T::lit(point.weight), &point.position.map(T::lit))?;
             }
         }
-        Ok(integral.value())
+        integral.value()
     }
 
     /// The strain energy ∫ W(∇u) dV.
