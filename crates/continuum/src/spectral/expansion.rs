@@ -30,10 +30,12 @@ pub(super) fn expand<T: Real, F: IsotropicFunction + ?Sized>(
 ) -> [T; 6] {
     const { assert!(T::ORDER <= LARGEST_ORDER, "isotropic functions have derivatives up to the fourth order") };
     let [a, b, c] = nodes;
-    let pairs = [f.divided_difference(a, b), f.divided_difference(b, c), f.divided_difference(a, c)];
     if T::ORDER == 0 {
+        let rough = |i: usize, j: usize| f.rough_divided_difference(nodes[i], nodes[j], values[i], values[j]);
+        let pairs = [rough(0, 1), rough(1, 2), rough(0, 2)];
         return [values[0], values[1], values[2], pairs[0] * n[3], pairs[1] * n[4], pairs[2] * n[5]];
     }
+    let pairs = [f.divided_difference(a, b), f.divided_difference(b, c), f.divided_difference(a, c)];
     let twice = [f.divided_difference(a, a), f.divided_difference(b, b), f.divided_difference(c, c)];
     let mut result = [
         values[0] + twice[0] * n[0],

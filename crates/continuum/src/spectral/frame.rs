@@ -78,6 +78,19 @@ fn separated_root<T: Real>(q: T) -> T {
     y - (y * (y * y - T::lit(3.0)) - (q + q)) * slope
 }
 
+/// The larger of two numbers by one comparison.
+#[inline(always)]
+pub(super) fn larger<T: Real>(a: T, b: T) -> T {
+    T::select(a.less_than(b), b, a)
+}
+
+/// The largest modulus of six numbers.
+#[inline(always)]
+pub(super) fn largest_modulus<T: Real>(a: [T; 6]) -> T {
+    let [a, b, c, d, e, f] = [a[0].abs(), a[1].abs(), a[2].abs(), a[3].abs(), a[4].abs(), a[5].abs()];
+    larger(larger(larger(a, b), larger(c, d)), larger(e, f))
+}
+
 /// `if_true` or `if_false`, component by component.
 #[inline(always)]
 fn choose<T: Real>(mask: T::Mask, if_true: [T; 3], if_false: [T; 3]) -> [T; 3] {
@@ -109,7 +122,7 @@ pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
     // The deviator B, scaled to ½ B:B = 3.
     let mean = (xx + yy + zz) * T::lit(1.0 / 3.0);
     let (xx, yy, zz) = (xx - mean, yy - mean, zz - mean);
-    let largest = xx.abs().max(yy.abs()).max(zz.abs()).max(xy.abs().max(yz.abs()).max(xz.abs()));
+    let largest = largest_modulus([xx, yy, zz, xy, yz, xz]);
     let factor = T::select(
         largest.less_than(T::lit(range.low)),
         T::lit(range.raise),
@@ -122,12 +135,12 @@ pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
 
     // The separated eigenvalue x and its eigenvector v, a column of adj(B − x1).
     let r = T::lit(0.5) * (xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz));
-    let x = separated_root(r.abs().min(one)).copysign(r);
+    let x = separated_root(T::select(one.less_than(r.abs()), one, r.abs())).copysign(r);
     let (mx, my, mz) = (xx - x, yy - x, zz - x);
     let (ax, ay, az) = (my * mz - yz * yz, mx * mz - xz * xz, mx * my - xy * xy);
     let (axy, ayz, axz) = (yz * xz - xy * mz, xy * xz - yz * mx, xy * yz - xz * my);
     let v = choose::<T>(
-        ay.at_most(ax) & az.at_most(ax),
+        larger(ay, az).at_most(ax),
         [ax, axy, axz],
         choose::<T>(az.at_most(ay), [axy, ay, ayz], [axz, ayz, az]),
     );

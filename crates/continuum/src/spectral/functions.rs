@@ -30,6 +30,14 @@ impl IsotropicFunction for SquareRoot {
         let (a, b, c) = (a.sqrt(), b.sqrt(), c.sqrt());
         -((a + b) * (b + c) * (c + a)).recip()
     }
+    #[inline(always)]
+    fn rough_divided_difference<T: Real>(&self, _a: T, _b: T, root_of_a: T, root_of_b: T) -> T {
+        (root_of_a + root_of_b).recip()
+    }
+    #[inline(always)]
+    fn slope_at_one<T: Real>(&self) -> T {
+        T::lit(0.5)
+    }
 }
 
 /// ln x.
@@ -56,6 +64,17 @@ impl IsotropicFunction for Logarithm {
         // ln(1 + w)/(w b) with w = (a − b)/b ≥ 0, where the argument's rounding is not magnified.
         let (a, b) = ordered(a, b);
         logarithmic_quotient((a - b) / b) / b
+    }
+    #[inline(always)]
+    fn rough_divided_difference<T: Real>(&self, a: T, b: T, log_of_a: T, log_of_b: T) -> T {
+        // 2/(a + b) is within z²/3 for z = (a − b)/(a + b).
+        let (sum, gap) = (a + b, a - b);
+        let near = gap.abs().less_than(sum * T::lit(1e-4));
+        T::select(near, T::lit(2.0), log_of_a - log_of_b) / T::select(near, sum, gap)
+    }
+    #[inline(always)]
+    fn slope_at_one<T: Real>(&self) -> T {
+        T::one()
     }
 }
 

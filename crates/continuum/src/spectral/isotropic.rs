@@ -1,6 +1,6 @@
 //! Isotropic functions of a symmetric tensor: what the eigenvalues are put through, and its divided differences.
 
-use piola_numerics::Real;
+use piola_numerics::{Dual, Real};
 
 use super::series::{Series, TERMS};
 
@@ -22,7 +22,7 @@ use super::series::{Series, TERMS};
 /// ```
 /// use piola_continuum::spectral::{self, IsotropicFunction};
 /// use piola_continuum::Symmetric;
-/// use piola_numerics::Real;
+/// use piola_numerics::{Dual, Real};
 ///
 /// struct Cube;
 /// impl IsotropicFunction for Cube {
@@ -55,6 +55,25 @@ pub trait IsotropicFunction {
     #[must_use]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         first_difference(self, a, b)
+    }
+
+    /// f[a, b] to about eight digits, given f(a) and f(b): enough to correct the rounding of a principal frame.
+    #[inline(always)]
+    #[must_use]
+    fn rough_divided_difference<T: Real>(&self, a: T, b: T, value_at_a: T, value_at_b: T) -> T {
+        let middle = T::lit(0.5) * (a + b);
+        let gap = a - b;
+        let near = gap.abs().less_than(self.smooth_within(middle) * T::lit(1e-4));
+        let slope = self.value(Dual::variable(middle)).tangent;
+        T::select(near, slope, (value_at_a - value_at_b) / T::select(near, T::one(), gap))
+    }
+
+    /// f′(1); zero where f is not regular there.
+    #[inline(always)]
+    #[must_use]
+    fn slope_at_one<T: Real>(&self) -> T {
+        let slope = self.divided_difference(T::one(), T::one());
+        T::select(slope.is_finite(), slope, T::zero())
     }
 
     /// f[a, b, c], equal to ½ f″(a) for a = b = c.

@@ -18,10 +18,10 @@ use piola_numerics::{Mask, Real};
 
 use super::decomposition::{descending, lifted, turned};
 use super::expansion::expand;
-use super::frame::{combination, components_in, from_frame, principal_frame};
+use super::frame::{combination, components_in, from_frame, largest_modulus, principal_frame};
 use super::orthogonal_images::orthogonalise;
 use super::{IsotropicFunction, Logarithm};
-use crate::tensor::rows::{Rows, apply};
+use crate::tensor::rows::{Rows, apply, transpose};
 use crate::{Deformation, Symmetric};
 
 /// Strains with components up to this size are computed from ∇u and relative to the rotation.
@@ -53,6 +53,11 @@ const SMALL: f64 = 0.25;
 #[derive(Clone, Copy, Debug)]
 pub struct StretchAnalysis<T: Real = f64> {
     gradient: Rows<T>,
+    displacement: Rows<T>,
+    /// 2E.
+    twice_green: Symmetric<T>,
+    /// 2E, for small strain, or C in the frame of the axes.
+    square: [T; 6],
     /// qₖ by rows, without derivatives.
     axes: Rows<T>,
     /// bₖ = F qₖ by rows.
@@ -117,13 +122,11 @@ impl<T: Real> StretchAnalysis<T> {
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
-        let gradient = deformation.gradient_rows();
-        let twice_green = twice_green(&deformation.displacement_rows());
+        let (gradient, displacement) = (deformation.gradient_rows(), deformation.displacement_rows());
+        let twice_green = twice_green(&displacement);
         let green =
             if T::ORDER == 0 { twice_green } else { Symmetric { components: twice_green.components.map(T::frozen) } };
-        let e = green.components;
-        let largest = e[0].abs().max(e[1].abs()).max(e[2].abs()).max(e[3].abs().max(e[4].abs()).max(e[5].abs()));
-        let small = largest.at_most(T::lit(SMALL));
+        let small = largest_modulus(green.components).at_most(T::lit(SMALL));
 
         let mut axes = freeze(principal_frame(&green));
         let mut images = images_of(gradient, &axes);
@@ -150,7 +153,20 @@ impl<T: Real> StretchAnalysis<T> {
         }
         let shift = T::select(small, T::one(), T::zero());
         let departure = departure_of(shift, &square, &roots.0, &roots.1);
-        Self { gradient, axes, images, small, shift, stretches: roots.0, excess: roots.1, departure, slow }
+        Self {
+            gradient,
+            displacement,
+            twice_green,
+            square,
+            axes,
+            images,
+            small,
+            shift,
+            stretches: roots.0,
+            excess: roots.1,
+            departure,
+            slow,
+        }
     }
 
     /// Where the slow path was taken: about where λ₁² > 10⁸ λ₂ λ₃.
@@ -234,42 +250,42 @@ impl<T: Real> StretchAnalysis<T> {
     #[inline(always)]
     #[must_use]
     pub fn right_stretch(&self) -> Symmetric<T> {
-        shifted(self.material(self.frame_stretch()), self.shift)
+        self.material(self.beyond_green(), T::one(), self.shift)
     }
 
     /// U − 1 (Biot's strain), without cancellation.
     #[inline(always)]
     #[must_use]
     pub fn right_stretch_less_one(&self) -> Symmetric<T> {
-        shifted(self.material(self.frame_stretch()), self.shift - T::one())
+        self.material(self.beyond_green(), T::one(), self.shift - T::one())
     }
 
     /// U⁻¹.
     #[inline(always)]
     #[must_use]
     pub fn inverse_right_stretch(&self) -> Symmetric<T> {
-        shifted(self.material(self.frame_inverse()), self.shift)
+        self.material(self.frame_inverse(), T::zero(), self.shift)
     }
 
     /// V = √B = R U Rᵀ.
     #[inline(always)]
     #[must_use]
     pub fn left_stretch(&self) -> Symmetric<T> {
-        shifted(self.spatial(self.frame_stretch()), self.shift)
+        self.spatial(self.beyond_green(), T::one(), self.shift)
     }
 
     /// V − 1, without cancellation.
     #[inline(always)]
     #[must_use]
     pub fn left_stretch_less_one(&self) -> Symmetric<T> {
-        shifted(self.spatial(self.frame_stretch()), self.shift - T::one())
+        self.spatial(self.beyond_green(), T::one(), self.shift - T::one())
     }
 
     /// V⁻¹.
     #[inline(always)]
     #[must_use]
     pub fn inverse_left_stretch(&self) -> Symmetric<T> {
-        shifted(self.spatial(self.frame_inverse()), self.shift)
+        self.spatial(self.frame_inverse(), T::zero(), self.shift)
     }
 
     /// Hencky's strain ln U, accurate for U → 1.
@@ -292,14 +308,16 @@ impl<T: Real> StretchAnalysis<T> {
     #[inline(always)]
     #[must_use]
     pub fn material_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
-        self.material(self.frame_function(f))
+        let (components, slope) = self.frame_function(f);
+        self.material(components, slope, T::zero())
     }
 
     /// f(V) = R f(U) Rᵀ for a function f of the stretch.
     #[inline(always)]
     #[must_use]
     pub fn spatial_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
-        self.spatial(self.frame_function(f))
+        let (components, slope) = self.frame_function(f);
+        self.spatial(components, slope, T::zero())
     }
 
     /// (qₖ by rows, R qₖ by rows, S): a frame, its image, and U in it, diagonal but for rounding and derivatives.
@@ -310,16 +328,25 @@ impl<T: Real> StretchAnalysis<T> {
         (self.axes, self.turned_frame(), [xx + shift, yy + shift, zz + shift, xy, yz, xz])
     }
 
-    /// Σ Mₖₗ qₖ ⊗ qₗ.
+    /// Σ Mₖₗ qₖ ⊗ qₗ + s 1, and for small strain the multiple of E that was left out of M.
     #[inline(always)]
-    fn material(&self, components: [T; 6]) -> Symmetric<T> {
-        from_frame(&self.axes, components)
+    fn material(&self, components: [T; 6], slope: T, added: T) -> Symmetric<T> {
+        let rest = from_frame(&self.axes, components);
+        if !self.small.any() {
+            return shifted(rest, added);
+        }
+        shifted(rest + self.twice_green * (T::lit(0.5) * self.shift * slope), added)
     }
 
-    /// Σ Mₖₗ R qₖ ⊗ R qₗ.
+    /// Σ Mₖₗ R qₖ ⊗ R qₗ + s 1, and for small strain the multiple of R E Rᵀ = ½ (B − 1) that was left out of M.
     #[inline(always)]
-    fn spatial(&self, components: [T; 6]) -> Symmetric<T> {
-        from_frame(&self.turned_frame(), components)
+    fn spatial(&self, components: [T; 6], slope: T, added: T) -> Symmetric<T> {
+        let rest = from_frame(&self.turned_frame(), components);
+        if !self.small.any() {
+            return shifted(rest, added);
+        }
+        let twice_left_green = twice_green(&transpose(self.displacement));
+        shifted(rest + twice_left_green * (T::lit(0.5) * self.shift * slope), added)
     }
 
     /// f at the diagonal of S.
@@ -340,10 +367,18 @@ impl<T: Real> StretchAnalysis<T> {
         }
     }
 
-    /// f(S).
+    /// f(S), less f′(1) E for small strain, and f′(1): what is left out then is added without a rotation.
     #[inline(always)]
-    fn frame_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> [T; 6] {
-        expand(f, self.stretches, self.values_at_stretches(f), self.departure)
+    fn frame_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> ([T; 6], T) {
+        let function = expand(f, self.stretches, self.values_at_stretches(f), self.departure);
+        if !self.small.any() {
+            return (function, T::zero());
+        }
+        let slope = f.slope_at_one::<T>();
+        let part = T::lit(0.5) * self.shift * slope;
+        let e = self.square;
+        let less = |k: usize| function[k] - part * e[k];
+        ([less(0), less(1), less(2), less(3), less(4), less(5)], slope)
     }
 
     /// S less the shift.
@@ -356,12 +391,40 @@ impl<T: Real> StretchAnalysis<T> {
         [x + d[0], y + d[1], z + d[2], d[3], d[4], d[5]]
     }
 
+    /// S, or for small strain S − 1 − E = −½ (S − 1)².
+    #[inline(always)]
+    fn beyond_green(&self) -> [T; 6] {
+        let k = self.frame_stretch();
+        if !self.small.any() {
+            return k;
+        }
+        let [x, y, z, xy, yz, xz] = k;
+        let half = T::lit(-0.5);
+        // Products of two shears matter only where they are more than rounding.
+        let shears = |a: T, b: T| if T::ORDER == 0 { T::zero() } else { a * b };
+        let square = [
+            half * (x * x + (shears(xy, xy) + shears(xz, xz))),
+            half * (y * y + (shears(xy, xy) + shears(yz, yz))),
+            half * (z * z + (shears(yz, yz) + shears(xz, xz))),
+            half * (xy * (x + y) + shears(xz, yz)),
+            half * (yz * (y + z) + shears(xy, xz)),
+            half * (xz * (x + z) + shears(xy, yz)),
+        ];
+        if self.small.all() { square } else { choose(self.small, square, k) }
+    }
+
     /// S⁻¹ less the shift.
     #[inline(always)]
     fn frame_inverse(&self) -> [T; 6] {
         let d = self.departure;
         let reciprocal = [self.stretches[0].recip(), self.stretches[1].recip(), self.stretches[2].recip()];
-        let less = |k: usize| T::select(self.small, -(self.excess[k] * reciprocal[k]), reciprocal[k]);
+        let less = |k: usize| {
+            if self.small.any() {
+                T::select(self.small, -(self.excess[k] * reciprocal[k]), reciprocal[k])
+            } else {
+                reciprocal[k]
+            }
+        };
         let start = [
             less(0),
             less(1),
@@ -432,7 +495,7 @@ fn roots_of<T: Real>(small: T::Mask, square: &[T; 6]) -> ([T; 3], [T; 3]) {
     let root = |k: usize| {
         let x = if T::ORDER == 0 { square[k] } else { square[k].frozen() };
         let root = T::select(small, T::one() + x, x).sqrt();
-        (root, T::select(small, x / (T::one() + root), root))
+        (root, if small.any() { T::select(small, x / (T::one() + root), root) } else { root })
     };
     let (a, b, c) = (root(0), root(1), root(2));
     ([a.0, b.0, c.0], [a.1, b.1, c.1])
