@@ -34,6 +34,7 @@ mod point;
 mod requests;
 mod sources;
 mod stresses;
+mod tangents;
 mod views;
 
 pub use deformations::{Deformations, Displacements, Gradients, Undeformed};
@@ -46,4 +47,5 @@ pub use point::Point;
 pub use requests::{Quantity, Request, Requests};
 pub use sources::Source;
 pub use stresses::*;
+pub use tangents::*;
 pub use views::{ColumnMajor, Components, Strided, points_of, points_of_mut};
