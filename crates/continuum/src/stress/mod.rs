@@ -93,6 +93,7 @@ mod normal;
 mod power;
 mod principal;
 mod symmetry;
+pub mod tangents;
 mod traction;
 mod transformation;
 

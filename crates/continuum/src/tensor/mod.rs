@@ -9,7 +9,8 @@
 //! | one with minor symmetries | [`MinorSymmetric`] | 36 |
 //! | one with the major symmetry too | [`MajorSymmetric`] | 21 |
 //!
-//! Meaning is added by the types of [`stress`](crate::stress), which wrap these.
+//! Vectors and matrices of six components, with their orders and factors for shears, are in [`voigt`]; push-forward and
+//! pull-back in [`transport`]. Meaning is added by the types of [`stress`](crate::stress), which wrap these.
 
 pub mod fourth;
 mod linear_space;
@@ -19,6 +20,8 @@ pub(crate) mod scale;
 mod skew;
 mod slots;
 pub mod symmetric;
+pub mod transport;
+pub mod voigt;
 
 pub use fourth::{FourthOrder, Major, MajorSymmetric, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 pub use skew::Skew;

@@ -1,0 +1,99 @@
+//! Kernels of the tangents on arrays: two-stage contractions, inlined, so that they run in lanes.
+
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::dot;
+
+use crate::Symmetric;
+use crate::tensor::fourth::kernels::{congruence_matrix, transform_major};
+use crate::tensor::rows::Rows;
+use crate::tensor::{PAIR, SLOT, Slots};
+
+/// `F_iA F_jB F_kC F_lD C_ABCD` of a tangent with all symmetries, as the 21 components of its upper triangle.
+///
+/// 396 products: see [`fourth::kernels`](crate::tensor::fourth::kernels).
+///
+/// # Example
+/// ```
+/// use piola_continuum::stress::tangents::kernels::push_forward;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(push_forward(f, &[1.0; 21])[0], 16.0);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn push_forward<T: Real>(f: Rows<T>, material: &[T; 21]) -> [T; 21] {
+    transform_major(&congruence_matrix(f), material)
+}
+
+/// ∂P/∂F = `δ_ij S_AB + F_iC F_jD C_CADB`, row 3i + A and column 3j + B.
+///
+/// # Example
+/// ```
+/// use piola_continuum::Symmetric;
+/// use piola_continuum::stress::tangents::kernels::first_piola_tangent;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// let tangent = first_piola_tangent(f, &Symmetric::identity(), &[[1.0; 6]; 6]);
+/// assert_eq!(tangent[0][0], 5.0); // S₁₁ + F₁₁² C₁₁₁₁
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn first_piola_tangent<T: Real>(f: Rows<T>, stress: &Symmetric<T>, material: &Slots<T>) -> [[T; 9]; 9] {
+    let s = stress.rows();
+    let mut tangent = [[T::zero(); 9]; 9];
+    for a in 0..3 {
+        let [c0, c1, c2] = [&material[SLOT[0][a]], &material[SLOT[1][a]], &material[SLOT[2][a]]];
+        for i in 0..3 {
+            // F_iC C_CA(DB) for the six pairs (DB).
+            let mut half = [T::zero(); 6];
+            for (slot, entry) in half.iter_mut().enumerate() {
+                *entry = f[i][0] * c0[slot] + f[i][1] * c1[slot] + f[i][2] * c2[slot];
+            }
+            for b in 0..3 {
+                let column = [half[SLOT[0][b]], half[SLOT[1][b]], half[SLOT[2][b]]];
+                for j in 0..3 {
+                    let entry = dot(f[j], column);
+                    tangent[3 * i + a][3 * j + b] = if i == j { entry + s[a][b] } else { entry };
+                }
+            }
+        }
+    }
+    tangent
+}
+
+/// ∂S/∂E of ∂P/∂F: `F⁻¹_Ci F⁻¹_Dj (A_iAjB − δ_ij S_AB)`, the mean over exchanges of indices within the pairs.
+///
+/// # Example
+/// ```
+/// use piola_continuum::Symmetric;
+/// use piola_continuum::stress::tangents::kernels::{first_piola_tangent, material_tangent};
+/// let (f, inverse) = ([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [[0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+/// let tangent = first_piola_tangent(f, &Symmetric::identity(), &[[1.0; 6]; 6]);
+/// assert_eq!(material_tangent(inverse, &Symmetric::identity(), &tangent), [[1.0; 6]; 6]);
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn material_tangent<T: Real>(inverse: Rows<T>, stress: &Symmetric<T>, tangent: &[[T; 9]; 9]) -> Slots<T> {
+    let (s, half, quarter) = (stress.rows(), T::lit(0.5), T::lit(0.25));
+    // Twice the mean over (C, A): rows are pairs, columns (j, B).
+    let mut first = [[T::zero(); 9]; 6];
+    for (row, (c, a)) in first.iter_mut().zip(PAIR) {
+        for (column, entry) in row.iter_mut().enumerate() {
+            let (j, b) = (column / 3, column % 3);
+            let term = |c: usize, a: usize| {
+                let at = |i: usize| {
+                    let entry = tangent[3 * i + a][column];
+                    if i == j { entry - s[a][b] } else { entry }
+                };
+                dot(inverse[c], [at(0), at(1), at(2)])
+            };
+            *entry = if c == a { term(c, a) + term(c, a) } else { term(c, a) + term(a, c) };
+        }
+    }
+    let mut result = [[T::zero(); 6]; 6];
+    for (row, first) in result.iter_mut().zip(&first) {
+        for (entry, (d, b)) in row.iter_mut().zip(PAIR) {
+            let term = |d: usize, b: usize| dot(inverse[d], [first[b], first[3 + b], first[6 + b]]);
+            *entry = if d == b { half * term(d, b) } else { quarter * (term(d, b) + term(b, d)) };
+        }
+    }
+    result
+}

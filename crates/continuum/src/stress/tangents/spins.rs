@@ -1,0 +1,82 @@
+//! Tangents of the rates whose spin depends on the stretch: Green and Naghdi's, and the logarithmic one.
+//!
+//! ```text
+//! Ω = W + Z(D), Z linear:   τ°/J with Ω = (τ°/J of Jaumann) − (Z T − T Z)
+//! ```
+//! Z is taken from the rates of the stretches for the six unit stretchings, so it is exact at coalescent stretches.
+
+use piola_numerics::Real;
+
+use super::spatial::volume_terms;
+use super::{
+    CauchyGreenNaghdiTangent, CauchyLogarithmicTangent, GreenNaghdiTangent, JaumannTangent, LogarithmicTangent,
+};
+use crate::rates::{GradientRate, StretchRates, VelocityGradient};
+use crate::spectral::StretchAnalysis;
+use crate::tensor::{Minor, MinorSymmetric, PairSymmetric, Skew, Symmetry};
+use crate::{CauchyStress, Deformation, Symmetric};
+
+/// D ↦ Z T − T Z for the two spins Z of the stretch rates: polar, and logarithmic.
+#[inline]
+fn turning_terms<T: Real>(
+    stress: &CauchyStress<T>,
+    deformation: &impl Deformation<T>,
+    spin: impl Fn(&StretchRates<T>) -> [T; 3],
+) -> MinorSymmetric<T> {
+    let analysis = StretchAnalysis::of(deformation);
+    let mut images = [Symmetric::zero(); 6];
+    for (slot, image) in images.iter_mut().enumerate() {
+        let mut stretching = Symmetric::zero();
+        stretching.components[slot] = T::one();
+        let rate = GradientRate::of(deformation, &VelocityGradient::from_rows(stretching.rows()));
+        let axial = spin(&StretchRates::of_analysis(analysis, &rate));
+        *image = Skew { axial }.turning(&stress.0);
+    }
+    MinorSymmetric::from_images(&images)
+}
+
+/// Of a rate with the polar and of one with the logarithmic spin.
+macro_rules! spinning {
+    ($name:ident, $cauchy:ident, $of_jaumann:ident, $spin:ident) => {
+        impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
+            /// The tangent of the rate of τ, over J, with the spin of the stretch: less D ↦ Z T − T Z.
+            #[must_use]
+            pub fn $of_jaumann(&self, stress: &CauchyStress<T>, deformation: &impl Deformation<T>) -> $name<T> {
+                let terms = turning_terms(stress, deformation, |rates| rates.$spin().axial.into());
+                $name(self.0.minor() - terms)
+            }
+        }
+
+        impl<T: Real> $name<T> {
+            /// The tangent of Jaumann's rate of τ, over J.
+            #[must_use]
+            pub fn jaumann(
+                &self,
+                stress: &CauchyStress<T>,
+                deformation: &impl Deformation<T>,
+            ) -> JaumannTangent<T, Minor> {
+                let terms = turning_terms(stress, deformation, |rates| rates.$spin().axial.into());
+                JaumannTangent(self.0 + terms)
+            }
+
+            /// The tangent of the same rate of Cauchy's stress: less T ⊗ 1.
+            #[inline(always)]
+            #[must_use]
+            pub fn cauchy(&self, stress: &CauchyStress<T>) -> $cauchy<T> {
+                $cauchy(self.0 - volume_terms(stress))
+            }
+        }
+
+        impl<T: Real> $cauchy<T> {
+            /// The tangent of the same rate of τ, over J: with T ⊗ 1.
+            #[inline(always)]
+            #[must_use]
+            pub fn kirchhoff(&self, stress: &CauchyStress<T>) -> $name<T> {
+                $name(self.0 + volume_terms(stress))
+            }
+        }
+    };
+}
+
+spinning!(GreenNaghdiTangent, CauchyGreenNaghdiTangent, green_naghdi, polar_spin);
+spinning!(LogarithmicTangent, CauchyLogarithmicTangent, logarithmic, logarithmic_spin);

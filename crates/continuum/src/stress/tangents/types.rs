@@ -1,0 +1,212 @@
+//! The types of the tangents.
+
+use nalgebra::Matrix3;
+use piola_numerics::Real;
+
+use crate::rates::Stretching;
+use crate::tensor::{FourthOrder, Major, MinorSymmetric, PairSymmetric, Symmetry};
+use crate::{ContinuumError, Symmetric};
+
+/// A tangent whose major symmetry is that of the law.
+macro_rules! symmetric_tangent {
+    ($(#[$documentation:meta])* $name:ident) => {
+        $(#[$documentation])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(
+            transparent,
+            bound(
+                serialize = "Y::Tensor<T>: serde::Serialize",
+                deserialize = "Y::Tensor<T>: serde::Deserialize<'de>"
+            )
+        ))]
+        pub struct $name<T: Real = f64, Y: Symmetry = Major>(
+            /// The components, Pa, without factors for shears.
+            pub Y::Tensor<T>,
+        );
+
+        impl<T: Real, Y: Symmetry> $name<T, Y> {
+            /// `C_ijkl`, Pa, indices from 0.
+            #[inline(always)]
+            #[must_use]
+            pub fn entry(&self, i: usize, j: usize, k: usize, l: usize) -> T {
+                self.0.entry(i, j, k, l)
+            }
+
+            /// The tangent of the turned body, or of the turned basis: all four indices turned by Q.
+            ///
+            /// # Errors
+            /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+            pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
+                Ok(Self(self.0.rotated(rotation)?))
+            }
+        }
+    };
+}
+
+/// A tangent without major symmetry.
+macro_rules! minor_tangent {
+    ($(#[$documentation:meta])* $name:ident) => {
+        $(#[$documentation])*
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+        #[cfg_attr(feature = "serde", serde(
+            transparent,
+            bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
+        ))]
+        pub struct $name<T: Real = f64>(
+            /// The components, Pa, without factors for shears.
+            pub MinorSymmetric<T>,
+        );
+
+        impl<T: Real> $name<T> {
+            /// `C_ijkl`, Pa, indices from 0.
+            #[inline(always)]
+            #[must_use]
+            pub fn entry(&self, i: usize, j: usize, k: usize, l: usize) -> T {
+                self.0.entry(i, j, k, l)
+            }
+
+            /// The tangent of the turned body, or of the turned basis: all four indices turned by Q.
+            ///
+            /// # Errors
+            /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+            pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
+                Ok(Self(self.0.rotated(rotation)?))
+            }
+
+            /// The rate that the tangent is named for, Pa/s, of a stretching D.
+            #[inline(always)]
+            #[must_use]
+            pub fn rate(&self, stretching: &Stretching<T>) -> Symmetric<T> {
+                self.0.contract(&stretching.0)
+            }
+        }
+    };
+}
+
+/// The rate of a spatial tangent.
+macro_rules! rate {
+    ($($name:ident)*) => {$(
+        impl<T: Real, Y: Symmetry> $name<T, Y> {
+            /// The rate that the tangent is named for, Pa/s, of a stretching D.
+            #[inline(always)]
+            #[must_use]
+            pub fn rate(&self, stretching: &Stretching<T>) -> Symmetric<T> {
+                self.0.contract(&stretching.0)
+            }
+        }
+    )*};
+}
+
+symmetric_tangent! {
+    /// The material tangent C = ∂S/∂E = 2 ∂S/∂C: Ṡ = C : Ė. Pa.
+    ///
+    /// Entry `C_ABCD` is the derivative of `S_AB` with respect to `E_CD`, both of the symmetric pairs varied together
+    /// and by half each; in [`StiffnessMatrix`](crate::tensor::voigt::StiffnessMatrix) it multiplies engineering shears
+    /// as it is.
+    ///
+    /// # Example
+    /// Saint-Venant and Kirchhoff's law S = λ tr E 1 + 2 μ E.
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::stress::tangents::{MaterialTangent, TruesdellTangent};
+    /// use piola_continuum::{DeformationGradient, tensor::MajorSymmetric};
+    /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
+    /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[2.0, 1.0, 1.0].into()))?;
+    /// let spatial: TruesdellTangent = tangent.truesdell(&stretch);
+    /// assert_eq!(spatial.entry(0, 0, 0, 0), 56.0); // 2⁴ · 7/J
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    MaterialTangent
+}
+symmetric_tangent! {
+    /// The tangent c of the upper-convected rate of Kirchhoff's stress, its Lie derivative:
+    /// τ̇ − L τ − τ Lᵀ = F Ṡ Fᵀ = c : D. Pa.
+    ///
+    /// c is the push-forward of ∂S/∂E, J times the [`TruesdellTangent`].
+    LieTangent
+}
+symmetric_tangent! {
+    /// The tangent of Truesdell's rate of Cauchy's stress: Ṫ − L T − T Lᵀ + T tr D = (c/J) : D. Pa.
+    TruesdellTangent
+}
+symmetric_tangent! {
+    /// The tangent of Jaumann's rate of Kirchhoff's stress, over J: (τ̇ − W τ + τ W)/J = C : D. Pa.
+    ///
+    /// This is the `DDSDDE` of Abaqus' user materials; of the rate of Cauchy's stress itself see
+    /// [`CauchyJaumannTangent`].
+    JaumannTangent
+}
+symmetric_tangent! {
+    /// The tangent of the lower-convected rate of Kirchhoff's stress, over J: (τ̇ + Lᵀ τ + τ L)/J = C : D. Pa.
+    LowerConvectedTangent
+}
+rate!(LieTangent TruesdellTangent JaumannTangent LowerConvectedTangent);
+minor_tangent! {
+    /// The tangent of Green and Naghdi's rate of Kirchhoff's stress, over J: (τ̇ − Ω τ + τ Ω)/J = C : D with
+    /// Ω = Ṙ Rᵀ. Pa.
+    GreenNaghdiTangent
+}
+minor_tangent! {
+    /// The tangent of the logarithmic rate of Kirchhoff's stress, over J: (τ̇ − Ω τ + τ Ω)/J = C : D with the
+    /// spin for which (ln V)° = D. Pa.
+    LogarithmicTangent
+}
+minor_tangent! {
+    /// The tangent of Jaumann's rate of Cauchy's stress: Ṫ − W T + T W = C : D. Pa.
+    CauchyJaumannTangent
+}
+minor_tangent! {
+    /// The tangent of the upper-convected rate of Cauchy's stress: Ṫ − L T − T Lᵀ = C : D. Pa.
+    CauchyUpperConvectedTangent
+}
+minor_tangent! {
+    /// The tangent of the lower-convected rate of Cauchy's stress: Ṫ + Lᵀ T + T L = C : D. Pa.
+    CauchyLowerConvectedTangent
+}
+minor_tangent! {
+    /// The tangent of Green and Naghdi's rate of Cauchy's stress: Ṫ − Ω T + T Ω = C : D with Ω = Ṙ Rᵀ. Pa.
+    CauchyGreenNaghdiTangent
+}
+minor_tangent! {
+    /// The tangent of the logarithmic rate of Cauchy's stress: Ṫ − Ω T + T Ω = C : D with the spin for which
+    /// (ln V)° = D. Pa.
+    CauchyLogarithmicTangent
+}
+
+/// The tangent A = ∂P/∂F of the first Piola–Kirchhoff stress: Ṗ = A : Ḟ. Pa.
+///
+/// Entry `A_iAjB` is in row 3i + A and column 3j + B.
+///
+/// # Example
+/// ```
+/// use nalgebra::Matrix3;
+/// use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
+/// use piola_continuum::{DeformationGradient, SecondPiola, tensor::MajorSymmetric};
+/// let material: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
+/// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[2.0, 1.0, 1.0].into()))?;
+/// let stress = SecondPiola::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+/// let tangent: FirstPiolaTangent = material.first_piola(&stress, &stretch);
+/// assert_eq!(tangent.entry(0, 0, 0, 0), 38.0); // S₁₁ + 2² · 7
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(transparent, bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>"))
+)]
+pub struct FirstPiolaTangent<T: Real = f64>(
+    /// The components, Pa.
+    pub FourthOrder<T>,
+);
+
+impl<T: Real> FirstPiolaTangent<T> {
+    /// `A_iAjB`, Pa, indices from 0.
+    #[inline(always)]
+    #[must_use]
+    pub fn entry(&self, i: usize, a: usize, j: usize, b: usize) -> T {
+        self.0.entry(i, a, j, b)
+    }
+}
