@@ -227,16 +227,16 @@ fn row_norm<T: Real>(a: Rows<T>) -> T {
         [a[1][0].abs(), a[1][1].abs(), a[1][2].abs()],
         [a[2][0].abs(), a[2][1].abs(), a[2][2].abs()],
     ];
-    let rows =
-        (m[0][0] + m[0][1] + m[0][2]).max(m[1][0] + m[1][1] + m[1][2]).max(m[2][0] + m[2][1] + m[2][2]);
-    let columns =
-        (m[0][0] + m[1][0] + m[2][0]).max(m[0][1] + m[1][1] + m[2][1]).max(m[0][2] + m[1][2] + m[2][2]);
+    let rows = (m[0][0] + m[0][1] + m[0][2]).max(m[1][0] + m[1][1] + m[1][2]).max(m[2][0] + m[2][1] + m[2][2]);
+    let columns = (m[0][0] + m[1][0] + m[2][0]).max(m[0][1] + m[1][1] + m[2][1]).max(m[0][2] + m[1][2] + m[2][2]);
     rows.min(columns)
 }
 
 #[inline(always)]
 fn select_rows<T: Real>(mask: T::Mask, a: Rows<T>, b: Rows<T>) -> Rows<T> {
-    let row = |i: usize| [T::select(mask, a[i][0], b[i][0]), T::select(mask, a[i][1], b[i][1]), T::select(mask, a[i][2], b[i][2])];
+    let row = |i: usize| {
+        [T::select(mask, a[i][0], b[i][0]), T::select(mask, a[i][1], b[i][1]), T::select(mask, a[i][2], b[i][2])]
+    };
     [row(0), row(1), row(2)]
 }
 

@@ -7,7 +7,7 @@
 //! | Ċ, Ė, Ḃ, ė | [`strain`] |
 //! | U̇, V̇, Ṙ, (ln U)˙, (ln V)˙, spins of R, of ln V, of the principal axes | [`StretchRates`] |
 //! | rates of stress that any observer agrees on | [`objective`] |
-//! | F_t(τ), C_t; tensors of Rivlin–Ericksen and White–Metzner | [`RelativeDeformation`], [`RivlinEricksen`], [`WhiteMetzner`] |
+//! | Fₜ(τ), Cₜ; tensors of Rivlin–Ericksen and White–Metzner | [`RelativeDeformation`], [`RivlinEricksen`], [`WhiteMetzner`] |
 //! | exp(Kt), its derivative, ln F of a general F | [`exponential`], [`exponential_derivative`], [`logarithm`] |
 //! | motions F(t) of your own with all rates, linear and exponential ones | [`HomogeneousMotion`], [`LinearMotion`], [`ExponentialMotion`] |
 //!
@@ -28,11 +28,13 @@ pub use exponential::{
     exponential, exponential_derivative, exponential_minus_identity, exponential_minus_identity_rows, exponential_rows,
     logarithm, rotation_minus_identity,
 };
-pub use motion::{ExponentialMotion, HomogeneousMotion, LinearMotion};
+pub use motion::{ExponentialMotion, HomogeneousMotion, LinearMotion, MotionRates};
 pub use objective::{
     Carrier, GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, MaterialRate, SpatialStress,
     TruesdellRate, UpperConvectedRate,
 };
 pub use relative::{RelativeDeformation, RivlinEricksen, WhiteMetzner, gradients_of_rates, steady_gradients};
 pub use stretch::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, SpatialTwirl, StretchRates};
-pub use velocity_gradient::{AccelerationGradient, GradientRate, GradientSecondRate, Spin, Stretching, VelocityGradient};
+pub use velocity_gradient::{
+    AccelerationGradient, GradientRate, GradientSecondRate, Spin, Stretching, VelocityGradient,
+};

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | F, Ḟ, F̈ | [`deformation`](HomogeneousMotion::deformation), [`rates`](HomogeneousMotion::rates) |
 //! | L, grad a | [`velocity_gradient`](HomogeneousMotion::velocity_gradient), [`acceleration_gradient`](HomogeneousMotion::acceleration_gradient) |
-//! | F_t(τ), C_t(τ) | [`relative`](HomogeneousMotion::relative) |
+//! | Fₜ(τ), Cₜ(τ) | [`relative`](HomogeneousMotion::relative) |
 
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
@@ -42,7 +42,7 @@ pub trait HomogeneousMotion {
     /// F(t).
     fn gradient<T: Real>(&self, time: T) -> Matrix3<T>;
 
-    /// F_t(t + s) − 1 for the lapse s: to be stated without cancellation by motions that can.
+    /// Fₜ(t + s) − 1 for the lapse s: to be stated without cancellation by motions that can.
     fn relative_displacement<T: Real>(&self, time: T, lapse: T) -> Matrix3<T> {
         let now = rows_of(&self.gradient(time));
         let change = difference(rows_of(&self.gradient(time + lapse)), now);
@@ -61,13 +61,13 @@ pub trait HomogeneousMotion {
     ///
     /// # Errors
     /// As [`deformation`](Self::deformation).
-    fn rates<T: Real>(
-        &self,
-        time: T,
-    ) -> Result<(DeformationGradient<T>, GradientRate<T>, GradientSecondRate<T>), ContinuumError> {
+    fn rates<T: Real>(&self, time: T) -> Result<MotionRates<T>, ContinuumError> {
         let jet = self.gradient(Jet::<T, 0>::time(time));
-        let deformation = DeformationGradient::new(jet.map(|f| f.value))?;
-        Ok((deformation, GradientRate::new(jet.map(|f| f.rate))?, GradientSecondRate::new(jet.map(|f| f.second_rate))?))
+        Ok(MotionRates {
+            deformation: DeformationGradient::new(jet.map(|f| f.value))?,
+            rate: GradientRate::new(jet.map(|f| f.rate))?,
+            second_rate: GradientSecondRate::new(jet.map(|f| f.second_rate))?,
+        })
     }
 
     /// L(t) = Ḟ F⁻¹, W(14.21).
@@ -75,7 +75,7 @@ pub trait HomogeneousMotion {
     /// # Errors
     /// As [`deformation`](Self::deformation).
     fn velocity_gradient<T: Real>(&self, time: T) -> Result<VelocityGradient<T>, ContinuumError> {
-        let (deformation, rate, _) = self.rates(time)?;
+        let MotionRates { deformation, rate, .. } = self.rates(time)?;
         Ok(VelocityGradient::of(&deformation, &rate))
     }
 
@@ -84,17 +84,39 @@ pub trait HomogeneousMotion {
     /// # Errors
     /// As [`deformation`](Self::deformation).
     fn acceleration_gradient<T: Real>(&self, time: T) -> Result<AccelerationGradient<T>, ContinuumError> {
-        let (deformation, _, second_rate) = self.rates(time)?;
+        let MotionRates { deformation, second_rate, .. } = self.rates(time)?;
         Ok(AccelerationGradient::of(&deformation, &second_rate))
     }
 
-    /// F_t(t + s), relative to the present configuration, after the lapse s; the past has s < 0.
+    /// Fₜ(t + s), relative to the present configuration, after the lapse s; the past has s < 0.
     ///
     /// # Errors
-    /// As [`deformation`](Self::deformation), of F_t.
+    /// As [`deformation`](Self::deformation), of Fₜ.
     fn relative<T: Real>(&self, time: T, lapse: T) -> Result<RelativeDeformation<T>, ContinuumError> {
         RelativeDeformation::of_displacement(rows_of(&self.relative_displacement(time, lapse)))
     }
+}
+
+/// F, Ḟ and F̈ of a motion at one time.
+///
+/// # Example
+/// ```
+/// use nalgebra::Matrix3;
+/// use piola_continuum::Deformation;
+/// use piola_continuum::rates::{HomogeneousMotion, LinearMotion};
+/// let motion = LinearMotion::new(Matrix3::identity(), Matrix3::from_diagonal_element(0.5))?;
+/// let rates = motion.rates(2.0)?;
+/// assert_eq!((rates.deformation.jacobian(), rates.rate.0[(0, 0)], rates.second_rate.0[(0, 0)]), (8.0, 0.5, 0.0));
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionRates<T = f64> {
+    /// F.
+    pub deformation: DeformationGradient<T>,
+    /// Ḟ.
+    pub rate: GradientRate<T>,
+    /// F̈.
+    pub second_rate: GradientSecondRate<T>,
 }
 
 /// F(t) = F₀ + t A: every body point moves uniformly.
@@ -142,7 +164,7 @@ impl HomogeneousMotion for LinearMotion {
 /// F(t) = exp(K t) F₀: the motion with the steady velocity gradient K.
 ///
 /// ```text
-/// L = K,   Ḟ = K F,   F_t(t + s) = exp(K s)
+/// L = K,   Ḟ = K F,   Fₜ(t + s) = exp(K s)
 /// ```
 ///
 /// # Example

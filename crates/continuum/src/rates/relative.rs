@@ -1,8 +1,8 @@
 //! The relative deformation gradient, and the tensors of Rivlin–Ericksen and White–Metzner.
 //!
 //! ```text
-//! F_t(τ) = F(τ) F(t)⁻¹,   C_t = F_tᵀ F_t          the present configuration is the reference
-//! Aₙ = dⁿ C_t(τ)/dτⁿ,   Bₙ = −dⁿ C_t⁻¹(τ)/dτⁿ     at τ = t;   A₁ = B₁ = 2D
+//! Fₜ(τ) = F(τ) F(t)⁻¹,   Cₜ = Fₜᵀ Fₜ          the present configuration is the reference
+//! Aₙ = dⁿ Cₜ(τ)/dτⁿ,   Bₙ = −dⁿ Cₜ⁻¹(τ)/dτⁿ     at τ = t;   A₁ = B₁ = 2D
 //! ```
 //! Both come from the gradients of velocity, acceleration and so on, Lₙ = F⁽ⁿ⁾F⁻¹, without differentiation:
 //!
@@ -23,9 +23,9 @@ use crate::tensor::rows::{
 };
 use crate::{ContinuumError, Deformation, DisplacementGradient, Symmetric};
 
-/// The relative deformation gradient F_t(τ) = F(τ) F(t)⁻¹: from the present configuration to that at τ.
+/// The relative deformation gradient Fₜ(τ) = F(τ) F(t)⁻¹: from the present configuration to that at τ.
 ///
-/// It is a [`Deformation`], stored as F_t − 1 so that the recent past keeps its digits; strains and stretches of it
+/// It is a [`Deformation`], stored as Fₜ − 1 so that the recent past keeps its digits; strains and stretches of it
 /// are those of any other.
 ///
 /// # Example
@@ -44,7 +44,7 @@ use crate::{ContinuumError, Deformation, DisplacementGradient, Symmetric};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct RelativeDeformation<T = f64> {
-    /// F_t(τ) − 1.
+    /// Fₜ(τ) − 1.
     pub displacement: DisplacementGradient<T>,
 }
 
@@ -52,7 +52,7 @@ impl<T: Real> RelativeDeformation<T> {
     /// From the deformations now, at t, and then, at τ.
     ///
     /// ```text
-    /// F_t(τ) − 1 = (∇u(τ) − ∇u(t)) F(t)⁻¹
+    /// Fₜ(τ) − 1 = (∇u(τ) − ∇u(t)) F(t)⁻¹
     /// ```
     ///
     /// # Errors
@@ -65,7 +65,7 @@ impl<T: Real> RelativeDeformation<T> {
         Self::of_displacement(product(change, inverse_and_determinant(now.gradient_rows()).0))
     }
 
-    /// From F_t(τ) − 1.
+    /// From Fₜ(τ) − 1.
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveJacobian`].
@@ -73,21 +73,21 @@ impl<T: Real> RelativeDeformation<T> {
         Ok(Self { displacement: DisplacementGradient::new(from_rows(rows))? })
     }
 
-    /// F_t.
+    /// Fₜ.
     #[inline(always)]
     #[must_use]
     pub fn gradient(&self) -> Matrix3<T> {
         from_rows(self.gradient_rows())
     }
 
-    /// C_t = F_tᵀ F_t.
+    /// Cₜ = Fₜᵀ Fₜ.
     #[inline(always)]
     #[must_use]
     pub fn right_cauchy_green(&self) -> Symmetric<T> {
         Symmetric::identity() + self.right_cauchy_green_change()
     }
 
-    /// C_t − 1 = H + Hᵀ + Hᵀ H with H = F_t − 1, without cancellation.
+    /// Cₜ − 1 = H + Hᵀ + Hᵀ H with H = Fₜ − 1, without cancellation.
     #[inline(always)]
     #[must_use]
     pub fn right_cauchy_green_change(&self) -> Symmetric<T> {
@@ -95,7 +95,7 @@ impl<T: Real> RelativeDeformation<T> {
         doubled_symmetric_part(h) + Symmetric::upper_triangle(transposed_product(h, h))
     }
 
-    /// C_t⁻¹ = F_t⁻¹ F_t⁻ᵀ, Finger's tensor of the history.
+    /// Cₜ⁻¹ = Fₜ⁻¹ Fₜ⁻ᵀ, Finger's tensor of the history.
     #[inline(always)]
     #[must_use]
     pub fn inverse_right_cauchy_green(&self) -> Symmetric<T> {
@@ -124,7 +124,7 @@ impl<T: Real> Deformation<T> for RelativeDeformation<T> {
 }
 
 symmetric_rate! {
-    /// A tensor of Rivlin and Ericksen, Aₙ = dⁿ C_t/dτⁿ at τ = t, 1/sⁿ; A₁ = 2D.
+    /// A tensor of Rivlin and Ericksen, Aₙ = dⁿ Cₜ/dτⁿ at τ = t, 1/sⁿ; A₁ = 2D.
     ///
     /// ```text
     /// Aₙ₊₁ = Ȧₙ + Aₙ L + Lᵀ Aₙ
@@ -148,7 +148,7 @@ symmetric_rate! {
 }
 
 symmetric_rate! {
-    /// A tensor of White and Metzner, Bₙ = −dⁿ C_t⁻¹/dτⁿ at τ = t, 1/sⁿ; B₁ = 2D.
+    /// A tensor of White and Metzner, Bₙ = −dⁿ Cₜ⁻¹/dτⁿ at τ = t, 1/sⁿ; B₁ = 2D.
     ///
     /// ```text
     /// Bₙ₊₁ = Ḃₙ − L Bₙ − Bₙ Lᵀ
@@ -250,7 +250,7 @@ impl<T: Real> RivlinEricksen<T> {
         Self(*rate + transported(transpose(velocity_gradient.rows()), &self.0))
     }
 
-    /// A₁ … A_N from the gradients L₁ = grad v, L₂ = grad a, ….
+    /// A₁ … Aₙ from the gradients L₁ = grad v, L₂ = grad a, ….
     #[must_use]
     pub fn of_gradients<const N: usize>(gradients: &[Matrix3<T>; N]) -> [Self; N] {
         squares(&gradients.map(|l| rows_of(&l))).map(Self)
@@ -272,7 +272,7 @@ impl<T: Real> WhiteMetzner<T> {
         Self(*rate - transported(velocity_gradient.rows(), &self.0))
     }
 
-    /// B₁ … B_N from the gradients L₁ = grad v, L₂ = grad a, ….
+    /// B₁ … Bₙ from the gradients L₁ = grad v, L₂ = grad a, ….
     #[must_use]
     pub fn of_gradients<const N: usize>(gradients: &[Matrix3<T>; N]) -> [Self; N] {
         let l = gradients.map(|l| rows_of(&l));

@@ -1,11 +1,11 @@
 //! Reference values of rates, exponentials and relative deformations.
 
 use nalgebra::Matrix3;
+use piola_continuum::DeformationGradient;
 use piola_continuum::rates::{
     ExponentialMotion, GradientRate, HomogeneousMotion, LinearMotion, RelativeDeformation, StretchRates,
     VelocityGradient, exponential, exponential_minus_identity, strain,
 };
-use piola_continuum::DeformationGradient;
 use piola_testkit::{Tol, assert_close, condition_number, golden};
 use serde_json::Value;
 

@@ -52,9 +52,8 @@ fn rates_of_polar_factors_at_stretch_ratio_1e8_satisfy_their_equations() {
     let f = diagonal(stretches[0], stretches[1], stretches[2]);
     let rates = StretchRates::of(&f, &rate());
     let a = rate().0;
-    let expected = Matrix3::from_fn(|k, l| {
-        (stretches[k] * a[(k, l)] + stretches[l] * a[(l, k)]) / (stretches[k] + stretches[l])
-    });
+    let expected =
+        Matrix3::from_fn(|k, l| (stretches[k] * a[(k, l)] + stretches[l] * a[(l, k)]) / (stretches[k] + stretches[l]));
     assert_same("U̇", &rates.right_stretch().matrix(), &expected, 0.0, Tol::ulps(8.0));
     let spin = Matrix3::from_fn(|k, l| (a[(k, l)] - a[(l, k)]) / (stretches[k] + stretches[l]));
     assert_same("RᵀṘ", &rates.material_spin().matrix(), &spin, 0.0, Tol::ulps(8.0));
@@ -110,7 +109,13 @@ fn exponentials_far_from_one_equal_those_of_their_diagonal() {
         assert_close(&format!("{diagonal:?}"), &nine(&e), &expected, Tol::ulps(2.0).times(largest));
     }
     let far = exponential_minus_identity(&Matrix3::from_diagonal(&Vector3::new(-4000.0, 1.0, 0.0))).expect("finite");
-    assert_close_at_scale("decay", &nine(&far), &nine(&Matrix3::from_diagonal(&Vector3::new(-1.0, 1.0_f64.exp_m1(), 0.0))), 1.0, Tol::ulps(16.0));
+    assert_close_at_scale(
+        "decay",
+        &nine(&far),
+        &nine(&Matrix3::from_diagonal(&Vector3::new(-1.0, 1.0_f64.exp_m1(), 0.0))),
+        1.0,
+        Tol::ulps(16.0),
+    );
 }
 
 #[test]

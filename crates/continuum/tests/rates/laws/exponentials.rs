@@ -7,10 +7,10 @@ use piola_continuum::rates::{
     exponential, exponential_derivative, exponential_minus_identity, exponential_rows, logarithm,
     rotation_minus_identity,
 };
+use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{determinant, from_rows, rows_of};
 use piola_testkit::strategies::{rotation, rotation_matrix, vector};
 use piola_testkit::{DoubleDouble, Tol};
-use piola_numerics::Real;
 use proptest::prelude::*;
 
 use super::super::cases::assert_same;

@@ -2,8 +2,8 @@
 
 use nalgebra::Matrix3;
 use piola_continuum::rates::{
-    ExponentialMotion, HomogeneousMotion, LinearMotion, RelativeDeformation, RivlinEricksen, VelocityGradient,
-    WhiteMetzner, gradients_of_rates, steady_gradients,
+    ExponentialMotion, HomogeneousMotion, LinearMotion, MotionRates, RelativeDeformation, RivlinEricksen,
+    VelocityGradient, WhiteMetzner, gradients_of_rates, steady_gradients,
 };
 use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient};
 use piola_numerics::linear::matrix3::from_rows;
@@ -110,7 +110,7 @@ proptest! {
         let motion = ExponentialMotion::new(k, f0).expect("0 < det F");
         let tol = Tol::ulps(64.0).times(path.condition());
         // L by exact derivatives of F(t) is K, and so for the acceleration.
-        let (deformation, rate, second) = motion.rates(t).expect("0 < det F");
+        let MotionRates { deformation, rate, second_rate: second } = motion.rates(t).expect("0 < det F");
         let size = rate.0.norm() * 4.0;
         assert_same("Ḟ = K F", &rate.0, &(k * deformation.matrix()), size, tol);
         assert_same("F̈ = K² F", &second.0, &(k * k * deformation.matrix()), 4.0 * size, tol);
@@ -124,7 +124,7 @@ proptest! {
         assert_same("F_t F(t) = F(τ)", &(relative.gradient() * now.matrix()), then.matrix(), 30.0 * then.matrix().norm(), tol);
         // A motion with constant Ḟ.
         let linear = LinearMotion::new(f0, path.gradient[1]).expect("0 < det F");
-        let (_, rate, second) = linear.rates(0.0).expect("0 < det F");
+        let MotionRates { rate, second_rate: second, .. } = linear.rates(0.0).expect("0 < det F");
         prop_assert_eq!(rate.0, path.gradient[1]);
         prop_assert_eq!(second.0, Matrix3::zeros());
         let l = linear.velocity_gradient(0.0).expect("0 < det F");

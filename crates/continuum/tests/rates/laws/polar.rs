@@ -1,14 +1,16 @@
 //! L, its parts, and the rates of R, U, V, ln U and ln V.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
 use piola_continuum::rates::{
     AccelerationGradient, GradientRate, GradientSecondRate, StretchRates, VelocityGradient, strain,
 };
 use piola_continuum::spectral::StretchAnalysis;
 use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient};
+use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
-use piola_testkit::Tol;
+use piola_testkit::strategies::vector;
+use piola_testkit::{DoubleDouble, Tol};
 use proptest::prelude::*;
 
 use super::super::cases::{assert_same, distinct, gap, path};
@@ -160,5 +162,32 @@ proptest! {
         assert_same("U̇", &rates.right_stretch().matrix(), &other.right_stretch().matrix(), 1.0, tol);
         assert_same("(ln U)˙", &rates.hencky_material().matrix(), &other.hencky_material().matrix(), 1.0, tol);
         assert_same("ṘRᵀ", &rates.polar_spin().matrix(), &other.polar_spin().matrix(), 1.0, tol);
+    }
+
+    #[test]
+    fn rates_at_large_stretch_ratios_equal_those_in_twice_the_precision(path in path(), exponents in vector(3, -3.0..3.0)) {
+        // R₁ diag(10^x) R₂ with the frames of the path: ratios up to 10⁶.
+        let frames = path.gradient[0].svd(true, true);
+        let (left, right) = (frames.u.expect("asked for"), frames.v_t.expect("asked for"));
+        let stretches = Vector3::new(10.0_f64.powf(exponents[0]), 10.0_f64.powf(exponents[1]), 10.0_f64.powf(exponents[2]));
+        let mut gradient = left * Matrix3::from_diagonal(&stretches) * right;
+        gradient *= gradient.determinant().signum();
+        let rates = StretchRates::of(&DeformationGradient::new(gradient).expect("0 < det F"), &path.rate());
+        let wide = |m: &Matrix3<f64>| m.map(DoubleDouble::lit);
+        let f = DeformationGradient::new(wide(&gradient)).expect("0 < det F");
+        let reference = StretchRates::of(&f, &GradientRate(wide(&path.gradient[1])));
+        let narrow = |m: Matrix3<DoubleDouble>| m.map(|x| x.primal(0));
+        let [a, b, c] = rates.analysis().principal_stretches();
+        let size = path.gradient[1].norm();
+        let tol = Tol::ulps(8.0);
+        let (turning, inverse) = (1.0 + a / (b + c), 1.0 + a / c);
+        assert_same("U̇", &rates.right_stretch().matrix(), &narrow(reference.right_stretch().matrix()), size, tol.times(turning));
+        assert_same("V̇", &rates.left_stretch().matrix(), &narrow(reference.left_stretch().matrix()), size, tol.times(turning));
+        let spin = size / (b + c);
+        assert_same("ṘRᵀ", &rates.polar_spin().matrix(), &narrow(reference.polar_spin().matrix()), spin, tol.times(turning));
+        assert_same("RᵀṘ", &rates.material_spin().matrix(), &narrow(reference.material_spin().matrix()), spin, tol.times(turning));
+        assert_same("(ln U)˙", &rates.hencky_material().matrix(), &narrow(reference.hencky_material().matrix()), size / c, tol.times(inverse));
+        assert_same("(ln V)˙", &rates.hencky_spatial().matrix(), &narrow(reference.hencky_spatial().matrix()), size / c, tol.times(inverse));
+        assert_same("Ω^log", &rates.logarithmic_spin().matrix(), &narrow(reference.logarithmic_spin().matrix()), size / c, tol.times(inverse));
     }
 }
