@@ -62,6 +62,7 @@ impl<F: Field> Field for &F {
 /// assert_eq!(gravity.at(&Vector3::new(1.0, 2.0, 3.0), 4.0).z, -9.81);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Uniform<V>(pub V);
 
 impl<V: FieldValue<Over<f64> = V>> Field for Uniform<V> {

@@ -9,6 +9,7 @@ mod coordinates;
 mod fixtures;
 mod frames;
 mod motions;
+mod sampled;
 mod traps;
 
 #[global_allocator]

@@ -50,6 +50,7 @@ use crate::{CauchyStress, ContinuumError, FirstPiola};
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Body<M, R> {
     /// x(X, t).
     pub motion: M,

@@ -55,6 +55,7 @@ use crate::{CauchyStress, ContinuumError};
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Flow<C, R, V> {
     /// The system of coordinates.
     pub coordinates: C,

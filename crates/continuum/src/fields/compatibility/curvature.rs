@@ -14,6 +14,14 @@ use crate::{ContinuumError, Symmetric};
 
 /// A symmetric residual with the sums of the moduli of its terms, component by component.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: piola_numerics::Real + serde::Serialize",
+        deserialize = "T: piola_numerics::Real + serde::Deserialize<'de>"
+    ))
+)]
 pub struct SymmetricResidual<T = f64> {
     /// The sums of the terms.
     pub value: Symmetric<T>,
@@ -75,6 +83,14 @@ impl<T: Real> SymmetricResidual<T> {
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: piola_numerics::Real + serde::Serialize",
+        deserialize = "T: piola_numerics::Real + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Curvature<T = f64> {
     /// N^KL = −¼ e_KAB e_LCD R_ABCD, 1/m², with its scale: the incompatibility of the metric.
     pub residual: SymmetricResidual<T>,

@@ -33,6 +33,7 @@ use crate::fields::value::{FieldValue, map};
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Eulerian<M> {
     /// x(X, t).
     pub motion: M,

@@ -53,6 +53,14 @@ impl Default for Inversion {
 ///
 /// Lengths are in the maximum norm; over lanes each lane has its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Preimage<T = f64> {
     /// X, m; over differentiable scalars with the derivatives of the inverse motion.
     pub reference: Vector3<T>,

@@ -29,6 +29,7 @@ use crate::fields::field::{Field, ValueOf, check_point, finite, local_rate, valu
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Material<F>(pub F);
 
 impl<F: Field> Material<F> {

@@ -32,6 +32,7 @@ use crate::fields::value::map;
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Spatial<F>(pub F);
 
 impl<F: Field> Spatial<F> {
@@ -130,6 +131,7 @@ impl<F: Field> Spatial<F> {
 
 /// A field in space as a function of the particles of a motion: [`Spatial::following`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Following<F, M> {
     /// Ψ(x, t).
     pub field: F,

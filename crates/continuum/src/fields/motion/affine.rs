@@ -48,6 +48,7 @@ pub trait AffineHistory {
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Homogeneous<H>(pub H);
 
 impl<H: AffineHistory> Motion for Homogeneous<H> {
@@ -75,9 +76,27 @@ impl<H: AffineHistory> Motion for Homogeneous<H> {
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Parts"))]
 pub struct Affine {
     gradient: DeformationGradient,
     translation: Vector3<f64>,
+}
+
+/// What is read of an [`Affine`] before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Parts {
+    gradient: DeformationGradient,
+    translation: Vector3<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Parts> for Affine {
+    type Error = ContinuumError;
+    fn try_from(parts: Parts) -> Result<Self, ContinuumError> {
+        Self::new(parts.gradient, parts.translation)
+    }
 }
 
 impl Affine {
@@ -140,6 +159,7 @@ pub trait RigidHistory {
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Rigid<H>(pub H);
 
 impl<H: RigidHistory> Motion for Rigid<H> {
