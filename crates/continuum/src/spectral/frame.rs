@@ -4,60 +4,52 @@
 //! A = m 1 + p B,  tr B = 0,  ½ B:B = 3        eigenvalues x of B:  x³ − 3x − 2r = 0,  r = ½ det B ∈ [−1, 1]
 //! ```
 //! Of the three roots 2 cos((arccos r + 2πk)/3) the one of largest modulus, y = |x| ∈ [√3, 2], is separated from
-//! the others by at least √3 and is a regular function of |r|: a polynomial and one step of Newton's iteration
-//! give it without trigonometry. Its eigenvector is a column of adj(B − x1), which has rank one and the smallest
+//! the others by at least √3 and is a regular function of |r|: a polynomial
+//! gives it without trigonometry. Its eigenvector is a column of adj(B − x1), which has rank one and the smallest
 //! nonzero eigenvalue 6; what remains is a 2×2 problem in the plane across it, solved by one rotation of Jacobi,
 //! which is exact for coalescent pairs too. No step divides by a gap.
 
-use piola_numerics::Real;
-use piola_numerics::linear::matrix3::dot;
+use piola_numerics::linear::matrix3::{cross, dot};
 use piola_numerics::sums::unit_in_last_place;
+use piola_numerics::{Mask, Real};
 
 use crate::Symmetric;
 use crate::tensor::rows::Rows;
 
-/// Near-minimax polynomial of the root y(|r|) on [0, 1], error 6·10⁻¹⁰.
-const ROOT: [f64; 10] = [
-    1.732_050_808_101_330_4,
-    0.333_333_226_402_662_1,
-    -0.096_221_442_294_609_98,
-    0.049_334_755_569_866_1,
-    -0.030_851_972_901_964_033,
-    0.020_581_165_551_633_224,
-    -0.012_900_457_547_466_437,
-    0.006_505_493_361_280_503,
-    -0.002_178_211_295_198_596_7,
-    0.000_346_635_345_329_973_63,
+/// Near-minimax polynomial of the root y in |r| − ½ on [−½, ½], error 2·10⁻¹⁶.
+const ROOT: [f64; 18] = [
+    1.879_385_241_571_816_6,
+    0.263_287_229_089_799_07,
+    -0.051_451_311_901_238_125,
+    0.017_706_479_293_360_177,
+    -0.007_476_648_949_177_976,
+    0.003_514_522_796_557_794_5,
+    -0.001_765_283_297_331_928_5,
+    0.000_927_561_951_534_681_6,
+    -0.000_503_577_787_516_658_4,
+    0.000_280_248_729_545_828_73,
+    -0.000_158_945_367_582_658_66,
+    9.161_096_611_985_547e-5,
+    -5.401_356_609_724_443e-5,
+    3.189_109_794_447_260_4e-5,
+    -1.691_556_509_453_063e-5,
+    1.012_521_566_321_315e-5,
+    -1.055_496_289_493_908_9e-5,
+    6.446_471_913_600_215e-6,
 ];
 
-/// Near-minimax polynomial of 1/(3(y² − 1)), the reciprocal slope for Newton's step, error 7·10⁻⁸.
-const RECIPROCAL_SLOPE: [f64; 8] = [
-    0.166_666_597_300_638_85,
-    -0.096_216_101_535_780_38,
-    0.073_879_304_580_805_84,
-    -0.060_695_323_449_380_22,
-    0.047_453_183_702_176_466,
-    -0.030_138_396_737_101_71,
-    0.012_636_372_716_759_428,
-    -0.002_474_561_501_173_275,
-];
-
-/// Bounds within which squares neither overflow nor vanish, and the factors that bring other numbers there.
+/// Bounds within which cubes neither overflow nor vanish.
 struct Range {
     low: f64,
     high: f64,
-    raise: f64,
-    lower: f64,
     /// Added to a square so that its root has a reciprocal: far below the smallest square in range.
     nothing_squared: f64,
     /// Added to a modulus of order one for the same purpose.
     nothing: f64,
 }
 
-const DOUBLE: Range =
-    Range { low: 1e-120, high: 1e120, raise: 1e200, lower: 1e-200, nothing_squared: 1e-280, nothing: 1e-140 };
-const SINGLE: Range =
-    Range { low: 1e-14, high: 1e14, raise: 1e25, lower: 1e-25, nothing_squared: 1e-35, nothing: 1e-17 };
+const DOUBLE: Range = Range { low: 1e-100, high: 1e100, nothing_squared: 1e-240, nothing: 1e-140 };
+const SINGLE: Range = Range { low: 1e-12, high: 1e12, nothing_squared: 1e-32, nothing: 1e-17 };
 
 #[inline(always)]
 fn range<T: Real>() -> Range {
@@ -68,14 +60,13 @@ fn range<T: Real>() -> Range {
 #[inline(always)]
 fn separated_root<T: Real>(q: T) -> T {
     let c = |k: usize| T::lit(ROOT[k]);
-    let d = |k: usize| T::lit(RECIPROCAL_SLOPE[k]);
-    let q2 = q * q;
-    let q4 = q2 * q2;
-    let low = (c(0) + c(1) * q) + (c(2) + c(3) * q) * q2;
-    let high = (c(4) + c(5) * q) + (c(6) + c(7) * q) * q2;
-    let y = low + (high + (c(8) + c(9) * q) * q4) * q4;
-    let slope = ((d(0) + d(1) * q) + (d(2) + d(3) * q) * q2) + ((d(4) + d(5) * q) + (d(6) + d(7) * q) * q2) * q4;
-    y - (y * (y * y - T::lit(3.0)) - (q + q)) * slope
+    let t = q - T::lit(0.5);
+    let t2 = t * t;
+    let t4 = t2 * t2;
+    let cubic = |k: usize| (c(k) + c(k + 1) * t) + (c(k + 2) + c(k + 3) * t) * t2;
+    let low = cubic(0) + cubic(4) * t4;
+    let high = (cubic(8) + cubic(12) * t4) + (c(16) + c(17) * t) * (t4 * t4);
+    low + high * (t4 * t4)
 }
 
 /// The larger of two numbers by one comparison.
@@ -116,58 +107,57 @@ pub(super) fn combination<T: Real>(a: T, u: [T; 3], b: T, v: [T; 3]) -> [T; 3] {
 #[inline(always)]
 pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
     let range = range::<T>();
-    let one = T::one();
+    let (one, half) = (T::one(), T::lit(0.5));
     let [xx, yy, zz, xy, yz, xz] = a.components;
 
-    // The deviator B, scaled to ½ B:B = 3.
+    // The deviator, brought into range where its cubes would leave it.
     let mean = (xx + yy + zz) * T::lit(1.0 / 3.0);
-    let (xx, yy, zz) = (xx - mean, yy - mean, zz - mean);
+    let (mut xx, mut yy, mut zz, mut xy, mut yz, mut xz) = (xx - mean, yy - mean, zz - mean, xy, yz, xz);
     let largest = largest_modulus([xx, yy, zz, xy, yz, xz]);
-    let factor = T::select(
-        largest.less_than(T::lit(range.low)),
-        T::lit(range.raise),
-        T::select(T::lit(range.high).less_than(largest), T::lit(range.lower), one),
-    );
-    let (xx, yy, zz, xy, yz, xz) = (xx * factor, yy * factor, zz * factor, xy * factor, yz * factor, xz * factor);
+    let low = T::lit(range.low);
+    let outside = largest.less_than(low) | T::lit(range.high).less_than(largest);
+    if outside.any() {
+        let divisor = T::select(outside & T::zero().less_than(largest), largest, one);
+        (xx, yy, zz, xy, yz, xz) = (xx / divisor, yy / divisor, zz / divisor, xy / divisor, yz / divisor, xz / divisor);
+    }
+
+    // B, scaled to ½ B:B = 3; its determinant by that of the deviator, beside the root and the quotient.
     let square = (xx * xx + yy * yy + zz * zz) * T::lit(1.0 / 6.0) + (xy * xy + yz * yz + xz * xz) * T::lit(1.0 / 3.0);
     let scale = (square + T::lit(range.nothing_squared)).sqrt().recip();
+    let determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    let r = ((T::lit(0.5) * determinant * scale) * scale) * scale;
     let (xx, yy, zz, xy, yz, xz) = (xx * scale, yy * scale, zz * scale, xy * scale, yz * scale, xz * scale);
 
     // The separated eigenvalue x and its eigenvector v, a column of adj(B − x1).
-    let r = T::lit(0.5) * (xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz));
     let x = separated_root(T::select(one.less_than(r.abs()), one, r.abs())).copysign(r);
     let (mx, my, mz) = (xx - x, yy - x, zz - x);
     let (ax, ay, az) = (my * mz - yz * yz, mx * mz - xz * xz, mx * my - xy * xy);
     let (axy, ayz, axz) = (yz * xz - xy * mz, xy * xz - yz * mx, xy * yz - xz * my);
-    let v = choose::<T>(
-        larger(ay, az).at_most(ax),
-        [ax, axy, axz],
-        choose::<T>(az.at_most(ay), [axy, ay, ayz], [axz, ayz, az]),
-    );
+    let most = larger(ax, ay);
+    let (first, last) = (ay.at_most(ax), most.less_than(az));
+    let v = choose::<T>(last, [axz, ayz, az], choose::<T>(first, [ax, axy, axz], [axy, ay, ayz]));
 
-    // The plane across it: the reflection that takes v to the third axis takes the first two there.
-    let square = dot(v, v);
-    let length = square.sqrt();
-    let reciprocal = length.recip();
-    let beta = (square + length * v[2].abs()).recip();
-    let sign = one.copysign(v[2]);
-    let n = [v[0] * reciprocal, v[1] * reciprocal, v[2] * reciprocal];
-    let (bx, by) = (beta * v[0], beta * v[1]);
-    let signed = sign * reciprocal;
-    let u = [one - bx * v[0], -(bx * v[1]), -(signed * v[0])];
-    let w = [sign * u[1], sign * (one - by * v[1]), -n[1]];
+    // Across it: u with one component left out, not the largest of v, and w = v × u.
+    let u = choose::<T>(last, [T::zero(), v[2], -v[1]], [-v[1], v[0], T::zero()]);
+    let w = cross(v, u);
+    let v_scale = dot(v, v).sqrt().recip();
+    let u_scale = dot(u, u).sqrt().recip();
+    let w_scale = u_scale * v_scale;
 
     // The 2×2 problem there, by one rotation: half the difference of its diagonal, h, and its shear, b.
     let image = [dot([xx, xy, xz], u), dot([xy, yy, yz], u), dot([xz, yz, zz], u)];
-    let h = dot(u, image) + T::lit(0.5) * x;
-    let b = dot(w, image);
+    let h = dot(u, image) * (u_scale * u_scale) + T::lit(0.5) * x;
+    let b = dot(w, image) * (u_scale * w_scale);
     let adjacent = (h.abs() + T::lit(range.nothing)) + (h * h + b * b).sqrt();
     let reciprocal = (adjacent * adjacent + b * b).sqrt().recip();
     let (cosine, sine) = (adjacent * reciprocal, b * reciprocal);
-    let forward = T::zero().at_most(h);
-    let (c, s) = (T::select(forward, cosine, sine), T::select(forward, sine, cosine));
-    let larger = combination(c, u, s, w);
-    let smaller = combination(-s, u, c, w);
+    // By products with 1 and 0, which no compiler turns into a jump.
+    let forward = half + half.copysign(h);
+    let backward = one - forward;
+    let (c, s) = (forward * cosine + backward * sine, forward * sine + backward * cosine);
+    let larger = combination(c * u_scale, u, s * w_scale, w);
+    let smaller = combination(c * w_scale, w, -(s * u_scale), u);
+    let n = [v[0] * v_scale, v[1] * v_scale, v[2] * v_scale];
 
     let above = T::zero().at_most(r);
     [choose::<T>(above, n, larger), choose::<T>(above, larger, smaller), choose::<T>(above, smaller, n)]

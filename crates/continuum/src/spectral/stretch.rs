@@ -127,8 +127,15 @@ impl<T: Real> StretchAnalysis<T> {
         let green =
             if T::ORDER == 0 { twice_green } else { Symmetric { components: twice_green.components.map(T::frozen) } };
         let small = largest_modulus(green.components).at_most(T::lit(SMALL));
+        // The frame of 2E or, where a small stretch would be lost in it, of C.
+        let measure = if small.all() {
+            green
+        } else {
+            let cauchy_green = gram(&freeze(transpose(gradient)));
+            Symmetric { components: choose(small, green.components, cauchy_green) }
+        };
 
-        let mut axes = freeze(principal_frame(&green));
+        let mut axes = freeze(principal_frame(&measure));
         let mut images = images_of(gradient, &axes);
         // For small strain 2E in the frame, otherwise C.
         let mut square = if small.all() {
@@ -250,14 +257,16 @@ impl<T: Real> StretchAnalysis<T> {
     #[inline(always)]
     #[must_use]
     pub fn right_stretch(&self) -> Symmetric<T> {
-        self.material(self.beyond_green(), T::one(), self.shift)
+        let (components, middle) = self.beyond_green();
+        self.material(components, T::one(), self.shift + middle)
     }
 
     /// U − 1 (Biot's strain), without cancellation.
     #[inline(always)]
     #[must_use]
     pub fn right_stretch_less_one(&self) -> Symmetric<T> {
-        self.material(self.beyond_green(), T::one(), self.shift - T::one())
+        let (components, middle) = self.beyond_green();
+        self.material(components, T::one(), (self.shift - T::one()) + middle)
     }
 
     /// U⁻¹.
@@ -271,14 +280,16 @@ impl<T: Real> StretchAnalysis<T> {
     #[inline(always)]
     #[must_use]
     pub fn left_stretch(&self) -> Symmetric<T> {
-        self.spatial(self.beyond_green(), T::one(), self.shift)
+        let (components, middle) = self.beyond_green();
+        self.spatial(components, T::one(), self.shift + middle)
     }
 
     /// V − 1, without cancellation.
     #[inline(always)]
     #[must_use]
     pub fn left_stretch_less_one(&self) -> Symmetric<T> {
-        self.spatial(self.beyond_green(), T::one(), self.shift - T::one())
+        let (components, middle) = self.beyond_green();
+        self.spatial(components, T::one(), (self.shift - T::one()) + middle)
     }
 
     /// V⁻¹.
@@ -391,12 +402,15 @@ impl<T: Real> StretchAnalysis<T> {
         [x + d[0], y + d[1], z + d[2], d[3], d[4], d[5]]
     }
 
-    /// S, or for small strain S − 1 − E = −½ (S − 1)².
+    /// (S − m 1, m) with the middle stretch m, or for small strain (S − 1 − E, 0) = (−½ (S − 1)², 0): what remains
+    /// to be put through the rounding of a change of frame.
     #[inline(always)]
-    fn beyond_green(&self) -> [T; 6] {
+    fn beyond_green(&self) -> ([T; 6], T) {
         let k = self.frame_stretch();
+        let middle = self.stretches[1];
+        let less_middle = [k[0] - middle, k[1] - middle, k[2] - middle, k[3], k[4], k[5]];
         if !self.small.any() {
-            return k;
+            return (less_middle, middle);
         }
         let [x, y, z, xy, yz, xz] = k;
         let half = T::lit(-0.5);
@@ -410,7 +424,10 @@ impl<T: Real> StretchAnalysis<T> {
             half * (yz * (y + z) + shears(xy, xz)),
             half * (xz * (x + z) + shears(xy, yz)),
         ];
-        if self.small.all() { square } else { choose(self.small, square, k) }
+        if self.small.all() {
+            return (square, T::zero());
+        }
+        (choose(self.small, square, less_middle), T::select(self.small, T::zero(), middle))
     }
 
     /// S⁻¹ less the shift.
