@@ -16,7 +16,7 @@ use crate::fields::residual::{Residual, VectorResidual};
 use crate::tensor::rows::Rows;
 use crate::{CauchyStress, ContinuumError, FirstPiola};
 
-/// A body as a motion x(X, t) with the density ρ_κ(X) of its reference configuration. Cartesian components.
+/// A body as a motion x(X, t) with the density `ρ_κ(X)` of its reference configuration. Cartesian components.
 ///
 /// Fields of particles are [`Material`], fields of places [`Spatial`]: they cannot be exchanged by accident.
 ///
@@ -54,12 +54,12 @@ use crate::{CauchyStress, ContinuumError, FirstPiola};
 pub struct Body<M, R> {
     /// x(X, t).
     pub motion: M,
-    /// ρ_κ(X), kg/m³ of the reference configuration.
+    /// `ρ_κ(X)`, kg/m³ of the reference configuration.
     pub reference_density: R,
 }
 
 impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
-    /// ρ = ρ_κ/det F, kg/m³, W(17.7), B(4.40).
+    /// `ρ = ρ_κ/det F`, kg/m³, W(17.7), B(4.40).
     ///
     /// # Errors
     /// See [the type](Body#errors).
@@ -72,7 +72,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         Ok(density)
     }
 
-    /// ρ det F − ρ_κ, kg/m³, W(17.7), B(4.40), of a density given in space.
+    /// ρ det F − `ρ_κ`, kg/m³, W(17.7), B(4.40), of a density given in space.
     ///
     /// # Errors
     /// See [the type](Body#errors).
@@ -114,7 +114,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         checked("continuity", residual)
     }
 
-    /// Div P + ρ_κ b − ρ_κ a, N/m³ of the reference configuration, W(17.29), B(4.54).
+    /// Div P + `ρ_κ` b − `ρ_κ` a, N/m³ of the reference configuration, W(17.29), B(4.54).
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
@@ -166,7 +166,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         checked_vector("momentum", [component(0), component(1), component(2)])
     }
 
-    /// div T + ρb − ρa, N/m³, W(17.12), at the place of the particle, with ρ = ρ_κ/det F.
+    /// div T + ρb − ρa, N/m³, W(17.12), at the place of the particle, with `ρ = ρ_κ/det F`.
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
@@ -192,7 +192,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         checked_vector("momentum", [component(0), component(1), component(2)])
     }
 
-    /// ρ_κ ü + c u̇ − f − Div P, N/m³ of the reference configuration: damped motion, B(4.58).
+    /// `ρ_κ` ü + c u̇ − f − Div P, N/m³ of the reference configuration: damped motion, B(4.58).
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
@@ -257,7 +257,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         checked_vector("moment", two_point_symmetry(&stress.0.at(reference, time).rows(), &gradient))
     }
 
-    /// ρ_κ ε̇ − P : Ḟ, W/m³ of the reference configuration: the balance of energy of a body that neither conducts
+    /// `ρ_κ` ε̇ − P : Ḟ, W/m³ of the reference configuration: the balance of energy of a body that neither conducts
     /// nor receives heat, W(20.4), W(20.9).
     ///
     /// | symbol | argument | unit |
@@ -284,7 +284,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         checked("energy", residual)
     }
 
-    /// ρ_κ ε̇ − P : Ḟ + Div Q − R, W/m³ of the reference configuration: the balance of energy with heat, W(20.4).
+    /// `ρ_κ` ε̇ − P : Ḟ + Div Q − R, W/m³ of the reference configuration: the balance of energy with heat, W(20.4).
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|

@@ -211,7 +211,7 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
 /// As [`Coordinates`](Coordinates#errors).
 ///
 /// # Example
-/// Lamé's tube: T_rr = a − b/r², T_θθ = a + b/r² is in equilibrium without force.
+/// Lamé's tube: `T_rr` = a − b/r², `T_θθ` = a + b/r² is in equilibrium without force.
 /// ```
 /// use nalgebra::Vector3;
 /// use piola_continuum::{CauchyStress, Symmetric};

@@ -14,7 +14,7 @@ use crate::fields::residual::{Residual, VectorResidual};
 use crate::tensor::rows::{Rows, product, transpose};
 use crate::{CauchyStress, ContinuumError};
 
-/// Div(J F⁻ᵀ), ∂(J F⁻ᵀ)ᵢ_A/∂X_A, 1/m: zero for every motion.
+/// Div(J F⁻ᵀ), `∂(J F⁻ᵀ)ᵢ_A/∂X_A`, 1/m: zero for every motion.
 ///
 /// # Errors
 /// What the motion refuses; [`ContinuumError::NotFinite`].

@@ -3,10 +3,10 @@
 //! | balance | residual | from places x: [`Flow`] | from particles X: [`Body`] |
 //! |---|---|---|---|
 //! | mass | ρ̇ + ρ div v | [`Flow::continuity_residual`] | [`Body::continuity_residual`] |
-//! | mass | ρ J − ρ_κ | | [`Body::density_residual`] |
+//! | mass | ρ J − `ρ_κ` | | [`Body::density_residual`] |
 //! | momentum | div T + ρb − ρa | [`Flow::momentum_residual`] | [`Body::spatial_momentum_residual`] |
-//! | momentum | Div P + ρ_κ b − ρ_κ a | | [`Body::momentum_residual`] |
-//! | damped | ρ_κ ü + c u̇ − f − Div P | | [`Body::damped_residual`] |
+//! | momentum | Div P + `ρ_κ` b − `ρ_κ` a | | [`Body::momentum_residual`] |
+//! | damped | `ρ_κ` ü + c u̇ − f − Div P | | [`Body::damped_residual`] |
 //! | statics | div T + f, Div P + f | [`equilibrium_residual`] | [`Body::equilibrium_residual`] |
 //! | moment of momentum | T − Tᵀ, P Fᵀ − F Pᵀ | [`symmetry_residual`] | [`Body::symmetry_residual`] |
 //! | energy | ρε̇ − tr(T L) + div q − r | [`Flow::energy_residual`] | [`Body::energy_residual`] |
@@ -15,7 +15,7 @@
 //! Every residual comes with its scale, the sum of the moduli of its terms: [`Residual`]. A balance that holds
 //! leaves a few ulp of the scale, times the condition of the formulas that are given.
 //!
-//! Divergences contract the last index, (div T)ᵢ = ∂Tᵢⱼ/∂xⱼ and (Div P)ᵢ = ∂Pᵢ_A/∂X_A. The first index, which some
+//! Divergences contract the last index, (div T)ᵢ = ∂Tᵢⱼ/∂xⱼ and `(Div P)ᵢ = ∂Pᵢ_A/∂X_A`. The first index, which some
 //! texts contract (B(4.7)), gives something else for P.
 
 mod body;

@@ -49,7 +49,7 @@ impl<T: Real> SymmetricResidual<T> {
     }
 }
 
-/// The Riemann curvature of a field of metrics C(X): zero where C = FᵀF of a deformation, W(24.20).
+/// The Riemann curvature of a field of metrics C(X): zero where C = `FᵀF` of a deformation, W(24.20).
 ///
 /// ```text
 /// R_ABCD = ½(∂_B∂_C C_AD + ∂_A∂_D C_BC − ∂_A∂_C C_BD − ∂_B∂_D C_AC) + C⁻¹_PQ (Γ_P,BC Γ_Q,AD − Γ_P,BD Γ_Q,AC)
@@ -58,7 +58,7 @@ impl<T: Real> SymmetricResidual<T> {
 /// ```
 ///
 /// Signs: R₁₂₁₂ and Ric are positive on spheres. In three dimensions the six independent components are those of
-/// N^KL = −¼ e_KAB e_LCD R_ABCD (e the permutation symbol), which is det C times Einstein's tensor with upper
+/// `N^KL = −¼ e_KAB e_LCD R_ABCD` (e the permutation symbol), which is det C times Einstein's tensor with upper
 /// indices and tends to inc ε for C = 1 + 2ε.
 ///
 /// # Example
@@ -92,7 +92,7 @@ impl<T: Real> SymmetricResidual<T> {
     ))
 )]
 pub struct Curvature<T = f64> {
-    /// N^KL = −¼ e_KAB e_LCD R_ABCD, 1/m², with its scale: the incompatibility of the metric.
+    /// `N^KL = −¼ e_KAB e_LCD R_ABCD`, 1/m², with its scale: the incompatibility of the metric.
     pub residual: SymmetricResidual<T>,
     /// C.
     pub metric: Symmetric<T>,
@@ -140,7 +140,7 @@ impl<T: Real> Curvature<T> {
         Ok(Self { residual, metric: Symmetric::upper_triangle(c) })
     }
 
-    /// R_ABCD, 1/m², indices from 0; an index of 3 or more gives zero.
+    /// `R_ABCD`, 1/m², indices from 0; an index of 3 or more gives zero.
     #[must_use]
     pub fn riemann(&self, a: usize, b: usize, c: usize, d: usize) -> T {
         let n = self.residual.value.rows();
@@ -154,7 +154,7 @@ impl<T: Real> Curvature<T> {
         sum
     }
 
-    /// Einstein's tensor G_AB = Ric_AB − ½ R C_AB, 1/m².
+    /// Einstein's tensor `G_AB = Ric_AB − ½ R C_AB`, 1/m².
     #[must_use]
     pub fn einstein(&self) -> Symmetric<T> {
         let c = self.metric.rows();
@@ -163,7 +163,7 @@ impl<T: Real> Curvature<T> {
         Symmetric::symmetric_part(lowered.map(|row| row.map(|entry| entry * reciprocal)))
     }
 
-    /// The scalar curvature R = C⁻¹_AB Ric_AB, 1/m².
+    /// The scalar curvature `R = C⁻¹_AB Ric_AB`, 1/m².
     #[must_use]
     pub fn scalar(&self) -> T {
         // tr G = R − 3/2 R, and tr G = N : C/det C.
@@ -171,7 +171,7 @@ impl<T: Real> Curvature<T> {
         T::lit(-2.0) * double_contraction(self.residual.value.rows(), c) / determinant(c)
     }
 
-    /// Ricci's tensor Ric_AB, 1/m²: zero where C is compatible, and only there.
+    /// Ricci's tensor `Ric_AB`, 1/m²: zero where C is compatible, and only there.
     #[must_use]
     pub fn ricci(&self) -> Symmetric<T> {
         let (einstein, half) = (self.einstein().components, T::lit(0.5) * self.scalar());
@@ -194,7 +194,7 @@ fn sign(pair: (usize, usize), other: (usize, usize)) -> f64 {
     }
 }
 
-/// factor (∂_B∂_C g_AD + ∂_A∂_D g_BC − ∂_A∂_C g_BD − ∂_B∂_D g_AC), `second(a, b, c, d)` = ∂_a∂_b g_cd.
+/// `factor (∂_B∂_C g_AD + ∂_A∂_D g_BC − ∂_A∂_C g_BD − ∂_B∂_D g_AC)`, `second(a, b, c, d) = ∂_a∂_b g_cd`.
 pub(super) fn second_differences<T: Real>(
     (a, b): (usize, usize),
     (c, d): (usize, usize),

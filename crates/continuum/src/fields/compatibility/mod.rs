@@ -36,7 +36,7 @@ use crate::error::check_finite;
     ))
 )]
 pub struct GradientResidual<T = f64> {
-    /// (Curl F)ᵢ_C = ε_CBA ∂F_iA/∂X_B, 1/m: at row i the differences ∂₂Fᵢ₃ − ∂₃Fᵢ₂, ∂₃Fᵢ₁ − ∂₁Fᵢ₃, ∂₁Fᵢ₂ − ∂₂Fᵢ₁.
+    /// `(Curl F)ᵢ_C = ε_CBA ∂F_iA/∂X_B`, 1/m: at row i the differences ∂₂Fᵢ₃ − ∂₃Fᵢ₂, ∂₃Fᵢ₁ − ∂₁Fᵢ₃, ∂₁Fᵢ₂ − ∂₂Fᵢ₁.
     pub value: Matrix3<T>,
     /// The sums of the moduli of the two terms.
     pub scale: Matrix3<T>,
@@ -51,7 +51,7 @@ impl<T: Real> GradientResidual<T> {
     }
 }
 
-/// ∂F_iA/∂X_B − ∂F_iB/∂X_A, 1/m: zero where F is the gradient of a deformation, W(14.9).
+/// `∂F_iA/∂X_B − ∂F_iB/∂X_A`, 1/m: zero where F is the gradient of a deformation, W(14.9).
 ///
 /// | symbol | argument | shape | unit |
 /// |---|---|---|---|

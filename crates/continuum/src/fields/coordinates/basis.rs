@@ -66,7 +66,7 @@ impl<T: Real> LocalBasis<T> {
         Ok(Self { basis, dual, christoffel, change, determinant })
     }
 
-    /// g_ij = gᵢ·gⱼ.
+    /// `g_ij` = gᵢ·gⱼ.
     #[inline]
     #[must_use]
     pub fn metric(&self) -> Symmetric<T> {

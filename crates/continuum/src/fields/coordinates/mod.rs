@@ -184,7 +184,7 @@ pub trait Coordinates {
     /// See [the trait](Coordinates#errors).
     ///
     /// # Example
-    /// The rigid turn v = ω r e_θ has the skew gradient with the angular velocity.
+    /// The rigid turn v = ω r `e_θ` has the skew gradient with the angular velocity.
     /// ```
     /// use nalgebra::Vector3;
     /// use piola_continuum::fields::{Coordinates, Cylindrical, Field};

@@ -51,7 +51,7 @@ impl<F: Field> Material<F> {
         finite::<F::Value, T>("material rate", local_rate(&self.0, reference, time))
     }
 
-    /// ∂Ψ/∂X_A for A = 1, 2, 3, per metre of the reference configuration.
+    /// `∂Ψ/∂X_A` for A = 1, 2, 3, per metre of the reference configuration.
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`] for a place, time or result.

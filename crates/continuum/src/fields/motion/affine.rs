@@ -139,7 +139,7 @@ pub trait RigidHistory {
 /// The rigid motion x = R(t) X + c(t).
 ///
 /// # Accuracy
-/// FᵀF − 1 is within a few ulp of zero at any time; ∇u is computed without cancellation for small angles.
+/// `FᵀF` − 1 is within a few ulp of zero at any time; ∇u is computed without cancellation for small angles.
 ///
 /// # Example
 /// A turn about the third axis at 3 radians per second: the acceleration points to the axis.

@@ -94,7 +94,7 @@ pub(crate) fn gradient_second_rate<T: Real>(
     [0, 1, 2].map(|i: usize| x[i].partials.map(|f| f.second_rate))
 }
 
-/// ∂²xᵢ/∂X_A∂X_B, as `[i][A][B]`.
+/// `∂²xᵢ/∂X_A∂X_B`, as `[i][A][B]`.
 #[inline]
 pub(crate) fn second_gradient<T: Real>(
     motion: &(impl Motion + ?Sized),

@@ -220,7 +220,7 @@ pub trait Motion {
         Ok(from_rows(velocity_gradient))
     }
 
-    /// ∂²xᵢ/∂X_A∂X_B, the gradient of F, 1/m: for each i the symmetric matrix of A and B.
+    /// `∂²xᵢ/∂X_A∂X_B`, the gradient of F, 1/m: for each i the symmetric matrix of A and B.
     ///
     /// # Errors
     /// See [the trait](Motion#errors).

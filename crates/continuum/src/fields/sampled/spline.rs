@@ -94,10 +94,10 @@ impl Axis {
         // The recursion of Cox and de Boor, one degree after another.
         for degree in 1..=self.degree {
             let mut carried = T::zero();
-            for i in 0..degree {
-                let (low, high) = (self.knots[span + 1 + i - degree], self.knots[span + 1 + i]);
-                let share = basis[i] / T::lit(high - low);
-                basis[i] = carried + (T::lit(high) - x) * share;
+            let knots = self.knots[span + 1 - degree..=span].iter().zip(&self.knots[span + 1..]);
+            for (value, (&low, &high)) in basis[..degree].iter_mut().zip(knots) {
+                let share = *value / T::lit(high - low);
+                *value = carried + (T::lit(high) - x) * share;
                 carried = (x - T::lit(low)) * share;
             }
             basis[degree] = carried;
@@ -147,18 +147,25 @@ impl Factors {
     pub(super) fn solve(&self, values: &mut [[f64; 3]], start: usize, stride: usize) {
         let (p, count) = (self.degree, self.count);
         let entry = |i: usize, j: usize| self.band[i * (2 * p + 1) + j + p - i];
-        for c in 0..3 {
-            for i in 0..count {
-                for j in i.saturating_sub(p)..i {
-                    values[start + stride * i][c] -= entry(i, j) * values[start + stride * j][c];
-                }
-            }
-            for i in (0..count).rev() {
-                for j in i + 1..count.min(i + p + 1) {
-                    values[start + stride * i][c] -= entry(i, j) * values[start + stride * j][c];
-                }
-                values[start + stride * i][c] /= entry(i, i);
+        let row = |i: usize| start + stride * i;
+        for i in 0..count {
+            for j in i.saturating_sub(p)..i {
+                subtract(values, row(i), row(j), entry(i, j));
             }
         }
+        for i in (0..count).rev() {
+            for j in i + 1..count.min(i + p + 1) {
+                subtract(values, row(i), row(j), entry(i, j));
+            }
+            values[row(i)] = values[row(i)].map(|value| value / entry(i, i));
+        }
+    }
+}
+
+/// values[i] −= factor · values[j].
+fn subtract(values: &mut [[f64; 3]], i: usize, j: usize, factor: f64) {
+    let from = values[j];
+    for (value, from) in values[i].iter_mut().zip(from) {
+        *value -= factor * from;
     }
 }
