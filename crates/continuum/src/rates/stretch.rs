@@ -29,7 +29,7 @@ use core::fmt;
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::linear::matrix3::{dot, from_rows};
 use piola_numerics::sums::unit_in_last_place;
-use piola_numerics::{Mask, Real};
+use piola_numerics::{Dual, Mask, Real};
 
 use super::kernels::{axial_of_difference, doubled_symmetric_part, skew_of_axial};
 use super::quantities::skew_rate;
@@ -374,20 +374,41 @@ impl<T: Real> StretchRates<T> {
         // Df(Λ + N)[H]ₖₗ = f[λₖ, λₗ] Hₖₗ + Σ f[λₖ, λₘ, λₗ] (Nₖₘ Hₘₗ + Hₖₘ Nₘₗ), N the rounding off the diagonal.
         let [a, b, c, n, p, r] = self.stretch;
         let [xx, yy, zz, xy, yz, xz] = rate.components;
-        let (aab, abb) = (f.second_divided_difference(a, a, b), f.second_divided_difference(a, b, b));
-        let (bbc, bcc) = (f.second_divided_difference(b, b, c), f.second_divided_difference(b, c, c));
-        let (aac, acc) = (f.second_divided_difference(a, a, c), f.second_divided_difference(a, c, c));
-        let abc = f.second_divided_difference(a, b, c);
+        let (aa, bb, cc) = (f.divided_difference(a, a), f.divided_difference(b, b), f.divided_difference(c, c));
+        let (ab, bc, ac) = (f.divided_difference(a, b), f.divided_difference(b, c), f.divided_difference(a, c));
+        let (aab, abb) = (second_difference(f, [a, a, b], aa, ab, ab), second_difference(f, [a, b, b], ab, bb, ab));
+        let (bbc, bcc) = (second_difference(f, [b, b, c], bb, bc, bc), second_difference(f, [b, c, c], bc, cc, bc));
+        let (aac, acc) = (second_difference(f, [a, a, c], aa, ac, ac), second_difference(f, [a, c, c], ac, cc, ac));
+        let abc = second_difference(f, [a, b, c], ab, bc, ac);
         let two = T::lit(2.0);
         Symmetric::new(
-            f.divided_difference(a, a) * xx + two * (aab * (n * xy) + aac * (r * xz)),
-            f.divided_difference(b, b) * yy + two * (abb * (n * xy) + bbc * (p * yz)),
-            f.divided_difference(c, c) * zz + two * (acc * (r * xz) + bcc * (p * yz)),
-            f.divided_difference(a, b) * xy + (aab * (xx * n) + abb * (n * yy) + abc * (r * yz + xz * p)),
-            f.divided_difference(b, c) * yz + (bbc * (yy * p) + bcc * (p * zz) + abc * (n * xz + xy * r)),
-            f.divided_difference(a, c) * xz + (aac * (xx * r) + acc * (r * zz) + abc * (n * yz + xy * p)),
+            aa * xx + two * (aab * (n * xy) + aac * (r * xz)),
+            bb * yy + two * (abb * (n * xy) + bbc * (p * yz)),
+            cc * zz + two * (acc * (r * xz) + bcc * (p * yz)),
+            ab * xy + (aab * (xx * n) + abb * (n * yy) + abc * (r * yz + xz * p)),
+            bc * yz + (bbc * (yy * p) + bcc * (p * zz) + abc * (n * xz + xy * r)),
+            ac * xz + (aac * (xx * r) + acc * (r * zz) + abc * (n * yz + xy * p)),
         )
     }
+}
+
+/// f[a, b, c] from the first differences, to half the digits: enough for the factor of a rounding.
+#[inline(always)]
+fn second_difference<T: Real, F: IsotropicFunction + ?Sized>(f: &F, [a, b, c]: [T; 3], ab: T, bc: T, ac: T) -> T {
+    // Over the widest gap, which the other two are no larger than.
+    let (wide, first, last) = (a - c, a - b, b - c);
+    let by_first = first.abs().at_most(wide.abs()) & last.abs().at_most(wide.abs());
+    let by_second = last.abs().at_most(first.abs());
+    let (gap, change) = (T::select(by_second, first, last), T::select(by_second, ac - bc, ab - ac));
+    let (gap, change) = (T::select(by_first, wide, gap), T::select(by_first, ab - bc, change));
+    let near = gap.abs().at_most(T::lit(1e-4) * (a + b + c));
+    let quotient = change / T::select(near, T::one(), gap);
+    if !near.any() {
+        return quotient;
+    }
+    let middle = Dual::variable((a + b + c) * T::lit(1.0 / 3.0));
+    let curvature = f.value(Dual::new(middle, Dual::constant(T::one()))).tangent.tangent;
+    T::select(near, T::lit(0.5) * curvature, quotient)
 }
 
 /// Σ Mₖₗ qₖ ⊗ qₗ for axes by rows.

@@ -124,7 +124,7 @@ fn relative_deformations_equal_reference() {
     assert_eq!(compared, 48);
 }
 
-/// F_t(t − s) of a motion, and F(t) and F(t − s).
+/// Fₜ(t − s) of a motion, and F(t) and F(t − s).
 fn both_ways(
     motion: &impl HomogeneousMotion,
     t: f64,

@@ -43,7 +43,7 @@ proptest! {
         let a = a * 10.0_f64.powi(-shrink);
         let wide = exponential_rows(rows_of(&a.map(DoubleDouble::lit)));
         let e = exp(&a);
-        let rounding = from_rows(wide).zip_map(&e, |wide, e| wide.rounding_of(e));
+        let rounding = from_rows(wide).zip_map(&e, DoubleDouble::rounding_of);
         // The condition number by Frobenius' norm of the derivative, at least |A|.
         let condition = (0..9).map(|k| {
             let mut direction = Matrix3::zeros();
@@ -54,7 +54,7 @@ proptest! {
         assert_same("rounding of exp A", &rounding, &Matrix3::zeros(), e.norm(), tol);
         let less = exponential_minus_identity(&a).expect("finite");
         let wide = piola_continuum::rates::exponential_minus_identity_rows(rows_of(&a.map(DoubleDouble::lit)));
-        let rounding = from_rows(wide).zip_map(&less, |wide, e| wide.rounding_of(e));
+        let rounding = from_rows(wide).zip_map(&less, DoubleDouble::rounding_of);
         let tol = Tol::ulps(8.0).times((condition * e.norm() / less.norm()).max(1.0));
         assert_same("rounding of exp A − 1", &rounding, &Matrix3::zeros(), less.norm(), tol);
     }
@@ -71,7 +71,7 @@ proptest! {
     #[test]
     fn derivative_of_exponential_equals_that_of_differentiable_numbers(a in matrices(2.0), e in matrices(1.0)) {
         let (value, derivative) = exponential_derivative(&a, &e).expect("finite");
-        let both = a.zip_map(&e, |x, v| Dual64::new(x, v));
+        let both = a.zip_map(&e, Dual64::new);
         let expected = exponential(&both).expect("finite").map(|x| x.eps);
         let scale = exp(&a.abs()).norm();
         assert_same("exp A", &value, &exp(&a), scale, Tol::ulps(64.0));

@@ -19,7 +19,7 @@ impl HomogeneousMotion for Path {
     }
 }
 
-/// C_t(τ) and −C_t⁻¹(τ) of F(τ) and F(t)⁻¹, and their first three derivatives with respect to τ at τ = 0 = t.
+/// Cₜ(τ) and −Cₜ⁻¹(τ) of F(τ) and F(t)⁻¹, and their first three derivatives with respect to τ at τ = 0 = t.
 fn derivatives(path: &Path) -> ([Matrix3<f64>; 3], [Matrix3<f64>; 3]) {
     // A dual of a jet: the third derivative is the tangent of the second.
     let time = Dual::new(Jet::<f64, 0>::time(0.0), Jet::constant(1.0));
@@ -42,16 +42,16 @@ proptest! {
         let (now, then) = (path.deformation(), DeformationGradient::new(path.at(lapse)));
         prop_assume!(then.is_ok());
         let then = then.expect("0 < det F");
-        let relative = RelativeDeformation::of(&now, &then).expect("0 < det F_t");
+        let relative = RelativeDeformation::of(&now, &then).expect("0 < det Fₜ");
         let size = now.matrix().norm();
         let tol = Tol::ulps(16.0).times(path.condition());
-        assert_same("F_t(τ) F(t) = F(τ)", &(relative.gradient() * now.matrix()), then.matrix(), size, tol);
-        let by_motion = path.relative(0.0, lapse).expect("0 < det F_t");
-        assert_same("F_t by the motion", &by_motion.gradient(), &relative.gradient(), 1.0, tol);
+        assert_same("Fₜ(τ) F(t) = F(τ)", &(relative.gradient() * now.matrix()), then.matrix(), size, tol);
+        let by_motion = path.relative(0.0, lapse).expect("0 < det Fₜ");
+        assert_same("Fₜ by the motion", &by_motion.gradient(), &relative.gradient(), 1.0, tol);
         let c = relative.right_cauchy_green().matrix();
-        assert_same("C_t C_t⁻¹ = 1", &(c * relative.inverse_right_cauchy_green().matrix()), &Matrix3::identity(), 4.0, tol.times(4.0));
+        assert_same("Cₜ Cₜ⁻¹ = 1", &(c * relative.inverse_right_cauchy_green().matrix()), &Matrix3::identity(), 4.0, tol.times(4.0));
         let change = relative.right_cauchy_green_change().matrix();
-        assert_same("C_t − 1", &(change + Matrix3::identity()), &c, 1.0, Tol::ulps(2.0));
+        assert_same("Cₜ − 1", &(change + Matrix3::identity()), &c, 1.0, Tol::ulps(2.0));
         let back = RelativeDeformation::of(&relative, &DisplacementGradient::new(Matrix3::zeros()).expect("1")).expect("inverse");
         let product = from_rows(back.gradient_rows()) * relative.gradient();
         assert_same("from then to now and back", &product, &Matrix3::identity(), 1.0, tol.times(4.0));
@@ -65,11 +65,11 @@ proptest! {
         let gradients = [path.gradient[1] * inverse, path.gradient[2] * inverse * 2.0, Matrix3::zeros()];
         let size = 1.0 + gradients[0].norm() + gradients[1].norm();
         let tol = Tol::ulps(64.0).times(path.condition());
-        for (n, (a, expected)) in RivlinEricksen::of_gradients(&gradients).into_iter().zip(right).enumerate() {
-            assert_same(&format!("A{}", n + 1), &a.matrix(), &expected, size.powi(n as i32 + 1), tol);
+        for (n, (a, expected)) in (1..).zip(RivlinEricksen::of_gradients(&gradients).into_iter().zip(right)) {
+            assert_same(&format!("A{n}"), &a.matrix(), &expected, size.powi(n), tol);
         }
-        for (n, (b, expected)) in WhiteMetzner::of_gradients(&gradients).into_iter().zip(left).enumerate() {
-            assert_same(&format!("B{}", n + 1), &b.matrix(), &expected, 8.0 * size.powi(n as i32 + 1), tol);
+        for (n, (b, expected)) in (1..).zip(WhiteMetzner::of_gradients(&gradients).into_iter().zip(left)) {
+            assert_same(&format!("B{n}"), &b.matrix(), &expected, 8.0 * size.powi(n), tol);
         }
     }
 
@@ -120,8 +120,8 @@ proptest! {
         assert_same("grad a = K²", &motion.acceleration_gradient(t).expect("finite").0, &square, 0.0, Tol::ulps(0.0));
         let now = motion.deformation(t).expect("0 < det F");
         let then = motion.deformation(t + lapse).expect("0 < det F");
-        let relative = motion.relative(t, lapse).expect("0 < det F_t");
-        assert_same("F_t F(t) = F(τ)", &(relative.gradient() * now.matrix()), then.matrix(), 30.0 * then.matrix().norm(), tol);
+        let relative = motion.relative(t, lapse).expect("0 < det Fₜ");
+        assert_same("Fₜ F(t) = F(τ)", &(relative.gradient() * now.matrix()), then.matrix(), 30.0 * then.matrix().norm(), tol);
         // A motion with constant Ḟ.
         let linear = LinearMotion::new(f0, path.gradient[1]).expect("0 < det F");
         let MotionRates { rate, second_rate: second, .. } = linear.rates(0.0).expect("0 < det F");
