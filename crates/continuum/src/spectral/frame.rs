@@ -111,8 +111,10 @@ pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
     let [xx, yy, zz, xy, yz, xz] = a.components;
 
     // The deviator, brought into range where its cubes would leave it.
-    let mean = (xx + yy + zz) * T::lit(1.0 / 3.0);
-    let (mut xx, mut yy, mut zz, mut xy, mut yz, mut xz) = (xx - mean, yy - mean, zz - mean, xy, yz, xz);
+    // By differences: a large mean takes no digits from it.
+    let (third, upper, lower, outer) = (T::lit(1.0 / 3.0), xx - yy, yy - zz, xx - zz);
+    let (mut xx, mut yy, mut zz) = ((upper + outer) * third, (lower - upper) * third, -((outer + lower) * third));
+    let (mut xy, mut yz, mut xz) = (xy, yz, xz);
     let largest = largest_modulus([xx, yy, zz, xy, yz, xz]);
     let low = T::lit(range.low);
     let outside = largest.less_than(low) | T::lit(range.high).less_than(largest);
