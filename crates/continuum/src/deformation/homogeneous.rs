@@ -24,6 +24,18 @@ use crate::tensor::rows::apply;
 /// # Source
 /// W(14.10).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Written<D, T>",
+        into = "Written<D, T>",
+        bound(
+            serialize = "T: Real + serde::Serialize, D: Deformation<T> + serde::Serialize",
+            deserialize = "T: Real + serde::Deserialize<'de>, D: Deformation<T> + serde::Deserialize<'de>"
+        )
+    )
+)]
 pub struct HomogeneousDeformation<D, T = f64> {
     deformation: D,
     translation: Vector3<T>,
@@ -72,5 +84,28 @@ impl<T: Real, D: Deformation<T>> HomogeneousDeformation<D, T> {
     #[must_use]
     pub fn reference_position(&self, position: Vector3<T>) -> Vector3<T> {
         Vector3::from(apply(self.deformation.inverse_rows(), (position - self.translation).into()))
+    }
+}
+
+/// How a homogeneous deformation is written: its gradient by rows and its translation.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Written<D, T> {
+    deformation: D,
+    translation: [T; 3],
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, D: Deformation<T>> TryFrom<Written<D, T>> for HomogeneousDeformation<D, T> {
+    type Error = ContinuumError;
+    fn try_from(written: Written<D, T>) -> Result<Self, ContinuumError> {
+        Self::new(written.deformation, Vector3::from(written.translation))
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, D: Deformation<T>> From<HomogeneousDeformation<D, T>> for Written<D, T> {
+    fn from(motion: HomogeneousDeformation<D, T>) -> Self {
+        Self { deformation: motion.deformation, translation: motion.translation.into() }
     }
 }

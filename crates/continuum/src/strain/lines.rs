@@ -2,6 +2,9 @@
 //!
 //! A measure is one formula over any scalar; over `F + ε dF` with ε² = 0 it gives its derivative along dF, exact to
 //! rounding, and finite where stretches coalesce because every spectral function is.
+//!
+//! These evaluations are large: unlike the measures themselves they are compiled once for each scalar and called, not
+//! inlined wherever they are asked for.
 
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_numerics::{Dual, Gradient, Real};
@@ -10,6 +13,7 @@ use nalgebra::Matrix3;
 
 use crate::Deformation;
 use crate::deformation::volume::{determinant, volume_change_of_gradient};
+use crate::spectral::StretchAnalysis;
 use crate::tensor::rows::Rows;
 
 /// A deformation that carries directions of change.
@@ -84,13 +88,19 @@ pub(super) fn tangent<T: Real>(rows: Rows<Dual<T>>) -> Matrix3<T> {
     from_rows(rows.map(|row| row.map(|x| x.tangent)))
 }
 
-/// `derivative_matrix`, and for measures without closed forms `derivative` and `second_derivative`, from `of`.
+/// The stretches of a deformation that carries directions, compiled once for each kind of scalar.
+#[inline(never)]
+pub(super) fn moving_analysis<S: Real>(moving: &Moving<S>) -> StretchAnalysis<S> {
+    StretchAnalysis::of(moving)
+}
+
+/// `derivative_matrix` of a polynomial measure, or all derivatives of one that is made of the stretches.
 macro_rules! derivatives_of_measure {
     ($name:ident, whole) => {
         impl<T: Real> $name<T> {
             /// The whole derivative with respect to F: rows 11, 22, 33, 12, 23, 13 (shears not doubled), columns 3i + A for
             /// the entry (i, A) of F.
-            #[inline(always)]
+            #[inline]
             #[must_use]
             pub fn derivative_matrix(deformation: &impl crate::Deformation<T>) -> [[T; 9]; 6] {
                 $crate::strain::lines::partials($name::of(&$crate::strain::lines::along_all(deformation)).0)
@@ -98,20 +108,19 @@ macro_rules! derivatives_of_measure {
         }
     };
     ($name:ident) => {
-        $crate::strain::lines::derivatives_of_measure!($name, whole);
-
         impl<T: Real> $name<T> {
             /// The derivative along a direction dF; with Ḟ for dF the rate.
             ///
             /// # Accuracy
             /// Finite and accurate where stretches coalesce, too.
-            #[inline(always)]
+            #[inline]
             #[must_use]
             pub fn derivative(
                 deformation: &impl crate::Deformation<T>,
                 direction: &nalgebra::Matrix3<T>,
             ) -> $crate::Symmetric<T> {
-                let moving = $name::of(&$crate::strain::lines::along(deformation, direction));
+                use $crate::strain::lines::{along, moving_analysis};
+                let moving = $name::from_analysis(&moving_analysis(&along(deformation, direction)));
                 $crate::Symmetric { components: moving.0.components.map(|x| x.tangent) }
             }
 
@@ -119,15 +128,25 @@ macro_rules! derivatives_of_measure {
             ///
             /// # Accuracy
             /// As [`derivative`](Self::derivative).
-            #[inline(always)]
+            #[inline]
             #[must_use]
             pub fn second_derivative(
                 deformation: &impl crate::Deformation<T>,
                 first: &nalgebra::Matrix3<T>,
                 second: &nalgebra::Matrix3<T>,
             ) -> $crate::Symmetric<T> {
-                let moving = $name::of(&$crate::strain::lines::along_both(deformation, first, second));
+                use $crate::strain::lines::{along_both, moving_analysis};
+                let moving = $name::from_analysis(&moving_analysis(&along_both(deformation, first, second)));
                 $crate::Symmetric { components: moving.0.components.map(|x| x.tangent.tangent) }
+            }
+
+            /// The whole derivative with respect to F: rows 11, 22, 33, 12, 23, 13 (shears not doubled), columns 3i + A for
+            /// the entry (i, A) of F.
+            #[inline]
+            #[must_use]
+            pub fn derivative_matrix(deformation: &impl crate::Deformation<T>) -> [[T; 9]; 6] {
+                use $crate::strain::lines::{along_all, moving_analysis, partials};
+                partials($name::from_analysis(&moving_analysis(&along_all(deformation))).0)
             }
         }
     };

@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 
-use super::lines::{along, along_all, along_both, partials};
+use super::lines::{along, along_all, along_both, moving_analysis, partials};
 use super::{RightCauchyGreen, SethHill};
 use crate::spectral::{StretchAnalysis, derivative_array, second_derivative};
 use crate::tensor::Slots;
@@ -46,14 +46,14 @@ macro_rules! family {
             ///
             /// # Accuracy
             /// Finite and accurate where stretches coalesce, too.
-            #[inline(always)]
+            #[inline]
             #[must_use]
             pub fn derivative(
                 deformation: &impl Deformation<T>,
                 scale: SethHill,
                 direction: &Matrix3<T>,
             ) -> Symmetric<T> {
-                let moving = $name::of(&along(deformation, direction), scale);
+                let moving = $name::from_analysis(&moving_analysis(&along(deformation, direction)), scale);
                 Symmetric { components: moving.tensor.components.map(|x| x.tangent) }
             }
 
@@ -61,7 +61,7 @@ macro_rules! family {
             ///
             /// # Accuracy
             /// As [`derivative`](Self::derivative).
-            #[inline(always)]
+            #[inline]
             #[must_use]
             pub fn second_derivative(
                 deformation: &impl Deformation<T>,
@@ -69,16 +69,16 @@ macro_rules! family {
                 first: &Matrix3<T>,
                 second: &Matrix3<T>,
             ) -> Symmetric<T> {
-                let moving = $name::of(&along_both(deformation, first, second), scale);
+                let moving = $name::from_analysis(&moving_analysis(&along_both(deformation, first, second)), scale);
                 Symmetric { components: moving.tensor.components.map(|x| x.tangent.tangent) }
             }
 
             /// The whole derivative with respect to F: rows 11, 22, 33, 12, 23, 13 (shears not doubled), columns 3i + A for
             /// the entry (i, A) of F.
-            #[inline(always)]
+            #[inline]
             #[must_use]
             pub fn derivative_matrix(deformation: &impl Deformation<T>, scale: SethHill) -> [[T; 9]; 6] {
-                partials($name::of(&along_all(deformation), scale).tensor)
+                partials($name::from_analysis(&moving_analysis(&along_all(deformation)), scale).tensor)
             }
         }
     };

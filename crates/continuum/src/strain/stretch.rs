@@ -5,7 +5,7 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
 
 use super::RightCauchyGreen;
-use super::lines::{along, derivatives_of_measure, tangent};
+use super::lines::{along, derivatives_of_measure, moving_analysis, tangent};
 use super::measures::symmetric_measure;
 use crate::spectral::{SquareRoot, StretchAnalysis, derivative_array, second_derivative};
 use crate::tensor::Slots;
@@ -239,10 +239,10 @@ impl<T: Real> Rotation<T> {
     ///
     /// # Source
     /// W(14.24).
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub fn derivative(deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Matrix3<T> {
-        tangent(Rotation::of(&along(deformation, direction)).rows())
+        tangent(Rotation::from_analysis(&moving_analysis(&along(deformation, direction))).rows())
     }
 }
 
