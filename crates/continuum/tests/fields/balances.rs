@@ -201,7 +201,7 @@ impl Field for NominalPressure {
     }
 }
 
-/// v = k x/(1 + kt) in the components of a system: x = r eᵣ (+ z e_z).
+/// v = k x/(1 + kt) in the components of a system: `x = r eᵣ (+ z e_z)`.
 struct Outflow {
     gas: Gas,
     components: [f64; 3],
@@ -249,14 +249,14 @@ proptest! {
         let cylinder = Outflow { gas, components: [1.0, 0.0, 1.0], cartesian: false };
         let sphere = Outflow { gas, components: [1.0, 0.0, 0.0], cartesian: false };
         let space = Outflow { gas, components: [1.0; 3], cartesian: true };
-        check_gas(Flow { coordinates: Cylindrical, density: Density(gas), velocity: cylinder }, gas, &q, t, tol)?;
-        check_gas(Flow { coordinates: Spherical, density: Density(gas), velocity: sphere }, gas, &q, t, tol)?;
-        check_gas(Flow { coordinates: Cartesian, density: Density(gas), velocity: space }, gas, &q, t, tol)?;
+        check_gas(&Flow { coordinates: Cylindrical, density: Density(gas), velocity: cylinder }, gas, &q, t, tol)?;
+        check_gas(&Flow { coordinates: Spherical, density: Density(gas), velocity: sphere }, gas, &q, t, tol)?;
+        check_gas(&Flow { coordinates: Cartesian, density: Density(gas), velocity: space }, gas, &q, t, tol)?;
     }
 }
 
 fn check_gas<C: Coordinates>(
-    flow: Flow<C, Density, Outflow>,
+    flow: &Flow<C, Density, Outflow>,
     gas: Gas,
     q: &Vector3<f64>,
     t: f64,
@@ -271,7 +271,7 @@ fn check_gas<C: Coordinates>(
     Ok(())
 }
 
-/// Water that turns with a vessel about the vertical, in spherical components: v = ω r sin φ e_θ.
+/// Water that turns with a vessel about the vertical, in spherical components: `v = ω r sin φ e_θ`.
 struct Turning {
     rate: f64,
 }
@@ -296,7 +296,7 @@ impl Field for Vessel {
         CauchyStress(Symmetric::diagonal([-(T::lit(self.density) * (head + T::lit(7.0))); 3]))
     }
 }
-/// −g e_z in spherical components.
+/// `−g e_z` in spherical components.
 struct Weight(f64);
 impl Field for Weight {
     type Value = Vector3<f64>;
@@ -305,7 +305,7 @@ impl Field for Weight {
         Vector3::new(-(T::lit(self.0) * c), T::zero(), T::lit(self.0) * s)
     }
 }
-/// Lamé's thick sphere, T_rr = a − 2b/r³, T_θθ = T_φφ = a + b/r³, and tube, T_rr = a − b/r², T_θθ = a + b/r².
+/// Lamé's thick sphere, `T_rr = a − 2b/r³`, `T_θθ = T_φφ = a + b/r³`, and tube, `T_rr = a − b/r²`, `T_θθ = a + b/r²`.
 struct Lame {
     a: f64,
     b: f64,

@@ -23,7 +23,7 @@ impl Field for GradientOf {
     }
 }
 
-/// C = FᵀF.
+/// The metric C of a motion.
 struct MetricOf(GradientOf);
 
 impl Field for MetricOf {

@@ -125,8 +125,8 @@ proptest! {
         let places = [0.0, 0.25, -0.5, 1.0].map(|shift| motion.place(&x.add_scalar(shift), t));
         let lanes = Vector3::from_fn(|i, _| Four::from([0, 1, 2, 3].map(|lane: usize| places[lane][i])));
         let found = Inversion::default().preimage(&motion, &lanes, Four::lit(t))?;
-        for lane in 0..4 {
-            let alone = Inversion::default().preimage(&motion, &places[lane], t)?;
+        for (lane, place) in places.iter().enumerate() {
+            let alone = Inversion::default().preimage(&motion, place, t)?;
             let difference = (found.reference.map(|x| x.primal(lane)) - alone.reference).amax();
             prop_assert!(difference <= alone.error_bound + found.error_bound.primal(lane));
         }
