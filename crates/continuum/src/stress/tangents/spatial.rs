@@ -56,7 +56,7 @@ impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
     }
 }
 
-/// ½ (δ_ik T_jl + δ_il T_jk + T_ik δ_jl + T_il δ_jk): D ↦ D T + T D.
+/// ½ (`δ_ik T_jl + δ_il T_jk + T_ik δ_jl + T_il δ_jk`): D ↦ D T + T D.
 #[inline(always)]
 fn stretching_terms<T: Real>(stress: &CauchyStress<T>) -> MajorSymmetric<T> {
     MajorSymmetric::symmetric_square_dyad(&stress.0, &Symmetric::identity()) * T::lit(2.0)

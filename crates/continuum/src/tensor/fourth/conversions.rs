@@ -175,10 +175,8 @@ impl<T: Real> FourthOrder<T> {
     /// ```
     pub fn minor_symmetric(&self) -> Result<MinorSymmetric<T>, ContinuumError> {
         let scale = size(self.components.as_flattened());
-        let exchanges: [fn(usize, usize, usize, usize) -> [usize; 4]; 2] =
-            [|i, j, k, l| [j, i, k, l], |i, j, k, l| [i, j, l, k]];
-        for exchange in exchanges {
-            let (entry, difference) = self.residual(exchange);
+        for (entry, difference) in [self.residual(|i, j, k, l| [j, i, k, l]), self.residual(|i, j, k, l| [i, j, l, k])]
+        {
             if let Some((difference, scale)) = excess(difference, scale) {
                 return Err(ContinuumError::NotMinorSymmetric { entry, difference, scale });
             }

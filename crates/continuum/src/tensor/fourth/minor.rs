@@ -103,14 +103,8 @@ impl<T: Real> MinorSymmetric<T> {
     /// The largest |`C_ijkl − C_klij`|: zero for the tangent of an energy.
     #[must_use]
     pub fn major_residual(&self) -> T {
-        let c = &self.components;
-        let mut largest = T::zero();
-        for i in 0..6 {
-            for j in 0..i {
-                largest = largest.max((c[i][j] - c[j][i]).abs());
-            }
-        }
-        largest
+        let difference = *self - self.transpose();
+        difference.components.as_flattened().iter().fold(T::zero(), |largest, x| largest.max(x.abs()))
     }
 
     /// ½ (`C_ijkl + C_klij`).

@@ -19,7 +19,8 @@ impl<T: Real> Symmetric<T> {
     /// # Example
     /// ```
     /// use piola_continuum::Symmetric;
-    /// assert_eq!(Symmetric::diagonal([3e200, 4e200, 0.0]).norm(), 5e200);
+    /// let large = 2.0_f64.powi(1000);
+    /// assert_eq!(Symmetric::diagonal([3.0 * large, 4.0 * large, 0.0]).norm(), 5.0 * large);
     /// ```
     #[inline(always)]
     #[must_use]

@@ -32,7 +32,7 @@ orders! {
     Piola [0, 1, 2, 3, 4, 5];
     /// That of Abaqus: 11, 22, 33, 12, 13, 23.
     Abaqus [0, 1, 2, 3, 5, 4];
-    /// That of B(4.73): u_x, v_y, w_z, u_y + v_x, u_z + w_x, v_z + w_y, so 11, 22, 33, 12, 13, 23.
+    /// That of B(4.73): `u_x, v_y, w_z, u_y + v_x, u_z + w_x, v_z + w_y`, so 11, 22, 33, 12, 13, 23.
     BroNielsen [0, 1, 2, 3, 5, 4];
     /// That of crystal physics: 11, 22, 33, 23, 13, 12.
     Classical [0, 1, 2, 4, 5, 3];

@@ -125,7 +125,7 @@ vectors! {
     /// A strain-like Voigt vector: shears doubled, the engineering shears γᵢⱼ = 2 εᵢⱼ.
     ///
     /// # Example
-    /// B(4.73): the vector of ∇u with u_y = 1 and w_x = 4.
+    /// B(4.73): the vector of ∇u with `u_y` = 1 and `w_x` = 4.
     /// ```
     /// use piola_continuum::Symmetric;
     /// use piola_continuum::tensor::voigt::{BroNielsen, StrainVector};
