@@ -1,4 +1,13 @@
 //! Fields and motions over bodies, their derivatives and integrals.
+//!
+//! | to | use |
+//! |---|---|
+//! | state a motion x(X, t) and differentiate it | [`motion`], from samples [`sampled`] |
+//! | pass between particles and places | [`frames`] |
+//! | differentiate in cylindrical, spherical or other coordinates | [`coordinates`] |
+//! | see what a stress and a force leave of a balance at a point | [`balance`] |
+//! | tell whether strains fit together | [`compatibility`] |
+//! | integrate over bodies | [`integral`] |
 
 pub mod balance;
 pub mod compatibility;

@@ -50,7 +50,7 @@ pub struct MotionSamples {
 ///     displacements,
 ///     interpolation: Interpolation::Cubic,
 /// })?;
-/// let particle = Vector3::new(0.75, 0.0, 0.0);
+/// let particle = Vector3::<f64>::new(0.75, 0.0, 0.0);
 /// assert!((motion.velocity(&particle, 0.1)?.x - 0.5625).abs() < 1e-15);
 /// assert!((motion.displacement_gradient(&particle, 0.4)?.matrix()[(0, 0)] - 0.6).abs() < 1e-15);
 /// assert!(motion.velocity(&particle, 1.5).is_err());

@@ -24,8 +24,8 @@ use crate::error::check_finite;
 /// let times = [0.0, 0.5, 1.0, 1.5];
 /// let heights = times.map(|t| [0.0, 0.0, 8.0 * t - 5.0 * t * t]);
 /// let stones = SampledTrajectories::new(&times, &[&heights], Interpolation::Cubic)?;
-/// assert!((stones.velocity(0, 0.25)?.z - 5.5).abs() < 1e-14);
-/// assert!((stones.acceleration(0, 0.25)?.z + 10.0).abs() < 1e-13);
+/// assert!((stones.velocity(0, 0.25_f64)?.z - 5.5).abs() < 1e-14);
+/// assert!((stones.acceleration(0, 0.25_f64)?.z + 10.0).abs() < 1e-13);
 /// assert!(stones.position(1, 0.25).is_err());
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
