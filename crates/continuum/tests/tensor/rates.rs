@@ -17,7 +17,6 @@ use super::energies::{FIBRES, first_piola, green, material, second_piola};
 
 /// What a motion with given F and Ḟ does to the Kirchhoff stress of an energy.
 struct Moving {
-    deformation: DeformationGradient,
     rate: GradientRate,
     velocity_gradient: Rows<f64>,
     kirchhoff: Symmetric,
@@ -42,7 +41,6 @@ fn moving(d: DeformationGradient, rate: Rows<f64>, fibres: f64) -> Moving {
         kirchhoff: Symmetric { components: stress.components.map(|x| x.value) },
         kirchhoff_rate: Symmetric { components: stress.components.map(|x| x.tangent) },
         polar_spin: Skew::skew_part(product_transposed(r_rate, r)),
-        deformation: d,
     }
 }
 

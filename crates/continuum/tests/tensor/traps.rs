@@ -13,8 +13,8 @@ fn bro_nielsens_strain_vector_has_13_before_23() {
     // ∇u with u_z = 1, w_x = 2, v_z = 4, w_y = 8, B(4.73).
     let strain = Symmetric::symmetric_part([[0.0, 0.0, 1.0], [0.0, 0.0, 4.0], [2.0, 8.0, 0.0]]);
     let vector = StrainVector::<f64, BroNielsen>::of(&strain);
-    assert_eq!(vector.components, [0.0, 0.0, 0.0, 0.0, 3.0, 12.0]);
-    assert_eq!(vector.reordered::<Piola>().components, [0.0, 0.0, 0.0, 0.0, 12.0, 3.0]);
+    assert_eq!(Ok(vector), StrainVector::new([0.0, 0.0, 0.0, 0.0, 3.0, 12.0]));
+    assert_eq!(Ok(vector.reordered::<Piola>()), StrainVector::new([0.0, 0.0, 0.0, 0.0, 12.0, 3.0]));
     assert_eq!(vector.tensor(), strain);
 }
 
@@ -57,7 +57,7 @@ fn what_is_not_as_promised_is_refused_by_name() {
     assert!(matches!(c.rotated(&shear), Err(ContinuumError::NotARotation { .. })));
     assert!(matches!(Skew::from_matrix(&shear), Err(ContinuumError::NotSkew { row: 0, column: 0, .. })));
     let mut general = FourthOrder::<f64>::symmetrizer();
-    general.components[3 * 1 + 2][0] += 1.0;
+    general.components[5][0] += 1.0;
     let refused = general.minor_symmetric();
     assert!(matches!(refused, Err(ContinuumError::NotMinorSymmetric { .. })), "{refused:?}");
     let mut minor = MinorSymmetric::<f64>::identity();
