@@ -61,7 +61,7 @@ impl<T: Real> DeformationGradient<T> {
     /// # Example
     /// ```
     /// use piola_continuum::DeformationGradient;
-    /// // The rows are dependent; in plain arithmetic the determinant would be 6.7e-16.
+    /// // The rows are dependent: (1, 2, 3) + (7, 8, 9) = 2 (4, 5, 6).
     /// assert!(DeformationGradient::from_rows([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]]).is_err());
     /// ```
     pub fn from_rows(rows: Rows<T>) -> Result<Self, ContinuumError> {

@@ -18,7 +18,7 @@
 use piola_numerics::linear::matrix3::dot;
 use piola_numerics::{Mask, Real};
 
-use super::kernels::green;
+use super::kernels::{green, right_cauchy_green, right_cauchy_green_minus_one};
 use crate::deformation::volume::trace_pair;
 use crate::stress::invariants::deviator;
 use crate::stress::kernels::{cofactor, congruence};
@@ -297,7 +297,7 @@ pub fn isochoric_second_minus_three<T: Real>(deformation: &impl Deformation<T>) 
     )
 }
 
-/// C = (1 + ⅔ tr E)(1 + D) with tr D = 0.
+/// C = c (1 + D) with c = ⅓ tr C and tr D = 0.
 struct Deviation<T> {
     /// −½ D : D, the second invariant of D.
     second: T,
@@ -308,9 +308,15 @@ struct Deviation<T> {
 impl<T: Real> Deviation<T> {
     #[inline(always)]
     fn of(deformation: &impl Deformation<T>) -> Self {
-        let e = green(deformation.displacement_rows());
-        let spherical = T::one() + T::lit(2.0 / 3.0) * e.trace();
-        let d = deviator(&e) * (T::lit(2.0) / spherical);
+        // From 2E where C is near 1, from C itself where a dilatation has moved it away.
+        let twice_green = right_cauchy_green_minus_one(deformation.displacement_rows());
+        let metric = right_cauchy_green(deformation.gradient_rows());
+        let excess = twice_green.trace() / T::lit(3.0);
+        let near = excess.abs().less_than(T::lit(0.5));
+        let mean = T::select(near, T::one() + excess, metric.trace() / T::lit(3.0));
+        let (small, large) = (deviator(&twice_green).components, deviator(&metric).components);
+        let chosen: [T; 6] = core::array::from_fn(|k| T::select(near, small[k], large[k]));
+        let d = Symmetric { components: chosen } * mean.recip();
         let second = T::lit(-0.5) * d.double_contraction(&d);
         Self { second, volume: second + d.determinant() }
     }
