@@ -24,7 +24,7 @@ pub struct SpectralDecomposition<T = f64> {
 /// Any finite A may be given: entries of 1e±300, coalescent values and A = 0 are no special cases.
 ///
 /// # Accuracy
-/// Values within 3 ulp of the largest; vectors orthonormal within 2 ulp, each within a few ulp of ‖dev A‖ over its
+/// Values within 4 ulp of the largest modulus; vectors orthonormal within 2 ulp, each within a few ulp of ‖dev A‖ over its
 /// gap; for coalescent values some orthonormal vectors of their plane or space.
 ///
 /// # Derivatives

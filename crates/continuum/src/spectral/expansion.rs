@@ -97,48 +97,47 @@ impl<T: Real> Table<T> {
         }
         // From the fourth node on by power series where the nodes are close, by recursion over the widest gap
         // where they are not.
-        for first in 0..3 {
-            for last in first..3 {
-                let middle = T::lit(0.5) * (nodes[first] + nodes[last]);
-                let near = clustered(f, nodes[last], nodes[first]);
-                let gap = T::select(near, T::one(), nodes[first] - nodes[last]);
-                let series = series_at(f, middle);
-                for total in 4..=T::ORDER + 1 {
-                    for count in counts(total) {
-                        let spans = count[first] != 0
-                            && count[last] != 0
-                            && count[..first].iter().chain(&count[last + 1..]).all(|&n| n == 0);
-                        if !spans {
-                            continue;
-                        }
-                        let offset = |number: usize| {
-                            let which = if number < count[0] {
-                                0
-                            } else if number < count[0] + count[1] {
-                                1
-                            } else {
-                                2
-                            };
-                            nodes[which] - middle
-                        };
-                        let by_series = if total == 4 {
-                            difference_of_series(series, [offset(0), offset(1), offset(2), offset(3)])
-                        } else {
-                            difference_of_series(series, [offset(0), offset(1), offset(2), offset(3), offset(4)])
-                        };
-                        let e = &mut table.entries;
-                        let [i, j, k] = count;
-                        e[i][j][k] = if first == last || near.all() {
-                            by_series
-                        } else {
-                            let without = |which: usize| {
-                                let mut fewer = count;
-                                fewer[which] -= 1;
-                                e[fewer[0]][fewer[1]][fewer[2]]
-                            };
-                            T::select(near, by_series, (without(last) - without(first)) / gap)
-                        };
+        // Narrow spans first: the recursion over a wide one needs those inside it.
+        for (first, last) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)] {
+            let middle = T::lit(0.5) * (nodes[first] + nodes[last]);
+            let near = clustered(f, nodes[last], nodes[first]);
+            let gap = T::select(near, T::one(), nodes[first] - nodes[last]);
+            let series = series_at(f, middle);
+            for total in 4..=T::ORDER + 1 {
+                for count in counts(total) {
+                    let spans = count[first] != 0
+                        && count[last] != 0
+                        && count[..first].iter().chain(&count[last + 1..]).all(|&n| n == 0);
+                    if !spans {
+                        continue;
                     }
+                    let offset = |number: usize| {
+                        let which = if number < count[0] {
+                            0
+                        } else if number < count[0] + count[1] {
+                            1
+                        } else {
+                            2
+                        };
+                        nodes[which] - middle
+                    };
+                    let by_series = if total == 4 {
+                        difference_of_series(series, [offset(0), offset(1), offset(2), offset(3)])
+                    } else {
+                        difference_of_series(series, [offset(0), offset(1), offset(2), offset(3), offset(4)])
+                    };
+                    let e = &mut table.entries;
+                    let [i, j, k] = count;
+                    e[i][j][k] = if first == last || near.all() {
+                        by_series
+                    } else {
+                        let without = |which: usize| {
+                            let mut fewer = count;
+                            fewer[which] -= 1;
+                            e[fewer[0]][fewer[1]][fewer[2]]
+                        };
+                        T::select(near, by_series, (without(last) - without(first)) / gap)
+                    };
                 }
             }
         }
