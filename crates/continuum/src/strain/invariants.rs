@@ -266,7 +266,7 @@ pub fn isochoric_second<T: Real>(deformation: &impl Deformation<T>) -> T {
 pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let deviation = Deviation::of(deformation);
     deviation.choose(
-        |small| small.first_minus_three(),
+        Deviation::first_minus_three,
         || power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation) - T::lit(3.0),
     )
 }
@@ -292,7 +292,7 @@ pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -
 pub fn isochoric_second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let deviation = Deviation::of(deformation);
     deviation.choose(
-        |small| small.second_minus_three(),
+        Deviation::second_minus_three,
         || power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation) - T::lit(3.0),
     )
 }
@@ -442,7 +442,7 @@ pub fn isochoric_second_second_derivative<T: Real>(
     let (metric, turned) = inverse_metric_and_sandwich(deformation, x);
     let two_thirds = T::lit(2.0 / 3.0);
     let rate = -two_thirds * metric.double_contraction(x);
-    let c = super::kernels::right_cauchy_green(deformation.gradient_rows());
+    let c = right_cauchy_green(deformation.gradient_rows());
     let of_second = derivatives(&c)[1].double_contraction(x);
     isochoric_second_derivative(deformation) * rate
         + (derivatives(x)[1] - metric * (two_thirds * of_second) + turned * (two_thirds * second(deformation)))
@@ -479,7 +479,7 @@ pub fn first_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
 #[must_use]
 pub fn second_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
     let f = deformation.gradient_rows();
-    let c = super::kernels::right_cauchy_green(f);
+    let c = right_cauchy_green(f);
     gradient_of_metric_derivative(f, &derivatives(&c)[1])
 }
 

@@ -52,7 +52,7 @@ impl<T: Real> LinearStrain<T> {
         [xx, yy, zz, xy + xy, yz + yz, xz + xz]
     }
 
-    /// The engineering strain vector in Bro-Nielsen's order, [u_x, v_y, w_z, u_y + v_x, u_z + w_x, v_z + w_y].
+    /// The engineering strain vector in Bro-Nielsen's order, `[u_x, v_y, w_z, u_y + v_x, u_z + w_x, v_z + w_y]`.
     ///
     /// Its last two shears, 13 and 23, are exchanged against those of [`engineering`](Self::engineering).
     ///
