@@ -78,7 +78,7 @@ struct Table<T> {
 const SIZE: usize = LARGEST_ORDER + 2;
 
 impl<T: Real> Table<T> {
-    #[inline(always)]
+    #[inline]
     fn of<F: IsotropicFunction + ?Sized>(f: &F, nodes: [T; 3], values: [T; 3], twice: [T; 3], pairs: [T; 3]) -> Self {
         let mut table = Self { entries: [[[T::zero(); SIZE]; SIZE]; SIZE] };
         let e = &mut table.entries;

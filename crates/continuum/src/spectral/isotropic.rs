@@ -93,14 +93,14 @@ pub trait IsotropicFunction {
 }
 
 /// The power series of f at `centre`.
-#[inline(always)]
+#[inline]
 pub(super) fn series_at<T: Real, F: IsotropicFunction + ?Sized>(f: &F, centre: T) -> [T; TERMS] {
     f.value(Series::variable(centre)).0
 }
 
 /// f[x₁, …, xₘ] from the power series at a centre that the nodes are near: Σₖ cₘ₋₁₊ₖ hₖ(x − centre), with the
 /// complete homogeneous polynomials hₖ.
-#[inline(always)]
+#[inline]
 pub(super) fn difference_of_series<T: Real, const M: usize>(coefficients: [T; TERMS], offsets: [T; M]) -> T {
     // hₖ of the first m offsets, by hₖ(x₁…xₘ) = hₖ(x₁…xₘ₋₁) + xₘ hₖ₋₁(x₁…xₘ).
     let mut h = [T::zero(); TERMS];

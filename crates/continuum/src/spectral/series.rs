@@ -4,7 +4,8 @@
 //! x = x₀ + x₁ ε + … + x₂₇ ε²⁷
 //! (x y)ₖ = Σ xⱼ yₖ₋ⱼ        y = exp x:  k yₖ = Σ j xⱼ yₖ₋ⱼ        y = xᵖ:  k x₀ yₖ = Σ (p j − (k − j)) xⱼ yₖ₋ⱼ
 //! ```
-//! The other functions follow by integration of their derivative.
+//! The other functions follow by integration of their derivative. Nothing here is forced inline: series are long, rare
+//! and would swell every kernel that might want one.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -20,26 +21,26 @@ pub(super) struct Series<T>(pub(super) [T; TERMS]);
 
 impl<T: Real> Series<T> {
     /// x₀ + ε.
-    #[inline(always)]
+    #[inline]
     pub(super) fn variable(value: T) -> Self {
         let mut series = Self::constant(value);
         series.0[1] = T::one();
         series
     }
-    #[inline(always)]
+    #[inline]
     fn constant(value: T) -> Self {
         let mut coefficients = [T::zero(); TERMS];
         coefficients[0] = value;
         Self(coefficients)
     }
-    #[inline(always)]
+    #[inline]
     fn each(mut self, f: impl Fn(T) -> T) -> Self {
         for x in &mut self.0 {
             *x = f(*x);
         }
         self
     }
-    #[inline(always)]
+    #[inline]
     fn with(mut self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         for (x, y) in self.0.iter_mut().zip(other.0) {
             *x = f(*x, y);
@@ -47,7 +48,7 @@ impl<T: Real> Series<T> {
         self
     }
     /// x′.
-    #[inline(always)]
+    #[inline]
     fn derivative(self) -> Self {
         let mut result = [T::zero(); TERMS];
         for k in 1..TERMS {
@@ -56,7 +57,7 @@ impl<T: Real> Series<T> {
         Self(result)
     }
     /// The series with value `value` and derivative `self`.
-    #[inline(always)]
+    #[inline]
     fn integral(self, value: T) -> Self {
         let mut result = Self::constant(value);
         for k in 1..TERMS {
@@ -65,7 +66,7 @@ impl<T: Real> Series<T> {
         result
     }
     /// xᵖ, whose value is `value`.
-    #[inline(always)]
+    #[inline]
     fn power(self, p: T, value: T) -> Self {
         let x = self.0;
         let reciprocal = x[0].recip();
@@ -80,7 +81,7 @@ impl<T: Real> Series<T> {
         Self(y)
     }
     /// (y, z) with y′ = z x′ and z′ = ±y x′: hyperbolic for `+`, circular for `−`.
-    #[inline(always)]
+    #[inline]
     fn pair(self, y0: T, z0: T, sign: f64) -> (Self, Self) {
         let (mut y, mut z) = (Self::constant(y0).0, Self::constant(z0).0);
         for k in 1..TERMS {
@@ -101,13 +102,13 @@ macro_rules! operator {
     ($Trait:ident $function:ident $Assign:ident $assign:ident, $self:ident $other:ident, $body:expr) => {
         impl<T: Real> $Trait for Series<T> {
             type Output = Self;
-            #[inline(always)]
+            #[inline]
             fn $function($self, $other: Self) -> Self {
                 $body
             }
         }
         impl<T: Real> $Assign for Series<T> {
-            #[inline(always)]
+            #[inline]
             fn $assign(&mut self, other: Self) {
                 *self = (*self).$function(other);
             }
@@ -141,25 +142,25 @@ operator!(Div div DivAssign div_assign, self other, {
 
 impl<T: Real> Neg for Series<T> {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn neg(self) -> Self {
         self.each(|x| -x)
     }
 }
 
 impl<T: Real> Zero for Series<T> {
-    #[inline(always)]
+    #[inline]
     fn zero() -> Self {
         Self::constant(T::zero())
     }
-    #[inline(always)]
+    #[inline]
     fn is_zero(&self) -> bool {
         self.0.iter().all(Zero::is_zero)
     }
 }
 
 impl<T: Real> One for Series<T> {
-    #[inline(always)]
+    #[inline]
     fn one() -> Self {
         Self::constant(T::one())
     }
@@ -170,43 +171,43 @@ impl<T: Real> Real for Series<T> {
     const LANES: usize = T::LANES;
     const ORDER: usize = T::ORDER + TERMS - 1;
 
-    #[inline(always)]
+    #[inline]
     fn lit(value: f64) -> Self {
         Self::constant(T::lit(value))
     }
-    #[inline(always)]
+    #[inline]
     fn primal(self, lane: usize) -> f64 {
         self.0[0].primal(lane)
     }
-    #[inline(always)]
+    #[inline]
     fn frozen(self) -> Self {
         Self::constant(self.0[0].frozen())
     }
-    #[inline(always)]
+    #[inline]
     fn less_than(self, other: Self) -> Self::Mask {
         self.0[0].less_than(other.0[0])
     }
-    #[inline(always)]
+    #[inline]
     fn at_most(self, other: Self) -> Self::Mask {
         self.0[0].at_most(other.0[0])
     }
-    #[inline(always)]
+    #[inline]
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self {
         if_true.with(if_false, |a, b| T::select(mask, a, b))
     }
-    #[inline(always)]
+    #[inline]
     fn is_finite(self) -> Self::Mask {
         self.0[0].is_finite()
     }
-    #[inline(always)]
+    #[inline]
     fn sqrt(self) -> Self {
         self.power(T::lit(0.5), self.0[0].sqrt())
     }
-    #[inline(always)]
+    #[inline]
     fn cbrt(self) -> Self {
         self.power(T::one() / T::lit(3.0), self.0[0].cbrt())
     }
-    #[inline(always)]
+    #[inline]
     fn powi(self, n: i32) -> Self {
         let mut result = Self::one();
         let (mut power, mut left) = (self, n.unsigned_abs());
@@ -221,7 +222,7 @@ impl<T: Real> Real for Series<T> {
         }
         if n < 0 { Self::one() / result } else { result }
     }
-    #[inline(always)]
+    #[inline]
     fn powf(self, exponent: Self) -> Self {
         if exponent.0[1..].iter().all(Zero::is_zero) {
             self.power(exponent.0[0], self.0[0].powf(exponent.0[0]))
@@ -229,7 +230,7 @@ impl<T: Real> Real for Series<T> {
             (self.ln() * exponent).exp()
         }
     }
-    #[inline(always)]
+    #[inline]
     fn exp(self) -> Self {
         let mut y = Self::constant(self.0[0].exp()).0;
         for k in 1..TERMS {
@@ -241,51 +242,51 @@ impl<T: Real> Real for Series<T> {
         }
         Self(y)
     }
-    #[inline(always)]
+    #[inline]
     fn exp_m1(self) -> Self {
         let mut result = self.exp();
         result.0[0] = self.0[0].exp_m1();
         result
     }
-    #[inline(always)]
+    #[inline]
     fn ln(self) -> Self {
         (self.derivative() / self).integral(self.0[0].ln())
     }
-    #[inline(always)]
+    #[inline]
     fn ln_1p(self) -> Self {
         (self.derivative() / (self + Self::one())).integral(self.0[0].ln_1p())
     }
-    #[inline(always)]
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.0[0].sin_cos();
         self.pair(s, c, -1.0)
     }
-    #[inline(always)]
+    #[inline]
     fn asin(self) -> Self {
         (self.derivative() / (Self::one() - self * self).sqrt()).integral(self.0[0].asin())
     }
-    #[inline(always)]
+    #[inline]
     fn acos(self) -> Self {
         (-self.derivative() / (Self::one() - self * self).sqrt()).integral(self.0[0].acos())
     }
-    #[inline(always)]
+    #[inline]
     fn atan(self) -> Self {
         (self.derivative() / (Self::one() + self * self)).integral(self.0[0].atan())
     }
-    #[inline(always)]
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         let slope = (x * self.derivative() - self * x.derivative()) / (x * x + self * self);
         slope.integral(self.0[0].atan2(x.0[0]))
     }
-    #[inline(always)]
+    #[inline]
     fn sinh(self) -> Self {
         self.pair(self.0[0].sinh(), self.0[0].cosh(), 1.0).0
     }
-    #[inline(always)]
+    #[inline]
     fn cosh(self) -> Self {
         self.pair(self.0[0].sinh(), self.0[0].cosh(), 1.0).1
     }
-    #[inline(always)]
+    #[inline]
     fn tanh(self) -> Self {
         // y′ = (1 − y²) x′, order by order.
         let mut y = Self::constant(self.0[0].tanh()).0;
@@ -304,11 +305,11 @@ impl<T: Real> Real for Series<T> {
         }
         Self(y)
     }
-    #[inline(always)]
+    #[inline]
     fn abs(self) -> Self {
         self.copysign(Self::one())
     }
-    #[inline(always)]
+    #[inline]
     fn copysign(self, sign: Self) -> Self {
         let change = T::one().copysign(self.0[0].frozen()) * T::one().copysign(sign.0[0].frozen());
         self.each(|x| x * change)
