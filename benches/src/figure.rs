@@ -8,8 +8,8 @@ const WIDTH: f64 = 900.0;
 const HEIGHT: f64 = 560.0;
 /// The area of the data: left, top, right, bottom.
 const AREA: [f64; 4] = [78.0, 64.0, 628.0, 492.0];
-const INK: &str = "#222222";
-const FAINT: &str = "#dddddd";
+pub(crate) const INK: &str = "#222222";
+pub(crate) const FAINT: &str = "#dddddd";
 
 /// Colours of Okabe and Ito, told apart by every kind of eye.
 const fn colour(family: Family) -> &'static str {
@@ -29,7 +29,7 @@ const fn is_peer(family: Family) -> bool {
 }
 
 /// A logarithmic axis on a stretch of the figure.
-struct Axis {
+pub(crate) struct Axis {
     /// Decimal logarithms of both ends.
     ends: [f64; 2],
     stretch: [f64; 2],
@@ -37,7 +37,7 @@ struct Axis {
 
 impl Axis {
     /// The axis that holds all values with a margin.
-    fn around(values: impl Iterator<Item = f64> + Clone, stretch: [f64; 2]) -> Self {
+    pub(crate) fn around(values: impl Iterator<Item = f64> + Clone, stretch: [f64; 2]) -> Self {
         let lowest = values.clone().fold(f64::INFINITY, f64::min).log10() - 0.2;
         let highest = values.fold(0.0, f64::max).log10() + 0.2;
         Self { ends: if lowest < highest { [lowest, highest] } else { [-1.0, 1.0] }, stretch }
@@ -45,7 +45,7 @@ impl Axis {
 
     /// The powers of ten on the axis.
     #[expect(clippy::cast_possible_truncation, reason = "decimal exponents of doubles")]
-    fn decades(&self) -> std::ops::RangeInclusive<i32> {
+    pub(crate) fn decades(&self) -> std::ops::RangeInclusive<i32> {
         self.ends[0].ceil() as i32..=self.ends[1].floor() as i32
     }
 
@@ -53,7 +53,7 @@ impl Axis {
         self.ends[0] <= value.log10() && value.log10() <= self.ends[1]
     }
 
-    fn place(&self, value: f64) -> f64 {
+    pub(crate) fn place(&self, value: f64) -> f64 {
         let [low, high] = self.ends;
         self.stretch[0] + (value.log10() - low) / (high - low) * (self.stretch[1] - self.stretch[0])
     }
@@ -139,7 +139,7 @@ fn axes(svg: &mut String, across: &Axis, up: &Axis) {
 }
 
 /// A power of ten.
-fn power(exponent: i32) -> String {
+pub(crate) fn power(exponent: i32) -> String {
     let digits = exponent.to_string();
     let raised = digits.chars().map(|c| match c {
         '1' => '¹',

@@ -3,6 +3,7 @@
 mod bench;
 mod ci;
 mod clippy;
+mod continuum_accuracy;
 mod docs;
 mod features;
 mod fmt;
@@ -45,6 +46,7 @@ const COMMANDS: &[Command] = &[
     bench::COMMAND,
     work_precision::COMMAND,
     stability::COMMAND,
+    continuum_accuracy::COMMAND,
 ];
 
 pub(crate) fn find(name: &str) -> Option<&'static Command> {

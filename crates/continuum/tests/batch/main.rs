@@ -1,0 +1,11 @@
+//! The tests of batches: the same numbers as one point, every view, every bad point, nothing unasked.
+
+mod alloc;
+mod bad_points;
+mod cases;
+mod identical;
+mod requests;
+mod views;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
