@@ -266,7 +266,7 @@ pub enum ContinuumError {
     /// No particle is found at a place, or none for certain.
     #[error(
         "no certain particle at {place:?}: the best, {best:?}, misses it by {residual:e} after {iterations} steps \
-         (det F = {determinant:e}, Kantorovich's h = {kantorovich:e} must be at most 1/2)"
+         (det F = {determinant:e}, the relative change of F nearby, {change:e}, must be at most 1/2)"
     )]
     InversionFailed {
         /// The place x, m.
@@ -277,8 +277,8 @@ pub enum ContinuumError {
         residual: f64,
         /// det F there.
         determinant: f64,
-        /// Kantorovich's h, infinite when the steps ran out before it was computed.
-        kantorovich: f64,
+        /// |1 − F⁻¹(X) F(Y)| of Y near X, infinite when the steps ran out before it was computed.
+        change: f64,
         /// Newton steps taken.
         iterations: usize,
     },

@@ -76,7 +76,6 @@ proptest! {
         let error = (found.reference - x).amax();
         prop_assert!(error <= found.error_bound, "{error:e} > {:e}", found.error_bound);
         prop_assert!(found.error_bound < 1e-13, "{:e}", found.error_bound);
-        prop_assert!(1e-3 < found.uniqueness_radius);
         prop_assert!(found.iterations <= 12, "{}", found.iterations);
         // u(x, t) is u(X, t), B(4.15).
         let u = Eulerian::new(&motion).displacement(&place, t)?;
@@ -159,4 +158,20 @@ fn field_and_its_values_have_the_same_components() {
     assert_close("Matrix3", &components(&tensor, &m), m.transpose().as_slice(), Tol::ulps(0.5));
     let again: Symmetric<f64> = <Symmetric as FieldValue>::from_components(|i| s.components[i]);
     assert_close("Symmetric", &again.components, &s.components, Tol::ulps(0.5));
+}
+
+proptest! {
+    #[test]
+    fn particles_within_the_radius_of_uniqueness_have_places_of_their_own(
+        motion in wave(), x in point(), y in point(), z in point(), t in -2.0..2.0_f64
+    ) {
+        let found = Inversion::default().preimage(&motion, &motion.position(&x, t)?, t)?;
+        let radius = found.uniqueness_radius(&motion, t, 4.0)?;
+        prop_assert!(found.error_bound < radius);
+        let (y, z) = (found.reference + y * radius, found.reference + z * radius);
+        let inverse = motion.deformation_gradient(&found.reference, t)?.inverse()?;
+        // |F⁻¹(X) (x(Y) − x(Z))| ≥ (1 − κ) |Y − Z| with κ = ½ at the points sampled, less than 1 between them.
+        let apart = (inverse.matrix() * (motion.position(&y, t)? - motion.position(&z, t)?)).amax();
+        prop_assert!(0.25 * (y - z).amax() <= apart, "{apart} for {}", (y - z).amax());
+    }
 }

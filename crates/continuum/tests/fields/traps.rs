@@ -133,10 +133,68 @@ fn place_without_a_particle_is_refused_with_the_best_one() {
 fn place_on_the_fold_has_no_certificate() {
     // X = 0 solves x = 0 but F is singular there: no ball of uniqueness.
     let found = Inversion::default().preimage_near(&Fold, &Vector3::zeros(), 0.0, &Vector3::new(1.0, 0.0, 0.0));
-    let Err(ContinuumError::InversionFailed { kantorovich, .. }) = found else {
+    let Err(ContinuumError::InversionFailed { change, .. }) = found else {
         panic!("the fold was certified: {found:?}");
     };
-    assert!(0.5 < kantorovich);
+    assert!(0.5 < change);
+}
+
+/// x₁ = X₁ − X₁ⁿ: the second gradient, for n = 5 the third and fourth too, vanishes at 0, which shares its place with ±1.
+struct OddPower(i32);
+impl Motion for OddPower {
+    fn place<T: Real>(&self, reference: &Vector3<T>, _time: T) -> Vector3<T> {
+        let power = (0..self.0).fold(T::one(), |power, _| power * reference.x);
+        Vector3::new(reference.x - power, reference.y, reference.z)
+    }
+}
+
+#[test]
+fn uniqueness_where_higher_gradients_vanish_ends_before_the_next_particle() {
+    for power in [3, 5, 7] {
+        let motion = OddPower(power);
+        let found = Inversion::default().preimage(&motion, &Vector3::zeros(), 0.0).expect("X");
+        assert!(found.error_bound <= 1e-14, "{found:?}");
+        for reach in [0.9, 1.0, 8.0, 1e3, 1e9, 1e15] {
+            let radius = found.uniqueness_radius(&motion, 0.0, reach).expect("radius");
+            // |n ρⁿ⁻¹| ≤ 1 is where the fold begins; ½ of it is asked for, and ρ halves.
+            let fold = f64::from(power).recip().powf(f64::from(power - 1).recip());
+            assert!(radius < fold && fold / 4.0 < radius, "n = {power}, reach {reach}: {radius}, fold {fold}");
+        }
+    }
+}
+
+#[test]
+fn uniqueness_in_a_wave_ends_before_the_next_crest() {
+    // sin X has its crest at π/2, beyond which places come again; the second gradient at 10⁻⁹ is 10⁻⁹.
+    struct Sine;
+    impl Motion for Sine {
+        fn place<T: Real>(&self, reference: &Vector3<T>, _time: T) -> Vector3<T> {
+            Vector3::new(reference.x.sin(), reference.y, reference.z)
+        }
+    }
+    let place = Vector3::new(1e-9_f64.sin(), 0.0, 0.0);
+    let found = Inversion::default().preimage(&Sine, &place, 0.0).expect("X");
+    for reach in [1.0, 3.0, 10.0, 1e3, 1e9, 1e12] {
+        let radius = found.uniqueness_radius(&Sine, 0.0, reach).expect("radius");
+        assert!(0.5 <= radius && radius <= core::f64::consts::FRAC_PI_3, "reach {reach}: {radius}");
+    }
+    let lanes = Lanes::<f64, 2>::from([1e-9, 1.0]);
+    let place = Vector3::new(lanes.sin(), Lanes::lit(0.0), Lanes::lit(0.0));
+    let found = Inversion::default().preimage(&Sine, &place, Lanes::lit(0.0)).expect("X");
+    let radius = found.uniqueness_radius(&Sine, Lanes::lit(0.0), Lanes::lit(8.0)).expect("radius");
+    assert!(radius.primal(0) <= core::f64::consts::FRAC_PI_3 && radius.primal(1) < 0.5, "{radius:?}");
+}
+
+#[test]
+fn uniqueness_of_an_affine_motion_reaches_as_far_as_asked() {
+    let stretch = DeformationGradient::new(Matrix3::new(2.0, 1.0, 0.0, 0.0, 1.0, 0.5, 0.0, 0.0, 3.0)).expect("F");
+    let motion = Affine::new(stretch, Vector3::new(1.0, 2.0, 3.0)).expect("motion");
+    let found = Inversion::default().preimage(&motion, &Vector3::new(0.3, 0.2, 0.1), 0.0).expect("X");
+    assert_eq!(found.uniqueness_radius(&motion, 0.0, 1e6), Ok(1e6));
+    assert!(matches!(
+        found.uniqueness_radius(&motion, 0.0, f64::INFINITY),
+        Err(ContinuumError::NotFinite { quantity: "reach", .. })
+    ));
 }
 
 #[test]
