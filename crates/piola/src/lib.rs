@@ -80,7 +80,7 @@ pub use piola_kinematics as kinematics;
 pub use piola_numerics as numerics;
 
 /// The snippets of the project's read-me run as tests.
-#[cfg(all(doctest, feature = "dynamics"))]
+#[cfg(all(doctest, feature = "dynamics", feature = "continuum"))]
 #[doc = include_str!("../../../README.md")]
 struct ProjectReadMe;
 
@@ -97,4 +97,7 @@ mod book {
     struct Integrators;
     #[doc = include_str!("../../../docs/scalars.md")]
     struct Scalars;
+    #[cfg(feature = "continuum")]
+    #[doc = include_str!("../../../docs/continuum.md")]
+    struct Continuum;
 }
