@@ -161,7 +161,8 @@ pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
     let smaller = combination(c * w_scale, w, -(s * u_scale), u);
     let n = [v[0] * v_scale, v[1] * v_scale, v[2] * v_scale];
 
-    let above = T::zero().at_most(r);
+    // By x and not by r, whose zero may be negative: then x is the smallest.
+    let above = T::zero().at_most(x);
     [choose::<T>(above, n, larger), choose::<T>(above, larger, smaller), choose::<T>(above, smaller, n)]
 }
 
