@@ -39,6 +39,10 @@ impl<T: Real, D: Deformation<T>> Point<T, D> {
 
 impl<T: Real, D: Deformation<T>> Deformation<T> for Point<T, D> {
     #[inline(always)]
+    fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
+        self.deformation.lifted(lift)
+    }
+    #[inline(always)]
     fn gradient_rows(&self) -> Rows<T> {
         self.deformation.gradient_rows()
     }

@@ -221,6 +221,11 @@ fn check_elongations<T: Real>(elongations: [T; 3]) -> Result<(), ContinuumError>
 
 impl<T: Real> Deformation<T> for DisplacementGradient<T> {
     #[inline(always)]
+    fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
+        let m = self.matrix();
+        DisplacementGradient { matrix: Matrix3::from_fn(|i, j| lift(i, j, m[(i, j)])) }
+    }
+    #[inline(always)]
     fn gradient_rows(&self) -> Rows<T> {
         sum(rows_of(&self.matrix), identity())
     }

@@ -332,6 +332,11 @@ pub(super) fn checked_axes<T: Real>(axes: &Matrix3<T>) -> Result<Rows<T>, Contin
 
 impl<T: Real> Deformation<T> for DeformationGradient<T> {
     #[inline(always)]
+    fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
+        let m = self.matrix();
+        DeformationGradient { matrix: Matrix3::from_fn(|i, j| lift(i, j, m[(i, j)])) }
+    }
+    #[inline(always)]
     fn gradient_rows(&self) -> Rows<T> {
         rows_of(&self.matrix)
     }

@@ -44,6 +44,22 @@ pub trait Deformation<T: Real>: Copy {
     #[must_use]
     fn gradient_rows(&self) -> Rows<T>;
 
+    /// The same deformation over another scalar: each stored entry of F or ∇u through `lift(row, column, entry)`,
+    /// unchecked. It carries derivatives into formulas.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DeformationGradient};
+    /// use piola_numerics::Dual;
+    /// // dJ/dF₁₁ of diag(2, 3, 4) is the minor 3 · 4.
+    /// let varied = DeformationGradient::diagonal([2.0, 3.0, 4.0])?
+    ///     .lifted(|i, j, f| if (i, j) == (0, 0) { Dual::variable(f) } else { Dual::constant(f) });
+    /// assert_eq!(varied.jacobian().tangent, 12.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    #[must_use]
+    fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S>;
+
     /// ∇u = F − 1, by rows.
     #[must_use]
     fn displacement_rows(&self) -> Rows<T>;

@@ -106,6 +106,10 @@ impl<T: Real> RelativeDeformation<T> {
 
 impl<T: Real> Deformation<T> for RelativeDeformation<T> {
     #[inline(always)]
+    fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
+        self.displacement.lifted(lift)
+    }
+    #[inline(always)]
     fn gradient_rows(&self) -> Rows<T> {
         self.displacement.gradient_rows()
     }

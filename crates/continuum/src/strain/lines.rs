@@ -59,6 +59,10 @@ pub(super) fn along_all<T: Real>(deformation: &impl Deformation<T>) -> Moving<Gr
 
 impl<S: Real> Deformation<S> for Moving<S> {
     #[inline(always)]
+    fn lifted<R: Real>(&self, lift: impl Fn(usize, usize, S) -> R) -> impl Deformation<R> {
+        Moving::of(self, |x, i, j| lift(i, j, x))
+    }
+    #[inline(always)]
     fn gradient_rows(&self) -> Rows<S> {
         self.gradient
     }
