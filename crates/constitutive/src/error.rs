@@ -1,0 +1,63 @@
+//! What can be wrong with a law or with what is asked of it: each variant names the violated condition.
+
+use piola_continuum::ContinuumError;
+
+/// A violated condition of a constitutive law.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConstitutiveError {
+    /// A parameter is infinite or NaN.
+    #[error("{law}: {parameter} = {value} is not finite")]
+    NotFinite {
+        /// The law.
+        law: &'static str,
+        /// The parameter.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A parameter is outside its bounds.
+    #[error("{law}: {parameter} = {value:e} violates {bound}")]
+    OutOfBounds {
+        /// The law.
+        law: &'static str,
+        /// The parameter.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would be valid, such as `0 < μ`.
+        bound: &'static str,
+    },
+    /// The deformation is beyond what the law can answer.
+    #[error("{law}: {quantity} = {value:e} is not below its limit {limit:e}")]
+    BeyondLimit {
+        /// The law.
+        law: &'static str,
+        /// What is limited.
+        quantity: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it must be below.
+        limit: f64,
+    },
+    /// The deformation or stress itself is refused.
+    #[error(transparent)]
+    Continuum(#[from] ContinuumError),
+}
+
+/// Refuses a parameter that is not finite.
+pub(crate) fn check_finite(law: &'static str, parameter: &'static str, value: f64) -> Result<(), ConstitutiveError> {
+    if value.is_finite() { Ok(()) } else { Err(ConstitutiveError::NotFinite { law, parameter, value }) }
+}
+
+/// Refuses a parameter that is not finite or for which `holds` is false.
+pub(crate) fn check_bound(
+    law: &'static str,
+    parameter: &'static str,
+    value: f64,
+    bound: &'static str,
+    holds: bool,
+) -> Result<(), ConstitutiveError> {
+    check_finite(law, parameter, value)?;
+    if holds { Ok(()) } else { Err(ConstitutiveError::OutOfBounds { law, parameter, value, bound }) }
+}

@@ -1,0 +1,9 @@
+//! Constitutive laws: what a material answers to its deformation.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod elementary;
+mod error;
+pub mod solids;
+
+pub use error::ConstitutiveError;

@@ -1,0 +1,63 @@
+//! Reference energies, stresses and tangents of every law.
+
+use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
+use piola_continuum::tensor::PairSymmetric;
+use piola_continuum::{DeformationGradient, Symmetric};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
+use serde_json::Value;
+
+const STRESS: Tol = Tol::stated(1e-13, "stresses of ordinary and of small strains");
+const TANGENT: Tol = Tol::stated(1e-12, "tangents");
+
+fn parameter(case: &Value, name: &str) -> f64 {
+    golden::number(&case["params"][name])
+}
+
+fn nine(tensor: &Symmetric) -> Vec<f64> {
+    tensor.rows().as_flattened().to_vec()
+}
+
+/// Checks all cases of a model against the law that `law` makes of the case's parameters.
+fn check<L: Hyperelastic>(model: &str, law: impl Fn(&Value) -> L) {
+    let golden = golden::load("hyperelastic");
+    let cases: Vec<&Value> = golden.cases.iter().filter(|case| golden::text(&case["model"]) == model).collect();
+    assert!(10 < cases.len(), "{model}: {} cases", cases.len());
+    for case in cases {
+        let id = golden::text(&case["id"]);
+        let law = law(case);
+        let rows = golden::matrix(&case["input"]["F"]);
+        let rows = core::array::from_fn(|i| core::array::from_fn(|j| rows[i][j]));
+        let f = DeformationGradient::from_rows(rows).expect("0 < det F");
+        let output = &case["output"];
+        let expected = |name: &str| golden::matrix(&output[name]).concat();
+        let tangent = law.first_piola_tangent(&f);
+        let entries = tangent.0.components.as_flattened();
+        // A stress that is zero is rounding of the moduli.
+        let moduli = entries.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let rest = if id.contains("/identity") { moduli * 1e-3 } else { 0.0 };
+        let stress = |name: &str, actual: &[f64]| {
+            assert_close_at_scale(&format!("{id}: {name}"), actual, &expected(name), rest, STRESS);
+        };
+        stress("P", law.first_piola(&f).0.transpose().as_slice());
+        stress("S", &nine(&law.second_piola(&f).0));
+        stress("T", &nine(&law.cauchy(&f).0));
+        let energy = law.energy(&f);
+        let change = golden::number(&output["W_minus_Wref"]);
+        assert_close_at_scale(&format!("{id}: W − W(1)"), &[energy], &[change], rest, STRESS);
+        let whole = golden::number(&output["W"]);
+        assert_close_at_scale(&format!("{id}: W"), &[energy + law.reference_energy()], &[whole], rest, STRESS);
+        assert_close(&format!("{id}: dP/dF"), entries, &expected("dP_dF"), TANGENT);
+        let material = law.material_tangent(&f).0.slots();
+        assert_close(&format!("{id}: dS/dE"), material.as_flattened(), &expected("dS_dE"), TANGENT);
+        let (shared, both) = law.first_piola_and_tangent(&f);
+        assert_eq!((shared, both), (law.first_piola(&f), tangent), "{id}: together and apart");
+    }
+}
+
+#[test]
+fn compressible_mooney_rivlin_equals_reference() {
+    check("mooney_rivlin_compressible", |case| {
+        let [c10, c01, c, d] = ["c10", "c01", "c", "d"].map(|name| parameter(case, name));
+        MooneyRivlin::new(c10, c01, c, d).expect("parameters")
+    });
+}
