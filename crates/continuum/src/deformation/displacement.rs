@@ -9,7 +9,6 @@ use super::volume::{determinant, volume_change_of_displacement};
 use super::{Deformation, DeformationGradient};
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::stress::kernels::congruence;
 use crate::tensor::Symmetric;
 use crate::tensor::rows::{Rows, identity, product, scaled, sum};
 
@@ -133,7 +132,7 @@ impl<T: Real> DisplacementGradient<T> {
     /// W(14.12), W(14.13).
     pub fn from_principal_elongations(elongations: [T; 3], axes: &Matrix3<T>) -> Result<Self, ContinuumError> {
         check_elongations(elongations)?;
-        Self::from_rows(congruence(checked_axes(axes)?, &Symmetric::diagonal(elongations)).rows())
+        Self::from_rows(Symmetric::diagonal(elongations).congruence(checked_axes(axes)?).rows())
     }
 
     /// ∇u as a matrix.

@@ -8,7 +8,6 @@ use super::volume::{determinant, volume_change_of_gradient};
 use super::{Deformation, DisplacementGradient};
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::stress::kernels::congruence;
 use crate::tensor::Symmetric;
 use crate::tensor::rotation::check_rotation;
 use crate::tensor::rows::{Rows, difference, identity, product};
@@ -224,7 +223,7 @@ impl<T: Real> DeformationGradient<T> {
     /// W(14.12), W(14.13).
     pub fn from_principal_stretches(stretches: [T; 3], axes: &Matrix3<T>) -> Result<Self, ContinuumError> {
         check_stretches(stretches)?;
-        Self::from_rows(congruence(checked_axes(axes)?, &Symmetric::diagonal(stretches)).rows())
+        Self::from_rows(Symmetric::diagonal(stretches).congruence(checked_axes(axes)?).rows())
     }
 
     /// F as a matrix.

@@ -22,8 +22,7 @@ pub use homogeneous::HomogeneousDeformation;
 use nalgebra::Vector3;
 use piola_numerics::Real;
 
-use crate::stress::kernels::cofactor;
-use crate::tensor::rows::{Rows, apply, product, scaled, transpose};
+use crate::tensor::rows::{Rows, apply, cofactor, product, scaled, transpose};
 
 /// The deformation of a neighbourhood: F = 1 + ∇u with 0 < det F.
 ///

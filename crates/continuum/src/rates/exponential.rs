@@ -27,9 +27,9 @@ use piola_numerics::linear::matrix3::{dot, from_rows, inverse_and_determinant, r
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Dual, Mask, Real};
 
-use super::kernels::skew_of_axial;
 use crate::ContinuumError;
 use crate::error::check_finite;
+use crate::tensor::Skew;
 use crate::tensor::rows::{Rows, difference, identity, product, scaled, sum, trace};
 
 /// The number of terms of the series: with |A″| ≤ 1 those left out are below 1e-19, and so are their first three
@@ -256,8 +256,9 @@ fn is_skew<T: Real>(a: Rows<T>) -> T::Mask {
 ///
 /// # Example
 /// ```
-/// use piola_continuum::rates::{kernels::skew_of_axial, rotation_minus_identity};
-/// let half_turn = rotation_minus_identity(skew_of_axial([0.0, 0.0, core::f64::consts::PI]));
+/// use piola_continuum::rates::rotation_minus_identity;
+/// use piola_continuum::tensor::Skew;
+/// let half_turn = rotation_minus_identity(Skew::new(0.0, 0.0, core::f64::consts::PI).rows());
 /// assert_eq!(half_turn[0][0], -2.0); // x goes to −x
 /// ```
 #[inline(always)]
@@ -278,7 +279,7 @@ pub fn rotation_minus_identity<T: Real>(skew: Rows<T>) -> Rows<T> {
     let (sine, _) = angle.sin_cos();
     let half_sine = (angle * T::lit(0.5)).sin();
     let versine = T::lit(2.0) * half_sine * half_sine;
-    let axis = skew_of_axial(n);
+    let axis = Skew { axial: n }.rows();
     sum(scaled(axis, sine), scaled(product(axis, axis), versine))
 }
 

@@ -18,7 +18,6 @@ mod exponential;
 pub mod kernels;
 mod motion;
 pub mod objective;
-mod quantities;
 mod relative;
 pub mod strain;
 mod stretch;

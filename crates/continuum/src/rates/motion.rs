@@ -207,11 +207,11 @@ impl HomogeneousMotion for ExponentialMotion {
         from_rows(exponential_minus_identity_rows(scaled(constant(&self.generator), lapse)))
     }
     fn velocity_gradient<T: Real>(&self, _time: T) -> Result<VelocityGradient<T>, ContinuumError> {
-        Ok(VelocityGradient::from_rows(constant(&self.generator)))
+        Ok(VelocityGradient::trusted(constant(&self.generator)))
     }
     fn acceleration_gradient<T: Real>(&self, _time: T) -> Result<AccelerationGradient<T>, ContinuumError> {
         let k = constant(&self.generator);
-        Ok(AccelerationGradient::from_rows(product(k, k)))
+        Ok(AccelerationGradient::trusted(product(k, k)))
     }
 }
 

@@ -366,8 +366,8 @@ impl<T: Real> UpperConvectedRate<KirchhoffStress<T>> {
     #[must_use]
     pub fn of_second_piola(rate: &MaterialRate<SecondPiola<T>>, deformation: &impl Deformation<T>) -> Self {
         let f = deformation.gradient_rows();
-        let pushed = product(product(f, rate.0.rows()), transpose(f));
-        Self(KirchhoffStress(Symmetric::upper_triangle(pushed)))
+        let pushed = rate.0.0.congruence(f);
+        Self(KirchhoffStress(pushed))
     }
 }
 
@@ -410,6 +410,6 @@ impl<T: Real> MaterialRate<SecondPiola<T>> {
     ) -> MaterialRate<FirstPiola<T>> {
         let convected = product(gradient_rate.rows(), stress.rows());
         let stressed = product(deformation.gradient_rows(), self.0.rows());
-        MaterialRate(FirstPiola::from_rows(sum(convected, stressed)))
+        MaterialRate(FirstPiola::trusted(sum(convected, stressed)))
     }
 }

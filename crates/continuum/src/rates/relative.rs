@@ -15,12 +15,10 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
 
 use super::VelocityGradient;
-use super::kernels::{doubled_symmetric_part, transported};
-use super::quantities::symmetric_rate;
-use crate::error::check_finite;
-use crate::tensor::rows::{
-    Rows, difference, identity, product, product_transposed, scaled, sum, transpose, transposed_product,
-};
+use super::kernels::transported;
+use crate::strain::kernels::right_cauchy_green_minus_one;
+use crate::tensor::measures::symmetric_measure;
+use crate::tensor::rows::{Rows, difference, identity, product, scaled, sum, transpose};
 use crate::{ContinuumError, Deformation, DisplacementGradient, Symmetric};
 
 /// The relative deformation gradient Fₜ(τ) = F(τ) F(t)⁻¹: from the present configuration to that at τ.
@@ -92,7 +90,7 @@ impl<T: Real> RelativeDeformation<T> {
     #[must_use]
     pub fn right_cauchy_green_change(&self) -> Symmetric<T> {
         let h = self.displacement_rows();
-        doubled_symmetric_part(h) + Symmetric::upper_triangle(transposed_product(h, h))
+        right_cauchy_green_minus_one(h)
     }
 
     /// Cₜ⁻¹ = Fₜ⁻¹ Fₜ⁻ᵀ, Finger's tensor of the history.
@@ -100,7 +98,7 @@ impl<T: Real> RelativeDeformation<T> {
     #[must_use]
     pub fn inverse_right_cauchy_green(&self) -> Symmetric<T> {
         let inverse = inverse_and_determinant(self.gradient_rows()).0;
-        Symmetric::upper_triangle(product_transposed(inverse, inverse))
+        Symmetric::gram(inverse)
     }
 }
 
@@ -127,7 +125,7 @@ impl<T: Real> Deformation<T> for RelativeDeformation<T> {
     }
 }
 
-symmetric_rate! {
+symmetric_measure! {
     /// A tensor of Rivlin and Ericksen, Aₙ = dⁿ Cₜ/dτⁿ at τ = t, 1/sⁿ; A₁ = 2D.
     ///
     /// ```text
@@ -151,7 +149,7 @@ symmetric_rate! {
     RivlinEricksen, "Rivlin-Ericksen tensor"
 }
 
-symmetric_rate! {
+symmetric_measure! {
     /// A tensor of White and Metzner, Bₙ = −dⁿ Cₜ⁻¹/dτⁿ at τ = t, 1/sⁿ; B₁ = 2D.
     ///
     /// ```text
@@ -230,7 +228,7 @@ fn binomial<T: Real>(n: usize, k: usize) -> T {
 fn squares<T: Real, const N: usize>(x: &[Rows<T>; N]) -> [Symmetric<T>; N] {
     core::array::from_fn(|index| {
         let n = index + 1;
-        let mut total = doubled_symmetric_part(x[index]);
+        let mut total = Symmetric::sum_with_transpose(x[index]);
         for k in 1..n {
             let term = product(transpose(x[k - 1]), x[n - k - 1]);
             total += Symmetric::symmetric_part(term) * binomial::<T>(n, k);
@@ -244,7 +242,7 @@ impl<T: Real> RivlinEricksen<T> {
     #[inline(always)]
     #[must_use]
     pub fn first(velocity_gradient: &VelocityGradient<T>) -> Self {
-        Self(doubled_symmetric_part(velocity_gradient.rows()))
+        Self(Symmetric::sum_with_transpose(velocity_gradient.rows()))
     }
 
     /// Aₙ₊₁ = Ȧₙ + Aₙ L + Lᵀ Aₙ from Aₙ and its material derivative.
@@ -266,7 +264,7 @@ impl<T: Real> WhiteMetzner<T> {
     #[inline(always)]
     #[must_use]
     pub fn first(velocity_gradient: &VelocityGradient<T>) -> Self {
-        Self(doubled_symmetric_part(velocity_gradient.rows()))
+        Self(Symmetric::sum_with_transpose(velocity_gradient.rows()))
     }
 
     /// Bₙ₊₁ = Ḃₙ − L Bₙ − Bₙ Lᵀ from Bₙ and its material derivative.

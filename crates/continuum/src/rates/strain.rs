@@ -12,12 +12,86 @@
 //! Ċ, Ė and Ḃ within 4 ulp of |F| |Ḟ|, without a division; ė within a few ulp × the condition number of F.
 
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3::{adjugate, inverse_and_determinant};
 
-use super::kernels::doubled_symmetric_part;
 use super::{GradientRate, VelocityGradient};
-use crate::tensor::rows::{double_contraction, product, product_transposed, transpose, transposed_product};
+use crate::strain::kernels::{green_derivative, left_cauchy_green_derivative};
+use crate::tensor::measures::{linear_measure, symmetric_measure};
+use crate::tensor::rows::{double_contraction, product, transpose};
 use crate::{Deformation, Symmetric};
+
+symmetric_measure! {
+    /// Ċ, the rate of the right Cauchy–Green tensor, 1/s: twice Ė, from which it is a type apart.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::strain::{GreenStrainRate, RightCauchyGreenRate};
+    /// let rate = RightCauchyGreenRate::new(12.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(rate.green(), GreenStrainRate::new(6.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    RightCauchyGreenRate, "rate of C"
+}
+
+symmetric_measure! {
+    /// Ė, the rate of Green's strain, 1/s: conjugate to the second Piola–Kirchhoff stress.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::SecondPiola;
+    /// use piola_continuum::rates::strain::GreenStrainRate;
+    /// let rate = GreenStrainRate::new(0.5, 0.0, 0.0, 1.0, 0.0, 0.0)?;
+    /// let stress = SecondPiola::new(2.0, 0.0, 0.0, 3.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.power_per_reference_volume(&rate), 7.0); // 2·½ + 2·3·1
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    GreenStrainRate, "rate of E"
+}
+
+symmetric_measure! {
+    /// Ḃ, the rate of the left Cauchy–Green tensor, 1/s.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::strain::LeftCauchyGreenRate;
+    /// let rate = LeftCauchyGreenRate::new(1.0, -1.0, 0.0, 0.0, 0.0, 0.0)?; // of any sign
+    /// assert_eq!((rate + rate).0.components[0], 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    LeftCauchyGreenRate, "rate of B"
+}
+
+symmetric_measure! {
+    /// ė, the rate of Almansi's strain, 1/s.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::strain::AlmansiStrainRate;
+    /// let rate = AlmansiStrainRate::new(1.0, -1.0, 0.0, 0.0, 0.0, 0.0)?; // of any sign
+    /// assert_eq!((rate * 3.0).0.components[0], 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    AlmansiStrainRate, "rate of e"
+}
+
+linear_measure!(RightCauchyGreenRate GreenStrainRate LeftCauchyGreenRate AlmansiStrainRate);
+
+impl<T: Real> RightCauchyGreenRate<T> {
+    /// Ė = ½ Ċ, exactly.
+    #[inline(always)]
+    #[must_use]
+    pub fn green(&self) -> GreenStrainRate<T> {
+        GreenStrainRate(self.0 * T::lit(0.5))
+    }
+}
+
+impl<T: Real> GreenStrainRate<T> {
+    /// Ċ = 2 Ė, exactly.
+    #[inline(always)]
+    #[must_use]
+    pub fn right_cauchy_green(&self) -> RightCauchyGreenRate<T> {
+        RightCauchyGreenRate(self.0 + self.0)
+    }
+}
 
 /// J̇ = Cof F : Ḟ = J tr L, 1/s, without a division.
 ///
@@ -36,7 +110,7 @@ use crate::{Deformation, Symmetric};
 #[inline(always)]
 #[must_use]
 pub fn jacobian_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> T {
-    double_contraction(transpose(adjugate(deformation.gradient_rows())), rate.rows())
+    double_contraction(deformation.cofactor_rows(), rate.rows())
 }
 
 /// Ċ = Ḟᵀ F + Fᵀ Ḟ, 1/s.
@@ -47,13 +121,16 @@ pub fn jacobian_rate<T: Real>(deformation: &impl Deformation<T>, rate: &Gradient
 /// use piola_continuum::{DeformationGradient, rates::{GradientRate, strain}};
 /// let f = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
 /// let rate = GradientRate::new(Matrix3::from_diagonal_element(3.0))?;
-/// assert_eq!(strain::right_cauchy_green_rate(&f, &rate).components[0], 12.0); // (λ²)˙ = 2 λ λ̇
+/// assert_eq!(strain::right_cauchy_green_rate(&f, &rate).0.components[0], 12.0); // (λ²)˙ = 2 λ λ̇
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[inline(always)]
 #[must_use]
-pub fn right_cauchy_green_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> Symmetric<T> {
-    doubled_symmetric_part(transposed_product(deformation.gradient_rows(), rate.rows()))
+pub fn right_cauchy_green_rate<T: Real>(
+    deformation: &impl Deformation<T>,
+    rate: &GradientRate<T>,
+) -> RightCauchyGreenRate<T> {
+    green_rate(deformation, rate).right_cauchy_green()
 }
 
 /// Ė = ½ Ċ = Fᵀ D F, the rate of Green's strain, 1/s.
@@ -64,13 +141,13 @@ pub fn right_cauchy_green_rate<T: Real>(deformation: &impl Deformation<T>, rate:
 /// use piola_continuum::{DisplacementGradient, rates::{GradientRate, strain}};
 /// let still = DisplacementGradient::new(Matrix3::<f64>::zeros())?;
 /// let shear = GradientRate::new(Matrix3::new(0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
-/// assert_eq!(strain::green_rate(&still, &shear).components[3], 1.0);
+/// assert_eq!(strain::green_rate(&still, &shear).0.components[3], 1.0);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[inline(always)]
 #[must_use]
-pub fn green_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> Symmetric<T> {
-    Symmetric::symmetric_part(transposed_product(deformation.gradient_rows(), rate.rows()))
+pub fn green_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> GreenStrainRate<T> {
+    GreenStrainRate(green_derivative(deformation.gradient_rows(), rate.rows()))
 }
 
 /// Ḃ = Ḟ Fᵀ + F Ḟᵀ, 1/s.
@@ -81,13 +158,16 @@ pub fn green_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRat
 /// use piola_continuum::{DeformationGradient, rates::{GradientRate, strain}};
 /// let f = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
 /// let rate = GradientRate::new(Matrix3::from_diagonal_element(3.0))?;
-/// assert_eq!(strain::left_cauchy_green_rate(&f, &rate).components[0], 12.0);
+/// assert_eq!(strain::left_cauchy_green_rate(&f, &rate).0.components[0], 12.0);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[inline(always)]
 #[must_use]
-pub fn left_cauchy_green_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> Symmetric<T> {
-    doubled_symmetric_part(product_transposed(rate.rows(), deformation.gradient_rows()))
+pub fn left_cauchy_green_rate<T: Real>(
+    deformation: &impl Deformation<T>,
+    rate: &GradientRate<T>,
+) -> LeftCauchyGreenRate<T> {
+    LeftCauchyGreenRate(left_cauchy_green_derivative(deformation.gradient_rows(), rate.rows()))
 }
 
 /// ė = ½ (Lᵀ B⁻¹ + B⁻¹ L), the rate of Almansi's strain e = ½ (1 − B⁻¹), 1/s.
@@ -99,7 +179,7 @@ pub fn left_cauchy_green_rate<T: Real>(deformation: &impl Deformation<T>, rate: 
 /// // e = ½ (1 − λ⁻²): ė = λ⁻² λ̇/λ = ¼ · 3.
 /// let f = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
 /// let growth = VelocityGradient::new(Matrix3::from_diagonal_element(3.0))?;
-/// assert_eq!(strain::almansi_rate(&f, &growth).components[0], 0.75);
+/// assert_eq!(strain::almansi_rate(&f, &growth).0.components[0], 0.75);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[inline(always)]
@@ -107,8 +187,7 @@ pub fn left_cauchy_green_rate<T: Real>(deformation: &impl Deformation<T>, rate: 
 pub fn almansi_rate<T: Real>(
     deformation: &impl Deformation<T>,
     velocity_gradient: &VelocityGradient<T>,
-) -> Symmetric<T> {
-    let inverse = inverse_and_determinant(deformation.gradient_rows()).0;
-    let metric = transposed_product(inverse, inverse);
-    Symmetric::symmetric_part(product(metric, velocity_gradient.rows()))
+) -> AlmansiStrainRate<T> {
+    let inverse_of_b = Symmetric::gram(transpose(deformation.inverse_rows()));
+    AlmansiStrainRate(Symmetric::symmetric_part(product(inverse_of_b.rows(), velocity_gradient.rows())))
 }

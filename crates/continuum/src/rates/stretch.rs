@@ -26,20 +26,19 @@
 
 use core::fmt;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{dot, from_rows};
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Dual, Mask, Real};
 
-use super::kernels::{axial_of_difference, doubled_symmetric_part, skew_of_axial};
-use super::quantities::skew_rate;
 use super::{GradientRate, VelocityGradient};
-use crate::error::check_finite;
 use crate::spectral::{self, IsotropicFunction, Logarithm, StretchAnalysis};
+use crate::tensor::Skew;
+use crate::tensor::measures::skew_measure;
 use crate::tensor::rows::{Rows, apply, product, product_transposed, transpose};
 use crate::{ContinuumError, Deformation, Symmetric};
 
-skew_rate! {
+skew_measure! {
     /// The polar spin Ω = Ṙ Rᵀ, by its axial vector, 1/s: how fast the rotation R of F = R U turns, seen in space.
     ///
     /// # Example
@@ -52,7 +51,7 @@ skew_rate! {
     PolarSpin, "polar spin"
 }
 
-skew_rate! {
+skew_measure! {
     /// The material spin Rᵀ Ṙ, by its axial vector, 1/s: the polar spin seen in the reference configuration.
     ///
     /// # Example
@@ -65,7 +64,7 @@ skew_rate! {
     MaterialSpin, "material spin"
 }
 
-skew_rate! {
+skew_measure! {
     /// The logarithmic spin Ω^log, by its axial vector, 1/s: (ln V)˙ − Ω ln V + ln V Ω = D.
     ///
     /// ```text
@@ -84,7 +83,7 @@ skew_rate! {
     LogarithmicSpin, "logarithmic spin"
 }
 
-skew_rate! {
+skew_measure! {
     /// The twirl of the material triad, by its axial vector, 1/s: N̂̇ₖ = ω × N̂ₖ for the principal axes N̂ₖ of U.
     ///
     /// # Example
@@ -97,7 +96,7 @@ skew_rate! {
     MaterialTwirl, "twirl"
 }
 
-skew_rate! {
+skew_measure! {
     /// The twirl of the spatial triad, by its axial vector, 1/s: n̂̇ₖ = ω × n̂ₖ for the principal axes n̂ₖ of V.
     ///
     /// # Example
@@ -171,7 +170,7 @@ impl<T: Real> StretchRates<T> {
     pub fn of_analysis(analysis: StretchAnalysis<T>, rate: &GradientRate<T>) -> Self {
         let (axes, turned, stretch) = analysis.in_frame();
         let rate = product(turned, product_transposed(rate.rows(), axes));
-        let spin = spin_of(&stretch, axial_of_difference(rate));
+        let spin = spin_of(&stretch, Skew::difference_from_transpose(rate).axial);
         Self { analysis, axes, turned, stretch, rate, spin }
     }
 
@@ -200,7 +199,7 @@ impl<T: Real> StretchRates<T> {
     #[inline(always)]
     #[must_use]
     pub fn rotation(&self) -> Matrix3<T> {
-        let spin = skew_of_axial(self.spin);
+        let spin = Skew { axial: self.spin }.rows();
         from_rows(product(transpose(self.turned), product(spin, self.axes)))
     }
 
@@ -257,7 +256,7 @@ impl<T: Real> StretchRates<T> {
     pub fn spatial_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
         let turned = along(&self.turned, self.function_in_frame(f));
         let spin = self.polar_spin().rows();
-        turned + doubled_symmetric_part(product(spin, self.analysis.spatial_function(f).rows()))
+        turned + Symmetric::sum_with_transpose(product(spin, self.analysis.spatial_function(f).rows()))
     }
 
     /// L = Ḟ F⁻¹ = Ḟ Rᵀ V⁻¹, at hand without another inverse.
@@ -266,7 +265,7 @@ impl<T: Real> StretchRates<T> {
     pub fn velocity_gradient(&self) -> VelocityGradient<T> {
         let inverse = self.analysis.inverse_left_stretch().rows();
         let turned_rate = product(transpose(self.turned), product(self.rate, self.turned));
-        VelocityGradient::from_rows(product(turned_rate, inverse))
+        VelocityGradient::trusted(product(turned_rate, inverse))
     }
 
     /// The spin Ω^log for which (ln V)˙ − Ω ln V + ln V Ω = D.
@@ -280,7 +279,7 @@ impl<T: Real> StretchRates<T> {
         let third = hencky.trace() * T::lit(1.0 / 3.0);
         let h = hencky - Symmetric::identity() * third;
         let stretching = self.velocity_gradient().stretching();
-        let commutator = axial_of_difference(product(h.rows(), stretching.rows()));
+        let commutator = Skew::commutator(&h, &stretching.0).axial;
         let square = Symmetric::upper_triangle(product(h.rows(), h.rows()));
         let gaps = Symmetric::identity() * (T::lit(2.0) * square.trace()) - square * T::lit(3.0);
         let excess = spectral::tensor_function(&LogarithmicExcess, &gaps).apply(commutator);
@@ -355,7 +354,7 @@ impl<T: Real> StretchRates<T> {
     #[inline(always)]
     fn half_commutator(&self) -> Symmetric<T> {
         let stretch = Symmetric { components: self.stretch }.rows();
-        Symmetric::symmetric_part(product(skew_of_axial(self.spin), stretch))
+        Symmetric::symmetric_part(product(Skew { axial: self.spin }.rows(), stretch))
     }
 
     /// U̇ along q.

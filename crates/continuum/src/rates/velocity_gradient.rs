@@ -4,13 +4,12 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
 
-use super::kernels::{axial_of_difference, skew_of_axial};
-use super::quantities::{general_rate, skew_rate, symmetric_rate};
-use crate::error::check_finite;
-use crate::tensor::rows::{Rows, difference, product, product_transposed, sum, trace};
-use crate::{ContinuumError, Deformation, Symmetric};
+use crate::tensor::Skew;
+use crate::tensor::measures::{general_measure, skew_measure, symmetric_measure};
+use crate::tensor::rows::{difference, product, product_transposed, sum, trace};
+use crate::{Deformation, Symmetric};
 
-general_rate! {
+general_measure! {
     /// The rate of the deformation gradient, Ḟ = Grad v, 1/s; also that of the displacement gradient.
     ///
     /// # Example
@@ -25,7 +24,7 @@ general_rate! {
     GradientRate, "rate of F"
 }
 
-general_rate! {
+general_measure! {
     /// The second rate of the deformation gradient, F̈ = Grad a, 1/s².
     ///
     /// # Example
@@ -37,7 +36,7 @@ general_rate! {
     GradientSecondRate, "second rate of F"
 }
 
-general_rate! {
+general_measure! {
     /// The velocity gradient L = grad v = Ḟ F⁻¹, Lᵢⱼ = ∂vᵢ/∂xⱼ, 1/s.
     ///
     /// ```text
@@ -58,7 +57,7 @@ general_rate! {
     VelocityGradient, "velocity gradient"
 }
 
-general_rate! {
+general_measure! {
     /// The acceleration gradient grad a = F̈ F⁻¹ = L̇ + L², 1/s².
     ///
     /// # Example
@@ -75,7 +74,7 @@ general_rate! {
     AccelerationGradient, "acceleration gradient"
 }
 
-symmetric_rate! {
+symmetric_measure! {
     /// The stretching D = ½ (L + Lᵀ), the rate of strain per present length, 1/s.
     ///
     /// # Example
@@ -90,7 +89,7 @@ symmetric_rate! {
     Stretching, "stretching"
 }
 
-skew_rate! {
+skew_measure! {
     /// The spin W = ½ (L − Lᵀ), by its axial vector ½ curl v, 1/s.
     ///
     /// # Example
@@ -133,7 +132,7 @@ impl<T: Real> GradientRate<T> {
     pub fn of(deformation: &impl Deformation<T>, velocity_gradient: &VelocityGradient<T>) -> Self {
         // L + L ∇u: what is stored of a small displacement gradient is not rounded away.
         let l = velocity_gradient.rows();
-        Self::from_rows(sum(l, product(l, deformation.displacement_rows())))
+        Self::trusted(sum(l, product(l, deformation.displacement_rows())))
     }
 }
 
@@ -145,14 +144,14 @@ impl<T: Real> VelocityGradient<T> {
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> Self {
-        Self::from_rows(product(rate.rows(), inverse_and_determinant(deformation.gradient_rows()).0))
+        Self::trusted(product(rate.rows(), inverse_and_determinant(deformation.gradient_rows()).0))
     }
 
     /// L = D + W, W(14.30).
     #[inline(always)]
     #[must_use]
     pub fn of_parts(stretching: &Stretching<T>, spin: &Spin<T>) -> Self {
-        Self::from_rows(sum(stretching.rows(), spin.rows()))
+        Self::trusted(sum(stretching.rows(), spin.rows()))
     }
 
     /// D = ½ (L + Lᵀ), W(14.29).
@@ -166,7 +165,7 @@ impl<T: Real> VelocityGradient<T> {
     #[inline(always)]
     #[must_use]
     pub fn spin(&self) -> Spin<T> {
-        Spin::of_axial(axial_of_difference(self.rows()).map(|w| T::lit(0.5) * w))
+        Spin::of_axial(Skew::skew_part(self.rows()).axial)
     }
 
     /// div v = tr L, the rate of volume per present volume, 1/s.
@@ -203,7 +202,7 @@ impl<T: Real> VelocityGradient<T> {
     pub fn seen_from(&self, rotation: &Matrix3<T>, angular_velocity: &Vector3<T>) -> Self {
         let q = rows_of(rotation);
         let turned = product(q, product_transposed(self.rows(), q));
-        Self::from_rows(sum(turned, skew_of_axial([angular_velocity[0], angular_velocity[1], angular_velocity[2]])))
+        Self::trusted(sum(turned, Skew::new(angular_velocity[0], angular_velocity[1], angular_velocity[2]).rows()))
     }
 }
 
@@ -212,7 +211,7 @@ impl<T: Real> AccelerationGradient<T> {
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>, second_rate: &GradientSecondRate<T>) -> Self {
-        Self::from_rows(product(second_rate.rows(), inverse_and_determinant(deformation.gradient_rows()).0))
+        Self::trusted(product(second_rate.rows(), inverse_and_determinant(deformation.gradient_rows()).0))
     }
 
     /// grad a = L̇ + L².
@@ -220,7 +219,7 @@ impl<T: Real> AccelerationGradient<T> {
     #[must_use]
     pub fn of_rate(velocity_gradient: &VelocityGradient<T>, rate: &Matrix3<T>) -> Self {
         let l = velocity_gradient.rows();
-        Self::from_rows(sum(rows_of(rate), product(l, l)))
+        Self::trusted(sum(rows_of(rate), product(l, l)))
     }
 
     /// L̇ = grad a − L², the material derivative of the velocity gradient, 1/s².
@@ -235,6 +234,6 @@ impl<T: Real> AccelerationGradient<T> {
     #[inline(always)]
     #[must_use]
     pub fn gradient_second_rate(&self, deformation: &impl Deformation<T>) -> GradientSecondRate<T> {
-        GradientSecondRate::from_rows(product(self.rows(), deformation.gradient_rows()))
+        GradientSecondRate::trusted(product(self.rows(), deformation.gradient_rows()))
     }
 }

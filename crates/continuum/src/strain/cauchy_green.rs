@@ -6,8 +6,8 @@ use piola_numerics::linear::matrix3::rows_of;
 
 use super::kernels;
 use super::lines::derivatives_of_measure;
-use super::measures::symmetric_measure;
 use crate::stress::kernels::product_symmetrized;
+use crate::tensor::measures::symmetric_measure;
 use crate::{Deformation, Symmetric};
 
 symmetric_measure! {

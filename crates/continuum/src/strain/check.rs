@@ -1,22 +1,9 @@
 //! Checks of strains that come from outside.
 
-use nalgebra::Matrix3;
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
 use crate::{ContinuumError, Symmetric};
-
-/// The components of a matrix that is symmetric to rounding, with errors that name the quantity.
-pub(crate) fn symmetric<T: Real>(name: &'static str, matrix: &Matrix3<T>) -> Result<[T; 6], ContinuumError> {
-    let named = |error| match error {
-        ContinuumError::NotFinite { index, value, .. } => ContinuumError::NotFinite { quantity: name, index, value },
-        ContinuumError::NotSymmetric { row, column, difference, scale, .. } => {
-            ContinuumError::NotSymmetric { quantity: name, row, column, difference, scale }
-        }
-        other => other,
-    };
-    Ok(Symmetric::from_matrix(matrix).map_err(named)?.components)
-}
 
 /// The leading minors are not negative beyond rounding, in any lane.
 ///

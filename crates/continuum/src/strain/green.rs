@@ -7,9 +7,8 @@ use piola_numerics::linear::matrix3::rows_of;
 use super::RightCauchyGreen;
 use super::kernels;
 use super::lines::derivatives_of_measure;
-use super::measures::symmetric_measure;
-use crate::stress::kernels::congruence;
-use crate::tensor::rows::{product, transpose};
+use crate::tensor::measures::{linear_measure, symmetric_measure};
+use crate::tensor::rows::product;
 use crate::{Deformation, Symmetric};
 
 symmetric_measure! {
@@ -44,6 +43,8 @@ symmetric_measure! {
     /// ```
     AlmansiStrain, "e", "1 - 2e", |e| Symmetric::identity() - e - e
 }
+
+linear_measure!(GreenStrain AlmansiStrain);
 
 derivatives_of_measure!(GreenStrain, whole);
 derivatives_of_measure!(AlmansiStrain, whole);
@@ -156,6 +157,6 @@ impl<T: Real> AlmansiStrain<T> {
         let middle = Symmetric::symmetric_part(product(a, b))
             + Symmetric::symmetric_part(product(b, a))
             + kernels::green_derivative(a, b);
-        -congruence(transpose(inverse), &middle)
+        -middle.transposed_congruence(inverse)
     }
 }

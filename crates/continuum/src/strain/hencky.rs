@@ -3,11 +3,11 @@
 use piola_numerics::Real;
 
 use super::lines::derivatives_of_measure;
-use super::measures::symmetric_measure;
 use super::stretch::of_stretch_analysis;
 use super::{GreenStrain, RightCauchyGreen, SethHill};
 use crate::spectral::{StretchAnalysis, derivative_array, second_derivative};
 use crate::tensor::Slots;
+use crate::tensor::measures::{linear_measure, symmetric_measure};
 use crate::{Deformation, Symmetric};
 
 symmetric_measure! {
@@ -37,6 +37,8 @@ symmetric_measure! {
     /// ```
     SpatialHenckyStrain, "ln V", "1", |_strain| Symmetric::<T>::identity()
 }
+
+linear_measure!(HenckyStrain SpatialHenckyStrain);
 
 of_stretch_analysis!(
     /// ln U.

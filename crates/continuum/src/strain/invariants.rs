@@ -20,9 +20,7 @@ use piola_numerics::{Mask, Real};
 
 use super::kernels::{green, right_cauchy_green, right_cauchy_green_minus_one};
 use crate::deformation::volume::trace_pair;
-use crate::stress::invariants::deviator;
-use crate::stress::kernels::{cofactor, congruence};
-use crate::tensor::rows::{Rows, double_contraction};
+use crate::tensor::rows::{Rows, cofactor, double_contraction};
 use crate::{Deformation, Symmetric};
 
 pub use crate::stress::invariants::principal_invariants;
@@ -265,10 +263,9 @@ pub fn isochoric_second<T: Real>(deformation: &impl Deformation<T>) -> T {
 #[must_use]
 pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let deviation = Deviation::of(deformation);
-    deviation.choose(
-        Deviation::first_minus_three,
-        || power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation) - T::lit(3.0),
-    )
+    deviation.choose(Deviation::first_minus_three, || {
+        power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation) - T::lit(3.0)
+    })
 }
 
 /// Ī₂ − 3, without cancellation: it is of second order in the strain's deviator.
@@ -291,10 +288,9 @@ pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -
 #[must_use]
 pub fn isochoric_second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let deviation = Deviation::of(deformation);
-    deviation.choose(
-        Deviation::second_minus_three,
-        || power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation) - T::lit(3.0),
-    )
+    deviation.choose(Deviation::second_minus_three, || {
+        power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation) - T::lit(3.0)
+    })
 }
 
 /// C = c (1 + D) with c = ⅓ tr C and tr D = 0.
@@ -314,7 +310,7 @@ impl<T: Real> Deviation<T> {
         let excess = twice_green.trace() / T::lit(3.0);
         let near = excess.abs().less_than(T::lit(0.5));
         let mean = T::select(near, T::one() + excess, metric.trace() / T::lit(3.0));
-        let (small, large) = (deviator(&twice_green).components, deviator(&metric).components);
+        let (small, large) = (twice_green.deviator().components, metric.deviator().components);
         let chosen: [T; 6] = core::array::from_fn(|k| T::select(near, small[k], large[k]));
         let d = Symmetric { components: chosen } * mean.recip();
         let second = T::lit(-0.5) * d.double_contraction(&d);
@@ -363,7 +359,7 @@ impl<T: Real> Deviation<T> {
 #[must_use]
 pub fn isochoric_first_derivative<T: Real>(deformation: &impl Deformation<T>) -> Symmetric<T> {
     let e = green(deformation.displacement_rows());
-    times_inverse_metric(deformation, &deviator(&e), T::lit(2.0) * power_of_jacobian(deformation, -2.0 / 3.0))
+    times_inverse_metric(deformation, &e.deviator(), T::lit(2.0) * power_of_jacobian(deformation, -2.0 / 3.0))
 }
 
 /// ∂Ī₂/∂C = J^(−4/3) (I₁ 1 − C − ⅔ I₂ C⁻¹) = 2 J^(−4/3) C⁻¹ dev((1 + 2 tr E) E − 2 E²).
@@ -386,7 +382,7 @@ pub fn isochoric_second_derivative<T: Real>(deformation: &impl Deformation<T>) -
     let square = super::kernels::left_cauchy_green(e.rows());
     let two = T::lit(2.0);
     let inner = e * (T::one() + two * e.trace()) - square * two;
-    times_inverse_metric(deformation, &deviator(&inner), two * power_of_jacobian(deformation, -4.0 / 3.0))
+    times_inverse_metric(deformation, &inner.deviator(), two * power_of_jacobian(deformation, -4.0 / 3.0))
 }
 
 /// s C⁻¹ A of an A that commutes with C.
@@ -456,7 +452,7 @@ fn inverse_metric_and_sandwich<T: Real>(
     x: &Symmetric<T>,
 ) -> (Symmetric<T>, Symmetric<T>) {
     let metric = super::kernels::left_cauchy_green(deformation.inverse_rows());
-    (metric, congruence(metric.rows(), x))
+    (metric, x.congruence(metric.rows()))
 }
 
 /// ∂I₁/∂F = 2 F.

@@ -6,17 +6,10 @@
 //! ```
 
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3::dot;
 
 use crate::Symmetric;
 use crate::stress::kernels::product_symmetrized;
 use crate::tensor::rows::{Rows, product, scaled, transpose};
-
-/// A Aᵀ, symmetric to the last bit.
-#[inline(always)]
-fn square_of_rows<T: Real>(a: Rows<T>) -> Symmetric<T> {
-    Symmetric::new(dot(a[0], a[0]), dot(a[1], a[1]), dot(a[2], a[2]), dot(a[0], a[1]), dot(a[1], a[2]), dot(a[0], a[2]))
-}
 
 /// C = Fᵀ F.
 ///
@@ -29,7 +22,7 @@ fn square_of_rows<T: Real>(a: Rows<T>) -> Symmetric<T> {
 #[inline(always)]
 #[must_use]
 pub fn right_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
-    square_of_rows(transpose(f))
+    Symmetric::gram(transpose(f))
 }
 
 /// B = F Fᵀ.
@@ -43,7 +36,7 @@ pub fn right_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
 #[inline(always)]
 #[must_use]
 pub fn left_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
-    square_of_rows(f)
+    Symmetric::gram(f)
 }
 
 /// C − 1 = H + Hᵀ + Hᵀ H, of a displacement gradient, without cancellation.
@@ -155,5 +148,5 @@ pub fn left_cauchy_green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> 
 pub fn almansi_derivative<T: Real>(inverse: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
     // F⁻ᵀ (F⁻¹ δF) F⁻¹, symmetrised: both factors F⁻ᵀ, F⁻¹ outermost keep the result's own scale.
     let middle = Symmetric::symmetric_part(product(inverse, direction));
-    crate::stress::kernels::congruence(transpose(inverse), &middle)
+    middle.transposed_congruence(inverse)
 }

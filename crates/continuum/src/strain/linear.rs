@@ -2,7 +2,8 @@
 
 use piola_numerics::Real;
 
-use super::measures::symmetric_measure;
+use crate::tensor::measures::{linear_measure, symmetric_measure};
+use crate::tensor::voigt::{BroNielsen, Piola, StrainVector};
 use crate::{Deformation, Symmetric};
 
 symmetric_measure! {
@@ -23,6 +24,8 @@ symmetric_measure! {
     /// B(4.71).
     LinearStrain, "ε", "1", |_strain| Symmetric::<T>::identity()
 }
+
+linear_measure!(LinearStrain);
 
 impl<T: Real> LinearStrain<T> {
     /// ε = ½ (∇u + ∇uᵀ).
@@ -48,8 +51,7 @@ impl<T: Real> LinearStrain<T> {
     #[inline(always)]
     #[must_use]
     pub fn engineering(&self) -> [T; 6] {
-        let [xx, yy, zz, xy, yz, xz] = self.0.components;
-        [xx, yy, zz, xy + xy, yz + yz, xz + xz]
+        StrainVector::<T, Piola>::of(&self.0).components
     }
 
     /// The engineering strain vector in Bro-Nielsen's order, `[u_x, v_y, w_z, u_y + v_x, u_z + w_x, v_z + w_y]`.
@@ -69,8 +71,7 @@ impl<T: Real> LinearStrain<T> {
     #[inline(always)]
     #[must_use]
     pub fn engineering_bro_nielsen(&self) -> [T; 6] {
-        let [xx, yy, zz, xy, yz, xz] = self.engineering();
-        [xx, yy, zz, xy, xz, yz]
+        StrainVector::<T, BroNielsen>::of(&self.0).components
     }
 
     /// From the engineering strain vector in Voigt's order, with doubled shears.
@@ -78,9 +79,7 @@ impl<T: Real> LinearStrain<T> {
     /// # Errors
     /// [`ContinuumError::NotFinite`](crate::ContinuumError::NotFinite).
     pub fn from_engineering(vector: [T; 6]) -> Result<Self, crate::ContinuumError> {
-        let half = T::lit(0.5);
-        let [xx, yy, zz, xy, yz, xz] = vector;
-        Self::try_from([xx, yy, zz, half * xy, half * yz, half * xz])
+        Ok(Self(StrainVector::<T, Piola>::new(vector)?.tensor()))
     }
 
     /// From the engineering strain vector in Bro-Nielsen's order, with doubled shears.
@@ -91,7 +90,6 @@ impl<T: Real> LinearStrain<T> {
     /// # Source
     /// B(4.73).
     pub fn from_engineering_bro_nielsen(vector: [T; 6]) -> Result<Self, crate::ContinuumError> {
-        let [xx, yy, zz, xy, xz, yz] = vector;
-        Self::from_engineering([xx, yy, zz, xy, yz, xz])
+        Ok(Self(StrainVector::<T, BroNielsen>::new(vector)?.tensor()))
     }
 }

@@ -36,7 +36,6 @@ pub mod invariants;
 pub mod kernels;
 mod linear;
 mod lines;
-mod measures;
 mod scale;
 mod seth_hill;
 mod stretch;

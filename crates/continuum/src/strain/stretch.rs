@@ -6,9 +6,9 @@ use piola_numerics::linear::matrix3::from_rows;
 
 use super::RightCauchyGreen;
 use super::lines::{along, derivatives_of_measure, moving_analysis, tangent};
-use super::measures::symmetric_measure;
 use crate::spectral::{SquareRoot, StretchAnalysis, derivative_array, second_derivative};
 use crate::tensor::Slots;
+use crate::tensor::measures::{linear_measure, symmetric_measure};
 use crate::tensor::rotation::check_rotation;
 use crate::tensor::rows::Rows;
 use crate::{ContinuumError, Deformation, Symmetric};
@@ -61,6 +61,8 @@ symmetric_measure! {
     /// ```
     BiotStrain, "U - 1", "U", |biot| biot + Symmetric::identity()
 }
+
+linear_measure!(BiotStrain);
 
 macro_rules! of_stretch_analysis {
     ($($(#[$documentation:meta])* $name:ident $method:ident),*) => { $(

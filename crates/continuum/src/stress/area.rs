@@ -9,7 +9,6 @@
 use nalgebra::Vector3;
 use piola_numerics::Real;
 
-use super::kernels::cofactor;
 use super::normal::normalized;
 use super::{ReferenceNormal, UnitNormal};
 use crate::tensor::rows::{apply, transpose};
@@ -60,7 +59,7 @@ impl<T: Real> ReferenceNormal<T> {
     #[inline(always)]
     #[must_use]
     pub fn deformed(&self, deformation: &impl Deformation<T>) -> DeformedArea<T> {
-        DeformedArea::of_vector(apply(cofactor(deformation.gradient_rows()), self.components()))
+        DeformedArea::of_vector(apply(deformation.cofactor_rows(), self.components()))
     }
 }
 
@@ -140,7 +139,7 @@ pub fn reference_surface_force<T: Real>(
     normal: &ReferenceNormal<T>,
     force: &Vector3<T>,
 ) -> Vector3<T> {
-    let ratio = norm(apply(cofactor(deformation.gradient_rows()), normal.components()));
+    let ratio = norm(apply(deformation.cofactor_rows(), normal.components()));
     Vector3::new(force[0] * ratio, force[1] * ratio, force[2] * ratio)
 }
 

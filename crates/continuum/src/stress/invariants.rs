@@ -44,7 +44,7 @@ use crate::{ContinuumError, Symmetric};
 #[inline(always)]
 #[must_use]
 pub fn mean<T: Real>(stress: &Symmetric<T>) -> T {
-    stress.trace() / T::lit(3.0)
+    stress.mean()
 }
 
 /// The deviator D = T − m 1, Pa, from differences of stresses.
@@ -61,16 +61,7 @@ pub fn mean<T: Real>(stress: &Symmetric<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn deviator<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
-    let [xx, yy, zz, xy, yz, xz] = stress.components;
-    let three = T::lit(3.0);
-    Symmetric::new(
-        ((xx - yy) + (xx - zz)) / three,
-        ((yy - xx) + (yy - zz)) / three,
-        ((zz - xx) + (zz - yy)) / three,
-        xy,
-        yz,
-        xz,
-    )
+    stress.deviator()
 }
 
 /// The principal invariants (I₁, I₂, I₃) = (tr T, sum of the principal minors, det T) in Pa, Pa², Pa³.

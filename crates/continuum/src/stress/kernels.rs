@@ -9,39 +9,11 @@
 //! products of the entries of F have for large ratios of stretches.
 
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3::{cross, dot};
+use piola_numerics::linear::matrix3::dot;
 
 use crate::Symmetric;
-use crate::tensor::rows::{Rows, product, product_transposed, scaled, transposed_product};
-
-/// Cof F = J F⁻ᵀ, the matrix of cofactors; it exists for singular F too.
-///
-/// # Example
-/// ```
-/// use piola_continuum::stress::kernels::cofactor;
-/// let f = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
-/// assert_eq!(cofactor(f)[0], [12.0, 0.0, 0.0]); // the area of the face normal to the first axis grows 3·4 times
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn cofactor<T: Real>(f: Rows<T>) -> Rows<T> {
-    [cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])]
-}
-
-/// A S Aᵀ for symmetric S: 18 + 18 products, and symmetric to the last bit.
-///
-/// # Example
-/// ```
-/// use piola_continuum::{Symmetric, stress::kernels::congruence};
-/// let a = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.0]];
-/// let s = congruence(a, &Symmetric::new(1.0, 1.0, 1.0, 1.0, 0.0, 0.0));
-/// assert_eq!(s, Symmetric::new(4.0, 9.0, 1.0, 6.0, 0.0, 0.0));
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn congruence<T: Real>(a: Rows<T>, s: &Symmetric<T>) -> Symmetric<T> {
-    product_symmetrized(product(a, s.rows()), a)
-}
+use crate::tensor::Skew;
+use crate::tensor::rows::{Rows, cofactor, product, product_transposed, scaled, transposed_product};
 
 /// sym(A Bᵀ).
 ///
@@ -117,7 +89,7 @@ pub fn cauchy_of_first_piola<T: Real>(f: Rows<T>, jacobian: T, first_piola: Rows
 #[inline(always)]
 #[must_use]
 pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, jacobian: T, cauchy: &Symmetric<T>) -> Symmetric<T> {
-    congruence(crate::tensor::rows::transpose(cofactor(f)), cauchy) * jacobian.recip()
+    cauchy.transposed_congruence(cofactor(f)) * jacobian.recip()
 }
 
 /// T = J⁻¹ F S Fᵀ of the second Piola–Kirchhoff stress.
@@ -134,7 +106,7 @@ pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, jacobian: T, cauchy: &Symmetr
 #[inline(always)]
 #[must_use]
 pub fn cauchy_of_second_piola<T: Real>(f: Rows<T>, jacobian: T, second_piola: &Symmetric<T>) -> Symmetric<T> {
-    congruence(f, second_piola) * jacobian.recip()
+    second_piola.congruence(f) * jacobian.recip()
 }
 
 /// S = F⁻¹ P, its symmetric part.
@@ -196,6 +168,5 @@ pub fn first_piola_of_kirchhoff<T: Real>(f: Rows<T>, jacobian: T, kirchhoff: &Sy
 #[inline(always)]
 #[must_use]
 pub fn moment_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) -> [T; 3] {
-    let kirchhoff = product_transposed(first_piola, f);
-    [kirchhoff[2][1] - kirchhoff[1][2], kirchhoff[0][2] - kirchhoff[2][0], kirchhoff[1][0] - kirchhoff[0][1]]
+    Skew::difference_from_transpose(product_transposed(first_piola, f)).axial
 }

@@ -82,8 +82,6 @@
 mod area;
 mod conversions;
 mod deviator;
-#[cfg(feature = "glam")]
-mod glam;
 pub mod gradients;
 pub mod invariants;
 pub mod kernels;

@@ -134,3 +134,8 @@ unit_normal! {
     /// ```
     ReferenceNormal
 }
+
+#[cfg(feature = "glam")]
+crate::tensor::measures::glam_vectors!(UnitNormal, |normal| normal.components);
+#[cfg(feature = "glam")]
+crate::tensor::measures::glam_vectors!(ReferenceNormal, |normal| normal.components);

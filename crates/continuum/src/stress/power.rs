@@ -24,6 +24,7 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
 use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+use crate::rates::strain::GreenStrainRate;
 use crate::rates::{GradientRate, VelocityGradient};
 use crate::tensor::rows::double_contraction;
 use crate::{Deformation, Symmetric};
@@ -122,8 +123,8 @@ impl<T: Real> SecondPiola<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{SecondPiola, Symmetric};
-    /// let rate = Symmetric::new(0.5, 0.0, 0.0, 1.0, 0.0, 0.0);
+    /// use piola_continuum::{SecondPiola, rates::strain::GreenStrainRate};
+    /// let rate = GreenStrainRate::new(0.5, 0.0, 0.0, 1.0, 0.0, 0.0)?;
     /// let stress = SecondPiola::new(2.0, 0.0, 0.0, 3.0, 0.0, 0.0)?;
     /// assert_eq!(stress.power_per_reference_volume(&rate), 7.0); // 2·½ + 2·3·1
     /// # Ok::<(), piola_continuum::ContinuumError>(())
@@ -133,14 +134,14 @@ impl<T: Real> SecondPiola<T> {
     /// W(20.15), B(4.60).
     #[inline(always)]
     #[must_use]
-    pub fn power_per_reference_volume(&self, rate: &Symmetric<T>) -> T {
-        self.0.double_contraction(rate)
+    pub fn power_per_reference_volume(&self, rate: &GreenStrainRate<T>) -> T {
+        self.0.double_contraction(&rate.0)
     }
 
     /// S : Ė/J, W per deformed m³.
     #[inline(always)]
     #[must_use]
-    pub fn power_per_deformed_volume(&self, rate: &Symmetric<T>, deformation: &impl Deformation<T>) -> T {
+    pub fn power_per_deformed_volume(&self, rate: &GreenStrainRate<T>, deformation: &impl Deformation<T>) -> T {
         self.power_per_reference_volume(rate) / deformation.jacobian()
     }
 }

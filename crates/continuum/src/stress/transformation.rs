@@ -11,7 +11,6 @@ use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
-use super::kernels::congruence;
 use super::{CauchyStress, FirstPiola, KirchhoffStress};
 use crate::ContinuumError;
 use crate::tensor::rotation::check_rotation;
@@ -40,7 +39,7 @@ impl<T: Real> CauchyStress<T> {
     /// W(16.10).
     pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
         check_rotation(rotation)?;
-        Ok(Self(congruence(rows_of(rotation), &self.0)))
+        Ok(Self(self.0.congruence(rows_of(rotation))))
     }
 }
 
@@ -51,7 +50,7 @@ impl<T: Real> KirchhoffStress<T> {
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
     pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
         check_rotation(rotation)?;
-        Ok(Self(congruence(rows_of(rotation), &self.0)))
+        Ok(Self(self.0.congruence(rows_of(rotation))))
     }
 }
 
@@ -72,6 +71,6 @@ impl<T: Real> FirstPiola<T> {
     /// ```
     pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
         check_rotation(rotation)?;
-        Ok(Self::from_rows(product(rows_of(rotation), self.rows())))
+        Ok(Self::trusted(product(rows_of(rotation), self.rows())))
     }
 }

@@ -13,7 +13,8 @@
 //! pull-back in [`transport`]. Meaning is added by the types of [`stress`](crate::stress), which wrap these.
 
 pub mod fourth;
-mod linear_space;
+pub(crate) mod linear_space;
+pub(crate) mod measures;
 pub(crate) mod rotation;
 pub mod rows;
 pub(crate) mod scale;

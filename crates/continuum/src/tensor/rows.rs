@@ -5,7 +5,7 @@
 //! where a kernel is called.
 
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3::dot;
+use piola_numerics::linear::matrix3::{cross, dot};
 
 /// A 3×3 tensor as an array of rows.
 pub type Rows<T> = [[T; 3]; 3];
@@ -95,6 +95,20 @@ pub fn apply<T: Real>(a: Rows<T>, v: [T; 3]) -> [T; 3] {
 #[must_use]
 pub fn trace<T: Real>(a: Rows<T>) -> T {
     a[0][0] + a[1][1] + a[2][2]
+}
+
+/// Cof A = det A A⁻ᵀ, the matrix of cofactors; it exists for singular A too.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::cofactor;
+/// let f = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
+/// assert_eq!(cofactor(f)[0], [12.0, 0.0, 0.0]); // the area of the face normal to the first axis grows 3·4 times
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn cofactor<T: Real>(a: Rows<T>) -> Rows<T> {
+    [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])]
 }
 
 /// A : B = Aᵢⱼ Bᵢⱼ.

@@ -68,8 +68,21 @@ impl<T: Real> Skew<T> {
     #[inline(always)]
     #[must_use]
     pub fn skew_part(a: Rows<T>) -> Self {
-        let half = T::lit(0.5);
-        Self { axial: [half * (a[2][1] - a[1][2]), half * (a[0][2] - a[2][0]), half * (a[1][0] - a[0][1])] }
+        Self::difference_from_transpose(a) * T::lit(0.5)
+    }
+
+    /// A − Aᵀ, twice the skew part.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::Skew;
+    /// let a = [[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]];
+    /// assert_eq!(Skew::difference_from_transpose(a), Skew::new(0.0, 0.0, 3.0));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn difference_from_transpose(a: Rows<T>) -> Self {
+        Self { axial: [a[2][1] - a[1][2], a[0][2] - a[2][0], a[1][0] - a[0][1]] }
     }
 
     /// A B − B A for symmetric A and B, which is skew.
@@ -191,9 +204,7 @@ impl<T: Real> Skew<T> {
     pub fn turning(&self, a: &Symmetric<T>) -> Symmetric<T> {
         // W A + (W A)ᵀ, column by column: A W = −(W A)ᵀ.
         let rows = a.rows();
-        let columns = [self.apply(rows[0]), self.apply(rows[1]), self.apply(rows[2])];
-        let both = |i: usize, j: usize| columns[j][i] + columns[i][j];
-        Symmetric { components: [both(0, 0), both(1, 1), both(2, 2), both(0, 1), both(1, 2), both(0, 2)] }
+        Symmetric::sum_with_transpose([self.apply(rows[0]), self.apply(rows[1]), self.apply(rows[2])])
     }
 
     /// Q W Qᵀ, the tensor turned by the rotation Q: its axial vector is Q w.
@@ -215,7 +226,7 @@ impl<T: Real> Skew<T> {
     }
 
     #[inline(always)]
-    fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
+    pub(crate) fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
         let (a, b) = (a.axial, b.axial);
         Self { axial: [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2])] }
     }
@@ -262,36 +273,5 @@ impl<T: Real> From<Skew<T>> for Matrix3<T> {
     }
 }
 
-/// From the axial vector; refuses infinite and NaN components.
 #[cfg(feature = "glam")]
-impl TryFrom<glam::DVec3> for Skew<f64> {
-    type Error = ContinuumError;
-    fn try_from(axial: glam::DVec3) -> Result<Self, ContinuumError> {
-        Self::try_from(axial.to_array())
-    }
-}
-
-/// The axial vector.
-#[cfg(feature = "glam")]
-impl From<Skew<f64>> for glam::DVec3 {
-    fn from(tensor: Skew<f64>) -> Self {
-        Self::from_array(tensor.axial)
-    }
-}
-
-/// From the axial vector; refuses infinite and NaN components.
-#[cfg(feature = "glam")]
-impl TryFrom<glam::Vec3> for Skew<f32> {
-    type Error = ContinuumError;
-    fn try_from(axial: glam::Vec3) -> Result<Self, ContinuumError> {
-        Self::try_from(axial.to_array())
-    }
-}
-
-/// The axial vector.
-#[cfg(feature = "glam")]
-impl From<Skew<f32>> for glam::Vec3 {
-    fn from(tensor: Skew<f32>) -> Self {
-        Self::from_array(tensor.axial)
-    }
-}
+super::measures::glam_vectors!(Skew, |tensor| tensor.axial);

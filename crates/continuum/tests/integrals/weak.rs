@@ -211,7 +211,7 @@ fn no_frequency_exceeds_the_bound_of_the_stable_step() {
         let mut masses = vec![0.0; body.nodes().len()];
         body.lumped_mass_into(|_| 1.0, &mut masses).expect("positive");
         let law = |_: &MaterialPoint, gradient: &DisplacementGradient<Dual<f64>>| {
-            Ok(FirstPiola::from_rows(gradient.displacement_rows()) * Dual::lit(stiffness))
+            Ok(FirstPiola(from_rows(gradient.displacement_rows())) * Dual::lit(stiffness))
         };
         let mut direction: Vec<f64> = (0..body.components()).map(|k| ((k * k % 17) as f64) - 8.0).collect();
         let mut square = 0.0;

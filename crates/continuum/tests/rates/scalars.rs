@@ -21,8 +21,8 @@ fn all<T: Real>(f: &DeformationGradient<T>, rate: &GradientRate<T>) -> Vec<T> {
         rates.left_stretch(),
         rates.hencky_material(),
         rates.hencky_spatial(),
-        strain::right_cauchy_green_rate(f, rate),
-        strain::almansi_rate(f, &l),
+        strain::right_cauchy_green_rate(f, rate).0,
+        strain::almansi_rate(f, &l).0,
     ];
     let spins = [rates.polar_spin().axial, rates.material_spin().axial, rates.logarithmic_spin().axial];
     let mut list: Vec<T> = tensors.iter().flat_map(|a: &Symmetric<T>| a.components).collect();

@@ -36,7 +36,7 @@ fn moving(d: DeformationGradient, rate: Rows<f64>, fibres: f64) -> Moving {
     let part = |part: fn(Dual<f64>) -> f64| rotation.map(|row| row.map(part));
     let (r, r_rate) = (part(|x| x.value), part(|x| x.tangent));
     Moving {
-        rate: GradientRate::from_rows(rate),
+        rate: GradientRate(from_rows(rate)),
         velocity_gradient: product(rate, d.inverse_rows()),
         kirchhoff: Symmetric { components: stress.components.map(|x| x.value) },
         kirchhoff_rate: Symmetric { components: stress.components.map(|x| x.tangent) },

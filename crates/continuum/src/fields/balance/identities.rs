@@ -1,7 +1,7 @@
 //! Identities of Piola, and the symmetry of stress.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_numerics::linear::matrix3::{adjugate, determinant};
+use piola_numerics::linear::matrix3::determinant;
 use piola_numerics::{Gradient, Real};
 
 use super::checked_vector;
@@ -11,7 +11,7 @@ use crate::fields::frames::Spatial;
 use crate::fields::motion::kernels::{place_and_gradient, variables};
 use crate::fields::motion::{Motion, check_event};
 use crate::fields::residual::{Residual, VectorResidual};
-use crate::tensor::rows::{Rows, product, transpose};
+use crate::tensor::rows::{Rows, cofactor, product};
 use crate::{CauchyStress, ContinuumError};
 
 /// Div(J F⁻ᵀ), `∂(J F⁻ᵀ)ᵢ_A/∂X_A`, 1/m: zero for every motion.
@@ -28,7 +28,7 @@ pub fn cofactor_divergence<T: Real>(
 ) -> Result<VectorResidual<T>, ContinuumError> {
     check_event(motion, reference, time)?;
     let (_, gradient) = place_and_gradient(motion, &variables(reference), Gradient::constant(time));
-    checked_vector("divergence of J F^-T", divergence(&transpose(adjugate(gradient))))
+    checked_vector("divergence of J F^-T", divergence(&cofactor(gradient)))
 }
 
 /// Div P − J div T for P = J T F⁻ᵀ, N/m³: Piola's identity, B(4.53), zero for every motion and stress.
@@ -69,7 +69,7 @@ pub fn piola_identity_residual<T: Real>(
     check_event(motion, reference, time)?;
     let instant = Gradient::constant(time);
     let (x, gradient) = place_and_gradient(motion, &variables(reference), instant);
-    let first_piola = product(stress.0.at(&x, instant).rows(), transpose(adjugate(gradient)));
+    let first_piola = product(stress.0.at(&x, instant).rows(), cofactor(gradient));
     let place = finite::<Vector3<f64>, T>("place", x.map(|x| x.value))?;
     let jacobian = determinant(gradient.map(|row| row.map(|f| f.value)));
     let referential = divergence(&first_piola);

@@ -43,7 +43,7 @@ impl<T: Real> BiotStress<T> {
     #[inline(always)]
     #[must_use]
     pub fn first_piola_of_analysis(&self, stretches: &StretchAnalysis<T>) -> FirstPiola<T> {
-        FirstPiola::from_rows(product(stretches.rotation(), self.rows()))
+        FirstPiola::trusted(product(stretches.rotation(), self.rows()))
     }
 
     /// T = sym(R Biot Fᵀ)/J.
@@ -130,7 +130,7 @@ impl<T: Real> BiotStress<T> {
     /// ```
     pub fn first_piola_of_rotation(&self, rotation: &Matrix3<T>) -> Result<FirstPiola<T>, ContinuumError> {
         check_rotation(rotation)?;
-        Ok(FirstPiola::from_rows(product(rows_of(rotation), self.rows())))
+        Ok(FirstPiola::trusted(product(rows_of(rotation), self.rows())))
     }
 
     /// Its symmetric part, conjugate to U: ½ (Rᵀ P + Pᵀ R) = ½ (U S + S U).

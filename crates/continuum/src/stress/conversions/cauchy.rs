@@ -36,7 +36,7 @@ impl<T: Real> CauchyStress<T> {
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-        FirstPiola::from_rows(first_piola_of_cauchy(deformation.gradient_rows(), &self.0))
+        FirstPiola::trusted(first_piola_of_cauchy(deformation.gradient_rows(), &self.0))
     }
 
     /// S = J F⁻¹ T F⁻ᵀ, B(4.57).

@@ -77,7 +77,7 @@ impl<T: Real> FirstPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
-        MandelStress::from_rows(transposed_product(deformation.gradient_rows(), self.rows()))
+        MandelStress::trusted(transposed_product(deformation.gradient_rows(), self.rows()))
     }
 
     /// Biot's stress Rᵀ P; its rotation R is computed, see [`StretchAnalysis`].
@@ -112,7 +112,7 @@ impl<T: Real> FirstPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn biot_of_analysis(&self, stretches: &StretchAnalysis<T>) -> BiotStress<T> {
-        BiotStress::from_rows(transposed_product(stretches.rotation(), self.rows()))
+        BiotStress::trusted(transposed_product(stretches.rotation(), self.rows()))
     }
 
     /// Biot's stress Rᵀ P where the rotation R of F is known.
@@ -131,6 +131,6 @@ impl<T: Real> FirstPiola<T> {
     /// ```
     pub fn biot_of_rotation(&self, rotation: &Matrix3<T>) -> Result<BiotStress<T>, ContinuumError> {
         check_rotation(rotation)?;
-        Ok(BiotStress::from_rows(transposed_product(rows_of(rotation), self.rows())))
+        Ok(BiotStress::trusted(transposed_product(rows_of(rotation), self.rows())))
     }
 }

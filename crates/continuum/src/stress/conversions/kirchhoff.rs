@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use crate::Deformation;
-use crate::stress::kernels::{congruence, first_piola_of_kirchhoff};
+use crate::stress::kernels::first_piola_of_kirchhoff;
 use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 
 impl<T: Real> KirchhoffStress<T> {
@@ -36,7 +36,7 @@ impl<T: Real> KirchhoffStress<T> {
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-        FirstPiola::from_rows(first_piola_of_kirchhoff(deformation.gradient_rows(), deformation.jacobian(), &self.0))
+        FirstPiola::trusted(first_piola_of_kirchhoff(deformation.gradient_rows(), deformation.jacobian(), &self.0))
     }
 
     /// S = F⁻¹ τ F⁻ᵀ.
@@ -52,7 +52,7 @@ impl<T: Real> KirchhoffStress<T> {
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
-        SecondPiola(congruence(deformation.inverse_rows(), &self.0))
+        SecondPiola(self.0.congruence(deformation.inverse_rows()))
     }
 
     /// M = Fᵀ τ F⁻ᵀ.

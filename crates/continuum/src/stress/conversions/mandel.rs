@@ -21,7 +21,7 @@ impl<T: Real> MandelStress<T> {
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-        FirstPiola::from_rows(first_piola_of_mandel(deformation.gradient_rows(), deformation.jacobian(), self.rows()))
+        FirstPiola::trusted(first_piola_of_mandel(deformation.gradient_rows(), deformation.jacobian(), self.rows()))
     }
 
     /// T = sym(F⁻ᵀ M Fᵀ)/J.

@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use crate::strain::RightCauchyGreen;
-use crate::stress::kernels::{cauchy_of_second_piola, congruence};
+use crate::stress::kernels::cauchy_of_second_piola;
 use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use crate::tensor::rows::product;
 use crate::{Deformation, Symmetric};
@@ -38,7 +38,7 @@ impl<T: Real> SecondPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
-        KirchhoffStress(congruence(deformation.gradient_rows(), &self.0))
+        KirchhoffStress(self.0.congruence(deformation.gradient_rows()))
     }
 
     /// P = F S, B(4.57).
@@ -54,7 +54,7 @@ impl<T: Real> SecondPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-        FirstPiola::from_rows(product(deformation.gradient_rows(), self.rows()))
+        FirstPiola::trusted(product(deformation.gradient_rows(), self.rows()))
     }
 
     /// M = C S, as Fᵀ (F S).
@@ -86,7 +86,7 @@ impl<T: Real> SecondPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn mandel_of_right_cauchy_green(&self, right_cauchy_green: &RightCauchyGreen<T>) -> MandelStress<T> {
-        MandelStress::from_rows(product(right_cauchy_green.rows(), self.rows()))
+        MandelStress::trusted(product(right_cauchy_green.rows(), self.rows()))
     }
 
     /// Biot's stress U S, as Rᵀ (F S).
@@ -117,6 +117,6 @@ impl<T: Real> SecondPiola<T> {
     #[inline(always)]
     #[must_use]
     pub fn biot_of_right_stretch(&self, right_stretch: &Symmetric<T>) -> BiotStress<T> {
-        BiotStress::from_rows(product(right_stretch.rows(), self.rows()))
+        BiotStress::trusted(product(right_stretch.rows(), self.rows()))
     }
 }

@@ -36,7 +36,7 @@ impl<T: Real> FirstPiolaTangent<T> {
     #[inline(always)]
     #[must_use]
     pub fn rate(&self, gradient_rate: &GradientRate<T>) -> FirstPiola<T> {
-        FirstPiola::from_rows(self.0.contract(gradient_rate.rows()))
+        FirstPiola::trusted(self.0.contract(gradient_rate.rows()))
     }
 
     /// ∂S/∂E = `F⁻¹_Ci F⁻¹_Dj (A_iAjB − δ_ij S_AB)`.

@@ -28,7 +28,7 @@ fn turning_terms<T: Real>(
     for (slot, image) in images.iter_mut().enumerate() {
         let mut stretching = Symmetric::zero();
         stretching.components[slot] = T::one();
-        let rate = GradientRate::of(deformation, &VelocityGradient::from_rows(stretching.rows()));
+        let rate = GradientRate::of(deformation, &VelocityGradient::trusted(stretching.rows()));
         let axial = spin(&StretchRates::of_analysis(analysis, &rate));
         *image = Skew { axial }.turning(&stress.0);
     }

@@ -38,33 +38,4 @@ impl<T: Real> TryFrom<Matrix3<T>> for Symmetric<T> {
 }
 
 #[cfg(feature = "glam")]
-impl From<Symmetric<f64>> for glam::DMat3 {
-    fn from(tensor: Symmetric<f64>) -> Self {
-        Self::from_cols_array_2d(&tensor.rows())
-    }
-}
-
-#[cfg(feature = "glam")]
-impl From<Symmetric<f32>> for glam::Mat3 {
-    fn from(tensor: Symmetric<f32>) -> Self {
-        Self::from_cols_array_2d(&tensor.rows())
-    }
-}
-
-/// As [`Symmetric::from_matrix`].
-#[cfg(feature = "glam")]
-impl TryFrom<glam::DMat3> for Symmetric<f64> {
-    type Error = ContinuumError;
-    fn try_from(matrix: glam::DMat3) -> Result<Self, ContinuumError> {
-        Self::from_matrix(&Matrix3::from_column_slice(&matrix.to_cols_array()))
-    }
-}
-
-/// As [`Symmetric::from_matrix`].
-#[cfg(feature = "glam")]
-impl TryFrom<glam::Mat3> for Symmetric<f32> {
-    type Error = ContinuumError;
-    fn try_from(matrix: glam::Mat3) -> Result<Self, ContinuumError> {
-        Self::from_matrix(&Matrix3::from_column_slice(&matrix.to_cols_array()))
-    }
-}
+crate::tensor::measures::glam_matrices!(Symmetric, |tensor| tensor.rows());

@@ -89,6 +89,21 @@ impl<T: Real> Symmetric<T> {
         }
     }
 
+    /// A + Aᵀ, twice the symmetric part.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// let a = [[1.0, 2.0, 0.0], [4.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
+    /// assert_eq!(Symmetric::sum_with_transpose(a), Symmetric::new(2.0, 0.0, 0.0, 6.0, 0.0, 0.0));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn sum_with_transpose(a: Rows<T>) -> Self {
+        let both = |i: usize, j: usize| a[i][j] + a[j][i];
+        Self { components: [both(0, 0), both(1, 1), both(2, 2), both(0, 1), both(1, 2), both(0, 2)] }
+    }
+
     /// The symmetric tensor with the upper triangle of A: for a product known to be symmetric.
     #[inline(always)]
     #[must_use]
@@ -110,8 +125,29 @@ impl<T: Real> Symmetric<T> {
     /// assert!(Symmetric::from_matrix(&Matrix3::new(0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0)).is_err());
     /// ```
     pub fn from_matrix(matrix: &Matrix3<T>) -> Result<Self, ContinuumError> {
-        let rows = piola_numerics::linear::matrix3::rows_of(matrix);
-        check_finite("tensor", rows.as_flattened())?;
+        Self::of_quantity("tensor", piola_numerics::linear::matrix3::rows_of(matrix))
+    }
+
+    /// From an array of rows that is symmetric to rounding.
+    ///
+    /// # Errors
+    /// As [`from_matrix`](Self::from_matrix).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// let tensor = Symmetric::from_rows([[1.0, 4.0, 6.0], [4.0, 2.0, 5.0], [6.0, 5.0, 3.0]])?;
+    /// assert_eq!(tensor, Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
+    /// assert!(Symmetric::from_rows([[1.0, 4.0, 0.0], [5.0, 2.0, 0.0], [0.0, 0.0, 3.0]]).is_err());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    pub fn from_rows(rows: Rows<T>) -> Result<Self, ContinuumError> {
+        Self::of_quantity("tensor", rows)
+    }
+
+    /// From rows that are symmetric to 32 ulp of the largest entry; errors name the quantity.
+    pub(crate) fn of_quantity(quantity: &'static str, rows: Rows<T>) -> Result<Self, ContinuumError> {
+        check_finite(quantity, rows.as_flattened())?;
         let scale = rows.as_flattened().iter().fold(T::zero(), |scale, x| scale.max(x.abs()));
         let tolerance = scale * T::lit(32.0 * piola_numerics::sums::unit_in_last_place::<T>());
         for (row, column) in [(0, 1), (1, 2), (0, 2)] {
@@ -120,7 +156,7 @@ impl<T: Real> Symmetric<T> {
                 let lane =
                     (0..T::LANES).find(|&lane| tolerance.primal(lane) < difference.primal(lane).abs()).unwrap_or(0);
                 return Err(ContinuumError::NotSymmetric {
-                    quantity: "tensor",
+                    quantity,
                     row,
                     column,
                     difference: difference.primal(lane),
@@ -176,7 +212,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     #[inline(always)]
-    fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
+    pub(crate) fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
         let (a, b) = (a.components, b.components);
         Self { components: [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3]), f(a[4], b[4]), f(a[5], b[5])] }
     }

@@ -93,7 +93,20 @@ impl<T: Real> Symmetric<T> {
     #[inline(always)]
     #[must_use]
     pub fn square(&self) -> Self {
-        let a = self.rows();
+        Self::gram(self.rows())
+    }
+
+    /// A Aᵀ of a general tensor, symmetric to the last bit.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// let shear = [[1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// assert_eq!(Symmetric::gram(shear), Symmetric::new(1.0, 5.0, 1.0, 2.0, 0.0, 0.0));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn gram(a: Rows<T>) -> Self {
         Self {
             components: [
                 dot(a[0], a[0]),

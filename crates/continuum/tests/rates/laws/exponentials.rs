@@ -2,11 +2,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 use num_dual::Dual64;
-use piola_continuum::rates::kernels::skew_of_axial;
 use piola_continuum::rates::{
     exponential, exponential_derivative, exponential_minus_identity, exponential_rows, logarithm,
     rotation_minus_identity,
 };
+use piola_continuum::tensor::Skew;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{determinant, from_rows, rows_of};
 use piola_testkit::strategies::{rotation, rotation_matrix, vector};
@@ -104,7 +104,7 @@ proptest! {
     #[test]
     fn exponential_of_a_skew_tensor_equals_rotation(axis in vector(3, -40.0..40.0), shrink in 0..10_i32) {
         let w = Vector3::from_column_slice(&axis) * 10.0_f64.powi(-shrink);
-        let skew = from_rows(skew_of_axial([w.x, w.y, w.z]));
+        let skew = from_rows(Skew::new(w.x, w.y, w.z).rows());
         let r = exp(&skew);
         assert_same("RᵀR = 1", &(r.transpose() * r), &Matrix3::identity(), 1.0, Tol::ulps(8.0));
         let turned = r * w;

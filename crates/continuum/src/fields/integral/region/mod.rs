@@ -30,7 +30,7 @@ use piola_numerics::linear::matrix3::dot;
 use super::Quadrature;
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::stress::kernels::cofactor;
+use crate::tensor::rows::cofactor;
 use crate::tensor::rows::{Rows, apply};
 
 /// A point of a rule inside a region.
