@@ -22,6 +22,12 @@ pub enum ContinuumError {
         /// det F.
         determinant: f64,
     },
+    /// 0 < det F holds, but det F is smaller than the smallest number.
+    #[error("det F = 10^({logarithm}) is positive but below the range of the scalar")]
+    VanishingJacobian {
+        /// log₁₀ det F.
+        logarithm: f64,
+    },
     /// `T_ij` = `T_ji` is violated.
     #[error(
         "{quantity} is not symmetric: entries ({row},{column}) and ({column},{row}) differ by {difference:e}, \
@@ -105,7 +111,9 @@ pub enum ContinuumError {
         value: f64,
     },
     /// A tensor that belongs to a deformation has a negative leading minor.
-    #[error("{quantity} is not positive definite: its leading minor of order {order} is {minor:e} when its entries are divided by {scale:e}")]
+    #[error(
+        "{quantity} is not positive definite: its leading minor of order {order} is {minor:e} when its entries are divided by {scale:e}"
+    )]
     NotPositiveDefinite {
         /// The tensor, for a strain the squared length that it stands for.
         quantity: &'static str,

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_numerics::{Mask, Real};
 
-use super::gradient::{check_jacobian, checked_axes};
+use super::gradient::{check_jacobian_of, checked_axes};
 use super::volume::{determinant, volume_change_of_displacement};
 use super::{Deformation, DeformationGradient};
 use crate::ContinuumError;
@@ -46,7 +46,9 @@ impl<T: Real> DisplacementGradient<T> {
     /// From ∇u.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveJacobian`], in any lane.
+    /// In any lane: [`ContinuumError::NotFinite`] for an entry, or for det F when it overflows;
+    /// [`ContinuumError::NonPositiveJacobian`]; [`ContinuumError::VanishingJacobian`] when det F is positive but below
+    /// the range of the scalar.
     pub fn new(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
         Self::from_rows(rows_of(&matrix))
     }
@@ -66,7 +68,7 @@ impl<T: Real> DisplacementGradient<T> {
     pub fn from_rows(rows: Rows<T>) -> Result<Self, ContinuumError> {
         check_finite("∇u", rows.as_flattened())?;
         let gradient = Self { matrix: from_rows(rows) };
-        check_jacobian(gradient.jacobian())?;
+        check_jacobian_of(gradient.jacobian(), &gradient.gradient_rows())?;
         Ok(gradient)
     }
 

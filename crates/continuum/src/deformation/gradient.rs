@@ -2,6 +2,7 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
+use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
 use super::volume::{determinant, volume_change_of_gradient};
@@ -47,7 +48,9 @@ impl<T: Real> DeformationGradient<T> {
     /// From F.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveJacobian`], in any lane.
+    /// In any lane: [`ContinuumError::NotFinite`] for an entry, or for det F when it overflows;
+    /// [`ContinuumError::NonPositiveJacobian`]; [`ContinuumError::VanishingJacobian`] when det F is positive but below
+    /// the range of the scalar, as that of diag(10⁻²⁰⁰, 10⁻²⁰⁰, 1): nothing that divides by J could be computed.
     pub fn new(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
         Self::from_rows(rows_of(&matrix))
     }
@@ -65,7 +68,7 @@ impl<T: Real> DeformationGradient<T> {
     /// ```
     pub fn from_rows(rows: Rows<T>) -> Result<Self, ContinuumError> {
         check_finite("F", rows.as_flattened())?;
-        check_jacobian(determinant(rows))?;
+        check_jacobian_of(determinant(rows), &rows)?;
         Ok(Self { matrix: from_rows(rows) })
     }
 
@@ -304,10 +307,39 @@ pub(crate) fn check_jacobian<T: Real>(determinant: T) -> Result<(), ContinuumErr
     let fits = |lane: usize| 0.0 < determinant.primal(lane) && determinant.primal(lane).is_finite();
     let lane = (0..T::LANES).find(|&lane| !fits(lane)).unwrap_or(0);
     let determinant = determinant.primal(lane);
-    if 0.0 < determinant {
+    if !determinant.is_finite() {
         return Err(ContinuumError::NotFinite { quantity: "det F", index: 0, value: determinant });
     }
     Err(ContinuumError::NonPositiveJacobian { determinant })
+}
+
+/// As [`check_jacobian`] for the determinant of F; a positive one that is rounded to zero is told apart from zero.
+#[inline]
+pub(super) fn check_jacobian_of<T: Real>(determinant: T, gradient: &Rows<T>) -> Result<(), ContinuumError> {
+    check_jacobian(determinant).map_err(|error| match error {
+        ContinuumError::NonPositiveJacobian { determinant: zero } if 0.0 <= zero => {
+            let lane = (0..T::LANES).find(|&lane| determinant.primal(lane) <= 0.0).unwrap_or(0);
+            vanishing(gradient.map(|row| row.map(|x| x.primal(lane))), unit_in_last_place::<T>()).unwrap_or(error)
+        }
+        other => other,
+    })
+}
+
+/// log₁₀ det F if it is positive and below the range of a scalar with this unit in the last place.
+#[cold]
+fn vanishing(gradient: Rows<f64>, unit_in_last_place: f64) -> Option<ContinuumError> {
+    let least = if unit_in_last_place < 1e-10 { f64::MIN_POSITIVE } else { f64::from(f32::MIN_POSITIVE) };
+    // Rows scaled by powers of two: no product rounds differently, and none vanishes.
+    let mut exponent = 0.0;
+    let scaled = gradient.map(|row| {
+        let power = row.iter().fold(0.0, |largest: f64, x| largest.max(x.abs())).log2().floor();
+        exponent += power;
+        // In two steps, because 2¹⁰⁷⁴ is out of range.
+        let half = (-0.5 * power).floor();
+        row.map(|x| x * half.exp2() * (-power - half).exp2())
+    });
+    let logarithm = (determinant(scaled).log2() + exponent) * core::f64::consts::LOG10_2;
+    (logarithm.is_finite() && logarithm < least.log10()).then_some(ContinuumError::VanishingJacobian { logarithm })
 }
 
 /// 0 < λᵢ < ∞ in every lane.

@@ -25,6 +25,32 @@ fn dependent_rows_are_refused() {
 }
 
 #[test]
+fn determinant_beyond_the_range_of_numbers_is_refused_by_name() {
+    // Positive, but rounded to zero: not the same as flattened.
+    for (stretches, logarithm) in [([1e-200, 1e-200, 1.0], -400.0), ([1e-120, 1e-110, 1e-105], -335.0)] {
+        let f = Matrix3::from_diagonal(&Vector3::from(stretches));
+        let Err(ContinuumError::VanishingJacobian { logarithm: found }) = DeformationGradient::new(f) else {
+            panic!("{stretches:?} was not told apart");
+        };
+        assert_close("log₁₀ det F", &[found], &[logarithm], Tol::ulps(8.0));
+    }
+    let Err(ContinuumError::VanishingJacobian { .. }) =
+        DeformationGradient::new(Matrix3::from_diagonal(&Vector3::new(1e-20_f32, 1e-30, 1.0)))
+    else {
+        panic!("a small determinant of single precision was not told apart");
+    };
+    for flat in [[1e-200, 0.0, 1.0], [0.0; 3], [1e-200, -0.0, 1e-200]] {
+        let f = DeformationGradient::new(Matrix3::from_diagonal(&Vector3::from(flat)));
+        assert!(matches!(f, Err(ContinuumError::NonPositiveJacobian { .. })), "{f:?}");
+    }
+    // Products of huge entries overflow, some to ∞ − ∞.
+    let huge = Matrix3::new(1e200, 2e200, 3e200, -4e200, 5e200, 6e200, 7e200, -8e200, 9e200);
+    for result in [DeformationGradient::new(huge).err(), DisplacementGradient::new(huge).err()] {
+        assert!(matches!(result, Some(ContinuumError::NotFinite { quantity: "det F", .. })), "{result:?}");
+    }
+}
+
+#[test]
 fn bad_input_is_refused_by_name() {
     let one = Matrix3::<f64>::identity();
     assert_eq!(DeformationGradient::new(-one), Err(ContinuumError::NonPositiveJacobian { determinant: -1.0 }));
@@ -58,7 +84,7 @@ fn bad_input_is_refused_by_name() {
         DeformationGradient::dilatation(1e200),
         Err(ContinuumError::NotFinite { quantity: "det F", index: 0, value: f64::INFINITY })
     );
-    assert!(matches!(DeformationGradient::dilatation(1e-200), Err(ContinuumError::NonPositiveJacobian { .. })));
+    assert!(matches!(DeformationGradient::dilatation(1e-200), Err(ContinuumError::VanishingJacobian { .. })));
     assert!(matches!(SethHill::new(f64::NAN), Err(ContinuumError::NotFinite { .. })));
     let nowhere = Vector3::new(0.0, f64::NAN, 0.0);
     assert!(matches!(
