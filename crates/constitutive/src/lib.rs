@@ -4,6 +4,7 @@
 
 mod elementary;
 mod error;
+pub mod homogeneous;
 pub mod solids;
 
 pub use error::ConstitutiveError;

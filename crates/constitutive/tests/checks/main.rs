@@ -1,0 +1,3 @@
+//! Homogeneous tests, checks of laws and memory.
+
+mod homogeneous;
