@@ -142,6 +142,19 @@ macro_rules! connected {
     ($name:ident) => {
         impl<T: Real> $name<CauchyStress<T>> {
             /// The same rate of Kirchhoff's stress: τ° = J (T° + T tr D).
+            ///
+            /// # Example
+            /// ```
+            /// use nalgebra::Vector3;
+            /// use piola_continuum::rates::{JaumannRate, MaterialRate, Spin, VelocityGradient};
+            /// use piola_continuum::{CauchyStress, DeformationGradient};
+            /// let stress = CauchyStress::new(2.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+            /// let still = JaumannRate::of(&stress, &MaterialRate(CauchyStress::zero()), &Spin::zero());
+            /// let growth = VelocityGradient::of_parts(&piola_continuum::rates::Stretching::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?, &Spin::new(Vector3::zeros())?);
+            /// let kirchhoff = still.kirchhoff(&stress, &DeformationGradient::dilatation(2.0)?, &growth);
+            /// assert_eq!(kirchhoff.0.0.components[0], 48.0); // 8 (0 + 2·3)
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn kirchhoff(

@@ -41,6 +41,14 @@ use crate::{ContinuumError, Deformation, DisplacementGradient, Symmetric};
 /// W(14.22–14.23), W(19.9).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        transparent,
+        bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct RelativeDeformation<T = f64> {
     /// Fₜ(τ) − 1.
     pub displacement: DisplacementGradient<T>,
@@ -79,6 +87,15 @@ impl<T: Real> RelativeDeformation<T> {
     }
 
     /// Cₜ = Fₜᵀ Fₜ.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, rates::RelativeDeformation};
+    /// let (now, then) = (DeformationGradient::dilatation(2.0)?, DeformationGradient::dilatation(6.0)?);
+    /// let future = RelativeDeformation::of(&now, &then)?;
+    /// assert_eq!(future.right_cauchy_green().components[0], 9.0); // (6/2)²
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn right_cauchy_green(&self) -> Symmetric<T> {
@@ -239,6 +256,14 @@ fn squares<T: Real, const N: usize>(x: &[Rows<T>; N]) -> [Symmetric<T>; N] {
 
 impl<T: Real> RivlinEricksen<T> {
     /// A₁ = 2D.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::{RivlinEricksen, VelocityGradient};
+    /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?;
+    /// assert_eq!(RivlinEricksen::first(&shear).0.components[3], 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first(velocity_gradient: &VelocityGradient<T>) -> Self {
@@ -246,6 +271,15 @@ impl<T: Real> RivlinEricksen<T> {
     }
 
     /// Aₙ₊₁ = Ȧₙ + Aₙ L + Lᵀ Aₙ from Aₙ and its material derivative.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, rates::{RivlinEricksen, VelocityGradient}};
+    /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?;
+    /// let second = RivlinEricksen::first(&shear).next(&Symmetric::zero(), &shear);
+    /// assert_eq!(second.0.components, [18.0, 0.0, 0.0, 0.0, 0.0, 0.0]); // 2k² e₁e₁
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn next(&self, rate: &Symmetric<T>, velocity_gradient: &VelocityGradient<T>) -> Self {
@@ -261,6 +295,14 @@ impl<T: Real> RivlinEricksen<T> {
 
 impl<T: Real> WhiteMetzner<T> {
     /// B₁ = 2D.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::{WhiteMetzner, VelocityGradient};
+    /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?;
+    /// assert_eq!(WhiteMetzner::first(&shear).0.components[3], 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first(velocity_gradient: &VelocityGradient<T>) -> Self {
@@ -268,6 +310,15 @@ impl<T: Real> WhiteMetzner<T> {
     }
 
     /// Bₙ₊₁ = Ḃₙ − L Bₙ − Bₙ Lᵀ from Bₙ and its material derivative.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, rates::{VelocityGradient, WhiteMetzner}};
+    /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?;
+    /// let second = WhiteMetzner::first(&shear).next(&Symmetric::zero(), &shear);
+    /// assert_eq!(second.0.components, [0.0, -18.0, 0.0, 0.0, 0.0, 0.0]); // −2k² e₂e₂
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn next(&self, rate: &Symmetric<T>, velocity_gradient: &VelocityGradient<T>) -> Self {

@@ -182,6 +182,15 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// U̇, with U̇ U + U U̇ = Ċ.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
+    /// let f = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
+    /// let growing = GradientRate::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// assert_eq!(StretchRates::of(&f, &growing).right_stretch().components, [3.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn right_stretch(&self) -> Symmetric<T> {
@@ -204,6 +213,15 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// Ṙ Rᵀ, the spin of Green and Naghdi's rate.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
+    /// let turning = GradientRate::from_rows([[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])?;
+    /// let rates = StretchRates::of(&DeformationGradient::identity(), &turning);
+    /// assert_eq!(rates.polar_spin().axial.z, 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn polar_spin(&self) -> PolarSpin<T> {

@@ -108,6 +108,14 @@ skew_measure! {
 
 impl<T: Real> Spin<T> {
     /// The vorticity curl v, twice the axial vector, 1/s.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::VelocityGradient;
+    /// let turning = VelocityGradient::from_rows([[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])?; // 2 rad/s about 3
+    /// assert_eq!(turning.spin().vorticity().z, 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn vorticity(&self) -> Vector3<T> {
@@ -139,6 +147,15 @@ impl<T: Real> GradientRate<T> {
 impl<T: Real> VelocityGradient<T> {
     /// L = Ḟ F⁻¹, W(14.21).
     ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, VelocityGradient}};
+    /// let rate = GradientRate::from_rows([[6.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let l = VelocityGradient::of(&DeformationGradient::dilatation(2.0)?, &rate);
+    /// assert_eq!(l.0[(0, 0)], 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    ///
     /// # Accuracy
     /// A few ulp × the condition number of F.
     #[inline(always)]
@@ -148,6 +165,16 @@ impl<T: Real> VelocityGradient<T> {
     }
 
     /// L = D + W, W(14.30).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::rates::{Spin, Stretching, VelocityGradient};
+    /// let stretching = Stretching::new(0.0, 0.0, 0.0, 1.5, 0.0, 0.0)?;
+    /// let shear = VelocityGradient::of_parts(&stretching, &Spin::new(Vector3::new(0.0, 0.0, 1.5))?);
+    /// assert_eq!(shear.rows(), [[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of_parts(stretching: &Stretching<T>, spin: &Spin<T>) -> Self {
@@ -155,6 +182,14 @@ impl<T: Real> VelocityGradient<T> {
     }
 
     /// D = ½ (L + Lᵀ), W(14.29).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::VelocityGradient;
+    /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?; // v₂ = 3 x₁
+    /// assert_eq!(shear.stretching().0.components[3], 1.5);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn stretching(&self) -> Stretching<T> {
@@ -162,6 +197,14 @@ impl<T: Real> VelocityGradient<T> {
     }
 
     /// W = ½ (L − Lᵀ), W(14.28).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::VelocityGradient;
+    /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?; // v₂ = 3 x₁
+    /// assert_eq!(shear.spin().axial.z, 1.5); // from the first axis to the second
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn spin(&self) -> Spin<T> {
@@ -169,6 +212,14 @@ impl<T: Real> VelocityGradient<T> {
     }
 
     /// div v = tr L, the rate of volume per present volume, 1/s.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::VelocityGradient;
+    /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?; // v₂ = 3 x₁
+    /// assert_eq!(shear.divergence(), 0.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn divergence(&self) -> T {
@@ -223,6 +274,15 @@ impl<T: Real> AccelerationGradient<T> {
     }
 
     /// L̇ = grad a − L², the material derivative of the velocity gradient, 1/s².
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::{AccelerationGradient, VelocityGradient};
+    /// let l = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let steady = AccelerationGradient::from_rows([[9.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// assert_eq!(steady.velocity_gradient_rate(&l)[(0, 0)], 0.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn velocity_gradient_rate(&self, velocity_gradient: &VelocityGradient<T>) -> Matrix3<T> {
@@ -231,6 +291,14 @@ impl<T: Real> AccelerationGradient<T> {
     }
 
     /// F̈ = (grad a) F.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, rates::AccelerationGradient};
+    /// let a = AccelerationGradient::from_rows([[9.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// assert_eq!(a.gradient_second_rate(&DeformationGradient::dilatation(2.0)?).0[(0, 0)], 18.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn gradient_second_rate(&self, deformation: &impl Deformation<T>) -> GradientSecondRate<T> {

@@ -61,6 +61,14 @@ impl<T: Real> GreenStrain<T> {
     }
 
     /// C = 1 + 2E.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::strain::{GreenStrain, RightCauchyGreen};
+    /// let strain = GreenStrain::new(1.5, 0.0, 0.0, 0.25, 0.0, 0.0)?;
+    /// assert_eq!(strain.right_cauchy_green(), RightCauchyGreen::new(4.0, 1.0, 1.0, 0.5, 0.0, 0.0)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn right_cauchy_green(&self) -> RightCauchyGreen<T> {

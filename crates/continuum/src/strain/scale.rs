@@ -140,6 +140,7 @@ impl IsotropicFunction for SethHill {
 /// assert!((derivative[0][0] - 0.5).abs() < 1e-15 && (derivative[3][3] - 0.25).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MetricScale {
     /// (c^(m/2) − 1)/(m/2), twice the scale.
     half: SethHill,

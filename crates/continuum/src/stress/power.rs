@@ -58,6 +58,15 @@ impl<T: Real> CauchyStress<T> {
     }
 
     /// J tr(T L), W per reference m³.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{CauchyStress, DeformationGradient, rates::VelocityGradient};
+    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let stress = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.power_per_reference_volume(&growth, &DeformationGradient::dilatation(2.0)?), 120.0); // 8 · 15
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn power_per_reference_volume(

@@ -2,7 +2,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::CauchyStress;
-use piola_continuum::rates::{ExponentialMotion, JaumannRate, Spin, Stretching, VelocityGradient};
+use piola_continuum::rates::strain::GreenStrainRate;
+use piola_continuum::rates::{
+    ExponentialMotion, HomogeneousMotion, JaumannRate, MotionRates, RelativeDeformation, Spin, Stretching,
+    VelocityGradient,
+};
 
 #[test]
 fn rates_read_equal_rates_written() {
@@ -19,6 +23,15 @@ fn rates_read_equal_rates_written() {
     let motion = ExponentialMotion::new(l.0, Matrix3::identity()).expect("0 < det F");
     let text = serde_json::to_string(&motion).expect("finite");
     assert_eq!(serde_json::from_str::<ExponentialMotion>(&text).expect("as written"), motion);
+    let rates = motion.rates(0.1).expect("0 < det F");
+    let text = serde_json::to_string(&rates).expect("finite");
+    assert_eq!(serde_json::from_str::<MotionRates>(&text).expect("as written"), rates);
+    let relative = motion.relative(0.1, -0.05).expect("0 < det F");
+    let text = serde_json::to_string(&relative).expect("finite");
+    assert_eq!(serde_json::from_str::<RelativeDeformation>(&text).expect("as written"), relative);
+    let strain = GreenStrainRate::new(-1.0, 2.0, 3.0, 4.0, 5.0, 6.0).expect("finite");
+    let text = serde_json::to_string(&strain).expect("finite");
+    assert_eq!(serde_json::from_str::<GreenStrainRate>(&text).expect("as written"), strain);
     let rate = JaumannRate(CauchyStress::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0).expect("finite"));
     let text = serde_json::to_string(&rate).expect("finite");
     assert_eq!(serde_json::from_str::<JaumannRate<CauchyStress>>(&text).expect("as written"), rate);
@@ -29,4 +42,6 @@ fn bad_rates_are_not_read() {
     assert!(serde_json::from_str::<Spin>("[1e999, 0.0, 0.0]").is_err());
     let inside_out = "[[[0,0,0],[0,0,0],[0,0,0]],[[-1,0,0],[0,1,0],[0,0,1]]]";
     assert!(serde_json::from_str::<ExponentialMotion>(inside_out).is_err());
+    assert!(serde_json::from_str::<RelativeDeformation>("[[-2,0,0],[0,0,0],[0,0,0]]").is_err());
+    assert!(serde_json::from_str::<GreenStrainRate>("[1e999,0,0,0,0,0]").is_err());
 }

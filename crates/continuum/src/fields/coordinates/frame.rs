@@ -29,6 +29,7 @@ use crate::tensor::rows::{Rows, apply, product, product_transposed, transpose, t
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PhysicalFrame<T = f64> {
     /// eᵢ in Cartesian components, one a row.
     pub directions: Rows<T>,

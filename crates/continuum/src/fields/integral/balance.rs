@@ -61,6 +61,7 @@ pub trait StoredEnergy {
 /// # Example
 /// See [`of`](Self::of).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IntegralBalance {
     /// Mass, momenta and kinetic energy, with their rates.
     pub resultants: Resultants<Dual<f64>>,
@@ -252,6 +253,7 @@ pub fn strain_energy<T: Real>(
 /// # Source
 /// W(17.7), B(4.40), integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MassBalance {
     /// ∫ ρ dv over the moved region, with its rate, kg, kg/s.
     pub present: Dual<f64>,
@@ -325,6 +327,7 @@ impl MassBalance {
 /// # Source
 /// W(20.4).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnergyBalance {
     /// Kinetic energy K and K̇, J, W.
     pub kinetic: Dual<f64>,

@@ -23,6 +23,14 @@ use crate::tensor::rows::apply;
 /// # Source
 /// W(15.8), W(15.12–15.13).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Resultants<T = f64> {
     /// m, kg.
     pub mass: T,
@@ -170,6 +178,7 @@ fn densities<T: Real>(density: T, arm: Vector3<T>, velocity: Vector3<T>) -> [T; 
 /// # Source
 /// W(15.16), W(15.18), W(21.4).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ForceResultants {
     /// f, N.
     pub force: Vector3<f64>,

@@ -45,6 +45,7 @@ use crate::{ContinuumError, Deformation};
 /// # Source
 /// B(4.25), W(17.1–17.3).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Transport<V> {
     /// d/dt ∫ g dv, by differentiation of the integral.
     pub rate: V,
@@ -62,6 +63,7 @@ pub struct Transport<V> {
 
 /// Both sides of an identity, computed independently.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sides<V> {
     /// As it stands on the left.
     pub left: V,

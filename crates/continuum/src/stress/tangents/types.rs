@@ -3,9 +3,11 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 
-use crate::rates::Stretching;
+use crate::rates::{
+    GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, Stretching, TruesdellRate, UpperConvectedRate,
+};
 use crate::tensor::{FourthOrder, Major, MinorSymmetric, PairSymmetric, Symmetry};
-use crate::{ContinuumError, Symmetric};
+use crate::{CauchyStress, ContinuumError, KirchhoffStress, Symmetric};
 
 /// A tangent whose major symmetry is that of the law.
 macro_rules! symmetric_tangent {
@@ -74,22 +76,27 @@ macro_rules! minor_tangent {
             pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
                 Ok(Self(self.0.rotated(rotation)?))
             }
-
-            /// The rate that the tangent is named for, Pa/s, of a stretching D.
-            #[inline(always)]
-            #[must_use]
-            pub fn rate(&self, stretching: &Stretching<T>) -> Symmetric<T> {
-                self.0.contract(&stretching.0)
-            }
         }
     };
 }
 
-/// The rate of a spatial tangent.
+/// The rate of a spatial tangent: of a type where it is a rate of a stress, bare where it is one over J.
 macro_rules! rate {
-    ($($name:ident)*) => {$(
-        impl<T: Real, Y: Symmetry> $name<T, Y> {
+    ($($name:ident $(<$symmetry:ident>)? $objective:ident $stress:ident;)*) => {$(
+        impl<T: Real $(, $symmetry: Symmetry)?> $name<T $(, $symmetry)?> {
             /// The rate that the tangent is named for, Pa/s, of a stretching D.
+            #[inline(always)]
+            #[must_use]
+            pub fn rate(&self, stretching: &Stretching<T>) -> $objective<$stress<T>> {
+                $objective($stress(self.0.contract(&stretching.0)))
+            }
+        }
+    )*};
+    ($($name:ident $(<$symmetry:ident>)?;)*) => {$(
+        impl<T: Real $(, $symmetry: Symmetry)?> $name<T $(, $symmetry)?> {
+            /// The rate of Kirchhoff's stress that the tangent is named for, over J, Pa/s, of a stretching D.
+            ///
+            /// It is the rate of no stress, and therefore bare.
             #[inline(always)]
             #[must_use]
             pub fn rate(&self, stretching: &Stretching<T>) -> Symmetric<T> {
@@ -142,7 +149,6 @@ symmetric_tangent! {
     /// The tangent of the lower-convected rate of Kirchhoff's stress, over J: (τ̇ + Lᵀ τ + τ L)/J = C : D. Pa.
     LowerConvectedTangent
 }
-rate!(LieTangent TruesdellTangent JaumannTangent LowerConvectedTangent);
 minor_tangent! {
     /// The tangent of Green and Naghdi's rate of Kirchhoff's stress, over J: (τ̇ − Ω τ + τ Ω)/J = C : D with
     /// Ω = Ṙ Rᵀ. Pa.
@@ -173,6 +179,22 @@ minor_tangent! {
     /// The tangent of the logarithmic rate of Cauchy's stress: Ṫ − Ω T + T Ω = C : D with the spin for which
     /// (ln V)° = D. Pa.
     CauchyLogarithmicTangent
+}
+
+rate! {
+    LieTangent<Y> UpperConvectedRate KirchhoffStress;
+    TruesdellTangent<Y> TruesdellRate CauchyStress;
+    CauchyJaumannTangent JaumannRate CauchyStress;
+    CauchyUpperConvectedTangent UpperConvectedRate CauchyStress;
+    CauchyLowerConvectedTangent LowerConvectedRate CauchyStress;
+    CauchyGreenNaghdiTangent GreenNaghdiRate CauchyStress;
+    CauchyLogarithmicTangent LogarithmicRate CauchyStress;
+}
+rate! {
+    JaumannTangent<Y>;
+    LowerConvectedTangent<Y>;
+    GreenNaghdiTangent;
+    LogarithmicTangent;
 }
 
 /// The tangent A = ∂P/∂F of the first Piola–Kirchhoff stress: Ṗ = A : Ḟ. Pa.

@@ -71,6 +71,7 @@ pub type QuadraticTetrahedra = TetrahedralElements<10>;
 
 /// A point of the rule in a body of elements, in the reference configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MaterialPoint {
     /// Its place X, m.
     pub position: Vector3<f64>,

@@ -46,6 +46,7 @@ pub struct TetrahedralMesh {
 
 /// A triangle of the boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BoundaryTriangle {
     /// Counter-clockwise seen from outside.
     pub vertices: [usize; 3],

@@ -35,6 +35,14 @@ use crate::tensor::rows::{Rows, apply};
 
 /// A point of a rule inside a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct VolumePoint<T = f64> {
     /// The place, m.
     pub position: Vector3<T>,
@@ -46,6 +54,14 @@ pub struct VolumePoint<T = f64> {
 
 /// A point of a rule on the boundary of a region.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: nalgebra::Scalar + serde::Serialize",
+        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct SurfacePoint<T = f64> {
     /// The place, m.
     pub position: Vector3<T>,
