@@ -62,6 +62,7 @@
 //! | particles, bodies, attitudes, inertia, placement maps | [`kinematics`] | `kinematics` |
 //! | Lagrange's and Hamilton's equations, gravitation | [`dynamics`] | `dynamics` |
 //! | deformation, strain, stress, rates, balance; batches in lanes | [`continuum`] | `continuum` |
+//! | laws of solids | [`constitutive`] | `constitutive` |
 //! | time stepping | [`integrators`] | `integrators` |
 //!
 //! # Features
@@ -69,6 +70,8 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+#[cfg(feature = "constitutive")]
+pub use piola_constitutive as constitutive;
 #[cfg(feature = "continuum")]
 pub use piola_continuum as continuum;
 #[cfg(feature = "dynamics")]
