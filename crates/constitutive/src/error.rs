@@ -40,6 +40,27 @@ pub enum ConstitutiveError {
         /// What it must be below.
         limit: f64,
     },
+    /// No state was found in which everything prescribed holds.
+    #[error(
+        "equilibrium not reached after {iterations} iterations: at {share} of the load, F = {gradient:?}, \
+         a stress is off by {residual:e} Pa from the whole load"
+    )]
+    NotConverged {
+        /// The largest difference from the prescribed stresses in the best state, Pa.
+        residual: f64,
+        /// Evaluations of the tangent.
+        iterations: usize,
+        /// The share of the load that the best state carries.
+        share: f64,
+        /// F of the best state, by rows.
+        gradient: [[f64; 3]; 3],
+    },
+    /// The tangent of the free components is singular: a rotation or another mode is left free.
+    #[error("what is prescribed does not determine the deformation near F = {gradient:?}: the tangent is singular")]
+    Indeterminate {
+        /// F where it was found, by rows.
+        gradient: [[f64; 3]; 3],
+    },
     /// The deformation or stress itself is refused.
     #[error(transparent)]
     Continuum(#[from] ContinuumError),

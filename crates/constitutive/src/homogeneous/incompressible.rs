@@ -159,7 +159,7 @@ pub fn nominal_stress_and_slope<T: Real, L: Incompressible<Dual<T>>>(mode: Mode,
 /// use piola_constitutive::homogeneous::{IncompressibleState, Mode};
 /// use piola_constitutive::solids::MooneyRivlin;
 /// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-/// let state = IncompressibleState::of(&rubber, Mode::SimpleShear, 0.5)?;
+/// let state = IncompressibleState::of(&rubber, Mode::SimpleShear, 0.5_f64)?;
 /// let stress = state.cauchy.0.components;
 /// assert!((stress[3] - 0.75).abs() < 1e-15); // T₁₂ = μ k
 /// assert!((stress[0] + 2.0 * 0.25 * 0.25).abs() < 1e-15); // T₁₁ = −2 C₀₁ k²

@@ -10,13 +10,19 @@
 //! |---|---|
 //! | an incompressible law, a mode and a stretch; speed and derivatives matter | [`nominal_stress`] |
 //! | the same, and want pressure and all stresses | [`IncompressibleState`] |
+//! | a compressible law and a mode | [`uniaxial`], [`equibiaxial`], [`planar`], [`simple_shear`], [`volumetric`] |
+//! | some components of F and the others of P or T | [`equilibrium`] with [`Controls`] |
 //!
 //! The third face is free of traction in every mode; the pressure of an incompressible law follows from that in
 //! closed form.
 
+mod controls;
+mod equilibrium;
 mod incompressible;
 mod mode;
 
+pub use controls::{Control, Controls};
+pub use equilibrium::{HomogeneousState, equibiaxial, equilibrium, planar, simple_shear, uniaxial, volumetric};
 pub use incompressible::{Incompressible, IncompressibleState, nominal_stress, nominal_stress_and_slope};
 pub use mode::Mode;
 
