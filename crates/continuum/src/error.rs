@@ -94,10 +94,10 @@ pub enum ContinuumError {
         /// The size of the components of A, a power of two.
         scale: f64,
     },
-    /// QᵀQ = 1 or 0 < det Q is violated for what should be a rotation.
+    /// `QᵀQ` = 1 or 0 < det Q is violated for what should be a rotation.
     #[error("not a rotation: QᵀQ − 1 has an entry {defect:e}, det Q = {determinant}")]
     NotARotation {
-        /// The largest entry of QᵀQ − 1 in modulus.
+        /// The largest entry of `QᵀQ` − 1 in modulus.
         defect: f64,
         /// det Q.
         determinant: f64,

@@ -47,7 +47,7 @@ fn rows<T: Copy>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> Rows<T> {
 /// use piola_continuum::ContinuumError;
 /// use piola_continuum::batch::{self, Gradients};
 /// let f = [Matrix3::identity() * 2.0, Matrix3::zeros(), Matrix3::identity() * 3.0];
-/// let mut j = [0.0; 3];
+/// let mut j = [0.0_f64; 3];
 /// let result = batch::evaluate(Gradients(&f[..]), batch::jacobian(&mut j[..]));
 /// let Err(ContinuumError::BadPoints { points, .. }) = result else { unreachable!() };
 /// assert_eq!((points.len(), points[0].index), (1, 1));

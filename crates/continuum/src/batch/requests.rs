@@ -110,7 +110,9 @@ where
         let mut nothing = Lanes::splat(T::zero());
         let mut i = 0;
         while i < I {
-            nothing += input[i] - input[i];
+            #[expect(clippy::eq_op, reason = "the difference is zero but for infinity and NaN")]
+            let difference = input[i] - input[i];
+            nothing += difference;
             i += 1;
         }
         self.to.store(at, count, Q::of(point, input));

@@ -163,7 +163,7 @@ invariants! {
 /// # Example
 /// ```
 /// use piola_continuum::{Symmetric, batch};
-/// let (mut values, mut vectors) = ([[0.0; 3]], [[[0.0; 3]; 3]]);
+/// let (mut values, mut vectors) = ([[0.0_f64; 3]], [[[0.0_f64; 3]; 3]]);
 /// let tensors = [Symmetric::diagonal([1.0, 3.0, 2.0])];
 /// batch::evaluate(batch::Undeformed(1), batch::eigenpairs(&tensors[..], &mut values[..], &mut vectors[..]))?;
 /// assert_eq!((values[0], vectors[0][0][1].abs()), ([3.0, 2.0, 1.0], 1.0));

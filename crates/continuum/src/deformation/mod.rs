@@ -51,8 +51,8 @@ pub trait Deformation<T: Real>: Copy {
     /// use piola_continuum::{Deformation, DeformationGradient};
     /// use piola_numerics::Dual;
     /// // dJ/dF₁₁ of diag(2, 3, 4) is the minor 3 · 4.
-    /// let varied = DeformationGradient::diagonal([2.0, 3.0, 4.0])?
-    ///     .lifted(|i, j, f| if (i, j) == (0, 0) { Dual::variable(f) } else { Dual::constant(f) });
+    /// let stretch = DeformationGradient::diagonal([2.0, 3.0, 4.0])?;
+    /// let varied = stretch.lifted(|i, j, f| if (i, j) == (0, 0) { Dual::variable(f) } else { Dual::constant(f) });
     /// assert_eq!(varied.jacobian().tangent, 12.0);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```

@@ -74,7 +74,7 @@ pub struct StretchAnalysis<T: Real = f64> {
     slow: T::Mask,
 }
 
-/// 2E = H + Hᵀ + HᵀH, each rounding proportional to what it rounds also near pure rotations.
+/// 2E = H + Hᵀ + Hᵀ H, each rounding proportional to what it rounds also near pure rotations.
 #[inline(always)]
 fn twice_green<T: Real>(h: &Rows<T>) -> Symmetric<T> {
     let two = T::lit(2.0);
