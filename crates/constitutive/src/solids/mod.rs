@@ -11,7 +11,12 @@
 pub mod derived;
 mod hyperelastic;
 pub mod invariant;
+mod hencky;
 mod mooney_rivlin;
+mod ogden;
+pub mod stretch;
 
 pub use hyperelastic::Hyperelastic;
+pub use hencky::Hencky;
 pub use mooney_rivlin::MooneyRivlin;
+pub use ogden::{IsochoricOgden, Ogden, OgdenTerm};

@@ -1,6 +1,6 @@
 //! Reference energies, stresses and tangents of every law.
 
-use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
+use piola_constitutive::solids::{Hencky, Hyperelastic, IsochoricOgden, MooneyRivlin, Ogden, OgdenTerm};
 use piola_continuum::tensor::PairSymmetric;
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
@@ -60,4 +60,26 @@ fn compressible_mooney_rivlin_equals_reference() {
         let [c10, c01, c, d] = ["c10", "c01", "c", "d"].map(|name| parameter(case, name));
         MooneyRivlin::new(c10, c01, c, d).expect("parameters")
     });
+}
+
+fn ogden_terms(case: &Value) -> Vec<OgdenTerm> {
+    let list = |name: &str| golden::vector(&case["params"][name]);
+    list("mu").into_iter().zip(list("alpha")).map(|(mu, alpha)| OgdenTerm { mu, alpha }).collect()
+}
+
+#[test]
+fn ogden_with_logarithm_equals_reference() {
+    check("ogden_log", |case| Ogden::new(&ogden_terms(case), parameter(case, "lambda")).expect("parameters"));
+}
+
+#[test]
+fn isochoric_ogden_equals_reference() {
+    check("ogden_isochoric", |case| {
+        IsochoricOgden::new(&ogden_terms(case), parameter(case, "kappa")).expect("parameters")
+    });
+}
+
+#[test]
+fn hencky_equals_reference() {
+    check("hencky", |case| Hencky::new(parameter(case, "lambda"), parameter(case, "mu")).expect("parameters"));
 }
