@@ -20,13 +20,13 @@ macro_rules! scalar {
     ($float:ident, $lanes:literal) => {
         impl BatchScalar for $float {
             fn run<D: Deformations<Self>, R: Requests<Self>>(points: D, range: [usize; 2], requests: R) -> Tally {
-                dispatch(Evaluation::<Self, _, _, $lanes> { points, range, requests, scalar: PhantomData })
+                Evaluation::<Self, _, _, $lanes> { points, range, requests, scalar: PhantomData }.run()
             }
         }
     };
 }
-scalar!(f64, 8);
-scalar!(f32, 16);
+scalar!(f64, 4);
+scalar!(f32, 8);
 
 /// A batch that was evaluated, all points good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -143,35 +143,27 @@ struct Evaluation<T, D, R, const N: usize> {
     scalar: PhantomData<T>,
 }
 
-impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Kernel for Evaluation<T, D, R, N> {
-    type Output = Tally;
-
-    #[inline(always)]
+impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluation<T, D, R, N> {
+    /// The loop over the blocks stays outside of what [`dispatch`] compiles for each level: within it the compiler
+    /// would go through the whole of a block again for each of its thousands of operations on lanes.
     fn run(mut self) -> Tally {
         let mut tally = Tally::default();
         let [start, end] = self.range;
         let mut first = start;
         while first < end {
             let count = N.min(end - first);
-            let deformation = self.points.load::<N>(first, count);
-            let mut good: <Lanes<T, N> as Real>::Mask = Mask::splat(true);
-            let mut jacobian = None;
-            if !D::TRUSTED {
-                let determinant = deformation.jacobian();
-                good = Lanes::splat(T::zero()).less_than(determinant) & determinant.is_finite();
-                jacobian = Some(determinant);
+            let block = Block {
+                points: &self.points,
+                first,
+                at: first - start,
+                count,
+                requests: &mut self.requests,
+                scalar: PhantomData,
+            };
+            let (good, slow) = dispatch::<Block<'_, T, D, R, N>>(block);
+            if R::NEEDS_STRETCH && slow.any() {
+                tally.slow_path += (0..count).filter(|&lane| slow.lane(lane)).count();
             }
-            let mut stretch = None;
-            if R::NEEDS_STRETCH {
-                let analysis = StretchAnalysis::of(&deformation);
-                let slow = analysis.slow_path() & good;
-                if slow.any() {
-                    tally.slow_path += (0..count).filter(|&lane| slow.lane(lane)).count();
-                }
-                stretch = Some(analysis);
-            }
-            let point = Point { deformation, jacobian, stretch };
-            good = good & self.requests.block(first, first - start, count, &point);
             if !good.all() {
                 self.record(first, count, &mut tally);
             }
@@ -179,9 +171,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Kernel 
         }
         tally
     }
-}
 
-impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluation<T, D, R, N> {
     /// Finds the bad points of a block, says what is wrong with them and voids their outputs.
     #[cold]
     #[inline(never)]
@@ -192,5 +182,44 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluat
                 self.requests.void(index - self.range[0]);
             }
         }
+    }
+}
+
+/// A block of `count` ≤ N points from `first` on, whose outputs go to the destinations' points from `at` on.
+struct Block<'a, T, D, R, const N: usize> {
+    points: &'a D,
+    first: usize,
+    at: usize,
+    count: usize,
+    requests: &'a mut R,
+    scalar: PhantomData<T>,
+}
+
+type LanesMask<T, const N: usize> = <Lanes<T, N> as Real>::Mask;
+
+impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Kernel for Block<'_, T, D, R, N> {
+    /// Where the points are good and where they took the slow path.
+    type Output = (LanesMask<T, N>, LanesMask<T, N>);
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Self { points, first, at, count, requests, .. } = self;
+        let deformation = points.load::<N>(first, count);
+        let mut good: LanesMask<T, N> = Mask::splat(true);
+        let mut jacobian = None;
+        if !D::TRUSTED {
+            let determinant = deformation.jacobian();
+            good = Lanes::splat(T::zero()).less_than(determinant) & determinant.is_finite();
+            jacobian = Some(determinant);
+        }
+        let mut slow = Mask::splat(false);
+        let mut stretch = None;
+        if R::NEEDS_STRETCH {
+            let analysis = StretchAnalysis::of(&deformation);
+            slow = analysis.slow_path() & good;
+            stretch = Some(analysis);
+        }
+        let point = Point { deformation, jacobian, stretch };
+        (good & requests.block(first, at, count, &point), slow)
     }
 }

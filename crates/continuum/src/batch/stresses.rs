@@ -152,8 +152,8 @@ invariants! {
     tresca Tresca [1] |stress| [invariants::tresca(stress)];
     /// θ ∈ [0, π/3]: see [`lode_angle`](invariants::lode_angle).
     lode_angle LodeAngle [1] |stress| [invariants::lode_angle(stress)];
-    /// σ₁ ≥ σ₂ ≥ σ₃: see [`decompose`].
-    principal_stresses PrincipalStresses [3] |stress| decompose(stress).values;
+    /// σ₁ ≥ σ₂ ≥ σ₃: see [`PrincipalStresses`](crate::stress::PrincipalStresses).
+    principal_stresses PrincipalStresses [3] |stress| crate::stress::PrincipalStresses::of(stress).values();
 }
 
 /// Eigenvalues and eigenvectors of a symmetric tensor: see [`decompose`].
