@@ -22,9 +22,6 @@ impl<T: Real> Deformation<T> for Counting {
     fn lifted<S: Real>(&self, _lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
         *self
     }
-    fn lifted<S: Real>(&self, _lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
-        *self
-    }
     fn gradient_rows(&self) -> Rows<T> {
         count(0);
         identity()
