@@ -15,6 +15,7 @@ use piola_continuum::{Deformation, FirstPiola, KirchhoffStress, SecondPiola, Sym
 use piola_numerics::linear::matrix3::{determinant, from_rows};
 use piola_numerics::{Mask, Real};
 
+use crate::ConstitutiveError;
 use crate::elementary::excess_over_logarithm;
 
 /// I₁ − 3, I₂ − 3, J − 1 and J of a deformation.
@@ -90,6 +91,15 @@ pub trait InvariantEnergy {
     #[must_use]
     fn reference_energy(&self) -> f64 {
         0.0
+    }
+
+    /// Refuses deformations at which the law has no answer.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::BeyondLimit`]; most laws have no limit.
+    #[inline(always)]
+    fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
+        Ok(())
     }
 
     /// Its first derivatives.
@@ -364,16 +374,23 @@ fn tangent<T: Real, L: InvariantEnergy>(
     FirstPiolaTangent(FourthOrder { components: a })
 }
 
-/// Writes [`Hyperelastic`](super::Hyperelastic) for a law of invariants.
+/// Writes [`Hyperelastic`](super::Hyperelastic) for a law of invariants, the parameters of a generic one in brackets first.
 macro_rules! hyperelastic_of_invariants {
-    ($law:ty) => {
-        impl $crate::solids::Hyperelastic for $law {
+    ([$($generics:tt)*] $law:ty) => {
+        impl<$($generics)*> $crate::solids::Hyperelastic for $law {
             #[inline(always)]
             fn energy<T: piola_numerics::Real>(&self, deformation: &impl piola_continuum::Deformation<T>) -> T {
                 $crate::solids::invariant::InvariantEnergy::energy(self, deformation)
             }
             fn reference_energy(&self) -> f64 {
                 $crate::solids::invariant::InvariantEnergy::reference_energy(self)
+            }
+            #[inline(always)]
+            fn check<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> Result<(), $crate::ConstitutiveError> {
+                $crate::solids::invariant::InvariantEnergy::check(self, deformation)
             }
             #[inline(always)]
             fn first_piola<T: piola_numerics::Real>(
@@ -411,6 +428,9 @@ macro_rules! hyperelastic_of_invariants {
                 $crate::solids::invariant::first_piola_and_tangent(self, deformation)
             }
         }
+    };
+    ($law:ty) => {
+        $crate::solids::invariant::hyperelastic_of_invariants!([] $law);
     };
 }
 pub(super) use hyperelastic_of_invariants;

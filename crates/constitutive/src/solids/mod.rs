@@ -8,15 +8,40 @@
 //! any scalar; stresses and tangents are then its exact derivatives. The laws of this module give closed forms
 //! for speed, and keep their digits near the reference configuration.
 
+mod compressible;
 pub mod derived;
 mod hyperelastic;
+mod incompressible;
 pub mod invariant;
+pub mod isochoric;
 mod hencky;
 mod mooney_rivlin;
+mod neo_hookean;
 mod ogden;
+mod parameters;
+mod saint_venant_kirchhoff;
+mod series;
 pub mod stretch;
+mod anisotropic;
+mod fibres;
+mod fung;
+mod holzapfel;
+mod reinforced;
+mod stiffness;
+mod strain_energy;
+pub mod volumetric;
 
 pub use hyperelastic::Hyperelastic;
 pub use hencky::Hencky;
 pub use mooney_rivlin::MooneyRivlin;
 pub use ogden::{IsochoricOgden, Ogden, OgdenTerm};
+pub use compressible::{Compressible, MooneyRivlinIsochoric, NeoHookeanIsochoric};
+pub use incompressible::{IncompressibleSolid, Pressure};
+pub use neo_hookean::{NeoHookean, NeoHookeanCiarlet, NeoHookeanLogarithmic};
+pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
+pub use anisotropic::{AnisotropicLinear, AnisotropicSaintVenantKirchhoff};
+pub use fibres::Fibre;
+pub use fung::Fung;
+pub use holzapfel::HolzapfelGasserOgden;
+pub use reinforced::ReinforcedNeoHookean;
+pub use stiffness::{EngineeringConstants, Stiffness, TransverseConstants};

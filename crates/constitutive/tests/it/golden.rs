@@ -1,6 +1,7 @@
 //! Reference energies, stresses and tangents of every law.
 
 use piola_constitutive::solids::{Hencky, Hyperelastic, IsochoricOgden, MooneyRivlin, Ogden, OgdenTerm};
+use piola_constitutive::solids::{Compressible, NeoHookeanLogarithmic, SaintVenantKirchhoff, isochoric, volumetric};
 use piola_continuum::tensor::PairSymmetric;
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
@@ -82,4 +83,28 @@ fn isochoric_ogden_equals_reference() {
 #[test]
 fn hencky_equals_reference() {
     check("hencky", |case| Hencky::new(parameter(case, "lambda"), parameter(case, "mu")).expect("parameters"));
+}
+
+#[test]
+fn saint_venant_kirchhoff_equals_reference() {
+    check("saint_venant_kirchhoff", |case| {
+        SaintVenantKirchhoff::new(parameter(case, "lambda"), parameter(case, "mu")).expect("parameters")
+    });
+}
+
+#[test]
+fn neo_hookean_with_logarithm_equals_reference() {
+    check("neo_hookean_log", |case| {
+        NeoHookeanLogarithmic::with_constants(parameter(case, "mu"), parameter(case, "lambda")).expect("parameters")
+    });
+}
+
+#[test]
+fn isochoric_neo_hookean_equals_reference() {
+    check("neo_hookean_isochoric", |case| {
+        Compressible::new(
+            isochoric::NeoHookean::new(parameter(case, "mu")).expect("parameters"),
+            volumetric::Quadratic::new(parameter(case, "kappa")).expect("parameters"),
+        )
+    });
 }

@@ -1,0 +1,53 @@
+//! The Mooney–Rivlin energy of a change of shape.
+
+use piola_numerics::Real;
+
+use super::Isochoric;
+use crate::solids::parameters::parameters;
+
+parameters! {
+    /// W̄ = C₁₀ (Ī₁ − 3) + C₀₁ (Ī₂ − 3).
+    ///
+    /// | symbol | parameter | unit | bounds |
+    /// |---|---|---|---|
+    /// | C₁₀, C₀₁ | `c10`, `c01` | Pa | 0 < C₁₀ + C₀₁ (half the shear modulus) |
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::solids::{Hyperelastic, IncompressibleSolid, isochoric::MooneyRivlin};
+    /// use piola_continuum::DeformationGradient;
+    /// let rubber = IncompressibleSolid::new(MooneyRivlin::new(0.5, 0.25)?).at_pressure(0.0)?;
+    /// let stress = rubber.cauchy(&DeformationGradient::simple_shear(1.0)?).0.components;
+    /// assert_eq!(stress[3], 1.5); // 2 (C₁₀ + C₀₁) k
+    /// assert_eq!(stress[2], 0.5); // 2 C₁₀ − 2 C₀₁
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Source
+    /// B(4.66).
+    pub struct MooneyRivlin("isochoric Mooney–Rivlin") {
+        /// C₁₀, Pa.
+        c10: "0 < C10 + C01" => 0.0 < c10 + c01,
+        /// C₀₁, Pa.
+        c01: "0 < C10 + C01" => 0.0 < c10 + c01,
+    }
+}
+
+impl Isochoric for MooneyRivlin {
+    const SECOND: bool = true;
+
+    #[inline(always)]
+    fn energy<T: Real>(&self, first: T, second: T) -> T {
+        T::lit(self.c10) * first + T::lit(self.c01) * second
+    }
+
+    #[inline(always)]
+    fn slopes<T: Real>(&self, _first: T, _second: T) -> [T; 2] {
+        [T::lit(self.c10), T::lit(self.c01)]
+    }
+
+    #[inline(always)]
+    fn curvatures<T: Real>(&self, _first: T, _second: T) -> [T; 3] {
+        [T::zero(); 3]
+    }
+}
