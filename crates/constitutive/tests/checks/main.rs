@@ -1,3 +1,4 @@
 //! Homogeneous tests, checks of laws and memory.
 
 mod homogeneous;
+mod refuted;

@@ -1,0 +1,72 @@
+//! What is searched and what is found.
+
+/// Where and how long to search.
+///
+/// # Example
+/// ```
+/// use piola_constitutive::checks::Search;
+/// let search = Search { samples: 1000, strain: 1.0, ..Search::default() };
+/// assert_eq!(search.seed, Search::default().seed);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Search {
+    /// How many samples are drawn: 400.
+    pub samples: usize,
+    /// The beginning of the sequence: the same seed draws the same samples.
+    pub seed: u64,
+    /// The largest |ln λ| of the principal stretches λ: ½, stretches between 0.61 and 1.65.
+    pub strain: f64,
+    /// The largest size, relative to the stress or work, that counts as rounding: 1e-10.
+    pub tolerance: f64,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self { samples: 400, seed: 1, strain: 0.5, tolerance: 1e-10 }
+    }
+}
+
+/// The worst counterexample of a search.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report<C> {
+    /// How many samples were compared.
+    pub samples: usize,
+    /// The size up to which the claim passes.
+    pub tolerance: f64,
+    /// The largest violation, relative to the stress or work there (but at least to a thousandth of the largest
+    /// of all samples); infinite where the law answers with NaN.
+    pub size: f64,
+    /// The sample with that violation; none only if nothing was sampled.
+    pub worst: Option<C>,
+}
+
+impl<C> Report<C> {
+    /// Whether no violation above the tolerance was found.
+    #[must_use]
+    pub fn passes(&self) -> bool {
+        self.size <= self.tolerance
+    }
+
+    /// The worst of samples, each with its violation and its scale.
+    pub(super) fn of(search: &Search, samples: Vec<(f64, f64, C)>) -> Self {
+        let largest = samples.iter().fold(0.0_f64, |largest, sample| largest.max(sample.1));
+        let mut report = Self { samples: samples.len(), tolerance: search.tolerance, size: 0.0, worst: None };
+        for (violation, scale, sample) in samples {
+            let scale = scale.max(1e-3 * largest);
+            let size = if violation <= 0.0 {
+                0.0
+            } else if (violation / scale).is_finite() {
+                violation / scale
+            } else {
+                f64::INFINITY
+            };
+            if report.worst.is_none() || report.size < size {
+                report.size = size;
+                report.worst = Some(sample);
+            }
+        }
+        report
+    }
+}
