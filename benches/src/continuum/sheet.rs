@@ -32,8 +32,11 @@ pub fn figure(chart: &Chart) -> String {
     );
     let all = chart.tasks.iter().flat_map(|task| &task.methods).flat_map(|method| [method.ordinary, method.full]);
     for (task, left) in chart.tasks.iter().zip(LEFT) {
-        let across = Axis::around(all.clone().map(|m| m.error.max(1e-17)), [left, left + SIZE[0]]);
-        let up = Axis::around(all.clone().map(|m| m.nanoseconds), [TOP + SIZE[1], TOP]);
+        // With room for the marks themselves.
+        let errors = all.clone().flat_map(|m| [0.3, 3.0].map(|factor| factor * m.error.max(1e-17)));
+        let times = all.clone().flat_map(|m| [0.9, 1.1].map(|factor| factor * m.nanoseconds));
+        let across = Axis::around(errors, [left, left + SIZE[0]]);
+        let up = Axis::around(times, [TOP + SIZE[1], TOP]);
         panel(&mut svg, task, left, &across, &up);
     }
     legend(&mut svg, chart);
