@@ -8,17 +8,24 @@
 //! any scalar; stresses and tangents are then its exact derivatives. The laws of this module give closed forms
 //! for speed, and keep their digits near the reference configuration.
 
+mod blatz_ko;
+mod body;
 mod compressible;
 pub mod derived;
 mod hyperelastic;
+mod elastic_constants;
 mod incompressible;
 pub mod invariant;
 pub mod isochoric;
 mod hencky;
+mod linear_elastic;
+pub mod membrane;
 mod mooney_rivlin;
 mod neo_hookean;
 mod ogden;
 mod parameters;
+mod polynomial;
+pub mod response;
 mod saint_venant_kirchhoff;
 mod series;
 pub mod stretch;
@@ -45,3 +52,10 @@ pub use fung::Fung;
 pub use holzapfel::HolzapfelGasserOgden;
 pub use reinforced::ReinforcedNeoHookean;
 pub use stiffness::{EngineeringConstants, Stiffness, TransverseConstants};
+pub use blatz_ko::BlatzKo;
+pub use body::UniformBody;
+pub use elastic_constants::{ElasticConstants, PoissonSign};
+pub use linear_elastic::{LinearElastic, MixedLinearElastic};
+pub use membrane::{Membrane, ThinPlate};
+pub use polynomial::{Polynomial, PolynomialTerm};
+pub use response::{IsotropicResponse, IsotropicSolid, ResponseForm};

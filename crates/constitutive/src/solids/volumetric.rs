@@ -66,7 +66,7 @@ pub trait Volumetric {
 
 /// ln J of J − 1 and J.
 #[inline(always)]
-fn logarithm<T: Real>(change: T, jacobian: T) -> T {
+pub(super) fn logarithm<T: Real>(change: T, jacobian: T) -> T {
     let near = change.abs().at_most(T::lit(0.5));
     if near.all() {
         return change.ln_1p();
