@@ -61,6 +61,64 @@ pub enum ConstitutiveError {
         /// F where it was found, by rows.
         gradient: [[f64; 3]; 3],
     },
+    /// A constraint is not the same for all observers: its reaction is not symmetric.
+    #[error("the reaction of the constraint has a skew part {skew:e} beside {size:e}: it depends on the observer")]
+    ConstraintDependsOnObserver {
+        /// The largest entry of the skew part of F (∂μ/∂F)ᵀ.
+        skew: f64,
+        /// The largest entry of F (∂μ/∂F)ᵀ.
+        size: f64,
+    },
+    /// A constraint follows from others.
+    #[error(
+        "constraint {index} follows from the others: of {count} only {rank} are independent, {share:e} of it is its own"
+    )]
+    RedundantConstraint {
+        /// The constraint, from 0.
+        index: usize,
+        /// How many are independent.
+        rank: usize,
+        /// How many there are.
+        count: usize,
+        /// What is left of its reaction without the others', as a share of it.
+        share: f64,
+    },
+    /// Constraints contradict one another.
+    #[error("constraint {index} contradicts the others by {residual:e}")]
+    InconsistentConstraints {
+        /// The constraint, from 0.
+        index: usize,
+        /// Its value less the one that follows from the others.
+        residual: f64,
+    },
+    /// The deformation violates a constraint.
+    #[error("the deformation violates constraint {index}: {value:e} is not zero to {tolerance:e}")]
+    ConstraintViolated {
+        /// The constraint, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// The largest modulus allowed.
+        tolerance: f64,
+    },
+    /// Conditions on the stress do not determine the multiplier of a constraint.
+    #[error("the conditions do not determine the multiplier of constraint {index}: only {rank} of {count}")]
+    UndeterminedMultiplier {
+        /// The constraint, from 0.
+        index: usize,
+        /// How many multipliers they determine.
+        rank: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// No multipliers satisfy a condition on the stress.
+    #[error("no reaction satisfies condition {index}: {residual:e} remains")]
+    ImpossibleCondition {
+        /// The condition, from 0.
+        index: usize,
+        /// What its left side has beyond its right, Pa.
+        residual: f64,
+    },
     /// The deformation or stress itself is refused.
     #[error(transparent)]
     Continuum(#[from] ContinuumError),

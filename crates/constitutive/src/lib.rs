@@ -6,6 +6,7 @@ pub mod checks;
 mod elementary;
 mod error;
 pub mod homogeneous;
+pub mod internal_constraints;
 pub mod solids;
 
 pub use error::ConstitutiveError;
