@@ -61,6 +61,125 @@ pub enum ConstitutiveError {
         /// F where it was found, by rows.
         gradient: [[f64; 3]; 3],
     },
+    /// There is no test to fit to.
+    #[error("there is no test to fit to")]
+    NoTests,
+    /// A test has no points.
+    #[error("test `{test}` has no points")]
+    EmptyTest {
+        /// The test.
+        test: String,
+    },
+    /// Two tests have the same name.
+    #[error("there are two tests `{test}`")]
+    TestTwice {
+        /// Their name.
+        test: String,
+    },
+    /// A stretch of a test is not positive and finite (an amount of shear: not finite).
+    #[error("test `{test}`, point {index}: the stretch {value} is not positive and finite")]
+    Stretch {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The stretch.
+        value: f64,
+    },
+    /// A stress of a test is not finite.
+    #[error("test `{test}`, point {index}: the stress {value} is not finite")]
+    Stress {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The stress.
+        value: f64,
+    },
+    /// A deformation of a test changes the volume of a material that is incompressible.
+    #[error("test `{test}`, point {index}: det F = {determinant} of an incompressible material is not 1")]
+    NotIsochoric {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// det F.
+        determinant: f64,
+    },
+    /// An index of a component or axis is not 0, 1 or 2.
+    #[error("test `{test}`, point {index}: {value} is none of the axes 0, 1 and 2")]
+    NoSuchComponent {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The index.
+        value: usize,
+    },
+    /// The weight of a test is not positive and finite.
+    #[error("test `{test}`: the weight {value} is not positive and finite")]
+    Weight {
+        /// The test.
+        test: String,
+        /// The weight.
+        value: f64,
+    },
+    /// A model to fit has a name that is not known.
+    #[error(
+        "no model is called `{name}`: there are neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n"
+    )]
+    UnknownModel {
+        /// The name.
+        name: String,
+    },
+    /// A series has no terms, or too many.
+    #[error("a series of {value} terms: valid are 1 to 6")]
+    SeriesLength {
+        /// The number of terms.
+        value: usize,
+    },
+    /// A model has more parameters than there are points.
+    #[error("{model}: {points} measured points cannot determine {parameters} parameters")]
+    TooFewPoints {
+        /// The model.
+        model: String,
+        /// Points of all tests.
+        points: usize,
+        /// Parameters of the model.
+        parameters: usize,
+    },
+    /// Bounds are given for a parameter that a model does not have.
+    #[error("{model} has no parameter `{parameter}`")]
+    UnknownParameter {
+        /// The model.
+        model: String,
+        /// The parameter.
+        parameter: String,
+    },
+    /// No value is within the bounds of a parameter.
+    #[error("{model}: no value of `{parameter}` is at least {lower:e} and at most {upper:e}")]
+    ImpossibleBounds {
+        /// The model.
+        model: String,
+        /// The parameter.
+        parameter: String,
+        /// The least value, that of the model included.
+        lower: f64,
+        /// The greatest value, that of the model included.
+        upper: f64,
+    },
+    /// A probability of intervals is not between 0 and 1.
+    #[error("the confidence {value} is not between 0 and 1")]
+    Confidence {
+        /// The confidence.
+        value: f64,
+    },
+    /// A model has finite stresses at no start of the search.
+    #[error("{model}: the stresses are finite, and the bounds kept, at no start of the search")]
+    NoStart {
+        /// The model.
+        model: String,
+    },
     /// A constraint is not the same for all observers: its reaction is not symmetric.
     #[error("the reaction of the constraint has a skew part {skew:e} beside {size:e}: it depends on the observer")]
     ConstraintDependsOnObserver {

@@ -5,8 +5,9 @@
 pub mod checks;
 mod elementary;
 mod error;
+#[cfg(feature = "fit")]
+pub mod fit;
 pub mod homogeneous;
-pub mod internal_constraints;
 pub mod solids;
 
 pub use error::ConstitutiveError;

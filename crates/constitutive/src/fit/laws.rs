@@ -1,0 +1,262 @@
+//! The models that are built in.
+
+use core::fmt;
+use core::str::FromStr;
+
+use piola_numerics::Real;
+
+use super::{Model, Parameter, StableSign};
+use crate::ConstitutiveError;
+use crate::solids::isochoric::inverse_langevin;
+
+/// The largest number of terms, or degree, of a series.
+const MOST: usize = 6;
+/// Exponents of Ogden's terms stay within this.
+const EXPONENTS: [f64; 2] = [-30.0, 30.0];
+/// Starts of a search, at most.
+const STARTS: usize = 48;
+
+/// A built-in model, written `neo-hookean`, `mooney-rivlin`, `yeoh`, `gent`, `arruda-boyce`, `polynomial:n`, `ogden:n`.
+///
+/// | model | W | parameters |
+/// |---|---|---|
+/// | `NeoHookean` | ½ μ (I₁ − 3) | μ |
+/// | `MooneyRivlin` | C₁₀ (I₁ − 3) + C₀₁ (I₂ − 3) | C₁₀, C₀₁ |
+/// | `Yeoh` | Σ Cᵢ (I₁ − 3)ⁱ, i = 1, 2, 3 | Cᵢ |
+/// | `Gent` | −½ μ Jₘ ln(1 − (I₁ − 3)/Jₘ) | μ, Jₘ |
+/// | `ArrudaBoyce` | n N (β λ − ln(sinh β/β)), λ = √(I₁/3N), ℒ(β) = λ | n, N |
+/// | `Polynomial(n)` | Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ, 1 ≤ i + j ≤ n | Cᵢⱼ |
+/// | `Ogden(n)` | Σ μₚ/αₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3) | μₚ, αₚ |
+///
+/// They are stable by the signs of their parameters: μ, n, C₁₀ and C₀₁ not negative, and 0 ≤ μₚ αₚ. Yeoh's and the
+/// polynomial have no such signs that are necessary: their stability is looked at where there are data.
+///
+/// # Example
+/// ```
+/// use piola_constitutive::fit::{AnyModel, Model};
+/// let ogden: AnyModel = "ogden:2".parse()?;
+/// let names: Vec<_> = ogden.parameters(5.0).into_iter().map(|parameter| parameter.name).collect();
+/// assert_eq!(names, ["mu1", "alpha1", "mu2", "alpha2"]);
+/// assert_eq!(ogden.energy([2.0, 1.0, 0.5], &[3.0, 2.0, 1.0, -2.0]), 3.375 - 1.125); // I₁ = I₂ = 5.25
+/// assert!("ogden:0".parse::<AnyModel>().is_err());
+/// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "String", into = "String"))]
+#[non_exhaustive]
+pub enum AnyModel {
+    /// ½ μ (I₁ − 3).
+    NeoHookean,
+    /// C₁₀ (I₁ − 3) + C₀₁ (I₂ − 3).
+    MooneyRivlin,
+    /// Three powers of I₁ − 3.
+    Yeoh,
+    /// A logarithm with a limit of I₁.
+    Gent,
+    /// Eight chains.
+    ArrudaBoyce,
+    /// Powers of I₁ − 3 and I₂ − 3 up to a degree, from 1 to 6.
+    Polynomial(Series),
+    /// Powers of the stretches, from 1 to 6 of them.
+    Ogden(Series),
+}
+
+/// The number of terms, or the degree, of a series: from 1 to 6.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Series(usize);
+
+impl Series {
+    /// Of a number.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::SeriesLength`].
+    pub const fn new(count: usize) -> Result<Self, ConstitutiveError> {
+        if 1 <= count && count <= MOST {
+            Ok(Self(count))
+        } else {
+            Err(ConstitutiveError::SeriesLength { value: count })
+        }
+    }
+
+    /// The number.
+    #[must_use]
+    pub const fn count(self) -> usize {
+        self.0
+    }
+
+    /// (i, j) with 1 ≤ i + j ≤ n, by degree, powers of I₁ − 3 first.
+    fn powers(self) -> impl Iterator<Item = (usize, usize)> {
+        (1..=self.0).flat_map(|degree| (0..=degree).map(move |j| (degree - j, j)))
+    }
+}
+
+impl AnyModel {
+    /// All names that can be parsed.
+    pub const NAMES: [&'static str; 7] =
+        ["neo-hookean", "mooney-rivlin", "yeoh", "gent", "arruda-boyce", "polynomial:n", "ogden:n"];
+}
+
+impl fmt::Display for AnyModel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NeoHookean => f.write_str("neo-hookean"),
+            Self::MooneyRivlin => f.write_str("mooney-rivlin"),
+            Self::Yeoh => f.write_str("yeoh"),
+            Self::Gent => f.write_str("gent"),
+            Self::ArrudaBoyce => f.write_str("arruda-boyce"),
+            Self::Polynomial(series) => write!(f, "polynomial:{}", series.0),
+            Self::Ogden(series) => write!(f, "ogden:{}", series.0),
+        }
+    }
+}
+
+impl FromStr for AnyModel {
+    type Err = ConstitutiveError;
+
+    fn from_str(text: &str) -> Result<Self, ConstitutiveError> {
+        let unknown = || ConstitutiveError::UnknownModel { name: text.to_owned() };
+        let series = |count: &str| Series::new(count.parse().map_err(|_| unknown())?);
+        match text.split_once(':') {
+            None => match text {
+                "neo-hookean" => Ok(Self::NeoHookean),
+                "mooney-rivlin" => Ok(Self::MooneyRivlin),
+                "yeoh" => Ok(Self::Yeoh),
+                "gent" => Ok(Self::Gent),
+                "arruda-boyce" => Ok(Self::ArrudaBoyce),
+                _ => Err(unknown()),
+            },
+            Some(("polynomial", count)) => Ok(Self::Polynomial(series(count)?)),
+            Some(("ogden", count)) => Ok(Self::Ogden(series(count)?)),
+            Some(_) => Err(unknown()),
+        }
+    }
+}
+
+impl TryFrom<String> for AnyModel {
+    type Error = ConstitutiveError;
+
+    fn try_from(text: String) -> Result<Self, ConstitutiveError> {
+        text.parse()
+    }
+}
+
+impl From<AnyModel> for String {
+    fn from(model: AnyModel) -> Self {
+        model.to_string()
+    }
+}
+
+impl Model for AnyModel {
+    fn name(&self) -> String {
+        self.to_string()
+    }
+
+    fn parameters(&self, largest_first_invariant: f64) -> Vec<Parameter> {
+        let positive = |name: &str| Parameter::factor(name).stable_if(StableSign::NotNegative);
+        match self {
+            Self::NeoHookean => vec![positive("mu")],
+            Self::MooneyRivlin => vec![positive("C10"), positive("C01")],
+            Self::Yeoh => ["C10", "C20", "C30"].map(Parameter::factor).into(),
+            Self::Gent => vec![positive("mu"), Parameter::number("Jm", [largest_first_invariant - 3.0, f64::INFINITY])],
+            Self::ArrudaBoyce => {
+                let links = (largest_first_invariant / 3.0).max(1.0);
+                vec![positive("n"), Parameter::number("N", [links, f64::INFINITY])]
+            }
+            Self::Polynomial(series) => series.powers().map(|(i, j)| Parameter::factor(format!("C{i}{j}"))).collect(),
+            Self::Ogden(series) => (0..series.0)
+                .flat_map(|p| {
+                    let exponent = StableSign::SameAs(2 * p + 1);
+                    [
+                        Parameter::factor(format!("mu{}", p + 1)).stable_if(exponent),
+                        Parameter::number(format!("alpha{}", p + 1), EXPONENTS),
+                    ]
+                })
+                .collect(),
+        }
+    }
+
+    fn energy<T: Real>(&self, stretches: [T; 3], parameters: &[T]) -> T {
+        let [a, b, c] = stretches.map(|x| x * x);
+        let three = T::lit(3.0);
+        let first = a + b + c - three;
+        let second = || a * b + b * c + c * a - three;
+        match self {
+            Self::NeoHookean => T::lit(0.5) * parameters[0] * first,
+            Self::MooneyRivlin => parameters[0] * first + parameters[1] * second(),
+            Self::Yeoh => first * (parameters[0] + first * (parameters[1] + first * parameters[2])),
+            Self::Gent => T::lit(-0.5) * parameters[0] * parameters[1] * (-first / parameters[1]).ln_1p(),
+            Self::ArrudaBoyce => {
+                let (modulus, links) = (parameters[0], parameters[1]);
+                let stretch = ((first + three) / (three * links)).sqrt();
+                let beta = inverse_langevin(stretch);
+                // ln(sinh β/β) = β + ln((1 − e^(−2β))/(2β)).
+                let twice = T::lit(2.0) * beta;
+                let logarithm = beta + (-(-twice).exp_m1() / twice).ln();
+                modulus * links * (beta * stretch - logarithm)
+            }
+            Self::Polynomial(series) => {
+                let second = second();
+                let mut energy = T::zero();
+                for ((i, j), factor) in series.powers().zip(parameters) {
+                    energy += *factor * (power(first, i) * power(second, j));
+                }
+                energy
+            }
+            Self::Ogden(_) => {
+                let logarithms = stretches.map(Real::ln);
+                let mut energy = T::zero();
+                for term in parameters.chunks_exact(2) {
+                    let (mu, alpha) = (term[0], term[1]);
+                    let [a, b, c] = logarithms.map(|x| (alpha * x).exp_m1());
+                    energy += mu / alpha * (a + b + c);
+                }
+                energy
+            }
+        }
+    }
+
+    fn starts(&self, largest_first_invariant: f64) -> Vec<Vec<f64>> {
+        /// Beyond the limit of extensibility that the data show.
+        const BEYOND: [f64; 5] = [1.02, 1.2, 2.0, 8.0, 100.0];
+        match self {
+            Self::Gent => BEYOND.iter().map(|x| vec![x * (largest_first_invariant - 3.0).max(0.1)]).collect(),
+            Self::ArrudaBoyce => BEYOND.iter().map(|x| vec![x * (largest_first_invariant / 3.0).max(1.0)]).collect(),
+            Self::Ogden(series) => exponents(series.0),
+            _ => vec![vec![]],
+        }
+    }
+
+    /// Ogden's terms by falling exponents.
+    fn order(&self, parameters: &mut [f64]) {
+        if let Self::Ogden(_) = self {
+            let mut terms: Vec<[f64; 2]> = parameters.chunks_exact(2).map(|term| [term[0], term[1]]).collect();
+            terms.sort_by(|a, b| b[1].total_cmp(&a[1]));
+            for (place, term) in parameters.chunks_exact_mut(2).zip(terms) {
+                place.copy_from_slice(&term);
+            }
+        }
+    }
+}
+
+/// x to a small whole power; 1 for the power 0, with derivatives everywhere.
+fn power<T: Real>(x: T, count: usize) -> T {
+    let mut product = T::one();
+    for _ in 0..count {
+        product = product * x;
+    }
+    product
+}
+
+/// Sets of different exponents, evenly from all that can be chosen of a list.
+fn exponents(terms: usize) -> Vec<Vec<f64>> {
+    const LIST: [f64; 9] = [2.0, -2.0, 1.0, 6.0, 4.0, -1.0, 9.0, -4.0, 14.0];
+    let mut sets = Vec::new();
+    for choice in 0_usize..1 << LIST.len() {
+        if choice.count_ones() as usize == terms {
+            sets.push((0..LIST.len()).filter(|k| choice >> k & 1 == 1).map(|k| LIST[k]).collect());
+        }
+    }
+    let stride = sets.len().div_ceil(STARTS).max(1);
+    sets.into_iter().step_by(stride).collect()
+}

@@ -1,0 +1,371 @@
+//! Parameters of incompressible laws from measured stresses.
+//!
+//! ```text
+//! minimise S(θ) = Σ wᵢ² (Pᵢ(θ) − P̂ᵢ)²      over all tests at once, between bounds, stable where measured
+//! ```
+//! | step | item |
+//! |---|---|
+//! | tables become data | [`Test`] of a [`Table`], [`Data`] of several tests |
+//! | a law with unknown parameters | [`AnyModel`] (`"ogden:3".parse()`), or your own [`Model`] |
+//! | the fit | [`fit`] with [`Options`]: weights, bounds, stability |
+//! | what came of it | [`Fit`]: [`Estimate`]s with errors, [`Covariance`], [`Residuals`] of each test, [`Criteria`], [`StabilityReport`] |
+//!
+//! Derivatives of the stresses with respect to the parameters are exact: a model is one function over any scalar. Parameters
+//! that are factors are eliminated, so that a law of factors alone is solved directly; the others are searched for by
+//! the method of Levenberg and Marquardt from several fixed starts, the same in every run.
+//!
+//! # Example
+//! ```
+//! use piola_constitutive::fit::{AnyModel, Data, Measure, Options, Table, Test, fit};
+//! // Nominal stresses 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ) of C₁₀ = 0.3, C₀₁ = 0.1 with errors in the fourth digit.
+//! let bar = Table::Uniaxial(vec![[1.25, 0.4642], [1.5, 0.7758], [2.0, 1.2247], [3.0, 1.9260], [4.0, 2.5594]]);
+//! let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
+//! let rubber = fit(&AnyModel::MooneyRivlin, &data, &Options::default())?;
+//! let c10 = &rubber.parameters[0];
+//! assert!((c10.value - 0.3).abs() < 1e-3 && rubber.tests[0].relative_rms < 1e-3);
+//! assert!(rubber.outcome.is_converged() && rubber.stability.is_stable());
+//! # Ok::<(), piola_constitutive::ConstitutiveError>(())
+//! ```
+
+mod laws;
+mod linear;
+mod model;
+mod search;
+mod stability;
+mod statistics;
+mod test;
+
+pub use laws::{AnyModel, Series};
+pub use model::{Fitted, Model, Parameter, Role, StableSign};
+pub use stability::{Counterexample, StabilityReport};
+pub use statistics::{Covariance, Criteria};
+pub use test::{Component, Data, Measure, Table, Test};
+
+use crate::ConstitutiveError;
+use search::{Best, Problem};
+
+/// What residuals are divided by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Weighting {
+    /// The largest stress of the test: errors are a part of the range of the machine.
+    #[default]
+    LargestStress,
+    /// The largest stress of all tests: errors are the same in all tests.
+    Equal,
+}
+
+/// Whether a law must be stable.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Stability {
+    /// By the signs of its parameters where a model has such; otherwise Drucker's condition as far as the data go.
+    #[default]
+    Required,
+    /// It is reported only.
+    Free,
+}
+
+/// How to fit.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Options {
+    /// What residuals are divided by; the weight of each test comes on top.
+    pub weighting: Weighting,
+    /// Whether the law must be stable.
+    pub stability: Stability,
+    /// Least and greatest values of parameters by name; they narrow those of the model.
+    pub bounds: Vec<(String, [f64; 2])>,
+    /// The probability of the intervals.
+    pub confidence: f64,
+    /// Evaluations of a search, for each unknown.
+    pub patience: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            weighting: Weighting::default(),
+            stability: Stability::default(),
+            bounds: Vec::new(),
+            confidence: 0.95,
+            patience: 200,
+        }
+    }
+}
+
+/// How a fit ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Outcome {
+    /// Solved directly: all parameters are factors.
+    LinearSolution,
+    /// Nothing is left to be fitted.
+    ExactFit,
+    /// The residuals are orthogonal to what parameters can change.
+    GradientZero,
+    /// Neither the sum of squares nor the parameters change any more.
+    NoFurtherDecrease,
+    /// Not converged: the evaluations are used up.
+    OutOfPatience,
+    /// Not converged: stresses were not finite on the way.
+    NotFinite,
+}
+
+impl Outcome {
+    /// Whether the parameters are at a minimum.
+    #[must_use]
+    pub const fn is_converged(self) -> bool {
+        !matches!(self, Self::OutOfPatience | Self::NotFinite)
+    }
+
+    /// It in words.
+    #[must_use]
+    pub const fn reason(self) -> &'static str {
+        match self {
+            Self::LinearSolution => "solved directly",
+            Self::ExactFit => "the residuals are zero",
+            Self::GradientZero => "the gradient is zero",
+            Self::NoFurtherDecrease => "no further decrease",
+            Self::OutOfPatience => "stopped: evaluations used up",
+            Self::NotFinite => "stopped: stresses not finite",
+        }
+    }
+}
+
+/// Whether a parameter could be moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum State {
+    /// Yes, and the data determine it.
+    Determined,
+    /// It is at a bound, or at zero where stability asks for a sign.
+    AtBound,
+    /// The data say nothing of it, or not of it alone.
+    Undetermined,
+}
+
+/// A fitted parameter.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Estimate {
+    /// Its name.
+    pub name: String,
+    /// Whether it is in the unit of the stresses; a pure number otherwise.
+    pub is_stress: bool,
+    /// Its value.
+    pub value: f64,
+    /// Its standard error, if it is determined and there are degrees of freedom.
+    pub standard_error: Option<f64>,
+    /// Where it is with the probability asked for.
+    pub interval: Option<[f64; 2]>,
+    /// Whether it could be moved.
+    pub state: State,
+}
+
+/// What a test has left.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Residuals {
+    /// Name of the test.
+    pub test: String,
+    /// Numbers in it.
+    pub points: usize,
+    /// √(Σ (P − P̂)²/points), in the unit of the stresses.
+    pub rms: f64,
+    /// The same over the largest stress of the test.
+    pub relative_rms: f64,
+    /// The largest stress of the test.
+    pub largest_stress: f64,
+    /// P − P̂ of each point.
+    pub residuals: Vec<f64>,
+}
+
+/// A fitted law.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Fit {
+    /// Name of the model.
+    pub model: String,
+    /// Its parameters, in its order.
+    pub parameters: Vec<Estimate>,
+    /// The covariance of those that are determined.
+    pub covariance: Covariance,
+    /// What is left of each test.
+    pub tests: Vec<Residuals>,
+    /// S, the weighted sum of squares.
+    pub weighted_squares: f64,
+    /// Numbers measured less parameters that could be moved.
+    pub degrees_of_freedom: usize,
+    /// Criteria for choosing between laws.
+    pub criteria: Criteria,
+    /// Whether the law is stable as far as the data go.
+    pub stability: StabilityReport,
+    /// How the search ended.
+    pub outcome: Outcome,
+    /// Evaluations of all stresses with their derivatives.
+    pub evaluations: usize,
+    /// Starts of the search.
+    pub starts: usize,
+    /// Starts that came to this minimum.
+    pub starts_that_agree: usize,
+}
+
+impl Fit {
+    /// The values of the parameters.
+    #[must_use]
+    pub fn values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|parameter| parameter.value).collect()
+    }
+
+    /// The largest relative RMS residual of the tests.
+    #[must_use]
+    pub fn worst_relative_rms(&self) -> f64 {
+        self.tests.iter().map(|test| test.relative_rms).fold(0.0, f64::max)
+    }
+}
+
+/// Fits a model to all tests at once.
+///
+/// What cannot converge still returns the best parameters that were found, with an [`Outcome`] that says so.
+///
+/// # Errors
+/// [`ConstitutiveError::TooFewPoints`], [`ConstitutiveError::UnknownParameter`], [`ConstitutiveError::ImpossibleBounds`],
+/// [`ConstitutiveError::Confidence`]; [`ConstitutiveError::NoStart`] if the model has finite stresses at no start.
+///
+/// # Accuracy
+/// Parameters that are factors: that of linear least squares. Others: to about the root of the rounding of S, ten digits
+/// where the data determine them. Intervals suppose small errors, near which the law is linear in its parameters.
+///
+/// # Example
+/// See the [module](self).
+pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, ConstitutiveError> {
+    if !(0.0 < options.confidence && options.confidence < 1.0) {
+        return Err(ConstitutiveError::Confidence { value: options.confidence });
+    }
+    let reach = data.largest_first_invariant();
+    let parameters = bounded(model, reach, &options.bounds)?;
+    if data.len() < parameters.len() {
+        let (points, parameters) = (data.len(), parameters.len());
+        return Err(ConstitutiveError::TooFewPoints { model: model.name(), points, parameters });
+    }
+    let signs = options.stability == Stability::Required;
+    let weights = weights(data, options.weighting);
+    let problem = Problem::new(model, data, parameters, weights, signs, options.patience.max(1));
+    let starts = model.starts(reach);
+    let Some((mut best, starts_that_agree)) = problem.search(&starts) else {
+        return Err(ConstitutiveError::NoStart { model: model.name() });
+    };
+    if options.bounds.is_empty() {
+        model.order(&mut best.parameters);
+    }
+    let mut stability = stability::report(model, &best.parameters, reach);
+    if signs && stability.drucker.is_some() {
+        if let Some(found) = problem.stabilise(&best, &stability::fan(reach)) {
+            best = found;
+        }
+        stability = stability::report(model, &best.parameters, reach);
+    }
+    Ok(result(&problem, options, &best, stability, (starts.len(), starts_that_agree)))
+}
+
+/// The parameters of a model within narrower bounds.
+fn bounded<M: Model>(
+    model: &M,
+    reach: f64,
+    bounds: &[(String, [f64; 2])],
+) -> Result<Vec<Parameter>, ConstitutiveError> {
+    let mut parameters = model.parameters(reach);
+    for (name, [low, high]) in bounds {
+        let Some(parameter) = parameters.iter_mut().find(|parameter| parameter.name == *name) else {
+            return Err(ConstitutiveError::UnknownParameter { model: model.name(), parameter: name.clone() });
+        };
+        let [least, greatest] = parameter.bounds;
+        let (lower, upper) = (low.max(least), high.min(greatest));
+        if low.is_nan() || high.is_nan() || upper < lower || lower == f64::INFINITY || upper == f64::NEG_INFINITY {
+            let (model, parameter) = (model.name(), name.clone());
+            return Err(ConstitutiveError::ImpossibleBounds { model, parameter, lower, upper });
+        }
+        parameter.bounds = [lower, upper];
+    }
+    Ok(parameters)
+}
+
+/// wᵢ of every number.
+fn weights(data: &Data, weighting: Weighting) -> Vec<f64> {
+    let largest = data.tests().iter().map(Test::largest_stress).fold(0.0, f64::max);
+    let of_test = |test: &Test| {
+        let scale = if weighting == Weighting::Equal { largest } else { test.largest_stress() };
+        core::iter::repeat_n(test.weight() / scale, test.len())
+    };
+    data.tests().iter().flat_map(of_test).collect()
+}
+
+/// Statistics at the end of a search.
+fn result<M: Model>(
+    problem: &Problem<'_, M>,
+    options: &Options,
+    best: &Best,
+    stability: StabilityReport,
+    (starts, starts_that_agree): (usize, usize),
+) -> Fit {
+    let theta = &best.parameters;
+    let (values, slopes) = problem.stresses(theta);
+    let at_bound = |k: usize| {
+        let scale = if problem.parameters[k].is_stress { problem.stress } else { 1.0 };
+        let near = |bound: f64| (theta[k] - bound).abs() <= 1e-9 * bound.abs().max(1e-3 * scale);
+        problem.bounds(k, theta).into_iter().any(|bound| bound.is_finite() && near(bound))
+    };
+    let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound(k)).collect();
+    let degrees_of_freedom = problem.data.len() - free.len();
+    let variance = if 0 < degrees_of_freedom { best.squares / degrees_of_freedom as f64 } else { 0.0 };
+    let covariance = Covariance::new(&slopes, &free, variance);
+    let student = statistics::student(options.confidence, degrees_of_freedom);
+    let estimate = |(k, parameter): (usize, &Parameter)| {
+        let place = covariance.parameters.iter().position(|&place| place == k);
+        let state = match place {
+            Some(_) => State::Determined,
+            None if free.contains(&k) => State::Undetermined,
+            None => State::AtBound,
+        };
+        let standard_error =
+            place.filter(|_| 0 < degrees_of_freedom).map(|place| covariance.matrix[place][place].sqrt());
+        let interval = standard_error.zip(student).map(|(error, t)| [theta[k] - t * error, theta[k] + t * error]);
+        let (name, is_stress) = (parameter.name.clone(), parameter.is_stress);
+        Estimate { name, is_stress, value: theta[k], standard_error, interval, state }
+    };
+    let mut row = 0;
+    let mut tests = Vec::new();
+    for test in problem.data.tests() {
+        let residuals: Vec<f64> = test
+            .stresses()
+            .enumerate()
+            .map(|(index, stress)| values[row + index] / problem.weights[row + index] - stress)
+            .collect();
+        row += test.len();
+        let rms = (residuals.iter().map(|x| x * x).sum::<f64>() / test.len() as f64).sqrt();
+        let largest_stress = test.largest_stress();
+        let (points, relative_rms) = (test.len(), rms / largest_stress);
+        tests.push(Residuals { test: test.name().to_owned(), points, rms, relative_rms, largest_stress, residuals });
+    }
+    Fit {
+        model: problem.model.name(),
+        parameters: problem.parameters.iter().enumerate().map(estimate).collect(),
+        tests,
+        weighted_squares: best.squares,
+        degrees_of_freedom,
+        criteria: Criteria::new(problem.data.len(), theta.len(), best.squares),
+        stability,
+        outcome: best.outcome,
+        evaluations: problem.evaluations(),
+        starts,
+        starts_that_agree,
+        covariance,
+    }
+}

@@ -1,0 +1,7 @@
+//! The tests of `piola_constitutive::fit`.
+#![cfg(feature = "fit")]
+
+mod recovery;
+mod refusals;
+mod rubber;
+mod ties;

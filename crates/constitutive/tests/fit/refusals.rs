@@ -1,0 +1,105 @@
+//! What cannot be fitted is refused by name.
+
+use piola_constitutive::ConstitutiveError;
+use piola_constitutive::fit::{AnyModel, Component, Data, Measure, Options, Outcome, Table, Test, fit};
+
+fn bar(points: Vec<[f64; 2]>) -> Result<Test, ConstitutiveError> {
+    Test::new("bar", Table::Uniaxial(points), Measure::Nominal)
+}
+
+fn data(count: u32) -> Data {
+    let points = (1..=count).map(|k| 1.0 + 0.1 * f64::from(k)).map(|x| [x, x - 1.0 / (x * x)]).collect();
+    Data::new(vec![bar(points).expect("a test")]).expect("data")
+}
+
+fn sentence<T: core::fmt::Debug>(result: Result<T, ConstitutiveError>) -> String {
+    result.expect_err("refused").to_string()
+}
+
+#[test]
+fn impossible_tests_are_refused_with_their_point() {
+    assert_eq!(sentence(bar(vec![])), "test `bar` has no points");
+    assert_eq!(
+        sentence(bar(vec![[1.0, 0.0], [0.0, 1.0]])),
+        "test `bar`, point 1: the stretch 0 is not positive and finite"
+    );
+    assert_eq!(sentence(bar(vec![[1.0, f64::NAN]])), "test `bar`, point 0: the stress NaN is not finite");
+    let good = bar(vec![[1.5, 1.0]]).expect("a test");
+    assert_eq!(sentence(good.clone().with_weight(0.0)), "test `bar`: the weight 0 is not positive and finite");
+    assert_eq!(sentence(Data::new(vec![])), "there is no test to fit to");
+    assert_eq!(sentence(Data::new(vec![good.clone(), good])), "there are two tests `bar`");
+    let component = |deformation, free| Component { deformation, component: [0, 0], free, stress: 1.0 };
+    let general = |point| Test::new("sheet", Table::General(vec![point]), Measure::Nominal);
+    let swollen = component([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 2);
+    assert_eq!(sentence(general(swollen)), "test `sheet`, point 0: det F = 2 of an incompressible material is not 1");
+    let outside = component([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 3);
+    assert_eq!(sentence(general(outside)), "test `sheet`, point 0: 3 is none of the axes 0, 1 and 2");
+}
+
+#[test]
+fn impossible_models_and_options_are_refused() {
+    assert!(sentence("odgen:3".parse::<AnyModel>()).starts_with("no model is called `odgen:3`"));
+    assert_eq!(sentence("ogden:9".parse::<AnyModel>()), "a series of 9 terms: valid are 1 to 6");
+    let ogden: AnyModel = "ogden:3".parse().expect("a model");
+    assert_eq!(
+        sentence(fit(&ogden, &data(5), &Options::default())),
+        "ogden:3: 5 measured points cannot determine 6 parameters"
+    );
+    let with = |name: &str, bounds| Options { bounds: vec![(name.to_owned(), bounds)], ..Options::default() };
+    let gent = |options: &Options| sentence(fit(&AnyModel::Gent, &data(20), options));
+    assert_eq!(gent(&with("kappa", [0.0, 1.0])), "gent has no parameter `kappa`");
+    // A limit of extensibility below what was measured: I₁ − 3 = 9 + 2/3 − 3.
+    assert!(
+        gent(&with("Jm", [0.0, 5.0])).starts_with("gent: no value of `Jm` is at least 6.66"),
+        "{}",
+        gent(&with("Jm", [0.0, 5.0]))
+    );
+    assert!(gent(&with("mu", [2.0, 1.0])).contains("no value of `mu`"));
+    assert!(gent(&with("mu", [f64::NAN, 1.0])).contains("no value of `mu`"));
+    assert_eq!(gent(&Options { confidence: 1.0, ..Options::default() }), "the confidence 1 is not between 0 and 1");
+    // No factor has both the sign of its exponent and the bounds asked for.
+    let ogden: AnyModel = "ogden:1".parse().expect("a model");
+    let bounds = vec![("mu1".to_owned(), [-2.0, -1.0]), ("alpha1".to_owned(), [1.0, 3.0])];
+    let contradiction = fit(&ogden, &data(20), &Options { bounds, ..Options::default() });
+    assert_eq!(
+        sentence(contradiction),
+        "ogden:1: the stresses are finite, and the bounds kept, at no start of the search"
+    );
+}
+
+#[test]
+fn search_without_patience_keeps_the_best_that_it_had() {
+    let ogden: AnyModel = "ogden:2".parse().expect("a model");
+    let mut points: Vec<[f64; 2]> = (1..=20).map(|k| 1.0 + 0.2 * f64::from(k)).map(|x| [x, x.ln()]).collect();
+    points[7][1] *= 1.3;
+    let data = Data::new(vec![bar(points).expect("a test")]).expect("data");
+    let hasty = fit(&ogden, &data, &Options { patience: 1, ..Options::default() }).expect("the best");
+    let patient = fit(&ogden, &data, &Options::default()).expect("a fit");
+    assert_eq!(hasty.outcome, Outcome::OutOfPatience);
+    assert!(hasty.values().iter().all(|x| x.is_finite()));
+    assert!(patient.weighted_squares <= hasty.weighted_squares && hasty.worst_relative_rms() < 0.5);
+}
+
+#[test]
+fn parameters_that_data_cannot_tell_apart_have_no_error() {
+    // At one stretch of a bar only C₁₀ + C₀₁/λ shows.
+    let points = [0.9, 1.0, 1.1].map(|stress| [2.0, stress]).to_vec();
+    let data = Data::new(vec![bar(points).expect("a test")]).expect("data");
+    let fit = fit(&AnyModel::MooneyRivlin, &data, &Options::default()).expect("a fit");
+    assert!(fit.parameters.iter().all(|parameter| parameter.standard_error.is_none()), "{:?}", fit.parameters);
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn written_tests_are_checked_when_they_are_read() {
+    let data = data(3);
+    let text = serde_json::to_string(&data).expect("text");
+    assert_eq!(serde_json::from_str::<Data>(&text).expect("data"), data);
+    let wrong = text.replacen("1.1", "-1.1", 1);
+    assert!(
+        serde_json::from_str::<Data>(&wrong).expect_err("refused").to_string().contains("point 0: the stretch -1.1")
+    );
+    let unknown = text.replacen("\"name\"", "\"title\"", 1);
+    assert!(serde_json::from_str::<Data>(&unknown).is_err());
+    assert_eq!(serde_json::from_str::<AnyModel>("\"ogden:3\"").expect("a model"), "ogden:3".parse().expect("a model"));
+}
