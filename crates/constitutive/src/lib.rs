@@ -8,6 +8,8 @@ mod error;
 #[cfg(feature = "fit")]
 pub mod fit;
 pub mod homogeneous;
+pub mod internal_constraints;
+pub mod memory;
 pub mod solids;
 
 pub use error::ConstitutiveError;
