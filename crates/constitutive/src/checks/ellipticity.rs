@@ -19,7 +19,7 @@ pub enum Kinematics {
     Isochoric,
 }
 
-/// The acoustic tensor Qᵢⱼ = A_iAjB N_A N_B of ∂P/∂F in the direction N of the reference, Pa.
+/// The acoustic tensor `Q_ij = A_iAjB N_A N_B` of ∂P/∂F in the direction N of the reference, Pa.
 ///
 /// # Example
 /// ```
@@ -108,8 +108,14 @@ const DIRECTIONS: u32 = 240;
 
 /// The k-th direction of a lattice that covers half the sphere evenly (Fibonacci's), the axes first.
 fn direction(k: u32) -> [f64; 3] {
-    if k < 3 {
-        return core::array::from_fn(|i| if i as u32 == k { 1.0 } else { 0.0 });
+    let axis = match k {
+        0 => Some([1.0, 0.0, 0.0]),
+        1 => Some([0.0, 1.0, 0.0]),
+        2 => Some([0.0, 0.0, 1.0]),
+        _ => None,
+    };
+    if let Some(axis) = axis {
+        return axis;
     }
     let k = f64::from(k - 3);
     let height = (k + 0.5) / f64::from(DIRECTIONS - 3);

@@ -50,7 +50,7 @@ impl<C> Report<C> {
     }
 
     /// The worst of samples, each with its violation and its scale.
-    pub(super) fn of(search: &Search, samples: Vec<(f64, f64, C)>) -> Self {
+    pub(crate) fn of(search: &Search, samples: Vec<(f64, f64, C)>) -> Self {
         let largest = samples.iter().fold(0.0_f64, |largest, sample| largest.max(sample.1));
         let mut report = Self { samples: samples.len(), tolerance: search.tolerance, size: 0.0, worst: None };
         for (violation, scale, sample) in samples {

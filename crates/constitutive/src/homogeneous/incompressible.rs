@@ -151,7 +151,7 @@ pub fn nominal_stress_and_slope<T: Real, L: Incompressible<Dual<T>>>(mode: Mode,
 /// ```text
 /// T = T_law(F) − p 1,   p such that T₃₃ = 0        P = T F⁻ᵀ   (J = 1)
 /// ```
-/// T_law is what the law answers without constraint, its formula for volumes included: only T and P are the body's.
+/// `T_law` is what the law answers without constraint, its formula for volumes included: only T and P are the body's.
 ///
 /// # Example
 /// Poynting's effect: a sheared block pushes against the planes that shear it.

@@ -49,7 +49,7 @@ fn closed(mode: Mode, x: f64) -> f64 {
 
 fn stretches(mode: Mode) -> impl Iterator<Item = f64> {
     let amounts = (1..=15).flat_map(|k| [10.0_f64.powi(-k), -(10.0_f64.powi(-k))]).chain([0.5, -0.5, 1.5, 4.0, 6.5]);
-    amounts.map(move |amount| mode.rest() + amount).filter(|&x| x != 1.0)
+    amounts.map(move |amount| mode.rest() + amount).filter(move |&x| 0.0 < (x - mode.rest()).abs())
 }
 
 #[test]

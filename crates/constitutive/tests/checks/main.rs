@@ -1,4 +1,8 @@
 //! Homogeneous tests, checks of laws and memory.
 
 mod homogeneous;
+mod memory;
 mod refuted;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;

@@ -21,7 +21,7 @@ fn search() -> Search {
     Search { samples: 200, ..Search::default() }
 }
 
-/// W = ½ λ (tr E)² + μ E : E, and a fibre ½ k E_ff² along a direction.
+/// W = ½ λ (tr E)² + μ E : E, and a fibre `½ k E_ff²` along a direction.
 struct Quadratic {
     lambda: f64,
     mu: f64,
@@ -52,7 +52,7 @@ impl Hyperelastic for OfDisplacement {
     }
 }
 
-/// Cubic: W = Σ E_ii² (not an invariant of all rotations) + ½ tr² E.
+/// Cubic: `W = Σ E_ii²` (not an invariant of all rotations) + ½ tr² E.
 struct Cubic;
 
 impl Hyperelastic for Cubic {
