@@ -360,6 +360,9 @@ pub enum ContinuumError {
         /// How many good points took the slow path of the analysis of the stretches.
         slow_path: usize,
     },
+    /// A quantity of a batch has no value at a point.
+    #[error(transparent)]
+    Refused(#[from] crate::batch::Refusal),
 }
 
 /// The first bad point in words.

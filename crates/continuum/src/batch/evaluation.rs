@@ -177,7 +177,9 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluat
     #[inline(never)]
     fn record(&mut self, first: usize, count: usize, tally: &mut Tally) {
         for index in first..first + count {
-            if let Err(error) = self.points.check(index).and_then(|()| self.requests.check(index)) {
+            let checked = self.points.check(index);
+            let point = || self.points.load::<1>(index, 1);
+            if let Err(error) = checked.and_then(|()| self.requests.check(index, &point())) {
                 tally.bad.push(BadPoint { index, error });
                 self.requests.void(index - self.range[0]);
             }

@@ -33,7 +33,7 @@ macro_rules! kinematic {
             const INPUT: &'static str = "";
 
             #[inline(always)]
-            fn of<T: Real, D: Deformation<T>>($point: &Point<T, D>, _input: [T; 0]) -> [T; $k] {
+            fn of<T: Real, D: Deformation<T>>(&self, $point: &Point<T, D>, _input: [T; 0]) -> [T; $k] {
                 $value
             }
         }

@@ -3,11 +3,38 @@
 use piola_numerics::{Lanes, Mask, Real};
 
 use super::point::Point;
-use super::{BatchScalar, Destination, Source};
+use super::{BatchScalar, Destination, Refusal, Source};
 use crate::error::check_finite;
 use crate::{ContinuumError, Deformation};
 
 /// A quantity with K components, of the deformation and I components of something else.
+///
+/// It may have parameters, as a constitutive law has, and it may refuse points.
+///
+/// # Example
+/// One of your own: a multiple of J.
+/// ```
+/// use piola_continuum::batch::{self, Point, Quantity, Request};
+/// use piola_continuum::{Deformation, DeformationGradient};
+/// use piola_numerics::Real;
+///
+/// #[derive(Clone, Copy)]
+/// struct Weighted(f64);
+/// impl Quantity<0, 1> for Weighted {
+///     type Input = ();
+///     type Output = Self;
+///     const NEEDS_STRETCH: bool = false;
+///     const INPUT: &'static str = "";
+///     fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, _input: [T; 0]) -> [T; 1] {
+///         [T::lit(self.0) * point.jacobian()]
+///     }
+/// }
+///
+/// let (f, mut densities) = ([DeformationGradient::dilatation(2.0)?; 5], [0.0; 5]);
+/// batch::evaluate(&f[..], Request::new(Weighted(0.5), (), &mut densities[..]))?;
+/// assert_eq!(densities, [4.0; 5]);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
 pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
     /// What the I components are.
     type Input;
@@ -19,7 +46,21 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
     const INPUT: &'static str;
 
     /// The value, at one point or in lanes: the formulas of the one-point types and no others.
-    fn of<T: Real, D: Deformation<T>>(point: &Point<T, D>, input: [T; I]) -> [T; K];
+    fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, input: [T; I]) -> [T; K];
+
+    /// False where there may be no value: [`check`](Self::check) is asked of those points then.
+    #[inline(always)]
+    fn exists<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>) -> T::Mask {
+        Mask::splat(true)
+    }
+
+    /// Refuses a point that has no value.
+    ///
+    /// # Errors
+    /// What is wrong there; most quantities exist at every deformation.
+    fn check<T: Real, D: Deformation<T>>(&self, _deformation: &D) -> Result<(), Refusal> {
+        Ok(())
+    }
 }
 
 /// One output: what, from what beside the deformation, and where to.
@@ -30,6 +71,14 @@ pub struct Request<Q, S, V, const I: usize, const K: usize> {
     pub(super) quantity: Q,
     pub(super) source: S,
     pub(super) to: V,
+}
+
+impl<Q: Quantity<I, K>, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
+    /// A quantity, the source of its input (`()` where it needs none) and its destination.
+    #[must_use]
+    pub const fn new(quantity: Q, source: S, to: V) -> Self {
+        Self { quantity, source, to }
+    }
 }
 
 /// Outputs to be computed together: a [`Request`] or a tuple of up to eight.
@@ -50,7 +99,7 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
     fn split(self, middle: usize) -> (Self, Self);
 
     /// Computes the first `count` lanes of a block that starts at the destination's point `at` and at the source's
-    /// point `first`; tells in which lanes the input is finite.
+    /// point `first`; tells in which lanes the input is finite and the quantities exist.
     fn block<const N: usize, D: Deformation<Lanes<T, N>>>(
         &mut self,
         first: usize,
@@ -59,11 +108,11 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
         point: &Point<Lanes<T, N>, D>,
     ) -> <Lanes<T, N> as Real>::Mask;
 
-    /// Whether the input of a point is finite.
+    /// Whether the input of a point is finite and the quantities exist there.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`].
-    fn check(&self, index: usize) -> Result<(), ContinuumError>;
+    /// [`ContinuumError::NotFinite`], [`ContinuumError::Refused`].
+    fn check<D: Deformation<Lanes<T, 1>>>(&self, index: usize, deformation: &D) -> Result<(), ContinuumError>;
 
     /// Writes NaN at a point.
     fn void(&mut self, at: usize);
@@ -115,12 +164,16 @@ where
             nothing += difference;
             i += 1;
         }
-        self.to.store(at, count, Q::of(point, input));
-        if I == 0 { Mask::splat(true) } else { nothing.is_finite() }
+        self.to.store(at, count, self.quantity.of(point, input));
+        let exists = self.quantity.exists(point);
+        if I == 0 { exists } else { exists & nothing.is_finite() }
     }
 
-    fn check(&self, index: usize) -> Result<(), ContinuumError> {
-        if I == 0 { Ok(()) } else { check_finite(Q::INPUT, &self.source.point(index)) }
+    fn check<D: Deformation<Lanes<T, 1>>>(&self, index: usize, deformation: &D) -> Result<(), ContinuumError> {
+        if 0 < I {
+            check_finite(Q::INPUT, &self.source.point(index))?;
+        }
+        self.quantity.check(deformation).map_err(ContinuumError::Refused)
     }
 
     fn void(&mut self, at: usize) {
@@ -157,8 +210,12 @@ macro_rules! tuple {
                 finite
             }
 
-            fn check(&self, index: usize) -> Result<(), ContinuumError> {
-                $(self.$place.check(index)?;)+
+            fn check<De: Deformation<Lanes<T, 1>>>(
+                &self,
+                index: usize,
+                deformation: &De,
+            ) -> Result<(), ContinuumError> {
+                $(self.$place.check(index, deformation)?;)+
                 Ok(())
             }
 

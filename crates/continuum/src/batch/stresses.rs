@@ -70,7 +70,7 @@ macro_rules! conversions {
             const INPUT: &'static str = stringify!($from);
 
             #[inline(always)]
-            fn of<T: Real, D: Deformation<T>>(point: &Point<T, D>, input: [T; $i]) -> [T; $k] {
+            fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, input: [T; $i]) -> [T; $k] {
                 $from::<T>::of_components(input).$method(point).components()
             }
         }
@@ -133,7 +133,7 @@ macro_rules! invariants {
             const INPUT: &'static str = "stress";
 
             #[inline(always)]
-            fn of<T: Real, D: Deformation<T>>(_point: &Point<T, D>, components: [T; 6]) -> [T; $k] {
+            fn of<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, components: [T; 6]) -> [T; $k] {
                 let $stress = &Symmetric { components };
                 $value
             }
@@ -185,7 +185,7 @@ impl Quantity<6, 12> for Eigenpairs {
     const INPUT: &'static str = "tensor";
 
     #[inline(always)]
-    fn of<T: Real, D: Deformation<T>>(_point: &Point<T, D>, components: [T; 6]) -> [T; 12] {
+    fn of<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, components: [T; 6]) -> [T; 12] {
         let decomposition = decompose(&Symmetric { components });
         let ([x, y, z], [a, b, c, d, e, f, g, h, i]) = (decomposition.values, flat(decomposition.vectors));
         [x, y, z, a, b, c, d, e, f, g, h, i]

@@ -6,7 +6,7 @@ use super::point::Point;
 use super::requests::{Quantity, Request};
 use super::{BatchScalar, Destination, Source};
 use crate::Deformation;
-use crate::stress::tangents::{LieTangent, MaterialTangent, TruesdellTangent};
+use crate::stress::tangents::{FirstPiolaTangent, LieTangent, MaterialTangent, TruesdellTangent};
 use crate::tensor::MajorSymmetric;
 
 macro_rules! tangents {
@@ -28,7 +28,7 @@ macro_rules! tangents {
             const INPUT: &'static str = stringify!($from);
 
             #[inline(always)]
-            fn of<T: Real, D: Deformation<T>>(point: &Point<T, D>, components: [T; 21]) -> [T; 21] {
+            fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, components: [T; 21]) -> [T; 21] {
                 $from::<T>(MajorSymmetric { components }).$method(point).0.components
             }
         }
@@ -111,3 +111,22 @@ macro_rules! typed {
     )* };
 }
 typed!(MaterialTangent LieTangent TruesdellTangent);
+
+/// All 81 entries of ∂P/∂F, those of a pair of indices `iA` a row.
+impl<T: BatchScalar> Destination<FirstPiolaTangent, T, 81> for &mut [FirstPiolaTangent<T>] {
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.len()
+    }
+    #[inline(always)]
+    fn split(self, middle: usize) -> (Self, Self) {
+        self.split_at_mut(middle)
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, components: [T; 81]) {
+        let entries = &mut self[index].0.components;
+        for (row, values) in entries.iter_mut().zip(components.as_chunks::<9>().0) {
+            *row = *values;
+        }
+    }
+}
