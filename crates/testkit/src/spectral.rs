@@ -1,6 +1,6 @@
 //! A yardstick for polar decompositions and tensor logarithms, and deformations that are hard to decompose.
 //!
-//! The reference is the plainest method in twice the precision: C = FᵀF, or 2E = C − 1 of ∇u, from exact products,
+//! The reference is the plainest method in twice the precision: C = `FᵀF`, or 2E = C − 1 of ∇u, from exact products,
 //! its eigenvectors by cyclic two-sided rotations of Jacobi, and everything else from these. It shares nothing
 //! with the methods it judges. With 31 digits a stretch ratio of 10⁸ leaves 15.
 //!

@@ -15,7 +15,7 @@ use super::weak::{patch, stress};
 
 #[test]
 fn integrals_transport_and_balances_allocate_nothing() {
-    let motion = Quadratic { linear: [[0.1; 3]; 3], quadratic: [[0.01; 6]; 3], shift: [1.0; 3] };
+    let motion = Quadratic { linear: [[0.1; 3]; 3], of_squares: [[0.01; 6]; 3], shift: [1.0; 3] };
     let field = QuadraticField { coefficients: [[0.5; 10]; 3] };
     let actions = Balanced { motion: motion.clone(), stress: [[0.1; 4]; 6], density: AffineDensity([0.1, 0.0, 0.1]) };
     let (body, stress, force) = (actions.body(), actions.stress_field(), actions.force_field());

@@ -144,7 +144,7 @@ fn cylinder_rules_equal_moments_of_circles() {
             let rules = Quadrature::of_degree(degree).expect("rules");
             for [a, b, c] in monomials(degree) {
                 let n = a + b;
-                let power = (0..n + 1).fold(1.0, |product, _| product * inner);
+                let power = (0..=n).fold(1.0, |product, _| product * inner);
                 let along = if c % 2 == 1 { 0.0 } else { 2.0 / (c + 1) as f64 };
                 let section = circle(a, b) * (1.0 - power * inner) / (n + 2) as f64;
                 let ends = if c % 2 == 1 { 0.0 } else { 2.0 };

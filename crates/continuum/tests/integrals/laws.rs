@@ -271,7 +271,7 @@ fn mass_in_space_equals_mass_in_the_reference_and_stays() {
 fn rates_by_duals_equal_difference_quotients() {
     let motion = Quadratic {
         linear: [[0.1, 0.05, 0.0], [0.0, -0.1, 0.02], [0.03, 0.0, 0.08]],
-        quadratic: [[0.02, 0.0, 0.01, 0.0, 0.03, 0.0], [0.01; 6], [0.0, 0.02, 0.0, 0.04, 0.0, 0.01]],
+        of_squares: [[0.02, 0.0, 0.01, 0.0, 0.03, 0.0], [0.01; 6], [0.0, 0.02, 0.0, 0.04, 0.0, 0.01]],
         shift: [0.3, -0.2, 0.5],
     };
     let (rules, pole) = (Quadrature::of_degree(6).expect("rules"), Vector3::new(0.1, 0.2, 0.3));
@@ -348,7 +348,7 @@ fn buoyancy_equals_the_weight_of_the_fluid_displaced() {
 #[test]
 fn estimated_residuals_bound_what_the_rule_leaves_out() {
     let actions = Balanced {
-        motion: Quadratic { linear: [[0.1; 3]; 3], quadratic: [[0.03; 6]; 3], shift: [1.0; 3] },
+        motion: Quadratic { linear: [[0.1; 3]; 3], of_squares: [[0.03; 6]; 3], shift: [1.0; 3] },
         stress: [[1.0, 0.5, 0.0, 0.25]; 6],
         density: AffineDensity([0.0, 0.1, 0.0]),
     };

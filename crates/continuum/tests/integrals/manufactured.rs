@@ -12,7 +12,7 @@ use proptest::prelude::*;
 pub(super) struct Quadratic {
     pub(super) linear: [[f64; 3]; 3],
     /// Of x², y², z², xy, yz, xz.
-    pub(super) quadratic: [[f64; 6]; 3],
+    pub(super) of_squares: [[f64; 6]; 3],
     pub(super) shift: [f64; 3],
 }
 
@@ -30,7 +30,7 @@ impl Motion for Quadratic {
         let (first, second) = (time.sin(), (T::lit(2.0) * time).cos());
         let u = |i: usize| {
             first * sum(&self.linear[i], &x)
-                + second * sum(&self.quadratic[i], &squares)
+                + second * sum(&self.of_squares[i], &squares)
                 + time * time * T::lit(self.shift[i])
         };
         reference + Vector3::new(u(0), u(1), u(2))
@@ -173,9 +173,9 @@ fn coefficients<const N: usize>(size: f64) -> impl Strategy<Value = [f64; N]> {
 pub(super) fn quadratic() -> impl Strategy<Value = Quadratic> {
     let rows = || [coefficients::<3>(0.1), coefficients::<3>(0.1), coefficients::<3>(0.1)];
     let squares = || [coefficients::<6>(0.04), coefficients::<6>(0.04), coefficients::<6>(0.04)];
-    (rows(), squares(), coefficients::<3>(1.0)).prop_map(|(linear, quadratic, shift)| Quadratic {
+    (rows(), squares(), coefficients::<3>(1.0)).prop_map(|(linear, of_squares, shift)| Quadratic {
         linear,
-        quadratic,
+        of_squares,
         shift,
     })
 }

@@ -38,7 +38,7 @@ pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     size(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
 }
 
-/// The largest entry of QᵀQ − 1.
+/// The largest entry of `QᵀQ` − 1.
 pub(super) fn orthogonality(rows: Rows<f64>) -> f64 {
     let q = matrix(rows);
     (q.transpose() * q - Matrix3::identity()).amax()

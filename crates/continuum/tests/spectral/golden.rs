@@ -46,7 +46,7 @@ fn expected(output: &Value, name: &str) -> Vec<f64> {
     if output[name][0].is_array() { golden::matrix(&output[name]).concat() } else { golden::vector(&output[name]) }
 }
 
-/// The condition number max_i Σ_j |∂fᵢ/∂xⱼ| |xⱼ| / max_i |fᵢ| with steps of 2⁻⁴⁰, since a stretch of 1e-8 of the largest
+/// The condition number maxᵢ Σⱼ |∂fᵢ/∂xⱼ| |xⱼ| / maxᵢ |fᵢ| with steps of 2⁻⁴⁰, since a stretch of 1e-8 of the largest
 /// would be lost beside longer ones; 31 digits leave enough of the differences.
 fn condition(name: &str, f: &Rows<f64>) -> f64 {
     let step = 2.0_f64.powi(-40);

@@ -65,9 +65,9 @@ fn singles_are_decomposed_to_their_own_rounding() {
     for _ in 0..2_000 {
         let (p, q) = (random.rotation(), random.rotation());
         let stretches: [f64; 3] = core::array::from_fn(|_| random.symmetric().exp());
-        let f = with_stretches(&p, stretches, &q).map(|row| row.map(|x| f64::from(x as f32)));
+        let f = with_stretches(&p, stretches, &q).map(|row| row.map(|x| f64::from(f32::lit(x))));
         let reference = polar_reference(f);
-        let single = DeformationGradient::new(Matrix3::from_fn(|i, j| f[i][j] as f32)).expect("0 < det F");
+        let single = DeformationGradient::new(Matrix3::from_fn(|i, j| f32::lit(f[i][j]))).expect("0 < det F");
         let stretch = StretchAnalysis::of(&single);
         let tol = Tol::ulps32(8.0).times(reference.stretches[0] / reference.stretches[2]);
         let wide = |rows: Rows<f32>| rows.concat().iter().map(|x| f64::from(*x)).collect::<Vec<_>>();
@@ -98,6 +98,12 @@ fn doubled_precision_gives_doubled_digits() {
     }
 }
 
+/// The components of ln U of a deformation with some entries.
+fn computed<T: Real>(seed: impl Fn(usize, usize) -> T) -> Vec<T> {
+    let f = DeformationGradient::new(Matrix3::from_fn(seed)).expect("0 < det F");
+    StretchAnalysis::of(&f).hencky_material().rows().concat()
+}
+
 #[test]
 fn every_differentiable_scalar_gives_the_same_derivative() {
     let mut random = Random::new(33);
@@ -110,10 +116,6 @@ fn every_differentiable_scalar_gives_the_same_derivative() {
         };
         let expected = difference_quotient(hencky, &f.concat(), &h.concat());
         let tol = Tol::stated(1e-11, "sixth-order differences");
-        fn computed<T: Real>(seed: impl Fn(usize, usize) -> T) -> Vec<T> {
-            let f = DeformationGradient::new(Matrix3::from_fn(seed)).expect("0 < det F");
-            StretchAnalysis::of(&f).hencky_material().rows().concat()
-        }
         let dual = computed(|i, j| Dual::new(f[i][j], h[i][j]));
         assert_close("Dual", &dual.iter().map(|x| x.tangent).collect::<Vec<_>>(), &expected, tol);
         let gradient = computed(|i, j| Gradient { value: f[i][j], partials: [h[i][j], 0.0] });

@@ -47,7 +47,7 @@ fn tangent_of(
     d: &Matrix3<f64>,
     measure: impl Fn(&DeformationGradient<Dual64>) -> Symmetric<Dual64>,
 ) -> Vec<f64> {
-    let moving = f.matrix().zip_map(d, |x, dx| Dual64::new(x, dx));
+    let moving = f.matrix().zip_map(d, Dual64::new);
     let measured = measure(&DeformationGradient::new(moving).expect("0 < det F"));
     nine(&Symmetric { components: measured.components.map(|x| x.eps) })
 }
@@ -102,7 +102,7 @@ fn check_second_derivatives(f: &DeformationGradient, a: &Matrix3<f64>, b: &Matri
     }
 }
 
-/// By the chain rule of C = FᵀF.
+/// By the chain rule of C = `FᵀF`.
 fn check_derivatives_by_metric(f: &DeformationGradient, a: &Matrix3<f64>, b: &Matrix3<f64>) {
     let metric = RightCauchyGreen::of(f);
     let (da, db) = (RightCauchyGreen::derivative(f, a), RightCauchyGreen::derivative(f, b));
@@ -186,8 +186,8 @@ proptest! {
         check("dB", LeftCauchyGreen::derivative(&f, &d), tangent_of(&f, &d, |f| LeftCauchyGreen::of(f).0));
         check("dE", GreenStrain::derivative(&f, &d), tangent_of(&f, &d, |f| GreenStrain::of(f).0));
         check("de", AlmansiStrain::derivative(&f, &d), tangent_of(&f, &d, |f| AlmansiStrain::of(f).0));
-        check("dU", RightStretch::derivative(&f, &d), tangent_of(&f, &d, |f| right_stretch(f)));
-        check("d ln V", SpatialHenckyStrain::derivative(&f, &d), tangent_of(&f, &d, |f| spatial_hencky(f)));
+        check("dU", RightStretch::derivative(&f, &d), tangent_of(&f, &d, right_stretch));
+        check("d ln V", SpatialHenckyStrain::derivative(&f, &d), tangent_of(&f, &d, spatial_hencky));
     }
 
     #[test]
@@ -227,7 +227,7 @@ proptest! {
 
     #[test]
     fn derivatives_of_invariants_equal_those_of_dual_numbers(f in deformation(), d in direction()) {
-        let moving = f.matrix().zip_map(&d, |x, dx| Dual64::new(x, dx));
+        let moving = f.matrix().zip_map(&d, Dual64::new);
         let moving = DeformationGradient::new(moving).expect("0 < det F");
         let dc = RightCauchyGreen::derivative(&f, &d);
         let c = RightCauchyGreen::of(&f).0;
@@ -254,7 +254,7 @@ proptest! {
 
     #[test]
     fn second_derivatives_of_invariants_equal_derivatives_of_their_derivatives(f in deformation(), d in direction(), x in direction()) {
-        let moving = f.matrix().zip_map(&d, |x, dx| Dual64::new(x, dx));
+        let moving = f.matrix().zip_map(&d, Dual64::new);
         let moving = DeformationGradient::new(moving).expect("0 < det F");
         let x = Symmetric::symmetric_part(rows_of(&x));
         let lifted = Symmetric { components: x.components.map(<Dual64 as Real>::lit) };
@@ -279,7 +279,7 @@ proptest! {
         if (stretches[0] - stretches[1]).min(stretches[1] - stretches[2]) < 0.05 {
             return Ok(());
         }
-        let moving = f.matrix().zip_map(&d, |x, dx| Dual64::new(x, dx));
+        let moving = f.matrix().zip_map(&d, Dual64::new);
         let tangents = analysis(&DeformationGradient::new(moving).expect("0 < det F")).principal_stretches();
         let (n, q) = (stretch.spatial_axes(), stretch.material_axes());
         for k in 0..3 {

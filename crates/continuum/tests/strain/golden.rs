@@ -139,7 +139,7 @@ fn condition(quantity: &str, f: &Rows) -> f64 {
                     "e" => AlmansiStrain::of(&f).rows().as_flattened().iter().map(|x| x.primal(0)).collect(),
                     "I1_minus_3" => vec![invariants::first_minus_three(&f).primal(0)],
                     "I2_minus_3" => vec![invariants::second_minus_three(&f).primal(0)],
-                    _ => return vec![1.0],
+                    _ => vec![1.0],
                 }
             }
         }

@@ -72,7 +72,7 @@ proptest! {
 
     #[test]
     fn single_precision_equals_double_precision(f in deformation(), h in displacement()) {
-        let single = f.matrix().map(|x| f32::lit(x));
+        let single = f.matrix().map(f32::lit);
         let (single, double) = (
             DeformationGradient::new(single).expect("0 < det F"),
             DeformationGradient::new(single.map(f64::from)).expect("0 < det F"),
@@ -82,7 +82,7 @@ proptest! {
             let what = format!("{name} of F in f32");
             assert_close_at_scale(&what, &actual, expected, size(name, &double).max(4.0), Tol::ulps32(64.0));
         }
-        let single = h.matrix().map(|x| f32::lit(x));
+        let single = h.matrix().map(f32::lit);
         let (single, double) = (
             DisplacementGradient::new(single).expect("0 < det F"),
             DisplacementGradient::new(single.map(f64::from)).expect("0 < det F"),
