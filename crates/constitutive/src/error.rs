@@ -238,9 +238,24 @@ pub enum ConstitutiveError {
         /// What its left side has beyond its right, Pa.
         residual: f64,
     },
+    /// Points of a batch are bad; the outputs of all others are computed.
+    #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
+    BadPoints {
+        /// All bad points, in order.
+        points: Vec<crate::batch::BadPoint>,
+        /// The number of points of the batch.
+        count: usize,
+        /// How many good points took the slow path of the analysis of the stretches.
+        slow_path: usize,
+    },
     /// The deformation or stress itself is refused.
     #[error(transparent)]
     Continuum(#[from] ContinuumError),
+}
+
+/// The first bad point in words.
+fn first_of(points: &[crate::batch::BadPoint]) -> String {
+    points.first().map_or_else(String::new, |point| format!("at point {}, {}", point.index, point.error))
 }
 
 /// Refuses a parameter that is not finite.

@@ -102,6 +102,7 @@ impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
             + self.volumetric.energy(deformation.volume_change(), deformation.jacobian())
     }
 
+    #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
         let first = invariants::isochoric_first_minus_three(deformation);
         let second = if I::SECOND { invariants::isochoric_second_minus_three(deformation) } else { T::zero() };

@@ -98,6 +98,7 @@ pub trait Isochoric {
 }
 
 /// Checks each lane's x and y.
+#[inline(always)]
 pub(super) fn check_lanes<T: Real>(law: &impl Isochoric, first: T, second: T) -> Result<(), ConstitutiveError> {
     (0..T::LANES).try_for_each(|lane| law.check(first.primal(lane), second.primal(lane)))
 }

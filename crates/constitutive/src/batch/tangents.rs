@@ -1,0 +1,215 @@
+//! What may be asked of a law: its tangent, whole, by half, or in one direction.
+
+use nalgebra::Matrix3;
+use piola_continuum::batch::{BatchScalar, Destination, Point, Quantity, Refusal, Request};
+use piola_continuum::stress::tangents::FirstPiolaTangent;
+use piola_continuum::{Deformation, FirstPiola};
+use piola_numerics::linear::matrix3::from_rows;
+use piola_numerics::{Lanes, Real};
+
+use super::requests::{accepted, flat, quantities};
+use crate::solids::Hyperelastic;
+
+/// The entries (r, s) with r ≤ s of the 9×9 array, by rows.
+#[inline(always)]
+fn upper<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 45] {
+    let mut entries = [T::zero(); 45];
+    let mut place = 0;
+    let mut r = 0;
+    while r < 9 {
+        let mut s = r;
+        while s < 9 {
+            entries[place] = tangent.0.components[r][s];
+            place += 1;
+            s += 1;
+        }
+        r += 1;
+    }
+    entries
+}
+
+#[inline(always)]
+fn square<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 81] {
+    let mut entries = [T::zero(); 81];
+    let mut r = 0;
+    while r < 9 {
+        let mut s = 0;
+        while s < 9 {
+            entries[9 * r + s] = tangent.0.components[r][s];
+            s += 1;
+        }
+        r += 1;
+    }
+    entries
+}
+
+/// P and the upper triangle one after the other.
+#[inline(always)]
+fn both<T: Real>((stress, tangent): (FirstPiola<T>, FirstPiolaTangent<T>)) -> [T; 54] {
+    let mut entries = [T::zero(); 54];
+    let (first, second) = (flat(&stress), upper(&tangent));
+    let mut k = 0;
+    while k < 9 {
+        entries[k] = first[k];
+        k += 1;
+    }
+    while k < 54 {
+        entries[k] = second[k - 9];
+        k += 1;
+    }
+    entries
+}
+
+quantities! {
+    /// The 45 entries of ∂P/∂F that major symmetry leaves: those of row r and column s with r ≤ s, by rows, where the
+    /// pair iA has the number r = 3 i + A.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::batch;
+    /// use piola_constitutive::solids::SaintVenantKirchhoff;
+    /// use piola_continuum::DeformationGradient;
+    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+    /// let (f, mut a) = ([DeformationGradient::identity(); 7], [[0.0; 45]; 7]);
+    /// batch::evaluate(&f[..], batch::first_piola_tangent(&law, &mut a[..]))?;
+    /// assert_eq!(a[6][..5], [5.0, 0.0, 0.0, 0.0, 1.0]); // λ + 2μ at (11, 11), λ at (11, 22)
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    pub first_piola_tangent FirstPiolaTangentOf [45] FirstPiolaTangentOf<'static, ()>, |law, point| upper(&law.first_piola_tangent(point));
+    /// All 81 entries of ∂P/∂F: see [`Hyperelastic::first_piola_tangent`].
+    pub first_piola_tangent_square FirstPiolaTangentSquareOf [81] FirstPiolaTangent,
+        |law, point| square(&law.first_piola_tangent(point));
+    /// P to the first destination and the 45 entries of [`first_piola_tangent`] to the second: see
+    /// [`Hyperelastic::first_piola_and_tangent`].
+    shared FirstPiolaAndTangentOf [54] FirstPiolaAndTangentOf<'static, ()>, |law, point| both(law.first_piola_and_tangent(point));
+}
+
+/// P and the 45 entries of [`first_piola_tangent`], what they share computed once: see
+/// [`Hyperelastic::first_piola_and_tangent`].
+///
+/// # Example
+/// ```
+/// use piola_constitutive::batch;
+/// use piola_constitutive::solids::SaintVenantKirchhoff;
+/// use piola_continuum::{DeformationGradient, FirstPiola};
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+/// let (f, mut p, mut a) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [FirstPiola::zero(); 7], [[0.0; 45]; 7]);
+/// batch::evaluate(&f[..], batch::first_piola_and_tangent(&law, &mut p[..], &mut a[..]))?;
+/// assert_eq!((p[6].0[(0, 0)], a[6][0]), (15.0, 27.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn first_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
+    law: &L,
+    stress: V,
+    tangent: W,
+) -> Request<FirstPiolaAndTangentOf<'_, L>, (), Together<V, W>, 0, 54> {
+    shared(law, Together(stress, tangent))
+}
+
+/// The destinations of [`first_piola_and_tangent`].
+#[derive(Clone, Copy, Debug)]
+pub struct Together<V, W>(V, W);
+
+impl<T, V, W> Destination<FirstPiolaAndTangentOf<'static, ()>, T, 54> for Together<V, W>
+where
+    T: BatchScalar,
+    V: Destination<FirstPiola, T, 9>,
+    W: Destination<FirstPiolaTangentOf<'static, ()>, T, 45>,
+{
+    fn count(&self) -> usize {
+        // Both are checked: no batch is as long as a pair of unlike lengths.
+        let (stress, tangent) = (self.0.count(), self.1.count());
+        if stress == tangent { stress } else { usize::MAX }
+    }
+    #[inline(always)]
+    fn split(self, middle: usize) -> (Self, Self) {
+        let ((a, b), (c, d)) = (self.0.split(middle), self.1.split(middle));
+        (Self(a, c), Self(b, d))
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, components: [T; 54]) {
+        let (stress, tangent) = parts(&components);
+        self.0.put(index, stress);
+        self.1.put(index, tangent);
+    }
+    #[inline(always)]
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; 54]) {
+        let (stress, tangent) = parts(&values);
+        self.0.store(first, count, stress);
+        self.1.store(first, count, tangent);
+    }
+}
+
+#[inline(always)]
+fn parts<T: Copy>(all: &[T; 54]) -> ([T; 9], [T; 45]) {
+    let (mut stress, mut tangent) = ([all[0]; 9], [all[0]; 45]);
+    let mut k = 0;
+    while k < 9 {
+        stress[k] = all[k];
+        k += 1;
+    }
+    while k < 54 {
+        tangent[k - 9] = all[k];
+        k += 1;
+    }
+    (stress, tangent)
+}
+
+/// (∂P/∂F) : δF of a direction δF at each point: see [`Hyperelastic::first_piola_derivative`].
+///
+/// # Example
+/// ```
+/// use nalgebra::Matrix3;
+/// use piola_constitutive::batch;
+/// use piola_constitutive::solids::SaintVenantKirchhoff;
+/// use piola_continuum::{DeformationGradient, FirstPiola};
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+/// let (f, mut q) = ([DeformationGradient::identity(); 7], [FirstPiola::zero(); 7]);
+/// let direction = [Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); 7];
+/// batch::evaluate(&f[..], batch::first_piola_derivative(&law, &direction[..], &mut q[..]))?;
+/// assert_eq!((q[6].0[(0, 1)], q[6].0[(1, 0)]), (2.0, 2.0)); // μ (δF + δFᵀ)
+/// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+/// ```
+#[must_use]
+pub fn first_piola_derivative<L: Hyperelastic + Sync, S, V>(
+    law: &L,
+    direction: S,
+    to: V,
+) -> Request<FirstPiolaDerivativeOf<'_, L>, S, V, 9, 9> {
+    Request::new(FirstPiolaDerivativeOf(law), direction, to)
+}
+
+/// The output of [`first_piola_derivative`].
+#[derive(Debug)]
+pub struct FirstPiolaDerivativeOf<'a, L>(&'a L);
+
+impl<L> Clone for FirstPiolaDerivativeOf<'_, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L> Copy for FirstPiolaDerivativeOf<'_, L> {}
+
+impl<L: Hyperelastic + Sync> Quantity<9, 9> for FirstPiolaDerivativeOf<'_, L> {
+    type Input = Matrix3<f64>;
+    type Output = FirstPiola;
+    const NEEDS_STRETCH: bool = false;
+    const INPUT: &'static str = "direction of the derivative";
+
+    #[inline(always)]
+    fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, direction: [T; 9]) -> [T; 9] {
+        let [a, b, c, d, e, f, g, h, i] = direction;
+        flat(&self.0.first_piola_derivative(point, &from_rows([[a, b, c], [d, e, f], [g, h, i]])))
+    }
+
+    #[inline(always)]
+    fn exists<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>) -> T::Mask {
+        accepted(self.0, point)
+    }
+
+    fn check<T: Real, D: Deformation<T>>(&self, deformation: &D) -> Result<(), Refusal> {
+        self.0.check(deformation).map_err(Refusal::new)
+    }
+}
