@@ -1,0 +1,3 @@
+//! Internal constraints.
+
+mod reactions;
