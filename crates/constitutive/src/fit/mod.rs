@@ -307,6 +307,9 @@ fn weights(data: &Data, weighting: Weighting) -> Vec<f64> {
     data.tests().iter().flat_map(of_test).collect()
 }
 
+/// A limit with a standard error this many times its distance from its bound is not determined.
+const LOST: f64 = 100.0;
+
 /// Statistics at the end of a search.
 fn result<M: Model>(
     problem: &Problem<'_, M>,
@@ -325,7 +328,16 @@ fn result<M: Model>(
     let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound(k)).collect();
     let degrees_of_freedom = problem.data.len() - free.len();
     let variance = if 0 < degrees_of_freedom { best.squares / degrees_of_freedom as f64 } else { 0.0 };
-    let covariance = Covariance::new(&slopes, &free, variance);
+    let all = Covariance::new(&slopes, &free, variance);
+    // A limit that has gone off to where it does nothing is not told by the data, and takes no part.
+    let lost = |k: usize, error: f64| match problem.parameters[k].bounds {
+        [low, high] if low.is_finite() && high.is_infinite() => LOST * (theta[k] - low) < error,
+        _ => false,
+    };
+    let kept = |place: usize, k: usize| !lost(k, all.matrix[place][place].sqrt());
+    let told: Vec<usize> =
+        all.parameters.iter().enumerate().filter(|&(place, &k)| kept(place, k)).map(|(_, &k)| k).collect();
+    let covariance = if told.len() < all.parameters.len() { Covariance::new(&slopes, &told, variance) } else { all };
     let student = statistics::student(options.confidence, degrees_of_freedom);
     let estimate = |(k, parameter): (usize, &Parameter)| {
         let place = covariance.parameters.iter().position(|&place| place == k);

@@ -1,7 +1,7 @@
 //! What cannot be fitted is refused by name.
 
 use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fit::{AnyModel, Component, Data, Measure, Options, Outcome, Table, Test, fit};
+use piola_constitutive::fit::{AnyModel, Component, Data, Measure, Options, Outcome, State, Table, Test, fit};
 
 fn bar(points: Vec<[f64; 2]>) -> Result<Test, ConstitutiveError> {
     Test::new("bar", Table::Uniaxial(points), Measure::Nominal)
@@ -87,6 +87,18 @@ fn parameters_that_data_cannot_tell_apart_have_no_error() {
     let data = Data::new(vec![bar(points).expect("a test")]).expect("data");
     let fit = fit(&AnyModel::MooneyRivlin, &data, &Options::default()).expect("a fit");
     assert!(fit.parameters.iter().all(|parameter| parameter.standard_error.is_none()), "{:?}", fit.parameters);
+}
+
+#[test]
+fn limit_of_extensibility_that_no_datum_shows_is_undetermined() {
+    // Stresses of a neo-Hookean bar, less and less of them at large stretches: every large limit serves.
+    let softening = |x: f64| (x - 1.0 / (x * x)) * (1.0 - 0.01 * (x - 1.0));
+    let points = (1..=20).map(|k| 1.0 + 0.1 * f64::from(k)).map(|x| [x, softening(x)]).collect();
+    let data = Data::new(vec![bar(points).expect("a test")]).expect("data");
+    let fit = fit(&AnyModel::Gent, &data, &Options::default()).expect("a fit");
+    let [modulus, limit] = [&fit.parameters[0], &fit.parameters[1]];
+    assert!((modulus.value - 1.0).abs() < 0.02 && modulus.state == State::Determined, "{modulus:?}");
+    assert!(1e3 < limit.value && limit.state == State::Undetermined && limit.interval.is_none(), "{limit:?}");
 }
 
 #[cfg(feature = "serde")]
