@@ -75,6 +75,14 @@ pub(super) fn logarithm<T: Real>(change: T, jacobian: T) -> T {
     if near.any() { T::select(near, change.ln_1p(), plain) } else { plain }
 }
 
+/// x − ln(1 + x), the logarithm given: near x = −1 it knows more than x does.
+#[inline(always)]
+fn excess<T: Real>(x: T, logarithm: T) -> T {
+    let small = x.abs().at_most(T::lit(0.5));
+    let plain = x - logarithm;
+    if small.any() { T::select(small, excess_over_logarithm(x), plain) } else { plain }
+}
+
 parameters! {
     /// U = ½ κ (J − 1)².
     ///
@@ -196,8 +204,9 @@ parameters! {
 
 impl Volumetric for SimoTaylor {
     #[inline(always)]
-    fn energy<T: Real>(&self, change: T, _jacobian: T) -> T {
-        T::lit(0.25 * self.kappa) * excess_over_logarithm(change * (change + T::lit(2.0)))
+    fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
+        let (two, logarithm) = (T::lit(2.0), logarithm(change, jacobian));
+        T::lit(0.25 * self.kappa) * excess(change * (change + two), two * logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {
@@ -231,7 +240,7 @@ impl Volumetric for Liu {
     /// With z = 1/J − 1 it is κ J (z − ln(1 + z)).
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * excess_over_logarithm(-change / jacobian))
+        T::lit(self.kappa) * (jacobian * excess(-change / jacobian, -logarithm(change, jacobian)))
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
@@ -262,8 +271,8 @@ parameters! {
 
 impl Volumetric for Miehe {
     #[inline(always)]
-    fn energy<T: Real>(&self, change: T, _jacobian: T) -> T {
-        T::lit(self.kappa) * excess_over_logarithm(change)
+    fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
+        T::lit(self.kappa) * excess(change, logarithm(change, jacobian))
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {
@@ -307,7 +316,8 @@ impl OgdenVolumetric {
 impl Volumetric for OgdenVolumetric {
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa / (self.beta * self.beta)) * excess_over_logarithm(self.power(change, jacobian))
+        let logarithm = T::lit(-self.beta) * logarithm(change, jacobian);
+        T::lit(self.kappa / (self.beta * self.beta)) * excess(logarithm.exp_m1(), logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {

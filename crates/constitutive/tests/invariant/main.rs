@@ -1,0 +1,18 @@
+//! Isotropic laws of invariants, linear elasticity and response functions.
+
+mod alloc;
+mod answers;
+mod constants;
+mod forms;
+mod golden;
+mod langevin;
+mod laws;
+mod limits;
+mod near;
+mod parameters;
+mod variation;
+mod volumes;
+mod zoo;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
