@@ -49,6 +49,14 @@ impl<T: Real> DisplacementGradient<T> {
     /// In any lane: [`ContinuumError::NotFinite`] for an entry, or for det F when it overflows;
     /// [`ContinuumError::NonPositiveJacobian`]; [`ContinuumError::VanishingJacobian`] when det F is positive but below
     /// the range of the scalar.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DisplacementGradient;
+    /// assert!(DisplacementGradient::new(Matrix3::from_diagonal_element(-0.5)).is_ok());
+    /// assert!(DisplacementGradient::new(Matrix3::from_diagonal_element(-1.5)).is_err()); // inside out
+    /// ```
     pub fn new(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
         Self::from_rows(rows_of(&matrix))
     }
@@ -73,6 +81,12 @@ impl<T: Real> DisplacementGradient<T> {
     }
 
     /// 0: nothing is deformed.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DisplacementGradient};
+    /// assert_eq!(DisplacementGradient::<f64>::zero().jacobian(), 1.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {

@@ -51,6 +51,14 @@ impl<T: Real> DeformationGradient<T> {
     /// In any lane: [`ContinuumError::NotFinite`] for an entry, or for det F when it overflows;
     /// [`ContinuumError::NonPositiveJacobian`]; [`ContinuumError::VanishingJacobian`] when det F is positive but below
     /// the range of the scalar, as that of diag(10⁻²⁰⁰, 10⁻²⁰⁰, 1): nothing that divides by J could be computed.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DeformationGradient;
+    /// assert!(DeformationGradient::new(Matrix3::from_diagonal_element(2.0)).is_ok());
+    /// assert!(DeformationGradient::new(Matrix3::from_diagonal_element(-2.0)).is_err()); // inside out
+    /// ```
     pub fn new(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
         Self::from_rows(rows_of(&matrix))
     }
@@ -99,6 +107,12 @@ impl<T: Real> DeformationGradient<T> {
     }
 
     /// 1: nothing is deformed.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Deformation, DeformationGradient};
+    /// assert_eq!(DeformationGradient::<f64>::identity().jacobian(), 1.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn identity() -> Self {

@@ -128,6 +128,15 @@ pub trait Deformation<T: Real>: Copy {
     }
 
     /// dx = F dX, m.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{Deformation, DeformationGradient};
+    /// let shear = DeformationGradient::simple_shear(0.5)?;
+    /// assert_eq!(shear.line_element(Vector3::x()), Vector3::new(1.0, 0.5, 0.0));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     fn line_element(&self, reference: Vector3<T>) -> Vector3<T> {
@@ -135,6 +144,15 @@ pub trait Deformation<T: Real>: Copy {
     }
 
     /// n da = Cof F N dA, m²: Nanson's formula B(4.39).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{Deformation, DeformationGradient};
+    /// let stretch = DeformationGradient::diagonal([2.0, 3.0, 5.0])?;
+    /// assert_eq!(stretch.area_element(Vector3::x()), Vector3::new(15.0, 0.0, 0.0));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     fn area_element(&self, reference: Vector3<T>) -> Vector3<T> {

@@ -16,6 +16,8 @@ mod field;
 pub mod frames;
 pub mod integral;
 pub mod motion;
+#[cfg(feature = "serde")]
+mod reading;
 mod residual;
 pub mod sampled;
 pub(crate) mod value;

@@ -114,6 +114,16 @@ macro_rules! carried_rate {
 
         impl<S> $name<S> {
             /// From the stress, its material derivative and what carries it.
+            ///
+            /// # Example
+            /// ```
+            /// use piola_continuum::{CauchyStress, rates::MaterialRate};
+            #[doc = concat!("use piola_continuum::rates::{", stringify!($name), ", ", stringify!($carrier), "};")]
+            /// let (stress, rate) = (CauchyStress::zero(), CauchyStress::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
+            #[doc = concat!("let objective = ", stringify!($name), "::of(&stress, &MaterialRate(rate), &", stringify!($carrier), "::zero());")]
+            /// assert_eq!(objective.0, rate); // of a body at rest
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn of<T: Real>(stress: &S, rate: &MaterialRate<S>, carrier: &$carrier<T>) -> Self
@@ -124,6 +134,16 @@ macro_rules! carried_rate {
             }
 
             /// The material derivative of which this is the objective rate.
+            ///
+            /// # Example
+            /// ```
+            /// use piola_continuum::CauchyStress;
+            #[doc = concat!("use piola_continuum::rates::{", stringify!($name), ", ", stringify!($carrier), "};")]
+            /// let (stress, rate) = (CauchyStress::zero(), CauchyStress::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
+            #[doc = concat!("let material = ", stringify!($name), "(rate).material(&stress, &", stringify!($carrier), "::zero());")]
+            /// assert_eq!(material.0, rate); // of a body at rest
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn material<T: Real>(&self, stress: &S, carrier: &$carrier<T>) -> MaterialRate<S>
@@ -169,6 +189,18 @@ macro_rules! connected {
         }
         impl<T: Real> $name<KirchhoffStress<T>> {
             /// The same rate of Cauchy's stress: T° = (τ° − τ tr D)/J.
+            ///
+            /// # Example
+            /// ```
+            /// use piola_continuum::{DeformationGradient, KirchhoffStress};
+            #[doc = concat!("use piola_continuum::rates::{", stringify!($name), ", VelocityGradient};")]
+            /// let stress = KirchhoffStress::new(16.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+            /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+            #[doc = concat!("let still = ", stringify!($name), "(KirchhoffStress::zero());")]
+            /// let cauchy = still.cauchy(&stress, &DeformationGradient::dilatation(2.0)?, &growth);
+            /// assert_eq!(cauchy.0.0.components[0], -6.0); // (0 − 16·3)/8
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn cauchy(
@@ -278,6 +310,16 @@ connected!(LowerConvectedRate);
 
 impl<S> LowerConvectedRate<S> {
     /// From the stress, its material derivative and the velocity gradient.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{CauchyStress, rates::{LowerConvectedRate, MaterialRate, VelocityGradient}};
+    /// let pull = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let rate = LowerConvectedRate::of(&pull, &MaterialRate(CauchyStress::zero()), &growth);
+    /// assert_eq!(rate.0.0.components[0], 30.0); // 2·3·5
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of<T: Real>(stress: &S, rate: &MaterialRate<S>, velocity_gradient: &VelocityGradient<T>) -> Self
@@ -289,6 +331,16 @@ impl<S> LowerConvectedRate<S> {
     }
 
     /// The material derivative of which this is the objective rate.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{CauchyStress, rates::{LowerConvectedRate, VelocityGradient}};
+    /// let pull = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let rate = LowerConvectedRate(CauchyStress::zero()).material(&pull, &growth);
+    /// assert_eq!(rate.0.0.components[0], -30.0); // −2·3·5
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material<T: Real>(&self, stress: &S, velocity_gradient: &VelocityGradient<T>) -> MaterialRate<S>
@@ -323,6 +375,16 @@ pub struct TruesdellRate<S>(
 
 impl<T: Real> TruesdellRate<CauchyStress<T>> {
     /// From the stress, its material derivative and the velocity gradient.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{CauchyStress, rates::{MaterialRate, TruesdellRate, VelocityGradient}};
+    /// let pull = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let rate = TruesdellRate::of(&pull, &MaterialRate(CauchyStress::zero()), &growth);
+    /// assert_eq!(rate.0.0.components[0], -15.0); // −2·3·5 + 3·5
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(
@@ -334,6 +396,16 @@ impl<T: Real> TruesdellRate<CauchyStress<T>> {
     }
 
     /// The material derivative of which this is the objective rate.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{CauchyStress, rates::{TruesdellRate, VelocityGradient}};
+    /// let pull = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let rate = TruesdellRate(CauchyStress::zero()).material(&pull, &growth);
+    /// assert_eq!(rate.0.0.components[0], 15.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material(
@@ -345,6 +417,14 @@ impl<T: Real> TruesdellRate<CauchyStress<T>> {
     }
 
     /// J times this rate: the upper-convected rate of Kirchhoff's stress.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{CauchyStress, DeformationGradient, rates::TruesdellRate};
+    /// let rate = TruesdellRate(CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
+    /// assert_eq!(rate.upper_convected(&DeformationGradient::dilatation(2.0)?).0.0.components[0], 40.0); // J = 8
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn upper_convected(&self, deformation: &impl Deformation<T>) -> UpperConvectedRate<KirchhoffStress<T>> {
@@ -386,6 +466,17 @@ impl<T: Real> UpperConvectedRate<KirchhoffStress<T>> {
 
 impl<T: Real> MaterialRate<CauchyStress<T>> {
     /// The material derivative of Kirchhoff's stress: τ̇ = J (Ṫ + T tr L).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{CauchyStress, DeformationGradient, rates::{MaterialRate, VelocityGradient}};
+    /// let stress = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let twice = DeformationGradient::dilatation(2.0)?;
+    /// let rate = MaterialRate(CauchyStress::zero()).kirchhoff(&stress, &twice, &growth);
+    /// assert_eq!(rate.0.0.components[0], 120.0); // 8·5·3
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(

@@ -75,11 +75,27 @@ impl<T: Real> RelativeDeformation<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveJacobian`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::RelativeDeformation;
+    /// let past = RelativeDeformation::of_displacement([[1e-20, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// assert_eq!(past.right_cauchy_green_change().components[0], 2e-20);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn of_displacement(rows: Rows<T>) -> Result<Self, ContinuumError> {
         Ok(Self { displacement: DisplacementGradient::new(from_rows(rows))? })
     }
 
     /// Fₜ.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, rates::RelativeDeformation};
+    /// let (now, then) = (DeformationGradient::dilatation(2.0)?, DeformationGradient::dilatation(6.0)?);
+    /// assert_eq!(RelativeDeformation::of(&now, &then)?.gradient()[(0, 0)], 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn gradient(&self) -> Matrix3<T> {
@@ -103,6 +119,14 @@ impl<T: Real> RelativeDeformation<T> {
     }
 
     /// Cₜ − 1 = H + Hᵀ + Hᵀ H with H = Fₜ − 1, without cancellation.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, rates::RelativeDeformation};
+    /// let (now, then) = (DeformationGradient::dilatation(2.0)?, DeformationGradient::dilatation(6.0)?);
+    /// assert_eq!(RelativeDeformation::of(&now, &then)?.right_cauchy_green_change().components[0], 8.0); // 3² − 1
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn right_cauchy_green_change(&self) -> Symmetric<T> {
@@ -111,6 +135,14 @@ impl<T: Real> RelativeDeformation<T> {
     }
 
     /// Cₜ⁻¹ = Fₜ⁻¹ Fₜ⁻ᵀ, Finger's tensor of the history.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, rates::RelativeDeformation};
+    /// let (now, then) = (DeformationGradient::dilatation(6.0)?, DeformationGradient::dilatation(3.0)?);
+    /// assert_eq!(RelativeDeformation::of(&now, &then)?.inverse_right_cauchy_green().components[0], 4.0); // (6/3)²
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn inverse_right_cauchy_green(&self) -> Symmetric<T> {
@@ -287,6 +319,15 @@ impl<T: Real> RivlinEricksen<T> {
     }
 
     /// A₁ … Aₙ from the gradients L₁ = grad v, L₂ = grad a, ….
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::rates::RivlinEricksen;
+    /// // Growth at the rate 3: C(τ) = e^(2·3 (τ − t)), so Aₙ = 6ⁿ.
+    /// let [first, second] = RivlinEricksen::of_gradients(&[3.0, 9.0].map(Matrix3::from_diagonal_element));
+    /// assert_eq!((first.0.components[0], second.0.components[0]), (6.0, 36.0));
+    /// ```
     #[must_use]
     pub fn of_gradients<const N: usize>(gradients: &[Matrix3<T>; N]) -> [Self; N] {
         squares(&gradients.map(|l| rows_of(&l))).map(Self)
@@ -326,6 +367,15 @@ impl<T: Real> WhiteMetzner<T> {
     }
 
     /// B₁ … Bₙ from the gradients L₁ = grad v, L₂ = grad a, ….
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::rates::WhiteMetzner;
+    /// // Growth at the rate 3: C⁻¹(τ) = e^(−2·3 (τ − t)), so B₁ = 6 and B₂ = −36.
+    /// let [first, second] = WhiteMetzner::of_gradients(&[3.0, 9.0].map(Matrix3::from_diagonal_element));
+    /// assert_eq!((first.0.components[0], second.0.components[0]), (6.0, -36.0));
+    /// ```
     #[must_use]
     pub fn of_gradients<const N: usize>(gradients: &[Matrix3<T>; N]) -> [Self; N] {
         let l = gradients.map(|l| rows_of(&l));

@@ -77,6 +77,13 @@ linear_measure!(RightCauchyGreenRate GreenStrainRate LeftCauchyGreenRate Almansi
 
 impl<T: Real> RightCauchyGreenRate<T> {
     /// Ė = ½ Ċ, exactly.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::strain::RightCauchyGreenRate;
+    /// assert_eq!(RightCauchyGreenRate::new(12.0, 0.0, 0.0, 2.0, 0.0, 0.0)?.green().0.components[3], 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn green(&self) -> GreenStrainRate<T> {
@@ -86,6 +93,13 @@ impl<T: Real> RightCauchyGreenRate<T> {
 
 impl<T: Real> GreenStrainRate<T> {
     /// Ċ = 2 Ė, exactly.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::rates::strain::GreenStrainRate;
+    /// assert_eq!(GreenStrainRate::new(6.0, 0.0, 0.0, 1.0, 0.0, 0.0)?.right_cauchy_green().0.components[0], 12.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn right_cauchy_green(&self) -> RightCauchyGreenRate<T> {

@@ -248,6 +248,16 @@ impl<T: Real> VelocityGradient<T> {
     /// ```text
     /// x* = Q x + c:   L* = Q L Qᵀ + Q̇ Qᵀ,   D* = Q D Qᵀ,   W* = Q W Qᵀ + Q̇ Qᵀ
     /// ```
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::rates::VelocityGradient;
+    /// let turning = VelocityGradient::from_rows([[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])?; // 2 rad/s about 3
+    /// let seen = turning.seen_from(&Matrix3::identity(), &Vector3::new(0.0, 0.0, -2.0)); // by one who turns along
+    /// assert_eq!(seen, VelocityGradient::zero());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn seen_from(&self, rotation: &Matrix3<T>, angular_velocity: &Vector3<T>) -> Self {
@@ -259,6 +269,16 @@ impl<T: Real> VelocityGradient<T> {
 
 impl<T: Real> AccelerationGradient<T> {
     /// grad a = F̈ F⁻¹.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{DeformationGradient, rates::{AccelerationGradient, GradientSecondRate}};
+    /// let second_rate = GradientSecondRate::new(Matrix3::from_diagonal_element(6.0))?;
+    /// let gradient = AccelerationGradient::of(&DeformationGradient::dilatation(2.0)?, &second_rate);
+    /// assert_eq!(gradient.0[(0, 0)], 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>, second_rate: &GradientSecondRate<T>) -> Self {
@@ -266,6 +286,16 @@ impl<T: Real> AccelerationGradient<T> {
     }
 
     /// grad a = L̇ + L².
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::rates::{AccelerationGradient, VelocityGradient};
+    /// let growth = VelocityGradient::new(Matrix3::from_diagonal_element(3.0))?;
+    /// let gradient = AccelerationGradient::of_rate(&growth, &Matrix3::from_diagonal_element(1.0));
+    /// assert_eq!(gradient.0[(0, 0)], 10.0); // 1 + 3²
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of_rate(velocity_gradient: &VelocityGradient<T>, rate: &Matrix3<T>) -> Self {

@@ -2,18 +2,55 @@
 
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
+#[cfg(feature = "serde")]
+use piola_numerics::linear::matrix3::from_rows;
 
 use super::frame::{combination, components_in, principal_frame};
 use crate::Symmetric;
 use crate::tensor::rows::Rows;
+#[cfg(feature = "serde")]
+use crate::{ContinuumError, error::check_finite, stress::invariants::check_range, tensor::rotation::check_rotation};
 
 /// Principal values and axes of a symmetric tensor: A = Σ λₖ vₖ ⊗ vₖ.
+///
+/// What is read is checked: finite values that descend, right-handed orthonormal vectors to 64 ulp.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Unchecked<T>",
+        bound(serialize = "T: serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>")
+    )
+)]
 pub struct SpectralDecomposition<T = f64> {
     /// The eigenvalues λₖ, descending.
     pub values: [T; 3],
     /// `vectors[k]` is the unit eigenvector of `values[k]`; together they are right-handed.
     pub vectors: Rows<T>,
+}
+
+/// The fields before validation.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Unchecked<T> {
+    values: [T; 3],
+    vectors: Rows<T>,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real> TryFrom<Unchecked<T>> for SpectralDecomposition<T> {
+    type Error = ContinuumError;
+
+    fn try_from(Unchecked { values, vectors }: Unchecked<T>) -> Result<Self, ContinuumError> {
+        check_finite("eigenvalues", &values)?;
+        check_rotation(&from_rows(vectors))?;
+        for pair in values.windows(2) {
+            check_range("difference of eigenvalues", pair[0] - pair[1], f64::INFINITY)?;
+        }
+        Ok(Self { values, vectors })
+    }
 }
 
 /// Eigenvalues and eigenvectors of A, W(14.12–14.13), without a branch.

@@ -119,6 +119,14 @@ fn freeze<T: Real>(rows: Rows<T>) -> Rows<T> {
 
 impl<T: Real> StretchAnalysis<T> {
     /// Of F or ∇u.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DisplacementGradient, spectral::StretchAnalysis};
+    /// let tiny = StretchAnalysis::of(&DisplacementGradient::diagonal([1e-20, 0.0, 0.0])?);
+    /// assert_eq!(tiny.right_stretch_less_one().components[0], 1e-20);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
@@ -177,6 +185,13 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// Where the slow path was taken: about where λ₁² > 10⁸ λ₂ λ₃.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// assert!(!StretchAnalysis::<f64>::of(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?).slow_path());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn slow_path(&self) -> T::Mask {
@@ -184,6 +199,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// The principal stretches λ₁ ≥ λ₂ ≥ λ₃, W(14.12).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let stretches = StretchAnalysis::of(&DeformationGradient::diagonal([2.0, 1.0, 4.0])?).principal_stretches();
+    /// assert!((stretches[0] - 4.0_f64).abs() < 1e-14 && (stretches[2] - 1.0).abs() < 1e-14);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn principal_stretches(&self) -> [T; 3] {
@@ -194,6 +217,15 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// ln λₖ, descending, accurate for λ → 1.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DisplacementGradient, spectral::StretchAnalysis};
+    /// let tiny = DisplacementGradient::diagonal([1e-20, 0.0, 0.0])?;
+    /// let logarithms = StretchAnalysis::of(&tiny).log_principal_stretches();
+    /// assert!((logarithms[0] / 1e-20 - 1.0_f64).abs() < 1e-15);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn log_principal_stretches(&self) -> [T; 3] {
@@ -209,6 +241,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// The principal values (λₖ² − 1)/2 of Green's strain, descending, accurate for λ → 1.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let strains = StretchAnalysis::of(&DeformationGradient::diagonal([1.0, 2.0, 1.0])?).principal_green_strains();
+    /// assert!((strains[0] - 1.5_f64).abs() < 1e-15); // ½ (2² − 1)
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn principal_green_strains(&self) -> [T; 3] {
@@ -222,6 +262,14 @@ impl<T: Real> StretchAnalysis<T> {
 
     /// The principal axes of U and C in the reference body: unit vectors by rows, right-handed, in the order of the
     /// stretches.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let axes = StretchAnalysis::<f64>::of(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?).material_axes();
+    /// assert!((axes[0][2].abs() - 1.0_f64).abs() < 1e-15); // the largest stretch is along 3
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material_axes(&self) -> Rows<T> {
@@ -229,6 +277,15 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// The principal axes of V and B in space: the material axes turned by R, by rows.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// let axes = StretchAnalysis::<f64>::of(&turned).spatial_axes();
+    /// assert!((axes[0][1].abs() - 1.0_f64).abs() < 1e-15); // from 1, turned to 2
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn spatial_axes(&self) -> Rows<T> {
@@ -237,6 +294,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// R of F = R U = V R, W(14.11).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// assert_eq!(StretchAnalysis::of(&turned).rotation()[1], [1.0, 0.0, 0.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn rotation(&self) -> Rows<T> {
@@ -254,6 +319,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// U = √C.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// assert_eq!(StretchAnalysis::of(&turned).right_stretch().components[..3], [2.0, 1.0, 1.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn right_stretch(&self) -> Symmetric<T> {
@@ -262,6 +335,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// U − 1 (Biot's strain), without cancellation.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DisplacementGradient, spectral::StretchAnalysis};
+    /// let tiny = DisplacementGradient::diagonal([1e-20, 0.0, 0.0])?;
+    /// assert_eq!(StretchAnalysis::of(&tiny).right_stretch_less_one().components[0], 1e-20);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn right_stretch_less_one(&self) -> Symmetric<T> {
@@ -270,6 +351,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// U⁻¹.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let inverse = StretchAnalysis::of(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).inverse_right_stretch();
+    /// assert!((inverse.components[0] - 0.5_f64).abs() < 1e-15);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn inverse_right_stretch(&self) -> Symmetric<T> {
@@ -277,6 +366,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// V = √B = R U Rᵀ.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// assert_eq!(StretchAnalysis::of(&turned).left_stretch().components[..3], [1.0, 2.0, 1.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn left_stretch(&self) -> Symmetric<T> {
@@ -285,6 +382,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// V − 1, without cancellation.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DisplacementGradient, spectral::StretchAnalysis};
+    /// let tiny = DisplacementGradient::diagonal([1e-20, 0.0, 0.0])?;
+    /// assert_eq!(StretchAnalysis::of(&tiny).left_stretch_less_one().components[0], 1e-20);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn left_stretch_less_one(&self) -> Symmetric<T> {
@@ -293,6 +398,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// V⁻¹.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// assert!((StretchAnalysis::of(&turned).inverse_left_stretch().components[1] - 0.5_f64).abs() < 1e-15);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn inverse_left_stretch(&self) -> Symmetric<T> {
@@ -300,6 +413,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// Hencky's strain ln U, accurate for U → 1.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// assert_eq!(StretchAnalysis::of(&turned).hencky_material().components[0], 2.0_f64.ln());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn hencky_material(&self) -> Symmetric<T> {
@@ -307,6 +428,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// Hencky's strain ln V = R ln U Rᵀ in space.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// assert_eq!(StretchAnalysis::of(&turned).hencky_spatial().components[1], 2.0_f64.ln());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn hencky_spatial(&self) -> Symmetric<T> {
@@ -316,6 +445,14 @@ impl<T: Real> StretchAnalysis<T> {
     /// f(U) for a function f of the stretch.
     ///
     /// Near U = 1 it is as accurate as [`IsotropicFunction::value_beside_one`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::{Power, StretchAnalysis}};
+    /// let cube = StretchAnalysis::of(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).material_function(&Power(3.0));
+    /// assert!((cube.components[0] - 8.0_f64).abs() < 1e-14);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
@@ -324,6 +461,15 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// f(V) = R f(U) Rᵀ for a function f of the stretch.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::{Power, StretchAnalysis}};
+    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// let cube = StretchAnalysis::of(&turned).spatial_function(&Power(3.0));
+    /// assert!((cube.components[1] - 8.0_f64).abs() < 1e-14);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn spatial_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {

@@ -54,6 +54,14 @@ impl<T: Real> GreenStrain<T> {
     ///
     /// # Accuracy
     /// 2 ulp of its norm at small strain, 3 ulp at large strain; for a rotation 3 ulp of 1.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DisplacementGradient, strain::GreenStrain};
+    /// let shear = DisplacementGradient::simple_shear(2.0)?;
+    /// assert_eq!(GreenStrain::of(&shear).0.components, [2.0, 0.0, 0.0, 1.0, 0.0, 0.0]); // ½ k², ½ k
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
@@ -113,6 +121,14 @@ impl<T: Real> AlmansiStrain<T> {
     ///
     /// # Accuracy
     /// A few ulp × the condition number of F, of its own norm: nothing cancels at small strain.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DisplacementGradient, strain::AlmansiStrain};
+    /// let shear = DisplacementGradient::simple_shear(2.0)?;
+    /// assert_eq!(AlmansiStrain::of(&shear).0.components, [-2.0, 0.0, 0.0, 1.0, 0.0, 0.0]); // −½ k², ½ k
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {

@@ -92,6 +92,16 @@ impl<T: Real> HenckyStrain<T> {
     }
 
     /// ∂² ln U/∂C² along two symmetric directions.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, strain::{HenckyStrain, RightCauchyGreen}};
+    /// let c = RightCauchyGreen::new(2.0, 2.0, 2.0, 0.0, 0.0, 0.0)?;
+    /// let along = Symmetric::identity();
+    /// let second = HenckyStrain::second_derivative_by_metric(&c, &along, &along);
+    /// assert!((second.components[0] + 0.125_f64).abs() < 1e-15); // d² ½ ln c = −½ c⁻² dc²
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_derivative_by_metric(

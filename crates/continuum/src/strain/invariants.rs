@@ -456,6 +456,14 @@ fn inverse_metric_and_sandwich<T: Real>(
 }
 
 /// ∂I₁/∂F = 2 F.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let gradient = invariants::first_gradient(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?);
+/// assert_eq!(gradient[2], [0.0, 0.0, 6.0]);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn first_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
@@ -480,6 +488,14 @@ pub fn second_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
 }
 
 /// ∂I₃/∂F = 2 J Cof F.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let gradient = invariants::third_gradient(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?);
+/// assert_eq!(gradient[0][0], 72.0); // 2 · 6 · (2 · 3)
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn third_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {

@@ -32,6 +32,14 @@ impl<T: Real> LinearStrain<T> {
     ///
     /// # Accuracy
     /// ½ ulp of each component, from ∇u.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DisplacementGradient, strain::LinearStrain};
+    /// let shear = DisplacementGradient::simple_shear(2.0)?;
+    /// assert_eq!(LinearStrain::of(&shear).0.components, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]); // ½ k
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
@@ -78,6 +86,14 @@ impl<T: Real> LinearStrain<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`](crate::ContinuumError::NotFinite).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::strain::LinearStrain;
+    /// let strain = LinearStrain::from_engineering([1.0, 2.0, 3.0, 8.0, 10.0, 12.0])?;
+    /// assert_eq!(strain, LinearStrain::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn from_engineering(vector: [T; 6]) -> Result<Self, crate::ContinuumError> {
         Ok(Self(StrainVector::<T, Piola>::new(vector)?.tensor()))
     }
@@ -86,6 +102,14 @@ impl<T: Real> LinearStrain<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`](crate::ContinuumError::NotFinite).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::strain::LinearStrain;
+    /// let strain = LinearStrain::from_engineering_bro_nielsen([1.0, 2.0, 3.0, 8.0, 12.0, 10.0])?; // γ₁₃ before γ₂₃
+    /// assert_eq!(strain, LinearStrain::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     ///
     /// # Source
     /// B(4.73).

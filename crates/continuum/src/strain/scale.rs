@@ -51,12 +51,26 @@ impl SethHill {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::strain::SethHill;
+    /// assert_eq!(SethHill::new(2.0)?, SethHill::GREEN);
+    /// assert!(SethHill::new(f64::NAN).is_err());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn new(order: f64) -> Result<Self, ContinuumError> {
         check_finite("order of a strain", &[order])?;
         Ok(Self { order })
     }
 
     /// m.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::strain::SethHill;
+    /// assert_eq!(SethHill::ALMANSI.order(), -2.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub const fn order(self) -> f64 {

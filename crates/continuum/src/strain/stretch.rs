@@ -71,6 +71,14 @@ macro_rules! of_stretch_analysis {
             ///
             /// To ask for several measures of one deformation, make one [`StretchAnalysis`] and use
             /// [`from_analysis`](Self::from_analysis).
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::{DeformationGradient, strain::", stringify!($name), "};")]
+            #[doc = concat!("let strain = ", stringify!($name), "::of(&DeformationGradient::diagonal([1.0_f64, 2.0, 3.0])?);")]
+            /// assert!(strain.0.components[3].abs() < 1e-15); // the principal axes are those of coordinates
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn of(deformation: &impl Deformation<T>) -> Self {
@@ -78,6 +86,15 @@ macro_rules! of_stretch_analysis {
             }
 
             /// From the stretches of a deformation that are already known.
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::{DeformationGradient, spectral::StretchAnalysis, strain::", stringify!($name), "};")]
+            /// let shear = DeformationGradient::simple_shear(2.0)?;
+            #[doc = concat!("let known = ", stringify!($name), "::from_analysis(&StretchAnalysis::of(&shear));")]
+            #[doc = concat!("assert_eq!(known, ", stringify!($name), "::of(&shear));")]
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn from_analysis(analysis: &StretchAnalysis<T>) -> Self {
@@ -128,6 +145,16 @@ impl<T: Real> RightStretch<T> {
     }
 
     /// ∂²U/∂C² along two symmetric directions.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, strain::{RightCauchyGreen, RightStretch}};
+    /// let c = RightCauchyGreen::new(4.0, 4.0, 4.0, 0.0, 0.0, 0.0)?;
+    /// let along = Symmetric::identity();
+    /// let second = RightStretch::second_derivative_by_metric(&c, &along, &along);
+    /// assert!((second.components[0] + 1.0 / 32.0_f64).abs() < 1e-15); // d² √c = −¼ c^(−3/2) dc²
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_derivative_by_metric(
@@ -176,6 +203,14 @@ impl<T: Real> Rotation<T> {
     ///
     /// # Accuracy
     /// Orthogonal within 8 ulp; within a few ulp × λ₁/(λ₂ + λ₃) of the rotation that F determines.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, strain::Rotation};
+    /// let rotation = Rotation::of(&DeformationGradient::diagonal([2.0, 3.0, 4.0])?);
+    /// assert!((rotation.matrix()[(0, 0)] - 1.0_f64).abs() < 1e-15); // a pure stretch does not turn
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
@@ -183,6 +218,14 @@ impl<T: Real> Rotation<T> {
     }
 
     /// From the stretches of a deformation that are already known.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis, strain::Rotation};
+    /// let shear = DeformationGradient::simple_shear(2.0)?;
+    /// assert_eq!(Rotation::from_analysis(&StretchAnalysis::of(&shear)), Rotation::of(&shear));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn from_analysis(analysis: &StretchAnalysis<T>) -> Self {
@@ -193,6 +236,14 @@ impl<T: Real> Rotation<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`] beyond 64 ulp, in any lane.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::strain::Rotation;
+    /// assert!(Rotation::from_matrix(Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)).is_ok());
+    /// assert!(Rotation::from_matrix(-Matrix3::<f64>::identity()).is_err()); // an inversion
+    /// ```
     pub fn from_matrix(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
         check_rotation(&matrix)?;
         Ok(Self { matrix })
@@ -213,6 +264,15 @@ impl<T: Real> Rotation<T> {
     }
 
     /// R A Rᵀ: a material tensor turned into space, as V = R U Rᵀ.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{Symmetric, strain::Rotation};
+    /// let quarter_turn = Rotation::from_matrix(Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0))?;
+    /// assert_eq!(quarter_turn.to_space(&Symmetric::diagonal([5.0, 0.0, 0.0])), Symmetric::diagonal([0.0, 5.0, 0.0]));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn to_space(&self, material: &Symmetric<T>) -> Symmetric<T> {
@@ -220,6 +280,15 @@ impl<T: Real> Rotation<T> {
     }
 
     /// Rᵀ A R: a spatial tensor turned back into the reference configuration.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{Symmetric, strain::Rotation};
+    /// let quarter_turn = Rotation::from_matrix(Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0))?;
+    /// assert_eq!(quarter_turn.to_reference(&Symmetric::diagonal([0.0, 5.0, 0.0])), Symmetric::diagonal([5.0, 0.0, 0.0]));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn to_reference(&self, spatial: &Symmetric<T>) -> Symmetric<T> {

@@ -56,6 +56,15 @@ impl<T: Real> ReferenceNormal<T> {
     ///
     /// # Accuracy
     /// A few ulp of |F|² for the vector; no division, so also for nearly flattened bodies.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{DeformationGradient, ReferenceNormal};
+    /// let area = ReferenceNormal::new(Vector3::z())?.deformed(&DeformationGradient::diagonal([2.0, 3.0, 4.0])?);
+    /// assert_eq!(area.ratio, 6.0); // a face of 1 by 1 has become one of 2 by 3
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn deformed(&self, deformation: &impl Deformation<T>) -> DeformedArea<T> {

@@ -291,6 +291,13 @@ impl<T: Real> HaighWestergaard<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`]; [`ContinuumError::OutOfRange`] unless 0 ≤ ρ and 0 ≤ θ ≤ π/3.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::stress::HaighWestergaard;
+    /// assert!(HaighWestergaard::new(1.0, 2.0, 0.5).is_ok());
+    /// assert!(HaighWestergaard::new(1.0, 2.0, 1.5).is_err()); // π/3 is the most
+    /// ```
     pub fn new(hydrostatic: T, deviatoric: T, lode_angle: T) -> Result<Self, ContinuumError> {
         check_finite("Haigh-Westergaard coordinate", &[hydrostatic, deviatoric, lode_angle])?;
         check_range("deviatoric coordinate", deviatoric, f64::INFINITY)?;
@@ -299,6 +306,13 @@ impl<T: Real> HaighWestergaard<T> {
     }
 
     /// Of a stress.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, stress::HaighWestergaard};
+    /// let point = HaighWestergaard::of(&Symmetric::new(0.0, 0.0, 0.0, 5.0, 0.0, 0.0)); // pure shear
+    /// assert!((point.deviatoric - 50.0_f64.sqrt()).abs() < 1e-14 && point.hydrostatic == 0.0); // √(2·5²)
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(stress: &Symmetric<T>) -> Self {
@@ -312,6 +326,13 @@ impl<T: Real> HaighWestergaard<T> {
     }
 
     /// The principal stresses, descending, Pa.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, stress::HaighWestergaard};
+    /// let values = HaighWestergaard::of(&Symmetric::diagonal([1.0, 3.0, 2.0])).principal_values();
+    /// assert!((values[0] - 3.0_f64).abs() < 1e-14 && (values[2] - 1.0).abs() < 1e-14);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn principal_values(&self) -> [T; 3] {
@@ -323,7 +344,7 @@ impl<T: Real> HaighWestergaard<T> {
 }
 
 /// 0 ≤ value ≤ largest, to an ulp of that, in every lane.
-pub(super) fn check_range<T: Real>(quantity: &'static str, value: T, largest: f64) -> Result<(), ContinuumError> {
+pub(crate) fn check_range<T: Real>(quantity: &'static str, value: T, largest: f64) -> Result<(), ContinuumError> {
     let slack = largest.min(1.0) * piola_numerics::sums::unit_in_last_place::<T>();
     let within = |x: f64| 0.0 <= x && x <= largest + slack;
     match (0..T::LANES).map(|lane| value.primal(lane)).find(|&x| !within(x)) {

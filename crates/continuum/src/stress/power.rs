@@ -119,6 +119,15 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// P : Ḟ/J, W per deformed m³.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, FirstPiola, rates::GradientRate};
+    /// let rate = GradientRate::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// let stress = FirstPiola::from_rows([[8.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
+    /// assert_eq!(stress.power_per_deformed_volume(&rate, &DeformationGradient::dilatation(2.0)?), 3.0); // 24/8
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn power_per_deformed_volume(&self, rate: &GradientRate<T>, deformation: &impl Deformation<T>) -> T {
@@ -148,6 +157,15 @@ impl<T: Real> SecondPiola<T> {
     }
 
     /// S : Ė/J, W per deformed m³.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, SecondPiola, rates::strain::GreenStrainRate};
+    /// let rate = GreenStrainRate::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// let stress = SecondPiola::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.power_per_deformed_volume(&rate, &DeformationGradient::dilatation(2.0)?), 3.0); // 24/8
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn power_per_deformed_volume(&self, rate: &GreenStrainRate<T>, deformation: &impl Deformation<T>) -> T {

@@ -107,6 +107,14 @@ impl<T: Real> FirstPiola<T> {
 
 impl<T: Real> MandelStress<T> {
     /// As [`FirstPiola::moment_residual`], of P = F⁻ᵀ M.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, MandelStress};
+    /// let stress = MandelStress::from_rows([[0.0, 1.0, 0.0], [3.0, 0.0, 0.0], [0.0; 3]])?;
+    /// assert_eq!(stress.moment_residual(&DeformationGradient::identity()).z, 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline]
     #[must_use]
     pub fn moment_residual(&self, deformation: &impl Deformation<T>) -> Vector3<T> {
@@ -117,6 +125,14 @@ impl<T: Real> MandelStress<T> {
 impl<T: Real> BiotStress<T> {
     /// Entries 32, 13, 21 of Rᵀ P − Pᵀ R: what its [symmetric part](Self::symmetric_part) leaves out. It need
     /// not vanish.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::BiotStress;
+    /// let stress = BiotStress::from_rows([[0.0, 1.0, 0.0], [3.0, 0.0, 0.0], [0.0; 3]])?;
+    /// assert_eq!(stress.skew_residual().z, 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline]
     #[must_use]
     pub fn skew_residual(&self) -> Vector3<T> {

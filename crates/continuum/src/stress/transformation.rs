@@ -48,6 +48,16 @@ impl<T: Real> KirchhoffStress<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::KirchhoffStress;
+    /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    /// let stress = KirchhoffStress::new(1.0, 2.0, 3.0, 4.0, 0.0, 0.0)?;
+    /// assert_eq!(stress.rotated(&quarter_turn)?, KirchhoffStress::new(2.0, 1.0, 3.0, -4.0, 0.0, 0.0)?);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
         check_rotation(rotation)?;
         Ok(Self(self.0.congruence(rows_of(rotation))))

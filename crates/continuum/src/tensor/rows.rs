@@ -11,6 +11,12 @@ use piola_numerics::linear::matrix3::{cross, dot};
 pub type Rows<T> = [[T; 3]; 3];
 
 /// 1.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows;
+/// assert_eq!(rows::identity::<f64>(), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn identity<T: Real>() -> Rows<T> {
@@ -19,6 +25,12 @@ pub fn identity<T: Real>() -> Rows<T> {
 }
 
 /// Aᵀ.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::transpose;
+/// assert_eq!(transpose([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]])[0], [1.0, 4.0, 7.0]);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn transpose<T: Real>(a: Rows<T>) -> Rows<T> {
@@ -26,6 +38,13 @@ pub fn transpose<T: Real>(a: Rows<T>) -> Rows<T> {
 }
 
 /// A B.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::product;
+/// let shear = [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(product(shear, shear)[0], [1.0, 4.0, 0.0]); // shears of one plane add up
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn product<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
@@ -33,6 +52,13 @@ pub fn product<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// A Bᵀ.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::product_transposed;
+/// let shear = [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(product_transposed(shear, shear)[0], [5.0, 2.0, 0.0]); // F Fᵀ
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn product_transposed<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
@@ -44,6 +70,13 @@ pub fn product_transposed<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// Aᵀ B.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::transposed_product;
+/// let shear = [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(transposed_product(shear, shear)[1], [2.0, 5.0, 0.0]); // FᵀF
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn transposed_product<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
@@ -51,6 +84,12 @@ pub fn transposed_product<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// A + B.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::{identity, sum};
+/// assert_eq!(sum(identity::<f64>(), identity())[1], [0.0, 2.0, 0.0]);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn sum<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
@@ -62,6 +101,12 @@ pub fn sum<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// A − B.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::{difference, identity};
+/// assert_eq!(difference(identity::<f64>(), [[0.0, 2.0, 0.0], [0.0; 3], [0.0; 3]])[0], [1.0, -2.0, 0.0]);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn difference<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
@@ -73,6 +118,12 @@ pub fn difference<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// s A.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::{identity, scaled};
+/// assert_eq!(scaled(identity::<f64>(), 3.0)[2], [0.0, 0.0, 3.0]);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn scaled<T: Real>(a: Rows<T>, s: T) -> Rows<T> {
@@ -84,6 +135,13 @@ pub fn scaled<T: Real>(a: Rows<T>, s: T) -> Rows<T> {
 }
 
 /// A v.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::apply;
+/// let shear = [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// assert_eq!(apply(shear, [0.0, 1.0, 0.0]), [2.0, 1.0, 0.0]);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn apply<T: Real>(a: Rows<T>, v: [T; 3]) -> [T; 3] {
@@ -91,6 +149,12 @@ pub fn apply<T: Real>(a: Rows<T>, v: [T; 3]) -> [T; 3] {
 }
 
 /// tr A.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::trace;
+/// assert_eq!(trace([[1.0, 9.0, 9.0], [9.0, 2.0, 9.0], [9.0, 9.0, 3.0]]), 6.0);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn trace<T: Real>(a: Rows<T>) -> T {
@@ -112,6 +176,13 @@ pub fn cofactor<T: Real>(a: Rows<T>) -> Rows<T> {
 }
 
 /// A : B = Aᵢⱼ Bᵢⱼ.
+///
+/// # Example
+/// ```
+/// use piola_continuum::tensor::rows::double_contraction;
+/// let a = [[1.0, 2.0, 0.0], [0.0; 3], [0.0; 3]];
+/// assert_eq!(double_contraction(a, [[3.0, 4.0, 0.0], [5.0, 0.0, 0.0], [0.0; 3]]), 11.0);
+/// ```
 #[inline(always)]
 #[must_use]
 pub fn double_contraction<T: Real>(a: Rows<T>, b: Rows<T>) -> T {

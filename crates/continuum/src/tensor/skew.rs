@@ -45,12 +45,24 @@ pub struct Skew<T = f64> {
 
 impl<T: Real> Skew<T> {
     /// From the axial vector: the components 32, 13, 21.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::Skew;
+    /// assert_eq!(Skew::new(1.0, 2.0, 3.0).rows(), [[0.0, -3.0, 2.0], [3.0, 0.0, -1.0], [-2.0, 1.0, 0.0]]);
+    /// ```
     #[inline(always)]
     pub const fn new(x: T, y: T, z: T) -> Self {
         Self { axial: [x, y, z] }
     }
 
     /// 0.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::Skew;
+    /// assert_eq!(Skew::<f64>::zero().axial, [0.0; 3]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {
@@ -134,6 +146,12 @@ impl<T: Real> Skew<T> {
     }
 
     /// All nine components as an array of rows.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::Skew;
+    /// assert_eq!(Skew::new(0.0, 0.0, 2.0).rows(), [[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn rows(&self) -> Rows<T> {
@@ -142,6 +160,12 @@ impl<T: Real> Skew<T> {
     }
 
     /// All nine components as a matrix.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::Skew;
+    /// assert_eq!(Skew::new(0.0, 0.0, 2.0).matrix()[(1, 0)], 2.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn matrix(&self) -> Matrix3<T> {
@@ -149,6 +173,13 @@ impl<T: Real> Skew<T> {
     }
 
     /// The axial vector w.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::tensor::Skew;
+    /// assert_eq!(Skew::new(1.0, 2.0, 3.0).axial_vector(), Vector3::new(1.0, 2.0, 3.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn axial_vector(&self) -> Vector3<T> {
@@ -156,6 +187,12 @@ impl<T: Real> Skew<T> {
     }
 
     /// W v = w × v.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::Skew;
+    /// assert_eq!(Skew::new(0.0, 0.0, 1.0).apply([1.0, 0.0, 0.0]), [0.0, 1.0, 0.0]); // e₃ × e₁ = e₂
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn apply(&self, v: [T; 3]) -> [T; 3] {

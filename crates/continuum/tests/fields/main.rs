@@ -11,6 +11,8 @@ mod frames;
 mod motions;
 mod sampled;
 mod traps;
+#[cfg(feature = "serde")]
+mod written;
 
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;

@@ -212,6 +212,11 @@ fn written_regions_and_meshes_are_read_with_their_checks() {
     round_trip(&Cylinder::new(centre, Vector3::z(), [0.0, 2.0]).expect("a cylinder"));
     let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0)).expect("a box");
     round_trip(&TetrahedralMesh::of_cuboid(&unit, [2, 1, 1]).expect("a mesh"));
+    round_trip(&Quadrature::of_degree(7).expect("rules"));
+    round_trip(&EstimatedQuadrature::of_degrees(2, 5).expect("rules"));
+    round_trip(&AdaptiveQuadrature::up_to_degree(20).expect("rules"));
+    assert!(serde_json::from_str::<Quadrature>("1000").is_err());
+    assert!(serde_json::from_str::<AdaptiveQuadrature>("1000").is_err());
     assert!(serde_json::from_str::<Ball>("[[0,0,0],-1]").is_err());
     let inverted = r#"{"vertices":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]],"tetrahedra":[[1,0,2,3]]}"#;
     assert!(serde_json::from_str::<TetrahedralMesh>(inverted).is_err());

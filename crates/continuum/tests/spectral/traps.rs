@@ -275,3 +275,23 @@ fn axes_of_a_tensor_with_negative_zeros_belong_to_their_values() {
         }
     }
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn decompositions_are_read_as_written() {
+    use piola_continuum::spectral::SpectralDecomposition;
+    let read = |text: &str| serde_json::from_str::<SpectralDecomposition>(text);
+    let mut random = Random::new(77);
+    for _ in 0..100 {
+        let found = decompose(&symmetric(random.matrix()));
+        let text = serde_json::to_string(&found).expect("text");
+        assert_eq!(read(&text).expect("as written"), found, "{text}");
+    }
+    let written =
+        |values: &str, first: &str| format!(r#"{{"values":{values},"vectors":[{first},[0.0,1.0,0.0],[0.0,0.0,1.0]]}}"#);
+    assert!(read(&written("[3.0,2.0,2.0]", "[1.0,0.0,0.0]")).is_ok());
+    assert!(read(&written("[2.0,3.0,2.0]", "[1.0,0.0,0.0]")).is_err()); // they do not descend
+    assert!(read(&written("[3.0,2.0,null]", "[1.0,0.0,0.0]")).is_err());
+    assert!(read(&written("[3.0,2.0,2.0]", "[2.0,0.0,0.0]")).is_err());
+    assert!(read(&written("[3.0,2.0,2.0]", "[-1.0,0.0,0.0]")).is_err()); // left-handed
+}

@@ -19,6 +19,22 @@ use crate::{CauchyStress, ContinuumError};
 /// # Errors
 /// What the motion refuses; [`ContinuumError::NotFinite`].
 ///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_continuum::fields::{Motion, balance::cofactor_divergence};
+/// use piola_numerics::Real;
+/// struct Bending;
+/// impl Motion for Bending {
+///     fn place<T: Real>(&self, reference: &Vector3<T>, _time: T) -> Vector3<T> {
+///         Vector3::new(reference.x * (T::one() + reference.y), reference.y, reference.z)
+///     }
+/// }
+/// let residual = cofactor_divergence(&Bending, &Vector3::new(1.0, 2.0, 3.0), 0.0)?;
+/// assert_eq!(residual.value, Vector3::zeros()); // ∂₁(Cof F)₂₁ + ∂₂(Cof F)₂₂ = −1 + 1 and so on
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+///
 /// # Source
 /// The identity behind B(4.53).
 pub fn cofactor_divergence<T: Real>(

@@ -32,18 +32,28 @@ use crate::error::check_finite;
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+        deserialize = "T: Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct GradientResidual<T = f64> {
     /// `(Curl F)ᵢ_C = ε_CBA ∂F_iA/∂X_B`, 1/m: at row i the differences ∂₂Fᵢ₃ − ∂₃Fᵢ₂, ∂₃Fᵢ₁ − ∂₁Fᵢ₃, ∂₁Fᵢ₂ − ∂₂Fᵢ₁.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub value: Matrix3<T>,
     /// The sums of the moduli of the two terms.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub scale: Matrix3<T>,
 }
 
 impl<T: Real> GradientResidual<T> {
     /// The largest component divided by the largest scale, ∈ [0, 1]; zero when all terms are.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::fields::compatibility::GradientResidual;
+    /// let residual = GradientResidual { value: Matrix3::from_element(1.0), scale: Matrix3::from_element(4.0) };
+    /// assert_eq!(residual.relative(), 0.25);
+    /// ```
     #[must_use]
     pub fn relative(&self) -> T {
         let largest = |m: &Matrix3<T>| m.iter().fold(T::zero(), |largest, x| largest.max(x.abs()));

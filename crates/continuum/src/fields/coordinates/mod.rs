@@ -92,6 +92,16 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Coordinates, Cylindrical};
+    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?;
+    /// assert_eq!(basis.christoffel[0][1][1], -2.0); // Γʳθθ = −r
+    /// assert!(Cylindrical.local_basis(&Vector3::new(0.0, 0.0, 0.0)).is_err()); // no basis on the axis
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     fn local_basis<T: Real>(&self, coordinates: &Vector3<T>) -> Result<LocalBasis<T>, ContinuumError> {
         LocalBasis::of(self, coordinates)
     }
@@ -100,6 +110,15 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Coordinates, Cylindrical};
+    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, 0.0, 0.0))?;
+    /// assert_eq!(frame.curvatures[1][0], 0.5); // 1/r
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     fn physical_frame<T: Real>(&self, coordinates: &Vector3<T>) -> Result<PhysicalFrame<T>, ContinuumError> {
         self.local_basis(coordinates)?.physical_frame()
     }
@@ -108,6 +127,14 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Coordinates, Cylindrical};
+    /// assert_eq!(Cylindrical.scale_factors(&Vector3::new(2.0, 0.0, 0.0))?, [1.0, 2.0, 1.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     fn scale_factors<T: Real>(&self, coordinates: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
         Ok(self.physical_frame(coordinates)?.scale_factors)
     }
@@ -117,6 +144,16 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Coordinates, Cylindrical};
+    /// let (tensor, still) = ([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]], [[[0.0; 3]; 3]; 3]);
+    /// let terms = Cylindrical.divergence_terms(&Vector3::new(2.0, 0.0, 0.0), &tensor, &still)?;
+    /// assert_eq!(terms[0].value, 1.5); // T_rr/r
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     fn divergence_terms<T: Real>(
         &self,
         coordinates: &Vector3<T>,
@@ -131,6 +168,17 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Coordinates, Cylindrical};
+    /// // v_θ = 3 r: a rigid turn.
+    /// let partials = [[0.0, 3.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// let gradient = Cylindrical.gradient_from_partials(&Vector3::new(2.0, 0.0, 0.0), &[0.0, 6.0, 0.0], &partials)?;
+    /// assert_eq!((gradient[0][1], gradient[1][0]), (-3.0, 3.0));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     fn gradient_from_partials<T: Real>(
         &self,
         coordinates: &Vector3<T>,
@@ -215,6 +263,22 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Coordinates, Cylindrical, Field};
+    /// use piola_numerics::Real;
+    /// struct Radial;
+    /// impl Field for Radial {
+    ///     type Value = Vector3<f64>;
+    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
+    ///         Vector3::new(q[0], T::zero(), T::zero())
+    ///     }
+    /// }
+    /// assert_eq!(Cylindrical.vector_divergence(&Radial, &Vector3::new(2.0, 0.0, 0.0), 0.0)?, 2.0); // ∂v_r/∂r + v_r/r
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     fn vector_divergence<F: Field<Value = Vector3<f64>>, T: Real>(
         &self,
         vector: &F,
@@ -231,6 +295,23 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Coordinates, Cylindrical, Field};
+    /// use piola_numerics::Real;
+    /// struct Azimuth;
+    /// impl Field for Azimuth {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> T {
+    ///         q[1]
+    ///     }
+    /// }
+    /// let gradient = Cylindrical.scalar_gradient(&Azimuth, &Vector3::new(2.0, 0.0, 0.0), 0.0)?;
+    /// assert_eq!(gradient, Vector3::new(0.0, 0.5, 0.0)); // 1/r
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     fn scalar_gradient<F: Field<Value = f64>, T: Real>(
         &self,
         scalar: &F,

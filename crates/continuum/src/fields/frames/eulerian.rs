@@ -43,6 +43,15 @@ pub struct Eulerian<M> {
 
 impl<M: Motion> Eulerian<M> {
     /// A motion seen from space, inverted as usual.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{DeformationGradient, fields::{Affine, Eulerian}};
+    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
+    /// assert_eq!(motion.velocity(&Vector3::new(6.0, 0.0, 0.0), 0.0)?, Vector3::zeros()); // at rest
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[must_use]
     pub fn new(motion: M) -> Self {
         Self { motion, inversion: Inversion::default() }
@@ -52,6 +61,15 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{DeformationGradient, fields::{Affine, Eulerian}};
+    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
+    /// assert_eq!(motion.preimage(&Vector3::new(6.0, 0.0, 0.0), 0.0)?.reference.x, 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn preimage<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Preimage<T>, ContinuumError> {
         self.inversion.preimage(&self.motion, place, time)
     }
@@ -61,6 +79,15 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{DeformationGradient, fields::{Affine, Eulerian}};
+    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
+    /// assert_eq!(motion.displacement(&Vector3::new(6.0, 0.0, 0.0), 0.0)?.x, 3.0); // from 3 to 6
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn displacement<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, ContinuumError> {
         let reference = self.preimage(place, time)?.reference;
         finite::<Vector3<f64>, T>("displacement", self.motion.displacement(&reference, time))
@@ -70,6 +97,22 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::fields::{AffineHistory, Eulerian, Homogeneous};
+    /// use piola_numerics::Real;
+    /// struct Growth; // x = (1 + t) X
+    /// impl AffineHistory for Growth {
+    ///     fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
+    ///         Matrix3::from_diagonal(&Vector3::repeat(T::one() + time))
+    ///     }
+    /// }
+    /// let velocity = Eulerian::new(Homogeneous(Growth)).velocity(&Vector3::new(6.0, 0.0, 0.0), 1.0)?;
+    /// assert!((velocity.x - 3.0_f64).abs() < 1e-14); // x/(1 + t)
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn velocity<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, ContinuumError> {
         let reference = self.preimage(place, time)?.reference;
         finite::<Vector3<f64>, T>("velocity", kernels::velocity(&self.motion, &reference, time))
@@ -79,6 +122,22 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::fields::{AffineHistory, Eulerian, Homogeneous};
+    /// use piola_numerics::Real;
+    /// struct Growth; // x = (1 + t²) X
+    /// impl AffineHistory for Growth {
+    ///     fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
+    ///         Matrix3::from_diagonal(&Vector3::repeat(T::one() + time * time))
+    ///     }
+    /// }
+    /// let acceleration = Eulerian::new(Homogeneous(Growth)).acceleration(&Vector3::new(6.0, 0.0, 0.0), 1.0)?;
+    /// assert!((acceleration.x - 6.0_f64).abs() < 1e-14); // 2 X with X = 3
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn acceleration<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, ContinuumError> {
         let reference = self.preimage(place, time)?.reference;
         finite::<Vector3<f64>, T>("acceleration", kernels::acceleration(&self.motion, &reference, time))
@@ -121,6 +180,24 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::fields::{Affine, Eulerian, Field, Material};
+    /// use piola_numerics::Real;
+    /// struct Label;
+    /// impl Field for Label {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
+    ///         particle.x * time
+    ///     }
+    /// }
+    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
+    /// assert_eq!(motion.gradient(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 2.0)?[0], 0.5); // t/4
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn gradient<F: Field, T: Real>(
         &self,
         field: &Material<F>,
@@ -148,6 +225,24 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::fields::{Affine, Eulerian, Field, Material};
+    /// use piola_numerics::Real;
+    /// struct Label;
+    /// impl Field for Label {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
+    ///         particle.x * time
+    ///     }
+    /// }
+    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
+    /// assert_eq!(motion.local_rate(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 1.0)?, 2.0); // X of a body at rest
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn local_rate<F: Field, T: Real>(
         &self,
         field: &Material<F>,
@@ -162,6 +257,24 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::fields::{Affine, Eulerian, Field, Material};
+    /// use piola_numerics::Real;
+    /// struct Label;
+    /// impl Field for Label {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
+    ///         particle.x * time
+    ///     }
+    /// }
+    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
+    /// assert_eq!(motion.material_derivative(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 1.0)?, 2.0); // X
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn material_derivative<F: Field, T: Real>(
         &self,
         field: &Material<F>,

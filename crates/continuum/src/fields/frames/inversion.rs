@@ -68,15 +68,18 @@ impl Default for Inversion {
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+        deserialize = "T: crate::fields::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct Preimage<T = f64> {
     /// X, m; over differentiable scalars with the derivatives of the inverse motion.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub reference: Vector3<T>,
     /// |x − x(X, t)|, m.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub residual: T,
     /// |X − X*| is at most this, m, where x(X*, t) = x exactly; X* is the only such particle within this distance.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub error_bound: T,
     /// Newton steps taken.
     pub iterations: usize,
@@ -99,6 +102,15 @@ impl Inversion {
     ///
     /// # Errors
     /// As [`preimage_near`](Self::preimage_near).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{DeformationGradient, fields::{Affine, Inversion}};
+    /// let motion = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
+    /// assert_eq!(Inversion::default().preimage(&motion, &Vector3::new(6.0, 0.0, 0.0), 0.0)?.reference.x, 3.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[inline]
     pub fn preimage<T: Real>(
         &self,
@@ -126,6 +138,24 @@ impl Inversion {
     /// `error_bound` is proved but for two estimates: how far F changes within it is taken as twice the most at the
     /// eight corners of its cube, which is more than enough for motions of the second degree; the rounding of
     /// x(X, t) is taken as 8 ulp of |x| + |F| |X|.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Inversion, Motion};
+    /// use piola_numerics::Real;
+    /// // X² has two particles at every place: which one is found, the guess says.
+    /// struct Fold;
+    /// impl Motion for Fold {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, _time: T) -> Vector3<T> {
+    ///         Vector3::new(reference.x * reference.x, reference.y, reference.z)
+    ///     }
+    /// }
+    /// let (place, guess) = (Vector3::new(4.0, 0.0, 0.0), Vector3::new(1.5, 0.0, 0.0));
+    /// let found = Inversion::default().preimage_near(&Fold, &place, 0.0, &guess)?;
+    /// assert!((found.reference.x - 2.0_f64).abs() < 1e-14);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn preimage_near<T: Real>(
         &self,
         motion: &impl Motion,

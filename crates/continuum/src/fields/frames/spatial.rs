@@ -40,6 +40,22 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`] for a place, time or value.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Field, Spatial};
+    /// use piola_numerics::Real;
+    /// struct Temperature;
+    /// impl Field for Temperature {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
+    ///         place.x * place.x * time
+    ///     }
+    /// }
+    /// assert_eq!(Spatial(Temperature).value(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 18.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn value<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, ContinuumError> {
         check_point(place, time)?;
         finite::<F::Value, T>("field", self.0.at(place, time))
@@ -49,6 +65,22 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`] for a place, time or result.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Field, Spatial};
+    /// use piola_numerics::Real;
+    /// struct Temperature;
+    /// impl Field for Temperature {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
+    ///         place.x * place.x * time
+    ///     }
+    /// }
+    /// assert_eq!(Spatial(Temperature).local_rate(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 9.0); // x²
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn local_rate<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, ContinuumError> {
         check_point(place, time)?;
         finite::<F::Value, T>("local rate", local_rate(&self.0, place, time))
@@ -58,6 +90,22 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`] for a place, time or result.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Field, Spatial};
+    /// use piola_numerics::Real;
+    /// struct Temperature;
+    /// impl Field for Temperature {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
+    ///         place.x * place.x * time
+    ///     }
+    /// }
+    /// assert_eq!(Spatial(Temperature).gradient(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, [12.0, 0.0, 0.0]); // 2 x t
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn gradient<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<[ValueOf<F, T>; 3], ContinuumError> {
         check_point(place, time)?;
         let [a, b, c] = value_and_partials(&self.0, place, time).1;
@@ -77,6 +125,24 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`] for a place, time, velocity or result.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Field, Spatial, Uniform};
+    /// use piola_numerics::Real;
+    /// struct Temperature;
+    /// impl Field for Temperature {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
+    ///         place.x * place.x * time
+    ///     }
+    /// }
+    /// let wind = Uniform(Vector3::new(5.0, 0.0, 0.0));
+    /// // x² + 2 x t · 5
+    /// assert_eq!(Spatial(Temperature).material_derivative(&wind, &Vector3::new(3.0, 0.0, 0.0), 2.0)?, 69.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn material_derivative<T: Real>(
         &self,
         velocity: &impl Field<Value = Vector3<f64>>,
@@ -92,6 +158,30 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// What the motion refuses; [`ContinuumError::NotFinite`] for a result.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::{Field, Motion, Spatial};
+    /// use piola_numerics::Real;
+    /// struct Temperature;
+    /// impl Field for Temperature {
+    ///     type Value = f64;
+    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
+    ///         place.x * place.x * time
+    ///     }
+    /// }
+    /// struct Wind;
+    /// impl Motion for Wind {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+    ///         reference + Vector3::new(T::lit(5.0) * time, T::zero(), T::zero())
+    ///     }
+    /// }
+    /// // The particle that starts at −7 is at 3 after two seconds.
+    /// let rate = Spatial(Temperature).rate_following(&Wind, &Vector3::new(-7.0, 0.0, 0.0), 2.0)?;
+    /// assert_eq!(rate, 69.0); // x² + 2 x t · 5
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn rate_following<T: Real>(
         &self,
         motion: &impl Motion,

@@ -70,6 +70,7 @@ pub struct IntegralBalance {
     /// Of tractions.
     pub surface: ForceResultants,
     /// ∫ P : Ḟ dV, W.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub stress_power: f64,
 }
 
@@ -126,18 +127,84 @@ impl IntegralBalance {
     }
 
     /// d/dt ∫ `ρ_κ` ẋ dV − f, N, W(15.16).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::FirstPiola;
+    /// use piola_continuum::fields::integral::{Cuboid, IntegralBalance, Quadrature};
+    /// use piola_continuum::fields::{Body, Material, Motion, Uniform};
+    /// use piola_numerics::Real;
+    /// struct Fall; // 5 m after a second
+    /// impl Motion for Fall {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+    ///         reference - Vector3::new(T::zero(), T::zero(), T::lit(5.0) * time * time)
+    ///     }
+    /// }
+    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
+    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
+    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
+    /// let terms = IntegralBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &free, &weight, &pole, 1.0)?;
+    /// let residual = terms.momentum_residual();
+    /// // 10 N against 1 kg · 10 m/s²
+    /// assert!(residual.value.norm() < 1e-13 && (residual.scale.z - 20.0).abs() < 1e-13);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[must_use]
     pub fn momentum_residual(&self) -> VectorResidual {
         residual_of(&self.resultants.momentum, &self.body.force, &self.surface.force)
     }
 
     /// d/dt ∫ `ρ_κ` (x − o) × ẋ dV − m, N m, W(15.18).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::FirstPiola;
+    /// use piola_continuum::fields::integral::{Cuboid, IntegralBalance, Quadrature};
+    /// use piola_continuum::fields::{Body, Material, Motion, Uniform};
+    /// use piola_numerics::Real;
+    /// struct Fall; // 5 m after a second
+    /// impl Motion for Fall {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+    ///         reference - Vector3::new(T::zero(), T::zero(), T::lit(5.0) * time * time)
+    ///     }
+    /// }
+    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
+    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
+    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
+    /// let terms = IntegralBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &free, &weight, &pole, 1.0)?;
+    /// assert!(terms.moment_residual().value.norm() < 1e-13);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[must_use]
     pub fn moment_residual(&self) -> VectorResidual {
         residual_of(&self.resultants.moment_of_momentum, &self.body.moment, &self.surface.moment)
     }
 
     /// K̇ + ∫ P : Ḟ dV − external power, W, W(21.4).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::FirstPiola;
+    /// use piola_continuum::fields::integral::{Cuboid, IntegralBalance, Quadrature};
+    /// use piola_continuum::fields::{Body, Material, Motion, Uniform};
+    /// use piola_numerics::Real;
+    /// struct Fall; // 5 m after a second
+    /// impl Motion for Fall {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+    ///         reference - Vector3::new(T::zero(), T::zero(), T::lit(5.0) * time * time)
+    ///     }
+    /// }
+    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
+    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
+    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
+    /// let terms = IntegralBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &free, &weight, &pole, 1.0)?;
+    /// let residual = terms.power_residual();
+    /// assert!(residual.value.abs() < 1e-12 && (residual.scale - 200.0).abs() < 1e-12); // 10 N at 10 m/s
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[must_use]
     pub fn power_residual(&self) -> Residual {
         let rates = Residual::zero().plus(self.resultants.kinetic_energy.tangent).plus(self.stress_power);
@@ -149,6 +216,28 @@ impl IntegralBalance {
     ///
     /// # Errors
     /// As [`of`](Self::of).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::FirstPiola;
+    /// use piola_continuum::fields::integral::{Cuboid, EstimatedQuadrature, IntegralBalance};
+    /// use piola_continuum::fields::{Body, Material, Motion, Uniform};
+    /// use piola_numerics::Real;
+    /// struct Fall; // 5 m after a second
+    /// impl Motion for Fall {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+    ///         reference - Vector3::new(T::zero(), T::zero(), T::lit(5.0) * time * time)
+    ///     }
+    /// }
+    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
+    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
+    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
+    /// let rules = EstimatedQuadrature::of_degree(2)?;
+    /// let residuals = IntegralBalance::estimated_residuals(&rules, &unit, &body, &free, &weight, &pole, 1.0)?;
+    /// assert!(residuals.value.iter().all(|residual| residual.abs() < 1e-12) && residuals.error < 1e-12);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn estimated_residuals(
         quadrature: &EstimatedQuadrature,
         region: &impl Region<f64>,
@@ -256,8 +345,10 @@ pub fn strain_energy<T: Real>(
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MassBalance {
     /// ∫ ρ dv over the moved region, with its rate, kg, kg/s.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub present: Dual<f64>,
     /// ∫ `ρ_κ` dV, kg.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub reference: f64,
 }
 
@@ -266,6 +357,20 @@ impl MassBalance {
     ///
     /// # Errors
     /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, MassBalance, Quadrature};
+    /// use piola_continuum::fields::{Affine, Body, Spatial, Uniform};
+    /// use piola_continuum::DeformationGradient;
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
+    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
+    /// let mass = MassBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &Spatial(Uniform(4.0)), 0.0)?;
+    /// assert!((mass.present.value - 8.0).abs() < 1e-14); // 2 m³ of 4 kg/m³
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn of<R: Region<f64> + Region<Dual<f64>>>(
         quadrature: &Quadrature,
         region: &R,
@@ -282,6 +387,20 @@ impl MassBalance {
     }
 
     /// ∫ ρ dv − ∫ `ρ_κ` dV, kg; the rate of the first is zero when mass stays.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, MassBalance, Quadrature};
+    /// use piola_continuum::fields::{Affine, Body, Spatial, Uniform};
+    /// use piola_continuum::DeformationGradient;
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
+    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
+    /// let mass = MassBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &Spatial(Uniform(5.0)), 0.0)?;
+    /// assert!((mass.residual().value - 2.0).abs() < 1e-14); // 2·5 − 8
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[must_use]
     pub fn residual(&self) -> Residual {
         Residual::zero().plus(self.present.value).plus(-self.reference)
@@ -330,12 +449,16 @@ impl MassBalance {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EnergyBalance {
     /// Kinetic energy K and K̇, J, W.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub kinetic: Dual<f64>,
     /// Stored energy ∫ W dV and its rate, J, W.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub stored: Dual<f64>,
     /// Of body forces, W.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub body_power: f64,
     /// Of tractions, W.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub surface_power: f64,
 }
 
@@ -344,6 +467,33 @@ impl EnergyBalance {
     ///
     /// # Errors
     /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::fields::integral::{Cuboid, EnergyBalance, Quadrature, StoredEnergy};
+    /// use piola_continuum::fields::{Body, Material, Motion, Uniform};
+    /// use piola_numerics::Real;
+    /// struct Bar; // W = ½ (F₁₁ − 1)²
+    /// impl StoredEnergy for Bar {
+    ///     fn density<T: Real>(&self, _: &Vector3<f64>, gradient: &Matrix3<T>) -> T {
+    ///         let elongation = gradient[(0, 0)] - T::one();
+    ///         T::lit(0.5) * elongation * elongation
+    ///     }
+    /// }
+    /// struct Pull; // F₁₁ = 1 + t
+    /// impl Motion for Pull {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+    ///         Vector3::new(reference.x * (T::one() + time), reference.y, reference.z)
+    ///     }
+    /// }
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let body = Body { motion: Pull, reference_density: Uniform(1.0) };
+    /// let none = Material(Uniform(Vector3::zeros()));
+    /// let terms = EnergyBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &Bar, &none, 3.0)?;
+    /// assert!((terms.stored.value - 4.5).abs() < 1e-14); // ½ 3²
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn of(
         quadrature: &Quadrature,
         region: &impl Region<f64>,
@@ -365,6 +515,34 @@ impl EnergyBalance {
     }
 
     /// d/dt (K + ∫ W dV) − power of body forces and tractions, W.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::fields::integral::{Cuboid, EnergyBalance, Quadrature, StoredEnergy};
+    /// use piola_continuum::fields::{Body, Material, Motion, Uniform};
+    /// use piola_numerics::Real;
+    /// struct Bar; // W = ½ (F₁₁ − 1)²
+    /// impl StoredEnergy for Bar {
+    ///     fn density<T: Real>(&self, _: &Vector3<f64>, gradient: &Matrix3<T>) -> T {
+    ///         let elongation = gradient[(0, 0)] - T::one();
+    ///         T::lit(0.5) * elongation * elongation
+    ///     }
+    /// }
+    /// struct Pull; // F₁₁ = 1 + t
+    /// impl Motion for Pull {
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+    ///         Vector3::new(reference.x * (T::one() + time), reference.y, reference.z)
+    ///     }
+    /// }
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let body = Body { motion: Pull, reference_density: Uniform(1.0) };
+    /// let none = Material(Uniform(Vector3::zeros()));
+    /// let terms = EnergyBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &Bar, &none, 3.0)?;
+    /// let residual = terms.residual();
+    /// assert!(residual.value.abs() < 1e-13 && residual.relative() < 1e-15); // the pull of 3 N at 1 m/s is stored
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[must_use]
     pub fn residual(&self) -> Residual {
         let rates = Residual::zero().plus(self.kinetic.tangent).plus(self.stored.tangent);

@@ -33,7 +33,8 @@ pub struct Estimate<V> {
 /// assert!(error < integral.error && integral.error < 1e-5);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EstimatedQuadrature {
     coarse: Quadrature,
     fine: Quadrature,
@@ -44,6 +45,14 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// [`ContinuumError::DegreeTooHigh`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::fields::integral::EstimatedQuadrature;
+    /// let rules = EstimatedQuadrature::of_degree(6)?;
+    /// assert_eq!((rules.coarse().degree(), rules.fine().degree()), (6, 8));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn of_degree(degree: usize) -> Result<Self, ContinuumError> {
         Self::of_degrees(degree, degree.saturating_add(2))
     }
@@ -52,6 +61,14 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// [`ContinuumError::DegreeTooHigh`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::fields::integral::EstimatedQuadrature;
+    /// let rules = EstimatedQuadrature::of_degrees(3, 9)?;
+    /// assert_eq!((rules.coarse().degree(), rules.fine().degree()), (3, 9));
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn of_degrees(coarse: usize, fine: usize) -> Result<Self, ContinuumError> {
         Ok(Self { coarse: Quadrature::of_degree(coarse)?, fine: Quadrature::of_degree(fine)? })
     }
@@ -72,6 +89,17 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// Those of the integration.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, EstimatedQuadrature};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let rules = EstimatedQuadrature::of_degree(2)?;
+    /// let integral = rules.estimate(|rule| rule.volume_integral(&unit, |x: &Vector3<f64>| x.x * x.x))?;
+    /// assert!((integral.value - 1.0 / 3.0).abs() < 1e-15 && integral.error < 1e-15); // both are exact
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn estimate<V: Integrand>(
         &self,
         mut integral: impl FnMut(&Quadrature) -> Result<V, ContinuumError>,
@@ -85,6 +113,16 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// As [`Quadrature::volume_integral`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, EstimatedQuadrature};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let integral = EstimatedQuadrature::of_degree(2)?.volume_integral(&unit, |x: &Vector3<f64>| x.x.powi(4))?;
+    /// assert!((integral.value - 0.2).abs() < 1e-15 && 1e-3 < integral.error); // degree 4 is exact, degree 2 is not
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn volume_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,
@@ -97,6 +135,17 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// As [`Quadrature::surface_integral`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, EstimatedQuadrature, SurfacePoint};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let rules = EstimatedQuadrature::of_degree(1)?;
+    /// let flux = rules.surface_integral(&unit, |point: &SurfacePoint<f64>| point.position.dot(&point.normal))?;
+    /// assert!((flux.value - 3.0).abs() < 1e-14 && flux.error < 1e-14); // div x = 3
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn surface_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,
@@ -106,7 +155,7 @@ impl EstimatedQuadrature {
     }
 }
 
-/// Rules of rising degree, taken one after another until two agree.
+/// Rules of rising degree, taken one after another until two agree; written as the highest degree.
 ///
 /// # Example
 /// ```
@@ -120,7 +169,9 @@ impl EstimatedQuadrature {
 /// assert!((integral.value - exact).abs() < 1e-12 * exact && integral.degree < 40);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "usize", into = "usize"))]
 pub struct AdaptiveQuadrature {
     rules: Box<[Quadrature]>,
 }
@@ -130,6 +181,13 @@ impl AdaptiveQuadrature {
     ///
     /// # Errors
     /// [`ContinuumError::DegreeTooHigh`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::fields::integral::AdaptiveQuadrature;
+    /// assert!(AdaptiveQuadrature::up_to_degree(12).is_ok());
+    /// assert!(AdaptiveQuadrature::up_to_degree(1000).is_err());
+    /// ```
     pub fn up_to_degree(degree: usize) -> Result<Self, ContinuumError> {
         let mut degrees = vec![1, 3];
         while let Some(&last) = degrees.last()
@@ -148,6 +206,17 @@ impl AdaptiveQuadrature {
     ///
     /// # Errors
     /// Those of the integration; [`ContinuumError::IntegralNotConverged`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{AdaptiveQuadrature, Cuboid};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let rules = AdaptiveQuadrature::up_to_degree(27)?;
+    /// let integral = rules.estimate(1e-12, |rule| rule.volume_integral(&unit, |x: &Vector3<f64>| x.x.exp()))?;
+    /// assert!((integral.value - (core::f64::consts::E - 1.0)).abs() < 1e-12);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn estimate<V: Integrand>(
         &self,
         tolerance: f64,
@@ -171,6 +240,17 @@ impl AdaptiveQuadrature {
     ///
     /// # Errors
     /// As [`estimate`](Self::estimate) and [`Quadrature::volume_integral`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{AdaptiveQuadrature, Cuboid};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let rules = AdaptiveQuadrature::up_to_degree(27)?;
+    /// let integral = rules.volume_integral(&unit, 1e-12, |x: &Vector3<f64>| x.x.exp())?;
+    /// assert!((integral.value - (core::f64::consts::E - 1.0)).abs() < 1e-12);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn volume_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,
@@ -184,6 +264,17 @@ impl AdaptiveQuadrature {
     ///
     /// # Errors
     /// As [`estimate`](Self::estimate) and [`Quadrature::surface_integral`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{AdaptiveQuadrature, Cuboid, SurfacePoint};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let rules = AdaptiveQuadrature::up_to_degree(27)?;
+    /// let flux = rules.surface_integral(&unit, 1e-12, |point: &SurfacePoint<f64>| point.position.dot(&point.normal))?;
+    /// assert!((flux.value - 3.0).abs() < 1e-12); // div x = 3
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn surface_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,
@@ -191,5 +282,20 @@ impl AdaptiveQuadrature {
         mut integrand: impl FnMut(&SurfacePoint<T>) -> V,
     ) -> Result<Estimate<V>, ContinuumError> {
         self.estimate(tolerance, |rule| rule.surface_integral(region, &mut integrand))
+    }
+}
+
+/// As [`AdaptiveQuadrature::up_to_degree`].
+impl TryFrom<usize> for AdaptiveQuadrature {
+    type Error = ContinuumError;
+    fn try_from(degree: usize) -> Result<Self, ContinuumError> {
+        Self::up_to_degree(degree)
+    }
+}
+
+/// The highest degree.
+impl From<AdaptiveQuadrature> for usize {
+    fn from(quadrature: AdaptiveQuadrature) -> Self {
+        quadrature.rules.last().map_or(0, Quadrature::degree)
     }
 }

@@ -25,7 +25,7 @@ pub(super) type SimplexNode<const N: usize> = ([f64; N], f64);
 ///
 /// Regions make of these their rules in space: products on boxes, radius × height × circle in balls and
 /// cylinders, one simplex after another in meshes. Everything is computed when the rules are made;
-/// integrating allocates nothing.
+/// integrating allocates nothing. They are written as their degree.
 ///
 /// # Accuracy
 /// Nodes and weights within a few ulp. Sums are compensated: the rounding of an integral does not grow with
@@ -47,7 +47,9 @@ pub(super) type SimplexNode<const N: usize> = ([f64; N], f64);
 /// F. D. Witherden, P. E. Vincent, *On the identification of symmetric quadrature rules for finite element
 /// methods*, Comput. Math. Appl. 69 (2015); I. Bogaert, *Iteration-free computation of Gauss–Legendre quadrature
 /// nodes and weights*, SIAM J. Sci. Comput. 36 (2014).
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "usize", into = "usize"))]
 pub struct Quadrature {
     degree: usize,
     pub(super) line: Box<[LineNode]>,
@@ -175,6 +177,17 @@ impl Quadrature {
     ///
     /// # Errors
     /// The integrand's first error; as [`volume_integral`](Self::volume_integral).
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, Quadrature, SurfacePoint};
+    /// let brick = Cuboid::new(Vector3::zeros(), Vector3::new(1.0, 2.0, 3.0))?;
+    /// // The face normal to −x, which is the first.
+    /// let first = |point: &SurfacePoint<f64>| Ok(if point.face == 0 { 1.0_f64 } else { 0.0 });
+    /// assert!((Quadrature::of_degree(0)?.surface_integral_of(&brick, first)? - 6.0).abs() < 1e-14); // 2 · 3
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn surface_integral_of<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,
@@ -183,6 +196,21 @@ impl Quadrature {
         let mut integral = RunningIntegral::new();
         region.surface_points(self, |point| integral.add(&integrand(&point)?, point.weight, &point.position))?;
         integral.value()
+    }
+}
+
+/// As [`Quadrature::of_degree`].
+impl TryFrom<usize> for Quadrature {
+    type Error = ContinuumError;
+    fn try_from(degree: usize) -> Result<Self, ContinuumError> {
+        Self::of_degree(degree)
+    }
+}
+
+/// The degree.
+impl From<Quadrature> for usize {
+    fn from(rules: Quadrature) -> Self {
+        rules.degree
     }
 }
 

@@ -28,19 +28,24 @@ use crate::tensor::rows::apply;
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+        deserialize = "T: crate::fields::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct Resultants<T = f64> {
     /// m, kg.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub mass: T,
     /// ∫ ρ (x − o) dv about the pole o, kg m.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub first_moment: Vector3<T>,
     /// p, kg m/s.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub momentum: Vector3<T>,
     /// h about the pole o, kg m²/s.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub moment_of_momentum: Vector3<T>,
     /// K, J.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub kinetic_energy: T,
 }
 
@@ -142,6 +147,18 @@ impl<T: Real> Resultants<T> {
     }
 
     /// c, m, for the pole that the resultants were taken about.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{Cuboid, Quadrature, Resultants};
+    /// use piola_continuum::fields::{Spatial, Uniform};
+    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::new(4.0, 0.0, 0.0));
+    /// let (density, rest) = (Spatial(Uniform(3.0)), Spatial(Uniform(Vector3::zeros())));
+    /// let of = Resultants::in_space(&Quadrature::of_degree(2)?, &unit, &density, &rest, &pole, 0.0)?;
+    /// assert!((of.centre_of_mass(&pole) - Vector3::repeat(0.5)).norm() < 1e-14); // whatever the pole
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[must_use]
     pub fn centre_of_mass(&self, pole: &Vector3<f64>) -> Vector3<T> {
         let mass = self.mass;
@@ -181,10 +198,13 @@ fn densities<T: Real>(density: T, arm: Vector3<T>, velocity: Vector3<T>) -> [T; 
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ForceResultants {
     /// f, N.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub force: Vector3<f64>,
     /// m about the pole o, N m.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub moment: Vector3<f64>,
     /// The power, W.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub power: f64,
 }
 
@@ -193,6 +213,21 @@ impl ForceResultants {
     ///
     /// # Errors
     /// [`ContinuumError::NonFiniteIntegrand`]; what the motion refuses.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::fields::integral::{Cuboid, ForceResultants, Quadrature};
+    /// use piola_continuum::fields::{Affine, Body, Material, Uniform};
+    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+    /// let rest = Affine::new(DeformationGradient::identity(), Vector3::zeros())?;
+    /// let (body, weight) = (Body { motion: rest, reference_density: Uniform(2.0) }, Vector3::new(0.0, 0.0, -10.0));
+    /// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
+    /// let of = ForceResultants::of_body_force(&rules, &unit, &body, &Material(Uniform(weight)), &pole, 0.0)?;
+    /// assert!((of.force.z + 20.0).abs() < 1e-13 && (of.moment.y - 10.0).abs() < 1e-13); // −(½ m · −20 N)
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn of_body_force(
         quadrature: &Quadrature,
         region: &impl Region<f64>,

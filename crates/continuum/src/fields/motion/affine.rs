@@ -104,6 +104,16 @@ impl Affine {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::{DeformationGradient, fields::Affine};
+    /// let stretch = DeformationGradient::uniaxial(2.0, 1.0)?;
+    /// assert!(Affine::new(stretch, Vector3::new(0.0, 0.0, 5.0)).is_ok());
+    /// assert!(Affine::new(stretch, Vector3::new(0.0, 0.0, f64::NAN)).is_err());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn new(gradient: DeformationGradient, translation: Vector3<f64>) -> Result<Self, ContinuumError> {
         check_finite("translation", translation.as_slice())?;
         Ok(Self { gradient, translation })

@@ -40,6 +40,12 @@ pub enum Interpolation {
 
 impl Interpolation {
     /// The degree of the polynomials.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::fields::Interpolation;
+    /// assert_eq!(Interpolation::Quintic.degree(), 5);
+    /// ```
     #[must_use]
     pub const fn degree(self) -> usize {
         match self {

@@ -30,10 +30,43 @@ use crate::error::check_finite;
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Written", into = "Written"))]
 pub struct SampledTrajectories {
+    interpolation: Interpolation,
     times: Axis,
+    /// As given, particle after particle.
+    places: Box<[[f64; 3]]>,
     /// Particle after particle.
     coefficients: Box<[[f64; 3]]>,
+}
+
+/// Trajectories as they are written: times, and the places of each particle.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    times: Vec<f64>,
+    particles: Vec<Vec<[f64; 3]>>,
+    interpolation: Interpolation,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Written> for SampledTrajectories {
+    type Error = ContinuumError;
+    fn try_from(written: Written) -> Result<Self, ContinuumError> {
+        let particles: Vec<&[[f64; 3]]> = written.particles.iter().map(Vec::as_slice).collect();
+        Self::new(&written.times, &particles, written.interpolation)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<SampledTrajectories> for Written {
+    fn from(trajectories: SampledTrajectories) -> Self {
+        let times = trajectories.times.nodes().to_vec();
+        let particles = trajectories.places.chunks(times.len()).map(<[_]>::to_vec).collect();
+        Self { times, particles, interpolation: trajectories.interpolation }
+    }
 }
 
 impl SampledTrajectories {
@@ -42,6 +75,16 @@ impl SampledTrajectories {
     /// # Errors
     /// [`ContinuumError::WrongLength`] when there is no time or a particle has another number of places;
     /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotIncreasing`] with the index of the time.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::fields::{Interpolation, SampledTrajectories};
+    /// let places = [[0.0; 3], [2.0, 0.0, 0.0]];
+    /// let walk = SampledTrajectories::new(&[0.0, 1.0], &[&places], Interpolation::Linear)?;
+    /// assert_eq!(walk.particles(), 1);
+    /// assert!(SampledTrajectories::new(&[1.0, 1.0], &[&places], Interpolation::Linear).is_err()); // time stands still
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn new(times: &[f64], particles: &[&[[f64; 3]]], interpolation: Interpolation) -> Result<Self, ContinuumError> {
         let times = Axis::new("times", times, interpolation)?;
         let mut coefficients = Vec::with_capacity(particles.len() * times.len());
@@ -56,7 +99,8 @@ impl SampledTrajectories {
             coefficients.extend_from_slice(places);
             factors.solve(&mut coefficients, start, 1);
         }
-        Ok(Self { times, coefficients: coefficients.into() })
+        let places = particles.concat().into();
+        Ok(Self { interpolation, times, places, coefficients: coefficients.into() })
     }
 
     /// The number of particles.
@@ -69,6 +113,15 @@ impl SampledTrajectories {
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::fields::{Interpolation, SampledTrajectories};
+    /// let places = [[0.0; 3], [2.0, 0.0, 0.0]];
+    /// let walk = SampledTrajectories::new(&[0.0, 1.0], &[&places], Interpolation::Linear)?;
+    /// assert_eq!(walk.position(0, 0.5)?.x, 1.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn position<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, ContinuumError> {
         check_finite("t", &[time])?;
         self.times.check(time)?;
@@ -83,6 +136,15 @@ impl SampledTrajectories {
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::fields::{Interpolation, SampledTrajectories};
+    /// let places = [[0.0; 3], [2.0, 0.0, 0.0]];
+    /// let walk = SampledTrajectories::new(&[0.0, 1.0], &[&places], Interpolation::Linear)?;
+    /// assert_eq!(walk.velocity(0, 0.5)?.x, 2.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn velocity<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, ContinuumError> {
         Ok(self.position(particle, Dual::variable(time))?.map(|x| x.tangent))
     }
@@ -91,6 +153,15 @@ impl SampledTrajectories {
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::fields::{Interpolation, SampledTrajectories};
+    /// let (times, places) = ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 4.0, 9.0].map(|x| [x, 0.0, 0.0])); // t²
+    /// let start = SampledTrajectories::new(&times, &[&places], Interpolation::Cubic)?;
+    /// assert!((start.acceleration(0, 1.5_f64)?.x - 2.0).abs() < 1e-13);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn acceleration<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, ContinuumError> {
         Ok(self.position(particle, Jet::<T, 0>::time(time))?.map(|x| x.second_rate))
     }

@@ -40,6 +40,19 @@ macro_rules! spinning {
     ($name:ident, $cauchy:ident, $of_jaumann:ident, $spin:ident) => {
         impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
             /// The tangent of the rate of τ, over J, with the spin of the stretch: less D ↦ Z T − T Z.
+            ///
+            /// # Example
+            /// ```
+            /// use piola_continuum::stress::tangents::JaumannTangent;
+            /// use piola_continuum::tensor::MajorSymmetric;
+            /// use piola_continuum::{CauchyStress, DeformationGradient};
+            /// let jaumann: JaumannTangent = JaumannTangent(MajorSymmetric::isotropic(1.0, 3.0));
+            /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+            #[doc = concat!("let tangent = jaumann.", stringify!($of_jaumann), "(&stress, &DeformationGradient::identity());")]
+            /// // where nothing is stretched, all spins are one
+            /// assert!((tangent.entry(0, 1, 0, 1) - 3.0_f64).abs() < 1e-14);
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[must_use]
             pub fn $of_jaumann(&self, stress: &CauchyStress<T>, deformation: &impl Deformation<T>) -> $name<T> {
                 let terms = turning_terms(stress, deformation, |rates| rates.$spin().axial.into());
@@ -49,6 +62,18 @@ macro_rules! spinning {
 
         impl<T: Real> $name<T> {
             /// The tangent of Jaumann's rate of τ, over J.
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::{CauchyStress, DeformationGradient, stress::tangents::", stringify!($name), "};")]
+            /// use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
+            #[doc = concat!("let tangent = ", stringify!($name), "(MajorSymmetric::isotropic(1.0, 3.0).minor());")]
+            /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+            /// let jaumann = tangent.jaumann(&stress, &DeformationGradient::identity());
+            /// // where nothing is stretched, all spins are one
+            /// assert!((jaumann.entry(0, 1, 0, 1) - 3.0_f64).abs() < 1e-14);
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[must_use]
             pub fn jaumann(
                 &self,
@@ -60,6 +85,15 @@ macro_rules! spinning {
             }
 
             /// The tangent of the same rate of Cauchy's stress: less T ⊗ 1.
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::{CauchyStress, stress::tangents::", stringify!($name), ", tensor::MinorSymmetric};")]
+            /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+            #[doc = concat!("let tangent = ", stringify!($name), "(MinorSymmetric::zero()).cauchy(&stress);")]
+            /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (-10.0, 0.0)); // −T₁₁, −T₂₂
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn cauchy(&self, stress: &CauchyStress<T>) -> $cauchy<T> {
@@ -69,6 +103,15 @@ macro_rules! spinning {
 
         impl<T: Real> $cauchy<T> {
             /// The tangent of the same rate of τ, over J: with T ⊗ 1.
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::{CauchyStress, stress::tangents::", stringify!($cauchy), ", tensor::MinorSymmetric};")]
+            /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+            #[doc = concat!("let tangent = ", stringify!($cauchy), "(MinorSymmetric::zero()).kirchhoff(&stress);")]
+            /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (10.0, 0.0)); // T₁₁, T₂₂
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn kirchhoff(&self, stress: &CauchyStress<T>) -> $name<T> {

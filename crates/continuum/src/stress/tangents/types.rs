@@ -39,6 +39,17 @@ macro_rules! symmetric_tangent {
             ///
             /// # Errors
             /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+            ///
+            /// # Example
+            /// ```
+            /// use nalgebra::Matrix3;
+            #[doc = concat!("use piola_continuum::{Symmetric, stress::tangents::", stringify!($name), ", tensor::MajorSymmetric};")]
+            /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+            /// let along_1 = MajorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0]));
+            #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(along_1);")]
+            /// assert_eq!(tangent.rotated(&quarter_turn)?.entry(1, 1, 1, 1), 4.0);
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
                 Ok(Self(self.0.rotated(rotation)?))
             }
@@ -73,6 +84,18 @@ macro_rules! minor_tangent {
             ///
             /// # Errors
             /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+            ///
+            /// # Example
+            /// ```
+            /// use nalgebra::Matrix3;
+            /// use piola_continuum::{Symmetric, tensor::MinorSymmetric};
+            #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
+            /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+            /// let along_1 = Symmetric::diagonal([2.0, 0.0, 0.0]);
+            #[doc = concat!("let tangent = ", stringify!($name), "(MinorSymmetric::dyad(&along_1, &along_1));")]
+            /// assert_eq!(tangent.rotated(&quarter_turn)?.entry(1, 1, 1, 1), 4.0);
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
                 Ok(Self(self.0.rotated(rotation)?))
             }
@@ -85,6 +108,16 @@ macro_rules! rate {
     ($($name:ident $(<$symmetry:ident>)? $objective:ident $stress:ident;)*) => {$(
         impl<T: Real $(, $symmetry: Symmetry)?> $name<T $(, $symmetry)?> {
             /// The rate that the tangent is named for, Pa/s, of a stretching D.
+            ///
+            /// # Example
+            /// ```
+            /// use piola_continuum::{rates::Stretching, tensor::MajorSymmetric};
+            #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
+            #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(MajorSymmetric::isotropic(1.0, 3.0).into());")]
+            /// let rate = tangent.rate(&Stretching::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0)?);
+            /// assert_eq!(rate.0.0.components, [7.0, 1.0, 1.0, 12.0, 0.0, 0.0]); // λ tr D 1 + 2μ D
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn rate(&self, stretching: &Stretching<T>) -> $objective<$stress<T>> {
@@ -97,6 +130,16 @@ macro_rules! rate {
             /// The rate of Kirchhoff's stress that the tangent is named for, over J, Pa/s, of a stretching D.
             ///
             /// It is the rate of no stress, and therefore bare.
+            ///
+            /// # Example
+            /// ```
+            /// use piola_continuum::{rates::Stretching, tensor::MajorSymmetric};
+            #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
+            #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(MajorSymmetric::isotropic(1.0, 3.0).into());")]
+            /// let rate = tangent.rate(&Stretching::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0)?);
+            /// assert_eq!(rate.components, [7.0, 1.0, 1.0, 12.0, 0.0, 0.0]); // λ tr D 1 + 2μ D
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn rate(&self, stretching: &Stretching<T>) -> Symmetric<T> {

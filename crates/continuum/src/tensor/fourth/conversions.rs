@@ -84,6 +84,15 @@ impl<T: Real> MinorSymmetric<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::{MinorSymmetric, PairSymmetric};
+    /// let mut matrix = nalgebra::Matrix6::zeros();
+    /// matrix[(0, 3)] = 5.0; // row 11, column 12
+    /// assert_eq!(MinorSymmetric::from_matrix(&matrix)?.entry(0, 0, 1, 0), 5.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn from_matrix(matrix: &Matrix6<T>) -> Result<Self, ContinuumError> {
         let mut components = [[T::zero(); 6]; 6];
         for (i, row) in components.iter_mut().enumerate() {
@@ -95,6 +104,12 @@ impl<T: Real> MinorSymmetric<T> {
     }
 
     /// The components over pairs as a matrix.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
+    /// assert_eq!(MajorSymmetric::isotropic(1.0, 3.0).minor().matrix()[(0, 1)], 1.0); // λ
+    /// ```
     #[must_use]
     pub fn matrix(&self) -> Matrix6<T> {
         Matrix6::from_fn(|i, j| self.components[i][j])
@@ -134,11 +149,27 @@ impl<T: Real> MajorSymmetric<T> {
     /// # Errors
     /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotMajorSymmetric`] when two opposite entries differ by
     /// more than 32 ulp of the largest.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::MajorSymmetric;
+    /// let matrix = MajorSymmetric::isotropic(1.0, 3.0).matrix();
+    /// assert_eq!(MajorSymmetric::from_matrix(&matrix)?, MajorSymmetric::isotropic(1.0, 3.0));
+    /// assert!(MajorSymmetric::from_matrix(&nalgebra::Matrix6::from_fn(|i, j| (6 * i + j) as f64)).is_err());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn from_matrix(matrix: &Matrix6<T>) -> Result<Self, ContinuumError> {
         MinorSymmetric::from_matrix(matrix)?.major_symmetric()
     }
 
     /// The components over pairs as a matrix.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::MajorSymmetric;
+    /// let matrix = MajorSymmetric::isotropic(1.0, 3.0).matrix();
+    /// assert_eq!((matrix[(0, 0)], matrix[(3, 3)]), (7.0, 3.0)); // λ + 2μ, μ
+    /// ```
     #[must_use]
     pub fn matrix(&self) -> Matrix6<T> {
         self.minor().matrix()
@@ -150,12 +181,25 @@ impl<T: Real> FourthOrder<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// assert_eq!(FourthOrder::from_matrix(&nalgebra::SMatrix::<f64, 9, 9>::identity())?, FourthOrder::identity());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn from_matrix(matrix: &SMatrix<T, 9, 9>) -> Result<Self, ContinuumError> {
         let tensor = Self::from_fn(|i, j, k, l| matrix[(3 * i + j, 3 * k + l)]);
         Self::try_from(tensor.components)
     }
 
     /// The components as a matrix, row 3i + j and column 3k + l.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// assert_eq!(FourthOrder::<f64>::transposer().matrix()[(1, 3)], 1.0); // row 12, column 21
+    /// ```
     #[must_use]
     pub fn matrix(&self) -> SMatrix<T, 9, 9> {
         SMatrix::from_fn(|row, column| self.components[row][column])

@@ -38,6 +38,12 @@ pub struct FourthOrder<T = f64> {
 
 impl<T: Real> FourthOrder<T> {
     /// 0.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// assert_eq!(FourthOrder::<f64>::zero().components, [[0.0; 9]; 9]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {
@@ -45,6 +51,13 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// From a formula for `C_ijkl`, indices from 0.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let c = FourthOrder::from_fn(|i, j, k, l| (1000 * i + 100 * j + 10 * k + l) as f64);
+    /// assert_eq!(c.entry(0, 1, 2, 0), 120.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn from_fn(f: impl Fn(usize, usize, usize, usize) -> T) -> Self {
@@ -58,6 +71,13 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// `C_ijkl`, indices from 0.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let transposer = FourthOrder::<f64>::transposer();
+    /// assert_eq!((transposer.entry(0, 1, 1, 0), transposer.entry(0, 1, 0, 1)), (1.0, 0.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn entry(&self, i: usize, j: usize, k: usize, l: usize) -> T {
@@ -65,6 +85,14 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// A ⊗ B = `A_ij B_kl`.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let a = [[0.0, 2.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// let b = [[0.0; 3], [0.0; 3], [3.0, 0.0, 0.0]];
+    /// assert_eq!(FourthOrder::dyad(a, b).entry(0, 1, 2, 0), 6.0); // A₁₂ B₃₁
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn dyad(a: Rows<T>, b: Rows<T>) -> Self {
@@ -106,6 +134,13 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// δᵢₖ δⱼₗ: A ↦ A.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let a = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
+    /// assert_eq!(FourthOrder::identity().contract(a), a);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn identity() -> Self {
@@ -113,6 +148,13 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// δᵢₗ δⱼₖ: A ↦ Aᵀ.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let a = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0], [7.0, 8.0, 9.0]];
+    /// assert_eq!(FourthOrder::transposer().contract(a)[0], [1.0, 4.0, 7.0]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn transposer() -> Self {
@@ -120,6 +162,13 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// A ↦ ½ (A + Aᵀ).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let shear = [[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// assert_eq!(FourthOrder::symmetrizer().contract(shear), [[0.0, 0.5, 0.0], [0.5, 0.0, 0.0], [0.0; 3]]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn symmetrizer() -> Self {
@@ -127,6 +176,13 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// A ↦ ½ (A − Aᵀ).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let shear = [[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// assert_eq!(FourthOrder::skew_projector().contract(shear), [[0.0, 0.5, 0.0], [-0.5, 0.0, 0.0], [0.0; 3]]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn skew_projector() -> Self {
@@ -134,6 +190,13 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// A ↦ ⅓ tr A 1.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let mean = FourthOrder::spherical().contract([[3.0, 7.0, 0.0], [0.0; 3], [0.0; 3]]);
+    /// assert_eq!(mean, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn spherical() -> Self {
@@ -141,6 +204,14 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// C : A = `C_ijkl A_kl`.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let shear = [[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// assert_eq!(FourthOrder::dyad(shear, one).contract(one)[0][1], 3.0); // A (1 : 1)
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn contract(&self, a: Rows<T>) -> Rows<T> {
@@ -150,6 +221,14 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// A : C = `A_ij C_ijkl`.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let shear = [[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// assert_eq!(FourthOrder::dyad(one, shear).contract_left(one)[0][1], 3.0); // (1 : 1) A
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn contract_left(&self, a: Rows<T>) -> Rows<T> {
@@ -157,6 +236,13 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// C : D = `C_ijmn D_mnkl`, the composition of the maps.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let transposer = FourthOrder::<f64>::transposer();
+    /// assert_eq!(transposer.double_contraction(&transposer), FourthOrder::identity());
+    /// ```
     #[inline]
     #[must_use]
     pub fn double_contraction(&self, other: &Self) -> Self {
@@ -172,6 +258,14 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// The tensor with the pairs exchanged, `C_klij`.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let shear = [[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// assert_eq!(FourthOrder::dyad(one, shear).transpose(), FourthOrder::dyad(shear, one));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn transpose(&self) -> Self {
@@ -182,6 +276,14 @@ impl<T: Real> FourthOrder<T> {
     /// configuration with F = G.
     ///
     /// Four stages of 243 products each, in place of 3⁸.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let g = [[3.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// assert_eq!(FourthOrder::identity().transformed(f, g).entry(0, 0, 0, 0), 36.0); // F₁₁ G₁₁ F₁₁ G₁₁
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn transformed(&self, f: Rows<T>, g: Rows<T>) -> Self {
@@ -205,6 +307,16 @@ impl<T: Real> FourthOrder<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    /// let e1 = [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// assert_eq!(FourthOrder::dyad(e1, e1).rotated(&quarter_turn)?.entry(1, 1, 1, 1), 4.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
         check_rotation(rotation)?;
         let q = rows_of(rotation);
@@ -212,24 +324,53 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// The largest |`C_ijkl − C_jikl`|.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// assert_eq!(FourthOrder::<f64>::identity().first_minor_residual(), 1.0); // C₁₂₁₂ = 1, C₂₁₁₂ = 0
+    /// assert_eq!(FourthOrder::<f64>::symmetrizer().first_minor_residual(), 0.0);
+    /// ```
     #[must_use]
     pub fn first_minor_residual(&self) -> T {
         self.residual(|i, j, k, l| [j, i, k, l]).1
     }
 
     /// The largest |`C_ijkl − C_ijlk`|.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// let c = FourthOrder::dyad(one, [[0.0, 2.0, 0.0], [0.0; 3], [0.0; 3]]);
+    /// assert_eq!((c.first_minor_residual(), c.second_minor_residual()), (0.0, 2.0));
+    /// ```
     #[must_use]
     pub fn second_minor_residual(&self) -> T {
         self.residual(|i, j, k, l| [i, j, l, k]).1
     }
 
     /// The largest |`C_ijkl − C_klij`|.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::FourthOrder;
+    /// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    /// assert_eq!(FourthOrder::dyad(one, one).major_residual(), 0.0);
+    /// assert_eq!(FourthOrder::dyad(one, [[0.0, 2.0, 0.0], [0.0; 3], [0.0; 3]]).major_residual(), 2.0);
+    /// ```
     #[must_use]
     pub fn major_residual(&self) -> T {
         self.residual(|i, j, k, l| [k, l, i, j]).1
     }
 
     /// The part with minor symmetries: the mean over exchanges within the pairs.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::{FourthOrder, MinorSymmetric};
+    /// assert_eq!(FourthOrder::<f64>::identity().minor_part(), MinorSymmetric::identity());
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn minor_part(&self) -> MinorSymmetric<T> {

@@ -36,6 +36,12 @@ pub struct MajorSymmetric<T = f64> {
 
 impl<T: Real> MajorSymmetric<T> {
     /// 0.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::MajorSymmetric;
+    /// assert_eq!(MajorSymmetric::<f64>::zero().components, [0.0; 21]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {
@@ -43,6 +49,14 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// The identity of symmetric tensors, ½ (δᵢₖ δⱼₗ + δᵢₗ δⱼₖ): A ↦ A.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MajorSymmetric, PairSymmetric}};
+    /// let a = Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
+    /// assert_eq!(MajorSymmetric::identity().contract(&a), a);
+    /// assert_eq!(MajorSymmetric::<f64>::identity().entry(0, 1, 0, 1), 0.5);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn identity() -> Self {
@@ -50,6 +64,13 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ⅓ 1 ⊗ 1: A ↦ ⅓ tr A 1.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MajorSymmetric, PairSymmetric}};
+    /// let a = Symmetric::diagonal([1.0, 2.0, 6.0]);
+    /// assert!((MajorSymmetric::spherical().contract(&a) - Symmetric::identity() * 3.0).norm() < 1e-14);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn spherical() -> Self {
@@ -57,6 +78,13 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// The identity less the spherical projector: A ↦ dev A.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MajorSymmetric, PairSymmetric}};
+    /// let dev = MajorSymmetric::deviatoric().contract(&Symmetric::diagonal([3.0, 0.0, 0.0]));
+    /// assert_eq!(dev, Symmetric::diagonal([2.0, -1.0, -1.0]));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn deviatoric() -> Self {
@@ -80,6 +108,13 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// A ⊗ A = `A_ij A_kl`.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MajorSymmetric, PairSymmetric}};
+    /// let dyad = MajorSymmetric::dyad(&Symmetric::diagonal([1.0, 2.0, 0.0]));
+    /// assert_eq!((dyad.entry(0, 0, 1, 1), dyad.entry(1, 1, 1, 1)), (2.0, 4.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn dyad(a: &Symmetric<T>) -> Self {
@@ -88,6 +123,14 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ½ (A ⊗ B + B ⊗ A).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MajorSymmetric, PairSymmetric}};
+    /// let (a, b) = (Symmetric::diagonal([1.0, 0.0, 0.0]), Symmetric::diagonal([0.0, 4.0, 0.0]));
+    /// let dyad = MajorSymmetric::symmetric_dyad(&a, &b);
+    /// assert_eq!((dyad.entry(0, 0, 1, 1), dyad.entry(1, 1, 0, 0)), (2.0, 2.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn symmetric_dyad(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
@@ -140,6 +183,15 @@ impl<T: Real> MajorSymmetric<T> {
     ///
     /// # Errors
     /// As [`MinorSymmetric::inverse`](super::MinorSymmetric::inverse).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
+    /// let compliance = MajorSymmetric::isotropic(0.0, 2.0).inverse()?; // ε = σ/4
+    /// assert_eq!(compliance.entry(0, 0, 0, 0), 0.25);
+    /// assert!(MajorSymmetric::<f64>::spherical().inverse().is_err());
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn inverse(&self) -> Result<Self, ContinuumError> {
         Ok(self.minor().inverse()?.major_part())
     }

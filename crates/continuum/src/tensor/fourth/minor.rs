@@ -38,6 +38,12 @@ pub struct MinorSymmetric<T = f64> {
 
 impl<T: Real> MinorSymmetric<T> {
     /// 0.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::tensor::MinorSymmetric;
+    /// assert_eq!(MinorSymmetric::<f64>::zero().components, [[0.0; 6]; 6]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {
@@ -45,6 +51,13 @@ impl<T: Real> MinorSymmetric<T> {
     }
 
     /// The identity of symmetric tensors, ½ (δᵢₖ δⱼₗ + δᵢₗ δⱼₖ).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MinorSymmetric, PairSymmetric}};
+    /// let a = Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
+    /// assert_eq!(MinorSymmetric::identity().contract(&a), a);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn identity() -> Self {
@@ -52,6 +65,13 @@ impl<T: Real> MinorSymmetric<T> {
     }
 
     /// A ⊗ B = `A_ij B_kl`.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MinorSymmetric, PairSymmetric}};
+    /// let dyad = MinorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0]), &Symmetric::diagonal([0.0, 3.0, 0.0]));
+    /// assert_eq!((dyad.entry(0, 0, 1, 1), dyad.entry(1, 1, 0, 0)), (6.0, 0.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn dyad(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
@@ -94,6 +114,13 @@ impl<T: Real> MinorSymmetric<T> {
     }
 
     /// The tensor with the pairs exchanged, `C_klij`.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MinorSymmetric, PairSymmetric}};
+    /// let dyad = MinorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0]), &Symmetric::diagonal([0.0, 3.0, 0.0]));
+    /// assert_eq!(dyad.transpose().entry(1, 1, 0, 0), 6.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn transpose(&self) -> Self {
@@ -101,6 +128,13 @@ impl<T: Real> MinorSymmetric<T> {
     }
 
     /// The largest |`C_ijkl − C_klij`|: zero for the tangent of an energy.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::MinorSymmetric};
+    /// let dyad = MinorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0]), &Symmetric::diagonal([0.0, 3.0, 0.0]));
+    /// assert_eq!(dyad.major_residual(), 6.0); // C₁₁₂₂ = 6, C₂₂₁₁ = 0
+    /// ```
     #[must_use]
     pub fn major_residual(&self) -> T {
         let difference = *self - self.transpose();
@@ -108,6 +142,13 @@ impl<T: Real> MinorSymmetric<T> {
     }
 
     /// ½ (`C_ijkl + C_klij`).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::{MinorSymmetric, PairSymmetric}};
+    /// let dyad = MinorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0]), &Symmetric::diagonal([0.0, 3.0, 0.0]));
+    /// assert_eq!(dyad.major_part().entry(1, 1, 0, 0), 3.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn major_part(&self) -> MajorSymmetric<T> {

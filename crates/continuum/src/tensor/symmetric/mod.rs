@@ -44,12 +44,24 @@ pub struct Symmetric<T = f64> {
 
 impl<T: Real> Symmetric<T> {
     /// From the components 11, 22, 33, 12, 23, 13.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0).rows(), [[1.0, 4.0, 6.0], [4.0, 2.0, 5.0], [6.0, 5.0, 3.0]]);
+    /// ```
     #[inline(always)]
     pub const fn new(xx: T, yy: T, zz: T, xy: T, yz: T, xz: T) -> Self {
         Self { components: [xx, yy, zz, xy, yz, xz] }
     }
 
     /// 0.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::<f64>::zero().components, [0.0; 6]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {
@@ -57,6 +69,12 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// 1.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::identity().apply([1.0, 2.0, 3.0]), [1.0, 2.0, 3.0]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn identity() -> Self {
@@ -65,6 +83,12 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// diag(a, b, c).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::diagonal([1.0, 2.0, 3.0]), Symmetric::new(1.0, 2.0, 3.0, 0.0, 0.0, 0.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn diagonal(diagonal: [T; 3]) -> Self {
@@ -73,6 +97,13 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// ½ (A + Aᵀ).
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// let shear = [[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]];
+    /// assert_eq!(Symmetric::symmetric_part(shear), Symmetric::new(0.0, 0.0, 0.0, 0.5, 0.0, 0.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn symmetric_part(a: Rows<T>) -> Self {
@@ -105,6 +136,13 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// The symmetric tensor with the upper triangle of A: for a product known to be symmetric.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// let product = [[1.0, 4.0, 6.0], [4.0, 2.0, 5.0], [6.0, 5.0, 3.0]];
+    /// assert_eq!(Symmetric::upper_triangle(product), Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0));
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn upper_triangle(a: Rows<T>) -> Self {
@@ -168,6 +206,12 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// All nine components as an array of rows.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0).rows()[2], [6.0, 5.0, 3.0]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn rows(&self) -> Rows<T> {
@@ -176,6 +220,12 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// All nine components as a matrix.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0).matrix()[(2, 1)], 5.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn matrix(&self) -> Matrix3<T> {
@@ -183,6 +233,12 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// tr A.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0).trace(), 6.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn trace(&self) -> T {
@@ -190,6 +246,12 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// det A.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::new(2.0, 3.0, 4.0, 1.0, 0.0, 0.0).determinant(), 20.0); // (2·3 − 1²)·4
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn determinant(&self) -> T {
@@ -197,6 +259,13 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A : B = Aᵢⱼ Bᵢⱼ.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// let a = Symmetric::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0);
+    /// assert_eq!(a.double_contraction(&a), 9.0); // 1 + 2·2², shears count twice
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn double_contraction(&self, other: &Self) -> T {
@@ -205,6 +274,12 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A v.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::Symmetric;
+    /// assert_eq!(Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0).apply([1.0, 0.0, 0.0]), [1.0, 4.0, 6.0]);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn apply(&self, v: [T; 3]) -> [T; 3] {

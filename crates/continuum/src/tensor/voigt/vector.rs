@@ -34,6 +34,15 @@ macro_rules! vectors {
             ///
             /// # Errors
             /// [`ContinuumError::NotFinite`].
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::tensor::voigt::", stringify!($name), ";")]
+            #[doc = concat!("let vector = ", stringify!($name), "::<f64>::new([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;")]
+            /// assert_eq!(vector.components[3], 4.0);
+            #[doc = concat!("assert!(", stringify!($name), "::<f64>::new([f64::NAN; 6]).is_err());")]
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             pub fn new(components: [T; 6]) -> Result<Self, ContinuumError> {
                 check_finite($quantity, &components)?;
                 Ok(Self::raw(components))
@@ -45,6 +54,13 @@ macro_rules! vectors {
             }
 
             /// Of a tensor.
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::{Symmetric, tensor::voigt::", stringify!($name), "};")]
+            #[doc = concat!("let vector = ", stringify!($name), "::<f64>::of(&Symmetric::diagonal([1.0, 2.0, 3.0]));")]
+            /// assert_eq!(vector.components, [1.0, 2.0, 3.0, 0.0, 0.0, 0.0]);
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn of(tensor: &Symmetric<T>) -> Self {
@@ -57,6 +73,14 @@ macro_rules! vectors {
             }
 
             /// The tensor.
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::{Symmetric, tensor::voigt::", stringify!($name), "};")]
+            #[doc = concat!("let vector = ", stringify!($name), "::<f64>::new([1.0, 2.0, 3.0, 0.0, 0.0, 0.0])?;")]
+            /// assert_eq!(vector.tensor(), Symmetric::diagonal([1.0, 2.0, 3.0]));
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn tensor(&self) -> Symmetric<T> {
@@ -69,6 +93,14 @@ macro_rules! vectors {
             }
 
             /// The same in another order, to the last bit.
+            ///
+            /// # Example
+            /// ```
+            #[doc = concat!("use piola_continuum::tensor::voigt::{Classical, ", stringify!($name), "};")]
+            #[doc = concat!("let vector = ", stringify!($name), "::<f64>::new([1.0, 2.0, 3.0, 12.0, 23.0, 13.0])?;")]
+            /// assert_eq!(vector.reordered::<Classical>().components, [1.0, 2.0, 3.0, 23.0, 13.0, 12.0]);
+            /// # Ok::<(), piola_continuum::ContinuumError>(())
+            /// ```
             #[inline(always)]
             #[must_use]
             pub fn reordered<N: VoigtOrder>(&self) -> $name<T, N> {
@@ -173,6 +205,13 @@ impl<T: Real, O: VoigtOrder> StressVector<T, O> {
 
 impl<T: Real, O: VoigtOrder> MandelVector<T, O> {
     /// A : B.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::voigt::MandelVector};
+    /// let diagonal = MandelVector::<f64>::of(&Symmetric::diagonal([1.0, 2.0, 0.0]));
+    /// assert_eq!(diagonal.dot(&MandelVector::of(&Symmetric::diagonal([3.0, 4.0, 0.0]))), 11.0);
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn dot(&self, other: &Self) -> T {
@@ -180,6 +219,13 @@ impl<T: Real, O: VoigtOrder> MandelVector<T, O> {
     }
 
     /// |A|, for components anywhere in the range of numbers.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{Symmetric, tensor::voigt::MandelVector};
+    /// let shear = Symmetric::new(0.0, 0.0, 0.0, 3.0, 4.0, 0.0);
+    /// assert!((MandelVector::<f64>::of(&shear).norm() - 50.0_f64.sqrt()).abs() < 1e-14); // √(2·3² + 2·4²)
+    /// ```
     #[inline(always)]
     #[must_use]
     pub fn norm(&self) -> T {

@@ -74,8 +74,10 @@ pub type QuadraticTetrahedra = TetrahedralElements<10>;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MaterialPoint {
     /// Its place X, m.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub position: Vector3<f64>,
     /// Its share of the volume, m³.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub weight: f64,
     /// The element it lies in.
     pub element: usize,
@@ -91,6 +93,16 @@ impl LinearTetrahedra {
     ///
     /// # Errors
     /// [`ContinuumError::DegreeTooHigh`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{LinearTetrahedra, TetrahedralMesh};
+    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+    /// let mesh = TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?;
+    /// assert_eq!(LinearTetrahedra::new(mesh, 1)?.components(), 12); // 4 corners
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn new(mesh: TetrahedralMesh, degree: usize) -> Result<Self, ContinuumError> {
         let (nodes, elements) = (mesh.vertices().to_vec(), mesh.tetrahedra().to_vec());
         Self::of_shape(mesh, nodes, elements, degree, shape::linear)
@@ -105,6 +117,16 @@ impl QuadraticTetrahedra {
     ///
     /// # Errors
     /// [`ContinuumError::DegreeTooHigh`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::{QuadraticTetrahedra, TetrahedralMesh};
+    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+    /// let mesh = TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?;
+    /// assert_eq!(QuadraticTetrahedra::new(mesh, 2)?.components(), 30); // 4 corners and 6 edges
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     pub fn new(mesh: TetrahedralMesh, degree: usize) -> Result<Self, ContinuumError> {
         let edges = mesh.edges();
         let mut nodes = mesh.vertices().to_vec();

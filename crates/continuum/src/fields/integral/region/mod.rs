@@ -40,13 +40,15 @@ use crate::tensor::rows::{Rows, apply};
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+        deserialize = "T: crate::fields::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct VolumePoint<T = f64> {
     /// The place, m.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub position: Vector3<T>,
     /// Its share of the volume, m³.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub weight: T,
     /// The element of a mesh that it lies in; 0 elsewhere.
     pub element: usize,
@@ -59,15 +61,18 @@ pub struct VolumePoint<T = f64> {
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: nalgebra::Scalar + serde::Deserialize<'de>"
+        deserialize = "T: crate::fields::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct SurfacePoint<T = f64> {
     /// The place, m.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub position: Vector3<T>,
     /// The outward unit normal.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub normal: Vector3<T>,
     /// Its share of the area, m².
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub weight: T,
     /// The face it lies on: that of a box in the order −x, +x, −y, +y, −z, +z; of a cylinder bottom, top, outer,
     /// inner; of a shell outer, inner; the boundary triangle of a mesh.

@@ -33,6 +33,14 @@ impl Ball {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NotPositive`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::Ball;
+    /// assert!(Ball::new(Vector3::zeros(), 1.0).is_ok());
+    /// assert!(Ball::new(Vector3::zeros(), 0.0).is_err());
+    /// ```
     pub fn new(centre: Vector3<f64>, radius: f64) -> Result<Self, ContinuumError> {
         check_finite("centre", centre.as_slice())?;
         check_length("radius", radius)?;
@@ -77,6 +85,14 @@ impl SphericalShell {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotPositive`] unless 0 < R₁ and 0 < R₂ − R₁.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use piola_continuum::fields::integral::SphericalShell;
+    /// assert!(SphericalShell::new(Vector3::zeros(), [1.0, 2.0]).is_ok());
+    /// assert!(SphericalShell::new(Vector3::zeros(), [2.0, 1.0]).is_err());
+    /// ```
     pub fn new(centre: Vector3<f64>, radii: [f64; 2]) -> Result<Self, ContinuumError> {
         check_finite("centre", centre.as_slice())?;
         check_length("inner radius", radii[0])?;
@@ -126,6 +142,14 @@ impl Ellipsoid {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveJacobian`] unless 0 < det A.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::fields::integral::Ellipsoid;
+    /// assert!(Ellipsoid::new(Vector3::zeros(), Matrix3::from_diagonal_element(2.0)).is_ok());
+    /// assert!(Ellipsoid::new(Vector3::zeros(), Matrix3::zeros()).is_err());
+    /// ```
     pub fn new(centre: Vector3<f64>, semi_axes: Matrix3<f64>) -> Result<Self, ContinuumError> {
         check_finite("centre", centre.as_slice())?;
         let rows = rows_of(&semi_axes);
