@@ -106,7 +106,7 @@ parameters! {
 }
 
 impl ThinPlate {
-    /// ½ D |∇∇u|² of `second[i][j][k]` = ∂²uᵢ/∂Xⱼ∂X_k, 1/m, J/m³.
+    /// ½ D |∇∇u|², J/m³, of `second[i][j][k]` = `∂²u_i/∂X_j∂X_k`, 1/m.
     #[inline(always)]
     #[must_use]
     pub fn energy_density<T: Real>(&self, second: &[[[T; 3]; 3]; 3]) -> T {

@@ -79,7 +79,7 @@ impl<T: Real> IsotropicResponse<T> {
     /// use piola_constitutive::solids::{IsotropicResponse, MooneyRivlin};
     /// use piola_continuum::DeformationGradient;
     /// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-    /// let response = IsotropicResponse::of(&rubber, &DeformationGradient::identity());
+    /// let response = IsotropicResponse::of(&rubber, &DeformationGradient::<f64>::identity());
     /// assert_eq!(response.coefficients, [-2.0, 2.5, -0.5]);
     /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
     /// ```
@@ -130,7 +130,7 @@ impl<T: Real> IsotropicResponse<T> {
             return *self;
         }
         let invariants = Traces::of(deformation);
-        Self { form, coefficients: invariants.from_mixed(form, invariants.mixed(self)) }
+        Self { form, coefficients: invariants.turned(form, invariants.mixed(self)) }
     }
 }
 
@@ -186,7 +186,7 @@ impl<T: Real> Traces<T> {
     }
 
     #[inline(always)]
-    fn from_mixed(&self, form: ResponseForm, [a, b, c]: [T; 3]) -> [T; 3] {
+    fn turned(&self, form: ResponseForm, [a, b, c]: [T; 3]) -> [T; 3] {
         let [i, ii, iii] = self.b;
         match form {
             ResponseForm::Mixed => [a, b, c],
@@ -196,7 +196,7 @@ impl<T: Real> Traces<T> {
             }
             ResponseForm::Inverse => [a + i * b, c - ii * b, iii * b],
             ResponseForm::Stretch => {
-                let [zero, first, second] = self.from_mixed(ResponseForm::Square, [a, b, c]);
+                let [zero, first, second] = self.turned(ResponseForm::Square, [a, b, c]);
                 let (p, q, d) = self.of_stretch();
                 [zero + second * q, -(second * d), first + second * p]
             }

@@ -57,7 +57,8 @@ impl SaintVenantKirchhoff {
         Symmetric::identity() * (T::lit(self.lambda) * strain.trace()) + strain * T::lit(2.0 * self.mu)
     }
 
-    /// δᵢⱼ S_AB + λ F_iA F_jB + μ (F_iB F_jA + Bᵢⱼ δ_AB).
+    /// `δ_ij S_AB + λ F_iA F_jB + μ (F_iB F_jA + B_ij δ_AB)`.
+    #[expect(clippy::needless_range_loop, reason = "row and column are pairs of indices of four tensors")]
     #[inline(always)]
     fn tangent<T: Real>(&self, stress: &Symmetric<T>, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         let f = deformation.gradient_rows();
