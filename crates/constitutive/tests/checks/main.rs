@@ -1,6 +1,7 @@
 //! Homogeneous tests, checks of laws and memory.
 
 mod homogeneous;
+mod laws;
 mod memory;
 mod refuted;
 
