@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Plan(SceneArguments),
     /// Look for mistakes in a scene and show all of them.
     Check(SceneArguments),
+    /// Fit laws of rubber to measured stresses; compare them in a table, a summary and a figure.
+    Fit(FitArguments),
     /// Print the JSON Schema of scenes, for editors.
     Schema(SchemaArguments),
 }
@@ -48,6 +50,36 @@ pub(crate) struct RunArguments {
     /// Folder of the results instead of the scene's.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FitArguments {
+    /// The measured stresses: CSV with the columns mode,stretch,stress (or F and stress by components).
+    pub(crate) data: PathBuf,
+    /// A law: neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n. Without any, the usual ones.
+    #[arg(long = "law", value_name = "LAW")]
+    pub(crate) laws: Vec<String>,
+    /// Weights of tests, as uniaxial=2,planar=0.5.
+    #[arg(long, value_name = "TEST=WEIGHT,...")]
+    pub(crate) mode_weights: Option<String>,
+    /// Bounds of a parameter, as gent.Jm=60..200 or gent.Jm=60..
+    #[arg(long = "bound", value_name = "LAW.PARAMETER=LEAST..GREATEST", allow_hyphen_values = true)]
+    pub(crate) bounds: Vec<String>,
+    /// Suppose errors of one size in all tests, instead of a part of each test's largest stress.
+    #[arg(long)]
+    pub(crate) equal_errors: bool,
+    /// Let laws be unstable; whether they are is reported all the same.
+    #[arg(long)]
+    pub(crate) allow_unstable: bool,
+    /// The probability of the intervals.
+    #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
+    pub(crate) confidence: f64,
+    /// Folder of the results instead of out/fit-DATA.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print JSON to standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

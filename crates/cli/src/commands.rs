@@ -2,15 +2,17 @@
 
 use core::ops::ControlFlow;
 use std::io::Write as _;
+use std::path::Path;
 
-use piola_scene::output::{self, Folder, Summary};
+use piola_scene::fitting::{self, Measurements, Request};
+use piola_scene::output::{self, Folder, Summary, Written};
 use piola_scene::run::{self, Outcome};
 use piola_scene::{Plan, Scene, SceneError, schema};
 
-use crate::arguments::{RunArguments, SceneArguments, SchemaArguments};
+use crate::arguments::{FitArguments, RunArguments, SceneArguments, SchemaArguments};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::{Exit, report};
+use crate::{Exit, comparison, report};
 
 pub(crate) fn run(arguments: &RunArguments) -> Exit {
     let mut scene = match load(&arguments.scene) {
@@ -38,8 +40,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Exit {
         print(&summary.to_json());
     } else {
         print(&report::table(&scene, &plan, &run));
-        let names: Vec<_> = written.files.iter().filter_map(|path| path.file_name()?.to_str()).collect();
-        print(&format!("written to {}: {}\n", folder.path().display(), names.join(", ")));
+        print(&listing(&folder, &written));
     }
     for failure in &written.failures {
         note(&format!("error: {failure}"));
@@ -89,6 +90,63 @@ pub(crate) fn check(arguments: &SceneArguments) -> Exit {
     }
 }
 
+pub(crate) fn fit(arguments: &FitArguments) -> Exit {
+    let prepared = Measurements::load(&arguments.data).and_then(|measurements| {
+        let request = request(arguments)?;
+        let fitted = fitting::compare(&measurements, &request)?;
+        if let (None, Some(refused)) = (fitted.fits().next(), fitted.refusals().next()) {
+            return Err(refused.clone().into());
+        }
+        let beside = || Path::new("out").join(format!("fit-{}", measurements.name()));
+        let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
+        Ok((measurements, fitted, folder))
+    });
+    let (measurements, fitted, folder) = match prepared {
+        Ok(prepared) => prepared,
+        Err(error) => return invalid(&error, arguments.json),
+    };
+    let written = fitting::write(&folder, &measurements, &fitted);
+    if arguments.json {
+        print(&fitting::summary(&measurements, &fitted));
+    } else {
+        print(&comparison::table(&measurements, &fitted));
+        print(&listing(&folder, &written));
+    }
+    for failure in &written.failures {
+        note(&format!("error: {failure}"));
+    }
+    for refusal in fitted.refusals() {
+        note(&format!("error: {refusal}"));
+    }
+    if fitted.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+}
+
+fn request(arguments: &FitArguments) -> Result<Request, SceneError> {
+    let laws = match arguments.laws.as_slice() {
+        [] => Request::usual_laws()?,
+        names => names.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, SceneError>>()?,
+    };
+    let mut request = Request::of(laws);
+    if let Some(weights) = &arguments.mode_weights {
+        request.weights = Request::weights(weights)?;
+    }
+    request.bounds = arguments.bounds.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
+    if arguments.equal_errors {
+        request.weighting = fitting::Weighting::Equal;
+    }
+    if arguments.allow_unstable {
+        request.stability = fitting::Stability::Free;
+    }
+    request.confidence = arguments.confidence;
+    Ok(request)
+}
+
+/// Where the results are.
+fn listing(folder: &Folder, written: &Written) -> String {
+    let names: Vec<_> = written.files.iter().filter_map(|path| path.file_name()?.to_str()).collect();
+    format!("written to {}: {}\n", folder.path().display(), names.join(", "))
+}
+
 pub(crate) fn schema(arguments: &SchemaArguments) -> Exit {
     if arguments.markdown {
         print(&schema::markdown());
@@ -109,7 +167,14 @@ fn invalid(error: &SceneError, json: bool) -> Exit {
             "mistakes": report.mistakes,
             "more": report.more,
         })),
+        SceneError::Table(report) if json => print_json(&serde_json::json!({
+            "valid": false,
+            "file": report.path,
+            "mistakes": report.mistakes,
+            "more": report.more,
+        })),
         _ if json => print_json(&serde_json::json!({ "valid": false, "error": error.to_string() })),
+        SceneError::Table(report) => note(&report.to_string()),
         SceneError::Invalid(report) => note(&report.to_string()),
         _ => note(&format!("error: {error}")),
     }

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod commands;
+mod comparison;
 mod interrupt;
 mod progress;
 mod report;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Plan(arguments) => commands::plan(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
+        Command::Fit(arguments) => commands::fit(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
     };
     match exit {

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
+use piola_constitutive::ConstitutiveError;
+
 use crate::document::Report;
+use crate::fitting::TableReport;
 
 /// Why a scene cannot be read, checked, run or written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -63,4 +66,26 @@ pub enum SceneError {
         /// The operating system's word.
         cause: String,
     },
+    /// A table of measured stresses has mistakes; all of them.
+    #[error("{0}")]
+    Table(TableReport),
+    /// An argument of a fit cannot be read.
+    #[error("`{argument}` cannot be read; valid: {valid}")]
+    Argument {
+        /// The argument.
+        argument: String,
+        /// What would be valid.
+        valid: &'static str,
+    },
+    /// A weight is given to a test that is not in the data.
+    #[error("no test is called `{name}`; the tests are: {}", tests.join(", "))]
+    NoSuchTest {
+        /// The name.
+        name: String,
+        /// The tests.
+        tests: Vec<String>,
+    },
+    /// A law or its data are refused.
+    #[error(transparent)]
+    Constitutive(#[from] ConstitutiveError),
 }

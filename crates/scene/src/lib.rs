@@ -8,10 +8,13 @@
 //! | plan | [`plan`] | scene → method, step, what is computed and what is skipped, with reasons |
 //! | run | [`run`](mod@run) | plan → history, drift of invariants, errors against the reference ([`kepler`] or a table) |
 //! | write | [`output`] | run → `summary.json`, CSV tables, SVG figures |
+//!
+//! Beside scenes: [`fitting`], parameters of laws from tables of measured stresses.
 #![forbid(unsafe_code)]
 
 pub mod document;
 mod error;
+pub mod fitting;
 pub mod kepler;
 pub mod model;
 pub mod output;

@@ -191,3 +191,52 @@ fn plan_check_and_schema_are_printed() {
     assert!(json(&out(&schema))["properties"]["central"].is_object());
     assert!(!folder.0.join("out").exists());
 }
+
+/// A table with errors in the third digit of a neo-Hookean bar and sheet.
+const RUBBER: &str = "mode,stretch,stress_MPa\nuniaxial,1.5,0.423\nuniaxial,2,0.699\nuniaxial,3,1.157\nuniaxial,4,1.573\n\
+                      planar,1.5,0.482\nplanar,2,0.752\nplanar,3,1.183\nplanar,4,1.596\n";
+
+#[test]
+fn fit_compares_laws_and_writes_summary_tables_and_figure() {
+    let folder = Folder::new("fit");
+    std::fs::write(folder.0.join("rubber.csv"), RUBBER).unwrap_or_else(|error| panic!("{error}"));
+    let output = folder.piola(&["fit", "rubber.csv", "--law", "neo-hookean", "--law", "mooney-rivlin"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let shown = out(&output);
+    assert!(shown.contains("neo-hookean") && shown.contains("AICc") && shown.contains("MPa"), "{shown}");
+    let summary = json(&read(&folder.0.join("out/fit-rubber/summary.json")));
+    assert_eq!(summary["best_by_aicc"], "neo-hookean");
+    for file in ["curves.csv", "residuals.csv", "fit.svg"] {
+        assert!(!read(&folder.0.join("out/fit-rubber").join(file)).is_empty());
+    }
+    let arguments =
+        ["fit", "rubber.csv", "--law", "neo-hookean", "--law", "mooney-rivlin", "--json", "--out", "results"];
+    let output = folder.piola(&arguments);
+    assert_eq!(json(&out(&output)), json(&read(&folder.0.join("results/summary.json"))));
+}
+
+#[test]
+fn fit_of_bad_tables_laws_or_bounds_exits_with_2_and_writes_nothing() {
+    let folder = Folder::new("bad-fit");
+    std::fs::write(folder.0.join("rubber.csv"), RUBBER).unwrap_or_else(|error| panic!("{error}"));
+    std::fs::write(folder.0.join("bad.csv"), RUBBER.replace("1.157", "much")).unwrap_or_else(|error| panic!("{error}"));
+    std::fs::write(folder.0.join("empty.csv"), "").unwrap_or_else(|error| panic!("{error}"));
+    let cases: [(&[&str], &str); 8] = [
+        (&["bad.csv"], "bad.csv:4: stress is `much`"),
+        (&["empty.csv"], "empty.csv:1: the table is empty"),
+        (&["none.csv"], "cannot read `none.csv`"),
+        (&["rubber.csv", "--law", "odgen:3"], "no model is called `odgen:3`"),
+        (&["rubber.csv", "--law", "gent", "--bound", "gent.Jm=0..5"], "no value of `Jm`"),
+        (&["rubber.csv", "--law", "gent", "--bound", "gent.Jm"], "`gent.Jm` cannot be read"),
+        (&["rubber.csv", "--law", "gent", "--mode-weights", "shear=2"], "no test is called `shear`"),
+        (&["rubber.csv", "--law", "gent", "--confidence", "2"], "the confidence 2 is not between 0 and 1"),
+    ];
+    for (arguments, expected) in cases {
+        let output = folder.piola(&[&["fit"], arguments].concat());
+        assert!(err(&output).contains(expected), "{arguments:?}: {}", err(&output));
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
+    assert!(!folder.0.join("out").exists());
+    let report = json(&out(&folder.piola(&["fit", "bad.csv", "--json"])));
+    assert_eq!((&report["valid"], &report["mistakes"][0]["line"]), (&false.into(), &4.into()), "{report}");
+}

@@ -24,23 +24,23 @@ const PALETTE: [RGBColor; 12] = [
     RGBColor(170, 68, 153),
     RGBColor(85, 85, 85),
 ];
-const INK: RGBColor = RGBColor(40, 40, 40);
-const GRID: RGBColor = RGBColor(225, 225, 225);
-const FONT: &str = "sans-serif";
+pub(crate) const INK: RGBColor = RGBColor(40, 40, 40);
+pub(crate) const GRID: RGBColor = RGBColor(225, 225, 225);
+pub(crate) const FONT: &str = "sans-serif";
 /// Coordinates are whole in the drawing; this many of them make a pixel, so that curves are smooth.
-const FINE: u32 = 8;
+pub(crate) const FINE: u32 = 8;
 /// Beyond this many curves a legend helps nobody.
 const NAMED: usize = 24;
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn core::error::Error>>;
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type Drawn = Result<(), Box<dyn core::error::Error>>;
 
-fn colour(index: usize) -> RGBColor {
+pub(crate) fn colour(index: usize) -> RGBColor {
     PALETTE[index % PALETTE.len()]
 }
 
 /// A figure of a size, with a title; one that cannot be drawn says so instead of being lost.
-fn figure(size: (u32, u32), title: &str, draw: impl Fn(&Area<'_>) -> Drawn) -> String {
+pub(crate) fn figure(size: (u32, u32), title: &str, draw: impl Fn(&Area<'_>) -> Drawn) -> String {
     let mut text = String::new();
     let attempt = |text: &mut String, draw: &dyn Fn(&Area<'_>) -> Drawn| -> Drawn {
         let area = SVGBackend::with_string(text, (FINE * size.0, FINE * size.1)).into_drawing_area();
@@ -70,7 +70,7 @@ fn figure(size: (u32, u32), title: &str, draw: impl Fn(&Area<'_>) -> Drawn) -> S
 }
 
 /// Pixels in the coordinates of the drawing.
-fn pixels(count: u32) -> i32 {
+pub(crate) fn pixels(count: u32) -> i32 {
     i32::try_from(count * FINE).unwrap_or(i32::MAX)
 }
 
@@ -428,7 +428,7 @@ fn draw_legend(area: &Area<'_>, names: &[&str]) -> Drawn {
     legend(area, &entries)
 }
 
-fn legend(area: &Area<'_>, entries: &[(&str, RGBColor)]) -> Drawn {
+pub(crate) fn legend(area: &Area<'_>, entries: &[(&str, RGBColor)]) -> Drawn {
     let mut y = pixels(20);
     for (name, colour) in entries {
         area.draw(&PathElement::new(vec![(pixels(8), y), (pixels(30), y)], colour.stroke_width(3 * FINE)))?;
@@ -460,7 +460,7 @@ fn power_of_ten(y: f64) -> String {
 }
 
 /// A number with as many digits as it needs, at most four.
-fn format_short(x: f64) -> String {
+pub(crate) fn format_short(x: f64) -> String {
     let rounded = format!("{x:.4}");
     let trimmed = rounded.trim_end_matches('0').trim_end_matches('.');
     match trimmed {

@@ -3,7 +3,7 @@
 //! The folder is tried before the run. Every file is written beside its place and then moved there, so that none is ever half
 //! written, and one that fails does not keep the others from being written.
 
-mod figures;
+pub(crate) mod figures;
 mod folder;
 mod summary;
 mod tables;

@@ -1,6 +1,7 @@
 //! Tests of scenes: every bad input has a clear answer, every good one the right result.
 
 mod bad_input;
+mod fitting;
 mod kepler;
 mod plan;
 mod reference;
