@@ -44,13 +44,20 @@ impl<T: Real> TryFrom<Unchecked<T>> for SpectralDecomposition<T> {
     type Error = ContinuumError;
 
     fn try_from(Unchecked { values, vectors }: Unchecked<T>) -> Result<Self, ContinuumError> {
-        check_finite("eigenvalues", &values)?;
-        check_rotation(&from_rows(vectors))?;
-        for pair in values.windows(2) {
-            check_range("difference of eigenvalues", pair[0] - pair[1], f64::INFINITY)?;
-        }
+        check_principal(&values, vectors)?;
         Ok(Self { values, vectors })
     }
+}
+
+/// Refuses values that are not finite or do not descend, and axes that are not orthonormal and right-handed.
+#[cfg(feature = "serde")]
+pub(crate) fn check_principal<T: Real>(values: &[T; 3], axes: Rows<T>) -> Result<(), ContinuumError> {
+    check_finite("principal value", values)?;
+    check_rotation(&from_rows(axes))?;
+    for pair in values.windows(2) {
+        check_range("difference of principal values", pair[0] - pair[1], f64::INFINITY)?;
+    }
+    Ok(())
 }
 
 /// Eigenvalues and eigenvectors of A, W(14.12–14.13), without a branch.

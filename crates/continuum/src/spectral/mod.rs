@@ -21,6 +21,8 @@ mod series;
 mod stretch;
 mod tensor_function;
 
+#[cfg(feature = "serde")]
+pub(crate) use decomposition::check_principal;
 pub use decomposition::{SpectralDecomposition, decompose};
 pub use functions::{Exponential, Logarithm, Power, SquareRoot};
 pub use isotropic::IsotropicFunction;

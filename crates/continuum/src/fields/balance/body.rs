@@ -6,7 +6,7 @@ use piola_numerics::{Dual, Gradient, Real};
 
 use super::flow::dot_terms;
 use super::identities::{divergence, two_point_symmetry};
-use super::{checked, checked_vector};
+use super::{checked, checked_vector, momentum};
 use crate::deformation::gradient::check_jacobian;
 use crate::error::check_finite;
 use crate::fields::field::{Field, along, local_rate};
@@ -201,9 +201,8 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         let divergence = referential_divergence(stress, reference, time);
         let density = self.reference_density.at(reference, time);
         let force = body_force.0.at(reference, time);
-        let acceleration = kernels::acceleration(&self.motion, reference, time);
-        let component = |i: usize| divergence[i].plus(density * force[i]).plus(-(density * acceleration[i]));
-        checked_vector("momentum", [component(0), component(1), component(2)])
+        let acceleration = single_terms(&kernels::acceleration(&self.motion, reference, time));
+        momentum(divergence, density, &force, acceleration)
     }
 
     /// div T + ρb − ρa, N/m³, W(17.12), at the place of the particle, with `ρ = ρ_κ/det F`.
@@ -245,10 +244,9 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         let place = self.motion.place(reference, time);
         let tensor = stress.0.at(&kernels::variables(&place), Gradient::constant(time)).rows();
         let force = body_force.0.at(&place, time);
-        let acceleration = kernels::acceleration(&self.motion, reference, time);
+        let acceleration = single_terms(&kernels::acceleration(&self.motion, reference, time));
         let divergence = divergence(&tensor);
-        let component = |i: usize| divergence[i].plus(density * force[i]).plus(-(density * acceleration[i]));
-        checked_vector("momentum", [component(0), component(1), component(2)])
+        momentum(divergence, density, &force, acceleration)
     }
 
     /// `ρ_κ` ü + c u̇ − f − Div P, N/m³ of the reference configuration: damped motion, B(4.58).
@@ -459,4 +457,10 @@ fn referential_divergence<T: Real>(
     time: T,
 ) -> [Residual<T>; 3] {
     divergence(&stress.0.at(&kernels::variables(reference), Gradient::constant(time)).rows())
+}
+
+/// A vector as sums of one term each.
+#[inline(always)]
+fn single_terms<T: Real>(vector: &Vector3<T>) -> [Residual<T>; 3] {
+    [0, 1, 2].map(|i: usize| Residual::zero().plus(vector[i]))
 }

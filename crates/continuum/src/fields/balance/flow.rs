@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
 
-use super::{checked, checked_vector};
+use super::{checked, checked_vector, momentum};
 use crate::error::check_finite;
 use crate::fields::coordinates::{Coordinates, divergence_of, gradient_of};
 use crate::fields::field::{Field, check_point, finite, local_rate, value_and_partials};
@@ -168,8 +168,7 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
         let acceleration = self.acceleration_terms(coordinates, time)?;
         let density = self.density.at(coordinates, time);
         let force = body_force.at(coordinates, time);
-        let component = |i: usize| divergence[i].plus(density * force[i]).plus_all(acceleration[i], -density);
-        checked_vector("momentum", [component(0), component(1), component(2)])
+        momentum(divergence, density, &force, acceleration)
     }
 
     /// ρε̇ − tr(T L), W/m³: the balance of energy of a body that neither conducts nor receives heat, W(20.8).

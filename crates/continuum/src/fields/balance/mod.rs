@@ -29,6 +29,7 @@ pub use identities::{cofactor_divergence, piola_identity_residual, symmetry_resi
 use super::residual::{Residual, VectorResidual};
 use crate::ContinuumError;
 use crate::error::check_finite;
+use nalgebra::Vector3;
 use piola_numerics::Real;
 
 /// The residual, if it is finite.
@@ -49,4 +50,16 @@ fn checked_vector<T: Real>(
     check_finite(quantity, residual.value.as_slice())?;
     check_finite(quantity, residual.scale.as_slice())?;
     Ok(residual)
+}
+
+/// div T + ρb − ρa, from the terms of div T and of a.
+#[inline(always)]
+fn momentum<T: Real>(
+    divergence: [Residual<T>; 3],
+    density: T,
+    force: &Vector3<T>,
+    acceleration: [Residual<T>; 3],
+) -> Result<VectorResidual<T>, ContinuumError> {
+    let component = |i: usize| divergence[i].plus(density * force[i]).plus_all(acceleration[i], -density);
+    checked_vector("momentum", [component(0), component(1), component(2)])
 }
