@@ -1,0 +1,6 @@
+//! Laws of principal stretches and anisotropic laws.
+
+mod cases;
+mod identities;
+mod near_reference;
+mod traps;
