@@ -5,6 +5,7 @@ mod answers;
 mod constants;
 mod forms;
 mod golden;
+mod lanes;
 mod langevin;
 mod laws;
 mod limits;
