@@ -8,13 +8,13 @@ use piola_scene::fitting::{Comparison, Estimate, Fit, Measurements, State};
 pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> String {
     let mut text = String::new();
     let tests = measurements.data.tests();
-    let count: usize = tests.iter().map(|test| test.len()).sum();
+    let count = measurements.data.len();
     let _ = writeln!(text, "{}: {count} stresses in {} tests\n", measurements.name(), tests.len());
     let _ = write!(text, "{:<16}{:>3}", "law", "k");
     for test in tests {
         let _ = write!(text, "{:>14}", shortened(test.name()));
     }
-    let _ = writeln!(text, "{:>10}{:>10}  {:<8}{}", "AICc", "above", "stable", "search");
+    let _ = writeln!(text, "{:>10}{:>10}  {:<8}search", "AICc", "above", "stable");
     let least = comparison.best().and_then(|fit| fit.criteria.aicc);
     for (law, fit) in comparison.fits() {
         let _ = write!(text, "{:<16}{:>3}", law.to_string(), fit.parameters.len());

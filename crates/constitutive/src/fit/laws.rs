@@ -243,7 +243,7 @@ impl Model for AnyModel {
 fn power<T: Real>(x: T, count: usize) -> T {
     let mut product = T::one();
     for _ in 0..count {
-        product = product * x;
+        product *= x;
     }
     product
 }

@@ -176,11 +176,12 @@ impl<'a, M: Model> Problem<'a, M> {
             let hardness = 10_f64.powi(power);
             let inner = (0..theta.len()).map(|k| self.inward(k, theta[k]));
             let x = searched::DVector::from_iterator(theta.len(), inner);
-            let target = Penalised { problem: self, observed: &observed, fan, hardness, theta, x, state: None };
+            let start = theta.clone();
+            let target = Penalised { problem: self, observed: &observed, fan, hardness, theta: start, x, state: None };
             let reached = target.run()?;
             let (values, _) = self.stresses(&reached.parameters);
             let squares = (values - &observed).norm_squared();
-            theta = reached.parameters.clone();
+            theta.clone_from(&reached.parameters);
             let lacking = fan.iter().any(|point| stability::least_modulus(self.model, *point, &theta) <= 0.0);
             found = Some(Best { squares, ..reached });
             if !lacking {

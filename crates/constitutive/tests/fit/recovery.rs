@@ -75,7 +75,6 @@ fn known_parameters_are_inside_their_intervals_in_nine_of_ten_trials() {
                 *count += u64::from(estimate.interval.is_some_and(|[low, high]| low <= *known && *known <= high));
             }
         }
-        println!("{model}: {inside:?} of {TRIALS}");
         assert!(inside.iter().all(|count| TRIALS * 9 / 10 <= *count), "{model}: {inside:?} of {TRIALS}");
     }
 }

@@ -37,7 +37,7 @@ pub(super) fn read(path: &Path) -> Result<String, SceneError> {
         let good = error.utf8_error().valid_up_to();
         let bytes = error.as_bytes();
         let before = &bytes[..good];
-        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        let line = before.split(|byte| *byte == b'\n').count();
         let column = 1 + before.iter().rev().take_while(|byte| **byte != b'\n').count();
         SceneError::NotText { path: path.to_path_buf(), line, column, byte: bytes[good] }
     })

@@ -108,7 +108,7 @@ impl Comparison {
         self.candidates.iter().filter_map(|candidate| candidate.fit.as_ref().err())
     }
 
-    /// The fit with the least AICc.
+    /// The fit with the least `AICc`.
     #[must_use]
     pub fn best(&self) -> Option<&Fit> {
         let criterion = |fit: &Fit| fit.criteria.aicc.unwrap_or(f64::INFINITY);

@@ -1,5 +1,6 @@
 //! Tables of measured stresses, good and bad, and what a comparison writes.
 
+use core::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use piola_scene::SceneError;
@@ -7,7 +8,7 @@ use piola_scene::fitting::{self, Measurements, Request, Stability};
 use piola_scene::output::Folder;
 
 fn sentence(text: &str) -> String {
-    Measurements::parse("rubber.csv", text).map(|_| String::new()).unwrap_or_else(|error| error.to_string())
+    Measurements::parse("rubber.csv", text).map_or_else(|error| error.to_string(), |_| String::new())
 }
 
 fn rubber(name: &str) -> Measurements {
@@ -77,7 +78,7 @@ fn both_layouts_give_the_same_fit() {
     let mut text = String::from("mode,stretch,stress_MPa\n");
     for test in long.data.tests() {
         for (x, y) in test.abscissas().zip(test.stresses()) {
-            text += &format!("{},{x:?},{y:?}\n", test.name());
+            let _ = writeln!(text, "{},{x:?},{y:?}", test.name());
         }
     }
     let short = Measurements::parse("rubber.csv", &text).unwrap_or_else(|error| panic!("{error}"));
