@@ -29,7 +29,7 @@ use super::{Hyperelastic, Stiffness};
 /// };
 /// let law = AnisotropicLinear::new(Stiffness::transversely_isotropic(&ply, Fibre::new([1.0, 0.0, 0.0])?)?);
 /// let pulled = DisplacementGradient::diagonal([0.25, 0.0, 0.0])?;
-/// assert!((law.cauchy(&pulled).0.components[0] - 25.0).abs() < 1e-14); // E_a ε
+/// assert!((law.cauchy(&pulled).0.components[0] - 25.0_f64).abs() < 1e-14); // E_a ε
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

@@ -45,7 +45,7 @@ const LAW: &str = "Holzapfel–Gasser–Ogden";
 /// // Along the third axis both families are shortened: only the matrix answers, μ (λ² − 1/λ) less the pressure.
 /// let pulled = DeformationGradient::diagonal([0.5, 0.5, 4.0])?;
 /// let stress = wall.cauchy(&pulled).0.components;
-/// assert!((stress[2] - stress[0] - 15.75).abs() < 1e-13); // λ² − 1/λ = 16 − 1/4
+/// assert!((stress[2] - stress[0] - 15.75_f64).abs() < 1e-13); // λ² − 1/λ = 16 − 1/4
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
