@@ -13,15 +13,18 @@ use crate::workspace::{Workspace, read};
 
 pub(super) const COMMAND: Command = Command {
     name: "bench",
-    usage: "[--json FILE] [--filter NAME]",
+    usage: "[--json FILE] [--filter NAME] [--peers]",
     help: "run the benches in cargo's own release profile, on one core where `taskset` exists
 --filter NAME   only the benches whose `group/name` matches the regular expression NAME
 --json FILE     write the results as a list of {group, name, ns_per_item, items, error?, peer?}:
                 nanoseconds per item (median), items in one iteration, the error of the result where the bench
-                states one, and the peer's name where it is a peer that ran",
+                states one, and the peer's name where it is a peer that ran
+--peers         also the peers in crates of their own, `benches/peers/*`: they are fetched, built and run, each in
+                turn with ours, and are among the results; with `--filter` only the peers' benches of that name",
     prepare: |shell, _, options| {
         let json = options.value("--json")?;
         let filter = options.value("--filter")?;
+        let peers = options.flag("--peers");
         let target = Workspace::target(shell)?;
         let (criterion, notes) = (target.join("criterion"), target.join("bench-notes"));
         let start = SystemTime::now();
@@ -30,6 +33,15 @@ pub(super) const COMMAND: Command = Command {
             // Where a bench states the error of its result and whether it is a peer's: see `benches/src/notes.rs`.
             .env("PIOLA_BENCH_NOTES", &notes);
         let mut steps = vec![compile(shell), Step::program("bench: run", run, "a bench failed")];
+        if peers {
+            for manifest in PEERS {
+                let run = peer(shell, manifest, filter.as_deref())
+                    .env("CARGO_TARGET_DIR", target.join("peers"))
+                    .env("CRITERION_HOME", &criterion)
+                    .env("PIOLA_BENCH_NOTES", &notes);
+                steps.push(Step::program("bench: peers", run, "a peer does not build or run"));
+            }
+        }
         if let Some(file) = json {
             steps.push(Step::check(
                 "bench: collect",
@@ -58,15 +70,34 @@ fn compile(shell: &Shell) -> Step<'_> {
 }
 
 fn run<'a>(shell: &'a Shell, filter: Option<&str>) -> Cmd<'a> {
-    // One core: a thread that wanders between cores meets cold caches and other clock rates.
-    let pinned = cmd!(shell, "taskset --version").quiet().ignore_stdout().ignore_stderr().run().is_ok();
-    let last_core = std::thread::available_parallelism().map_or(0, |count| count.get() - 1).to_string();
-    let command = if pinned { cmd!(shell, "taskset --cpu-list {last_core} cargo") } else { cmd!(shell, "cargo") };
-    let command = command.args(["bench", "--profile", "plain-release", "--package", "piola-benches", "--benches"]);
+    let command =
+        pinned(shell).args(["bench", "--profile", "plain-release", "--package", "piola-benches", "--benches"]);
     match filter {
         Some(name) => command.args(["--", name]),
         None => command,
     }
+}
+
+/// The peers that the workspace excludes.
+const PEERS: [&str; 1] = ["benches/peers/conspire/Cargo.toml"];
+
+/// A peer's bench, in which ours and the peer's rows follow one another.
+fn peer<'a>(shell: &'a Shell, manifest: &str, filter: Option<&str>) -> Cmd<'a> {
+    let command = pinned(shell)
+        .args(["bench", "--profile", "plain-release", "--manifest-path", manifest, "--benches"])
+        // A peer may ask for features of the compiler that are not stable.
+        .env("RUSTC_BOOTSTRAP", "1");
+    match filter {
+        Some(name) => command.args(["--", name]),
+        None => command,
+    }
+}
+
+/// cargo on one core: a thread that wanders between cores meets cold caches and other clock rates.
+fn pinned(shell: &Shell) -> Cmd<'_> {
+    let pinned = cmd!(shell, "taskset --version").quiet().ignore_stdout().ignore_stderr().run().is_ok();
+    let last_core = std::thread::available_parallelism().map_or(0, |count| count.get() - 1).to_string();
+    if pinned { cmd!(shell, "taskset --cpu-list {last_core} cargo") } else { cmd!(shell, "cargo") }
 }
 
 /// Writes what criterion measured since `start`.
@@ -81,9 +112,7 @@ fn collect(criterion: &Path, notes: &Path, start: SystemTime, file: &Path) -> Ou
             let benchmark: Value = parse(&folder.join("benchmark.json"))?;
             let estimates: Value = parse(&folder.join("estimates.json"))?;
             let group = benchmark["group_id"].as_str().unwrap_or_default().to_owned();
-            let notes = notes_of
-                .entry(group.clone())
-                .or_insert_with(|| parse(&notes.join(format!("{group}.json"))).unwrap_or(Value::Null));
+            let notes = notes_of.entry(group.clone()).or_insert_with(|| notes_of_group(notes, &group));
             record(&group, &benchmark, &estimates, notes)
         })();
         match result {
@@ -101,6 +130,17 @@ fn collect(criterion: &Path, notes: &Path, start: SystemTime, file: &Path) -> Ou
     let text = serde_json::to_string_pretty(&results).map_err(|error| vec![error.to_string()])?;
     std::fs::write(file, text + "\n").map_err(|error| vec![format!("{}: {error}", file.display())])?;
     Ok(format!("{count} results in {}", file.display()))
+}
+
+/// The notes of a group, those of its peers in crates of their own among them.
+fn notes_of_group(folder: &Path, group: &str) -> Value {
+    let mut all = Map::new();
+    for file in [format!("{group}.json"), format!("{group}-peers.json")] {
+        if let Ok(Value::Object(notes)) = parse(&folder.join(file)) {
+            all.extend(notes);
+        }
+    }
+    Value::Object(all)
 }
 
 fn record(group: &str, benchmark: &Value, estimates: &Value, notes: &Value) -> Result<Value, String> {

@@ -13,19 +13,12 @@ use crate::solids::Hyperelastic;
 /// The entries (r, s) with r ≤ s of the 9×9 array, by rows.
 #[inline(always)]
 fn upper<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 45] {
-    let mut entries = [T::zero(); 45];
-    let mut place = 0;
-    let mut r = 0;
-    while r < 9 {
-        let mut s = r;
-        while s < 9 {
-            entries[place] = tangent.0.components[r][s];
-            place += 1;
-            s += 1;
-        }
-        r += 1;
-    }
-    entries
+    let [a, b, c, d, e, f, g, h, i] = tangent.0.components;
+    [
+        a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8], c[2],
+        c[3], c[4], c[5], c[6], c[7], c[8], d[3], d[4], d[5], d[6], d[7], d[8], e[4], e[5], e[6], e[7], e[8], f[5],
+        f[6], f[7], f[8], g[6], g[7], g[8], h[7], h[8], i[8],
+    ]
 }
 
 #[inline(always)]

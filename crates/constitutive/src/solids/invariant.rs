@@ -10,7 +10,9 @@
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::strain::{invariants, kernels};
 use piola_continuum::tensor::FourthOrder;
-use piola_continuum::tensor::rows::{Rows, difference, double_contraction, product, scaled, sum, transpose};
+use piola_continuum::tensor::rows::{
+    Rows, cofactor, difference, double_contraction, product, product_transposed, scaled, sum, transpose,
+};
 use piola_continuum::{Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::linear::matrix3::{determinant, from_rows};
 use piola_numerics::{Mask, Real};
@@ -162,6 +164,119 @@ fn beyond_trace<T: Real>(h: Rows<T>) -> T {
     (minor(0, 1) + minor(1, 2) + minor(0, 2)) + determinant(h)
 }
 
+/// |∇u|² up to which everything is computed from ∇u: stretches differ from 1 by less than 0.87 then.
+const NEAR: f64 = 0.75;
+
+/// What stress and tangent share.
+struct Kinematics<T: Real> {
+    /// F.
+    gradient: Rows<T>,
+    /// C − 1.
+    change: Symmetric<T>,
+    cofactor: Rows<T>,
+    invariants: Invariants<T>,
+    /// F − Cof F where ∇u is small, computed from ∇u; F − F⁻ᵀ elsewhere.
+    beyond: Rows<T>,
+    near: T::Mask,
+}
+
+impl<T: Real> Kinematics<T> {
+    /// Errors are relative to the strain or to |∇u|², as a stress needs it: those of the invariants themselves, as an
+    /// energy needs it, are those of [`invariants_of`].
+    #[inline(always)]
+    fn of<L: InvariantEnergy>(deformation: &impl Deformation<T>) -> Self {
+        let (one, two) = (T::one(), T::lit(2.0));
+        let gradient = deformation.gradient_rows();
+        let h = deformation.displacement_rows();
+        let change = kernels::right_cauchy_green_minus_one(h);
+        let [a, b, c, ..] = change.components;
+        let first = a + b + c;
+        let trace = h[0][0] + h[1][1] + h[2][2];
+        // |∇u|² = I₁ − 3 − 2 tr ∇u; NaN is not near.
+        let near = (first - two * trace).at_most(T::lit(NEAR));
+
+        // Cof F = (1 + tr H) 1 − Hᵀ + Cof H, J = 1 + tr H + i₂(H) + det H, F − Cof F = H + Hᵀ − (tr H) 1 − Cof H.
+        let m = cofactor(h);
+        let second_trace = m[0][0] + m[1][1] + m[2][2];
+        let bend = second_trace + (h[0][0] * m[0][0] + h[0][1] * m[0][1] + h[0][2] * m[0][2]);
+        let volume = trace + bend;
+        let k = |i: usize| (trace - h[i][i]) + m[i][i];
+        let minors = [
+            [k(0), m[0][1] - h[1][0], m[0][2] - h[2][0]],
+            [m[1][0] - h[0][1], k(1), m[1][2] - h[2][1]],
+            [m[2][0] - h[0][2], m[2][1] - h[1][2], k(2)],
+        ];
+        let (x, y, z) = (h[0][1] + h[1][0], h[1][2] + h[2][1], h[0][2] + h[2][0]);
+        let d = |i: usize| (h[i][i] + h[i][i]) - trace - m[i][i];
+        let beyond =
+            [[d(0), x - m[0][1], z - m[0][2]], [x - m[1][0], d(1), y - m[1][2]], [z - m[2][0], y - m[2][1], d(2)]];
+        let second =
+            if L::SECOND { two * (two * trace + second_trace) + double_contraction(minors, minors) } else { T::zero() };
+        let closed = Self {
+            gradient,
+            change,
+            cofactor: [
+                [one + minors[0][0], minors[0][1], minors[0][2]],
+                [minors[1][0], one + minors[1][1], minors[1][2]],
+                [minors[2][0], minors[2][1], one + minors[2][2]],
+            ],
+            invariants: Invariants { first, second, change: volume, jacobian: one + volume },
+            beyond,
+            near,
+        };
+        if near.all() { closed } else { closed.with_far::<L>(deformation) }
+    }
+
+    /// With what is far from the reference, where it is.
+    #[inline(always)]
+    fn with_far<L: InvariantEnergy>(self, deformation: &impl Deformation<T>) -> Self {
+        let jacobian = deformation.jacobian();
+        let change = jacobian - T::one();
+        let plain_cofactor = cofactor(self.gradient);
+        let inverse_transpose = scaled(plain_cofactor, jacobian.recip());
+        // I₂ = Cof F : Cof F.
+        let second =
+            if L::SECOND { double_contraction(plain_cofactor, plain_cofactor) - T::lit(3.0) } else { T::zero() };
+        // F − F⁻ᵀ = F⁻ᵀ (C − 1) where that is small, as for large rotations.
+        let small = largest_modulus(&self.change).at_most(T::lit(SMALL));
+        let mut plain = difference(self.gradient, inverse_transpose);
+        if small.any() {
+            plain = select(small, product(inverse_transpose, self.change.rows()), plain);
+        }
+        let (near, closed) = (self.near, self.invariants);
+        Self {
+            cofactor: select(near, self.cofactor, plain_cofactor),
+            invariants: Invariants {
+                first: closed.first,
+                second: T::select(near, closed.second, second),
+                change: T::select(near, closed.change, change),
+                jacobian: T::select(near, closed.jacobian, jacobian),
+            },
+            beyond: select(near, self.beyond, plain),
+            ..self
+        }
+    }
+
+    /// P = k (F − Cof F) + (s + k (J − 1))/J Cof F + 2 w₂ F ((I₁ − 3) 1 − (C − 1)),  k = 2 w₁ + 4 w₂.
+    #[inline(always)]
+    fn first_piola<L: InvariantEnergy>(&self, slopes: &Slopes<T>) -> Rows<T> {
+        let (two, four) = (T::lit(2.0), T::lit(4.0));
+        let stiffness = if L::SECOND { two * slopes.first + four * slopes.second } else { two * slopes.first };
+        let mut pressure = slopes.residual + stiffness * self.invariants.change;
+        if !self.near.all() {
+            pressure = T::select(self.near, pressure, slopes.residual);
+        }
+        let stress =
+            sum(scaled(self.beyond, stiffness), scaled(self.cofactor, pressure * self.invariants.jacobian.recip()));
+        if !L::SECOND {
+            return stress;
+        }
+        let [a, b, c, ..] = self.change.components;
+        let inner = (Symmetric::identity() * (a + b + c) - self.change) * (two * slopes.second);
+        sum(stress, product(self.gradient, inner.rows()))
+    }
+}
+
 /// P, see the [module](self).
 ///
 /// # Accuracy
@@ -169,43 +284,15 @@ fn beyond_trace<T: Real>(h: Rows<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-    let invariants = invariants_of(law, deformation);
-    let slopes = law.slopes(&invariants);
-    let inverse_transpose = scaled(deformation.cofactor_rows(), invariants.jacobian.recip());
-    FirstPiola(from_rows(first_piola_rows::<T, L>(&slopes, &invariants, inverse_transpose, deformation)))
-}
-
-#[inline(always)]
-fn first_piola_rows<T: Real, L: InvariantEnergy>(
-    slopes: &Slopes<T>,
-    invariants: &Invariants<T>,
-    inverse_transpose: Rows<T>,
-    deformation: &impl Deformation<T>,
-) -> Rows<T> {
-    let (two, four) = (T::lit(2.0), T::lit(4.0));
-    let f = deformation.gradient_rows();
-    let change = kernels::right_cauchy_green_minus_one(deformation.displacement_rows());
-    // F − F⁻ᵀ = F⁻ᵀ (C − 1) where that is small.
-    let small = largest_modulus(&change).at_most(T::lit(SMALL));
-    let plain = difference(f, inverse_transpose);
-    let beyond = if small.any() {
-        let exact = product(inverse_transpose, change.rows());
-        if small.all() { exact } else { select(small, exact, plain) }
-    } else {
-        plain
-    };
-    let stiffness = if L::SECOND { two * slopes.first + four * slopes.second } else { two * slopes.first };
-    let stress = sum(scaled(inverse_transpose, slopes.residual), scaled(beyond, stiffness));
-    if !L::SECOND {
-        return stress;
-    }
-    let inner = (Symmetric::identity() * invariants.first - change) * (two * slopes.second);
-    sum(stress, product(f, inner.rows()))
+    let kinematics = Kinematics::of::<L>(deformation);
+    let slopes = law.slopes(&kinematics.invariants);
+    FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes)))
 }
 
 #[inline(always)]
 fn largest_modulus<T: Real>(a: &Symmetric<T>) -> T {
-    let [a, b, c, d, e, f] = a.components.map(T::abs);
+    let [a, b, c, d, e, f] = a.components;
+    let (a, b, c, d, e, f) = (a.abs(), b.abs(), c.abs(), d.abs(), e.abs(), f.abs());
     let larger = |a: T, b: T| T::select(a.less_than(b), b, a);
     larger(larger(larger(a, b), larger(c, d)), larger(e, f))
 }
@@ -270,7 +357,7 @@ pub fn second_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Def
 /// ```text
 /// A = w₁ ∂²I₁ + w₂ ∂²I₂ + w_J ∂²J + Σ wₐᵦ ∂Iₐ ⊗ ∂Iᵦ
 /// ∂I₁ = 2F        ∂I₂ = 2 (I₁ F − F C)        ∂J = Cof F        ∂²I₁ = 2 δᵢⱼ δ_AB        ∂²J = εᵢⱼₖ ε_ABC F_kC
-/// ∂²I₂ = 2 (I₁ δᵢⱼ δ_AB + 2 F_iA F_jB − δᵢⱼ C_AB − F_iB F_jA − Bᵢⱼ δ_AB)
+/// ∂²I₂ = 2 (I₁ δᵢⱼ δ_AB + F_iA F_jB + εᵢⱼₖ ε_ABC Cof_kC − δᵢⱼ C_AB − Bᵢⱼ δ_AB)
 /// ```
 #[inline(always)]
 #[must_use]
@@ -278,10 +365,8 @@ pub fn first_piola_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
 ) -> FirstPiolaTangent<T> {
-    let invariants = invariants_of(law, deformation);
-    let slopes = law.slopes(&invariants);
-    let cofactor = deformation.cofactor_rows();
-    tangent(law, &slopes, &invariants, cofactor, deformation)
+    let kinematics = Kinematics::of::<L>(deformation);
+    tangent(law, &law.slopes(&kinematics.invariants), &kinematics)
 }
 
 /// (P, ∂P/∂F), the invariants, slopes and Cof F computed once.
@@ -291,87 +376,129 @@ pub fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
 ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
-    let invariants = invariants_of(law, deformation);
-    let slopes = law.slopes(&invariants);
-    let cofactor = deformation.cofactor_rows();
-    let inverse_transpose = scaled(cofactor, invariants.jacobian.recip());
-    let stress = first_piola_rows::<T, L>(&slopes, &invariants, inverse_transpose, deformation);
-    (FirstPiola(from_rows(stress)), tangent(law, &slopes, &invariants, cofactor, deformation))
+    let kinematics = Kinematics::of::<L>(deformation);
+    let slopes = law.slopes(&kinematics.invariants);
+    (FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes))), tangent(law, &slopes, &kinematics))
 }
 
+#[inline(always)]
+fn flat<T: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> [T; 9] {
+    [a, b, c, d, e, f, g, h, i]
+}
+
+/// α a.
+#[inline(always)]
+fn multiple<T: Real>(alpha: T, a: &[T; 9]) -> [T; 9] {
+    let mut multiple = [T::zero(); 9];
+    let mut r = 0;
+    while r < 9 {
+        multiple[r] = alpha * a[r];
+        r += 1;
+    }
+    multiple
+}
+
+/// α a + β b.
+#[inline(always)]
+fn combined<T: Real>(alpha: T, a: &[T; 9], beta: T, b: &[T; 9]) -> [T; 9] {
+    let mut sum = [T::zero(); 9];
+    let mut r = 0;
+    while r < 9 {
+        sum[r] = alpha * a[r] + beta * b[r];
+        r += 1;
+    }
+    sum
+}
+
+/// The four kinds of terms: dyads of F, Cof F and ∂I₂; ε ε of F and Cof F; C and B; the diagonal.
 #[inline(always)]
 fn tangent<T: Real, L: InvariantEnergy>(
     law: &L,
     slopes: &Slopes<T>,
-    invariants: &Invariants<T>,
-    cofactor: Rows<T>,
-    deformation: &impl Deformation<T>,
+    kinematics: &Kinematics<T>,
 ) -> FirstPiolaTangent<T> {
-    let (two, four) = (T::lit(2.0), T::lit(4.0));
-    let f = deformation.gradient_rows();
+    let (one, two, four) = (T::one(), T::lit(2.0), T::lit(4.0));
+    let invariants = &kinematics.invariants;
     let curvatures = law.curvatures(invariants);
-    let volume =
-        (slopes.residual - (two * slopes.first + four * slopes.second)) * invariants.jacobian.recip();
-    let mut a = [[T::zero(); 9]; 9];
-
-    // w_J ∂²J, first: a block for each pair of rows.
-    let mut block = |i: usize, j: usize, row: [T; 3]| {
-        let v = [row[0] * volume, row[1] * volume, row[2] * volume];
-        for (p, q, r) in [(0, 1, 2), (1, 2, 0), (2, 0, 1)] {
-            a[3 * i + p][3 * j + q] = v[r];
-            a[3 * i + q][3 * j + p] = -v[r];
-        }
-    };
-    block(0, 1, f[2]);
-    block(1, 2, f[0]);
-    block(0, 2, [-f[1][0], -f[1][1], -f[1][2]]);
-
-    // Curvatures: Σ wₐᵦ ∂Iₐ ⊗ ∂Iᵦ as v ⊗ Cof F + u ⊗ F + g ⊗ FC.
-    let right = kernels::right_cauchy_green(f);
-    let fc = if L::SECOND { product(f, right.rows()) } else { f };
-    let trace = invariants.first + T::lit(3.0);
-    let mut diagonal = two * slopes.first;
-    if L::SECOND {
-        diagonal += two * slopes.second * trace;
-    }
-    let left = if L::SECOND { kernels::left_cauchy_green(f) } else { right };
-    let (c, b) = (right.rows(), left.rows());
+    let (f, k) = (flat(kinematics.gradient), flat(kinematics.cofactor));
+    let stiffness = if L::SECOND { two * slopes.first + four * slopes.second } else { two * slopes.first };
+    let volume = (slopes.residual - stiffness) * invariants.jacobian.recip();
     let w = two * slopes.second;
-    for r in 0..9 {
-        for s in r..9 {
-            let (i, p, j, q) = (r / 3, r % 3, s / 3, s % 3);
-            let mut entry = a[r][s] + curvatures.volume_volume * (cofactor[i][p] * cofactor[j][q]);
+    let alternating = if L::SECOND { combined(volume, &f, w, &k) } else { multiple(volume, &f) };
+
+    // F ⊗ u + Cof F ⊗ v + g ⊗ z.
+    let mut u = f;
+    let mut v = multiple(curvatures.volume_volume, &k);
+    let (mut g, mut z) = (f, f);
+    let [a, b, c, ..] = kinematics.change.components;
+    let trace = a + b + c;
+    if L::CURVED {
+        let mixed = two * curvatures.first_volume;
+        v = combined(curvatures.volume_volume, &k, mixed, &f);
+        u = combined(if L::SECOND { w } else { T::zero() } + four * curvatures.first_first, &f, mixed, &k);
+        if L::SECOND {
+            // ∂I₂ = 2 F ((2 + I₁ − 3) 1 − (C − 1)).
+            let inner = (Symmetric::identity() * (two + trace) - kinematics.change) * two;
+            g = flat(product(kinematics.gradient, inner.rows()));
+            u = combined(one, &u, two * curvatures.first_second, &g);
+            v = combined(one, &v, curvatures.second_volume, &g);
+            z = combined(curvatures.second_second, &g, two * curvatures.first_second, &f);
+            z = combined(one, &z, curvatures.second_volume, &k);
+        }
+    } else if L::SECOND {
+        u = multiple(w, &f);
+    }
+
+    // w (I₁ δᵢⱼ δ_AB − δᵢⱼ C_AB − Bᵢⱼ δ_AB).
+    let right = kinematics.change * w;
+    let left = Symmetric::upper_triangle(product_transposed(kinematics.gradient, kinematics.gradient)) * w;
+    let (right, left) = (right.rows(), left.rows());
+    let diagonal = two * slopes.first + if L::SECOND { w * (two + trace) } else { T::zero() };
+
+    // Written out: in a loop the compiler would decide at run time which terms an entry has.
+    let mut entries = [[T::zero(); 9]; 9];
+    macro_rules! row {
+        ($r:literal: $($s:literal)+) => { $(
+            let (i, p, j, q) = ($r / 3, $r % 3, $s / 3, $s % 3);
+            let mut entry = k[$r] * v[$s];
+            if L::SECOND || L::CURVED {
+                entry += f[$r] * u[$s];
+            }
+            if L::SECOND && L::CURVED {
+                entry += g[$r] * z[$s];
+            }
             if i == j && p == q {
                 entry += diagonal;
             }
-            if L::SECOND {
-                let mut second = two * (f[i][p] * f[j][q]) - f[i][q] * f[j][p];
-                if i == j {
-                    second -= c[p][q];
-                }
-                if p == q {
-                    second -= b[i][j];
-                }
-                entry += w * second;
+            if L::SECOND && i == j {
+                entry -= right[p][q];
             }
-            if L::CURVED {
-                let (x, y) = (two * f[i][p], two * f[j][q]);
-                entry += curvatures.first_first * (x * y);
-                let (k, l) = (cofactor[i][p], cofactor[j][q]);
-                entry += curvatures.first_volume * (x * l + k * y);
-                if L::SECOND {
-                    let g = two * (trace * f[i][p] - fc[i][p]);
-                    let h = two * (trace * f[j][q] - fc[j][q]);
-                    entry += curvatures.second_second * (g * h)
-                        + curvatures.first_second * (x * h + g * y)
-                        + curvatures.second_volume * (g * l + k * h);
+            if L::SECOND && p == q {
+                entry -= left[i][j];
+            }
+            if i != j && p != q {
+                let term = alternating[12 - 3 * (i + j) - (p + q)];
+                // ε is 1 where the second index follows the first in turn.
+                if ((j + 3 - i) % 3 == 1) == ((q + 3 - p) % 3 == 1) {
+                    entry += term;
+                } else {
+                    entry -= term;
                 }
             }
-            a[r][s] = entry;
-            a[s][r] = entry;
-        }
+            entries[$r][$s] = entry;
+            entries[$s][$r] = entry;
+        )+ };
     }
-    FirstPiolaTangent(FourthOrder { components: a })
+    row!(0: 0 1 2 3 4 5 6 7 8);
+    row!(1: 1 2 3 4 5 6 7 8);
+    row!(2: 2 3 4 5 6 7 8);
+    row!(3: 3 4 5 6 7 8);
+    row!(4: 4 5 6 7 8);
+    row!(5: 5 6 7 8);
+    row!(6: 6 7 8);
+    row!(7: 7 8);
+    row!(8: 8);
+    FirstPiolaTangent(FourthOrder { components: entries })
 }
 
 /// Writes [`Hyperelastic`](super::Hyperelastic) for a law of invariants, the parameters of a generic one in brackets first.

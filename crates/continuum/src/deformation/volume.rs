@@ -92,7 +92,14 @@ pub(crate) fn determinant<T: Real>(f: Rows<T>) -> T {
     let plain = dot(f[0], cross(f[1], f[2]));
     let terms = one_norm(f[0]) * one_norm(f[1]) * one_norm(f[2]);
     let cancels = (T::lit(CANCELLATION) * plain.abs()).less_than(terms);
-    if cancels.any() { refined(cancels, determinant_pair(f).value(), plain) } else { plain }
+    if cancels.any() { refined(cancels, precise_determinant(&f), plain) } else { plain }
+}
+
+/// det F in twice the precision: rare and long, so that it is kept out of the loops that ask for det F.
+#[cold]
+#[inline(never)]
+fn precise_determinant<T: Real>(f: &Rows<T>) -> T {
+    determinant_pair(*f).value()
 }
 
 /// tr H + i₂(H) + det H with the trace's rounding kept, and where that is not enough.
@@ -125,10 +132,16 @@ pub(crate) fn volume_change_of_displacement<T: Real>(h: Rows<T>) -> T {
     if !cancels.any() {
         return plain;
     }
+    refined(cancels, precise_volume_change_of_displacement(&h), plain)
+}
+
+#[cold]
+#[inline(never)]
+fn precise_volume_change_of_displacement<T: Real>(h: &Rows<T>) -> T {
     let minor = |i: usize, j: usize| Pair::product(h[i][i], h[j][j]).minus(Pair::product(h[i][j], h[j][i]));
     let second = minor(0, 1).plus(minor(1, 2)).plus(minor(0, 2));
     let first = Pair::of(h[0][0]).plus(Pair::of(h[1][1])).plus(Pair::of(h[2][2]));
-    refined(cancels, first.plus(second).plus(determinant_pair(h)).value(), plain)
+    first.plus(second).plus(determinant_pair(*h)).value()
 }
 
 /// det F − 1 of a deformation gradient.
@@ -138,7 +151,13 @@ pub(crate) fn volume_change_of_gradient<T: Real>(f: Rows<T>) -> T {
     if !cancels.any() {
         return plain;
     }
-    refined(cancels, determinant_pair(f).minus(Pair::of(T::one())).value(), plain)
+    refined(cancels, precise_volume_change_of_gradient(&f), plain)
+}
+
+#[cold]
+#[inline(never)]
+fn precise_volume_change_of_gradient<T: Real>(f: &Rows<T>) -> T {
+    determinant_pair(*f).minus(Pair::of(T::one())).value()
 }
 
 /// ln J of J − 1 and J: by ln(1 + (J − 1)) near J = 1, and by ln J where J − 1 has lost the digits of J.
