@@ -139,6 +139,8 @@ pub trait Element:
 }
 
 /// Applies an expression to every lane. A macro and not a closure: closures cannot be forced inline.
+///
+/// A loop, which the compiler turns into vectors as a whole: for functions of many operations.
 macro_rules! each_lane {
     ($i:ident in $start:expr => $value:expr) => {{
         let mut result = $start;
@@ -149,6 +151,30 @@ macro_rules! each_lane {
         }
         result
     }};
+}
+
+/// As [`each_lane`], the first sixteen lanes written out: for single operations. A kernel is thousands of them, and as
+/// loops within a loop over points they would cost the compiler minutes.
+macro_rules! every_lane {
+    ($i:ident in $start:expr => $value:expr) => {{
+        let mut result = $start;
+        every_lane!($i: result[$i] = $value);
+        result
+    }};
+    ($i:ident: $statement:expr) => {{
+        every_lane!(@written $i, $statement, 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
+        let mut $i = 16;
+        while $i < N {
+            $statement;
+            $i += 1;
+        }
+    }};
+    (@written $i:ident, $statement:expr, $($lane:literal)*) => {
+        $(if $lane < N {
+            let $i = $lane;
+            $statement;
+        })*
+    };
 }
 
 macro_rules! element {
@@ -348,13 +374,7 @@ macro_rules! lane_operator {
             type Output = Self;
             #[inline(always)]
             fn $function(self, other: Self) -> Self {
-                let mut result = self.0;
-                let mut i = 0;
-                while i < N {
-                    result[i] = self.0[i] $operator other.0[i];
-                    i += 1;
-                }
-                Self(result)
+                Self(every_lane!(i in self.0 => self.0[i] $operator other.0[i]))
             }
         }
         impl<T: Element, const N: usize> $assign_trait for Lanes<T, N> {
@@ -374,7 +394,7 @@ impl<T: Element, const N: usize> Neg for Lanes<T, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self(each_lane!(i in self.0 => -self.0[i]))
+        Self(every_lane!(i in self.0 => -self.0[i]))
     }
 }
 impl<T: Element, const N: usize> Zero for Lanes<T, N> {
@@ -398,21 +418,21 @@ impl<B: Bits, const N: usize> BitAnd for LaneMask<B, N> {
     type Output = Self;
     #[inline(always)]
     fn bitand(self, other: Self) -> Self {
-        Self(each_lane!(i in self.0 => self.0[i] & other.0[i]))
+        Self(every_lane!(i in self.0 => self.0[i] & other.0[i]))
     }
 }
 impl<B: Bits, const N: usize> BitOr for LaneMask<B, N> {
     type Output = Self;
     #[inline(always)]
     fn bitor(self, other: Self) -> Self {
-        Self(each_lane!(i in self.0 => self.0[i] | other.0[i]))
+        Self(every_lane!(i in self.0 => self.0[i] | other.0[i]))
     }
 }
 impl<B: Bits, const N: usize> Not for LaneMask<B, N> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        Self(each_lane!(i in self.0 => !self.0[i]))
+        Self(every_lane!(i in self.0 => !self.0[i]))
     }
 }
 impl<B: Bits, const N: usize> Mask for LaneMask<B, N> {
@@ -423,11 +443,7 @@ impl<B: Bits, const N: usize> Mask for LaneMask<B, N> {
     #[inline(always)]
     fn any(self) -> bool {
         let mut union = B::splat(false);
-        let mut i = 0;
-        while i < N {
-            union = union | self.0[i];
-            i += 1;
-        }
+        every_lane!(i: union = union | self.0[i]);
         union != B::splat(false)
     }
     #[inline(always)]
@@ -465,31 +481,31 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
     }
     #[inline(always)]
     fn less_than(self, other: Self) -> Self::Mask {
-        LaneMask(each_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_less(other.0[i]))))
+        LaneMask(every_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_less(other.0[i]))))
     }
     #[inline(always)]
     fn at_most(self, other: Self) -> Self::Mask {
-        LaneMask(each_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_at_most(other.0[i]))))
+        LaneMask(every_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_at_most(other.0[i]))))
     }
     #[inline(always)]
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self {
-        Self(each_lane!(i in if_false.0 => T::choose(mask.0[i], if_true.0[i], if_false.0[i])))
+        Self(every_lane!(i in if_false.0 => T::choose(mask.0[i], if_true.0[i], if_false.0[i])))
     }
     #[inline(always)]
     fn is_finite(self) -> Self::Mask {
-        LaneMask(each_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_number())))
+        LaneMask(every_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_number())))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Self(each_lane!(i in self.0 => self.0[i].lane_sqrt()))
+        Self(every_lane!(i in self.0 => self.0[i].lane_sqrt()))
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        Self(each_lane!(i in self.0 => self.0[i].lane_abs()))
+        Self(every_lane!(i in self.0 => self.0[i].lane_abs()))
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
-        Self(each_lane!(i in self.0 => self.0[i].lane_copysign(sign.0[i])))
+        Self(every_lane!(i in self.0 => self.0[i].lane_copysign(sign.0[i])))
     }
     #[inline(always)]
     fn powi(self, n: i32) -> Self {

@@ -144,23 +144,26 @@ struct Evaluation<T, D, R, const N: usize> {
 }
 
 impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluation<T, D, R, N> {
-    /// The loop over the blocks stays outside of what [`dispatch`] compiles for each level: within it the compiler
-    /// would go through the whole of a block again for each of its thousands of operations on lanes.
+    /// Where much is computed, reading, computing and writing of a block are compiled apart, with the block in memory
+    /// between them: together, the compiler would mix the order of the caller's memory into the lanes of the
+    /// computation. Within a loop over blocks it would also go through the whole again for each of its thousands of
+    /// operations. A few operations are done between reading and writing.
     fn run(mut self) -> Tally {
         let mut tally = Tally::default();
         let [start, end] = self.range;
+        let mut buffers = R::buffers::<N>();
         let mut first = start;
         while first < end {
             let count = N.min(end - first);
-            let block = Block {
-                points: &self.points,
-                first,
-                at: first - start,
-                count,
-                requests: &mut self.requests,
-                scalar: PhantomData,
+            let (good, slow) = if R::STAGED {
+                let deformation = self.load(first, count, &mut buffers);
+                let block = Block { deformation: &deformation, requests: &self.requests, buffers: &mut buffers };
+                let masks = dispatch::<Block<'_, T, D, R, N>>(block);
+                self.store(first - start, count, &buffers);
+                masks
+            } else {
+                dispatch(Direct { evaluation: &mut self, first, count, buffers: &mut buffers })
             };
-            let (good, slow) = dispatch::<Block<'_, T, D, R, N>>(block);
             if R::NEEDS_STRETCH && slow.any() {
                 tally.slow_path += (0..count).filter(|&lane| slow.lane(lane)).count();
             }
@@ -170,6 +173,17 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluat
             first += N;
         }
         tally
+    }
+
+    #[inline(never)]
+    fn load(&self, first: usize, count: usize, buffers: &mut R::Buffers<N>) -> D::Point<Lanes<T, N>> {
+        self.requests.load(first, count, buffers);
+        self.points.load::<N>(first, count)
+    }
+
+    #[inline(never)]
+    fn store(&mut self, at: usize, count: usize, buffers: &R::Buffers<N>) {
+        self.requests.store(at, count, buffers);
     }
 
     /// Finds the bad points of a block, says what is wrong with them and voids their outputs.
@@ -187,14 +201,11 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluat
     }
 }
 
-/// A block of `count` ≤ N points from `first` on, whose outputs go to the destinations' points from `at` on.
-struct Block<'a, T, D, R, const N: usize> {
-    points: &'a D,
-    first: usize,
-    at: usize,
-    count: usize,
-    requests: &'a mut R,
-    scalar: PhantomData<T>,
+/// A block of N points in lanes.
+struct Block<'a, T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> {
+    deformation: &'a D::Point<Lanes<T, N>>,
+    requests: &'a R,
+    buffers: &'a mut R::Buffers<N>,
 }
 
 type LanesMask<T, const N: usize> = <Lanes<T, N> as Real>::Mask;
@@ -205,8 +216,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Kernel 
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Self { points, first, at, count, requests, .. } = self;
-        let deformation = points.load::<N>(first, count);
+        let deformation = *self.deformation;
         let mut good: LanesMask<T, N> = Mask::splat(true);
         let mut jacobian = None;
         if !D::TRUSTED {
@@ -222,6 +232,30 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Kernel 
             stretch = Some(analysis);
         }
         let point = Point { deformation, jacobian, stretch };
-        (good & requests.block(first, at, count, &point), slow)
+        (good & self.requests.compute(&point, self.buffers), slow)
+    }
+}
+
+/// The `count` ≤ N points from `first` on, from the caller's memory to the caller's memory.
+struct Direct<'a, T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> {
+    evaluation: &'a mut Evaluation<T, D, R, N>,
+    first: usize,
+    count: usize,
+    buffers: &'a mut R::Buffers<N>,
+}
+
+impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Kernel for Direct<'_, T, D, R, N> {
+    type Output = (LanesMask<T, N>, LanesMask<T, N>);
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Self { evaluation: Evaluation { points, range, requests, .. }, first, count, buffers } = self;
+        requests.load(first, count, buffers);
+        let deformation = points.load::<N>(first, count);
+        let block: Block<'_, T, D, R, N> =
+            Block { deformation: &deformation, requests: &*requests, buffers: &mut *buffers };
+        let masks = block.run();
+        requests.store(first - range[0], count, buffers);
+        masks
     }
 }

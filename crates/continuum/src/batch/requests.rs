@@ -98,15 +98,33 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
     /// The requests for the first `middle` points and for the rest.
     fn split(self, middle: usize) -> (Self, Self);
 
-    /// Computes the first `count` lanes of a block that starts at the destination's point `at` and at the source's
-    /// point `first`; tells in which lanes the input is finite and the quantities exist.
-    fn block<const N: usize, D: Deformation<Lanes<T, N>>>(
-        &mut self,
-        first: usize,
-        at: usize,
-        count: usize,
+    /// Whether so much is computed that reading and writing are better kept apart from it.
+    #[doc(hidden)]
+    const STAGED: bool;
+
+    /// Memory for the inputs and outputs of N points, a point a lane.
+    #[doc(hidden)]
+    type Buffers<const N: usize>;
+
+    /// Memory for a block.
+    #[doc(hidden)]
+    fn buffers<const N: usize>() -> Self::Buffers<N>;
+
+    /// Reads the inputs of `count` ≤ N points from `first` on.
+    #[doc(hidden)]
+    fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>);
+
+    /// Computes the outputs in lanes; tells in which lanes the input is finite and the quantities exist.
+    #[doc(hidden)]
+    fn compute<const N: usize, D: Deformation<Lanes<T, N>>>(
+        &self,
         point: &Point<Lanes<T, N>, D>,
+        buffers: &mut Self::Buffers<N>,
     ) -> <Lanes<T, N> as Real>::Mask;
+
+    /// Writes the outputs of `count` ≤ N points to the destination's points from `at` on.
+    #[doc(hidden)]
+    fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>);
 
     /// Whether the input of a point is finite and the quantities exist there.
     ///
@@ -126,6 +144,7 @@ where
     V: Destination<Q::Output, T, K>,
 {
     const NEEDS_STRETCH: bool = Q::NEEDS_STRETCH;
+    const STAGED: bool = Q::NEEDS_STRETCH || 16 < I + K;
 
     fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
         let read = self.source.count().unwrap_or(expected);
@@ -146,15 +165,27 @@ where
         (Self { quantity, source, to: head }, Self { quantity, source, to: tail })
     }
 
+    type Buffers<const N: usize> = ([Lanes<T, N>; I], [Lanes<T, N>; K]);
+
     #[inline(always)]
-    fn block<const N: usize, D: Deformation<Lanes<T, N>>>(
-        &mut self,
-        first: usize,
-        at: usize,
-        count: usize,
+    fn buffers<const N: usize>() -> Self::Buffers<N> {
+        ([Lanes([T::zero(); N]); I], [Lanes([T::zero(); N]); K])
+    }
+
+    #[inline(always)]
+    fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>) {
+        if 0 < I {
+            buffers.0 = self.source.load::<N>(first, count);
+        }
+    }
+
+    #[inline(always)]
+    fn compute<const N: usize, D: Deformation<Lanes<T, N>>>(
+        &self,
         point: &Point<Lanes<T, N>, D>,
+        buffers: &mut Self::Buffers<N>,
     ) -> <Lanes<T, N> as Real>::Mask {
-        let input = self.source.load::<N>(first, count);
+        let input = buffers.0;
         // x − x is zero but for ∞ and NaN.
         let mut nothing = Lanes::splat(T::zero());
         let mut i = 0;
@@ -164,9 +195,14 @@ where
             nothing += difference;
             i += 1;
         }
-        self.to.store(at, count, self.quantity.of(point, input));
+        buffers.1 = self.quantity.of(point, input);
         let exists = self.quantity.exists(point);
         if I == 0 { exists } else { exists & nothing.is_finite() }
+    }
+
+    #[inline(always)]
+    fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>) {
+        self.to.store(at, count, buffers.1);
     }
 
     fn check<D: Deformation<Lanes<T, 1>>>(&self, index: usize, deformation: &D) -> Result<(), ContinuumError> {
@@ -185,6 +221,7 @@ macro_rules! tuple {
     ($($name:ident $place:tt),+) => {
         impl<T: BatchScalar, $($name: Requests<T>),+> Requests<T> for ($($name,)+) {
             const NEEDS_STRETCH: bool = $($name::NEEDS_STRETCH)|+;
+            const STAGED: bool = $($name::STAGED)|+;
 
             fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
                 $(self.$place.check_lengths(expected)?;)+
@@ -197,17 +234,32 @@ macro_rules! tuple {
                 (($(parts.$place.0,)+), ($(parts.$place.1,)+))
             }
 
+            type Buffers<const N: usize> = ($($name::Buffers<N>,)+);
+
             #[inline(always)]
-            fn block<const N: usize, De: Deformation<Lanes<T, N>>>(
-                &mut self,
-                first: usize,
-                at: usize,
-                count: usize,
+            fn buffers<const N: usize>() -> Self::Buffers<N> {
+                ($($name::buffers::<N>(),)+)
+            }
+
+            #[inline(always)]
+            fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>) {
+                $(self.$place.load(first, count, &mut buffers.$place);)+
+            }
+
+            #[inline(always)]
+            fn compute<const N: usize, De: Deformation<Lanes<T, N>>>(
+                &self,
                 point: &Point<Lanes<T, N>, De>,
+                buffers: &mut Self::Buffers<N>,
             ) -> <Lanes<T, N> as Real>::Mask {
-                let mut finite: <Lanes<T, N> as Real>::Mask = Mask::splat(true);
-                $(finite = finite & self.$place.block(first, at, count, point);)+
-                finite
+                let mut good: <Lanes<T, N> as Real>::Mask = Mask::splat(true);
+                $(good = good & self.$place.compute(point, &mut buffers.$place);)+
+                good
+            }
+
+            #[inline(always)]
+            fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>) {
+                $(self.$place.store(at, count, &buffers.$place);)+
             }
 
             fn check<De: Deformation<Lanes<T, 1>>>(

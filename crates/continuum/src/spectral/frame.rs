@@ -98,6 +98,12 @@ pub(super) fn combination<T: Real>(a: T, u: [T; 3], b: T, v: [T; 3]) -> [T; 3] {
     [a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]]
 }
 
+/// a u.
+#[inline(always)]
+fn times<T: Real>([x, y, z]: [T; 3], a: T) -> [T; 3] {
+    [x * a, y * a, z * a]
+}
+
 /// Orthonormal right-handed axes, one a row, in which A is diagonal to rounding of its deviator, the largest
 /// component first. For scalars without derivatives, or frozen ones.
 ///
@@ -127,7 +133,7 @@ pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
     let square = (xx * xx + yy * yy + zz * zz) * T::lit(1.0 / 6.0) + (xy * xy + yz * yz + xz * xz) * T::lit(1.0 / 3.0);
     let scale = (square + T::lit(range.nothing_squared)).sqrt().recip();
     let determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-    let r = ((T::lit(0.5) * determinant * scale) * scale) * scale;
+    let r = ((half * determinant) * scale) * (scale * scale);
     let (xx, yy, zz, xy, yz, xz) = (xx * scale, yy * scale, zz * scale, xy * scale, yz * scale, xz * scale);
 
     // The separated eigenvalue x and its eigenvector v, a column of adj(B − x1).
@@ -142,24 +148,25 @@ pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
     // Across it: u with one component left out, not the largest of v, and w = v × u.
     let u = choose::<T>(last, [T::zero(), v[2], -v[1]], [-v[1], v[0], T::zero()]);
     let w = cross(v, u);
-    let v_scale = dot(v, v).sqrt().recip();
-    let u_scale = dot(u, u).sqrt().recip();
+    let (uu, length) = (dot(u, u), dot(v, v).sqrt());
+    let v_scale = length.recip();
+    let u_scale = uu.sqrt().recip();
     let w_scale = u_scale * v_scale;
 
-    // The 2×2 problem there, by one rotation: half the difference of its diagonal, h, and its shear, b.
+    // The 2×2 problem there, by one rotation: half the difference of its diagonal, h, and its shear, b, both times
+    // |u|² |v|, since only their ratio counts. What need not wait for a root or a quotient does not.
     let image = [dot([xx, xy, xz], u), dot([xy, yy, yz], u), dot([xz, yz, zz], u)];
-    let h = dot(u, image) * (u_scale * u_scale) + T::lit(0.5) * x;
-    let b = dot(w, image) * (u_scale * w_scale);
+    let h = (dot(u, image) + (half * x) * uu) * length;
+    let b = dot(w, image);
     let adjacent = (h.abs() + T::lit(range.nothing)) + (h * h + b * b).sqrt();
     let reciprocal = (adjacent * adjacent + b * b).sqrt().recip();
-    let (cosine, sine) = (adjacent * reciprocal, b * reciprocal);
     // By products with 1 and 0, which no compiler turns into a jump.
     let forward = half + half.copysign(h);
     let backward = one - forward;
-    let (c, s) = (forward * cosine + backward * sine, forward * sine + backward * cosine);
-    let larger = combination(c * u_scale, u, s * w_scale, w);
-    let smaller = combination(c * w_scale, w, -(s * u_scale), u);
-    let n = [v[0] * v_scale, v[1] * v_scale, v[2] * v_scale];
+    let (c, s) = (forward * adjacent + backward * b, forward * b + backward * adjacent);
+    let larger = times(combination(c * u_scale, u, s * w_scale, w), reciprocal);
+    let smaller = times(combination(c * w_scale, w, -(s * u_scale), u), reciprocal);
+    let n = times(v, v_scale);
 
     // By x and not by r, whose zero may be negative: then x is the smallest.
     let above = T::zero().at_most(x);
