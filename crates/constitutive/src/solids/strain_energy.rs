@@ -37,7 +37,13 @@ pub(super) fn nominal_tangent<T: Real>(
     tangent: &MajorSymmetric<T>,
     deformation: &impl Deformation<T>,
 ) -> FirstPiolaTangent<T> {
-    let components = kernels::first_piola_tangent(deformation.gradient_rows(), stress, &tangent.slots());
+    let mut components = kernels::first_piola_tangent(deformation.gradient_rows(), stress, &tangent.slots());
+    // Symmetric to the last bit.
+    for row in 1..9 {
+        for column in 0..row {
+            components[row][column] = components[column][row];
+        }
+    }
     FirstPiolaTangent(FourthOrder { components })
 }
 
