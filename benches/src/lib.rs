@@ -8,11 +8,13 @@
 //! | [`golden_systems`] | the systems of the reference data, hand-coded |
 //! | [`stability`] | rounding at inputs made to spoil the result |
 //! | [`work_precision`] | error against time for many methods and parameters, measured in turn |
+//! | [`constitutive`] | a law by its printed formula, in nalgebra and in lanes |
 //! | [`continuum`] | decompositions of deformations, ours and by other means |
 //! | [`figure`] | such a table as a figure |
 //! | [`notes`] | what a bench knows beside its time |
 
 pub mod chain;
+pub mod constitutive;
 pub mod continuum;
 pub mod figure;
 pub mod golden_systems;
