@@ -85,8 +85,9 @@ const PEERS: [&str; 1] = ["benches/peers/conspire/Cargo.toml"];
 fn peer<'a>(shell: &'a Shell, manifest: &str, filter: Option<&str>) -> Cmd<'a> {
     let command = pinned(shell)
         .args(["bench", "--profile", "plain-release", "--manifest-path", manifest, "--benches"])
-        // A peer may ask for features of the compiler that are not stable.
-        .env("RUSTC_BOOTSTRAP", "1");
+        // conspire uses a feature of the compiler that is not stable, and declares it only to a nightly one.
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("RUSTFLAGS", "-Zcrate-attr=feature(float_algebraic)");
     match filter {
         Some(name) => command.args(["--", name]),
         None => command,
