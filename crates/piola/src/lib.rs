@@ -83,7 +83,7 @@ pub use piola_kinematics as kinematics;
 pub use piola_numerics as numerics;
 
 /// The snippets of the project's read-me run as tests.
-#[cfg(all(doctest, feature = "dynamics", feature = "continuum"))]
+#[cfg(all(doctest, feature = "dynamics", feature = "constitutive"))]
 #[doc = include_str!("../../../README.md")]
 struct ProjectReadMe;
 
@@ -103,4 +103,10 @@ mod book {
     #[cfg(feature = "continuum")]
     #[doc = include_str!("../../../docs/continuum.md")]
     struct Continuum;
+    #[cfg(feature = "constitutive")]
+    #[doc = include_str!("../../../docs/solids.md")]
+    struct Solids;
+    #[cfg(feature = "fit")]
+    #[doc = include_str!("../../../docs/fitting.md")]
+    struct Fitting;
 }

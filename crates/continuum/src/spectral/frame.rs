@@ -159,13 +159,15 @@ pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
     let h = (dot(u, image) + (half * x) * uu) * length;
     let b = dot(w, image);
     let adjacent = (h.abs() + T::lit(range.nothing)) + (h * h + b * b).sqrt();
-    let reciprocal = (adjacent * adjacent + b * b).sqrt().recip();
+    // By quotients: 1 and 0 exactly where nothing is to be turned.
+    let root = (adjacent * adjacent + b * b).sqrt();
+    let (cosine, sine) = (adjacent / root, b / root);
     // By products with 1 and 0, which no compiler turns into a jump.
     let forward = half + half.copysign(h);
     let backward = one - forward;
-    let (c, s) = (forward * adjacent + backward * b, forward * b + backward * adjacent);
-    let larger = times(combination(c * u_scale, u, s * w_scale, w), reciprocal);
-    let smaller = times(combination(c * w_scale, w, -(s * u_scale), u), reciprocal);
+    let (c, s) = (forward * cosine + backward * sine, forward * sine + backward * cosine);
+    let larger = combination(c * u_scale, u, s * w_scale, w);
+    let smaller = combination(c * w_scale, w, -(s * u_scale), u);
     let n = times(v, v_scale);
 
     // By x and not by r, whose zero may be negative: then x is the smallest.
