@@ -67,9 +67,8 @@ impl<const N: usize> Combination<N> {
         }
         // The first dependent one, as the one given last of those that make it up.
         let Orthogonal { rank, share, order, .. } = orthogonal;
-        for place in rank..N {
+        for (place, &index) in order.iter().enumerate().skip(rank) {
             let (expected, scale) = Self::implied(&orthogonal, &restrictions, place);
-            let index = order[place];
             let residual = restrictions[index].value - expected;
             if LARGEST_RESIDUAL * scale < residual.abs() {
                 return Err(ConstitutiveError::InconsistentConstraints { index, residual });
@@ -128,7 +127,7 @@ impl<const N: usize> Combination<N> {
     pub fn reaction(&self, multipliers: [f64; N]) -> CauchyStress {
         let mut sum = Symmetric::zero();
         for (restriction, multiplier) in self.restrictions.iter().zip(multipliers) {
-            sum = sum + restriction.reaction * multiplier;
+            sum += restriction.reaction * multiplier;
         }
         CauchyStress(sum)
     }

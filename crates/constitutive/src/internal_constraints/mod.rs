@@ -11,7 +11,7 @@
 //! |---|---|---|
 //! | incompressibility, μ = det F − 1 | [`Incompressibility`] | λ J 1, p = −λ J |
 //! | inextensibility along e, μ = \|F e\|² − 1 | [`Inextensibility`] | 2 λ F e ⊗ F e |
-//! | rigidity, μ = FᵀF − 1 | [`Rigidity`] | 2 F Λ Fᵀ, Λ symmetric |
+//! | rigidity, μ = Fᵀ F − 1 | [`Rigidity`] | 2 F Λ Fᵀ, Λ symmetric |
 //! | your own μ(F) | [`InternalConstraint`] | by exact differentiation |
 //! | your own μ̂(C) | [`MetricConstraint`] in [`OfMetric`] | the same, six directions instead of nine |
 //!

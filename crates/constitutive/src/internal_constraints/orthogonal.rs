@@ -3,7 +3,7 @@
 /// What is left of a column when those before it are taken out must be more than this share of it.
 const LEAST_SHARE: f64 = 1e-10;
 
-/// Columns a_k = Σ q_j r_jk in the order in which they were taken.
+/// Columns `a_k = Σ q_j r_jk` in the order in which they were taken.
 pub(super) struct Orthogonal<const ROWS: usize, const COLUMNS: usize> {
     /// Orthonormal columns; those from `rank` on are zero.
     pub(super) basis: [[f64; ROWS]; COLUMNS],

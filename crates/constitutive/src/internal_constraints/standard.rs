@@ -128,7 +128,7 @@ impl InternalConstraint for Inextensibility {
     }
 }
 
-/// Rigidity, μ = FᵀF − 1: six constraints with a symmetric multiplier Λ.
+/// Rigidity, μ = Fᵀ F − 1: six constraints with a symmetric multiplier Λ.
 ///
 /// ```text
 /// N = 2 F Λ Fᵀ

@@ -226,7 +226,7 @@ impl StrainEnergy for HolzapfelGasserOgden {
         for family in 0..2 {
             let fibres = metric.invariant(&self.structure(family), 1.0);
             let (tension, _, growth) = self.tension(fibres.excess);
-            stress = stress + fibres.slope * (T::lit(2.0 * self.k1) * (tension * growth));
+            stress += fibres.slope * (T::lit(2.0 * self.k1) * (tension * growth));
         }
         stress
     }

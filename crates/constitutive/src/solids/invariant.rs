@@ -7,8 +7,8 @@
 //! It is 2 w₁ F + 2 w₂ F (I₁ 1 − C) + J w_J F⁻ᵀ, ordered so that each term is as small as the strain: at the reference
 //! every one vanishes, if the law's *residual* s does. A law gives s without cancellation, from I₁ − 3, I₂ − 3 and J − 1.
 
-use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::strain::{invariants, kernels};
+use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::tensor::FourthOrder;
 use piola_continuum::tensor::rows::{
     Rows, cofactor, difference, double_contraction, product, product_transposed, scaled, sum, transpose,
@@ -67,14 +67,7 @@ impl<T: Real> Curvatures<T> {
     #[must_use]
     pub fn of_volume(volume_volume: T) -> Self {
         let o = T::zero();
-        Self {
-            first_first: o,
-            first_second: o,
-            second_second: o,
-            first_volume: o,
-            second_volume: o,
-            volume_volume,
-        }
+        Self { first_first: o, first_second: o, second_second: o, first_volume: o, second_volume: o, volume_volume }
     }
 }
 

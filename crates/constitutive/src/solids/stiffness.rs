@@ -64,23 +64,23 @@ pub struct EngineeringConstants {
 ///
 /// | symbol | field | bounds |
 /// |---|---|---|
-/// | E_a, E_t | `young_along`, `young_across`, Pa | 0 < E |
-/// | ν_at, the contraction across under tension along | `poisson_along` | 2 ν_at² < (1 − ν_tt) E_a/E_t |
-/// | ν_tt | `poisson_across` | −1 < ν_tt < 1 |
-/// | G_at | `shear_along`, Pa | 0 < G_at |
+/// | `E_a`, `E_t` | `young_along`, `young_across`, Pa | 0 < E |
+/// | `ν_at`, the contraction across under tension along | `poisson_along` | `2 ν_at² < (1 − ν_tt) E_a/E_t` |
+/// | `ν_tt` | `poisson_across` | `−1 < ν_tt < 1` |
+/// | `G_at` | `shear_along`, Pa | `0 < G_at` |
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TransverseConstants {
-    /// E_a along the direction, Pa.
+    /// `E_a` along the direction, Pa.
     pub young_along: f64,
-    /// E_t across it, Pa.
+    /// `E_t` across it, Pa.
     pub young_across: f64,
-    /// ν_at.
+    /// `ν_at`.
     pub poisson_along: f64,
-    /// ν_tt.
+    /// `ν_tt`.
     pub poisson_across: f64,
-    /// G_at, Pa.
+    /// `G_at`, Pa.
     pub shear_along: f64,
 }
 

@@ -1,7 +1,7 @@
 //! Reference energies, stresses and tangents of every law.
 
-use piola_constitutive::solids::{Hencky, Hyperelastic, IsochoricOgden, MooneyRivlin, Ogden, OgdenTerm};
 use piola_constitutive::solids::{Compressible, NeoHookeanLogarithmic, SaintVenantKirchhoff, isochoric, volumetric};
+use piola_constitutive::solids::{Hencky, Hyperelastic, IsochoricOgden, MooneyRivlin, Ogden, OgdenTerm};
 use piola_continuum::tensor::PairSymmetric;
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
