@@ -104,8 +104,9 @@ impl Stiffness {
             check_bound(LAW, "pivot of C", m[k][k], "0 < A : C : A", scale < m[k][k])?;
             for i in k + 1..6 {
                 let factor = m[i][k] / m[k][k];
-                for j in k + 1..6 {
-                    m[i][j] -= factor * m[k][j];
+                let pivot = m[k];
+                for (entry, above) in m[i].iter_mut().zip(pivot).skip(k + 1) {
+                    *entry -= factor * above;
                 }
             }
         }

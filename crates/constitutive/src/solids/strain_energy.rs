@@ -39,9 +39,10 @@ pub(super) fn nominal_tangent<T: Real>(
 ) -> FirstPiolaTangent<T> {
     let mut components = kernels::first_piola_tangent(deformation.gradient_rows(), stress, &tangent.slots());
     // Symmetric to the last bit.
-    for row in 1..9 {
-        for column in 0..row {
-            components[row][column] = components[column][row];
+    for place in 1..9 {
+        let (above, below) = components.split_at_mut(place);
+        for (entry, mirror) in below[0].iter_mut().zip(above) {
+            *entry = mirror[place];
         }
     }
     FirstPiolaTangent(FourthOrder { components })

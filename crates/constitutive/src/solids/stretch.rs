@@ -341,7 +341,7 @@ impl<T: Real> Principal<T> {
         }
     }
 
-    /// λₐ λᵦ A_abba for 12, 23, 13.
+    /// `λₐ λᵦ A_abba` for 12, 23, 13.
     #[inline(always)]
     fn exchange(&self, pair: usize) -> T {
         let (a, b) = PAIRS[pair];
