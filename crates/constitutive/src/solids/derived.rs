@@ -24,13 +24,8 @@ pub fn first_piola_tangent<T: Real, L: Hyperelastic + ?Sized>(
     law: &L,
     deformation: &impl Deformation<T>,
 ) -> FirstPiolaTangent<T> {
-    let mut components = [[T::zero(); 9]; 9];
-    for column in 0..9 {
-        let slopes = second_derivatives(law, deformation, column);
-        for (row, slope) in slopes.into_iter().enumerate() {
-            components[row][column] = slope;
-        }
-    }
+    let columns: [[T; 9]; 9] = core::array::from_fn(|column| second_derivatives(law, deformation, column));
+    let components = core::array::from_fn(|row| core::array::from_fn(|column| columns[column][row]));
     FirstPiolaTangent(FourthOrder { components })
 }
 

@@ -4,7 +4,7 @@
 //! P = s F⁻ᵀ + (2 w₁ + 4 w₂)(F − F⁻ᵀ) + 2 w₂ F ((I₁ − 3) 1 − (C − 1))
 //! s = 2 w₁ + 4 w₂ + J w_J        wₐ = ∂W/∂Iₐ,  w_J = ∂W/∂J
 //! ```
-//! It is 2 w₁ F + 2 w₂ F (I₁ 1 − C) + J w_J F⁻ᵀ, ordered so that each term is as small as the strain: at the reference
+//! It is `2 w₁ F + 2 w₂ F (I₁ 1 − C) + J w_J F⁻ᵀ`, ordered so that each term is as small as the strain: at the reference
 //! every one vanishes, if the law's *residual* s does. A law gives s without cancellation, from I₁ − 3, I₂ − 3 and J − 1.
 
 use piola_continuum::strain::{invariants, kernels};
