@@ -28,7 +28,7 @@ macro_rules! quantities {
             Request::new($name(law), (), to)
         }
 
-        #[doc = concat!("The output of [`", stringify!($function), "`].")]
+        #[doc = concat!("The output of `", stringify!($function), "`.")]
         #[derive(Debug)]
         pub struct $name<'a, L>(&'a L);
 

@@ -58,8 +58,8 @@ fn logarithms_of_a_batch_equal_those_of_one_lane_to_the_last_bit() {
     for (index, f) in f.iter().enumerate() {
         let lane = f.matrix().map(|x| Lanes([x]));
         let lane = DeformationGradient::new(lane).expect("a deformation");
-        let one = StretchAnalysis::of(&lane).hencky_material().components.map(|x| x.0[0]);
-        assert_eq!(polar.logarithms[index].components, one, "point {index}");
+        let components = StretchAnalysis::of(&lane).hencky_material().components.map(|x| x.0[0]);
+        assert_eq!(polar.logarithms[index], Symmetric { components }, "point {index}");
     }
 }
 
@@ -121,7 +121,7 @@ fn strains_and_stresses_of_a_batch_equal_those_of_its_points() {
 fn single_precision_batches_equal_single_precision_points() {
     let f: Vec<DeformationGradient<f32>> = deformations(203)
         .iter()
-        .filter_map(|f| DeformationGradient::new(f.matrix().map(|x| num_traits::AsPrimitive::<f32>::as_(x))).ok())
+        .filter_map(|f| DeformationGradient::new(f.matrix().map(num_traits::AsPrimitive::<f32>::as_)).ok())
         .collect();
     let mut stretches = vec![Symmetric::<f32>::zero(); f.len()];
     batch::evaluate(&f[..], batch::right_stretch(&mut stretches[..])).expect("deformations");
