@@ -23,9 +23,12 @@ pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>, bounds: &[[f64; 2]]) -> 
     let unknowns = a.ncols();
     let sizes: Vec<f64> = (0..unknowns).map(|k| size(a.column(k).norm())).collect();
     let scaled = DMatrix::from_fn(a.nrows(), unknowns, |i, k| a[(i, k)] / sizes[k]);
+    // An unknown at its bound is there exactly, whatever scaling and its inverse have rounded.
+    let stated = |k: usize, x: f64| x.max(bounds[k][0]).min(bounds[k][1]);
+    let finish =
+        |x: DVector<f64>, free: Vec<bool>| (DVector::from_fn(unknowns, |k, _| stated(k, x[k] / sizes[k])), free);
     let bounds: Vec<[f64; 2]> = bounds.iter().zip(&sizes).map(|(pair, size)| pair.map(|x| x * size)).collect();
     let inside = |k: usize, x: f64| bounds[k][0] <= x && x <= bounds[k][1];
-    let finish = |x: DVector<f64>, free: Vec<bool>| (DVector::from_fn(unknowns, |k, _| x[k] / sizes[k]), free);
 
     // Mostly no bound is met.
     let all = vec![true; unknowns];
