@@ -2,7 +2,7 @@
 //!
 //! Errors are norm-wise (largest entry) against 31 digits: of R in absolute terms, of U relative to U, of ln U relative
 //! to ln U (absolute for pure rotations, whose ln U is rounding), of eigenpairs the largest of |A V − V Λ|/|A|,
-//! |VᵀV − 1| and |Δλ|/|A|. The input is taken as exact.
+//! `|VᵀV − 1|` and `|Δλ|/|A|`. The input is taken as exact.
 
 use std::hint::black_box;
 use std::time::Instant;

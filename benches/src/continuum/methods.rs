@@ -86,7 +86,7 @@ pub fn polar_by_svd(f: &Matrix3<f64>) -> Polar {
     Polar { rotation: w * qt, right_stretch: composed(&q, values), hencky: composed(&q, values.map(f64::ln)) }
 }
 
-/// nalgebra's eigenvectors of C = FᵀF: U = Q √Λ Qᵀ, ln U = ½ Q ln Λ Qᵀ, R = F U⁻¹.
+/// nalgebra's eigenvectors of `C = FᵀF`: `U = Q √Λ Qᵀ`, `ln U = ½ Q ln Λ Qᵀ`, `R = F U⁻¹`.
 #[inline]
 #[must_use]
 pub fn polar_by_eigen(f: &Matrix3<f64>) -> Polar {
@@ -94,7 +94,7 @@ pub fn polar_by_eigen(f: &Matrix3<f64>) -> Polar {
     polar_of_square(f, eigen.eigenvalues, &eigen.eigenvectors)
 }
 
-/// The closed form's eigenvectors of C = FᵀF, then as [`polar_by_eigen`].
+/// The closed form's eigenvectors of `C = FᵀF`, then as [`polar_by_eigen`].
 #[inline]
 #[must_use]
 pub fn polar_by_trigonometry(f: &Matrix3<f64>) -> Polar {

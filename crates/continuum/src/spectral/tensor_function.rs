@@ -52,7 +52,7 @@ fn frame_of<T: Real>(a: &Symmetric<T>) -> (Rows<T>, [T; 3], [T; 6]) {
     (axes, nodes, [x - nodes[0], y - nodes[1], z - nodes[2], xy, yz, xz])
 }
 
-/// Df(A)[H], the derivative of f(A) along H (Daleckii and Krein).
+/// `Df(A)[H]`, the derivative of f(A) along H (Daleckii and Krein).
 ///
 /// # Accuracy
 /// Finite and accurate to a few ulp of ‖H‖ max |f[λᵢ, λⱼ]| at and near coalescence.

@@ -393,7 +393,7 @@ fn times_inverse_metric<T: Real>(deformation: &impl Deformation<T>, a: &Symmetri
     Symmetric::symmetric_part(crate::tensor::rows::product(metric, a.rows())) * s
 }
 
-/// D²Ī₁[X], the derivative of ∂Ī₁/∂C along a symmetric X.
+/// `D²Ī₁[X]`, the derivative of ∂Ī₁/∂C along a symmetric X.
 ///
 /// ```text
 /// −⅓ (C⁻¹ : X) ∂Ī₁/∂C + ⅓ J^(−2/3) (I₁ C⁻¹ X C⁻¹ − (tr X) C⁻¹)
@@ -416,7 +416,7 @@ pub fn isochoric_first_second_derivative<T: Real>(deformation: &impl Deformation
         + (turned * first(deformation) - metric * x.trace()) * (third * power_of_jacobian(deformation, -2.0 / 3.0))
 }
 
-/// D²Ī₂[X], the derivative of ∂Ī₂/∂C along a symmetric X.
+/// `D²Ī₂[X]`, the derivative of ∂Ī₂/∂C along a symmetric X.
 ///
 /// ```text
 /// −⅔ (C⁻¹ : X) ∂Ī₂/∂C + J^(−4/3) (tr X 1 − X − ⅔ (I₁ tr X − C : X) C⁻¹ + ⅔ I₂ C⁻¹ X C⁻¹)

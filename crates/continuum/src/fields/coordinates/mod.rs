@@ -188,7 +188,7 @@ pub trait Coordinates {
         Ok(self.physical_frame(coordinates)?.gradient(vector, partials))
     }
 
-    /// div T of a field of tensors, contracting the last index, in physical components, [T]/m.
+    /// div T of a field of tensors, contracting the last index, in physical components, `[T]/m`.
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
@@ -225,7 +225,7 @@ pub trait Coordinates {
         finite::<Vector3<f64>, T>("divergence", divergence)
     }
 
-    /// grad v of a field of vectors in physical components, (grad v)ᵢⱼ = ∂vᵢ/∂xⱼ, [v]/m: L where v is the
+    /// grad v of a field of vectors in physical components, (grad v)ᵢⱼ = ∂vᵢ/∂xⱼ, `[v]/m`: L where v is the
     /// velocity.
     ///
     /// # Errors
@@ -259,7 +259,7 @@ pub trait Coordinates {
         Ok(from_rows(gradient))
     }
 
-    /// div v of a field of vectors in physical components, [v]/m.
+    /// div v of a field of vectors in physical components, `[v]/m`.
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
@@ -291,7 +291,7 @@ pub trait Coordinates {
         Ok(divergence)
     }
 
-    /// grad f of a field of scalars in physical components, (1/hᵢ) ∂f/∂qⁱ, [f]/m.
+    /// grad f of a field of scalars in physical components, (1/hᵢ) ∂f/∂qⁱ, `[f]/m`.
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
@@ -324,7 +324,7 @@ pub trait Coordinates {
         finite::<Vector3<f64>, T>("gradient", Vector3::from_fn(|i, _| partials[i] / h[i]))
     }
 
-    /// Δf = div grad f of a field of scalars, [f]/m², in any system, orthogonal or not.
+    /// Δf = div grad f of a field of scalars, `[f]/m²`, in any system, orthogonal or not.
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).

@@ -121,7 +121,7 @@ impl<F: Field> Spatial<F> {
     /// |---|---|---|
     /// | v | `velocity` | m/s |
     /// | x, t | `place`, `time` | m, s |
-    /// | Ψ̇ | returned | [Ψ]/s |
+    /// | Ψ̇ | returned | `[Ψ]/s` |
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`] for a place, time, velocity or result.
