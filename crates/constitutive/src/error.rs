@@ -238,6 +238,16 @@ pub enum ConstitutiveError {
         /// What its left side has beyond its right, Pa.
         residual: f64,
     },
+    /// No shear rate has this shear stress.
+    #[error("{fluid}: no shear rate was found at the shear stress {stress:e} Pa: {residual:e} Pa remain")]
+    NoShearRate {
+        /// The fluid.
+        fluid: &'static str,
+        /// The shear stress, Pa.
+        stress: f64,
+        /// By how much the best rate's stress is off, Pa.
+        residual: f64,
+    },
     /// Points of a batch are bad; the outputs of all others are computed.
     #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
     BadPoints {

@@ -8,6 +8,7 @@ mod elementary;
 mod error;
 #[cfg(feature = "fit")]
 pub mod fit;
+pub mod fluids;
 pub mod homogeneous;
 pub mod internal_constraints;
 pub mod memory;
