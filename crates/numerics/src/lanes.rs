@@ -218,7 +218,8 @@ macro_rules! element {
             }
             #[inline(always)]
             fn is_number(self) -> bool {
-                self.abs() < $float::INFINITY
+                // Beside 0 < x the compiler would make one test of the bits of each lane of a comparison with infinity.
+                self.abs() <= $float::MAX
             }
             #[inline(always)]
             fn choose(mask: $bits, if_true: Self, if_false: Self) -> Self {
