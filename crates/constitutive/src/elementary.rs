@@ -27,6 +27,17 @@ pub(crate) fn excess_over_logarithm<T: Real>(x: T) -> T {
     T::select(small, x * s - T::lit(2.0) * (s * square * sum), plain)
 }
 
+/// x − ln(1 + x), of second order in x, the logarithm given: near x = −1 it knows more than x does.
+///
+/// # Accuracy
+/// That of [`excess_over_logarithm`]; for x → −1 and its derivatives that of the logarithm.
+#[inline(always)]
+pub(crate) fn excess_over_given<T: Real>(x: T, logarithm: T) -> T {
+    let small = x.abs().at_most(T::lit(0.5));
+    let plain = x - logarithm;
+    if small.any() { T::select(small, excess_over_logarithm(x), plain) } else { plain }
+}
+
 /// eˣ − 1 − x, of second order in x, without cancellation.
 ///
 /// # Accuracy

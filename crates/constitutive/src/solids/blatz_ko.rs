@@ -7,7 +7,7 @@ use super::incompressible::inverse_excess;
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants};
 use super::parameters::parameters;
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_logarithm;
+use crate::elementary::excess_over_given;
 
 parameters! {
     /// The solid of Blatz and Ko, for foamed and for solid rubber.
@@ -87,9 +87,10 @@ impl InvariantEnergy for BlatzKo {
         let (solid, foam) = self.moduli();
         let (down, up) = self.powers(deformation.ln_jacobian());
         let beta = self.beta();
+        let exponent = T::lit(2.0 * beta) * deformation.ln_jacobian();
         let reciprocal = if 0.0 < beta { T::lit(beta.recip()) } else { T::zero() };
-        T::lit(0.5 * solid) * (first_excess(deformation) + reciprocal * excess_over_logarithm(down))
-            + T::lit(0.5 * foam) * (inverse_excess(deformation) + reciprocal * excess_over_logarithm(up))
+        T::lit(0.5 * solid) * (first_excess(deformation) + reciprocal * excess_over_given(down, -exponent))
+            + T::lit(0.5 * foam) * (inverse_excess(deformation) + reciprocal * excess_over_given(up, exponent))
     }
 
     #[inline(always)]

@@ -8,7 +8,7 @@ use piola_numerics::Real;
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants};
 use super::isochoric::{self, Isochoric};
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_logarithm;
+use crate::elementary::excess_over_given;
 use crate::error::check_finite;
 
 const LAW: &str = "incompressible solid";
@@ -19,12 +19,56 @@ const VOLUME: f64 = 1e-6;
 /// The pressure of an incompressible solid, Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
+#[cfg_attr(feature = "serde", serde(try_from = "Written", rename_all = "snake_case"))]
 pub enum Pressure {
     /// p of T = −p 1 + 2 W₁ B − 2 W₂ B⁻¹, as the text writes it. The stress-free reference has p = 2 (W₁ − W₂).
     Whole(f64),
     /// q of T = −q 1 + 2 W₁ (B − 1) − 2 W₂ (B⁻¹ − 1): the pressure beyond that of a body at rest, without cancellation.
     Excess(f64),
+}
+
+impl Default for Pressure {
+    /// That of a body at rest.
+    fn default() -> Self {
+        Self::Excess(0.0)
+    }
+}
+
+/// A pressure as it is written.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Written {
+    Whole(f64),
+    Excess(f64),
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Written> for Pressure {
+    type Error = ConstitutiveError;
+
+    fn try_from(written: Written) -> Result<Self, ConstitutiveError> {
+        match written {
+            Written::Whole(p) => check_finite(LAW, "p", p).map(|()| Self::Whole(p)),
+            Written::Excess(q) => check_finite(LAW, "q", q).map(|()| Self::Excess(q)),
+        }
+    }
+}
+
+/// Refuses a change of volume of what is incompressible.
+pub(super) fn check_volume<T: Real>(
+    law: &'static str,
+    deformation: &impl Deformation<T>,
+) -> Result<(), ConstitutiveError> {
+    let change = deformation.volume_change();
+    for lane in 0..T::LANES {
+        let value = change.primal(lane).abs();
+        let holds = value < VOLUME;
+        if !holds {
+            return Err(ConstitutiveError::BeyondLimit { law, quantity: "|J − 1|", value, limit: VOLUME });
+        }
+    }
+    Ok(())
 }
 
 /// An incompressible isotropic solid of any [`Isochoric`] energy, its pressure given.
@@ -69,6 +113,7 @@ pub struct IncompressibleSolid<I> {
     /// W, of I₁ − 3 and I₂ − 3.
     pub isochoric: I,
     /// p or q, Pa.
+    #[cfg_attr(feature = "serde", serde(default))]
     pub pressure: Pressure,
 }
 
@@ -155,7 +200,7 @@ impl<I: Isochoric> IncompressibleSolid<I> {
         let (first, second, first_rate, second_rate) = match self.pressure {
             Pressure::Whole(_) => (invariants.first, less_three, T::zero(), -two_j * ratio),
             Pressure::Excess(_) => {
-                let logarithm = two * change.ln_1p();
+                let logarithm = two * super::volumetric::logarithm(change, invariants.jacobian);
                 (invariants.first - logarithm, less_three + logarithm, -two_j, two_j * (one - ratio))
             }
         };
@@ -193,7 +238,7 @@ pub(super) fn inverse_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
     let minor = |i: usize, j: usize| h[i][i] * h[j][j] - h[i][j] * h[j][i];
     let beyond = (minor(0, 1) + minor(1, 2) + minor(0, 2)) - piola_numerics::linear::matrix3::determinant(h);
     piola_continuum::tensor::rows::double_contraction(h, h) - two * beyond
-        + two * excess_over_logarithm(-deformation.volume_change() * reciprocal)
+        + two * excess_over_given(-deformation.volume_change() * reciprocal, -deformation.ln_jacobian())
 }
 
 impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
@@ -224,14 +269,7 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
     }
 
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
-        let change = deformation.volume_change();
-        for lane in 0..T::LANES {
-            let value = change.primal(lane).abs();
-            let holds = value < VOLUME;
-            if !holds {
-                return Err(ConstitutiveError::BeyondLimit { law: LAW, quantity: "|J − 1|", value, limit: VOLUME });
-            }
-        }
+        check_volume(LAW, deformation)?;
         let second = if I::SECOND { invariants::second_minus_three(deformation) } else { T::zero() };
         isochoric::check_lanes(&self.isochoric, invariants::first_minus_three(deformation), second)
     }

@@ -18,7 +18,7 @@ use piola_numerics::linear::matrix3::{determinant, from_rows};
 use piola_numerics::{Mask, Real};
 
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_logarithm;
+use crate::elementary::excess_over_given;
 
 /// I₁ − 3, I₂ − 3, J − 1 and J of a deformation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,7 +131,8 @@ pub fn invariants_of<T: Real, L: InvariantEnergy>(_law: &L, deformation: &impl D
 pub fn first_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
     let h = deformation.displacement_rows();
     let two = T::lit(2.0);
-    double_contraction(h, h) - two * beyond_trace(h) + two * excess_over_logarithm(deformation.volume_change())
+    double_contraction(h, h) - two * beyond_trace(h)
+        + two * excess_over_given(deformation.volume_change(), deformation.ln_jacobian())
 }
 
 /// I₂ − 3 − 4 ln J, never negative and of second order in the strain, without cancellation.
@@ -147,7 +148,7 @@ pub fn second_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
     let [a, b, c, d, e, f] = kernels::right_cauchy_green_minus_one(h).components;
     let second = (a * b - d * d) + (b * c - e * e) + (a * c - f * f);
     two * double_contraction(h, h) + second - four * beyond_trace(h)
-        + four * excess_over_logarithm(deformation.volume_change())
+        + four * excess_over_given(deformation.volume_change(), deformation.ln_jacobian())
 }
 
 /// i₂(H) + det H = det(1 + H) − 1 − tr H.

@@ -9,6 +9,7 @@
 //! for speed, and keep their digits near the reference configuration.
 
 mod anisotropic;
+mod any;
 mod blatz_ko;
 mod body;
 mod compressible;
@@ -39,6 +40,7 @@ pub mod stretch;
 pub mod volumetric;
 
 pub use anisotropic::{AnisotropicLinear, AnisotropicSaintVenantKirchhoff};
+pub use any::{AnyIsochoric, AnySolid, AnyVolumetric, SolidVisitor};
 pub use blatz_ko::BlatzKo;
 pub use body::UniformBody;
 pub use compressible::{Compressible, MooneyRivlinIsochoric, NeoHookeanIsochoric};
@@ -53,7 +55,7 @@ pub use linear_elastic::{LinearElastic, MixedLinearElastic};
 pub use membrane::{Membrane, ThinPlate};
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::{NeoHookean, NeoHookeanCiarlet, NeoHookeanLogarithmic};
-pub use ogden::{IsochoricOgden, Ogden, OgdenTerm};
+pub use ogden::{IncompressibleOgden, IsochoricOgden, Ogden, OgdenTerm};
 pub use polynomial::{Polynomial, PolynomialTerm};
 pub use reinforced::ReinforcedNeoHookean;
 pub use response::{IsotropicResponse, IsotropicSolid, ResponseForm};

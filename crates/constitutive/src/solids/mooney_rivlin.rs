@@ -7,7 +7,7 @@ use super::invariant::{
     Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants, second_excess,
 };
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_logarithm;
+use crate::elementary::excess_over_given;
 use crate::error::{check_bound, check_finite};
 
 const LAW: &str = "Mooney–Rivlin";
@@ -119,12 +119,12 @@ impl InvariantEnergy for MooneyRivlin {
     /// C₁₀ (I₁ − 3 − 2 ln J) + C₀₁ (I₂ − 3 − 4 ln J) + c (J² − 1 − 2 ln J) + r ln J, r the stress of the reference.
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        let change = deformation.volume_change();
-        let square = change * (change + T::lit(2.0));
+        let (two, change, logarithm) = (T::lit(2.0), deformation.volume_change(), deformation.ln_jacobian());
+        let square = change * (change + two);
         T::lit(self.c10) * first_excess(deformation)
             + T::lit(self.c01) * second_excess(deformation)
-            + T::lit(self.c) * excess_over_logarithm(square)
-            + T::lit(self.residual) * deformation.ln_jacobian()
+            + T::lit(self.c) * excess_over_given(square, two * logarithm)
+            + T::lit(self.residual) * logarithm
     }
 
     fn reference_energy(&self) -> f64 {

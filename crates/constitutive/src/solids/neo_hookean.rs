@@ -24,7 +24,7 @@ const LAW: &str = "neo-Hookean";
 /// | symbol | parameter | unit | bounds |
 /// |---|---|---|---|
 /// | μ | `mu` | Pa | 0 < μ |
-/// | λ | of `volumetric` | Pa | 0 ≤ λ |
+/// | λ | U″(1) of `volumetric` | Pa | 0 < λ + ⅔ μ (the bulk modulus) |
 ///
 /// At small strain it is Hooke's law with Lamé's constants λ and μ.
 ///
@@ -72,7 +72,14 @@ impl<U: Volumetric> NeoHookean<U> {
     /// [`ConstitutiveError::NotFinite`], [`ConstitutiveError::OutOfBounds`].
     pub fn new(mu: f64, volumetric: U) -> Result<Self, ConstitutiveError> {
         check_bound(LAW, "mu", mu, "0 < μ", 0.0 < mu)?;
+        let lambda = volumetric.bulk_modulus();
+        check_bound(LAW, "U″(1)", lambda, "0 < U″(1) + ⅔ μ", 0.0 < lambda + 2.0 / 3.0 * mu)?;
         Ok(Self { mu, volumetric })
+    }
+
+    /// The same with U in another form.
+    pub(super) fn map<V>(self, volumetric: impl FnOnce(U) -> V) -> NeoHookean<V> {
+        NeoHookean { mu: self.mu, volumetric: volumetric(self.volumetric) }
     }
 
     /// μ, Pa: the shear modulus.

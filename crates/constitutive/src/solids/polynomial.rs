@@ -9,7 +9,7 @@ use super::invariant::{
 };
 use super::series::{power, power_curvature, power_slope};
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_logarithm;
+use crate::elementary::excess_over_given;
 use crate::error::{check_bound, check_finite};
 
 const LAW: &str = "polynomial";
@@ -161,13 +161,13 @@ impl InvariantEnergy for Polynomial {
     /// Linear terms by I₁ − 3 − 2 ln J, I₂ − 3 − 4 ln J and I₃ − 1 − 2 ln J, the rest as it stands.
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        let change = deformation.volume_change();
-        let z = change * (change + T::lit(2.0));
+        let (two, change, logarithm) = (T::lit(2.0), deformation.volume_change(), deformation.ln_jacobian());
+        let z = change * (change + two);
         let (x, y) = (invariants::first_minus_three(deformation), invariants::second_minus_three(deformation));
         let mut sum = T::lit(self.linear[0]) * first_excess(deformation)
             + T::lit(self.linear[1]) * second_excess(deformation)
-            + T::lit(self.linear[2]) * excess_over_logarithm(z)
-            + T::lit(self.residual) * deformation.ln_jacobian();
+            + T::lit(self.linear[2]) * excess_over_given(z, two * logarithm)
+            + T::lit(self.residual) * logarithm;
         for term in &self.curved {
             sum += T::lit(term.coefficient) * power(x, term.first) * power(y, term.second) * power(z, term.third);
         }

@@ -23,6 +23,8 @@ use piola_continuum::{Deformation, FirstPiola, KirchhoffStress, SecondPiola, Sym
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Gradient, Mask, Real};
 
+use crate::ConstitutiveError;
+
 /// The volume as its part U(J) of an energy wants it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Volume<T> {
@@ -51,6 +53,15 @@ impl<T: Real> Volume<T> {
 pub trait StretchEnergy {
     /// Whether w acts on the isochoric part J^(−1/3) F of the deformation.
     const ISOCHORIC: bool;
+
+    /// Refuses deformations at which the law has no answer.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::BeyondLimit`]; most laws have no limit.
+    #[inline(always)]
+    fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
+        Ok(())
+    }
 
     /// w(x), J/m³, w(0) = w′(0) = 0, without cancellation near 0.
     #[must_use]
@@ -531,10 +542,11 @@ fn tangent<T: Real, L: StretchEnergy>(
     FirstPiolaTangent(FourthOrder { components })
 }
 
-/// Writes [`Hyperelastic`](super::Hyperelastic) for a law of principal stretches.
+/// Writes [`Hyperelastic`](super::Hyperelastic) for a law of principal stretches, the parameters of a generic one in brackets
+/// first.
 macro_rules! hyperelastic_of_stretches {
-    ($law:ty) => {
-        $crate::solids::stretch::hyperelastic_of_stretches! { $law,
+    ([$($generics:tt)*] $law:ty) => {
+        $crate::solids::stretch::hyperelastic_of_stretches! { [$($generics)*] $law,
             energy -> T,
             first_piola -> piola_continuum::FirstPiola<T>,
             second_piola -> piola_continuum::SecondPiola<T>,
@@ -546,8 +558,15 @@ macro_rules! hyperelastic_of_stretches {
             truesdell_tangent -> piola_continuum::stress::tangents::TruesdellTangent<T>
         }
     };
-    ($law:ty, $($method:ident -> $result:ty),*) => {
-        impl $crate::solids::Hyperelastic for $law {
+    ([$($generics:tt)*] $law:ty, $($method:ident -> $result:ty),*) => {
+        impl<$($generics)*> $crate::solids::Hyperelastic for $law {
+            #[inline(always)]
+            fn check<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> Result<(), $crate::ConstitutiveError> {
+                $crate::solids::stretch::StretchEnergy::check(self, deformation)
+            }
             $(
                 #[inline(always)]
                 fn $method<T: piola_numerics::Real>(

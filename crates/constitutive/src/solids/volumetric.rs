@@ -8,6 +8,7 @@
 //! |---|---|---|---|
 //! | [`Quadratic`] | ½ κ (J − 1)² | finite | the penalty of incompressibility |
 //! | [`Logarithmic`] | ½ κ ln² J | infinite, not convex in J beyond e | Simo, Taylor & Pister 1985 |
+//! | [`Lame`] | ½ λ ln² J, λ of either sign | beside a shape that resists a change of volume | Hencky 1928, Ogden 1972 |
 //! | [`QuadraticLogarithmic`] | ¼ κ ((J − 1)² + ln² J) | infinite | Simo & Taylor 1982 |
 //! | [`SimoTaylor`] | ¼ κ (J² − 1 − 2 ln J) | infinite, convex | Simo & Taylor 1991 |
 //! | [`Liu`] | κ (J ln J − J + 1) | finite, convex | Liu, Hofstetter & Mang 1994 |
@@ -15,12 +16,13 @@
 //! | [`OgdenVolumetric`] | κ β⁻² (J^(−β) − 1 + β ln J) | infinite for 0 < β | Ogden 1972 |
 //! | [`HartmannNeff`] | κ (J⁵ + J⁻⁵ − 2)/50 | infinite, convex | Hartmann & Neff 2003 |
 //!
-//! All are computed from J − 1, so that no digits cancel near the reference.
+//! All are computed from J − 1, so that no digits cancel near the reference. Where which one is to be read from a file:
+//! [`AnyVolumetric`](super::AnyVolumetric).
 
 use piola_numerics::{Mask, Real};
 
 use super::parameters::parameters;
-use crate::elementary::excess_over_logarithm;
+use crate::elementary::excess_over_given as excess;
 
 /// An energy of the change of volume, zero with its first derivative at J = 1.
 ///
@@ -57,10 +59,39 @@ pub trait Volumetric {
     #[must_use]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T;
 
+    /// J (J U′)′ = J U′ + J² U″, Pa: how the mean Kirchhoff stress grows with ln J.
+    #[inline(always)]
+    #[must_use]
+    fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
+        self.mean_kirchhoff(change, jacobian) + self.curvature(change, jacobian) * (jacobian * jacobian)
+    }
+
     /// κ = U″(1), Pa.
     #[must_use]
     fn bulk_modulus(&self) -> f64 {
         self.curvature(0.0, 1.0)
+    }
+}
+
+impl<U: Volumetric> Volumetric for &U {
+    #[inline(always)]
+    fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
+        U::energy(self, change, jacobian)
+    }
+    #[inline(always)]
+    fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
+        U::mean_kirchhoff(self, change, jacobian)
+    }
+    #[inline(always)]
+    fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
+        U::curvature(self, change, jacobian)
+    }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
+        U::stiffness(self, change, jacobian)
+    }
+    fn bulk_modulus(&self) -> f64 {
+        U::bulk_modulus(self)
     }
 }
 
@@ -73,14 +104,6 @@ pub(super) fn logarithm<T: Real>(change: T, jacobian: T) -> T {
     }
     let plain = jacobian.ln();
     if near.any() { T::select(near, change.ln_1p(), plain) } else { plain }
-}
-
-/// x − ln(1 + x), the logarithm given: near x = −1 it knows more than x does.
-#[inline(always)]
-fn excess<T: Real>(x: T, logarithm: T) -> T {
-    let small = x.abs().at_most(T::lit(0.5));
-    let plain = x - logarithm;
-    if small.any() { T::select(small, excess_over_logarithm(x), plain) } else { plain }
 }
 
 parameters! {
@@ -146,6 +169,49 @@ impl Volumetric for Logarithmic {
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         T::lit(self.kappa) * (T::one() - logarithm(change, jacobian)) * (reciprocal * reciprocal)
+    }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, _change: T, _jacobian: T) -> T {
+        T::lit(self.kappa)
+    }
+}
+
+parameters! {
+    /// U = ½ λ ln² J with λ of either sign: beside a change of shape that resists a change of volume too.
+    ///
+    /// λ in Pa. The bulk modulus is that of the whole law, λ + ⅔ μ for [`Hencky`](super::Hencky) and
+    /// [`Ogden`](super::Ogden), which see that it is positive.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::solids::volumetric::{Lame, Volumetric};
+    /// assert_eq!(Lame::new(-8.0)?.mean_kirchhoff(1.0, 2.0), -8.0 * 2.0_f64.ln());
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    pub struct Lame("volumetric energy of Lamé's λ") {
+        /// λ, Pa.
+        lambda: "finite" => true,
+    }
+}
+
+impl Volumetric for Lame {
+    #[inline(always)]
+    fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
+        let logarithm = logarithm(change, jacobian);
+        T::lit(0.5 * self.lambda) * (logarithm * logarithm)
+    }
+    #[inline(always)]
+    fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
+        T::lit(self.lambda) * logarithm(change, jacobian)
+    }
+    #[inline(always)]
+    fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
+        let reciprocal = jacobian.recip();
+        T::lit(self.lambda) * (T::one() - logarithm(change, jacobian)) * (reciprocal * reciprocal)
+    }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, _change: T, _jacobian: T) -> T {
+        T::lit(self.lambda)
     }
 }
 

@@ -14,7 +14,8 @@
 //! | [`ArrudaBoyce`] | chains of N links, by the inverse Langevin function | Ī₁ < 3 N |
 //! | [`ArrudaBoyceSeries`] | its first five terms | |
 //!
-//! [`Compressible`](super::Compressible) and [`IncompressibleSolid`](super::IncompressibleSolid) make solids of them.
+//! [`Compressible`](super::Compressible) and [`IncompressibleSolid`](super::IncompressibleSolid) make solids of them. Where
+//! which one is to be read from a file: [`AnyIsochoric`](super::AnyIsochoric).
 
 use piola_numerics::Real;
 
@@ -94,6 +95,29 @@ pub trait Isochoric {
     fn shear_modulus(&self) -> f64 {
         let [first, second] = self.slopes(0.0, 0.0);
         2.0 * (first + second)
+    }
+}
+
+impl<I: Isochoric> Isochoric for &I {
+    const SECOND: bool = I::SECOND;
+
+    #[inline(always)]
+    fn energy<T: Real>(&self, first: T, second: T) -> T {
+        I::energy(self, first, second)
+    }
+    #[inline(always)]
+    fn slopes<T: Real>(&self, first: T, second: T) -> [T; 2] {
+        I::slopes(self, first, second)
+    }
+    #[inline(always)]
+    fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3] {
+        I::curvatures(self, first, second)
+    }
+    fn check(&self, first: f64, second: f64) -> Result<(), ConstitutiveError> {
+        I::check(self, first, second)
+    }
+    fn shear_modulus(&self) -> f64 {
+        I::shear_modulus(self)
     }
 }
 

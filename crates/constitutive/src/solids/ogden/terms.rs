@@ -1,0 +1,115 @@
+//! The series of powers of the principal stretches that all of Ogden's solids share.
+
+use piola_continuum::spectral::{Exponential, IsotropicFunction};
+use piola_numerics::Real;
+
+use crate::ConstitutiveError;
+use crate::elementary::excess_of_exponential;
+use crate::error::{check_bound, check_finite};
+
+/// The largest number of terms.
+const CAPACITY: usize = 8;
+
+/// One term μ/α (λ₁^α + λ₂^α + λ₃^α − 3) of an Ogden solid.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct OgdenTerm {
+    /// μ, Pa.
+    pub mu: f64,
+    /// The exponent α, not zero.
+    pub alpha: f64,
+}
+
+/// Σ μ/α (e^(α x) − 1 − α x), of terms in place so that laws are `Copy`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Series {
+    terms: [OgdenTerm; CAPACITY],
+    count: usize,
+}
+
+impl Series {
+    pub(super) fn new(law: &'static str, given: &[OgdenTerm]) -> Result<Self, ConstitutiveError> {
+        let count = given.len();
+        check_bound(law, "terms", count as f64, "1 ≤ number of terms ≤ 8", (1..=CAPACITY).contains(&count))?;
+        for term in given {
+            check_finite(law, "mu", term.mu)?;
+            check_bound(law, "alpha", term.alpha, "alpha ≠ 0", 0.0 < term.alpha.abs())?;
+        }
+        let mut terms = [OgdenTerm::default(); CAPACITY];
+        terms[..count].copy_from_slice(given);
+        let series = Self { terms, count };
+        let modulus = series.shear_modulus();
+        check_bound(law, "½ Σ mu alpha", modulus, "0 < ½ Σ mu alpha", 0.0 < modulus)?;
+        Ok(series)
+    }
+
+    pub(super) fn terms(&self) -> &[OgdenTerm] {
+        &self.terms[..self.count]
+    }
+
+    pub(super) fn shear_modulus(&self) -> f64 {
+        0.5 * self.terms().iter().map(|term| term.mu * term.alpha).sum::<f64>()
+    }
+
+    /// Σ μₚ, Pa.
+    pub(super) fn moduli(&self) -> f64 {
+        self.terms().iter().map(|term| term.mu).sum()
+    }
+
+    #[inline(always)]
+    fn sum<T: Real>(&self, term: impl Fn(f64, f64) -> T) -> T {
+        let mut sum = T::zero();
+        for OgdenTerm { mu, alpha } in self.terms() {
+            sum += term(*mu, *alpha);
+        }
+        sum
+    }
+
+    #[inline(always)]
+    pub(super) fn part<T: Real>(&self, x: T) -> T {
+        self.sum(|mu, alpha| T::lit(mu / alpha) * excess_of_exponential(T::lit(alpha) * x))
+    }
+
+    #[inline(always)]
+    pub(super) fn slope<T: Real>(&self, x: T) -> T {
+        self.sum(|mu, alpha| T::lit(mu) * (T::lit(alpha) * x).exp_m1())
+    }
+
+    #[inline(always)]
+    pub(super) fn curvature<T: Real>(&self, x: T) -> T {
+        self.sum(|mu, alpha| T::lit(mu * alpha) * (T::lit(alpha) * x).exp())
+    }
+
+    #[inline(always)]
+    pub(super) fn secant<T: Real>(&self, x: T, y: T) -> T {
+        self.sum(|mu, alpha| {
+            let alpha_over_scalar = T::lit(alpha);
+            let (x, y) = (alpha_over_scalar * x, alpha_over_scalar * y);
+            T::lit(mu * alpha) * Exponential.divided_difference(x, y)
+        })
+    }
+}
+
+/// w and its derivatives are those of the series.
+macro_rules! parts_of_series {
+    () => {
+        #[inline(always)]
+        fn part<T: Real>(&self, x: T) -> T {
+            self.series.part(x)
+        }
+        #[inline(always)]
+        fn slope<T: Real>(&self, x: T) -> T {
+            self.series.slope(x)
+        }
+        #[inline(always)]
+        fn curvature<T: Real>(&self, x: T) -> T {
+            self.series.curvature(x)
+        }
+        #[inline(always)]
+        fn secant<T: Real>(&self, x: T, y: T) -> T {
+            self.series.secant(x, y)
+        }
+    };
+}
+pub(super) use parts_of_series;
