@@ -11,12 +11,33 @@
 //!
 //! A fluid of your own gives τ as one function over any scalar; its inverse, viscosity and derivatives follow.
 
+mod answers;
+mod any;
+mod bingham;
+mod carreau_yasuda;
+mod casson;
+mod cross;
+mod ellis;
+mod eyring;
+mod herschel_bulkley;
 mod newtonian;
+mod papanastasiou;
 mod parameters;
 mod power_law;
+mod sisko;
 mod viscometric;
 
+pub use any::AnyFluid;
+pub use bingham::Bingham;
+pub use carreau_yasuda::CarreauYasuda;
+pub use casson::Casson;
+pub use cross::Cross;
+pub use ellis::Ellis;
+pub use eyring::Eyring;
+pub use herschel_bulkley::HerschelBulkley;
 pub use newtonian::Newtonian;
+pub use papanastasiou::Papanastasiou;
 pub use parameters::Parameters;
 pub use power_law::PowerLaw;
+pub use sisko::Sisko;
 pub use viscometric::{FlowMoment, ViscometricFluid};

@@ -2,6 +2,7 @@
 
 use piola_numerics::Real;
 
+use super::answers::finite_rate;
 use super::parameters::{Parameters, fluid_of_parameters};
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
@@ -62,7 +63,7 @@ impl ViscometricFluid for Newtonian {
 
     #[inline(always)]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, ConstitutiveError> {
-        Ok(shear_stress / T::lit(self.viscosity_coefficient))
+        finite_rate::<Self, T>(shear_stress, shear_stress / T::lit(self.viscosity_coefficient))
     }
 
     /// (toᵖ⁺² − fromᵖ⁺²)/((p + 2) μ).

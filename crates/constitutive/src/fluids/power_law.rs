@@ -2,6 +2,7 @@
 
 use piola_numerics::Real;
 
+use super::answers::{finite_rate, moment_of_power, moving};
 use super::parameters::{Parameters, fluid_of_parameters};
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
@@ -59,7 +60,14 @@ impl Parameters<2> for PowerLaw {
 /// |x|ⁿ sign x.
 #[inline(always)]
 pub(super) fn odd_power<T: Real>(x: T, exponent: T) -> T {
-    let power = x.abs().powf(exponent);
+    let size = x.abs();
+    // At rest the power of a constant has no derivative, where the chain rule would make 0 · ∞ of it.
+    let power = if 0 < T::ORDER && x == x.frozen() {
+        let (rest, size) = moving(size);
+        T::select(rest, T::zero(), size.powf(exponent))
+    } else {
+        size.powf(exponent)
+    };
     T::select(x.less_than(T::zero()), -power, power)
 }
 
@@ -73,17 +81,13 @@ impl ViscometricFluid for PowerLaw {
 
     #[inline(always)]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, ConstitutiveError> {
-        Ok(odd_power(shear_stress / T::lit(self.consistency), T::lit(self.exponent.recip())))
+        let rate = odd_power(shear_stress / T::lit(self.consistency), T::lit(self.exponent.recip()));
+        finite_rate::<Self, T>(shear_stress, rate)
     }
 
     /// (to^q − from^q)/(q K^(1/n)) with q = p + 1 + 1/n; the difference through its ratio, so that a narrow interval keeps its digits.
     fn flow_moment(&self, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
-        let power = f64::from(moment.power() + 1);
-        let inverse = self.exponent.recip();
-        let q = power + inverse;
-        // to^q = to^(p+1) K^(1/n) ζ(to): no power of a large or small number alone.
-        let whole = to.powf(power) * (to / self.consistency).powf(inverse);
-        let share = if from > 0.0 { -(q * ((from - to) / to).ln_1p()).exp_m1() } else { 1.0 };
-        Some(if to > 0.0 { whole * share / q } else { 0.0 })
+        let power = moment.power() + 1;
+        Some(moment_of_power(power, self.exponent.recip(), self.consistency, from, to))
     }
 }

@@ -157,9 +157,12 @@ const FARTHEST: f64 = 690.0;
 fn rate_at_stress<F: ViscometricFluid + ?Sized, T: Real>(fluid: &F, stress: T) -> Result<T, ConstitutiveError> {
     let wanted = stress.frozen();
     let size = wanted.abs();
+    if !size.is_finite().all() {
+        return Err(refusal::<F, T>(T::select(size.is_finite(), T::zero(), size), size));
+    }
     let flows = T::lit(fluid.yield_stress()).less_than(size);
     if !flows.any() {
-        return if size.is_finite().all() { Ok(stress * T::zero()) } else { Err(refusal::<F, T>(size, T::zero())) };
+        return Ok(stress * T::zero());
     }
     // Where nothing flows any rate serves: that of the yield stress and something.
     let size = T::select(flows, size, T::lit(2.0 * fluid.yield_stress() + 1.0));

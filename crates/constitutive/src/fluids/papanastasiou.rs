@@ -1,0 +1,90 @@
+//! Papanastasiou's regularised plastic.
+
+use piola_numerics::Real;
+
+use super::answers::viscosity_with_limit;
+use super::parameters::{Parameters, fluid_of_parameters};
+use super::power_law::odd_power;
+use super::viscometric::ViscometricFluid;
+use crate::ConstitutiveError;
+
+fluid_of_parameters! {
+    /// Papanastasiou's plastic: that of Herschel and Bulkley, with a yield stress that grows with the rate instead of a jump.
+    ///
+    /// ```text
+    /// τ = K |k|ⁿ sign k + τ_y (1 − exp(−m |k|)) sign k
+    /// ```
+    /// | symbol | parameter | unit | bounds |
+    /// |---|---|---|---|
+    /// | τ_y | `apparent_yield_stress` | Pa | 0 ≤ τ_y |
+    /// | K | `consistency` | Pa sⁿ | 0 < K |
+    /// | n | `exponent`; 1 for Bingham's plastic | – | 0 < n |
+    /// | m | `growth_time` | s | 0 < m |
+    ///
+    /// It flows at every stress: its [yield stress](ViscometricFluid::yield_stress) is zero. ζ is found by Newton's method.
+    ///
+    /// # Accuracy
+    /// τ: as the power law; no cancellation at m k → 0.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fluids::{Papanastasiou, ViscometricFluid};
+    /// let cement = Papanastasiou::new(10.0, 2.0, 1.0, 100.0)?;
+    /// assert_eq!(cement.viscosity(0.0), 1002.0); // 2 + 10 · 100
+    /// assert_eq!(cement.shear_stress(5.0), 20.0); // as Bingham's
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    ///
+    /// # Source
+    /// T. C. Papanastasiou, J. Rheol. 31 (1987) 385; an example of the functions of W(23.13).
+    pub struct Papanastasiou("Papanastasiou") {
+        /// τ_y, Pa.
+        apparent_yield_stress: "0 ≤ τ_y" => 0.0 <= apparent_yield_stress,
+        /// K, Pa sⁿ.
+        consistency: "0 < K" => 0.0 < consistency,
+        /// n.
+        exponent: "0 < n" => 0.0 < exponent,
+        /// m, s.
+        growth_time: "0 < m" => 0.0 < growth_time,
+    }
+}
+
+impl Parameters<4> for Papanastasiou {
+    const NAMES: [&'static str; 4] = ["apparent_yield_stress", "consistency", "exponent", "growth_time"];
+
+    fn parameters(&self) -> [f64; 4] {
+        [self.apparent_yield_stress, self.consistency, self.exponent, self.growth_time]
+    }
+
+    fn from_parameters([yield_stress, consistency, exponent, time]: [f64; 4]) -> Result<Self, ConstitutiveError> {
+        Self::new(yield_stress, consistency, exponent, time)
+    }
+
+    #[inline(always)]
+    fn shear_stress_of<T: Real>([yield_stress, consistency, exponent, time]: [T; 4], shear_rate: T) -> T {
+        consistency * odd_power(shear_rate, exponent) - yield_stress * (-(time * shear_rate)).exp_m1()
+    }
+}
+
+impl ViscometricFluid for Papanastasiou {
+    const NAME: &'static str = Self::NAME;
+
+    #[inline(always)]
+    fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
+        let size = Self::shear_stress_of(self.parameters().map(T::lit), shear_rate.abs());
+        T::select(shear_rate.less_than(T::zero()), -size, size)
+    }
+
+    #[inline(always)]
+    fn viscosity<T: Real>(&self, shear_rate: T) -> T {
+        let plastic = self.apparent_yield_stress * self.growth_time;
+        let limit = if self.exponent < 1.0 {
+            f64::INFINITY
+        } else if 1.0 < self.exponent {
+            plastic
+        } else {
+            plastic + self.consistency
+        };
+        viscosity_with_limit(self, shear_rate, limit)
+    }
+}

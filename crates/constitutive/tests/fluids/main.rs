@@ -1,0 +1,6 @@
+//! Fluids: reference values, identities, limits and refusals.
+
+mod golden;
+mod references;
+mod refusals;
+mod shear;
