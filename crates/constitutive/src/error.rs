@@ -61,6 +61,22 @@ pub enum ConstitutiveError {
         /// F where it was found, by rows.
         gradient: [[f64; 3]; 3],
     },
+    /// Both Tᵢⱼ and Tⱼᵢ are prescribed.
+    #[error("T is symmetric: of the components ({row}, {column}) and ({column}, {row}) only one can be prescribed")]
+    PrescribedTwice {
+        /// i, from 0.
+        row: usize,
+        /// j, from 0.
+        column: usize,
+    },
+    /// A face that a test leaves free carries a traction.
+    #[error("T{component:?} = {stress:e} Pa is a traction on a free face: the axes of the law are not those of the test")]
+    TractionOnFreeFace {
+        /// The component of T, from 0.
+        component: [usize; 2],
+        /// Its value, Pa.
+        stress: f64,
+    },
     /// There is no test to fit to.
     #[error("there is no test to fit to")]
     NoTests,

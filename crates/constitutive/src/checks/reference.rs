@@ -69,4 +69,8 @@ impl<L: Hyperelastic> Hyperelastic for ChangedReference<L> {
         let gradient = self.composed(deformation);
         self.law.check(&DeformationGradient::<T>::identity().lifted(|i, j, _| gradient[i][j]))
     }
+
+    fn is_incompressible(&self) -> bool {
+        self.law.is_incompressible()
+    }
 }

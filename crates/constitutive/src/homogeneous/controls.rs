@@ -3,6 +3,7 @@
 use piola_continuum::ContinuumError;
 
 use crate::ConstitutiveError;
+use crate::error::check_bound;
 
 /// What is prescribed of one component ij.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,12 +60,19 @@ impl Controls {
     /// From all nine.
     ///
     /// # Errors
-    /// [`ConstitutiveError::Continuum`] for a value that is not finite.
+    /// [`ConstitutiveError::Continuum`] for a value that is not finite; [`ConstitutiveError::PrescribedTwice`] where both
+    /// Tᵢⱼ and Tⱼᵢ are prescribed.
     pub fn new(components: [[Control; 3]; 3]) -> Result<Self, ConstitutiveError> {
         for (index, control) in components.as_flattened().iter().enumerate() {
             let value = control.value();
             if !value.is_finite() {
                 return Err(ContinuumError::NotFinite { quantity: "controls", index, value }.into());
+            }
+        }
+        for (row, column) in [(0, 1), (0, 2), (1, 2)] {
+            let both = [components[row][column], components[column][row]];
+            if both.iter().all(|control| matches!(control, Control::Cauchy(_))) {
+                return Err(ConstitutiveError::PrescribedTwice { row, column });
             }
         }
         Ok(Self { components })
@@ -117,11 +125,26 @@ impl Controls {
     /// F = J^(⅓) 1.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// [`ConstitutiveError::NotFinite`]; [`ConstitutiveError::OutOfBounds`] unless 0 < J.
     pub fn volumetric(jacobian: f64) -> Result<Self, ConstitutiveError> {
+        check_bound("homogeneous test", "J", jacobian, "0 < J", 0.0 < jacobian)?;
         // ∛(1 + x) − 1 without cancellation.
         let pulled = Control::Displacement(((jacobian - 1.0).ln_1p() / 3.0).exp_m1());
         Self::axial([pulled; 3])
+    }
+
+    /// Where a stress is prescribed and F is free, by rows, and how many there are.
+    pub(super) fn free(&self) -> ([(usize, usize); 9], usize) {
+        let (mut places, mut count) = ([(0, 0); 9], 0);
+        for (i, row) in self.components.iter().enumerate() {
+            for (j, control) in row.iter().enumerate() {
+                if !matches!(control, Control::Displacement(_)) {
+                    places[count] = (i, j);
+                    count += 1;
+                }
+            }
+        }
+        (places, count)
     }
 
     /// The components, by rows.

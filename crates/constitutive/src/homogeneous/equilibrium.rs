@@ -1,11 +1,12 @@
 //! Equilibrium of a homogeneous test: damped Newton with the exact tangent, by steps of the load where it needs them.
 
-use piola_continuum::tensor::rows::Rows;
-use piola_continuum::{CauchyStress, Deformation, DisplacementGradient, FirstPiola};
-use piola_numerics::linear::lu;
+use piola_continuum::{CauchyStress, Deformation, DisplacementGradient, FirstPiola, Symmetric};
 
+use super::newton::{Load, Point, Problem};
 use super::{Control, Controls};
 use crate::ConstitutiveError;
+use crate::error::check_bound;
+use crate::internal_constraints::{Combination, Constraints, Incompressibility, rank_of_columns};
 use crate::solids::Hyperelastic;
 
 /// A homogeneous state in which everything prescribed holds.
@@ -23,16 +24,22 @@ pub struct HomogeneousState {
     pub iterations: usize,
     /// Steps of the load: 1 unless Newton's method failed to reach the load at once.
     pub steps: usize,
+    /// The pressure with which an incompressible body keeps its volume, beyond the one that its law has, Pa; 0 if the
+    /// body is compressible.
+    pub pressure: f64,
 }
 
-/// Corrections below this share of ∇u end the iteration: with quadratic convergence the next one is its square.
-const ENOUGH: f64 = 1e-11;
-/// Corrections of F below this are rounding.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
-/// Halvings of a correction before it is given up.
-const HALVINGS: usize = 20;
-/// Evaluations of the tangent in one step of the load.
-const ITERATIONS: usize = 40;
+/// A homogeneous state of a body with internal constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstrainedState<const N: usize> {
+    /// The state; its stresses are those of the body, reactions included.
+    pub state: HomogeneousState,
+    /// λₖ, Pa.
+    pub multipliers: [f64; N],
+    /// Σ λₖ F (∂μₖ/∂F)ᵀ/J, the part of T that the constraints have, Pa.
+    pub reaction: CauchyStress,
+}
+
 /// The smallest step of the load.
 const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 
@@ -42,7 +49,9 @@ const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 /// r(F) = stress(F) − prescribed = 0 for the free components of F:   (∂r/∂F) δF = −r,   F ← F + α δF
 /// ```
 /// α is halved until 0 < det F, the law has an answer and |r| falls. If that fails the load is applied in steps, each
-/// the interpolation between what `start` has and what is prescribed.
+/// the interpolation between what `start` has and what is prescribed. Of an incompressible law
+/// ([`is_incompressible`](Hyperelastic::is_incompressible)) the pressure is an unknown too, as in
+/// [`constrained_equilibrium`] with [`Incompressibility`].
 ///
 /// | argument | what |
 /// |---|---|
@@ -51,7 +60,8 @@ const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 ///
 /// # Errors
 /// [`ConstitutiveError::NotConverged`] with the best state; [`ConstitutiveError::Indeterminate`] when the tangent is
-/// singular at the start, as when a rotation is left free; what the law says of `start`.
+/// singular at the start, as when a rotation is left free; [`ConstitutiveError::UndeterminedMultiplier`] when nothing
+/// that is prescribed sees the pressure; what the law says of `start`.
 ///
 /// # Accuracy
 /// The free components of ∇u within a relative 1e-12 × the condition number of the tangent, at small strain too if the law
@@ -59,13 +69,20 @@ const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::homogeneous::{Controls, equilibrium};
-/// use piola_constitutive::solids::MooneyRivlin;
+/// use piola_constitutive::homogeneous::{Control, Controls, equilibrium};
+/// use piola_constitutive::solids::{IncompressibleSolid, MooneyRivlin, isochoric::NeoHookean};
 /// use piola_continuum::DisplacementGradient;
+/// let start = DisplacementGradient::zero();
 /// let rubber = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?; // μ = 1, λ = 4 c = 4: Poisson's ratio 0.4
-/// let bar = equilibrium(&rubber, &Controls::uniaxial(1.0 + 1e-9)?, &DisplacementGradient::zero())?;
+/// let bar = equilibrium(&rubber, &Controls::uniaxial(1.0 + 1e-9)?, &start)?;
 /// let contraction = -bar.deformation.matrix()[(1, 1)] / bar.deformation.matrix()[(0, 0)];
 /// assert!((contraction - 0.4).abs() < 1e-8);
+/// // An incompressible bar that a force pulls to λ = 2: P = μ (λ − λ⁻²).
+/// let rubber = IncompressibleSolid::new(NeoHookean::new(1.0)?);
+/// let pulled = Controls::axial([Control::Nominal(1.75), Control::FREE, Control::FREE])?;
+/// let bar = equilibrium(&rubber, &pulled, &start)?;
+/// assert!((bar.deformation.matrix()[(0, 0)] - 1.0).abs() < 1e-14);
+/// assert!((bar.pressure + 0.5).abs() < 1e-14); // q = μ (λ⁻¹ − 1)
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
 pub fn equilibrium(
@@ -73,22 +90,79 @@ pub fn equilibrium(
     controls: &Controls,
     start: &DisplacementGradient,
 ) -> Result<HomogeneousState, ConstitutiveError> {
+    if law.is_incompressible() {
+        let found = constrained_equilibrium(law, &Incompressibility, controls, start)?;
+        let pressure = Incompressibility::pressure(found.multipliers[0], &found.state.deformation);
+        return Ok(HomogeneousState { pressure, ..found.state });
+    }
+    Ok(constrained_equilibrium(law, &(), controls, start)?.state)
+}
+
+/// The state of a body with internal constraints in which all prescribed components hold, and the multipliers of the
+/// constraints.
+///
+/// ```text
+/// P = ∂W/∂F + Σ λₖ ∂μₖ/∂F        stress(F, λ) = prescribed,   μₖ(F) = 0
+/// ```
+/// The unknowns are the free components of F and all λₖ; the reactions follow from the faces whose tractions are
+/// prescribed. A start that violates the constraints is brought back to them with the steps of the load. What the law says
+/// of motions that the constraints forbid drops out with the multipliers.
+///
+/// # Errors
+/// As [`equilibrium`]; [`ConstitutiveError::RedundantConstraint`] and [`ConstitutiveError::InconsistentConstraints`] at
+/// the start; [`ConstitutiveError::UndeterminedMultiplier`] when nothing that is prescribed sees a reaction.
+///
+/// # Example
+/// A cord along 1 in a block that is sheared along 1: it is stretched by nothing, and takes what the shear would.
+/// ```
+/// use piola_constitutive::homogeneous::{Control, Controls, constrained_equilibrium};
+/// use piola_constitutive::internal_constraints::Inextensibility;
+/// use piola_constitutive::solids::{Fibre, MooneyRivlin};
+/// use piola_continuum::DisplacementGradient;
+/// let rubber = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?; // μ = 1, λ = 4
+/// let cord = Inextensibility::along(Fibre::new([1.0, 0.0, 0.0])?);
+/// let (held, free) = (Control::HELD, Control::FREE);
+/// // A force along the cord, all other faces free: nothing moves.
+/// let pulled = Controls::axial([Control::Nominal(3.0), free, free])?;
+/// let bar = constrained_equilibrium(&rubber, &cord, &pulled, &DisplacementGradient::zero())?;
+/// assert!(bar.state.deformation.matrix().norm() < 1e-14);
+/// assert!((Inextensibility::tension(bar.multipliers[0]) - 3.0).abs() < 1e-14);
+/// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+/// ```
+///
+/// # Source
+/// W(21.18), W(21.20), W(21.22).
+pub fn constrained_equilibrium<const N: usize>(
+    law: &impl Hyperelastic,
+    constraints: &impl Constraints<N>,
+    controls: &Controls,
+    start: &DisplacementGradient,
+) -> Result<ConstrainedState<N>, ConstitutiveError> {
     law.check(start)?;
-    let target = controls.components().map(|row| row.map(Control::value));
-    let begin = prescribed_at(law, controls, start);
-    let at = |share: f64| -> Rows<f64> {
-        core::array::from_fn(|i| core::array::from_fn(|j| begin[i][j] * (1.0 - share) + target[i][j] * share))
+    if 0 < N {
+        Combination::new(constraints.restrictions(start)?)?;
+    }
+    let problem = Problem { law, constraints, controls, unit: Problem::<_, ()>::unit_at(law, start) };
+    let target = Load { components: controls.components().map(|row| row.map(Control::value)), values: [0.0; N] };
+    let mut point = Point { state: *start, multipliers: [0.0; N] };
+    let begin = problem.present(&point);
+    let between = |share: f64, from: f64, to: f64| from * (1.0 - share) + to * share;
+    let at = |share: f64| Load {
+        components: core::array::from_fn(|i| {
+            core::array::from_fn(|j| between(share, begin.components[i][j], target.components[i][j]))
+        }),
+        values: begin.values.map(|value| between(share, value, 0.0)),
     };
-    let (mut state, mut share, mut step) = (*start, 0.0_f64, 1.0_f64);
+    let (mut share, mut step) = (0.0_f64, 1.0_f64);
     let (mut iterations, mut steps) = (0, 0);
     loop {
         let whole = 1.0 <= share + step;
         let load = if whole { target } else { at(share + step) };
-        match newton(law, controls, &load, &state) {
+        match problem.newton(&load, &point) {
             Ok((reached, count)) => {
                 iterations += count;
                 steps += 1;
-                state = reached;
+                point = reached;
                 if whole {
                     break;
                 }
@@ -98,33 +172,64 @@ pub fn equilibrium(
             Err(failure) => {
                 iterations += failure.iterations;
                 if failure.singular && steps == 0 && step <= 0.25 {
-                    return Err(ConstitutiveError::Indeterminate { gradient: state.gradient_rows() });
+                    return Err(undetermined(constraints, controls, &point.state));
                 }
                 step *= 0.5;
                 if step < LEAST_STEP {
-                    let (_, residual) = residual_of(law, controls, &target, &state);
-                    let gradient = state.gradient_rows();
+                    let (_, residual) = problem.residual(&target, &point);
+                    let gradient = point.state.gradient_rows();
                     return Err(ConstitutiveError::NotConverged { residual, iterations, share, gradient });
                 }
             }
         }
     }
-    let (_, residual) = residual_of(law, controls, &target, &state);
-    let first_piola = law.first_piola(&state);
-    Ok(HomogeneousState {
-        deformation: state,
-        first_piola,
-        cauchy: first_piola.cauchy(&state),
-        residual,
-        iterations,
-        steps,
+    let Point { state, multipliers } = point;
+    law.check(&state)?;
+    let (_, residual) = problem.residual(&target, &point);
+    let first_piola = problem.stress(&point);
+    let mut reaction = Symmetric::zero();
+    for (gradient, multiplier) in constraints.gradients(&state).into_iter().zip(multipliers) {
+        reaction += FirstPiola(gradient).cauchy(&state).0 * multiplier;
+    }
+    Ok(ConstrainedState {
+        state: HomogeneousState {
+            deformation: state,
+            first_piola,
+            cauchy: first_piola.cauchy(&state),
+            residual,
+            iterations,
+            steps,
+            pressure: 0.0,
+        },
+        multipliers,
+        reaction: CauchyStress(reaction),
     })
+}
+
+/// Why the matrix is singular: a multiplier that the free components do not see, or a motion that is left free.
+fn undetermined<const N: usize>(
+    constraints: &impl Constraints<N>,
+    controls: &Controls,
+    state: &DisplacementGradient,
+) -> ConstitutiveError {
+    let (places, n) = controls.free();
+    let columns: [[f64; 9]; N] = constraints.gradients(state).map(|gradient| {
+        let mut column = [0.0; 9];
+        for (entry, &place) in column.iter_mut().zip(&places[..n]) {
+            *entry = gradient[place];
+        }
+        column
+    });
+    match rank_of_columns(&columns) {
+        (rank, Some(index)) => ConstitutiveError::UndeterminedMultiplier { index, rank, count: N },
+        _ => ConstitutiveError::Indeterminate { gradient: state.gradient_rows() },
+    }
 }
 
 /// A bar of stretch λ, its sides free: see [`equilibrium`].
 ///
 /// # Errors
-/// As [`equilibrium`].
+/// As [`equilibrium`]; [`ConstitutiveError::OutOfBounds`] unless 0 < λ.
 ///
 /// # Example
 /// ```
@@ -135,22 +240,25 @@ pub fn equilibrium(
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
 pub fn uniaxial(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
+    check_stretch(stretch)?;
     equilibrium(law, &Controls::uniaxial(stretch)?, &DisplacementGradient::zero())
 }
 
 /// A sheet of stretch λ along 1 and 2, its faces free: see [`equilibrium`].
 ///
 /// # Errors
-/// As [`equilibrium`].
+/// As [`equilibrium`]; [`ConstitutiveError::OutOfBounds`] unless 0 < λ.
 pub fn equibiaxial(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
+    check_stretch(stretch)?;
     equilibrium(law, &Controls::equibiaxial(stretch)?, &DisplacementGradient::zero())
 }
 
 /// A sheet of stretch λ along 1, held along 2, its faces free: see [`equilibrium`].
 ///
 /// # Errors
-/// As [`equilibrium`].
+/// As [`equilibrium`]; [`ConstitutiveError::OutOfBounds`] unless 0 < λ.
 pub fn planar(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
+    check_stretch(stretch)?;
     equilibrium(law, &Controls::planar(stretch)?, &DisplacementGradient::zero())
 }
 
@@ -165,7 +273,7 @@ pub fn simple_shear(law: &impl Hyperelastic, amount: f64, free: bool) -> Result<
 /// F = J^(⅓) 1: see [`equilibrium`].
 ///
 /// # Errors
-/// As [`equilibrium`].
+/// As [`equilibrium`]; [`ConstitutiveError::OutOfBounds`] unless 0 < J.
 ///
 /// # Example
 /// ```
@@ -180,175 +288,7 @@ pub fn volumetric(law: &impl Hyperelastic, jacobian: f64) -> Result<HomogeneousS
     equilibrium(law, &Controls::volumetric(jacobian)?, &DisplacementGradient::zero())
 }
 
-struct Failure {
-    iterations: usize,
-    singular: bool,
-}
-
-/// What a state has of the components that are prescribed.
-fn prescribed_at(law: &impl Hyperelastic, controls: &Controls, state: &DisplacementGradient) -> Rows<f64> {
-    let nominal = law.first_piola(state);
-    let cauchy = nominal.cauchy(state).0.rows();
-    let displacement = state.displacement_rows();
-    core::array::from_fn(|i| {
-        core::array::from_fn(|j| match controls.components()[i][j] {
-            Control::Displacement(_) => displacement[i][j],
-            Control::Nominal(_) => nominal.0[(i, j)],
-            Control::Cauchy(_) => cauchy[i][j],
-        })
-    })
-}
-
-/// The residual and its largest modulus; displacements that are prescribed have none.
-fn residual_of(
-    law: &impl Hyperelastic,
-    controls: &Controls,
-    load: &Rows<f64>,
-    state: &DisplacementGradient,
-) -> (Rows<f64>, f64) {
-    let present = prescribed_at(law, controls, state);
-    let mut largest = 0.0_f64;
-    let residual = core::array::from_fn(|i| {
-        core::array::from_fn(|j| {
-            if matches!(controls.components()[i][j], Control::Displacement(_)) {
-                return 0.0;
-            }
-            let difference = present[i][j] - load[i][j];
-            // NaN counts as more than any number.
-            largest = if difference.abs() <= largest { largest } else { difference.abs() };
-            difference
-        })
-    });
-    (residual, largest)
-}
-
-fn norm(rows: &Rows<f64>) -> f64 {
-    rows.as_flattened().iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn largest_entry(rows: &Rows<f64>) -> f64 {
-    rows.as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
-}
-
-/// A state of these rows, if it is one and the law has an answer there.
-fn admitted(law: &impl Hyperelastic, rows: Rows<f64>) -> Option<DisplacementGradient> {
-    let state = DisplacementGradient::from_rows(rows).ok()?;
-    law.check(&state).ok()?;
-    Some(state)
-}
-
-fn newton(
-    law: &impl Hyperelastic,
-    controls: &Controls,
-    load: &Rows<f64>,
-    start: &DisplacementGradient,
-) -> Result<(DisplacementGradient, usize), Failure> {
-    let mut rows = start.displacement_rows();
-    let mut free = [(0, 0); 9];
-    let mut n = 0;
-    for (i, row) in controls.components().iter().enumerate() {
-        for (j, control) in row.iter().enumerate() {
-            if matches!(control, Control::Displacement(_)) {
-                rows[i][j] = load[i][j];
-            } else {
-                free[n] = (i, j);
-                n += 1;
-            }
-        }
-    }
-    let free = &free[..n];
-    let failed = |iterations, singular| Failure { iterations, singular };
-    let mut state = admitted(law, rows).ok_or(failed(0, false))?;
-    let (mut residual, _) = residual_of(law, controls, load, &state);
-    if !norm(&residual).is_finite() {
-        return Err(failed(0, false));
-    }
-    if n == 0 {
-        return Ok((state, 0));
-    }
-    for iteration in 1..=ITERATIONS {
-        let correction = correction(law, controls, &state, &residual, free).ok_or(failed(iteration, true))?;
-        let size = largest_entry(&correction);
-        let scale = largest_entry(&state.displacement_rows());
-        let last = size <= ENOUGH * scale || size <= ROUNDING * (1.0 + scale);
-        let before = norm(&residual);
-        let mut length = 1.0;
-        let mut found = false;
-        for _ in 0..HALVINGS {
-            let mut rows = state.displacement_rows();
-            for &(i, j) in free {
-                rows[i][j] += length * correction[i][j];
-            }
-            if let Some(trial) = admitted(law, rows) {
-                let (after, _) = residual_of(law, controls, load, &trial);
-                if norm(&after) <= (1.0 - 1e-4 * length) * before {
-                    (state, residual, found) = (trial, after, true);
-                    break;
-                }
-            }
-            if last {
-                // What remains is rounding.
-                break;
-            }
-            length *= 0.5;
-        }
-        if last {
-            return Ok((state, iteration));
-        }
-        if !found {
-            return Err(failed(iteration, false));
-        }
-        if norm(&residual) <= 0.0 {
-            return Ok((state, iteration));
-        }
-    }
-    Err(failed(ITERATIONS, false))
-}
-
-/// −(∂r/∂F)⁻¹ r, or none where the tangent is singular.
-fn correction(
-    law: &impl Hyperelastic,
-    controls: &Controls,
-    state: &DisplacementGradient,
-    residual: &Rows<f64>,
-    free: &[(usize, usize)],
-) -> Option<Rows<f64>> {
-    let n = free.len();
-    let (stress, tangent) = law.first_piola_and_tangent(state);
-    let cauchy = stress.cauchy(state).0.rows();
-    let (f, inverse, jacobian) = (state.gradient_rows(), state.inverse_rows(), state.jacobian());
-    let mut matrix = [0.0; 81];
-    for (column, &(k, b)) in free.iter().enumerate() {
-        for (row, &(i, j)) in free.iter().enumerate() {
-            matrix[column * n + row] = match controls.components()[i][j] {
-                Control::Cauchy(_) => {
-                    // δ(P Fᵀ)/J − T tr(δF F⁻¹), symmetrised as T is.
-                    let product = |i: usize, j: usize| {
-                        let varied: f64 = (0..3).map(|c| tangent.entry(i, c, k, b) * f[j][c]).sum();
-                        varied + if j == k { stress.0[(i, b)] } else { 0.0 }
-                    };
-                    0.5 * (product(i, j) + product(j, i)) / jacobian - cauchy[i][j] * inverse[b][k]
-                }
-                _ => tangent.entry(i, j, k, b),
-            };
-        }
-    }
-    let mut exchanges = [0; 9];
-    let mut solution = [0.0; 9];
-    for (entry, &(i, j)) in solution.iter_mut().zip(free) {
-        *entry = -residual[i][j];
-    }
-    let matrix = &mut matrix[..n * n];
-    lu::factor_in_place(matrix, &mut exchanges[..n]).ok()?;
-    let pivots = (0..n).map(|k| matrix[k * n + k].abs());
-    let (least, largest) = pivots.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
-    if least <= 1e-14 * largest {
-        return None;
-    }
-    lu::solve_in_place(matrix, &exchanges[..n], &mut solution[..n]).ok()?;
-    let mut rows = [[0.0; 3]; 3];
-    for (&(i, j), &entry) in free.iter().zip(&solution) {
-        rows[i][j] = entry;
-    }
-    Some(rows)
+/// Refuses a stretch that is none.
+fn check_stretch(stretch: f64) -> Result<(), ConstitutiveError> {
+    check_bound("homogeneous test", "stretch", stretch, "0 < stretch", 0.0 < stretch)
 }

@@ -7,6 +7,7 @@ use piola_numerics::{Dual, Real};
 
 use super::{Mode, diagonal};
 use crate::ConstitutiveError;
+use crate::error::check_bound;
 use crate::solids::Hyperelastic;
 
 /// What an incompressible law answers in a homogeneous test.
@@ -69,13 +70,81 @@ impl<T: Real, L: Hyperelastic> Incompressible<T> for L {
 
     /// From the first Piola–Kirchhoff stress, which keeps its digits at small strain.
     fn nominal(&self, mode: Mode, stretch: T) -> T {
-        let gradient = gradient_of(mode, stretch);
-        let stress = self.first_piola(&DisplacementGradient::<T>::zero().lifted(|i, j, _| gradient[i][j])).0;
-        match mode {
-            Mode::SimpleShear => stress[(1, 0)],
-            _ => stress[(0, 0)] - stress[(2, 2)] * ((T::one() + gradient[2][2]) / stretch),
+        let stress_at =
+            |gradient: Rows<T>| self.first_piola(&DisplacementGradient::<T>::zero().lifted(|i, j, _| gradient[i][j])).0;
+        let mut gradient = gradient_of(mode, stretch);
+        if mode == Mode::SimpleShear {
+            return stress_at(gradient)[(1, 0)];
+        }
+        let mut stress = stress_at(gradient);
+        if mode == Mode::Uniaxial && (0 < T::ORDER || !sides_alike(&stress, &gradient)) {
+            let Some(elongations) = free_sides(self, stretch) else { return T::lit(f64::NAN) };
+            gradient = diagonal(elongations);
+            stress = stress_at(gradient);
+        }
+        stress[(0, 0)] - stress[(2, 2)] * ((T::one() + gradient[2][2]) / stretch)
+    }
+}
+
+/// Sides whose stresses differ by less than this share of all are alike.
+const ALIKE: f64 = 1e-12;
+
+/// Whether τ₂₂ = τ₃₃ in every lane, as they are in a bar of an isotropic solid; derivatives are not looked at.
+fn sides_alike<T: Real>(stress: &Matrix3<T>, gradient: &Rows<T>) -> bool {
+    (0..T::LANES).all(|lane| {
+        let [axial, second, third] =
+            [0, 1, 2].map(|k| stress[(k, k)].primal(lane) * (1.0 + gradient[k][k].primal(lane)));
+        // Of NaN no sides can be found.
+        let different = ALIKE * (axial.abs() + second.abs() + third.abs()) < (second - third).abs();
+        !different
+    })
+}
+
+/// Corrections of a bar's sides, at most.
+const CORRECTIONS: usize = 80;
+/// The largest change of ln λ₂ in one of them.
+const LARGEST_CORRECTION: f64 = 0.5;
+
+/// The elongations of an incompressible bar of stretch λ that leave its sides free, τ₂₂ = τ₃₃: λ₂ = λ^(−½) eᵗ,
+/// λ₃ = λ^(−½) e⁻ᵗ. Newton's method for t, which then carries the derivatives of λ. None where it does not converge.
+fn free_sides<T: Real>(law: &impl Hyperelastic, stretch: T) -> Option<[T; 3]> {
+    let [axial, across, _] = Mode::Uniaxial.elongations(stretch);
+    let sides = |t: T| [axial, across + (T::one() + across) * t.exp_m1(), across + (T::one() + across) * (-t).exp_m1()];
+    let mut t = T::zero();
+    let mut lifts = T::ORDER;
+    for _ in 0..CORRECTIONS {
+        let varied = {
+            let (one, axial, across) = (Dual::constant(T::one()), Dual::constant(axial), Dual::constant(across));
+            let t = Dual::variable(t);
+            [axial, across + (one + across) * t.exp_m1(), across + (one + across) * (-t).exp_m1()]
+        };
+        let gradient = diagonal(varied);
+        let stress = law.first_piola(&DisplacementGradient::<T>::zero().lifted(|i, j, _| gradient[i][j])).0;
+        let [second, third] = [1, 2].map(|k| stress[(k, k)] * (Dual::constant(T::one()) + varied[k]));
+        let rest = second - third;
+        // A side that nothing holds stays where it is.
+        let nothing = rest.value.at_most(T::zero()) & T::zero().at_most(rest.value);
+        let still = nothing & rest.tangent.at_most(T::zero()) & T::zero().at_most(rest.tangent);
+        let correction = T::select(still, T::zero(), -rest.value / rest.tangent);
+        let mut converged = true;
+        for lane in 0..T::LANES {
+            let size = correction.primal(lane).abs();
+            if size.is_nan() {
+                return None;
+            }
+            converged &= size <= ALIKE * t.primal(lane).abs() + 4.0 * f64::EPSILON;
+        }
+        let most = T::lit(LARGEST_CORRECTION);
+        let short = correction.abs().at_most(most);
+        t += T::select(short, correction, most.copysign(correction.frozen()));
+        if converged {
+            if lifts == 0 {
+                return Some(sides(t));
+            }
+            lifts -= 1;
         }
     }
+    None
 }
 
 /// ∇u of a mode.
@@ -102,8 +171,9 @@ fn gradient_of<T: Real>(mode: Mode, stretch: T) -> Rows<T> {
 /// | λ, or k in simple shear | `stretch`, 0 < λ (trusted: NaN comes back otherwise) | – |
 /// | P | returned | Pa |
 ///
-/// An anisotropic law is taken with its axes along the coordinates; stresses that hold the block straight are not
-/// reported here.
+/// A bar of an anisotropic law gets different stretches across, those that leave its sides free of normal traction. Its axes
+/// are taken to be along the coordinates: tangential tractions, which would hold the block straight, are not
+/// reported here but refused by [`IncompressibleState`].
 ///
 /// # Accuracy
 /// For laws with closed forms a relative 1e-13 also near the reference (λ itself is exact there); from an energy of
@@ -151,6 +221,8 @@ pub fn nominal_stress_and_slope<T: Real, L: Incompressible<Dual<T>>>(mode: Mode,
 /// ```text
 /// T = T_law(F) − p 1,   p such that T₃₃ = 0        P = T F⁻ᵀ   (J = 1)
 /// ```
+/// The sides of a bar of an anisotropic law get the two different stretches that leave both free of traction.
+///
 /// `T_law` is what the law answers without constraint, its formula for volumes included: only T and P are the body's.
 ///
 /// # Example
@@ -182,14 +254,32 @@ impl<T: Real> IncompressibleState<T> {
     /// Of a mode and its stretch (or amount of shear).
     ///
     /// # Errors
-    /// [`ConstitutiveError::Continuum`] for a stretch that is not finite or not positive;
-    /// [`ConstitutiveError::BeyondLimit`] where the law has no answer.
+    /// [`ConstitutiveError::OutOfBounds`] for a stretch that is not positive, [`ConstitutiveError::NotFinite`];
+    /// [`ConstitutiveError::BeyondLimit`] where the law has no answer; [`ConstitutiveError::TractionOnFreeFace`] where the
+    /// law's axes are not those of the test, so that free faces are not free; [`ConstitutiveError::NotConverged`] where
+    /// no stretches across a bar were found.
     pub fn of(law: &impl Hyperelastic, mode: Mode, stretch: T) -> Result<Self, ConstitutiveError> {
-        let deformation = match mode {
-            Mode::SimpleShear => DisplacementGradient::simple_shear(stretch)?,
-            _ => DisplacementGradient::diagonal(mode.elongations(stretch))?,
+        if mode == Mode::SimpleShear {
+            return Self::at(law, DisplacementGradient::simple_shear(stretch)?, &[[0, 2], [1, 2]]);
+        }
+        check_stretches(&[stretch])?;
+        let deformation = DisplacementGradient::diagonal(mode.elongations(stretch))?;
+        if mode != Mode::Uniaxial {
+            return Self::at(law, deformation, &[[0, 2], [1, 2]]);
+        }
+        let free = [[1, 1], [0, 1], [0, 2], [1, 2]];
+        law.check(&deformation)?;
+        let stress = law.first_piola(&deformation).0;
+        if T::ORDER == 0 && sides_alike(&stress, &deformation.displacement_rows()) {
+            return Self::at(law, deformation, &free);
+        }
+        let Some(elongations) = free_sides(law, stretch) else {
+            let gradient = deformation.gradient_rows().map(|row| row.map(|x| x.primal(0)));
+            let rows = law.kirchhoff(&deformation).0.components;
+            let residual = (rows[1] - rows[2]).primal(0).abs();
+            return Err(ConstitutiveError::NotConverged { residual, iterations: CORRECTIONS, share: 1.0, gradient });
         };
-        Self::at(law, deformation)
+        Self::at(law, DisplacementGradient::diagonal(elongations)?, &free)
     }
 
     /// A sheet stretched by λ₁ and λ₂ along the axes, its faces free: λ₃ = 1/(λ₁ λ₂).
@@ -207,16 +297,23 @@ impl<T: Real> IncompressibleState<T> {
     /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
     /// ```
     pub fn biaxial(law: &impl Hyperelastic, [first, second]: [T; 2]) -> Result<Self, ConstitutiveError> {
+        check_stretches(&[first, second])?;
         let (a, b) = (first - T::one(), second - T::one());
         let third = -(a + b * first) / (first * second);
-        Self::at(law, DisplacementGradient::diagonal([a, b, third])?)
+        Self::at(law, DisplacementGradient::diagonal([a, b, third])?, &[[0, 2], [1, 2]])
     }
 
-    fn at(law: &impl Hyperelastic, deformation: DisplacementGradient<T>) -> Result<Self, ConstitutiveError> {
+    /// With the pressure of a free face 3; the components `free` of T are refused unless they vanish.
+    fn at(
+        law: &impl Hyperelastic,
+        deformation: DisplacementGradient<T>,
+        free: &[[usize; 2]],
+    ) -> Result<Self, ConstitutiveError> {
         law.check(&deformation)?;
-        let free = law.kirchhoff(&deformation).0;
-        let pressure = free.components[2];
-        let cauchy = CauchyStress(free - Symmetric::identity() * pressure);
+        let whole = law.kirchhoff(&deformation).0;
+        let pressure = whole.components[2];
+        let cauchy = CauchyStress(whole - Symmetric::identity() * pressure);
+        check_free(law, &deformation, &whole, &cauchy, free)?;
         Ok(Self { deformation, pressure, cauchy, first_piola: cauchy.first_piola(&deformation) })
     }
 
@@ -225,4 +322,44 @@ impl<T: Real> IncompressibleState<T> {
     pub fn gradient(&self) -> Matrix3<T> {
         Matrix3::from(self.deformation.gradient_rows()).transpose()
     }
+}
+
+/// Refuses stretches that are none.
+fn check_stretches<T: Real>(stretches: &[T]) -> Result<(), ConstitutiveError> {
+    stretches.iter().try_for_each(|stretch| {
+        (0..T::LANES).try_for_each(|lane| {
+            let stretch = stretch.primal(lane);
+            check_bound("homogeneous test", "stretch", stretch, "0 < stretch", 0.0 < stretch)
+        })
+    })
+}
+
+/// Tractions of free faces below this share of the stress are rounding.
+const TRACTION: f64 = 1e-9;
+
+/// Refuses tractions on faces that are said to be free.
+fn check_free<T: Real>(
+    law: &impl Hyperelastic,
+    deformation: &DisplacementGradient<T>,
+    whole: &Symmetric<T>,
+    cauchy: &CauchyStress<T>,
+    free: &[[usize; 2]],
+) -> Result<(), ConstitutiveError> {
+    let (whole, cauchy) = (whole.rows(), cauchy.0.rows());
+    for lane in 0..T::LANES {
+        let size = whole.as_flattened().iter().fold(0.0_f64, |size, x| size.max(x.primal(lane).abs()));
+        for &[i, j] in free {
+            let stress = cauchy[i][j].primal(lane);
+            if stress.abs() <= TRACTION * size {
+                continue;
+            }
+            // At small strain the stress of a law that is but derived has the rounding of its moduli.
+            let tangent = law.first_piola_tangent(deformation).0.components;
+            let moduli = tangent.as_flattened().iter().fold(0.0_f64, |size, x| size.max(x.primal(lane).abs()));
+            if TRACTION * size + 1e-12 * moduli < stress.abs() {
+                return Err(ConstitutiveError::TractionOnFreeFace { component: [i, j], stress });
+            }
+        }
+    }
+    Ok(())
 }

@@ -10,21 +10,27 @@
 //! |---|---|
 //! | an incompressible law, a mode and a stretch; speed and derivatives matter | [`nominal_stress`] |
 //! | the same, and want pressure and all stresses | [`IncompressibleState`] |
-//! | a compressible law and a mode | [`uniaxial`], [`equibiaxial`], [`planar`], [`simple_shear`], [`volumetric`] |
+//! | a law, compressible or not, and a mode | [`uniaxial`], [`equibiaxial`], [`planar`], [`simple_shear`], [`volumetric`] |
 //! | some components of F and the others of P or T | [`equilibrium`] with [`Controls`] |
+//! | the same, and the body has internal constraints | [`constrained_equilibrium`] |
 //!
 //! The third face is free of traction in every mode; the pressure of an incompressible law follows from that in
-//! closed form.
+//! closed form by [`nominal_stress`] and [`IncompressibleState`], as an unknown beside F by [`equilibrium`].
 
 mod controls;
 mod equilibrium;
 mod incompressible;
 mod mode;
+mod newton;
 
 pub use controls::{Control, Controls};
-pub use equilibrium::{HomogeneousState, equibiaxial, equilibrium, planar, simple_shear, uniaxial, volumetric};
+pub use equilibrium::{
+    ConstrainedState, HomogeneousState, constrained_equilibrium, equibiaxial, equilibrium, planar, simple_shear,
+    uniaxial, volumetric,
+};
 pub use incompressible::{Incompressible, IncompressibleState, nominal_stress, nominal_stress_and_slope};
 pub use mode::Mode;
+pub(crate) use newton::isochoric_part;
 
 use piola_continuum::tensor::rows::Rows;
 use piola_numerics::Real;

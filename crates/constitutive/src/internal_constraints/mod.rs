@@ -16,7 +16,8 @@
 //! | your own μ̂(C) | [`MetricConstraint`] in [`OfMetric`] | the same, six directions instead of nine |
 //!
 //! Several are combined in a [`Combination`], which names those that say the same or contradict one another, and finds
-//! multipliers from [`StressCondition`]s.
+//! multipliers from [`StressCondition`]s. Where the deformation is not known either:
+//! [`constrained_equilibrium`](crate::homogeneous::constrained_equilibrium).
 //!
 //! # Example
 //! An incompressible bar, its sides free: the pressure, and the force with it.
@@ -40,9 +41,12 @@ mod combination;
 mod conditions;
 mod constraint;
 mod orthogonal;
+mod several;
 mod standard;
 
 pub use combination::Combination;
 pub use conditions::StressCondition;
 pub use constraint::{InternalConstraint, MetricConstraint, OfMetric, Restriction};
+pub(crate) use orthogonal::rank_of_columns;
+pub use several::Constraints;
 pub use standard::{Incompressibility, Inextensibility, Rigidity};

@@ -83,3 +83,11 @@ impl<const ROWS: usize, const COLUMNS: usize> Orthogonal<ROWS, COLUMNS> {
         y
     }
 }
+
+/// How many columns are independent, and the first that is not.
+pub(crate) fn rank_of_columns<const ROWS: usize, const COLUMNS: usize>(
+    columns: &[[f64; ROWS]; COLUMNS],
+) -> (usize, Option<usize>) {
+    let orthogonal = orthogonalise(columns);
+    (orthogonal.rank, orthogonal.order.get(orthogonal.rank).copied())
+}

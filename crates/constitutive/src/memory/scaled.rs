@@ -65,6 +65,10 @@ impl<L: Hyperelastic> Hyperelastic for Scaled<L> {
         self.law.check(deformation)
     }
 
+    fn is_incompressible(&self) -> bool {
+        self.law.is_incompressible()
+    }
+
     #[inline(always)]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         let factor = T::lit(self.factor);

@@ -21,7 +21,7 @@ use crate::ConstitutiveError;
 /// | `energy` | W | J/m³ |
 /// | `first_piola`, `second_piola`, `kirchhoff`, `cauchy` | P, S, τ, T | Pa |
 /// | `first_piola_tangent`, `material_tangent`, `truesdell_tangent` | ∂P/∂F, ∂S/∂E, c/J | Pa |
-/// | `first_piola_and_tangent` | P and ∂P/∂F with what they share computed once | Pa |
+/// | `first_piola_and_tangent`, `second_piola_and_tangent`, `cauchy_and_tangent` | stress and its tangent, with what they share computed once | Pa |
 /// | `first_piola_derivative` | (∂P/∂F) : δF, without the tangent | Pa |
 ///
 /// # Accuracy
@@ -56,6 +56,10 @@ use crate::ConstitutiveError;
 /// # Source
 /// W(20.8–20.13), B(4.60).
 pub trait Hyperelastic {
+    /// Whether no component of energy, stress and tangent is finite wherever [`check`](Self::check) refuses: batches then ask
+    /// it only where the answer is not finite.
+    const REFUSED_IS_NOT_FINITE: bool = false;
+
     /// W(F) − W(1), J per m³ of the reference configuration.
     #[must_use]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T;
@@ -73,6 +77,13 @@ pub trait Hyperelastic {
     #[inline(always)]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
         Ok(())
+    }
+
+    /// Whether the body keeps its volume: then [`check`](Self::check) refuses changes of volume, and the law answers with a
+    /// pressure that is given, to which an equilibrium or a face free of traction adds what is missing.
+    #[must_use]
+    fn is_incompressible(&self) -> bool {
+        false
     }
 
     /// P = ∂W/∂F, W(20.13).
@@ -140,11 +151,28 @@ pub trait Hyperelastic {
         MaterialTangent(tangent.material(&stress.second_piola(deformation), deformation).0.major_part())
     }
 
+    /// (S, ∂S/∂E), with what they share computed once.
+    #[inline(always)]
+    #[must_use]
+    fn second_piola_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (SecondPiola<T>, MaterialTangent<T>) {
+        (self.second_piola(deformation), self.material_tangent(deformation))
+    }
+
     /// c/J: D ↦ the Truesdell rate of T.
     #[inline(always)]
     #[must_use]
     fn truesdell_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
         self.material_tangent(deformation).truesdell(deformation)
+    }
+
+    /// (T, c/J), what an updated configuration needs, with what they share computed once.
+    #[inline(always)]
+    #[must_use]
+    fn cauchy_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (CauchyStress<T>, TruesdellTangent<T>) {
+        (self.cauchy(deformation), self.truesdell_tangent(deformation))
     }
 
     /// The stress of the reference configuration, S at F = 1: zero for a law that is stress-free there.

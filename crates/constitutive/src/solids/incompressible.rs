@@ -274,6 +274,10 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
         isochoric::check_lanes(&self.isochoric, invariants::first_minus_three(deformation), second)
     }
 
+    fn is_incompressible(&self) -> bool {
+        true
+    }
+
     #[inline(always)]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let at = self.arguments(invariants);

@@ -8,7 +8,7 @@
 //! every one vanishes, if the law's *residual* s does. A law gives s without cancellation, from I₁ − 3, I₂ − 3 and J − 1.
 
 use piola_continuum::strain::{invariants, kernels};
-use piola_continuum::stress::tangents::FirstPiolaTangent;
+use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
 use piola_continuum::tensor::FourthOrder;
 use piola_continuum::tensor::rows::{
     Rows, cofactor, difference, double_contraction, product, product_transposed, scaled, sum, transpose,
@@ -77,6 +77,8 @@ pub trait InvariantEnergy {
     const SECOND: bool;
     /// Whether another second derivative than ∂²W/∂J² is not zero.
     const CURVED: bool;
+    /// See [`Hyperelastic::REFUSED_IS_NOT_FINITE`](super::Hyperelastic::REFUSED_IS_NOT_FINITE).
+    const REFUSED_IS_NOT_FINITE: bool = false;
 
     /// W less W of the reference, J/m³, without cancellation: see [`first_excess`] and [`second_excess`].
     #[must_use]
@@ -97,6 +99,12 @@ pub trait InvariantEnergy {
         Ok(())
     }
 
+    /// Whether the body keeps its volume.
+    #[must_use]
+    fn is_incompressible(&self) -> bool {
+        false
+    }
+
     /// Its first derivatives.
     #[must_use]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T>;
@@ -104,6 +112,13 @@ pub trait InvariantEnergy {
     /// Its second derivatives.
     #[must_use]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T>;
+
+    /// Both, with what they share computed once.
+    #[inline(always)]
+    #[must_use]
+    fn slopes_and_curvatures<T: Real>(&self, invariants: &Invariants<T>) -> (Slopes<T>, Curvatures<T>) {
+        (self.slopes(invariants), self.curvatures(invariants))
+    }
 }
 
 /// Strains with components up to this size take the forms in which everything is as small as the strain.
@@ -360,7 +375,8 @@ pub fn first_piola_tangent<T: Real, L: InvariantEnergy>(
     deformation: &impl Deformation<T>,
 ) -> FirstPiolaTangent<T> {
     let kinematics = Kinematics::of::<L>(deformation);
-    tangent(law, &law.slopes(&kinematics.invariants), &kinematics)
+    let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
+    tangent::<T, L>(&slopes, &curvatures, &kinematics)
 }
 
 /// (P, ∂P/∂F), the invariants, slopes and Cof F computed once.
@@ -371,8 +387,21 @@ pub fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
     deformation: &impl Deformation<T>,
 ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
     let kinematics = Kinematics::of::<L>(deformation);
-    let slopes = law.slopes(&kinematics.invariants);
-    (FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes))), tangent(law, &slopes, &kinematics))
+    let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
+    let stress = FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes)));
+    (stress, tangent::<T, L>(&slopes, &curvatures, &kinematics))
+}
+
+/// (S, ∂S/∂E), from P and ∂P/∂F.
+#[inline(always)]
+#[must_use]
+pub fn second_piola_and_tangent<T: Real, L: InvariantEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (SecondPiola<T>, MaterialTangent<T>) {
+    let (nominal, tangent) = first_piola_and_tangent(law, deformation);
+    let stress = nominal.second_piola(deformation);
+    (stress, MaterialTangent(tangent.material(&stress, deformation).0.major_part()))
 }
 
 #[inline(always)]
@@ -407,13 +436,12 @@ fn combined<T: Real>(alpha: T, a: &[T; 9], beta: T, b: &[T; 9]) -> [T; 9] {
 /// The four kinds of terms: dyads of F, Cof F and ∂I₂; ε ε of F and Cof F; C and B; the diagonal.
 #[inline(always)]
 fn tangent<T: Real, L: InvariantEnergy>(
-    law: &L,
     slopes: &Slopes<T>,
+    curvatures: &Curvatures<T>,
     kinematics: &Kinematics<T>,
 ) -> FirstPiolaTangent<T> {
     let (one, two, four) = (T::one(), T::lit(2.0), T::lit(4.0));
     let invariants = &kinematics.invariants;
-    let curvatures = law.curvatures(invariants);
     let (f, k) = (flat(kinematics.gradient), flat(kinematics.cofactor));
     let stiffness = if L::SECOND { two * slopes.first + four * slopes.second } else { two * slopes.first };
     let volume = (slopes.residual - stiffness) * invariants.jacobian.recip();
@@ -499,6 +527,9 @@ fn tangent<T: Real, L: InvariantEnergy>(
 macro_rules! hyperelastic_of_invariants {
     ([$($generics:tt)*] $law:ty) => {
         impl<$($generics)*> $crate::solids::Hyperelastic for $law {
+            const REFUSED_IS_NOT_FINITE: bool =
+                <$law as $crate::solids::invariant::InvariantEnergy>::REFUSED_IS_NOT_FINITE;
+
             #[inline(always)]
             fn energy<T: piola_numerics::Real>(&self, deformation: &impl piola_continuum::Deformation<T>) -> T {
                 $crate::solids::invariant::InvariantEnergy::energy(self, deformation)
@@ -512,6 +543,9 @@ macro_rules! hyperelastic_of_invariants {
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> Result<(), $crate::ConstitutiveError> {
                 $crate::solids::invariant::InvariantEnergy::check(self, deformation)
+            }
+            fn is_incompressible(&self) -> bool {
+                $crate::solids::invariant::InvariantEnergy::is_incompressible(self)
             }
             #[inline(always)]
             fn first_piola<T: piola_numerics::Real>(
@@ -547,6 +581,21 @@ macro_rules! hyperelastic_of_invariants {
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
                 $crate::solids::invariant::first_piola_and_tangent(self, deformation)
+            }
+            #[inline(always)]
+            fn second_piola_and_tangent<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
+                $crate::solids::invariant::second_piola_and_tangent(self, deformation)
+            }
+            #[inline(always)]
+            fn cauchy_and_tangent<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
+                let (stress, tangent) = $crate::solids::invariant::second_piola_and_tangent(self, deformation);
+                (stress.cauchy(deformation), tangent.truesdell(deformation))
             }
         }
     };

@@ -19,7 +19,7 @@ use piola_continuum::spectral::{IsotropicFunction, Logarithm, StretchAnalysis};
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent, kernels::push_forward};
 use piola_continuum::tensor::rows::{Rows, identity, product, scaled, sum, transpose};
 use piola_continuum::tensor::{FourthOrder, MajorSymmetric};
-use piola_continuum::{Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
+use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Gradient, Mask, Real};
 
@@ -61,6 +61,12 @@ pub trait StretchEnergy {
     #[inline(always)]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
         Ok(())
+    }
+
+    /// Whether the body keeps its volume.
+    #[must_use]
+    fn is_incompressible(&self) -> bool {
+        false
     }
 
     /// w(x), J/m³, w(0) = w′(0) = 0, without cancellation near 0.
@@ -352,6 +358,52 @@ impl<T: Real> Principal<T> {
         }
     }
 
+    /// P = Σ βₐ/λₐ nₐ ⊗ Nₐ.
+    #[inline(always)]
+    fn first_piola(&self, analysis: &StretchAnalysis<T>) -> FirstPiola<T> {
+        let (n, m) = (analysis.spatial_axes(), analysis.material_axes());
+        let values = [0, 1, 2].map(|a| self.stress[a] / self.stretches[a]);
+        let entry = |i: usize, j: usize| {
+            (values[0] * n[0][i]) * m[0][j] + (values[1] * n[1][i]) * m[1][j] + (values[2] * n[2][i]) * m[2][j]
+        };
+        FirstPiola(from_rows([0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))))
+    }
+
+    /// Σ valueₐ axisₐ ⊗ axisₐ.
+    #[inline(always)]
+    fn about(values: [T; 3], axes: &Rows<T>) -> Symmetric<T> {
+        let entry = |(i, j): (usize, usize)| {
+            (values[0] * axes[0][i]) * axes[0][j]
+                + (values[1] * axes[1][i]) * axes[1][j]
+                + (values[2] * axes[2][i]) * axes[2][j]
+        };
+        Symmetric { components: [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(entry) }
+    }
+
+    /// S = Σ βₐ/λₐ² Nₐ ⊗ Nₐ.
+    #[inline(always)]
+    fn second_piola(&self, analysis: &StretchAnalysis<T>) -> SecondPiola<T> {
+        let values = [0, 1, 2].map(|a| self.stress[a] / self.stretches[a] / self.stretches[a]);
+        SecondPiola(Self::about(values, &analysis.material_axes()))
+    }
+
+    /// ∂S/∂E: F⁻¹ nₐ = Nₐ/λₐ.
+    #[inline(always)]
+    fn material_tangent(&self, analysis: &StretchAnalysis<T>) -> MaterialTangent<T> {
+        let axes = analysis.material_axes();
+        let pulled = |a: usize| axes[a].map(|x| x / self.stretches[a]);
+        let frame = transpose([pulled(0), pulled(1), pulled(2)]);
+        MaterialTangent(MajorSymmetric { components: push_forward(frame, &self.lie()) })
+    }
+
+    /// c/J.
+    #[inline(always)]
+    fn truesdell_tangent(&self, analysis: &StretchAnalysis<T>, volume: &Volume<T>) -> TruesdellTangent<T> {
+        let scale = volume.jacobian.recip();
+        let components = push_forward(transpose(analysis.spatial_axes()), &self.lie().map(|x| x * scale));
+        TruesdellTangent(MajorSymmetric { components })
+    }
+
     /// `λₐ λᵦ A_abba` for 12, 23, 13.
     #[inline(always)]
     fn exchange(&self, pair: usize) -> T {
@@ -402,14 +454,41 @@ pub fn material_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl D
     if T::ORDER != 0 {
         return derived_material_tangent(law, deformation);
     }
+    let analysis = analysis::<T, L>(deformation);
+    Principal::of(law, &analysis, &Volume::of(deformation)).material_tangent(&analysis)
+}
+
+/// (S, ∂S/∂E), the stretches analysed once.
+#[inline(always)]
+#[must_use]
+pub fn second_piola_and_tangent<T: Real, L: StretchEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (SecondPiola<T>, MaterialTangent<T>) {
+    if T::ORDER != 0 {
+        return (second_piola(law, deformation), derived_material_tangent(law, deformation));
+    }
+    let analysis = analysis::<T, L>(deformation);
+    let principal = Principal::of(law, &analysis, &Volume::of(deformation));
+    (principal.second_piola(&analysis), principal.material_tangent(&analysis))
+}
+
+/// (T, c/J), the stretches analysed once.
+#[inline(always)]
+#[must_use]
+pub fn cauchy_and_tangent<T: Real, L: StretchEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (CauchyStress<T>, TruesdellTangent<T>) {
+    if T::ORDER != 0 {
+        return (kirchhoff(law, deformation).cauchy(deformation), truesdell_tangent(law, deformation));
+    }
     let volume = Volume::of(deformation);
     let analysis = analysis::<T, L>(deformation);
     let principal = Principal::of(law, &analysis, &volume);
-    // F⁻¹ nₐ = Nₐ/λₐ.
-    let axes = analysis.material_axes();
-    let pulled = |a: usize| axes[a].map(|x| x / principal.stretches[a]);
-    let frame = transpose([pulled(0), pulled(1), pulled(2)]);
-    MaterialTangent(MajorSymmetric { components: push_forward(frame, &principal.lie()) })
+    let values = principal.stress.map(|stress| stress / volume.jacobian);
+    let stress = CauchyStress(Principal::about(values, &analysis.spatial_axes()));
+    (stress, principal.truesdell_tangent(&analysis, &volume))
 }
 
 /// c/J, closed in the frame of the spatial axes.
@@ -421,10 +500,7 @@ pub fn truesdell_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl 
     }
     let volume = Volume::of(deformation);
     let analysis = analysis::<T, L>(deformation);
-    let principal = Principal::of(law, &analysis, &volume);
-    let scale = volume.jacobian.recip();
-    let components = push_forward(transpose(analysis.spatial_axes()), &principal.lie().map(|x| x * scale));
-    TruesdellTangent(MajorSymmetric { components })
+    Principal::of(law, &analysis, &volume).truesdell_tangent(&analysis, &volume)
 }
 
 /// ∂P/∂F, closed in the two principal frames.
@@ -437,7 +513,8 @@ pub fn first_piola_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return derived_tangent(law, deformation);
     }
-    tangent(law, &analysis::<T, L>(deformation), &Volume::of(deformation))
+    let analysis = analysis::<T, L>(deformation);
+    tangent(&Principal::of(law, &analysis, &Volume::of(deformation)), &analysis)
 }
 
 /// (P, ∂P/∂F), the stretches analysed once.
@@ -450,10 +527,9 @@ pub fn first_piola_and_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return (first_piola(law, deformation), derived_tangent(law, deformation));
     }
-    let volume = Volume::of(deformation);
     let analysis = analysis::<T, L>(deformation);
-    let stress = first_piola_rows(law, &analysis, &volume, deformation);
-    (FirstPiola(from_rows(stress)), tangent(law, &analysis, &volume))
+    let principal = Principal::of(law, &analysis, &Volume::of(deformation));
+    (principal.first_piola(&analysis), tangent(&principal, &analysis))
 }
 
 /// Over scalars with derivatives axes have none where stretches coalesce, but the stress has.
@@ -478,12 +554,7 @@ fn derived_material_tangent<T: Real, L: StretchEnergy>(
 }
 
 #[inline(always)]
-fn tangent<T: Real, L: StretchEnergy>(
-    law: &L,
-    analysis: &StretchAnalysis<T>,
-    volume: &Volume<T>,
-) -> FirstPiolaTangent<T> {
-    let principal = Principal::of(law, analysis, volume);
+fn tangent<T: Real>(principal: &Principal<T>, analysis: &StretchAnalysis<T>) -> FirstPiolaTangent<T> {
     let (n, m) = (analysis.spatial_axes(), analysis.material_axes());
     let [l, k, j] = principal.stretches;
     let reciprocal = [l.recip(), k.recip(), j.recip()];
@@ -555,7 +626,11 @@ macro_rules! hyperelastic_of_stretches {
             first_piola_and_tangent ->
                 (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>),
             material_tangent -> piola_continuum::stress::tangents::MaterialTangent<T>,
-            truesdell_tangent -> piola_continuum::stress::tangents::TruesdellTangent<T>
+            truesdell_tangent -> piola_continuum::stress::tangents::TruesdellTangent<T>,
+            second_piola_and_tangent ->
+                (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>),
+            cauchy_and_tangent ->
+                (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>)
         }
     };
     ([$($generics:tt)*] $law:ty, $($method:ident -> $result:ty),*) => {
@@ -566,6 +641,9 @@ macro_rules! hyperelastic_of_stretches {
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> Result<(), $crate::ConstitutiveError> {
                 $crate::solids::stretch::StretchEnergy::check(self, deformation)
+            }
+            fn is_incompressible(&self) -> bool {
+                $crate::solids::stretch::StretchEnergy::is_incompressible(self)
             }
             $(
                 #[inline(always)]

@@ -224,6 +224,10 @@ macro_rules! dispatched {
             fn reference_energy(&self) -> f64 {
                 of_law!(self, law => law.reference_energy())
             }
+
+            fn is_incompressible(&self) -> bool {
+                of_law!(self, law => law.is_incompressible())
+            }
         }
 
         /// The answers of one law for single values, each compiled once.
@@ -254,6 +258,8 @@ dispatched! {
     first_piola_and_tangent -> (FirstPiola<T>, FirstPiolaTangent<T>),
     material_tangent -> MaterialTangent<T>,
     truesdell_tangent -> TruesdellTangent<T>,
+    second_piola_and_tangent -> (SecondPiola<T>, MaterialTangent<T>),
+    cauchy_and_tangent -> (CauchyStress<T>, TruesdellTangent<T>),
 }
 
 macro_rules! from_laws {

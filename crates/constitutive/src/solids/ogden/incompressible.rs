@@ -112,6 +112,9 @@ impl StretchEnergy for IncompressibleOgden {
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
         check_volume(LAW, deformation)
     }
+    fn is_incompressible(&self) -> bool {
+        true
+    }
     #[inline(always)]
     fn volume_energy<T: Real>(&self, volume: &Volume<T>) -> T {
         match self.pressure {
