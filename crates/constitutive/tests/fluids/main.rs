@@ -4,3 +4,4 @@ mod golden;
 mod references;
 mod refusals;
 mod shear;
+mod stresses;
