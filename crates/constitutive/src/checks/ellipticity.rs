@@ -19,6 +19,13 @@ pub enum Kinematics {
     Isochoric,
 }
 
+impl Kinematics {
+    /// What the body allows of these.
+    pub(super) fn of(self, law: &impl Hyperelastic) -> Self {
+        if law.is_incompressible() { Self::Isochoric } else { self }
+    }
+}
+
 /// The acoustic tensor `Q_ij = A_iAjB N_A N_B` of ∂P/∂F in the direction N of the reference, Pa.
 ///
 /// # Example
@@ -156,7 +163,8 @@ fn refined(mut normal: [f64; 3], f: impl Fn([f64; 3]) -> f64) -> ([f64; 3], f64)
 /// ```text
 /// strong ellipticity: 0 < m · Q(N) m      Legendre–Hadamard: 0 ≤ m · Q(N) m      ellipticity: det Q(N) ≠ 0
 /// ```
-/// A lattice of 240 directions is searched and its three best refined to 1e-9 rad.
+/// A lattice of 240 directions is searched and its three best refined to 1e-9 rad. An incompressible law is asked about
+/// isochoric motions only.
 ///
 /// # Accuracy
 /// The value within a few ulp of the moduli, if the least lies in the basin of a lattice direction (6° apart).
@@ -179,10 +187,7 @@ pub fn ellipticity(
     kinematics: Kinematics,
 ) -> Ellipticity {
     let tangent = law.first_piola_tangent(deformation);
-    let spatial = match kinematics {
-        Kinematics::Free => None,
-        Kinematics::Isochoric => Some(transpose(deformation.inverse_rows())),
-    };
+    let spatial = (kinematics.of(law) == Kinematics::Isochoric).then(|| transpose(deformation.inverse_rows()));
     let modulus_of = |normal: [f64; 3]| least(&tangent, normal, spatial).0;
     let determinant_of = |normal: [f64; 3]| least(&tangent, normal, spatial).2;
     let (normal, modulus) = minimum(modulus_of);
@@ -216,8 +221,10 @@ fn minimum(f: impl Fn([f64; 3]) -> f64) -> ([f64; 3], f64) {
 /// The worst of random deformations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EllipticityScan {
-    /// How many deformations were scanned.
+    /// How many deformations were scanned, beside the reference.
     pub samples: usize,
+    /// How many more were drawn at which the law has no answer.
+    pub refused: usize,
     /// The deformation with the least modulus.
     pub gradient: DeformationGradient,
     /// What was found there.
@@ -225,14 +232,14 @@ pub struct EllipticityScan {
 }
 
 impl EllipticityScan {
-    /// Whether all were strongly elliptic.
+    /// Whether something was scanned and all was strongly elliptic.
     #[must_use]
     pub fn passes(&self) -> bool {
-        self.worst.is_strong()
+        0 < self.samples && self.worst.is_strong()
     }
 }
 
-/// Tries to refute strong ellipticity over random deformations; isochoric ones where the kinematics are.
+/// Tries to refute strong ellipticity over random deformations; isochoric ones where the kinematics or the law are.
 ///
 /// # Example
 /// ```
@@ -247,16 +254,19 @@ impl EllipticityScan {
 pub fn ellipticity_scan(law: &impl Hyperelastic, search: &Search, kinematics: Kinematics) -> EllipticityScan {
     let mut sampler = Sampler::new(search.seed);
     let gradient = DeformationGradient::identity();
-    let mut scan = EllipticityScan { samples: 0, gradient, worst: ellipticity(law, &gradient, kinematics) };
+    let kinematics = kinematics.of(law);
+    let worst = ellipticity(law, &gradient, kinematics);
+    let mut scan = EllipticityScan { samples: 0, refused: 0, gradient, worst };
     for _ in 0..search.samples {
         let mut matrix = sampler.gradient(search.strain);
         if kinematics == Kinematics::Isochoric {
-            matrix /= super::law::jacobian(&matrix).cbrt();
+            matrix = super::law::isochoric(matrix);
         }
-        let Ok(gradient) = DeformationGradient::new(matrix) else { continue };
-        if law.check(&gradient).is_err() {
+        let answered = DeformationGradient::new(matrix).ok().filter(|gradient| law.check(gradient).is_ok());
+        let Some(gradient) = answered else {
+            scan.refused += 1;
             continue;
-        }
+        };
         let found = ellipticity(law, &gradient, kinematics);
         scan.samples += 1;
         if found.modulus < scan.worst.modulus || found.modulus.is_nan() {

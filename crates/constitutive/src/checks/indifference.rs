@@ -2,6 +2,7 @@
 
 use nalgebra::Matrix3;
 
+use super::law::drawn;
 use super::{Elastic, Report, Sampler, Search};
 
 /// Two observers of the same deformation, turned against one another.
@@ -35,10 +36,13 @@ pub struct Observers {
 pub fn frame_indifference(law: &impl Elastic, search: &Search) -> Report<Observers> {
     let mut sampler = Sampler::new(search.seed);
     let samples = (0..search.samples).map(|_| {
-        let (gradient, rotation) = (sampler.gradient(search.strain), sampler.rotation());
+        let (gradient, rotation) = (drawn(law, &mut sampler, search.strain), sampler.rotation());
+        if !law.answers(&gradient) {
+            return None;
+        }
         let (stress, seen) = (law.cauchy(&gradient), law.cauchy(&(rotation * gradient)));
         let violation = (seen - rotation * stress * rotation.transpose()).norm();
-        (violation, stress.norm().max(seen.norm()), Observers { gradient, rotation, stress, seen })
+        Some((violation, stress.norm().max(seen.norm()), Observers { gradient, rotation, stress, seen }))
     });
-    Report::of(search, samples.collect())
+    Report::of(search, samples)
 }

@@ -12,6 +12,8 @@ use crate::solids::Hyperelastic;
 pub struct BakerEricksen {
     /// How many stretches were looked at.
     pub samples: usize,
+    /// How many more were drawn at which the law has no answer.
+    pub refused: usize,
     /// The least (Tᵢ − Tⱼ)/(λᵢ − λⱼ), Pa.
     pub least: f64,
     /// The principal stretches there.
@@ -21,16 +23,16 @@ pub struct BakerEricksen {
 }
 
 impl BakerEricksen {
-    /// Whether the greater stress was always along the greater stretch.
+    /// Whether something was looked at, and the greater stress was always along the greater stretch.
     #[must_use]
     pub fn passes(&self) -> bool {
-        0.0 < self.least
+        0 < self.samples && 0.0 < self.least
     }
 }
 
 /// Tries to refute Baker and Ericksen's inequalities of an isotropic law: (Tᵢ − Tⱼ)(λᵢ − λⱼ) > 0 where λᵢ ≠ λⱼ.
 ///
-/// The pressure of an incompressible law drops out of the differences.
+/// The pressure of an incompressible law drops out of the differences; its stretches are isochoric.
 ///
 /// # Example
 /// ```
@@ -47,26 +49,33 @@ impl BakerEricksen {
 #[must_use]
 pub fn baker_ericksen(law: &impl Hyperelastic, search: &Search) -> BakerEricksen {
     let mut sampler = Sampler::new(search.seed);
-    let mut report = BakerEricksen { samples: 0, least: f64::INFINITY, stretches: [1.0; 3], pair: [0, 1] };
+    let mut report = BakerEricksen { samples: 0, refused: 0, least: f64::INFINITY, stretches: [1.0; 3], pair: [0, 1] };
     for _ in 0..search.samples {
-        let stretches = sampler.stretches(search.strain);
-        let Ok(deformation) = DeformationGradient::diagonal(stretches) else { continue };
-        if law.check(&deformation).is_err() {
-            continue;
+        let mut stretches = sampler.stretches(search.strain);
+        if law.is_incompressible() {
+            let mean = (stretches[0] * stretches[1] * stretches[2]).cbrt();
+            stretches = stretches.map(|stretch| stretch / mean);
         }
-        report.samples += 1;
+        let answered = DeformationGradient::diagonal(stretches).ok().filter(|f| law.check(f).is_ok());
+        let Some(deformation) = answered else {
+            report.refused += 1;
+            continue;
+        };
         let stress = law.cauchy(&deformation).0.components;
+        let mut compared = false;
         for pair in [[0, 1], [1, 2], [0, 2]] {
             let apart = stretches[pair[0]] - stretches[pair[1]];
             // Closer together the difference of the stresses is rounding.
             if apart.abs() < 1e-6 * stretches[pair[0]] {
                 continue;
             }
+            compared = true;
             let quotient = (stress[pair[0]] - stress[pair[1]]) / apart;
             if quotient < report.least || quotient.is_nan() {
                 (report.least, report.stretches, report.pair) = (quotient, stretches, pair);
             }
         }
+        report.samples += usize::from(compared);
     }
     report
 }
@@ -74,7 +83,7 @@ pub fn baker_ericksen(law: &impl Hyperelastic, search: &Search) -> BakerEricksen
 /// Drucker's modulus of a state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drucker {
-    /// min dτ : dε over unit increments dε of the logarithmic strain along the axes, Pa.
+    /// min dτ : dε over unit increments dε of the logarithmic strain along the axes, Pa; NaN where the law has no answer.
     pub modulus: f64,
     /// The principal components of that dε.
     pub increment: [f64; 3],
@@ -85,6 +94,8 @@ pub struct Drucker {
 /// ```text
 /// dτᵢ = Dᵢⱼ dεⱼ,   Dᵢⱼ = ∂²W/∂ ln λᵢ ∂ ln λⱼ      min of dε · D dε over |dε| = 1  (and tr dε = 0, if isochoric)
 /// ```
+/// Of an incompressible law increments are isochoric, whatever is asked for.
+///
 /// The axes stand still: increments of shear obey Baker and Ericksen's inequalities, see [`baker_ericksen`].
 ///
 /// # Example
@@ -98,10 +109,15 @@ pub struct Drucker {
 /// ```
 #[must_use]
 pub fn drucker(law: &impl Hyperelastic, stretches: [f64; 3], kinematics: Kinematics) -> Drucker {
+    let nowhere = Drucker { modulus: f64::NAN, increment: [f64::NAN; 3] };
+    let Ok(deformation) = DeformationGradient::diagonal(stretches) else { return nowhere };
+    if law.check(&deformation).is_err() {
+        return nowhere;
+    }
     let d = logarithmic_curvatures(law, stretches);
     let along =
         |v: [f64; 3], w: [f64; 3]| -> f64 { (0..3).map(|i| v[i] * (0..3).map(|j| d[i][j] * w[j]).sum::<f64>()).sum() };
-    match kinematics {
+    match kinematics.of(law) {
         Kinematics::Free => {
             let decomposition = decompose(&Symmetric::symmetric_part(d));
             Drucker { modulus: decomposition.values[2], increment: decomposition.vectors[2] }
@@ -135,16 +151,18 @@ fn logarithmic_curvatures(law: &impl Hyperelastic, stretches: [f64; 3]) -> [[f64
 /// Drucker's modulus along a path.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DruckerPath {
-    /// The least modulus of the points looked at.
+    /// The least modulus of the points looked at; NaN if the path does not begin.
     pub worst: Drucker,
     /// Where it was found.
     pub parameter: f64,
     /// Where the modulus first became zero, bisected to rounding; none if it did not.
     pub first_loss: Option<f64>,
+    /// Where the path ends because the law has no answer beyond, bisected to rounding; none if it does not.
+    pub end: Option<f64>,
 }
 
 impl DruckerPath {
-    /// Whether the modulus was positive everywhere.
+    /// Whether the modulus was positive everywhere, up to the end of the path.
     #[must_use]
     pub fn passes(&self) -> bool {
         0.0 < self.worst.modulus
@@ -152,6 +170,8 @@ impl DruckerPath {
 }
 
 /// Drucker's condition along a path of principal stretches, from `from` to `to` in `steps` steps.
+///
+/// The path ends where the law has no answer: beyond a limiting stretch nothing is lost.
 ///
 /// # Example
 /// The stretches of a homogeneous test, in tension and compression.
@@ -173,31 +193,51 @@ pub fn drucker_path(
     steps: u32,
     kinematics: Kinematics,
 ) -> DruckerPath {
+    let answered = |parameter: f64| {
+        DeformationGradient::diagonal(path(parameter)).is_ok_and(|deformation| law.check(&deformation).is_ok())
+    };
     let at = |parameter: f64| drucker(law, path(parameter), kinematics);
-    let mut report = DruckerPath { worst: at(from), parameter: from, first_loss: None };
+    let mut report = DruckerPath { worst: at(from), parameter: from, first_loss: None, end: None };
+    if !answered(from) {
+        report.end = Some(from);
+        return report;
+    }
     if !report.passes() {
         report.first_loss = Some(from);
     }
     let mut before = from;
     for step in 1..=steps {
-        let parameter = from + (to - from) * f64::from(step) / f64::from(steps);
+        let mut parameter = from + (to - from) * f64::from(step) / f64::from(steps);
+        if !answered(parameter) {
+            // The last point that is answered is looked at in its stead.
+            let (good, bad) = bisected(before, parameter, answered);
+            report.end = Some(bad);
+            parameter = good;
+        }
         let found = at(parameter);
         if (found.modulus <= 0.0 || found.modulus.is_nan()) && report.first_loss.is_none() {
-            let (mut good, mut bad) = (before, parameter);
-            for _ in 0..60 {
-                let middle = 0.5 * (good + bad);
-                if 0.0 < at(middle).modulus {
-                    good = middle;
-                } else {
-                    bad = middle;
-                }
-            }
-            report.first_loss = Some(bad);
+            report.first_loss = Some(bisected(before, parameter, |middle| 0.0 < at(middle).modulus).1);
         }
         if found.modulus < report.worst.modulus || found.modulus.is_nan() {
             (report.worst, report.parameter) = (found, parameter);
         }
+        if report.end.is_some() {
+            break;
+        }
         before = parameter;
     }
     report
+}
+
+/// The last point at which something holds and the first at which it does not, next to one another.
+fn bisected(mut good: f64, mut bad: f64, holds: impl Fn(f64) -> bool) -> (f64, f64) {
+    for _ in 0..60 {
+        let middle = 0.5 * (good + bad);
+        if holds(middle) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    (good, bad)
 }

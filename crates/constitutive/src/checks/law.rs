@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 use piola_continuum::{Deformation, DeformationGradient};
 use piola_numerics::linear::matrix3::{determinant, rows_of};
 
+use super::Sampler;
 use crate::solids::Hyperelastic;
 
 /// An elastic response T = G(F): the stress depends on the present deformation alone, W(18.1).
@@ -21,6 +22,19 @@ pub trait Elastic {
     /// T of F with 0 < det F, Pa.
     #[must_use]
     fn cauchy(&self, gradient: &Matrix3<f64>) -> Matrix3<f64>;
+
+    /// Whether the law has an answer at F: where it refuses, nothing is claimed of it, and samples there are left out and
+    /// counted.
+    #[must_use]
+    fn answers(&self, _gradient: &Matrix3<f64>) -> bool {
+        true
+    }
+
+    /// Whether the body keeps its volume: then all samples are isochoric.
+    #[must_use]
+    fn is_incompressible(&self) -> bool {
+        false
+    }
 }
 
 impl<G: Fn(&Matrix3<f64>) -> Matrix3<f64>> Elastic for G {
@@ -45,6 +59,25 @@ impl<L: Hyperelastic> Elastic for Stored<'_, L> {
         }
         self.0.first_piola(&deformation).0 * gradient.transpose() / deformation.jacobian()
     }
+
+    fn answers(&self, gradient: &Matrix3<f64>) -> bool {
+        DeformationGradient::new(*gradient).is_ok_and(|deformation| self.0.check(&deformation).is_ok())
+    }
+
+    fn is_incompressible(&self) -> bool {
+        self.0.is_incompressible()
+    }
+}
+
+/// A deformation gradient that the body can have.
+pub(super) fn drawn(law: &impl Elastic, sampler: &mut Sampler, strain: f64) -> Matrix3<f64> {
+    let gradient = sampler.gradient(strain);
+    if law.is_incompressible() { isochoric(gradient) } else { gradient }
+}
+
+/// F without its change of volume.
+pub(super) fn isochoric(gradient: Matrix3<f64>) -> Matrix3<f64> {
+    gradient / jacobian(&gradient).cbrt()
 }
 
 /// P = J T F⁻ᵀ = T Cof F, T not taken as symmetric.

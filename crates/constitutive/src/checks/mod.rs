@@ -13,7 +13,9 @@
 //! Laws are anything that answers F with T ([`Elastic`], closures too) or with an energy
 //! ([`Hyperelastic`](crate::solids::Hyperelastic), as [`Stored`] where a response is asked for). Samples are drawn by a fixed
 //! sequence from a seed: the same search gives the same report. A check that passes is no proof; one that
-//! fails is, and its report holds the deformation to see it with.
+//! fails is, and its report holds the deformation to see it with. Samples at which the law has no answer are left out and
+//! counted as `refused`; a search that compared nothing does not pass ([`Verdict::NothingTested`]). Samples of
+//! incompressible laws keep their volume.
 
 mod circuits;
 mod ellipticity;
@@ -37,6 +39,6 @@ pub use inequalities::{BakerEricksen, Drucker, DruckerPath, baker_ericksen, druc
 pub use law::{Elastic, Stored};
 pub use noll::{EnergyOfObservers, NollReport, Skewness, noll};
 pub use reference::ChangedReference;
-pub use report::{Report, Search};
+pub use report::{Report, Search, Verdict};
 pub use sampler::Sampler;
 pub use symmetry::{Images, material_symmetry};

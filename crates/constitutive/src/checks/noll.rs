@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 use piola_continuum::DeformationGradient;
 
+use super::law::drawn;
 use super::{Elastic, Observers, Report, Sampler, Search, Stored, frame_indifference};
 use crate::solids::Hyperelastic;
 
@@ -47,10 +48,11 @@ impl NollReport {
     }
 
     /// Whether the three stand or fall together, as the theorem says: otherwise the stress of the law is not the derivative of
-    /// its energy.
+    /// its energy. False where nothing was tested.
     #[must_use]
     pub fn agrees(&self) -> bool {
-        self.energy.passes() == self.response.passes() && self.response.passes() == self.symmetry.passes()
+        let tested = [self.energy.samples, self.response.samples, self.symmetry.samples].iter().all(|&count| 0 < count);
+        tested && self.energy.passes() == self.response.passes() && self.response.passes() == self.symmetry.passes()
     }
 }
 
@@ -72,19 +74,26 @@ impl NollReport {
 pub fn noll(law: &impl Hyperelastic, search: &Search) -> NollReport {
     let energy_of = |gradient: &Matrix3<f64>| DeformationGradient::new(*gradient).map_or(f64::NAN, |f| law.energy(&f));
     let mut sampler = Sampler::new(search.seed);
+    let response = Stored(law);
     let energies = (0..search.samples).map(|_| {
-        let (gradient, rotation) = (sampler.gradient(search.strain), sampler.rotation());
+        let (gradient, rotation) = (drawn(&response, &mut sampler, search.strain), sampler.rotation());
+        if !response.answers(&gradient) {
+            return None;
+        }
         let (energy, seen) = (energy_of(&gradient), energy_of(&(rotation * gradient)));
         let scale = energy.abs().max(seen.abs());
-        ((seen - energy).abs(), scale, EnergyOfObservers { gradient, rotation, energy, seen })
+        Some(((seen - energy).abs(), scale, EnergyOfObservers { gradient, rotation, energy, seen }))
     });
-    let energy = Report::of(search, energies.collect());
+    let energy = Report::of(search, energies);
     let mut sampler = Sampler::new(search.seed);
     let stresses = (0..search.samples).map(|_| {
-        let gradient = sampler.gradient(search.strain);
-        let stress = Stored(law).cauchy(&gradient);
-        ((stress - stress.transpose()).norm(), stress.norm(), Skewness { gradient, stress })
+        let gradient = drawn(&response, &mut sampler, search.strain);
+        if !response.answers(&gradient) {
+            return None;
+        }
+        let stress = response.cauchy(&gradient);
+        Some(((stress - stress.transpose()).norm(), stress.norm(), Skewness { gradient, stress }))
     });
-    let symmetry = Report::of(search, stresses.collect());
-    NollReport { energy, response: frame_indifference(&Stored(law), search), symmetry }
+    let symmetry = Report::of(search, stresses);
+    NollReport { energy, response: frame_indifference(&response, search), symmetry }
 }

@@ -52,6 +52,14 @@ impl<L: Elastic> Elastic for ChangedReference<L> {
     fn cauchy(&self, gradient: &Matrix3<f64>) -> Matrix3<f64> {
         self.law.cauchy(&(gradient * self.change.matrix()))
     }
+
+    fn answers(&self, gradient: &Matrix3<f64>) -> bool {
+        self.law.answers(&(gradient * self.change.matrix()))
+    }
+
+    fn is_incompressible(&self) -> bool {
+        self.law.is_incompressible()
+    }
 }
 
 impl<L: Hyperelastic> Hyperelastic for ChangedReference<L> {

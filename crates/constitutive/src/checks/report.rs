@@ -28,31 +28,72 @@ impl Default for Search {
     }
 }
 
+/// What a search says of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// No counterexample was found among the samples.
+    Passed,
+    /// A counterexample was found.
+    Refuted,
+    /// There were no samples, or the law refused them all.
+    NothingTested,
+}
+
 /// The worst counterexample of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report<C> {
     /// How many samples were compared.
     pub samples: usize,
+    /// How many more were drawn at which the law has no answer, such as those beyond a limiting stretch.
+    pub refused: usize,
     /// The size up to which the claim passes.
     pub tolerance: f64,
     /// The largest violation, relative to the stress or work there (but at least to a thousandth of the largest
-    /// of all samples); infinite where the law answers with NaN.
+    /// of all samples); infinite where the law answers with NaN without refusing.
     pub size: f64,
     /// The sample with that violation; none only if nothing was sampled.
     pub worst: Option<C>,
 }
 
 impl<C> Report<C> {
-    /// Whether no violation above the tolerance was found.
+    /// Whether something was compared and no violation above the tolerance was found.
     #[must_use]
     pub fn passes(&self) -> bool {
-        self.size <= self.tolerance
+        self.verdict() == Verdict::Passed
     }
 
-    /// The worst of samples, each with its violation and its scale.
-    pub(crate) fn of(search: &Search, samples: Vec<(f64, f64, C)>) -> Self {
+    /// Whether the claim passed, was refuted, or was not tested at all.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_constitutive::checks::{Search, Verdict, frame_indifference};
+    /// let good = |f: &Matrix3<f64>| f * f.transpose();
+    /// let verdict = |samples| frame_indifference(&good, &Search { samples, ..Search::default() }).verdict();
+    /// assert_eq!([verdict(10), verdict(0)], [Verdict::Passed, Verdict::NothingTested]);
+    /// ```
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        if self.samples == 0 {
+            Verdict::NothingTested
+        } else if self.size <= self.tolerance {
+            Verdict::Passed
+        } else {
+            Verdict::Refuted
+        }
+    }
+
+    /// The worst of samples, each with its violation and its scale; none where the law has no answer.
+    pub(crate) fn of(search: &Search, drawn: impl Iterator<Item = Option<(f64, f64, C)>>) -> Self {
+        let mut refused = 0;
+        let samples: Vec<_> = drawn
+            .filter_map(|sample| {
+                refused += usize::from(sample.is_none());
+                sample
+            })
+            .collect();
         let largest = samples.iter().fold(0.0_f64, |largest, sample| largest.max(sample.1));
-        let mut report = Self { samples: samples.len(), tolerance: search.tolerance, size: 0.0, worst: None };
+        let mut report = Self { samples: samples.len(), refused, tolerance: search.tolerance, size: 0.0, worst: None };
         for (violation, scale, sample) in samples {
             let scale = scale.max(1e-3 * largest);
             let size = if violation <= 0.0 {

@@ -181,7 +181,7 @@ pub fn history_indifference(material: &impl SimpleMaterial, time: f64, search: &
         let seen = material.cauchy(&|elapsed: f64| observer.rotation(elapsed) * body.gradient(elapsed));
         let (gradient, rotation) = (body.gradient(0.0), observer.rotation(0.0));
         let violation = (seen - rotation * stress * rotation.transpose()).norm();
-        (violation, stress.norm().max(seen.norm()), Observers { gradient, rotation, stress, seen })
+        Some((violation, stress.norm().max(seen.norm()), Observers { gradient, rotation, stress, seen }))
     });
-    Report::of(search, samples.collect())
+    Report::of(search, samples)
 }

@@ -4,6 +4,7 @@ mod homogeneous;
 mod laws;
 mod memory;
 mod refuted;
+mod scope;
 
 #[global_allocator]
 static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
