@@ -63,6 +63,7 @@
 //! | Lagrange's and Hamilton's equations, gravitation | [`dynamics`] | `dynamics` |
 //! | deformation, strain, stress, rates, balance; batches in lanes | [`continuum`] | `continuum` |
 //! | laws of solids | [`constitutive`] | `constitutive` |
+//! | viscometric flows: profiles, stresses, discharges, torques | [`viscometry`] | `viscometry` |
 //! | time stepping | [`integrators`] | `integrators` |
 //!
 //! # Features
@@ -81,6 +82,8 @@ pub use piola_integrators as integrators;
 #[cfg(feature = "kinematics")]
 pub use piola_kinematics as kinematics;
 pub use piola_numerics as numerics;
+#[cfg(feature = "viscometry")]
+pub use piola_viscometry as viscometry;
 
 /// The snippets of the project's read-me run as tests.
 #[cfg(all(doctest, feature = "dynamics", feature = "constitutive"))]

@@ -28,6 +28,190 @@ pub enum ViscometryError {
         /// What would be valid, such as `0 < R`.
         bound: &'static str,
     },
+    /// τ falls where the flow passes: no steady shear is stable there.
+    #[error("{fluid}: the shear stress falls, τ′ = {slope:e} Pa s, at the shear rate {shear_rate:e} 1/s")]
+    NotIncreasing {
+        /// The fluid.
+        fluid: &'static str,
+        /// The shear rate, 1/s.
+        shear_rate: f64,
+        /// τ′ there, Pa s.
+        slope: f64,
+    },
+    /// The error of an integral stays large: the integrand jumps or is not smooth.
+    #[error("the integral {value:e} is known to {error:e} only")]
+    NotConverged {
+        /// The integral.
+        value: f64,
+        /// Its error.
+        error: f64,
+    },
+    /// No drive has the wanted answer.
+    #[error("{flow}: no drive was found for which {quantity} = {value:e}")]
+    NoDrive {
+        /// The flow.
+        flow: &'static str,
+        /// What is wanted.
+        quantity: &'static str,
+        /// How much of it.
+        value: f64,
+    },
+    /// There is not one answer for each place.
+    #[error("{flow}: {places} places, but room for {answers} answers")]
+    Lengths {
+        /// The flow.
+        flow: &'static str,
+        /// How many places there are.
+        places: usize,
+        /// How many answers there is room for.
+        answers: usize,
+    },
+    /// A number of a table is missing, infinite, zero or negative.
+    #[error("row {row}, column {column}: {value} is not positive and finite")]
+    Row {
+        /// Its row, from 0.
+        row: usize,
+        /// Its column, from 0.
+        column: usize,
+        /// It.
+        value: f64,
+    },
+    /// Two rows of a table have the same drive.
+    #[error("row {row}: {value:e} stands in the row before too")]
+    RowTwice {
+        /// The second row, from 0.
+        row: usize,
+        /// The drive.
+        value: f64,
+    },
+    /// The rows of a table do not rise in the drive.
+    #[error("row {row}: {value:e} follows {previous:e}: rows are not sorted")]
+    RowNotSorted {
+        /// The row, from 0.
+        row: usize,
+        /// Its drive.
+        value: f64,
+        /// The drive of the row before.
+        previous: f64,
+    },
+    /// The response of a table falls, by more than its noise explains, where the drive rises.
+    #[error("row {row}: the response {value:e} is not above the {previous:e} of a smaller drive")]
+    ResponseFalls {
+        /// The row, from 0.
+        row: usize,
+        /// Its response.
+        value: f64,
+        /// The response of the row before.
+        previous: f64,
+    },
+    /// A table is too short for a derivative.
+    #[error("{rows} rows: {least} at least are needed")]
+    TooFewRows {
+        /// Its rows.
+        rows: usize,
+        /// How many are needed.
+        least: usize,
+    },
+    /// Drives of a table are too close together for a curve.
+    #[error("no curve was found through {rows} rows: their drives are too close together")]
+    RowsTooClose {
+        /// Its rows.
+        rows: usize,
+    },
+    /// What is recovered is not positive: noise is stronger than the flow.
+    #[error("nothing positive is recovered at {at:e}: noise is stronger than the flow")]
+    NotRecovered {
+        /// Where, in the unit of the abscissa.
+        at: f64,
+    },
+    /// A recovered curve is asked for beyond what was measured.
+    #[error("{value:e} is not between {lowest:e} and {highest:e}, where there are measurements")]
+    NotMeasured {
+        /// The abscissa.
+        value: f64,
+        /// The lowest that was measured.
+        lowest: f64,
+        /// The highest that was measured.
+        highest: f64,
+    },
+    /// A probability is not between 0 and 1.
+    #[error("the confidence {value} violates 0 < confidence < 1")]
+    Confidence {
+        /// The probability.
+        value: f64,
+    },
+    /// A measured curve or its derivative is infinite or NaN.
+    #[error("the measured curve or its derivative at {drive:e} is not finite")]
+    CurveNotFinite {
+        /// The drive.
+        drive: f64,
+    },
+    /// The series of coaxial cylinders does not come to a value.
+    #[error("the series at the torque {torque:e} is known to {error:e} only after {terms} terms")]
+    SeriesNotConverged {
+        /// The torque, N.
+        torque: f64,
+        /// Its terms.
+        terms: usize,
+        /// What it is still off, in the unit of its value.
+        error: f64,
+    },
+    /// A correction needs more tables.
+    #[error("{tables} tables: {least} at least are needed")]
+    TooFewTables {
+        /// The tables.
+        tables: usize,
+        /// How many are needed.
+        least: usize,
+    },
+    /// A correction needs geometries that differ.
+    #[error("the {quantity} {value:e} of all tables is the same")]
+    SameGeometry {
+        /// What does not differ.
+        quantity: &'static str,
+        /// Its value, m.
+        value: f64,
+    },
+    /// A correction needs geometries that agree.
+    #[error("the {quantity} of tables differs: {} and {}", values[0], values[1])]
+    DifferentGeometry {
+        /// What differs.
+        quantity: &'static str,
+        /// Two of its values, m.
+        values: [f64; 2],
+    },
+    /// Tables that are to be compared do not overlap.
+    #[error("no measurement of the first table is reached by all: they share {lowest:e} to {highest:e}")]
+    NothingInCommon {
+        /// The lowest that all reach.
+        lowest: f64,
+        /// The highest that all reach.
+        highest: f64,
+    },
+    /// A fluid has no parameter of this name.
+    #[error("{fluid} has no parameter `{parameter}`")]
+    UnknownParameter {
+        /// The fluid.
+        fluid: &'static str,
+        /// The name.
+        parameter: String,
+    },
+    /// Bounds of a parameter are not finite, or leave nothing between them.
+    #[error("nothing lies between the bounds {lower:e} and {upper:e} of `{parameter}`, or they are not finite")]
+    ImpossibleBounds {
+        /// The parameter.
+        parameter: String,
+        /// Its least value.
+        lower: f64,
+        /// Its greatest value.
+        upper: f64,
+    },
+    /// A fluid has no finite answers at any start of a search.
+    #[error("{fluid}: no start has finite answers")]
+    NoStart {
+        /// The fluid.
+        fluid: &'static str,
+    },
     /// The fluid itself refuses: no shear rate at a stress, a parameter outside its bounds.
     #[error(transparent)]
     Fluid(#[from] ConstitutiveError),

@@ -3,5 +3,17 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod estimate;
+mod flows;
+mod inverse;
+pub mod quadrature;
+mod slip;
+mod stresses;
+mod validity;
 
 pub use error::ViscometryError;
+pub use estimate::Estimate;
+pub use flows::{Annulus, Channel, ConeAndPlate, Couette, FallingFilm, ParallelPlates, PlaneCouette, Poiseuille};
+pub use slip::WallSlip;
+pub use stresses::Stresses;
+pub use validity::{Validity, Warning};

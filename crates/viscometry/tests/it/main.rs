@@ -1,0 +1,10 @@
+//! The flows.
+
+mod alloc;
+mod fluids;
+mod golden;
+mod laws;
+mod traps;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
