@@ -29,13 +29,19 @@
 mod deformations;
 mod destinations;
 mod evaluation;
+mod forces;
+mod invariants;
 mod kinematic;
+mod parts;
 mod point;
+mod rates;
 mod refusal;
 mod requests;
 mod sources;
+mod spectral;
 mod stresses;
 mod tangents;
+mod transport;
 mod views;
 
 pub use deformations::{Deformations, Displacements, Gradients, Undeformed};
@@ -43,11 +49,16 @@ pub use destinations::Destination;
 #[doc(hidden)]
 pub use evaluation::Tally;
 pub use evaluation::{BadPoint, BatchScalar, PARALLEL_POINTS, Report, evaluate};
+pub use forces::*;
+pub use invariants::*;
 pub use kinematic::*;
 pub use point::Point;
+pub use rates::*;
 pub use refusal::Refusal;
 pub use requests::{Quantity, Request, Requests};
 pub use sources::Source;
+pub use spectral::*;
 pub use stresses::*;
 pub use tangents::*;
+pub use transport::*;
 pub use views::{ColumnMajor, Components, Strided, points_of, points_of_mut};

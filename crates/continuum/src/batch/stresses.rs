@@ -1,16 +1,13 @@
-//! Conversions between measures of stress, and their invariants.
+//! Conversions between measures of stress.
 
+use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
-use piola_numerics::{Lanes, Real};
 
 use super::kinematic::flat;
 use super::point::Point;
 use super::requests::{Quantity, Request};
-use super::{BatchScalar, Destination};
-use crate::spectral::decompose;
-use crate::stress::invariants;
 use crate::tensor::rows::Rows;
-use crate::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric};
+use crate::{BiotStress, CauchyStress, Deformation, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric};
 
 /// The components of a measure of stress as a batch holds them.
 trait Measure<T, const K: usize> {
@@ -49,11 +46,65 @@ macro_rules! general {
         }
     )* };
 }
-general!(FirstPiola MandelStress);
+general!(FirstPiola MandelStress BiotStress);
+
+/// The stress of the examples: a bar with F = diag(2, ½, ½) under 8 Pa.
+macro_rules! example {
+    (CauchyStress) => {
+        "CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?"
+    };
+    (KirchhoffStress) => {
+        "KirchhoffStress::new(4.0, 0.0, 0.0, 0.0, 0.0, 0.0)?"
+    };
+    (SecondPiola) => {
+        "SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?"
+    };
+    (FirstPiola) => {
+        "FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?"
+    };
+    (MandelStress) => {
+        "MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?"
+    };
+    (BiotStress) => {
+        "BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?"
+    };
+}
+
+/// The size of that stress in the measure that comes out.
+macro_rules! size {
+    (CauchyStress) => {
+        "8.0"
+    };
+    (SecondPiola) => {
+        "1.0"
+    };
+    (FirstPiola) => {
+        "2.0"
+    };
+    (BiotStress) => {
+        "2.0"
+    };
+    ($other:ident) => {
+        "4.0"
+    };
+}
 
 macro_rules! conversions {
-    ($($(#[$documentation:meta])* $function:ident $name:ident $from:ident [$i:literal] $method:ident $to:ident [$k:literal];)*) => { $(
+    ($stretch:literal: $($(#[$documentation:meta])* $function:ident $name:ident $from:ident [$i:literal] $to:ident [$k:literal]
+        |$stress:ident, $point:ident| $value:expr;)*) => { $(
         $(#[$documentation])*
+        ///
+        /// # Example
+        /// ```
+        /// # use nalgebra::Matrix3;
+        #[doc = concat!("use piola_continuum::{DeformationGradient, ", stringify!($from), ", batch};")]
+        #[doc = concat!("let stress = [", example!($from), "; 1000];")]
+        #[doc = concat!("let mut converted = [[0.0_f64; ", stringify!($k), "]; 1000];")]
+        #[doc = concat!("let request = batch::", stringify!($function), "(&stress[..], &mut converted[..]); // for `batch::evaluate`")]
+        /// let f = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
+        #[doc = concat!("assert!((request.at(&f, 7)[0] - ", size!($to), ").abs() < 1e-14);")]
+        /// # Ok::<(), piola_continuum::ContinuumError>(())
+        /// ```
         #[must_use]
         pub fn $function<S, V>(stress: S, to: V) -> Request<$name, S, V, $i, $k> {
             Request { quantity: $name, source: stress, to }
@@ -66,158 +117,91 @@ macro_rules! conversions {
         impl Quantity<$i, $k> for $name {
             type Input = $from;
             type Output = $to;
-            const NEEDS_STRETCH: bool = false;
+            const NEEDS_STRETCH: bool = $stretch;
             const INPUT: &'static str = stringify!($from);
 
             #[inline(always)]
-            fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, input: [T; $i]) -> [T; $k] {
-                $from::<T>::of_components(input).$method(point).components()
+            fn of<T: Real, D: Deformation<T>>(&self, $point: &Point<T, D>, input: [T; $i]) -> [T; $k] {
+                let $stress = $from::<T>::of_components(input);
+                let converted: $to<T> = $value;
+                converted.components()
             }
         }
     )* };
 }
 
-conversions! {
+conversions! { false:
     /// τ = J T.
-    cauchy_to_kirchhoff CauchyToKirchhoff CauchyStress [6] kirchhoff KirchhoffStress [6];
+    cauchy_to_kirchhoff CauchyToKirchhoff CauchyStress [6] KirchhoffStress [6] |stress, point| stress.kirchhoff(point);
     /// P = T Cof F.
-    cauchy_to_first_piola CauchyToFirstPiola CauchyStress [6] first_piola FirstPiola [9];
+    cauchy_to_first_piola CauchyToFirstPiola CauchyStress [6] FirstPiola [9] |stress, point| stress.first_piola(point);
     /// S = J F⁻¹ T F⁻ᵀ.
-    cauchy_to_second_piola CauchyToSecondPiola CauchyStress [6] second_piola SecondPiola [6];
+    cauchy_to_second_piola CauchyToSecondPiola CauchyStress [6] SecondPiola [6] |stress, point| stress.second_piola(point);
     /// M = Fᵀ T Cof F.
-    cauchy_to_mandel CauchyToMandel CauchyStress [6] mandel MandelStress [9];
+    cauchy_to_mandel CauchyToMandel CauchyStress [6] MandelStress [9] |stress, point| stress.mandel(point);
     /// T = τ/J.
-    kirchhoff_to_cauchy KirchhoffToCauchy KirchhoffStress [6] cauchy CauchyStress [6];
+    kirchhoff_to_cauchy KirchhoffToCauchy KirchhoffStress [6] CauchyStress [6] |stress, point| stress.cauchy(point);
     /// P = τ F⁻ᵀ.
-    kirchhoff_to_first_piola KirchhoffToFirstPiola KirchhoffStress [6] first_piola FirstPiola [9];
+    kirchhoff_to_first_piola KirchhoffToFirstPiola KirchhoffStress [6] FirstPiola [9] |stress, point| stress.first_piola(point);
     /// S = F⁻¹ τ F⁻ᵀ.
-    kirchhoff_to_second_piola KirchhoffToSecondPiola KirchhoffStress [6] second_piola SecondPiola [6];
+    kirchhoff_to_second_piola KirchhoffToSecondPiola KirchhoffStress [6] SecondPiola [6] |stress, point| stress.second_piola(point);
     /// M = Fᵀ τ F⁻ᵀ.
-    kirchhoff_to_mandel KirchhoffToMandel KirchhoffStress [6] mandel MandelStress [9];
+    kirchhoff_to_mandel KirchhoffToMandel KirchhoffStress [6] MandelStress [9] |stress, point| stress.mandel(point);
     /// T = sym(P Fᵀ)/J.
-    first_piola_to_cauchy FirstPiolaToCauchy FirstPiola [9] cauchy CauchyStress [6];
+    first_piola_to_cauchy FirstPiolaToCauchy FirstPiola [9] CauchyStress [6] |stress, point| stress.cauchy(point);
     /// τ = sym(P Fᵀ).
-    first_piola_to_kirchhoff FirstPiolaToKirchhoff FirstPiola [9] kirchhoff KirchhoffStress [6];
+    first_piola_to_kirchhoff FirstPiolaToKirchhoff FirstPiola [9] KirchhoffStress [6] |stress, point| stress.kirchhoff(point);
     /// S = sym(F⁻¹ P).
-    first_piola_to_second_piola FirstPiolaToSecondPiola FirstPiola [9] second_piola SecondPiola [6];
+    first_piola_to_second_piola FirstPiolaToSecondPiola FirstPiola [9] SecondPiola [6] |stress, point| stress.second_piola(point);
     /// M = Fᵀ P.
-    first_piola_to_mandel FirstPiolaToMandel FirstPiola [9] mandel MandelStress [9];
+    first_piola_to_mandel FirstPiolaToMandel FirstPiola [9] MandelStress [9] |stress, point| stress.mandel(point);
     /// T = F S Fᵀ/J.
-    second_piola_to_cauchy SecondPiolaToCauchy SecondPiola [6] cauchy CauchyStress [6];
+    second_piola_to_cauchy SecondPiolaToCauchy SecondPiola [6] CauchyStress [6] |stress, point| stress.cauchy(point);
     /// τ = F S Fᵀ.
-    second_piola_to_kirchhoff SecondPiolaToKirchhoff SecondPiola [6] kirchhoff KirchhoffStress [6];
+    second_piola_to_kirchhoff SecondPiolaToKirchhoff SecondPiola [6] KirchhoffStress [6] |stress, point| stress.kirchhoff(point);
     /// P = F S.
-    second_piola_to_first_piola SecondPiolaToFirstPiola SecondPiola [6] first_piola FirstPiola [9];
+    second_piola_to_first_piola SecondPiolaToFirstPiola SecondPiola [6] FirstPiola [9] |stress, point| stress.first_piola(point);
     /// M = C S.
-    second_piola_to_mandel SecondPiolaToMandel SecondPiola [6] mandel MandelStress [9];
+    second_piola_to_mandel SecondPiolaToMandel SecondPiola [6] MandelStress [9] |stress, point| stress.mandel(point);
     /// P = F⁻ᵀ M.
-    mandel_to_first_piola MandelToFirstPiola MandelStress [9] first_piola FirstPiola [9];
+    mandel_to_first_piola MandelToFirstPiola MandelStress [9] FirstPiola [9] |stress, point| stress.first_piola(point);
+    /// T = sym(F⁻ᵀ M Fᵀ)/J.
+    mandel_to_cauchy MandelToCauchy MandelStress [9] CauchyStress [6] |stress, point| stress.cauchy(point);
+    /// τ = sym(F⁻ᵀ M Fᵀ).
+    mandel_to_kirchhoff MandelToKirchhoff MandelStress [9] KirchhoffStress [6] |stress, point| stress.kirchhoff(point);
+    /// S = sym(C⁻¹ M).
+    mandel_to_second_piola MandelToSecondPiola MandelStress [9] SecondPiola [6] |stress, point| stress.second_piola(point);
 }
 
-macro_rules! invariants {
-    ($($(#[$documentation:meta])* $function:ident $name:ident [$k:literal] |$stress:ident| $value:expr;)*) => { $(
-        $(#[$documentation])*
-        #[must_use]
-        pub fn $function<S, V>(stress: S, to: V) -> Request<$name, S, V, 6, $k> {
-            Request { quantity: $name, source: stress, to }
-        }
-
-        #[doc = concat!("The output of [`", stringify!($function), "`].")]
-        #[derive(Clone, Copy, Debug)]
-        pub struct $name;
-
-        impl Quantity<6, $k> for $name {
-            type Input = CauchyStress;
-            type Output = Self;
-            const NEEDS_STRETCH: bool = false;
-            const INPUT: &'static str = "stress";
-
-            #[inline(always)]
-            fn of<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, components: [T; 6]) -> [T; $k] {
-                let $stress = &Symmetric { components };
-                $value
-            }
-        }
-    )* };
-}
-
-invariants! {
-    /// m = ⅓ tr T.
-    mean_stress MeanStress [1] |stress| [invariants::mean(stress)];
-    /// D = T − m 1.
-    deviator Deviator [6] |stress| invariants::deviator(stress).components;
-    /// √(3 J₂): see [`von_mises`](invariants::von_mises).
-    von_mises VonMises [1] |stress| [invariants::von_mises(stress)];
-    /// σ₁ − σ₃: see [`tresca`](invariants::tresca).
-    tresca Tresca [1] |stress| [invariants::tresca(stress)];
-    /// θ ∈ [0, π/3]: see [`lode_angle`](invariants::lode_angle).
-    lode_angle LodeAngle [1] |stress| [invariants::lode_angle(stress)];
-    /// σ₁ ≥ σ₂ ≥ σ₃: see [`PrincipalStresses`](crate::stress::PrincipalStresses).
-    principal_stresses PrincipalStresses [3] |stress| crate::stress::PrincipalStresses::of(stress).values();
-}
-
-/// Eigenvalues and eigenvectors of a symmetric tensor: see [`decompose`].
-///
-/// The vectors go out as nine components, one vector a row.
-///
-/// # Example
-/// ```
-/// use piola_continuum::{Symmetric, batch};
-/// let (mut values, mut vectors) = ([[0.0_f64; 3]], [[[0.0_f64; 3]; 3]]);
-/// let tensors = [Symmetric::diagonal([1.0, 3.0, 2.0])];
-/// batch::evaluate(batch::Undeformed(1), batch::eigenpairs(&tensors[..], &mut values[..], &mut vectors[..]))?;
-/// assert!((values[0][0] - 3.0).abs() < 2e-15 && (vectors[0][0][1].abs() - 1.0).abs() < 1e-15);
-/// # Ok::<(), piola_continuum::ContinuumError>(())
-/// ```
-#[must_use]
-pub fn eigenpairs<S, V, W>(tensor: S, values: V, vectors: W) -> Request<Eigenpairs, S, (V, W), 6, 12> {
-    Request { quantity: Eigenpairs, source: tensor, to: (values, vectors) }
-}
-
-/// The output of [`eigenpairs`].
-#[derive(Clone, Copy, Debug)]
-pub struct Eigenpairs;
-
-impl Quantity<6, 12> for Eigenpairs {
-    type Input = Symmetric;
-    type Output = Self;
-    const NEEDS_STRETCH: bool = false;
-    const INPUT: &'static str = "tensor";
-
-    #[inline(always)]
-    fn of<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, components: [T; 6]) -> [T; 12] {
-        let decomposition = decompose(&Symmetric { components });
-        let ([x, y, z], [a, b, c, d, e, f, g, h, i]) = (decomposition.values, flat(decomposition.vectors));
-        [x, y, z, a, b, c, d, e, f, g, h, i]
-    }
-}
-
-/// Values and vectors apart.
-impl<T, V, W> Destination<Eigenpairs, T, 12> for (V, W)
-where
-    T: BatchScalar,
-    V: Destination<Eigenpairs, T, 3>,
-    W: Destination<Eigenpairs, T, 9>,
-{
-    fn count(&self) -> usize {
-        // Both are checked: a pair is as long as both parts, and no batch as long as neither.
-        let (values, vectors) = (self.0.count(), self.1.count());
-        if values == vectors { values } else { usize::MAX }
-    }
-    #[inline(always)]
-    fn split(self, middle: usize) -> (Self, Self) {
-        let ((a, b), (c, d)) = (self.0.split(middle), self.1.split(middle));
-        ((a, c), (b, d))
-    }
-    #[inline(always)]
-    fn put(&mut self, index: usize, [x, y, z, a, b, c, d, e, f, g, h, i]: [T; 12]) {
-        self.0.put(index, [x, y, z]);
-        self.1.put(index, [a, b, c, d, e, f, g, h, i]);
-    }
-    #[inline(always)]
-    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; 12]) {
-        let [x, y, z, a, b, c, d, e, f, g, h, i] = values;
-        self.0.store(first, count, [x, y, z]);
-        self.1.store(first, count, [a, b, c, d, e, f, g, h, i]);
-    }
+conversions! { true:
+    /// Biot's stress Rᵀ T Cof F.
+    cauchy_to_biot CauchyToBiot CauchyStress [6] BiotStress [9]
+        |stress, point| stress.first_piola(point).biot_of_analysis(&point.stretch());
+    /// Biot's stress Rᵀ τ F⁻ᵀ.
+    kirchhoff_to_biot KirchhoffToBiot KirchhoffStress [6] BiotStress [9]
+        |stress, point| stress.first_piola(point).biot_of_analysis(&point.stretch());
+    /// Biot's stress Rᵀ P.
+    first_piola_to_biot FirstPiolaToBiot FirstPiola [9] BiotStress [9]
+        |stress, point| stress.biot_of_analysis(&point.stretch());
+    /// Biot's stress U S, as Rᵀ F S.
+    second_piola_to_biot SecondPiolaToBiot SecondPiola [6] BiotStress [9]
+        |stress, point| stress.first_piola(point).biot_of_analysis(&point.stretch());
+    /// Biot's stress U⁻¹ M, as Rᵀ F⁻ᵀ M.
+    mandel_to_biot MandelToBiot MandelStress [9] BiotStress [9]
+        |stress, point| stress.first_piola(point).biot_of_analysis(&point.stretch());
+    /// T = sym(R Biot Fᵀ)/J.
+    biot_to_cauchy BiotToCauchy BiotStress [9] CauchyStress [6]
+        |stress, point| stress.first_piola_of_analysis(&point.stretch()).cauchy(point);
+    /// τ = sym(R Biot Fᵀ).
+    biot_to_kirchhoff BiotToKirchhoff BiotStress [9] KirchhoffStress [6]
+        |stress, point| stress.first_piola_of_analysis(&point.stretch()).kirchhoff(point);
+    /// P = R Biot.
+    biot_to_first_piola BiotToFirstPiola BiotStress [9] FirstPiola [9]
+        |stress, point| stress.first_piola_of_analysis(&point.stretch());
+    /// S = sym(U⁻¹ Biot), as F⁻¹ R Biot.
+    biot_to_second_piola BiotToSecondPiola BiotStress [9] SecondPiola [6]
+        |stress, point| stress.first_piola_of_analysis(&point.stretch()).second_piola(point);
+    /// M = U Biot, as Fᵀ R Biot.
+    biot_to_mandel BiotToMandel BiotStress [9] MandelStress [9]
+        |stress, point| stress.first_piola_of_analysis(&point.stretch()).mandel(point);
 }

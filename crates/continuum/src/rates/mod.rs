@@ -16,9 +16,13 @@
 
 mod exponential;
 pub mod kernels;
+mod logarithmic_excess;
+mod material_rate;
 mod motion;
 pub mod objective;
+mod principal_frame;
 mod relative;
+mod spins;
 pub mod strain;
 mod stretch;
 mod velocity_gradient;
@@ -27,13 +31,15 @@ pub use exponential::{
     exponential, exponential_derivative, exponential_minus_identity, exponential_minus_identity_rows, exponential_rows,
     logarithm, rotation_minus_identity,
 };
+pub use material_rate::MaterialRate;
 pub use motion::{ExponentialMotion, HomogeneousMotion, LinearMotion, MotionRates};
 pub use objective::{
-    Carrier, GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, MaterialRate, SpatialStress,
-    TruesdellRate, UpperConvectedRate,
+    Carrier, GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, SpatialStress, TruesdellRate,
+    UpperConvectedRate,
 };
 pub use relative::{RelativeDeformation, RivlinEricksen, WhiteMetzner, gradients_of_rates, steady_gradients};
-pub use stretch::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, SpatialTwirl, StretchRates};
+pub use spins::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, SpatialTwirl};
+pub use stretch::StretchRates;
 pub use velocity_gradient::{
     AccelerationGradient, GradientRate, GradientSecondRate, Spin, Stretching, VelocityGradient,
 };

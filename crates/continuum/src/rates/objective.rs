@@ -27,9 +27,10 @@
 use piola_numerics::Real;
 
 use super::kernels::transported;
-use super::{GradientRate, LogarithmicSpin, PolarSpin, Spin, VelocityGradient};
-use crate::tensor::rows::{Rows, product, sum, transpose};
-use crate::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
+use super::material_rate::MaterialRate;
+use super::{LogarithmicSpin, PolarSpin, Spin, VelocityGradient};
+use crate::tensor::rows::{Rows, transpose};
+use crate::{CauchyStress, Deformation, KirchhoffStress, SecondPiola, Symmetric};
 
 /// A symmetric measure of stress whose components refer to space on both sides.
 pub trait SpatialStress<T: Real>: Copy {
@@ -81,25 +82,6 @@ macro_rules! carrier {
     )* };
 }
 carrier!(Spin PolarSpin LogarithmicSpin VelocityGradient);
-
-/// The material derivative Ṡ of a quantity S: its rate at a body point, Pa/s for a stress.
-///
-/// Of a spatial tensor it is not objective; the other rates of this module are made from it.
-///
-/// # Example
-/// ```
-/// use piola_continuum::{CauchyStress, rates::MaterialRate};
-/// let rate = MaterialRate(CauchyStress::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-/// assert_eq!(rate.0.0.trace(), 1.0);
-/// # Ok::<(), piola_continuum::ContinuumError>(())
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[repr(transparent)]
-pub struct MaterialRate<S>(
-    /// Ṡ, in the components of S.
-    pub S,
-);
 
 macro_rules! carried_rate {
     ($(#[$documentation:meta])* $name:ident, $carrier:ident) => {
@@ -461,59 +443,5 @@ impl<T: Real> UpperConvectedRate<KirchhoffStress<T>> {
         let f = deformation.gradient_rows();
         let pushed = rate.0.0.congruence(f);
         Self(KirchhoffStress(pushed))
-    }
-}
-
-impl<T: Real> MaterialRate<CauchyStress<T>> {
-    /// The material derivative of Kirchhoff's stress: τ̇ = J (Ṫ + T tr L).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, DeformationGradient, rates::{MaterialRate, VelocityGradient}};
-    /// let stress = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-    /// let twice = DeformationGradient::dilatation(2.0)?;
-    /// let rate = MaterialRate(CauchyStress::zero()).kirchhoff(&stress, &twice, &growth);
-    /// assert_eq!(rate.0.0.components[0], 120.0); // 8·5·3
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn kirchhoff(
-        &self,
-        stress: &CauchyStress<T>,
-        deformation: &impl Deformation<T>,
-        velocity_gradient: &VelocityGradient<T>,
-    ) -> MaterialRate<KirchhoffStress<T>> {
-        let total = self.0.0 + stress.0 * velocity_gradient.divergence();
-        MaterialRate(KirchhoffStress(total * deformation.jacobian()))
-    }
-}
-
-impl<T: Real> MaterialRate<SecondPiola<T>> {
-    /// The material derivative of the first Piola–Kirchhoff stress, by rows: Ṗ = Ḟ S + F Ṡ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::{DeformationGradient, SecondPiola, rates::{GradientRate, MaterialRate}};
-    /// let twice = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
-    /// let still = GradientRate::new(Matrix3::zeros())?;
-    /// let stress = SecondPiola::zero();
-    /// let rate = MaterialRate(SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// assert_eq!(rate.first_piola(&stress, &twice, &still).0.0[(0, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn first_piola(
-        &self,
-        stress: &SecondPiola<T>,
-        deformation: &impl Deformation<T>,
-        gradient_rate: &GradientRate<T>,
-    ) -> MaterialRate<FirstPiola<T>> {
-        let convected = product(gradient_rate.rows(), stress.rows());
-        let stressed = product(deformation.gradient_rows(), self.0.rows());
-        MaterialRate(FirstPiola::trusted(sum(convected, stressed)))
     }
 }

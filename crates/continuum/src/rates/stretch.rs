@@ -29,85 +29,16 @@ use core::fmt;
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{dot, from_rows};
 use piola_numerics::sums::unit_in_last_place;
-use piola_numerics::{Dual, Mask, Real};
+use piola_numerics::{Mask, Real};
 
+use super::logarithmic_excess::LogarithmicExcess;
+use super::principal_frame::{along, second_difference, spin_of};
+use super::spins::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, SpatialTwirl};
 use super::{GradientRate, VelocityGradient};
 use crate::spectral::{self, IsotropicFunction, Logarithm, StretchAnalysis};
 use crate::tensor::Skew;
-use crate::tensor::measures::skew_measure;
 use crate::tensor::rows::{Rows, apply, product, product_transposed, transpose};
 use crate::{ContinuumError, Deformation, Symmetric};
-
-skew_measure! {
-    /// The polar spin Ω = Ṙ Rᵀ, by its axial vector, 1/s: how fast the rotation R of F = R U turns, seen in space.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::rates::PolarSpin;
-    /// assert_eq!(PolarSpin::new(Vector3::new(0.0, 0.0, 2.0))?.matrix()[(1, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    PolarSpin, "polar spin"
-}
-
-skew_measure! {
-    /// The material spin Rᵀ Ṙ, by its axial vector, 1/s: the polar spin seen in the reference configuration.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::rates::MaterialSpin;
-    /// assert_eq!(MaterialSpin::new(Vector3::new(0.0, 0.0, 2.0))?.matrix()[(1, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    MaterialSpin, "material spin"
-}
-
-skew_measure! {
-    /// The logarithmic spin Ω^log, by its axial vector, 1/s: (ln V)˙ − Ω ln V + ln V Ω = D.
-    ///
-    /// ```text
-    /// Ω^log = W + Σ ((1 + r)/(1 − r) + 2/ln r) PₖDPₗ = ṘRᵀ + Σ (1/x − 1/sinh x) PₖDPₗ,   r = λₖ²/λₗ², x = ½ ln r
-    /// ```
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::rates::LogarithmicSpin;
-    /// assert_eq!(LogarithmicSpin::new(Vector3::new(0.0, 0.0, 2.0))?.matrix()[(1, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    /// # Source
-    /// H. Xiao, O. T. Bruhns & A. Meyers, *Acta Mech.* 124 (1997).
-    LogarithmicSpin, "logarithmic spin"
-}
-
-skew_measure! {
-    /// The twirl of the material triad, by its axial vector, 1/s: N̂̇ₖ = ω × N̂ₖ for the principal axes N̂ₖ of U.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::rates::MaterialTwirl;
-    /// assert_eq!(MaterialTwirl::new(Vector3::new(0.0, 0.0, 2.0))?.matrix()[(1, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    MaterialTwirl, "twirl"
-}
-
-skew_measure! {
-    /// The twirl of the spatial triad, by its axial vector, 1/s: n̂̇ₖ = ω × n̂ₖ for the principal axes n̂ₖ of V.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::rates::SpatialTwirl;
-    /// assert_eq!(SpatialTwirl::new(Vector3::new(0.0, 0.0, 2.0))?.matrix()[(1, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    SpatialTwirl, "twirl"
-}
 
 /// The rates of R, U, V, ln U and ln V, computed once, and each given when it is asked for.
 ///
@@ -541,107 +472,5 @@ impl<T: Real> StretchRates<T> {
             bc * yz + (bbc * (yy * p) + bcc * (p * zz) + abc * (n * xz + xy * r)),
             ac * xz + (aac * (xx * r) + acc * (r * zz) + abc * (n * yz + xy * p)),
         )
-    }
-}
-
-/// f[a, b, c] from the first differences, to half the digits: enough for the factor of a rounding.
-#[inline(always)]
-fn second_difference<T: Real, F: IsotropicFunction + ?Sized>(f: &F, [a, b, c]: [T; 3], ab: T, bc: T, ac: T) -> T {
-    // Over the widest gap, which the other two are no larger than.
-    let (wide, first, last) = (a - c, a - b, b - c);
-    let by_first = first.abs().at_most(wide.abs()) & last.abs().at_most(wide.abs());
-    let by_second = last.abs().at_most(first.abs());
-    let (gap, change) = (T::select(by_second, first, last), T::select(by_second, ac - bc, ab - ac));
-    let (gap, change) = (T::select(by_first, wide, gap), T::select(by_first, ab - bc, change));
-    let near = gap.abs().at_most(T::lit(1e-4) * (a + b + c));
-    let quotient = change / T::select(near, T::one(), gap);
-    if !near.any() {
-        return quotient;
-    }
-    let middle = Dual::variable((a + b + c) * T::lit(1.0 / 3.0));
-    let curvature = f.value(Dual::new(middle, Dual::constant(T::one()))).tangent.tangent;
-    T::select(near, T::lit(0.5) * curvature, quotient)
-}
-
-/// Σ Mₖₗ qₖ ⊗ qₗ for axes by rows.
-#[inline(always)]
-fn along<T: Real>(axes: &Rows<T>, m: Symmetric<T>) -> Symmetric<T> {
-    let half = product(m.rows(), *axes);
-    Symmetric::upper_triangle(product(transpose(*axes), half))
-}
-
-/// ω of S Ω + Ω S = [k]×, by (tr S 1 − S) ω = k, for an S that is diagonal but for rounding and derivatives: each
-/// pass brings in one order of these.
-#[inline(always)]
-fn spin_of<T: Real>(stretch: &[T; 6], k: [T; 3]) -> [T; 3] {
-    let [a, b, c, n, p, r] = *stretch;
-    let reciprocal = [(b + c).recip(), (c + a).recip(), (a + b).recip()];
-    let mut spin = [k[0] * reciprocal[0], k[1] * reciprocal[1], k[2] * reciprocal[2]];
-    let mut pass = 0;
-    while pass <= T::ORDER {
-        let [x, y, z] = spin;
-        spin = [
-            (k[0] + (n * y + r * z)) * reciprocal[0],
-            (k[1] + (n * x + p * z)) * reciprocal[1],
-            (k[2] + (r * x + p * y)) * reciprocal[2],
-        ];
-        pass += 1;
-    }
-    spin
-}
-
-/// g(y) = (1/x − 1/sinh x)/x = (sinh x − x)/(x² sinh x), y = x²: 1/6 − 7y/360 + …
-struct LogarithmicExcess;
-
-impl IsotropicFunction for LogarithmicExcess {
-    #[inline(always)]
-    fn value<T: Real>(&self, y: T) -> T {
-        let one = T::one();
-        // Both series have positive terms only; beyond y = 2 the closed form loses no digits either.
-        let near = y.less_than(T::lit(2.0));
-        let mut numerator = T::zero();
-        let mut denominator = T::zero();
-        let inside = T::select(near, y, one);
-        let mut k = SERIES_TERMS;
-        while 0 < k {
-            // Σ y^k/(2k+3)! and Σ y^k/(2k+1)!, nested.
-            let n = f64::from(2 * k);
-            numerator = (one + numerator) * inside * T::lit(1.0 / ((n + 2.0) * (n + 3.0)));
-            denominator = (one + denominator) * inside * T::lit(1.0 / (n * (n + 1.0)));
-            k -= 1;
-        }
-        let series = T::lit(1.0 / 6.0) * (one + numerator) / (one + denominator);
-        if near.all() {
-            return series;
-        }
-        let beyond = T::select(near, T::lit(2.0), y);
-        let x = beyond.sqrt();
-        T::select(near, series, (one - x / x.sinh()) / beyond)
-    }
-
-    #[inline(always)]
-    fn smooth_within<T: Real>(&self, y: T) -> T {
-        // The nearest singularity is the first zero of the hyperbolic sine, y = −π².
-        y.abs() + T::lit(9.0)
-    }
-}
-
-/// With y ≤ 2 the first term left out is below 2¹²/25!, 3e-22.
-const SERIES_TERMS: i32 = 11;
-
-#[cfg(test)]
-mod tests {
-    //! What cannot be seen from outside.
-    use super::*;
-
-    #[test]
-    fn excess_of_the_logarithmic_spin_equals_its_closed_form() {
-        for y in [0.0, 1e-12, 0.5, 1.999_999, 2.0, 2.000_001, 30.0, 900.0_f64] {
-            let x = y.sqrt();
-            let closed = if y < 1e-6 { 1.0 / 6.0 - 7.0 * y / 360.0 } else { (1.0 - x / x.sinh()) / y };
-            let rounding = if y < 1e-6 { 4.0 } else { 4.0 + 16.0 / y };
-            let tolerance = rounding * f64::EPSILON * closed.abs().max(1e-3);
-            assert!((LogarithmicExcess.value(y) - closed).abs() <= tolerance, "y = {y}");
-        }
     }
 }

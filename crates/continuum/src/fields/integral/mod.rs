@@ -24,18 +24,22 @@
 
 mod balance;
 mod element;
+mod energy_balance;
 mod estimate;
 mod integrand;
+mod mass_balance;
 mod mesh;
 mod quadrature;
 mod region;
 mod resultants;
 mod transport;
 
-pub use balance::{EnergyBalance, IntegralBalance, MassBalance, StoredEnergy, strain_energy, stress_power};
+pub use balance::{IntegralBalance, stress_power};
 pub use element::{ExplicitMotion, LinearTetrahedra, MaterialPoint, QuadraticTetrahedra, TetrahedralElements};
+pub use energy_balance::{EnergyBalance, StoredEnergy, strain_energy};
 pub use estimate::{AdaptiveQuadrature, Estimate, EstimatedQuadrature};
 pub use integrand::Integrand;
+pub use mass_balance::MassBalance;
 pub use mesh::{BoundaryTriangle, TetrahedralMesh};
 pub use quadrature::Quadrature;
 pub use region::{Ball, Cuboid, Cylinder, Ellipsoid, MovedRegion, Region, SphericalShell, SurfacePoint, VolumePoint};

@@ -1,0 +1,274 @@
+//! Invariants of the part of a deformation that does not change the volume, and their derivatives.
+//!
+//! ```text
+//! Ī₁ = J^(−2/3) I₁      Ī₂ = J^(−4/3) I₂      of C or B, unchanged by a dilatation
+//! ```
+
+use piola_numerics::{Mask, Real};
+
+use super::{derivatives, first, second};
+use crate::strain::kernels::{green, left_cauchy_green, right_cauchy_green, right_cauchy_green_minus_one};
+use crate::tensor::rows::Rows;
+use crate::{Deformation, Symmetric};
+
+/// J^p.
+#[inline(always)]
+fn power_of_jacobian<T: Real>(deformation: &impl Deformation<T>, exponent: f64) -> T {
+    (T::lit(exponent) * deformation.ln_jacobian()).exp()
+}
+
+/// Ī₁ = J^(−2/3) I₁, unchanged by a dilatation.
+///
+/// # Accuracy
+/// 8 ulp × the condition number; |ln J| ulp from the power.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let bar = DeformationGradient::uniaxial(8.0, 1.0)?;
+/// assert!((invariants::isochoric_first(&bar) - 66.0 / 4.0_f64).abs() < 1e-13); // (64 + 1 + 1)/8^(2/3)
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_first<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let deviation = Deviation::of(deformation);
+    deviation.choose(
+        |small| T::lit(3.0) + small.first_minus_three(),
+        || power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation),
+    )
+}
+
+/// Ī₂ = J^(−4/3) I₂, unchanged by a dilatation.
+///
+/// # Accuracy
+/// 8 ulp × the condition number; |ln J| ulp from the power.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let bar = DeformationGradient::uniaxial(8.0, 1.0)?;
+/// assert!((invariants::isochoric_second(&bar) - 129.0 / 16.0_f64).abs() < 1e-13); // (64 + 64 + 1)/8^(4/3)
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_second<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let deviation = Deviation::of(deformation);
+    deviation.choose(
+        |small| T::lit(3.0) + small.second_minus_three(),
+        || power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation),
+    )
+}
+
+/// Ī₁ − 3, without cancellation: it is of second order in the strain's deviator.
+///
+/// ```text
+/// C ~ 1 + D,  tr D = 0:    Ī₁ − 3 = 3 ((1 + v)^(−1/3) − 1),    v = det(1 + D) − 1 = −½ D : D + det D
+/// ```
+///
+/// # Accuracy
+/// A few ulp × |E|/|dev E|, of itself, however small the strain is.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DisplacementGradient, strain::invariants};
+/// let shear = invariants::isochoric_first_minus_three(&DisplacementGradient::simple_shear(1e-9)?);
+/// assert!((shear / 1e-18 - 1.0_f64).abs() < 1e-15); // k²
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let deviation = Deviation::of(deformation);
+    deviation.choose(Deviation::first_minus_three, || {
+        power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation) - T::lit(3.0)
+    })
+}
+
+/// Ī₂ − 3, without cancellation: it is of second order in the strain's deviator.
+///
+/// ```text
+/// Ī₂ − 3 = (1 + v)^(−2/3) (3 − ½ D : D) − 3        with D and v as for Ī₁
+/// ```
+///
+/// # Accuracy
+/// As [`isochoric_first_minus_three`].
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DisplacementGradient, strain::invariants};
+/// let shear = invariants::isochoric_second_minus_three(&DisplacementGradient::simple_shear(1e-9)?);
+/// assert!((shear / 1e-18 - 1.0_f64).abs() < 1e-15); // k²
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let deviation = Deviation::of(deformation);
+    deviation.choose(Deviation::second_minus_three, || {
+        power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation) - T::lit(3.0)
+    })
+}
+
+/// C = c (1 + D) with c = ⅓ tr C and tr D = 0.
+struct Deviation<T> {
+    /// −½ D : D, the second invariant of D.
+    second: T,
+    /// det(1 + D) − 1.
+    volume: T,
+}
+
+impl<T: Real> Deviation<T> {
+    #[inline(always)]
+    fn of(deformation: &impl Deformation<T>) -> Self {
+        // From 2E where C is near 1, from C itself where a dilatation has moved it away.
+        let twice_green = right_cauchy_green_minus_one(deformation.displacement_rows());
+        let metric = right_cauchy_green(deformation.gradient_rows());
+        let excess = twice_green.trace() / T::lit(3.0);
+        let near = excess.abs().less_than(T::lit(0.5));
+        let mean = T::select(near, T::one() + excess, metric.trace() / T::lit(3.0));
+        let (small, large) = (twice_green.deviator().components, metric.deviator().components);
+        let chosen: [T; 6] = core::array::from_fn(|k| T::select(near, small[k], large[k]));
+        let d = Symmetric { components: chosen } * mean.recip();
+        let second = T::lit(-0.5) * d.double_contraction(&d);
+        Self { second, volume: second + d.determinant() }
+    }
+
+    /// `near` unless the strain is so large that 1 + D has lost its smallest eigenvalue.
+    #[inline(always)]
+    fn choose(&self, near: impl Fn(&Self) -> T, far: impl Fn() -> T) -> T {
+        let is_near = T::lit(-0.75).less_than(self.volume);
+        if is_near.all() { near(self) } else { T::select(is_near, near(self), far()) }
+    }
+
+    /// (1 + v)^p − 1.
+    #[inline(always)]
+    fn power_minus_one(&self, exponent: f64) -> T {
+        (T::lit(exponent) * self.volume.ln_1p()).exp_m1()
+    }
+
+    #[inline(always)]
+    fn first_minus_three(&self) -> T {
+        T::lit(3.0) * self.power_minus_one(-1.0 / 3.0)
+    }
+
+    #[inline(always)]
+    fn second_minus_three(&self) -> T {
+        let power = self.power_minus_one(-2.0 / 3.0);
+        T::lit(3.0) * power + self.second * (T::one() + power)
+    }
+}
+
+/// ∂Ī₁/∂C = J^(−2/3) (1 − ⅓ I₁ C⁻¹) = 2 J^(−2/3) C⁻¹ dev E, without cancellation at small strain.
+///
+/// # Accuracy
+/// A few ulp × the condition number of C.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let bar = DeformationGradient::diagonal([2.0, 1.0, 0.5])?; // I₁ = 5.25, J = 1
+/// let derivative = invariants::isochoric_first_derivative(&bar);
+/// assert!((derivative.components[0] - (1.0 - 5.25 / 12.0_f64)).abs() < 1e-15);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_first_derivative<T: Real>(deformation: &impl Deformation<T>) -> Symmetric<T> {
+    let e = green(deformation.displacement_rows());
+    times_inverse_metric(deformation, &e.deviator(), T::lit(2.0) * power_of_jacobian(deformation, -2.0 / 3.0))
+}
+
+/// ∂Ī₂/∂C = J^(−4/3) (I₁ 1 − C − ⅔ I₂ C⁻¹) = 2 J^(−4/3) C⁻¹ dev((1 + 2 tr E) E − 2 E²).
+///
+/// # Accuracy
+/// As [`isochoric_first_derivative`].
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let bar = DeformationGradient::diagonal([2.0, 1.0, 0.5])?; // I₁ = I₂ = 5.25, J = 1
+/// let derivative = invariants::isochoric_second_derivative(&bar);
+/// assert!((derivative.components[0] - (5.25 - 4.0 - 3.5 / 4.0_f64)).abs() < 1e-15);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_second_derivative<T: Real>(deformation: &impl Deformation<T>) -> Symmetric<T> {
+    let e = green(deformation.displacement_rows());
+    let square = left_cauchy_green(e.rows());
+    let two = T::lit(2.0);
+    let inner = e * (T::one() + two * e.trace()) - square * two;
+    times_inverse_metric(deformation, &inner.deviator(), two * power_of_jacobian(deformation, -4.0 / 3.0))
+}
+
+/// s C⁻¹ A of an A that commutes with C.
+#[inline(always)]
+fn times_inverse_metric<T: Real>(deformation: &impl Deformation<T>, a: &Symmetric<T>, s: T) -> Symmetric<T> {
+    let inverse = deformation.inverse_rows();
+    let metric: Rows<T> = left_cauchy_green(inverse).rows();
+    Symmetric::symmetric_part(crate::tensor::rows::product(metric, a.rows())) * s
+}
+
+/// `D²Ī₁[X]`, the derivative of ∂Ī₁/∂C along a symmetric X.
+///
+/// ```text
+/// −⅓ (C⁻¹ : X) ∂Ī₁/∂C + ⅓ J^(−2/3) (I₁ C⁻¹ X C⁻¹ − (tr X) C⁻¹)
+/// ```
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, Symmetric, strain::invariants};
+/// let shear = Symmetric::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
+/// let second = invariants::isochoric_first_second_derivative(&DeformationGradient::identity(), &shear);
+/// assert_eq!(second.components[3], 1.0_f64); // dev X
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_first_second_derivative<T: Real>(deformation: &impl Deformation<T>, x: &Symmetric<T>) -> Symmetric<T> {
+    let (metric, turned) = inverse_metric_and_sandwich(deformation, x);
+    let third = T::lit(1.0 / 3.0);
+    let rate = -third * metric.double_contraction(x);
+    isochoric_first_derivative(deformation) * rate
+        + (turned * first(deformation) - metric * x.trace()) * (third * power_of_jacobian(deformation, -2.0 / 3.0))
+}
+
+/// `D²Ī₂[X]`, the derivative of ∂Ī₂/∂C along a symmetric X.
+///
+/// ```text
+/// −⅔ (C⁻¹ : X) ∂Ī₂/∂C + J^(−4/3) (tr X 1 − X − ⅔ (I₁ tr X − C : X) C⁻¹ + ⅔ I₂ C⁻¹ X C⁻¹)
+/// ```
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, Symmetric, strain::invariants};
+/// let shear = Symmetric::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
+/// let second = invariants::isochoric_second_second_derivative(&DeformationGradient::identity(), &shear);
+/// assert!((second.components[3] - 1.0_f64).abs() < 1e-15); // dev X
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_second_second_derivative<T: Real>(
+    deformation: &impl Deformation<T>,
+    x: &Symmetric<T>,
+) -> Symmetric<T> {
+    let (metric, turned) = inverse_metric_and_sandwich(deformation, x);
+    let two_thirds = T::lit(2.0 / 3.0);
+    let rate = -two_thirds * metric.double_contraction(x);
+    let c = right_cauchy_green(deformation.gradient_rows());
+    let of_second = derivatives(&c)[1].double_contraction(x);
+    isochoric_second_derivative(deformation) * rate
+        + (derivatives(x)[1] - metric * (two_thirds * of_second) + turned * (two_thirds * second(deformation)))
+            * power_of_jacobian(deformation, -4.0 / 3.0)
+}
+
+/// C⁻¹ and C⁻¹ X C⁻¹.
+#[inline(always)]
+fn inverse_metric_and_sandwich<T: Real>(
+    deformation: &impl Deformation<T>,
+    x: &Symmetric<T>,
+) -> (Symmetric<T>, Symmetric<T>) {
+    let metric = left_cauchy_green(deformation.inverse_rows());
+    (metric, x.congruence(metric.rows()))
+}

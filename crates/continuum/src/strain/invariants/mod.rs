@@ -1,0 +1,267 @@
+//! Invariants of deformation, their small-strain forms without cancellation, and their derivatives.
+//!
+//! ```text
+//! I₁ = tr A      I₂ = ½ (I₁² − tr A²)      I₃ = det A                                B(4.62)
+//! ∂I₁/∂A = 1     ∂I₂/∂A = I₁ 1 − A         ∂I₃/∂A = Cof A = I₃ A⁻¹                    W(24.12), W(24.16)
+//! Ī₁ = J^(−2/3) I₁      Ī₂ = J^(−4/3) I₂                                      of C or B, unchanged by dilatation
+//! ```
+//!
+//! | of | function | | small strain |
+//! |---|---|---|---|
+//! | any symmetric tensor | [`principal_invariants`], [`derivatives`], [`second_derivatives`] | | |
+//! | a deformation: C and B | [`first`], [`second`], [`third`] | I | [`first_minus_three`], [`second_minus_three`], [`third_minus_one`] |
+//! | its part without change of volume | [`isochoric_first`], [`isochoric_second`] | Ī | [`isochoric_first_minus_three`], [`isochoric_second_minus_three`] |
+//!
+//! J and J − 1 are asked of the [`Deformation`] itself. Derivatives of Ī with respect to C are those functions that
+//! begin with `isochoric` and end with `derivative`.
+
+use piola_numerics::linear::matrix3::dot;
+use piola_numerics::Real;
+
+use super::kernels::right_cauchy_green;
+use crate::deformation::volume::trace_pair;
+use crate::tensor::rows::{Rows, cofactor, double_contraction};
+use crate::{Deformation, Symmetric};
+
+mod isochoric;
+
+pub use isochoric::{
+    isochoric_first, isochoric_first_derivative, isochoric_first_minus_three, isochoric_first_second_derivative,
+    isochoric_second, isochoric_second_derivative, isochoric_second_minus_three, isochoric_second_second_derivative,
+};
+
+pub use crate::stress::invariants::principal_invariants;
+
+/// (∂I₁/∂A, ∂I₂/∂A, ∂I₃/∂A) = (1, I₁ 1 − A, Cof A) of a symmetric tensor; finite for singular A too.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, strain::invariants};
+/// let derivatives = invariants::derivatives(&Symmetric::diagonal([2.0, 3.0, 0.0]));
+/// assert_eq!(derivatives[1], Symmetric::diagonal([3.0, 2.0, 5.0]));
+/// assert_eq!(derivatives[2], Symmetric::diagonal([0.0, 0.0, 6.0]));
+/// ```
+///
+/// # Source
+/// W(24.12), W(24.16).
+#[inline(always)]
+#[must_use]
+pub fn derivatives<T: Real>(a: &Symmetric<T>) -> [Symmetric<T>; 3] {
+    let [xx, yy, zz, xy, yz, xz] = a.components;
+    // I₁ − A₁₁ as A₂₂ + A₃₃: no difference is formed.
+    let second = Symmetric::new(yy + zz, xx + zz, xx + yy, -xy, -yz, -xz);
+    [Symmetric::identity(), second, Symmetric::upper_triangle(cofactor(a.rows()))]
+}
+
+/// The second derivatives of I₁, I₂ and I₃ along two symmetric directions X and Y.
+///
+/// ```text
+/// D²I₁ = 0        D²I₂ = tr X tr Y − X : Y        D²I₃ = (tr A tr X − A : X) tr Y − tr X A : Y − tr A X : Y + 2 (A X) : Y
+/// ```
+///
+/// # Example
+/// ```
+/// use piola_continuum::{Symmetric, strain::invariants};
+/// let one = Symmetric::<f64>::identity();
+/// assert_eq!(invariants::second_derivatives(&one, &one, &one), [0.0, 6.0, 6.0]); // of 3 s, 3 s² and s³ at s = 1
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn second_derivatives<T: Real>(a: &Symmetric<T>, x: &Symmetric<T>, y: &Symmetric<T>) -> [T; 3] {
+    let second = derivatives(x)[1].double_contraction(y);
+    [T::zero(), second, cofactor_derivative(a, x).double_contraction(y)]
+}
+
+/// The derivative of Cof A along X: the polarised cofactor, without division.
+#[inline(always)]
+fn cofactor_derivative<T: Real>(a: &Symmetric<T>, x: &Symmetric<T>) -> Symmetric<T> {
+    let [axx, ayy, azz, axy, ayz, axz] = a.components;
+    let [xx, yy, zz, xy, yz, xz] = x.components;
+    let two = T::lit(2.0);
+    Symmetric::new(
+        ayy * zz + azz * yy - two * ayz * yz,
+        axx * zz + azz * xx - two * axz * xz,
+        axx * yy + ayy * xx - two * axy * xy,
+        (ayz * xz + axz * yz) - (axy * zz + azz * xy),
+        (axy * xz + axz * xy) - (axx * yz + ayz * xx),
+        (axy * yz + ayz * xy) - (ayy * xz + axz * yy),
+    )
+}
+
+/// I₁ = tr C = F : F.
+///
+/// # Accuracy
+/// 5 ulp.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// assert_eq!(invariants::first(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?), 14.0);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn first<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let f = deformation.gradient_rows();
+    double_contraction(f, f)
+}
+
+/// I₂ = ½ (I₁² − tr C²) = Cof F : Cof F.
+///
+/// # Accuracy
+/// A few ulp × the condition number of Cof F: no difference of squares is formed.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// assert_eq!(invariants::second(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?), 49.0); // 4 + 36 + 9
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn second<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let k = deformation.cofactor_rows();
+    double_contraction(k, k)
+}
+
+/// I₃ = det C = J².
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// assert_eq!(invariants::third(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?), 36.0);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn third<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let jacobian = deformation.jacobian();
+    jacobian * jacobian
+}
+
+/// I₁ − 3 = 2 tr ∇u + ∇u : ∇u, without cancellation.
+///
+/// # Accuracy
+/// A few ulp of |∇u|², or of I₁ − 3 where that is larger.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DisplacementGradient, strain::invariants};
+/// assert_eq!(invariants::first_minus_three(&DisplacementGradient::simple_shear(1e-9)?), 1e-9 * 1e-9);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let h = deformation.displacement_rows();
+    let (trace, error) = trace_pair(h);
+    (trace + trace) + (double_contraction(h, h) + (error + error))
+}
+
+/// I₂ − 3 = 2 tr K + K : K with K = Cof F − 1 = (tr ∇u) 1 − ∇uᵀ + Cof ∇u, without cancellation.
+///
+/// # Accuracy
+/// A few ulp of |∇u|², or of I₂ − 3 where that is larger; of |K|² at large strain.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DisplacementGradient, strain::invariants};
+/// assert_eq!(invariants::second_minus_three(&DisplacementGradient::simple_shear(1e-9)?), 1e-9 * 1e-9);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
+    let h = deformation.displacement_rows();
+    let minors = cofactor(h);
+    let (trace, error) = trace_pair(h);
+    let k = [
+        [(h[1][1] + h[2][2]) + minors[0][0], minors[0][1] - h[1][0], minors[0][2] - h[2][0]],
+        [minors[1][0] - h[0][1], (h[0][0] + h[2][2]) + minors[1][1], minors[1][2] - h[2][1]],
+        [minors[2][0] - h[0][2], minors[2][1] - h[1][2], (h[0][0] + h[1][1]) + minors[2][2]],
+    ];
+    // tr K = 2 tr ∇u + tr Cof ∇u.
+    let doubled_second = minors[0][0] + minors[1][1] + minors[2][2];
+    let (four, two) = (T::lit(4.0), T::lit(2.0));
+    four * trace + ((two * doubled_second + double_contraction(k, k)) + four * error)
+}
+
+/// I₃ − 1 = (J − 1)(J + 1), without cancellation.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DisplacementGradient, strain::invariants};
+/// assert_eq!(invariants::third_minus_one(&DisplacementGradient::diagonal([1e-20, 0.0, 0.0])?), 2e-20);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn third_minus_one<T: Real>(deformation: &impl Deformation<T>) -> T {
+    deformation.volume_change() * (T::one() + deformation.jacobian())
+}
+
+/// ∂I₁/∂F = 2 F.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let gradient = invariants::first_gradient(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?);
+/// assert_eq!(gradient[2], [0.0, 0.0, 6.0]);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn first_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
+    crate::tensor::rows::scaled(deformation.gradient_rows(), T::lit(2.0))
+}
+
+/// ∂I₂/∂F = 2 F (I₁ 1 − C).
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let gradient = invariants::second_gradient(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?);
+/// assert_eq!(gradient[0][0], 26.0); // 2 · 1 · (4 + 9)
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn second_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
+    let f = deformation.gradient_rows();
+    let c = right_cauchy_green(f);
+    gradient_of_metric_derivative(f, &derivatives(&c)[1])
+}
+
+/// ∂I₃/∂F = 2 J Cof F.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, strain::invariants};
+/// let gradient = invariants::third_gradient(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?);
+/// assert_eq!(gradient[0][0], 72.0); // 2 · 6 · (2 · 3)
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn third_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
+    crate::tensor::rows::scaled(deformation.cofactor_rows(), T::lit(2.0) * deformation.jacobian())
+}
+
+/// ∂φ/∂F = 2 F (∂φ/∂C) of a function of C, given its derivative: by the chain rule of C = Fᵀ F.
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, Deformation, strain::invariants};
+/// let bar = DeformationGradient::diagonal([2.0, 1.0, 0.5])?;
+/// let derivative = invariants::isochoric_first_derivative(&bar);
+/// let gradient = invariants::gradient_of_metric_derivative(bar.gradient_rows(), &derivative);
+/// assert!((gradient[0][0] - 4.0 * (1.0 - 5.25 / 12.0_f64)).abs() < 1e-14);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn gradient_of_metric_derivative<T: Real>(f: Rows<T>, derivative: &Symmetric<T>) -> Rows<T> {
+    let two = T::lit(2.0);
+    let s = derivative.rows();
+    f.map(|row| [two * dot(row, s[0]), two * dot(row, s[1]), two * dot(row, s[2])])
+}
