@@ -3,10 +3,13 @@
 #![forbid(unsafe_code)]
 
 mod error;
+#[cfg(feature = "fit")]
+pub mod fit;
 mod estimate;
 mod flows;
 mod inverse;
 pub mod quadrature;
+pub mod recover;
 mod slip;
 mod stresses;
 mod validity;

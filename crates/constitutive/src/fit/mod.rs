@@ -38,7 +38,7 @@ mod test;
 pub use laws::{AnyModel, Series};
 pub use model::{Fitted, Model, Parameter, Role, StableSign};
 pub use stability::{Counterexample, StabilityReport};
-pub use statistics::{Covariance, Criteria};
+pub use statistics::{Covariance, Criteria, student};
 pub use test::{Component, Data, Measure, Table, Test};
 
 use crate::ConstitutiveError;
@@ -338,7 +338,7 @@ fn result<M: Model>(
     let told: Vec<usize> =
         all.parameters.iter().enumerate().filter(|&(place, &k)| kept(place, k)).map(|(_, &k)| k).collect();
     let covariance = if told.len() < all.parameters.len() { Covariance::new(&slopes, &told, variance) } else { all };
-    let student = statistics::student(options.confidence, degrees_of_freedom);
+    let quantile = student(options.confidence, degrees_of_freedom);
     let estimate = |(k, parameter): (usize, &Parameter)| {
         let place = covariance.parameters.iter().position(|&place| place == k);
         let state = match place {
@@ -348,7 +348,7 @@ fn result<M: Model>(
         };
         let standard_error =
             place.filter(|_| 0 < degrees_of_freedom).map(|place| covariance.matrix[place][place].sqrt());
-        let interval = standard_error.zip(student).map(|(error, t)| [theta[k] - t * error, theta[k] + t * error]);
+        let interval = standard_error.zip(quantile).map(|(error, t)| [theta[k] - t * error, theta[k] + t * error]);
         let (name, is_stress) = (parameter.name.clone(), parameter.is_stress);
         Estimate { name, is_stress, value: theta[k], standard_error, interval, state }
     };

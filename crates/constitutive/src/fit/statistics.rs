@@ -25,7 +25,17 @@ pub struct Criteria {
 }
 
 impl Criteria {
-    pub(super) fn new(points: usize, parameters: usize, squares: f64) -> Self {
+    /// Of a fit of so many parameters to so many numbers that leaves a sum of squares.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fit::Criteria;
+    /// // One parameter, six numbers, S = 6: only the count is left, 2 K = 4; AICc adds 2·2·3/3.
+    /// let criteria = Criteria::new(6, 1, 6.0);
+    /// assert_eq!((criteria.aic, criteria.aicc), (4.0, Some(8.0)));
+    /// ```
+    #[must_use]
+    pub fn new(points: usize, parameters: usize, squares: f64) -> Self {
         let (m, counted) = (points as f64, parameters as f64 + 1.0);
         let misfit = m * (squares.max(f64::MIN_POSITIVE) / m).ln();
         let aic = misfit + 2.0 * counted;
@@ -56,7 +66,13 @@ impl Covariance {
     }
 
     /// Of J for the parameters `free`, less those that no measurement depends on or that cannot be told apart.
-    pub(super) fn new(slopes: &DMatrix<f64>, free: &[usize], variance: f64) -> Self {
+    ///
+    /// | symbol | argument |
+    /// |---|---|
+    /// | J = W ∂P/∂θ | `slopes`, a row for each number and a column for each parameter |
+    /// | s² | `variance` |
+    #[must_use]
+    pub fn new(slopes: &DMatrix<f64>, free: &[usize], variance: f64) -> Self {
         /// Parameters whose share in a direction that nothing depends on is below this are determined.
         const SHARE: f64 = 1e-4;
         let sizes: Vec<f64> = free.iter().map(|&k| slopes.column(k).norm()).collect();
@@ -94,7 +110,15 @@ impl Covariance {
 const MANY: usize = 1_000_000;
 
 /// t such that a Student variable is in ±t with this probability; none without degrees of freedom.
-pub(super) fn student(confidence: f64, degrees: usize) -> Option<f64> {
+///
+/// # Example
+/// ```
+/// use piola_constitutive::fit::student;
+/// let t = student(0.5, 1).expect("a degree of freedom");
+/// assert!((t - 1.0).abs() < 1e-9); // tan(π/4)
+/// ```
+#[must_use]
+pub fn student(confidence: f64, degrees: usize) -> Option<f64> {
     if MANY <= degrees {
         return Some(Normal::standard().inverse_cdf(0.5 * (1.0 + confidence)));
     }

@@ -1,0 +1,411 @@
+//! Curves recovered from tables, with their bands.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::band::critical;
+use super::rule::{ONE_POWER, Rule};
+use super::series::Order;
+use super::smoothing::{self, Criterion, EXACT, Fitted, Penalised, Smoother, Smoothing};
+use super::table::{FlowTable, Noise};
+use crate::ViscometryError;
+
+/// What is taken to hold below the smallest torque of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum BelowSmallest {
+    /// Nothing: the recovered quantity is local.
+    NotNeeded,
+    /// ΔΩ is proportional to the torque.
+    Newtonian,
+    /// ΔΩ is a power of the torque.
+    PowerLaw {
+        /// Its exponent, d ln ΔΩ/d ln M.
+        exponent: f64,
+    },
+    /// ΔΩ is a sum of powers of the torque.
+    Powers {
+        /// The mean of their exponents at the smallest torque, d ln ΔΩ/d ln M.
+        mean: f64,
+        /// The variance of their exponents there, d² ln ΔΩ/(d ln M)².
+        variance: f64,
+    },
+}
+
+/// Whether the recovered curve rises with its abscissa, as the shear stress of a stable fluid does with the shear rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Monotonicity {
+    /// It does.
+    Rising,
+    /// It does not between these abscissas, the first interval of several.
+    Falling {
+        /// From here, Pa or 1/s.
+        from: f64,
+        /// To here.
+        to: f64,
+    },
+}
+
+/// What to do about a smoothed curve that does not rise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Rise {
+    /// It is reported.
+    #[default]
+    Reported,
+    /// It is smoothed further until it rises.
+    Enforced,
+}
+
+/// How to recover.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
+pub struct Options {
+    /// What to do about a smoothed curve that does not rise.
+    pub rise: Rise,
+    /// What is taken to hold below the smallest torque; found from the table unless given as `Newtonian` or `PowerLaw`.
+    pub below_smallest: Option<BelowSmallest>,
+}
+
+/// Points between two rows at which bands are known.
+const FINE: usize = 4;
+/// The degree of a curve through exact rows.
+const DEGREE: usize = 7;
+/// Bands hold this times the differences between curves that differ in nothing but degree or one row.
+const SAFETY: f64 = 2.0;
+/// Rows left out one at a time, at most.
+const LEFT_OUT: usize = 40;
+
+/// A recovered curve: abscissas, the recovered quantity, and what bands follow from.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Recovered {
+    rule: Rule,
+    main: Fitted,
+    /// Curves that could be as true.
+    others: Vec<Fitted>,
+    /// What makes errors of the main curve, if it is smoothed.
+    penalised: Option<Penalised>,
+    /// Relative noise of an interpolated curve.
+    level: f64,
+    /// ln drive and ln response of the rows.
+    u: Vec<f64>,
+    y: Vec<f64>,
+    /// Abscissa over drive.
+    scale: f64,
+    /// Terms of the series in each interval between rows.
+    terms: Vec<usize>,
+    pub(super) smoothing: Smoothing,
+    pub(super) below: BelowSmallest,
+    pub(super) monotonicity: Monotonicity,
+    pub(super) residuals: Vec<f64>,
+    /// The confidence and the half widths of ln at the fine points.
+    band: Option<(f64, Vec<f64>)>,
+}
+
+impl Recovered {
+    pub(super) fn new<G>(
+        table: &FlowTable<G>,
+        rule: Rule,
+        scale: f64,
+        options: Options,
+    ) -> Result<Self, ViscometryError> {
+        table.check_rising(f64::INFINITY)?;
+        let u: Vec<f64> = table.drive.iter().map(|x| x.ln()).collect();
+        let y: Vec<f64> = table.response.iter().map(|x| x.ln()).collect();
+        let level = match table.noise {
+            Noise::Exact => 0.0,
+            Noise::Relative(level) => level,
+            Noise::Estimated => smoothing::noise(&u, &y),
+        };
+        table.check_rising(level)?;
+        let singular = || ViscometryError::RowsTooClose { rows: u.len() };
+        let rule = assumed(rule, options.below_smallest);
+        let mut recovered = if level <= EXACT {
+            let main = Fitted::through(&u, &y, DEGREE).ok_or_else(singular)?;
+            let others =
+                [DEGREE - 2, DEGREE + 2].iter().filter_map(|degree| Fitted::through(&u, &y, *degree)).collect();
+            let smoothing = Smoothing {
+                criterion: Criterion::Interpolation,
+                noise: level,
+                parameter: 0.0,
+                degrees_of_freedom: u.len() as f64,
+                raised: false,
+            };
+            Self::assembled(rule, main, others, None, smoothing, (u, y, scale))
+        } else {
+            let known = matches!(table.noise, Noise::Relative(_)).then_some(level);
+            let rule = coarse(rule);
+            let smoother = Smoother::new(&u, &y, 2).ok_or_else(singular)?;
+            let rung = smoother.choose(known);
+            let other = Smoother::new(&u, &y, 3).ok_or_else(singular)?;
+            let other = other.fit(other.choose(known), known, false).fitted;
+            let make = |rung, raised| {
+                let fit = smoother.fit(rung, known, raised);
+                let (main, smoothing) = (fit.fitted.clone(), fit.smoothing);
+                Self::assembled(rule, main, vec![other.clone()], Some(fit), smoothing, (u.clone(), y.clone(), scale))
+            };
+            let mut made = make(rung, false);
+            if options.rise == Rise::Enforced {
+                let mut rung = rung;
+                while made.monotonicity()? != Monotonicity::Rising {
+                    let Some(next) = Smoother::rougher(rung) else { break };
+                    rung = next;
+                    made = make(rung, true);
+                }
+            }
+            made
+        };
+        recovered.level = level;
+        recovered.choose_terms();
+        recovered.monotonicity = recovered.monotonicity()?;
+        recovered.below = recovered.assumption(options.below_smallest);
+        Ok(recovered)
+    }
+
+    fn assembled(
+        rule: Rule,
+        main: Fitted,
+        others: Vec<Fitted>,
+        penalised: Option<Penalised>,
+        smoothing: Smoothing,
+        (u, y, scale): (Vec<f64>, Vec<f64>, f64),
+    ) -> Self {
+        let terms = u.windows(2).map(|pair| rule.most_terms(pair[0], u[0])).collect();
+        let residuals = u.iter().zip(&y).map(|(u, y)| (y - main.at(*u)[0]).exp_m1()).collect();
+        Self {
+            rule,
+            main,
+            others,
+            penalised,
+            level: 0.0,
+            u,
+            y,
+            scale,
+            terms,
+            smoothing,
+            below: BelowSmallest::NotNeeded,
+            monotonicity: Monotonicity::Rising,
+            residuals,
+            band: None,
+        }
+    }
+
+    /// In each interval, as many terms as make the result depend least on the curve and on the rest.
+    fn choose_terms(&mut self) {
+        if self.penalised.is_some() || !matches!(self.rule, Rule::Series { exponent: None, .. }) {
+            return;
+        }
+        for interval in 0..self.terms.len() {
+            let at = [self.u[interval], self.u[interval + 1]];
+            let doubt = |terms: usize| {
+                let spread = |u| self.spread(&self.others, u, terms);
+                at.into_iter().map(spread).fold(0.0, f64::max)
+            };
+            let most = self.terms[interval];
+            let best = (0..=most).rev().min_by(|&a, &b| doubt(a).total_cmp(&doubt(b)));
+            self.terms[interval] = best.unwrap_or(most);
+        }
+    }
+
+    /// The largest difference to other curves, with what the rest may be off.
+    fn spread(&self, others: &[Fitted], u: f64, terms: usize) -> f64 {
+        let Some([value, rest]) = self.rule.value(&self.main, u, terms) else { return f64::INFINITY };
+        others.iter().fold(rest, |most, other| match self.rule.value(other, u, terms) {
+            Some([other, _]) => most.max((other - value).abs() + rest),
+            None => f64::INFINITY,
+        })
+    }
+
+    /// The interval of u, whose terms hold there.
+    fn interval(&self, u: f64) -> usize {
+        self.u[1..self.u.len() - 1].partition_point(|row| *row <= u)
+    }
+
+    fn logarithm(&self, u: f64) -> Option<f64> {
+        self.rule.value(&self.main, u, self.terms[self.interval(u)]).map(|[value, _]| value)
+    }
+
+    /// The fine points, `FINE` in each interval and the last row.
+    fn fine(&self) -> impl Iterator<Item = f64> + '_ {
+        let inside = |pair: &[f64]| {
+            let [a, b] = [pair[0], pair[1]];
+            (0..FINE).map(move |k| a + (b - a) * k as f64 / FINE as f64)
+        };
+        self.u.windows(2).flat_map(inside).chain(self.u.last().copied())
+    }
+
+    fn abscissa(&self, u: f64) -> f64 {
+        self.scale * u.exp()
+    }
+
+    fn monotonicity(&self) -> Result<Monotonicity, ViscometryError> {
+        let mut previous: Option<[f64; 2]> = None;
+        for u in self.fine() {
+            let Some(value) = self.logarithm(u) else {
+                return Err(ViscometryError::NotRecovered { at: self.abscissa(u) });
+            };
+            if let Some([before, lower]) = previous
+                && value < lower
+            {
+                return Ok(Monotonicity::Falling { from: self.abscissa(before), to: self.abscissa(u) });
+            }
+            previous = Some([u, value]);
+        }
+        Ok(Monotonicity::Rising)
+    }
+
+    fn assumption(&self, given: Option<BelowSmallest>) -> BelowSmallest {
+        let [_, mean, variance, ..] = self.main.at(self.u[0]);
+        match (self.rule, given) {
+            (Rule::Local { .. }, _) => BelowSmallest::NotNeeded,
+            (_, Some(given @ (BelowSmallest::Newtonian | BelowSmallest::PowerLaw { .. }))) => given,
+            (Rule::Series { step, .. }, _) => {
+                let told = ONE_POWER < (variance * step * step).abs();
+                match (told, (mean - 1.0).abs() < 1e-9) {
+                    (true, _) => BelowSmallest::Powers { mean, variance },
+                    (false, true) => BelowSmallest::Newtonian,
+                    (false, false) => BelowSmallest::PowerLaw { exponent: mean },
+                }
+            }
+        }
+    }
+
+    /// The same with a band.
+    pub(super) fn with_band(mut self, confidence: f64) -> Result<Self, ViscometryError> {
+        if !(0.0 < confidence && confidence < 1.0) {
+            return Err(ViscometryError::Confidence { value: confidence });
+        }
+        let fine: Vec<f64> = self.fine().collect();
+        let half = match &self.penalised {
+            Some(penalised) => self.smoothed(penalised, &fine, confidence),
+            None => self.interpolated(&fine, confidence),
+        };
+        self.band = Some((confidence, half));
+        Ok(self)
+    }
+
+    /// At each fine point, the largest value within two rows.
+    fn envelope(values: &[f64]) -> Vec<f64> {
+        let reach = 2 * FINE;
+        let around = |i: usize| &values[i.saturating_sub(reach)..values.len().min(i + reach + 1)];
+        (0..values.len()).map(|i| around(i).iter().copied().fold(0.0, f64::max)).collect()
+    }
+
+    /// The differences to other curves, at the fine points.
+    fn differences(&self, others: &[Fitted], fine: &[f64]) -> Vec<f64> {
+        let all: Vec<f64> = fine.iter().map(|&u| self.spread(others, u, self.terms[self.interval(u)])).collect();
+        Self::envelope(&all)
+    }
+
+    /// Simultaneous bands of a smoothed curve, with the difference to one that is smoothed otherwise.
+    fn smoothed(&self, penalised: &Penalised, fine: &[f64], confidence: f64) -> Vec<f64> {
+        let count = self.main.splines.count();
+        let mut length = 0.0;
+        let mut direction: Option<DVector<f64>> = None;
+        let mut deviations = Vec::with_capacity(fine.len());
+        for &u in fine {
+            let mut row = DVector::zeros(count);
+            self.rule.gradient(&self.main, u, self.terms[self.interval(u)], row.as_mut_slice());
+            let mapped = penalised.root.tr_mul(&row);
+            let deviation = mapped.norm();
+            let unit = mapped / deviation;
+            if let Some(before) = &direction {
+                length += (&unit - before).norm();
+            }
+            direction = Some(unit);
+            deviations.push(deviation);
+        }
+        let critical = critical(length, penalised.freedom, confidence);
+        let differences = self.differences(&self.others, fine);
+        deviations.iter().zip(differences).map(|(deviation, other)| critical * deviation + other).collect()
+    }
+
+    /// Bands of an interpolated curve: what other degrees and rows left out would change, what rounding and noise below
+    /// [`EXACT`] may.
+    fn interpolated(&self, fine: &[f64], confidence: f64) -> Vec<f64> {
+        let rows = self.u.len();
+        let stride = rows.div_ceil(LEFT_OUT);
+        let without = |values: &[f64], row: usize| -> Vec<f64> {
+            values.iter().enumerate().filter(|&(i, _)| i != row).map(|(_, x)| *x).collect()
+        };
+        // The ends are left out only inside: beyond the rows nothing is recovered.
+        let left_out = (1..rows - 1)
+            .step_by(stride)
+            .filter_map(|row| Fitted::through(&without(&self.u, row), &without(&self.y, row), DEGREE));
+        let others: Vec<Fitted> = self.others.iter().cloned().chain(left_out).collect();
+        let differences = self.differences(&others, fine);
+        let inverse = self.main.splines.matrix(&self.u, 0).try_inverse().unwrap_or_else(|| DMatrix::zeros(rows, rows));
+        let quantile = critical(0.0, f64::INFINITY, 1.0 - (1.0 - confidence) / rows as f64);
+        let size = |row: usize| {
+            let slope = self.main.at(self.u[row])[1].abs();
+            4.0 * f64::EPSILON * (1.0 + self.y[row].abs() + (1.0 + self.u[row].abs()) * slope)
+        };
+        let sizes: Vec<f64> = (0..rows).map(size).collect();
+        let noise = |u: f64| {
+            let mut row = DVector::zeros(rows);
+            self.rule.gradient(&self.main, u, self.terms[self.interval(u)], row.as_mut_slice());
+            let mapped = inverse.tr_mul(&row);
+            let rounding: f64 = mapped.iter().zip(&sizes).map(|(weight, size)| weight.abs() * size).sum();
+            rounding + quantile * self.level * mapped.norm() + 8.0 * f64::EPSILON
+        };
+        fine.iter().zip(differences).map(|(&u, other)| SAFETY * other + noise(u)).collect()
+    }
+
+    pub(super) fn confidence(&self) -> Option<f64> {
+        self.band.as_ref().map(|(confidence, _)| *confidence)
+    }
+
+    /// The abscissas of the rows.
+    pub(super) fn abscissas(&self) -> impl Iterator<Item = f64> + '_ {
+        self.u.iter().map(|u| self.abscissa(*u))
+    }
+
+    /// The value at an abscissa and its band.
+    pub(super) fn at(&self, abscissa: f64) -> Result<(f64, Option<[f64; 2]>), ViscometryError> {
+        let (lowest, highest) = (self.u[0], self.u[self.u.len() - 1]);
+        let u = (abscissa / self.scale).ln();
+        // An abscissa of a row may have been rounded beyond the ends.
+        let slack = 8.0 * f64::EPSILON * (1.0 + u.abs());
+        if !(lowest - slack <= u && u <= highest + slack) {
+            let [lowest, highest] = [lowest, highest].map(|u| self.abscissa(u));
+            return Err(ViscometryError::NotMeasured { value: abscissa, lowest, highest });
+        }
+        let u = u.max(lowest).min(highest);
+        let logarithm = self.logarithm(u).ok_or(ViscometryError::NotRecovered { at: abscissa })?;
+        let value = logarithm.exp();
+        let band = self.band.as_ref().map(|(_, half)| {
+            let interval = self.interval(u);
+            let part = (u - self.u[interval]) / (self.u[interval + 1] - self.u[interval]);
+            let first = FINE * interval + (1..FINE).take_while(|k| *k as f64 <= part * FINE as f64).count();
+            let half = half[first].max(half[first + 1]);
+            [value * (-half).exp(), value * half.exp()]
+        });
+        Ok((value, band))
+    }
+}
+
+/// Noise leaves no more than the variance of the exponents.
+const fn coarse(rule: Rule) -> Rule {
+    match rule {
+        Rule::Series { step, order: Order::Full, exponent } => Rule::Series { step, order: Order::Variance, exponent },
+        other => other,
+    }
+}
+
+/// The rule under an assumption that is given.
+const fn assumed(rule: Rule, below: Option<BelowSmallest>) -> Rule {
+    match (rule, below) {
+        (Rule::Series { step, .. }, Some(BelowSmallest::Newtonian)) => {
+            Rule::Series { step, order: Order::Power, exponent: Some(1.0) }
+        }
+        (Rule::Series { step, .. }, Some(BelowSmallest::PowerLaw { exponent })) => {
+            Rule::Series { step, order: Order::Power, exponent: Some(exponent) }
+        }
+        _ => rule,
+    }
+}

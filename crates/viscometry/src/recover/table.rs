@@ -1,0 +1,198 @@
+//! Tables of measurements, checked row by row.
+
+use super::geometry::{ChannelGeometry, CouetteGeometry, PipeGeometry, PlatesGeometry};
+use crate::ViscometryError;
+use crate::error::check_bound;
+
+/// How exact the responses of a table are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[non_exhaustive]
+pub enum Noise {
+    /// To be found from the table: by differences of high order, and by the smoothing.
+    #[default]
+    Estimated,
+    /// To all digits: the curve goes through every row.
+    Exact,
+    /// Of this standard deviation, relative to the response.
+    Relative(f64),
+}
+
+/// What was measured in one geometry: rows of what drives the flow and what answers.
+///
+/// | table | first column | second column |
+/// |---|---|---|
+/// | [`pipe`](FlowTable::pipe) | pressure gradient c, Pa/m | discharge Q, m³/s |
+/// | [`channel`](FlowTable::channel) | pressure gradient c, Pa/m | discharge for each width, m²/s |
+/// | [`couette`](FlowTable::couette) | torque for each length M, N | difference of angular velocity ΔΩ, rad/s |
+/// | [`parallel_plates`](FlowTable::parallel_plates) | angular velocity Ω, rad/s | torque, N m; or thrust, N |
+///
+/// Rows rise in the first column, and every number is positive and finite.
+///
+/// # Example
+/// ```
+/// use piola_viscometry::ViscometryError;
+/// use piola_viscometry::recover::FlowTable;
+/// let table = FlowTable::pipe(0.001, &[[1e4, 2e-9], [2e4, 4e-9], [4e4, 8e-9]])?;
+/// assert_eq!(table.rows().count(), 3);
+/// let twice = FlowTable::pipe(0.001, &[[1e4, 2e-9], [1e4, 4e-9]]);
+/// assert_eq!(twice, Err(ViscometryError::RowTwice { row: 1, value: 1e4 }));
+/// # Ok::<(), ViscometryError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Written<G>",
+        into = "Written<G>",
+        bound(serialize = "G: Clone + serde::Serialize", deserialize = "G: serde::Deserialize<'de>")
+    )
+)]
+pub struct FlowTable<G> {
+    pub(super) geometry: G,
+    pub(super) drive: Vec<f64>,
+    pub(super) response: Vec<f64>,
+    pub(super) noise: Noise,
+}
+
+/// Fewest rows that can be recovered from.
+pub(super) const FEWEST: usize = 5;
+
+impl<G> FlowTable<G> {
+    /// Of a geometry.
+    ///
+    /// # Errors
+    /// [`ViscometryError::Row`] for a number that is missing (not a number), infinite, zero or negative,
+    /// [`ViscometryError::RowTwice`], [`ViscometryError::RowNotSorted`]; each with its row, from 0.
+    pub fn new(geometry: G, rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
+        for (row, &[drive, response]) in rows.iter().enumerate() {
+            for (column, value) in [drive, response].into_iter().enumerate() {
+                if !(0.0 < value && value.is_finite()) {
+                    return Err(ViscometryError::Row { row, column, value });
+                }
+            }
+            let previous = if 0 < row { rows[row - 1][0] } else { 0.0 };
+            if drive < previous {
+                return Err(ViscometryError::RowNotSorted { row, value: drive, previous });
+            }
+            if drive <= previous {
+                return Err(ViscometryError::RowTwice { row, value: drive });
+            }
+        }
+        let (drive, response) = rows.iter().map(|&[drive, response]| (drive, response)).unzip();
+        Ok(Self { geometry, drive, response, noise: Noise::Estimated })
+    }
+
+    /// The same with what is known of its noise.
+    ///
+    /// # Errors
+    /// [`ViscometryError::OutOfBounds`] unless it is finite and not negative.
+    pub fn with_noise(self, noise: Noise) -> Result<Self, ViscometryError> {
+        if let Noise::Relative(level) = noise {
+            check_bound("table", "relative noise", level, "0 <= noise", 0.0 <= level)?;
+        }
+        Ok(Self { noise, ..self })
+    }
+
+    /// Its rows.
+    pub fn rows(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.drive.iter().zip(&self.response).map(|(drive, response)| [*drive, *response])
+    }
+
+    /// Where it was measured.
+    #[must_use]
+    pub const fn geometry(&self) -> &G {
+        &self.geometry
+    }
+
+    /// What is known of its noise.
+    #[must_use]
+    pub const fn noise(&self) -> Noise {
+        self.noise
+    }
+
+    /// Refuses a table with too few rows, and responses that fall by more than noise explains.
+    pub(super) fn check_rising(&self, level: f64) -> Result<(), ViscometryError> {
+        let rows = self.drive.len();
+        if rows < FEWEST {
+            return Err(ViscometryError::TooFewRows { rows, least: FEWEST });
+        }
+        let allowed = 5.0 * core::f64::consts::SQRT_2 * level;
+        for (row, pair) in self.response.windows(2).enumerate() {
+            if pair[1] <= pair[0] && allowed <= (pair[0] / pair[1]).ln() {
+                return Err(ViscometryError::ResponseFalls { row: row + 1, value: pair[1], previous: pair[0] });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl FlowTable<PipeGeometry> {
+    /// Of a pipe of radius R, m: pressure gradients c, Pa/m, and discharges Q, m³/s.
+    ///
+    /// # Errors
+    /// As [`PipeGeometry::new`] and [`FlowTable::new`].
+    pub fn pipe(radius: f64, rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
+        Self::new(PipeGeometry::new(radius)?, rows)
+    }
+}
+
+impl FlowTable<ChannelGeometry> {
+    /// Of a channel of half width d, m: pressure gradients c, Pa/m, and discharges for each width, m²/s.
+    ///
+    /// # Errors
+    /// As [`ChannelGeometry::new`] and [`FlowTable::new`].
+    pub fn channel(half_width: f64, rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
+        Self::new(ChannelGeometry::new(half_width)?, rows)
+    }
+}
+
+impl FlowTable<CouetteGeometry> {
+    /// Of coaxial cylinders of radii R₁ < R₂, m: torques for each length M, N, and ΔΩ, rad/s.
+    ///
+    /// # Errors
+    /// As [`CouetteGeometry::new`] and [`FlowTable::new`].
+    pub fn couette(inner_radius: f64, outer_radius: f64, rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
+        Self::new(CouetteGeometry::new(inner_radius, outer_radius)?, rows)
+    }
+}
+
+impl FlowTable<PlatesGeometry> {
+    /// Of discs of radius R at the distance h, m: angular velocities, rad/s, and torques, N m, or thrusts, N.
+    ///
+    /// # Errors
+    /// As [`PlatesGeometry::new`] and [`FlowTable::new`].
+    pub fn parallel_plates(radius: f64, gap: f64, rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
+        Self::new(PlatesGeometry::new(radius, gap)?, rows)
+    }
+}
+
+/// A table as it is written.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written<G> {
+    geometry: G,
+    rows: Vec<[f64; 2]>,
+    #[serde(default)]
+    noise: Noise,
+}
+
+#[cfg(feature = "serde")]
+impl<G> TryFrom<Written<G>> for FlowTable<G> {
+    type Error = ViscometryError;
+
+    fn try_from(Written { geometry, rows, noise }: Written<G>) -> Result<Self, ViscometryError> {
+        Self::new(geometry, &rows)?.with_noise(noise)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<G> From<FlowTable<G>> for Written<G> {
+    fn from(table: FlowTable<G>) -> Self {
+        let rows = table.rows().collect();
+        Self { geometry: table.geometry, rows, noise: table.noise }
+    }
+}

@@ -1,0 +1,83 @@
+//! Slip and ends of capillaries.
+
+use piola_testkit::{Tol, assert_close};
+use piola_viscometry::ViscometryError;
+use piola_viscometry::recover::{self, Capillary, FlowTable, PipeGeometry, end_correction, slip_at_walls};
+
+const ROUNDING: Tol = Tol::stated(1e-10, "rounding through differences of nearly equal tables");
+
+/// A power law k = τ² that slips by u = 0.3 τ^1.5.
+fn slipping(radius: f64, count: u32) -> Result<FlowTable<PipeGeometry>, ViscometryError> {
+    let rows: Vec<_> = (0..count)
+        .map(|i| (0.15 * f64::from(i)).exp())
+        .map(|stress| {
+            let apparent = 0.8 * stress * stress + 4.0 * 0.3 * stress.powf(1.5) / radius;
+            [2.0 * stress / radius, 0.25 * core::f64::consts::PI * radius.powi(3) * apparent]
+        })
+        .collect();
+    FlowTable::pipe(radius, &rows)
+}
+
+#[test]
+fn discharge_without_slip_recovers_the_fluid_that_slipped() {
+    let tables = [0.5, 1.0, 2.0].map(|radius| slipping(radius, 20).expect("a table"));
+    let slip = slip_at_walls(&tables).expect("slip");
+    assert_eq!(slip.points.len(), 20);
+    for point in &slip.points {
+        let exact = 0.3 * point.wall_stress.powf(1.5);
+        assert_close("slip", &[point.slip_velocity], &[exact], ROUNDING);
+        assert!(point.slip_error.expect("three pipes") < 1e-10 * exact);
+    }
+    let curve = recover::pipe(&slip.table).expect("a curve");
+    for point in curve.points() {
+        let point = point.expect("measured");
+        assert_close("rate", &[point.shear_rate], &[point.shear_stress.powi(2)], ROUNDING.times(10.0));
+    }
+}
+
+#[test]
+fn slip_needs_pipes_that_differ_and_overlap() {
+    let table = slipping(1.0, 10).expect("a table");
+    assert_eq!(slip_at_walls(&[]), Err(ViscometryError::TooFewTables { tables: 0, least: 2 }));
+    assert_eq!(
+        slip_at_walls(core::slice::from_ref(&table)),
+        Err(ViscometryError::TooFewTables { tables: 1, least: 2 })
+    );
+    let same = slip_at_walls(&[table.clone(), table.clone()]);
+    assert_eq!(same, Err(ViscometryError::SameGeometry { quantity: "radius", value: 1.0 }));
+    let far: Vec<_> = (0..8).map(|i| 1e3 * (1.0 + f64::from(i))).map(|c| [c, c]).collect();
+    let far = FlowTable::pipe(2.0, &far).expect("a table");
+    assert!(matches!(slip_at_walls(&[table, far]), Err(ViscometryError::NothingInCommon { .. })));
+}
+
+#[test]
+fn pressure_without_ends_recovers_the_fluid() {
+    // τ = √k in a capillary of radius 0.5: Q = π R³ τ²/5; ends lose 4 τ.
+    let capillary = |length: f64| {
+        let rows: Vec<_> = (0..20)
+            .map(|i| (0.1 * f64::from(i)).exp())
+            .map(|stress| {
+                let discharge = core::f64::consts::PI * 0.125 * stress * stress / 5.0;
+                [discharge, 2.0 * stress * length / 0.5 + 4.0 * stress]
+            })
+            .collect();
+        Capillary::new(0.5, length, &rows)
+    };
+    let capillaries = [5.0, 10.0, 20.0].map(|length| capillary(length).expect("a capillary"));
+    let ends = end_correction(&capillaries).expect("ends");
+    for point in &ends.points {
+        assert_close("end length", &[point.end_length], &[2.0], ROUNDING);
+        assert_close("end pressure", &[point.end_pressure], &[4.0 * point.wall_stress], ROUNDING);
+    }
+    let curve = recover::pipe(&ends.table).expect("a curve");
+    for point in curve.points() {
+        let point = point.expect("measured");
+        assert_close("rate", &[point.shear_rate], &[point.shear_stress.powi(2)], ROUNDING.times(10.0));
+    }
+    let wide =
+        Capillary::new(1.0, 5.0, &[[1.0, 1.0], [2.0, 2.0], [3.0, 3.0], [4.0, 4.0], [5.0, 5.0]]).expect("a capillary");
+    let mixed = end_correction(&[capillaries[0].clone(), wide]);
+    assert_eq!(mixed, Err(ViscometryError::DifferentGeometry { quantity: "radius", values: [0.5, 1.0] }));
+    let same = end_correction(&[capillaries[0].clone(), capillaries[0].clone()]);
+    assert_eq!(same, Err(ViscometryError::SameGeometry { quantity: "length", value: 5.0 }));
+}

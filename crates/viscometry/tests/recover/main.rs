@@ -1,0 +1,11 @@
+//! Tests of `piola_viscometry::recover`.
+
+mod corrections;
+mod fluids;
+mod golden;
+mod laws;
+mod noise;
+mod traps;
+
+#[global_allocator]
+static COUNTING: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;

@@ -1,0 +1,122 @@
+//! Tables with noise: seeded trials.
+
+use piola_testkit::golden::text;
+use piola_viscometry::recover::{
+    Criterion, FlowCurve, FlowTable, Monotonicity, Noise, Options, Rise, couette, pipe_with,
+};
+use serde_json::Value;
+
+use super::golden::{cases, recovered};
+
+/// `SplitMix64` and the transform of Box and Muller.
+struct Normal(u64);
+
+impl Normal {
+    fn uniform(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn draw(&mut self) -> f64 {
+        let (u, v) = (1.0 - self.uniform(), self.uniform());
+        (-2.0 * u.ln()).sqrt() * (core::f64::consts::TAU * v).cos()
+    }
+}
+
+/// Trials in which the band holds every true point at once.
+fn held(case: &Value, flow: &str, trials: u32) -> u32 {
+    // Each fluid and flow has noise of its own.
+    let seed = text(&case["id"])
+        .bytes()
+        .chain(flow.bytes())
+        .fold(2026_u64, |seed, byte| u64::wrapping_add(u64::wrapping_mul(seed, 31), byte.into()));
+    let mut normal = Normal(seed);
+    let mut held = 0;
+    for _ in 0..trials {
+        let (curve, truth) = recovered(case, flow, || 0.01 * normal.draw()).expect("a curve");
+        let curve = curve.with_band(0.95).expect("a band");
+        let inside = |[stress, rate]: [f64; 2]| {
+            let [low, high] = curve.at(stress).expect("measured").band.expect("asked for");
+            low <= rate && rate <= high
+        };
+        // Every point is looked at.
+        let outside = truth.into_iter().map(inside).filter(|inside| !inside).count();
+        held += u32::from(outside == 0);
+    }
+    held
+}
+
+#[test]
+fn bands_of_tables_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
+    let case = cases().into_iter().find(|case| text(&case["id"]).starts_with("carreau_yasuda_5")).expect("there");
+    assert!(900 <= held(&case, "pipe", 1000));
+}
+
+#[test]
+fn bands_of_every_fluid_and_flow_hold_the_truth_in_nine_of_ten_trials() {
+    for case in cases() {
+        for flow in ["pipe", "channel", "couette"] {
+            let held = held(&case, flow, 100);
+            assert!(90 <= held, "{} {flow}: {held}", text(&case["id"]));
+        }
+    }
+}
+
+fn noisy_rows(level: f64, slope: f64) -> Vec<[f64; 2]> {
+    let mut normal = Normal(7);
+    (0..40).map(|i| (0.1 * f64::from(i)).exp()).map(|c| [c, c.powf(slope) * (1.0 + level * normal.draw())]).collect()
+}
+
+#[test]
+fn the_noise_found_is_the_noise_put_in() {
+    let rows = noisy_rows(0.02, 1.5);
+    let estimated = FlowTable::pipe(1.0, &rows).expect("a table");
+    let stated = estimated.clone().with_noise(Noise::Relative(0.02)).expect("a level");
+    let found = |table: &FlowTable<_>| -> FlowCurve { pipe_with(table, Options::default()).expect("a curve") };
+    let (estimated, stated) = (found(&estimated).smoothing(), found(&stated).smoothing());
+    assert_eq!(estimated.criterion, Criterion::GeneralisedCrossValidation);
+    assert_eq!(stated.criterion, Criterion::KnownNoise);
+    assert!(0.013 < estimated.noise && estimated.noise < 0.03, "{estimated:?}");
+    assert!((stated.noise - 0.02).abs() < 1e-15);
+    assert!(stated.degrees_of_freedom < 10.0 && estimated.degrees_of_freedom < 10.0);
+}
+
+#[test]
+fn a_curve_that_falls_is_reported_or_smoothed_until_it_rises() {
+    // Nearly constant discharge up to c = 6, in noise: 3 + d ln Q/d ln c changes by more than Q.
+    let mut normal = Normal(3);
+    let rows: Vec<_> = (0..30)
+        .map(|i| (0.06 * f64::from(i)).exp())
+        .map(|c| [c, c.powf(0.05) * (1.0 + 0.02 * normal.draw())])
+        .collect();
+    let table = FlowTable::pipe(1.0, &rows).expect("a table").with_noise(Noise::Relative(0.005)).expect("a level");
+    let reported = pipe_with(&table, Options::default());
+    let enforced = pipe_with(&table, Options { rise: Rise::Enforced, ..Options::default() });
+    // The noise is four times what is stated: falling rows are refused or the curve falls.
+    if let (Ok(reported), Ok(enforced)) = (reported, enforced) {
+        assert!(matches!(reported.monotonicity(), Monotonicity::Falling { .. }));
+        assert_eq!(enforced.monotonicity(), Monotonicity::Rising);
+        assert!(enforced.smoothing().raised && reported.smoothing().parameter < enforced.smoothing().parameter);
+    } else {
+        panic!("refused");
+    }
+}
+
+#[test]
+fn a_long_noisy_table_of_coaxial_cylinders_is_recovered_in_a_narrow_gap() {
+    // ζ = T: ΔΩ = (M/4π)(1 − 1/R₂²) for R₁ = 1.
+    let mut normal = Normal(11);
+    let outer = 1.001_f64;
+    let factor = (1.0 - outer.powi(-2)) / (4.0 * core::f64::consts::PI);
+    let rows: Vec<_> = (0..400)
+        .map(|i| (0.01 * f64::from(i)).exp())
+        .map(|torque| [torque, factor * torque * (1.0 + 0.001 * normal.draw())])
+        .collect();
+    let curve = couette(&FlowTable::couette(1.0, outer, &rows).expect("a table")).expect("a curve");
+    let stress = 10.0 / core::f64::consts::TAU;
+    let rate = curve.at(stress).expect("measured").shear_rate;
+    assert!((rate / stress - 1.0).abs() < 1e-3, "{rate} {stress}");
+}
