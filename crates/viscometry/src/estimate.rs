@@ -8,8 +8,8 @@
 /// # Example
 /// ```
 /// use piola_viscometry::Estimate;
-/// let flow = Estimate { value: 2.0, error: 1e-15 };
-/// assert_eq!(flow.scaled(-3.0), Estimate { value: -6.0, error: 3e-15 });
+/// let flow = Estimate { value: 2.0, error: 0.25 };
+/// assert_eq!(flow.scaled(-3.0), Estimate { value: -6.0, error: 0.75 });
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

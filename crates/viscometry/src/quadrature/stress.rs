@@ -124,13 +124,21 @@ pub(crate) fn stress_integral<F: ViscometricFluid + ?Sized>(
         Flowing::Wide(from) => {
             let lower = if from > fluid.yield_stress() { fluid.shear_rate(from)? } else { 0.0 };
             let upper = fluid.shear_rate(span.top)?;
-            rate_integral(lower, upper, |rate| {
+            if upper <= lower {
+                return Ok(Estimate::ZERO);
+            }
+            let mut integrand = |rate: f64| {
                 let at = fluid.shear_stress(Dual { value: rate, tangent: 1.0 });
                 if at.tangent < 0.0 {
                     return Err(ViscometryError::NotIncreasing { fluid: F::NAME, shear_rate: rate, slope: at.tangent });
                 }
                 Ok(weight(at.value, rate) * at.tangent)
-            })
+            };
+            // The upper rate is rounded, near the yield stress by more.
+            let condition = span.top / (span.top - fluid.yield_stress());
+            let moved = 8.0 * f64::EPSILON * condition * (integrand(upper)? * upper).abs();
+            let integral = rate_integral(lower, upper, integrand)?;
+            Ok(Estimate { value: integral.value, error: integral.error + moved })
         }
     }
 }

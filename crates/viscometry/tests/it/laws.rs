@@ -13,6 +13,7 @@ use piola_viscometry::{
 use proptest::prelude::*;
 
 use super::fluids::{Normal, Numerical, OldroydB};
+use super::numbers::equal;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -79,17 +80,17 @@ impl Visit for Odd {
         let [pipe, back] = pipes;
         let (pipe, back) = (pipe?, back?);
         assert_eq!(pipe.discharge(fluid)?, Estimate { value: -back.discharge(fluid)?.value, ..pipe.discharge(fluid)? });
-        assert_eq!(pipe.velocity(fluid, 0.3)?.value, -back.velocity(fluid, 0.3)?.value);
+        equal([pipe.velocity(fluid, 0.3)?.value], [-back.velocity(fluid, 0.3)?.value]);
         let (there, here) = (pipe.stresses(fluid, 0.5, 0.0)?, back.stresses(fluid, 0.5, 0.0)?);
-        assert_eq!([there.shear, there.gradient, there.flow], [-here.shear, here.gradient, here.flow]);
+        equal([there.shear, there.gradient, there.flow], [-here.shear, here.gradient, here.flow]);
         let [couette, back] = [Couette::new(0.5, 1.0, self.drive)?, Couette::new(0.5, 1.0, -self.drive)?];
-        assert_eq!(couette.speed_difference(fluid)?.value, -back.speed_difference(fluid)?.value);
+        equal([couette.speed_difference(fluid)?.value], [-back.speed_difference(fluid)?.value]);
         let (there, here) = (couette.stresses(fluid, 0.7)?, back.stresses(fluid, 0.7)?);
-        assert_eq!([there.shear, there.gradient, there.flow], [-here.shear, here.gradient, here.flow]);
+        equal([there.shear, there.gradient, there.flow], [-here.shear, here.gradient, here.flow]);
         let [annulus, back] = [Annulus::new(0.5, 1.0, 9.0)?, Annulus::new(0.5, 1.0, -9.0)?];
-        assert_eq!(annulus.discharge(fluid)?.value, -back.discharge(fluid)?.value);
+        equal([annulus.discharge(fluid)?.value], [-back.discharge(fluid)?.value]);
         let [discs, back] = [ParallelPlates::new(0.5, 0.1, 3.0)?, ParallelPlates::new(0.5, 0.1, -3.0)?];
-        assert_eq!(discs.torque(fluid)?.value, -back.torque(fluid)?.value);
+        equal([discs.torque(fluid)?.value], [-back.torque(fluid)?.value]);
         assert_eq!(discs.thrust(fluid)?, back.thrust(fluid)?);
         Ok(())
     }
@@ -130,7 +131,7 @@ impl Visit for Inverses {
     }
 }
 
-/// ∂T_rr/∂r + (T_rr − T_θθ)/r + ρ r ω² = 0 and its kin, added up between two radii.
+/// Radial momentum, `∂T_rr/∂r + (T_rr − T_θθ)/r + ρ r ω² = 0`, and its kin, added up between two radii.
 struct Momentum {
     drive: f64,
 }
@@ -242,7 +243,7 @@ impl Visit for Annular {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4))]
+    #![proptest_config(ProptestConfig::with_cases(2))]
 
     #[test]
     fn the_answers_of_an_annulus_equal_one_another(drive in 2.0..30.0, n in 0.2..1.8, yields in 0.05..0.6) {

@@ -4,6 +4,7 @@ mod alloc;
 mod fluids;
 mod golden;
 mod laws;
+mod numbers;
 mod traps;
 
 #[global_allocator]
