@@ -70,7 +70,9 @@ pub enum ConstitutiveError {
         column: usize,
     },
     /// A face that a test leaves free carries a traction.
-    #[error("T{component:?} = {stress:e} Pa is a traction on a free face: the axes of the law are not those of the test")]
+    #[error(
+        "T{component:?} = {stress:e} Pa is a traction on a free face: the axes of the law are not those of the test"
+    )]
     TractionOnFreeFace {
         /// The component of T, from 0.
         component: [usize; 2],
@@ -95,6 +97,16 @@ pub enum ConstitutiveError {
     /// A stretch of a test is not positive and finite (an amount of shear: not finite).
     #[error("test `{test}`, point {index}: the stretch {value} is not positive and finite")]
     Stretch {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The stretch.
+        value: f64,
+    },
+    /// A stretch of a test, or an amount of shear, is so small or large that no law has a stress there.
+    #[error("test `{test}`, point {index}: at the stretch {value:e} no law has a stress: valid are 1e-30 to 1e30")]
+    StretchOutOfRange {
         /// The test.
         test: String,
         /// The point, from 0.
@@ -171,6 +183,28 @@ pub enum ConstitutiveError {
         model: String,
         /// The parameter.
         parameter: String,
+    },
+    /// A parameter of a model is to have the sign of one that it cannot.
+    #[error(
+        "{model}: `{parameter}` is to have the sign of parameter {index}, which the model does not have or is a factor"
+    )]
+    NoSuchSign {
+        /// The model.
+        model: String,
+        /// The parameter.
+        parameter: String,
+        /// The number of the other, from 0.
+        index: usize,
+    },
+    /// A model is given more or fewer values than it has parameters.
+    #[error("{model} has {parameters} parameters: {values} values are given")]
+    NumberOfValues {
+        /// The model.
+        model: String,
+        /// Its parameters.
+        parameters: usize,
+        /// The values.
+        values: usize,
     },
     /// No value is within the bounds of a parameter.
     #[error("{model}: no value of `{parameter}` is at least {lower:e} and at most {upper:e}")]
@@ -274,6 +308,9 @@ pub enum ConstitutiveError {
         /// How many good points took the slow path of the analysis of the stretches.
         slow_path: usize,
     },
+    /// A motion could not be followed.
+    #[error("the motion could not be followed: {0}")]
+    Integration(#[from] piola_integrators::IntegrationError),
     /// The deformation or stress itself is refused.
     #[error(transparent)]
     Continuum(#[from] ContinuumError),

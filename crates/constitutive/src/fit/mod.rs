@@ -81,7 +81,7 @@ pub struct Options {
     pub bounds: Vec<(String, [f64; 2])>,
     /// The probability of the intervals.
     pub confidence: f64,
-    /// Evaluations of a search, for each unknown.
+    /// Evaluations of a search, for each unknown; at most a million.
     pub patience: usize,
 }
 
@@ -237,7 +237,7 @@ impl Fit {
 ///
 /// # Errors
 /// [`ConstitutiveError::TooFewPoints`], [`ConstitutiveError::UnknownParameter`], [`ConstitutiveError::ImpossibleBounds`],
-/// [`ConstitutiveError::Confidence`]; [`ConstitutiveError::NoStart`] if the model has finite stresses at no start.
+/// [`ConstitutiveError::Confidence`], [`ConstitutiveError::NoSuchSign`]; [`ConstitutiveError::NoStart`] if the model has finite stresses at no start.
 ///
 /// # Accuracy
 /// Parameters that are factors: that of linear least squares. Others: to about the root of the rounding of S, ten digits
@@ -257,7 +257,7 @@ pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, C
     }
     let signs = options.stability == Stability::Required;
     let weights = weights(data, options.weighting);
-    let problem = Problem::new(model, data, parameters, weights, signs, options.patience.max(1));
+    let problem = Problem::new(model, data, parameters, weights, signs, options.patience.clamp(1, MOST_PATIENCE));
     let starts = model.starts(reach);
     let Some((mut best, starts_that_agree)) = problem.search(&starts) else {
         return Err(ConstitutiveError::NoStart { model: model.name() });
@@ -266,13 +266,26 @@ pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, C
         model.order(&mut best.parameters);
     }
     let mut stability = stability::report(model, &best.parameters, reach);
-    if signs && stability.drucker.is_some() {
+    // A law without any stress is what such data ask for, and cannot be made stable.
+    let loaded = data.tests().iter().flat_map(Test::stresses).any(|stress| 0.0 < stress.abs());
+    if signs && loaded && stability.drucker.is_some() {
         if let Some(found) = problem.stabilise(&best, &stability::fan(reach)) {
             best = found;
         }
         stability = stability::report(model, &best.parameters, reach);
     }
     Ok(result(&problem, options, &best, stability, (starts.len(), starts_that_agree)))
+}
+
+/// The most evaluations of a search, for each unknown.
+const MOST_PATIENCE: usize = 1_000_000;
+
+/// Refuses bounds that hold no number.
+fn check_bounds<M: Model>(model: &M, parameter: &str, [lower, upper]: [f64; 2]) -> Result<(), ConstitutiveError> {
+    if lower <= upper && lower < f64::INFINITY && f64::NEG_INFINITY < upper {
+        return Ok(());
+    }
+    Err(ConstitutiveError::ImpossibleBounds { model: model.name(), parameter: parameter.to_owned(), lower, upper })
 }
 
 /// The parameters of a model within narrower bounds.
@@ -282,16 +295,26 @@ fn bounded<M: Model>(
     bounds: &[(String, [f64; 2])],
 ) -> Result<Vec<Parameter>, ConstitutiveError> {
     let mut parameters = model.parameters(reach);
+    for parameter in &parameters {
+        check_bounds(model, &parameter.name, parameter.bounds)?;
+        if let StableSign::SameAs(index) = parameter.stable
+            && parameters.get(index).is_none_or(|other| other.role == Role::Linear)
+        {
+            let (model, parameter) = (model.name(), parameter.name.clone());
+            return Err(ConstitutiveError::NoSuchSign { model, parameter, index });
+        }
+    }
     for (name, [low, high]) in bounds {
         let Some(parameter) = parameters.iter_mut().find(|parameter| parameter.name == *name) else {
             return Err(ConstitutiveError::UnknownParameter { model: model.name(), parameter: name.clone() });
         };
         let [least, greatest] = parameter.bounds;
         let (lower, upper) = (low.max(least), high.min(greatest));
-        if low.is_nan() || high.is_nan() || upper < lower || lower == f64::INFINITY || upper == f64::NEG_INFINITY {
+        if low.is_nan() || high.is_nan() {
             let (model, parameter) = (model.name(), name.clone());
             return Err(ConstitutiveError::ImpossibleBounds { model, parameter, lower, upper });
         }
+        check_bounds(model, name, [lower, upper])?;
         parameter.bounds = [lower, upper];
     }
     Ok(parameters)

@@ -2,6 +2,7 @@
 
 use piola_numerics::{Dual, Real};
 
+use crate::ConstitutiveError;
 use crate::homogeneous::Incompressible;
 
 /// How a parameter enters the energy.
@@ -142,8 +143,33 @@ pub struct Fitted<'m, M, T> {
 
 impl<'m, M: Model, T: Real> Fitted<'m, M, T> {
     /// With parameters of any scalar, so that derivatives with respect to them come along.
-    #[must_use]
-    pub fn new(model: &'m M, parameters: impl IntoIterator<Item = T>) -> Self {
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::NumberOfValues`] unless there is a value for each parameter.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fit::{AnyModel, Fitted};
+    /// use piola_constitutive::homogeneous::{Mode, nominal_stress};
+    /// let rubber = Fitted::new(&AnyModel::MooneyRivlin, [0.5, 0.25])?;
+    /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
+    /// assert!((stress - 2.0 * 1.75 * 0.625).abs() < 1e-14); // 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ)
+    /// assert!(Fitted::new(&AnyModel::Gent, [1.0]).is_err());
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    pub fn new(model: &'m M, parameters: impl IntoIterator<Item = T>) -> Result<Self, ConstitutiveError> {
+        let fitted = Self::trusted(model, parameters);
+        // The number of parameters is the same for any data; 3 is the invariant of the reference.
+        let (expected, values) = (model.parameters(3.0).len(), fitted.parameters.len());
+        if values == expected {
+            Ok(fitted)
+        } else {
+            Err(ConstitutiveError::NumberOfValues { model: model.name(), parameters: expected, values })
+        }
+    }
+
+    /// With as many parameters as the model has.
+    pub(super) fn trusted(model: &'m M, parameters: impl IntoIterator<Item = T>) -> Self {
         Self { model, parameters: parameters.into_iter().map(Dual::constant).collect() }
     }
 }

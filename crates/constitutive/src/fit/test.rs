@@ -258,6 +258,12 @@ fn of_mode(
     if !(positive && stretch.is_finite()) {
         return Err(ConstitutiveError::Stretch { test: test.to_owned(), index, value: stretch });
     }
+    let reach = 1e-30..=1e30;
+    let size = stretch.abs();
+    // An amount of shear may be as small as it likes.
+    if !(reach.contains(&size) || mode == Mode::SimpleShear && size <= *reach.end()) {
+        return Err(ConstitutiveError::StretchOutOfRange { test: test.to_owned(), index, value: stretch });
+    }
     check_stress(test, index, stress)?;
     Ok(Measurement { at: At::Mode(mode, stretch, factor(mode, measure, stretch)), stress })
 }

@@ -21,7 +21,8 @@ use crate::solids::Hyperelastic;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Written<L>"))]
 pub struct Scaled<L> {
     law: L,
     factor: f64,
@@ -97,4 +98,22 @@ fn scaled<T: Real>(mut tangent: FirstPiolaTangent<T>, factor: f64) -> FirstPiola
         *entry *= T::lit(factor);
     }
     tangent
+}
+
+/// The share as it is written.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written<L> {
+    law: L,
+    factor: f64,
+}
+
+#[cfg(feature = "serde")]
+impl<L> TryFrom<Written<L>> for Scaled<L> {
+    type Error = ConstitutiveError;
+
+    fn try_from(Written { law, factor }: Written<L>) -> Result<Self, ConstitutiveError> {
+        Self::new(law, factor)
+    }
 }

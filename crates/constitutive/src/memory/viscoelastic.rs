@@ -181,6 +181,41 @@ impl<E: Hyperelastic, D: Hyperelastic> Viscoelastic<E, D> {
         all.flat_map(|stress| stress.components).try_for_each(|x| check_finite(STATE, "a stress", x))
     }
 
+    /// Refuses a step that is not one of this solid's series: it must have the factors of each of its terms.
+    ///
+    /// Evaluations trust the step as far as its number of terms: with a step of another number the answers are NaN.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::OutOfBounds`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::memory::{Prony, PronyTerm, Viscoelastic};
+    /// use piola_constitutive::solids::MooneyRivlin;
+    /// let rubber = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?;
+    /// let series = |count| Prony::new(vec![PronyTerm { weight: 0.1, time: 2.0 }; count]);
+    /// let solid = Viscoelastic::new(rubber, rubber, series(3)?);
+    /// assert!(solid.check_step(&solid.prony().step(0.5)?).is_ok());
+    /// assert!(solid.check_step(&series(1)?.step(0.5)?).is_err());
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    pub fn check_step(&self, step: &PronyStep) -> Result<(), ConstitutiveError> {
+        const STEP: &str = "viscoelastic step";
+        let count = step.factors().len() as f64;
+        check_bound(STEP, "number of terms", count, "those of the series", self.fits(step))
+    }
+
+    /// Whether a step has the terms of the series.
+    fn fits(&self, step: &PronyStep) -> bool {
+        step.factors().len() == self.prony.terms().len()
+    }
+
+    /// 1, or NaN where the terms of state, step and series are not as many.
+    #[inline]
+    fn counted<T: Real>(&self, state: &ViscoelasticState<T>, step: &PronyStep) -> T {
+        if self.fits(step) && state.overstresses.len() == step.factors().len() { T::one() } else { T::lit(f64::NAN) }
+    }
+
     /// S at the end of a step, the state being that of its beginning.
     #[inline]
     #[must_use]
@@ -195,7 +230,7 @@ impl<E: Hyperelastic, D: Hyperelastic> Viscoelastic<E, D> {
         for (overstress, factors) in state.overstresses.iter().zip(step.factors()) {
             stress += advanced(overstress, &change, factors) * T::lit(factors.weight);
         }
-        SecondPiola(stress)
+        SecondPiola(stress * self.counted(state, step))
     }
 
     /// P at the end of a step.
@@ -228,7 +263,8 @@ impl<E: Hyperelastic, D: Hyperelastic> Viscoelastic<E, D> {
     pub fn material_tangent<T: Real>(&self, deformation: &impl Deformation<T>, step: &PronyStep) -> MaterialTangent<T> {
         let equilibrium = self.equilibrium.material_tangent(deformation).0;
         let overstress = self.overstress.material_tangent(deformation).0;
-        MaterialTangent(equilibrium + overstress * step.stiffness::<T>())
+        let counted = if self.fits(step) { T::one() } else { T::lit(f64::NAN) };
+        MaterialTangent(equilibrium + overstress * (step.stiffness::<T>() * counted))
     }
 
     /// (P, ∂P/∂F) of the step.
@@ -253,7 +289,7 @@ impl<E: Hyperelastic, D: Hyperelastic> Viscoelastic<E, D> {
         deformation: &impl Deformation<T>,
         step: &PronyStep,
     ) {
-        let driving = self.overstress.second_piola(deformation).0;
+        let driving = self.overstress.second_piola(deformation).0 * self.counted(state, step);
         let change = driving - state.driving;
         for (overstress, factors) in state.overstresses.iter_mut().zip(step.factors()) {
             *overstress = advanced(overstress, &change, factors);

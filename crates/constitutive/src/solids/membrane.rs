@@ -15,8 +15,22 @@
 //! The text prints f + Δ²u = 0 in B(4.81) beside the energy |∇∇u|². That sign contradicts the energy: with it a force would
 //! push the plate against itself, and no load would be in equilibrium with a wave u = a sin(k · X), whose energy grows with
 //! |a|. The sign here is that of the energy. The factors ½ are ours: without them τ and D are doubled.
+//!
+//! # What they answer
+//! | | membrane | plate |
+//! |---|---|---|
+//! | energy | [`energy_density`](Membrane::energy_density) of ∇u | [`energy_density`](ThinPlate::energy_density) of ∇∇u |
+//! | what is conjugate | [`stress`](Membrane::stress) τ ∇u | [`moment`](ThinPlate::moment) D ∇∇u |
+//! | tangent | [`tangent`](Membrane::tangent) τ δᵢₖ δⱼₗ | [`tangent`](ThinPlate::tangent) D, of the identity of ∇∇u |
+//! | in equilibrium | [`residual`](Membrane::residual), [`symbol`](Membrane::symbol) | [`residual`](ThinPlate::residual), [`symbol`](ThinPlate::symbol) |
+//! | S, T | none: they depend on the observer | none: the energy is not one of F |
+//!
+//! Both are energies of a displacement and linear: τ ∇u is not symmetric and changes with a rotation of the body, so that
+//! neither S = F⁻¹ P nor T = P Fᵀ/J of it means the stress of a solid.
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::stress::tangents::FirstPiolaTangent;
+use piola_continuum::tensor::FourthOrder;
 use piola_numerics::Real;
 
 use super::parameters::parameters;
@@ -61,6 +75,24 @@ impl Membrane {
     #[must_use]
     pub fn stress<T: Real>(&self, gradient: &Matrix3<T>) -> Matrix3<T> {
         gradient * T::lit(self.tension)
+    }
+
+    /// ∂(τ ∇u)/∂∇u = τ δᵢₖ δⱼₗ, Pa, the same everywhere.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::solids::Membrane;
+    /// let tangent = Membrane::new(2.0)?.tangent::<f64>();
+    /// assert_eq!([tangent.entry(0, 1, 0, 1), tangent.entry(0, 1, 1, 0)], [2.0, 0.0]);
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    #[must_use]
+    pub fn tangent<T: Real>(&self) -> FirstPiolaTangent<T> {
+        let mut components = [[T::zero(); 9]; 9];
+        for (k, row) in components.iter_mut().enumerate() {
+            row[k] = T::lit(self.tension);
+        }
+        FirstPiolaTangent(FourthOrder { components })
     }
 
     /// f + τ Δu, N/m³: zero in equilibrium.
@@ -119,6 +151,12 @@ impl ThinPlate {
     #[must_use]
     pub fn moment<T: Real>(&self, second: &[[[T; 3]; 3]; 3]) -> [[[T; 3]; 3]; 3] {
         second.map(|rows| rows.map(|row| row.map(|g| g * T::lit(self.stiffness))))
+    }
+
+    /// D of ∂(D ∇∇u)/∂∇∇u = D δᵢₗ δⱼₘ δₖₙ, N, the same everywhere.
+    #[must_use]
+    pub fn tangent<T: Real>(&self) -> T {
+        T::lit(self.stiffness)
     }
 
     /// f − D Δ²u, N/m³: zero in equilibrium.

@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use piola_constitutive::checks::Search;
 use piola_constitutive::memory::{
-    History, Prony, PronyTerm, Reduced, Remembered, SimpleMaterial, Viscoelastic, history_indifference,
+    History, Prony, PronyTerm, Reduced, Remembered, Scaled, SimpleMaterial, Viscoelastic, history_indifference,
 };
 use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
 use piola_continuum::strain::GreenStrain;
@@ -296,6 +296,21 @@ fn bad_series_steps_and_states_are_refused() {
     assert!(Remembered::new(&three, 0.0, 1).is_err() && Remembered::new(&three, 1.0, 0).is_err());
 }
 
+#[test]
+fn step_of_another_series_is_refused_and_answers_no_number() {
+    let one = Prony::new(vec![PronyTerm { weight: 0.5, time: 0.1 }]).expect("series");
+    let (solid, f) = (solid(), some_deformation());
+    let (own, foreign) = (series().step(0.3).expect("step"), one.step(0.3).expect("step"));
+    assert!(solid.check_step(&own).is_ok() && solid.check_step(&foreign).is_err());
+    let mut state = solid.at_rest();
+    assert!(solid.cauchy(&state, &f, &own).0.components[3].is_finite());
+    // Terms left out would be a smaller stress that nobody would doubt.
+    assert!(solid.cauchy(&state, &f, &foreign).0.components[3].is_nan());
+    assert!(solid.material_tangent(&f, &foreign).0.components[0].is_nan());
+    solid.advance(&mut state, &f, &foreign);
+    assert!(state.driving().components[0].is_nan());
+}
+
 #[cfg(feature = "serde")]
 #[test]
 fn laws_and_states_are_read_as_they_were_written() {
@@ -308,4 +323,12 @@ fn laws_and_states_are_read_as_they_were_written() {
     assert_eq!((&law, &read), (&solid, &state));
     assert_ne!(read.driving(), &Symmetric::zero());
     assert!(serde_json::from_str::<Prony>(r#"[{"weight": 0.5, "time": -1.0}]"#).is_err());
+    // A law of fast loading, of which a share is at rest.
+    let relaxing = Viscoelastic::relaxing(rubber(), series()).expect("Σ g ≤ 1");
+    let written = serde_json::to_string(&relaxing).expect("written");
+    let read: Viscoelastic<Scaled<MooneyRivlin>, MooneyRivlin> = serde_json::from_str(&written).expect("read");
+    assert_eq!(read, relaxing);
+    let negative = written.replacen("\"factor\":0.125", "\"factor\":-0.125", 1);
+    assert_ne!(negative, written);
+    assert!(serde_json::from_str::<Viscoelastic<Scaled<MooneyRivlin>, MooneyRivlin>>(&negative).is_err());
 }

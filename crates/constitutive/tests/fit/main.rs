@@ -4,4 +4,5 @@
 mod recovery;
 mod refusals;
 mod rubber;
+mod statistics;
 mod ties;

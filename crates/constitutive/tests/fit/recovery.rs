@@ -23,7 +23,7 @@ impl Errors {
 
 /// Tests in three modes with errors that are a part of each mode's largest stress.
 fn made(model: &AnyModel, parameters: &[f64], error: f64, seed: u64) -> Data {
-    let law = Fitted::new(model, parameters.iter().copied());
+    let law = Fitted::new(model, parameters.iter().copied()).expect("as many");
     let mut errors = Errors(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     let test = |(mode, largest): (Mode, f64)| {
         let count = 20;
@@ -65,7 +65,7 @@ fn parameters_from_exact_stresses_equal_those_that_made_them() {
 }
 
 #[test]
-fn known_parameters_are_inside_their_intervals_in_nine_of_ten_trials() {
+fn known_parameters_are_inside_their_intervals_as_often_as_these_say() {
     for (model, parameters) in known() {
         let options = Options { stability: Stability::Free, ..Options::default() };
         let mut inside = vec![0_u64; parameters.len()];
@@ -75,7 +75,9 @@ fn known_parameters_are_inside_their_intervals_in_nine_of_ten_trials() {
                 *count += u64::from(estimate.interval.is_some_and(|[low, high]| low <= *known && *known <= high));
             }
         }
-        assert!(inside.iter().all(|count| TRIALS * 9 / 10 <= *count), "{model}: {inside:?} of {TRIALS}");
+        // Of 200 trials at 95 % 190 ± 3: intervals twice as wide or half as wide would be seen.
+        let expected = TRIALS * 9 / 10..=TRIALS * 99 / 100;
+        assert!(inside.iter().all(|count| expected.contains(count)), "{model}: {inside:?} of {TRIALS}");
     }
 }
 

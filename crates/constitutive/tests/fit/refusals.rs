@@ -1,7 +1,10 @@
 //! What cannot be fitted is refused by name.
 
 use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fit::{AnyModel, Component, Data, Measure, Options, Outcome, State, Table, Test, fit};
+use piola_constitutive::fit::{
+    AnyModel, Component, Data, Fitted, Measure, Model, Options, Outcome, Parameter, StableSign, State, Table, Test, fit,
+};
+use piola_numerics::Real;
 
 fn bar(points: Vec<[f64; 2]>) -> Result<Test, ConstitutiveError> {
     Test::new("bar", Table::Uniaxial(points), Measure::Nominal)
@@ -65,6 +68,70 @@ fn impossible_models_and_options_are_refused() {
         sentence(contradiction),
         "ogden:1: the stresses are finite, and the bounds kept, at no start of the search"
     );
+}
+
+/// A neo-Hookean solid with parameters as they come.
+struct Given(Vec<Parameter>);
+
+impl Model for Given {
+    fn name(&self) -> String {
+        "given".into()
+    }
+    fn parameters(&self, _largest_first_invariant: f64) -> Vec<Parameter> {
+        self.0.clone()
+    }
+    fn energy<T: Real>(&self, [a, b, c]: [T; 3], parameters: &[T]) -> T {
+        parameters.iter().fold(T::zero(), |sum, &x| sum + x) * (a * a + b * b + c * c)
+    }
+    fn starts(&self, _largest_first_invariant: f64) -> Vec<Vec<f64>> {
+        vec![vec![1.0]]
+    }
+}
+
+#[test]
+fn impossible_models_of_ones_own_are_refused() {
+    let given = |parameters: Vec<Parameter>| fit(&Given(parameters), &data(20), &Options::default());
+    for bounds in [[1.0, 0.0], [f64::NAN, 1.0], [0.0, f64::NAN], [f64::INFINITY, f64::INFINITY]] {
+        let error = given(vec![Parameter::number("x", bounds)]).expect_err("no number is between");
+        assert!(matches!(error, ConstitutiveError::ImpossibleBounds { .. }), "{bounds:?}: {error}");
+    }
+    let signed = |index| Parameter::factor("mu").stable_if(StableSign::SameAs(index));
+    for index in [0, 1, 99] {
+        let parameters = vec![signed(index), Parameter::factor("nu"), Parameter::number("x", [0.0, 1.0])];
+        let error = given(parameters).expect_err("no such parameter, or a factor");
+        let (model, parameter) = ("given".to_owned(), "mu".to_owned());
+        assert_eq!(error, ConstitutiveError::NoSuchSign { model, parameter, index });
+    }
+    assert!(given(vec![signed(1), Parameter::number("x", [0.0, 1.0])]).is_ok());
+    for values in [vec![], vec![1.0], vec![1.0; 3]] {
+        let count = values.len();
+        let error = Fitted::new(&AnyModel::Gent, values).expect_err("two parameters");
+        assert_eq!(error.to_string(), format!("gent has 2 parameters: {count} values are given"));
+    }
+    let patient = Options { patience: usize::MAX, ..Options::default() };
+    assert!(fit(&AnyModel::Gent, &data(20), &patient).is_ok());
+}
+
+#[test]
+fn stresses_that_are_all_zero_are_those_of_no_stiffness() {
+    let zero: Vec<[f64; 2]> = (1..=12).map(|k| [1.0 + 0.1 * f64::from(k), 0.0]).collect();
+    let data = Data::new(vec![bar(zero).expect("a test")]).expect("data");
+    let names = ["neo-hookean", "mooney-rivlin", "yeoh", "gent", "arruda-boyce", "polynomial:2", "ogden:2"];
+    for name in names {
+        let model: AnyModel = name.parse().expect("a model");
+        let found = fit(&model, &data, &Options::default()).expect("a fit");
+        assert!(found.outcome.is_converged(), "{name}: {:?}", found.outcome);
+        assert!(found.weighted_squares <= 0.0 && found.worst_relative_rms() <= 0.0, "{name}: {found:?}");
+    }
+}
+
+#[test]
+fn stretches_at_which_no_law_has_a_stress_are_refused_with_their_point() {
+    let error = bar(vec![[1.5, 1.0], [1e200, 1.0]]).expect_err("beyond");
+    assert!(matches!(error, ConstitutiveError::StretchOutOfRange { index: 1, .. }), "{error}");
+    assert!(bar(vec![[1e-200, 1.0]]).is_err());
+    let sheared = |k| Test::new("block", Table::SimpleShear(vec![[k, 0.0]]), Measure::Nominal);
+    assert!(sheared(0.0).is_ok() && sheared(-1e-200).is_ok() && sheared(1e200).is_err());
 }
 
 #[test]

@@ -9,7 +9,7 @@ const ROUNDING: Tol = Tol::ulps(64.0);
 
 fn check(name: &str, parameters: &[f64], law: &impl Hyperelastic) {
     let model: AnyModel = name.parse().expect("a model");
-    let fitted = Fitted::new(&model, parameters.iter().copied());
+    let fitted = Fitted::new(&model, parameters.iter().copied()).expect("as many");
     for mode in Mode::ALL {
         for step in 1..=10 {
             let stretch = mode.rest() + 0.2 * f64::from(step);

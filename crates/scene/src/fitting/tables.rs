@@ -65,7 +65,8 @@ pub(super) fn stretches(test: &Test) -> Vec<f64> {
 /// The curve of a fit in a test: nothing for a table of components.
 pub(super) fn curve(law: AnyModel, fit: &Fit, test: &Test) -> Vec<(f64, f64)> {
     let stretches = stretches(test);
-    let stresses = test.curve(&stretches, &Fitted::new(&law, fit.values())).unwrap_or_default();
+    let law = Fitted::new(&law, fit.values()).ok();
+    let stresses = law.and_then(|law| test.curve(&stretches, &law)).unwrap_or_default();
     stretches.into_iter().zip(stresses).collect()
 }
 
