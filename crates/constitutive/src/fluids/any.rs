@@ -4,9 +4,26 @@ use piola_numerics::Real;
 
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use super::{
-    Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, PowerLaw, Sisko,
+    Bingham, CarreauYasuda, Casson, ConstantCoefficients, Cross, Ellis, ExponentialDamping, ExponentialPhanThienTanner,
+    Eyring, Giesekus, HerschelBulkley, Kbkz, LinearPhanThienTanner, Modes, Newtonian, OldroydB, Papanastasiou,
+    PowerLaw, RationalDamping, ReinerRivlin, SecondOrder, Sisko, UpperConvectedMaxwell,
 };
 use crate::ConstitutiveError;
+
+/// A Reiner–Rivlin fluid whose coefficients are constants.
+pub type ConstantReinerRivlin = ReinerRivlin<ConstantCoefficients>;
+/// Several modes of Oldroyd's fluid B.
+pub type OldroydBModes = Modes<OldroydB>;
+/// Several modes of Giesekus' fluid.
+pub type GiesekusModes = Modes<Giesekus>;
+/// Several modes of the linear fluid of Phan-Thien and Tanner.
+pub type LinearPhanThienTannerModes = Modes<LinearPhanThienTanner>;
+/// Several modes of the exponential fluid of Phan-Thien and Tanner.
+pub type ExponentialPhanThienTannerModes = Modes<ExponentialPhanThienTanner>;
+/// The K-BKZ fluid with the damping of Papanastasiou, Scriven and Macosko.
+pub type KbkzRational = Kbkz<RationalDamping>;
+/// The K-BKZ fluid with Wagner's damping.
+pub type KbkzExponential = Kbkz<ExponentialDamping>;
 
 /// Declares the enum of the fluids with its conversions and its dispatch.
 macro_rules! any_fluid {
@@ -63,6 +80,14 @@ any_fluid! {
     /// | `eyring` | [`Eyring`] | `stress`, `time` |
     /// | `sisko` | [`Sisko`] | `infinite_rate_viscosity`, `consistency`, `exponent` |
     /// | `papanastasiou` | [`Papanastasiou`] | `apparent_yield_stress`, `consistency`, `exponent`, `growth_time` |
+    /// | `constant_reiner_rivlin` | [`ConstantReinerRivlin`] | `linear`, `quadratic` |
+    /// | `second_order` | [`SecondOrder`] | `viscosity_coefficient`, `first_coefficient`, `second_coefficient` |
+    /// | `upper_convected_maxwell` | [`UpperConvectedMaxwell`] | `polymer_viscosity`, `time` |
+    /// | `oldroyd_b` | [`OldroydB`] | `solvent_viscosity`, `polymer_viscosity`, `time` |
+    /// | `giesekus` | [`Giesekus`] | the same, and `mobility` |
+    /// | `linear_phan_thien_tanner`, `exponential_phan_thien_tanner` | [`LinearPhanThienTanner`], [`ExponentialPhanThienTanner`] | the same, and `extensibility` |
+    /// | `oldroyd_b_modes`, `giesekus_modes`, `linear_phan_thien_tanner_modes`, `exponential_phan_thien_tanner_modes` | [`Modes`] | `modes`, each with the parameters of one |
+    /// | `kbkz_rational`, `kbkz_exponential` | [`Kbkz`] | `memory`, each term with `viscosity` and `time`; `damping` with `alpha`, `beta` or `strength`, `beta` |
     ///
     /// What is read is validated as by the constructors, and names that a fluid does not have are refused. A call chooses the
     /// fluid once and then runs its own function.
@@ -111,6 +136,32 @@ any_fluid! {
     Sisko,
     /// K kⁿ + τ_y (1 − exp(−m k)).
     Papanastasiou,
+    /// g₁ k/2, with normal stresses.
+    ConstantReinerRivlin,
+    /// μ k, with normal stresses.
+    SecondOrder,
+    /// η k, with N₁ = 2 η λ k².
+    UpperConvectedMaxwell,
+    /// (η_s + η_p) k, with N₁ = 2 η_p λ k².
+    OldroydB,
+    /// τ + (α λ/η_p) τ² relaxes.
+    Giesekus,
+    /// (1 + ε (λ/η_p) tr τ) τ relaxes.
+    LinearPhanThienTanner,
+    /// exp(ε (λ/η_p) tr τ) τ relaxes.
+    ExponentialPhanThienTanner,
+    /// Several [`OldroydB`].
+    OldroydBModes,
+    /// Several [`Giesekus`].
+    GiesekusModes,
+    /// Several [`LinearPhanThienTanner`].
+    LinearPhanThienTannerModes,
+    /// Several [`ExponentialPhanThienTanner`].
+    ExponentialPhanThienTannerModes,
+    /// ∫ m h k s ds with h = α/(α + k² s²).
+    KbkzRational,
+    /// ∫ m h k s ds with h = exp(−n k s).
+    KbkzExponential,
     }
 }
 
@@ -131,6 +182,16 @@ impl ViscometricFluid for AnyFluid {
     #[inline(always)]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         chosen!(self, fluid => fluid.sigma2(shear_rate))
+    }
+
+    #[inline(always)]
+    fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
+        chosen!(self, fluid => fluid.first_normal_stress_difference(shear_rate))
+    }
+
+    #[inline(always)]
+    fn second_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
+        chosen!(self, fluid => fluid.second_normal_stress_difference(shear_rate))
     }
 
     #[inline(always)]

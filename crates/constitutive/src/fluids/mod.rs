@@ -17,39 +17,54 @@ mod bingham;
 mod carreau_yasuda;
 mod casson;
 mod cross;
+mod differential;
 mod ellis;
 mod eulerian;
 mod eyring;
 mod generalised_newtonian;
 mod herschel_bulkley;
+mod kbkz;
 mod linear_viscous;
 mod newtonian;
 mod papanastasiou;
 mod parameters;
 mod power_law;
+mod quadrature;
 mod reiner_rivlin;
 mod second_order;
 mod sisko;
+mod temperature;
 mod viscometric;
 mod viscous;
 
-pub use any::AnyFluid;
+pub use any::{
+    AnyFluid, ConstantReinerRivlin, ExponentialPhanThienTannerModes, GiesekusModes, KbkzExponential, KbkzRational,
+    LinearPhanThienTannerModes, OldroydBModes,
+};
 pub use bingham::Bingham;
 pub use carreau_yasuda::CarreauYasuda;
 pub use casson::Casson;
 pub use cross::Cross;
+pub use differential::{
+    ConvectedMaxwell, DifferentialFluid, ExponentialPhanThienTanner, Extension, Giesekus, LinearMode,
+    LinearPhanThienTanner, Mode, Modes, OldroydB, Oscillation, ShearStresses, UpperConvectedMaxwell, follow,
+    follow_shear, oscillate,
+};
 pub use ellis::Ellis;
 pub use eulerian::{EulerianFluid, Polytropic};
 pub use eyring::Eyring;
 pub use generalised_newtonian::GeneralisedNewtonian;
 pub use herschel_bulkley::HerschelBulkley;
+pub use kbkz::{Damping, ExponentialDamping, Kbkz, RationalDamping, Relaxation};
 pub use linear_viscous::LinearViscous;
 pub use newtonian::Newtonian;
 pub use papanastasiou::Papanastasiou;
 pub use parameters::Parameters;
 pub use power_law::PowerLaw;
+pub use quadrature::Integral;
 pub use reiner_rivlin::{ConstantCoefficients, ReinerRivlin, ReinerRivlinCoefficients};
 pub use second_order::SecondOrder;
 pub use sisko::Sisko;
+pub use temperature::{Arrhenius, Shifted, TemperatureShift, WilliamsLandelFerry};
 pub use viscometric::{FlowMoment, ViscometricFluid};
 pub use viscous::ViscousFluid;

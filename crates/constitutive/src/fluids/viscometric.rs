@@ -154,7 +154,10 @@ pub trait ViscometricFluid {
 const FARTHEST: f64 = 690.0;
 
 /// The rate at which τ is `stress`.
-fn rate_at_stress<F: ViscometricFluid + ?Sized, T: Real>(fluid: &F, stress: T) -> Result<T, ConstitutiveError> {
+pub(in crate::fluids) fn rate_at_stress<F: ViscometricFluid + ?Sized, T: Real>(
+    fluid: &F,
+    stress: T,
+) -> Result<T, ConstitutiveError> {
     let wanted = stress.frozen();
     let size = wanted.abs();
     if !size.is_finite().all() {

@@ -1,0 +1,293 @@
+//! The fluids of Phan-Thien and Tanner.
+
+use piola_continuum::Symmetric;
+use piola_numerics::{Dual, Real};
+
+use super::mode::{Mode, only_mode};
+use crate::ConstitutiveError;
+use crate::fluids::answers::{Relation, finite_rate, moment_of_power, moving, solve_from_above};
+use crate::fluids::parameters::{Parameters, fluid_of_parameters};
+use crate::fluids::viscometric::rate_at_stress;
+use crate::fluids::{FlowMoment, ViscometricFluid};
+
+fluid_of_parameters! {
+    /// The linear fluid of Phan-Thien and Tanner: a network whose junctions break the faster the more it is drawn out.
+    ///
+    /// ```text
+    /// V = 2 η_s D + τ      λ (τ̇ − L τ − τ Lᵀ) + f τ = 2 η_p D      f = 1 + ε (λ/η_p) tr τ
+    /// in steady shear, with y = λ τ₁₂/η_p: y (1 + 2 ε y²) = λ k      N₁ = 2 (η_p/λ) y²,  N₂ = 0
+    /// ```
+    /// | symbol | parameter | unit | bounds |
+    /// |---|---|---|---|
+    /// | η_s | `solvent_viscosity` | Pa s | 0 ≤ η_s |
+    /// | η_p | `polymer_viscosity` | Pa s | 0 < η_p |
+    /// | λ | `time` | s | 0 < λ |
+    /// | ε | `extensibility`; 0 is Oldroyd's fluid B | – | 0 ≤ ε |
+    ///
+    /// Without solvent ζ and its moments are closed.
+    ///
+    /// # Accuracy
+    /// 8 ulp of T₁₂ and N₁ at every rate.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fluids::{LinearPhanThienTanner, ViscometricFluid};
+    /// let melt = LinearPhanThienTanner::new(0.0, 3.0, 1.0, 0.5)?;
+    /// assert_eq!(melt.shear_rate(6.0)?, 10.0); // y = 2: 2 (1 + 4)
+    /// assert_eq!(melt.shear_stress(10.0), 6.0);
+    /// assert_eq!(melt.first_normal_stress_difference(10.0), 24.0);
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    ///
+    /// # Source
+    /// N. Phan-Thien, R. I. Tanner, J. Non-Newtonian Fluid Mech. 2 (1977) 353, without slip of the network (ξ = 0); an example
+    /// of the functions of W(23.13–23.24).
+    pub struct LinearPhanThienTanner("linear Phan-Thien-Tanner") {
+        /// η_s, Pa s.
+        solvent_viscosity: "0 ≤ η_s" => 0.0 <= solvent_viscosity,
+        /// η_p, Pa s.
+        polymer_viscosity: "0 < η_p" => 0.0 < polymer_viscosity,
+        /// λ, s.
+        time: "0 < λ" => 0.0 < time,
+        /// ε.
+        extensibility: "0 ≤ ε" => 0.0 <= extensibility,
+    }
+}
+
+fluid_of_parameters! {
+    /// The exponential fluid of Phan-Thien and Tanner.
+    ///
+    /// ```text
+    /// V = 2 η_s D + τ      λ (τ̇ − L τ − τ Lᵀ) + f τ = 2 η_p D      f = exp(ε (λ/η_p) tr τ)
+    /// in steady shear, with y = λ τ₁₂/η_p: y exp(2 ε y²) = λ k      N₁ = 2 (η_p/λ) y²,  N₂ = 0
+    /// ```
+    /// | symbol | parameter | unit | bounds |
+    /// |---|---|---|---|
+    /// | η_s | `solvent_viscosity` | Pa s | 0 ≤ η_s |
+    /// | η_p | `polymer_viscosity` | Pa s | 0 < η_p |
+    /// | λ | `time` | s | 0 < λ |
+    /// | ε | `extensibility`; 0 is Oldroyd's fluid B | – | 0 ≤ ε |
+    ///
+    /// Without solvent ζ is closed.
+    ///
+    /// # Accuracy
+    /// 8 ulp of T₁₂ and N₁ at every rate.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fluids::{ExponentialPhanThienTanner, ViscometricFluid};
+    /// let melt = ExponentialPhanThienTanner::new(0.0, 3.0, 1.0, 0.5)?;
+    /// let rate = melt.shear_rate(3.0)?; // y = 1
+    /// assert!((rate - core::f64::consts::E).abs() < 1e-15);
+    /// assert!((melt.shear_stress(rate) - 3.0).abs() < 1e-14);
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    ///
+    /// # Source
+    /// N. Phan-Thien, J. Rheol. 22 (1978) 259, without slip of the network (ξ = 0); an example of the functions of
+    /// W(23.13–23.24).
+    pub struct ExponentialPhanThienTanner("exponential Phan-Thien-Tanner") {
+        /// η_s, Pa s.
+        solvent_viscosity: "0 ≤ η_s" => 0.0 <= solvent_viscosity,
+        /// η_p, Pa s.
+        polymer_viscosity: "0 < η_p" => 0.0 < polymer_viscosity,
+        /// λ, s.
+        time: "0 < λ" => 0.0 < time,
+        /// ε.
+        extensibility: "0 ≤ ε" => 0.0 <= extensibility,
+    }
+}
+
+/// w = y (1 + 2 ε y²).
+struct Cubic<T> {
+    extensibility: T,
+}
+
+impl<T: Real> Relation<T> for Cubic<T> {
+    #[inline(always)]
+    fn at(&self, y: Dual<T>) -> Dual<T> {
+        y * (Dual::lit(1.0) + Dual::constant(self.extensibility + self.extensibility) * y * y)
+    }
+}
+
+/// w = y exp(2 ε y²).
+struct Exponential<T> {
+    extensibility: T,
+}
+
+impl<T: Real> Relation<T> for Exponential<T> {
+    #[inline(always)]
+    fn at(&self, y: Dual<T>) -> Dual<T> {
+        y * (Dual::constant(self.extensibility + self.extensibility) * y * y).exp()
+    }
+}
+
+/// y of the cubic at w, 0 ≤ w.
+#[inline(always)]
+fn cubic<T: Real>(extensibility: T, w: T) -> T {
+    // y ≤ w and 2 ε y³ ≤ w.
+    let (_, size) = moving(w.frozen());
+    let start = size.min((size / (extensibility + extensibility).frozen()).cbrt());
+    solve_from_above(&Cubic { extensibility }, w, start)
+}
+
+/// y of the exponential at w, 0 ≤ w.
+#[inline(always)]
+fn exponential<T: Real>(extensibility: T, w: T) -> T {
+    // 4 ε y² = W(4 ε w²) ≤ ln(1 + 4 ε w²) with Lambert's W.
+    let (_, size) = moving(w.frozen());
+    let (none, four) = moving(T::lit(4.0) * extensibility.frozen());
+    let start = T::select(none, size, ((four * size * size).ln_1p() / four).sqrt().min(size));
+    solve_from_above(&Exponential { extensibility }, w, start)
+}
+
+macro_rules! phan_thien_tanner {
+    ($fluid:ident, $solve:ident, $relation:ident, $breaking:ident, $moments:ident) => {
+        impl $fluid {
+            /// y = λ |τ₁₂|/η_p of the polymer.
+            #[inline(always)]
+            fn share<T: Real>(&self, shear_rate: T) -> T {
+                $solve(T::lit(self.extensibility), T::lit(self.time) * shear_rate.abs())
+            }
+
+            /// η_p/λ.
+            #[inline(always)]
+            fn modulus(&self) -> f64 {
+                self.polymer_viscosity / self.time
+            }
+
+            /// f at (λ/η_p) tr τ.
+            #[inline(always)]
+            fn breaking<T: Real>(&self, trace: T) -> T {
+                $breaking(T::lit(self.extensibility) * trace)
+            }
+        }
+
+        impl Parameters<4> for $fluid {
+            const NAMES: [&'static str; 4] = ["solvent_viscosity", "polymer_viscosity", "time", "extensibility"];
+
+            fn parameters(&self) -> [f64; 4] {
+                [self.solvent_viscosity, self.polymer_viscosity, self.time, self.extensibility]
+            }
+
+            fn from_parameters([solvent, polymer, time, extensibility]: [f64; 4]) -> Result<Self, ConstitutiveError> {
+                Self::new(solvent, polymer, time, extensibility)
+            }
+
+            #[inline(always)]
+            fn shear_stress_of<T: Real>([solvent, polymer, time, extensibility]: [T; 4], shear_rate: T) -> T {
+                solvent * shear_rate + polymer / time * $solve(extensibility, time * shear_rate)
+            }
+        }
+
+        impl ViscometricFluid for $fluid {
+            const NAME: &'static str = Self::NAME;
+            const NORMAL_STRESSES: bool = true;
+
+            #[inline(always)]
+            fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
+                let size = Self::shear_stress_of(self.parameters().map(T::lit), shear_rate.abs());
+                T::select(shear_rate.less_than(T::zero()), -size, size)
+            }
+
+            #[inline(always)]
+            fn sigma2<T: Real>(&self, shear_rate: T) -> T {
+                let y = self.share(shear_rate);
+                T::lit(2.0 * self.modulus()) * y * y
+            }
+
+            #[inline(always)]
+            fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, ConstitutiveError> {
+                if 0.0 < self.solvent_viscosity {
+                    return rate_at_stress(self, shear_stress);
+                }
+                let y = shear_stress / T::lit(self.modulus());
+                let w = $relation { extensibility: T::lit(self.extensibility) }.at(Dual::constant(y)).value;
+                finite_rate::<Self, T>(shear_stress, w / T::lit(self.time))
+            }
+
+            fn flow_moment(&self, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
+                if 0.0 < self.solvent_viscosity {
+                    return None;
+                }
+                $moments(self, moment, from, to)
+            }
+        }
+
+        impl Mode for $fluid {
+            fn solvent_viscosity(&self) -> f64 {
+                self.solvent_viscosity
+            }
+
+            fn polymer_viscosity(&self) -> f64 {
+                self.polymer_viscosity
+            }
+
+            fn time(&self) -> f64 {
+                self.time
+            }
+
+            #[inline(always)]
+            fn relaxing<T: Real>(&self, stress: &Symmetric<T>) -> Symmetric<T> {
+                *stress * self.breaking(stress.trace() * T::lit(self.modulus().recip()))
+            }
+
+            /// yᵢ = 2 wᵢ/(f − 2 wᵢ) with w = λ ε̇, and f that of y₁ + y₂ + y₃.
+            fn steady_extension(&self, rates: [f64; 3]) -> Result<[f64; 3], ConstitutiveError> {
+                let w = rates.map(|rate| 2.0 * self.time * rate);
+                let largest = w[0].max(w[1]).max(w[2]).max(0.0);
+                // By how much f is beyond the pole at the largest w: what a strong flow decides.
+                let stresses = |beyond: f64| w.map(|w| w / (beyond + (largest - w)));
+                let excess = |beyond: f64| self.breaking(stresses(beyond).iter().sum::<f64>()) - (largest + beyond);
+                if self.extensibility <= 0.0 {
+                    if 1.0 <= largest {
+                        let (law, quantity) = (Self::NAME, "2 λ ε̇");
+                        return Err(ConstitutiveError::BeyondLimit { law, quantity, value: largest, limit: 1.0 });
+                    }
+                    return Ok(stresses(1.0 - largest).map(|y| self.modulus() * y));
+                }
+                // f − f(tr) grows with f beyond the pole: a bracket, halved.
+                let (mut low, mut high) = (0.0, 1.0);
+                while 0.0 < excess(high) {
+                    high *= 2.0;
+                }
+                while 2.0 * f64::EPSILON * high < high - low {
+                    let middle = f64::midpoint(low, high);
+                    let above = excess(middle) <= 0.0;
+                    (low, high) = if above { (low, middle) } else { (middle, high) };
+                }
+                Ok(stresses(high).map(|y| self.modulus() * y))
+            }
+        }
+    };
+}
+
+/// 1 + x.
+#[inline(always)]
+fn linear_breaking<T: Real>(x: T) -> T {
+    T::one() + x
+}
+
+/// eˣ.
+#[inline(always)]
+fn exponential_breaking<T: Real>(x: T) -> T {
+    x.exp()
+}
+
+/// Those of ζ = (s/η_p) (1 + 2 ε (s/G)²) with G = η_p/λ.
+#[expect(clippy::unnecessary_wraps, reason = "the other fluid has none")]
+fn linear_moments(fluid: &LinearPhanThienTanner, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
+    let power = moment.power() + 2;
+    let sum = moment_of_power(power, 0.0, 1.0, from, to)
+        + 2.0 * fluid.extensibility * moment_of_power(power, 2.0, fluid.modulus(), from, to);
+    Some(sum / fluid.polymer_viscosity)
+}
+
+/// None are closed.
+fn no_moments(_: &ExponentialPhanThienTanner, _: FlowMoment, _: f64, _: f64) -> Option<f64> {
+    None
+}
+
+phan_thien_tanner!(LinearPhanThienTanner, cubic, Cubic, linear_breaking, linear_moments);
+phan_thien_tanner!(ExponentialPhanThienTanner, exponential, Exponential, exponential_breaking, no_moments);
+only_mode!(LinearPhanThienTanner, ExponentialPhanThienTanner);

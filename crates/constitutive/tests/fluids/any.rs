@@ -1,0 +1,92 @@
+//! Any fluid: what is written is read back, what is wrong is refused.
+#![cfg(feature = "serde")]
+
+use piola_constitutive::fluids::{
+    AnyFluid, ConstantCoefficients, ExponentialDamping, ExponentialPhanThienTanner, Giesekus, Kbkz,
+    LinearPhanThienTanner, Modes, OldroydB, RationalDamping, ReinerRivlin, Relaxation, SecondOrder,
+    UpperConvectedMaxwell, ViscometricFluid,
+};
+use piola_testkit::{Tol, assert_close};
+
+use super::shear::fluids;
+
+/// One of each with normal stresses.
+fn elastic() -> Vec<AnyFluid> {
+    let memory = vec![Relaxation { viscosity: 2.0, time: 0.5 }];
+    let giesekus = Giesekus::new(0.125, 2.0, 0.5, 0.3).expect("bounds");
+    let linear = LinearPhanThienTanner::new(0.0, 2.0, 0.5, 0.3).expect("bounds");
+    let exponential = ExponentialPhanThienTanner::new(0.125, 2.0, 0.5, 0.3).expect("bounds");
+    let oldroyd = OldroydB::new(0.125, 2.0, 0.5).expect("bounds");
+    vec![
+        ReinerRivlin(ConstantCoefficients::new(1.5, 0.5).expect("bounds")).into(),
+        SecondOrder::new(2.0, -0.5, 0.75).expect("bounds").into(),
+        UpperConvectedMaxwell::new(2.0, 0.5).expect("bounds").into(),
+        oldroyd.into(),
+        giesekus.into(),
+        linear.into(),
+        exponential.into(),
+        Modes::new(vec![oldroyd, oldroyd]).expect("modes").into(),
+        Modes::new(vec![giesekus]).expect("modes").into(),
+        Modes::new(vec![linear]).expect("modes").into(),
+        Modes::new(vec![exponential]).expect("modes").into(),
+        Kbkz::new(memory.clone(), RationalDamping::new(8.0, 0.5).expect("bounds")).expect("bounds").into(),
+        Kbkz::new(memory, ExponentialDamping::new(0.2, 0.5).expect("bounds")).expect("bounds").into(),
+    ]
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    for fluid in fluids().into_iter().chain(elastic()) {
+        let written = serde_json::to_string(&fluid).expect("written");
+        assert!(written.starts_with(r#"{"fluid":""#), "{written}");
+        let read: AnyFluid = serde_json::from_str(&written).expect(&written);
+        assert_eq!(read, fluid, "{written}");
+        let k = 0.7;
+        let of = |fluid: &AnyFluid| [fluid.shear_stress(k), fluid.sigma1(k), fluid.sigma2(k), fluid.viscosity(k)];
+        assert_close(fluid.name(), &of(&read), &of(&fluid), Tol::ulps(0.0));
+        assert!(written.len() < toml::to_string(&fluid).expect("written").len() + 200);
+    }
+}
+
+#[test]
+fn dispatched_functions_equal_those_of_the_fluid() {
+    let fluid = Giesekus::new(0.125, 2.0, 0.5, 0.3).expect("bounds");
+    let any = AnyFluid::from(fluid);
+    for k in [1e-6, 1.0, 1e6] {
+        let normal = [any.first_normal_stress_difference(k), any.second_normal_stress_difference(k)];
+        let expected = [fluid.first_normal_stress_difference(k), fluid.second_normal_stress_difference(k)];
+        assert_close("N₁, N₂", &normal, &expected, Tol::ulps(0.0));
+    }
+    for fluid in elastic() {
+        for k in [0.3, 20.0] {
+            let name = fluid.name();
+            assert_close(name, &[fluid.shear_stress(-k)], &[-fluid.shear_stress(k)], Tol::ulps(0.0));
+            assert_close(
+                name,
+                &[fluid.sigma1(-k), fluid.sigma2(-k)],
+                &[fluid.sigma1(k), fluid.sigma2(k)],
+                Tol::ulps(0.0),
+            );
+            let difference = fluid.sigma2(k) - fluid.sigma1(k);
+            assert_close(name, &[fluid.first_normal_stress_difference(k)], &[difference], Tol::ulps(16.0));
+        }
+    }
+}
+
+#[test]
+fn what_is_wrong_is_refused_by_name() {
+    let refused = |written: &str, expected: &str| {
+        let message = serde_json::from_str::<AnyFluid>(written).expect_err(expected).to_string();
+        assert!(message.contains(expected), "{message} does not say {expected}");
+    };
+    refused(r#"{"fluid":"ketchup"}"#, "unknown variant `ketchup`");
+    refused(r#"{"fluid":"casson","yield_stress":1.0}"#, "missing field `plastic_viscosity`");
+    refused(r#"{"fluid":"newtonian","viscosity_coefficient":-1.0}"#, "viscosity_coefficient = -1e0 violates 0 < μ");
+    refused(r#"{"fluid":"newtonian","viscosity_coefficient":1.0,"colour":2.0}"#, "unknown field `colour`");
+    refused(r#"{"fluid":"giesekus_modes","modes":[]}"#, "number of modes = 0e0 violates 0 < number of modes");
+    let mode = r#"{"solvent_viscosity":0.0,"polymer_viscosity":1.0,"time":1.0,"mobility":0.9}"#;
+    refused(&format!(r#"{{"fluid":"giesekus_modes","modes":[{mode}]}}"#), "mobility = 9e-1 violates 0 ≤ α ≤ ½");
+    let damping = r#"{"alpha":1.0,"beta":2.0}"#;
+    let memory = r#"[{"viscosity":1.0,"time":1.0}]"#;
+    refused(&format!(r#"{{"fluid":"kbkz_rational","memory":{memory},"damping":{damping}}}"#), "0 ≤ β ≤ 1");
+}
