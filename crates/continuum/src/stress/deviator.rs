@@ -15,7 +15,7 @@ use piola_numerics::sums::unit_in_last_place;
 use crate::Symmetric;
 use crate::tensor::scale::{largest, power_of_two_scale, square_root};
 
-/// Coordinates of a deviator, in units of `unscale`.
+/// Coordinates of a quarter of a deviator, in units of `unscale`: of a quarter, so that no difference overflows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Coordinates<T> {
     u: [T; 5],
@@ -85,7 +85,7 @@ impl<T: Real> Coordinates<T> {
     /// Of the deviator of a stress, scaled to about one.
     #[inline(always)]
     pub(super) fn of(stress: &Symmetric<T>) -> Self {
-        let u = coordinates(stress);
+        let u = coordinates(&(*stress * T::lit(0.25)));
         let (scale, unscale) = power_of_two_scale(largest(u));
         Self { u: [u[0] * scale, u[1] * scale, u[2] * scale, u[3] * scale, u[4] * scale], unscale }
     }
@@ -93,7 +93,7 @@ impl<T: Real> Coordinates<T> {
     /// √(3 J₂).
     #[inline(always)]
     pub(super) fn von_mises(&self) -> T {
-        square_root(three_j2(self.u)) * self.unscale
+        square_root(three_j2(self.u)) * self.unscale * T::lit(4.0)
     }
 
     /// (sin 3θ, cos 3θ) times a common factor that is positive, or (0, 1) for the deviator zero.
@@ -140,7 +140,7 @@ impl<T: Real> Coordinates<T> {
         let size = inner(normal, normal) * inner(u, u);
         let exists = T::zero().less_than(size) & are_apart(u, v, wedge_squared(u, v));
         // |E| |D| = 2 √(…), in units of stress.
-        let factor = -T::lit(0.5) / T::select(exists, size, T::one()).sqrt() / self.unscale;
+        let factor = -T::lit(0.125) / T::select(exists, size, T::one()).sqrt() / self.unscale;
         let factor = T::select(exists, factor, T::zero());
         let gradient = tensor(normal);
         gradient * factor

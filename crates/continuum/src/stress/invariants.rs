@@ -18,7 +18,8 @@
 //! # Accuracy
 //! All deviatoric quantities are made of differences of stresses: they keep their digits under any pressure. Those
 //! of the dimension of a stress are scaled by powers of two, so that they neither overflow nor vanish for
-//! stresses of 10⁻³⁰⁰ or 10³⁰⁰ Pa. Beyond 4 · 10³⁰⁷ Pa the differences themselves overflow.
+//! stresses of 10⁻³⁰⁰ or 10³⁰⁰ Pa. They and
+//! the principal stresses are finite wherever they can be represented; below 10⁻³⁰⁷ Pa two bits are lost.
 //!
 //! # Derivatives
 //! Over differentiable numbers the functions have the derivatives of [`gradients`](super::gradients), with zero
@@ -44,7 +45,8 @@ use crate::{ContinuumError, Symmetric};
 #[inline(always)]
 #[must_use]
 pub fn mean<T: Real>(stress: &Symmetric<T>) -> T {
-    stress.mean()
+    // Of a quarter, so that no sum overflows.
+    (*stress * T::lit(0.25)).mean() * T::lit(4.0)
 }
 
 /// The deviator D = T − m 1, Pa, from differences of stresses.
@@ -61,7 +63,7 @@ pub fn mean<T: Real>(stress: &Symmetric<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn deviator<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
-    stress.deviator()
+    (*stress * T::lit(0.25)).deviator() * T::lit(4.0)
 }
 
 /// The principal invariants (I₁, I₂, I₃) = (tr T, sum of the principal minors, det T) in Pa, Pa², Pa³.
@@ -319,7 +321,7 @@ impl<T: Real> HaighWestergaard<T> {
         let coordinates = Coordinates::of(stress);
         let (sine, cosine) = coordinates.triple_angle();
         Self {
-            hydrostatic: stress.trace() * T::lit(1.0 / ROOT_3),
+            hydrostatic: (*stress * T::lit(0.25)).trace() * T::lit(4.0 / ROOT_3),
             deviatoric: coordinates.von_mises() * T::lit(ROOT_2_3),
             lode_angle: sine.atan2(cosine) / T::lit(3.0),
         }

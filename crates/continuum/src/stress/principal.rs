@@ -11,7 +11,7 @@ use piola_numerics::Real;
 
 #[cfg(feature = "serde")]
 use super::invariants::check_range;
-use super::invariants::{deviator, mean};
+use super::invariants::mean;
 use super::{CauchyStress, KirchhoffStress, UnitNormal};
 use crate::Symmetric;
 #[cfg(feature = "serde")]
@@ -139,8 +139,16 @@ impl<T: Real> PrincipalStresses<T> {
     #[inline(always)]
     #[must_use]
     pub fn of(stress: &Symmetric<T>) -> Self {
-        let decomposition = decompose(&deviator(stress));
-        Self { mean: mean(stress), deviatoric: decomposition.values, axes: decomposition.vectors }
+        // Of a quarter, so that nothing overflows.
+        let quarter = *stress * T::lit(0.25);
+        let decomposition = decompose(&quarter.deviator());
+        let [first, second, third] = decomposition.values;
+        let four = T::lit(4.0);
+        Self {
+            mean: mean(stress),
+            deviatoric: [first * four, second * four, third * four],
+            axes: decomposition.vectors,
+        }
     }
 
     /// σ₁ ≥ σ₂ ≥ σ₃, Pa.

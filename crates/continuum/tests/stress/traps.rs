@@ -3,7 +3,7 @@
 use core::f64::consts::{FRAC_PI_3, FRAC_PI_6};
 
 use nalgebra::{Matrix3, Vector3};
-use piola_continuum::stress::{gradients, invariants};
+use piola_continuum::stress::{PrincipalStresses, gradients, invariants};
 use piola_continuum::{
     BiotStress, CauchyStress, ContinuumError, DeformationGradient, FirstPiola, KirchhoffStress, MandelStress,
     ReferenceNormal, SecondPiola, Symmetric, UnitNormal,
@@ -239,6 +239,26 @@ fn bad_normals_and_rotations_are_refused_by_name() {
     let refused = twist.check_moment(&f);
     let expected = ContinuumError::NotSymmetric { quantity: "P F^T", row: 0, column: 1, difference: 3.0, scale: 2.0 };
     assert_eq!(refused, Err(expected));
+}
+
+#[test]
+fn stresses_at_the_end_of_the_range_equal_scaled_ones() {
+    // 2¹⁰²² and 2⁻¹⁰¹⁰ times a few units: what can be represented is, to the last bit.
+    for stress in [Symmetric::new(3.0, -0.5, 1.5, 0.5, 0.0, -0.25), diagonal([3.0, 3.0, 2.5])] {
+        for scale in [2.0_f64.powi(1022), 2.0_f64.powi(-1010)] {
+            let large = stress * scale;
+            let scaled = |x: f64| [x * scale];
+            assert_close("mean", &[invariants::mean(&large)], &scaled(invariants::mean(&stress)), EXACT);
+            assert_close("von Mises", &[invariants::von_mises(&large)], &scaled(invariants::von_mises(&stress)), EXACT);
+            assert_close("Tresca", &[invariants::tresca(&large)], &scaled(invariants::tresca(&stress)), EXACT);
+            assert_eq!(invariants::deviator(&large), invariants::deviator(&stress) * scale);
+            let (found, expected) = (PrincipalStresses::of(&large).values(), PrincipalStresses::of(&stress).values());
+            assert_close("principal", &found, &expected.map(|x| x * scale), EXACT);
+            assert_eq!(invariants::lode_angle(&large).to_bits(), invariants::lode_angle(&stress).to_bits());
+            let gradient = gradients::von_mises(&large);
+            assert_eq!(gradient, gradients::von_mises(&stress));
+        }
+    }
 }
 
 #[test]

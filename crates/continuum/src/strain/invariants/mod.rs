@@ -15,8 +15,8 @@
 //! J and J − 1 are asked of the [`Deformation`] itself. Derivatives of Ī with respect to C are those functions that
 //! begin with `isochoric` and end with `derivative`.
 
-use piola_numerics::linear::matrix3::dot;
 use piola_numerics::Real;
+use piola_numerics::linear::matrix3::dot;
 
 use super::kernels::right_cauchy_green;
 use crate::deformation::volume::trace_pair;
