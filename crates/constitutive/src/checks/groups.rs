@@ -76,7 +76,10 @@ impl CrystalClass {
         }
     }
 
-    /// Of one of the 32 crystal classes, by its Hermann–Mauguin symbol with a minus for a bar.
+    /// Of one of the 32 crystal classes, by its Hermann–Mauguin symbol with a minus for a bar, in any setting.
+    ///
+    /// The axes are those of the table, whatever the setting: in 312, 31m and -31m the axis e₁ of the half turn is across
+    /// the crystal's axis a, in 321, 3m1 and -3m1 along it.
     ///
     /// # Example
     /// ```
@@ -89,15 +92,15 @@ impl CrystalClass {
         Some(match symbol {
             "1" | "-1" => Self::Triclinic,
             "2" | "m" | "2/m" => Self::Monoclinic,
-            "222" | "mm2" | "mmm" => Self::Rhombic,
+            "222" | "mm2" | "m2m" | "2mm" | "mmm" => Self::Rhombic,
             "4" | "-4" | "4/m" => Self::TetragonalLow,
-            "422" | "4mm" | "-42m" | "4/mmm" => Self::TetragonalHigh,
+            "422" | "4mm" | "-42m" | "-4m2" | "4/mmm" => Self::TetragonalHigh,
             "3" | "-3" => Self::TrigonalLow,
-            "32" | "3m" | "-3m" => Self::TrigonalHigh,
+            "32" | "321" | "312" | "3m" | "3m1" | "31m" | "-3m" | "-3m1" | "-31m" => Self::TrigonalHigh,
             "6" | "-6" | "6/m" => Self::HexagonalLow,
-            "622" | "6mm" | "-6m2" | "6/mmm" => Self::HexagonalHigh,
-            "23" | "m-3" => Self::CubicLow,
-            "432" | "-43m" | "m-3m" => Self::CubicHigh,
+            "622" | "6mm" | "-6m2" | "-62m" | "6/mmm" => Self::HexagonalHigh,
+            "23" | "m-3" | "m3" => Self::CubicLow,
+            "432" | "-43m" | "m-3m" | "m3m" => Self::CubicHigh,
             _ => return None,
         })
     }

@@ -30,7 +30,6 @@ pub use equilibrium::{
 };
 pub use incompressible::{Incompressible, IncompressibleState, nominal_stress, nominal_stress_and_slope};
 pub use mode::Mode;
-pub(crate) use newton::isochoric_part;
 
 use piola_continuum::tensor::rows::Rows;
 use piola_numerics::Real;

@@ -297,7 +297,7 @@ impl<L: Hyperelastic, C> Problem<'_, L, C> {
 }
 
 /// J^(−⅓) F.
-pub(crate) fn isochoric_part(state: &DisplacementGradient) -> Option<DisplacementGradient> {
+fn isochoric_part(state: &DisplacementGradient) -> Option<DisplacementGradient> {
     // c − 1 without cancellation.
     let less = (-state.ln_jacobian() / 3.0).exp_m1();
     let h = state.displacement_rows();

@@ -1,11 +1,12 @@
 //! The solids of Blatz and Ko.
 
 use piola_continuum::Deformation;
-use piola_numerics::Real;
+use piola_numerics::{Mask, Real};
 
 use super::incompressible::inverse_excess;
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants};
 use super::parameters::parameters;
+use super::range::check_exponent;
 use crate::ConstitutiveError;
 use crate::elementary::excess_over_given;
 
@@ -20,6 +21,8 @@ parameters! {
     /// | μ | `mu` | Pa | 0 < μ (the shear modulus) |
     /// | ν | `nu` | 1 | 0 ≤ ν < ½ (Poisson's ratio) |
     /// | f | `share` | 1 | 0 ≤ f ≤ 1: 0 foam, 1 solid |
+    ///
+    /// `check` refuses changes of volume whose power J^(±2β) leaves the range of the scalar, as it soon does near ν = ½.
     ///
     /// [`foam`](Self::foam) is f = 0, ν = ¼: W = ½ μ (I₂/I₃ + 2 √I₃ − 5).
     ///
@@ -80,6 +83,17 @@ impl BlatzKo {
 impl InvariantEnergy for BlatzKo {
     const SECOND: bool = true;
     const CURVED: bool = true;
+
+    #[inline(always)]
+    fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
+        let jacobian = deformation.jacobian();
+        // |2 β ln J| < 60.
+        if self.beta() <= 10.0 && (T::lit(0.05).less_than(jacobian) & jacobian.less_than(T::lit(20.0))).all() {
+            return Ok(());
+        }
+        let exponent = (T::lit(2.0 * self.beta()) * deformation.ln_jacobian()).abs();
+        check_exponent(Self::NAME, "2 β |ln J|", exponent, T::lit(4.0 * self.mu * (1.0 + self.beta())))
+    }
 
     /// With z = J^(∓2β) − 1 the brackets are I₁ − 3 − 2 ln J and I₂/J² − 3 + 2 ln J, each with (z − ln(1 + z))/β.
     #[inline(always)]

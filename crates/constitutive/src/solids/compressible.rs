@@ -93,6 +93,7 @@ fn isochoric_of<T: Real, I: Isochoric>(invariants: &Invariants<T>) -> (T, T, T) 
 impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
     const SECOND: bool = I::SECOND;
     const CURVED: bool = true;
+    const REFUSED_IS_NOT_FINITE: bool = I::REFUSED_IS_NOT_FINITE;
 
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
@@ -112,23 +113,18 @@ impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
     #[inline(always)]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let (power, x, y) = isochoric_of::<T, I>(invariants);
-        let [a, b] = self.isochoric.slopes(x, y);
-        let first = a * power;
-        let volume = self.volumetric.mean_kirchhoff(invariants.change, invariants.jacobian);
-        let mut residual = volume - T::lit(2.0 / 3.0) * (first * invariants.first);
-        if !I::SECOND {
-            return Slopes { first, second: T::zero(), residual };
-        }
-        let second = b * (power * power);
-        residual -= T::lit(4.0 / 3.0) * (second * invariants.second);
-        Slopes { first, second, residual }
+        self.slopes_of(invariants, power, self.isochoric.slopes(x, y))
     }
 
     #[inline(always)]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
+        self.slopes_and_curvatures(invariants).1
+    }
+
+    #[inline(always)]
+    fn slopes_and_curvatures<T: Real>(&self, invariants: &Invariants<T>) -> (Slopes<T>, Curvatures<T>) {
         let (power, x, y) = isochoric_of::<T, I>(invariants);
-        let [a, b] = self.isochoric.slopes(x, y);
-        let [xx, xy, yy] = self.isochoric.curvatures(x, y);
+        let ([a, b], [xx, xy, yy]) = self.isochoric.slopes_and_curvatures(x, y);
         let reciprocal = invariants.jacobian.recip();
         let square = power * power;
         // ∂x/∂J and ∂y/∂J, of J^(−2/3) I₁ and J^(−4/3) I₂.
@@ -138,7 +134,7 @@ impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
         let (first_turn, second_turn) = (xx * first_rate + xy * second_rate, xy * first_rate + yy * second_rate);
         // ∂²x/∂J² = −(5/3) ∂x/∂J / J, ∂²y/∂J² = −(7/3) ∂y/∂J / J.
         let bending = T::lit(-5.0 / 3.0) * (a * first_rate) + T::lit(-7.0 / 3.0) * (b * second_rate);
-        Curvatures {
+        let curvatures = Curvatures {
             first_first: xx * square,
             first_second: xy * (square * power),
             second_second: yy * (square * square),
@@ -148,7 +144,24 @@ impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
                 + second_turn * second_rate
                 + bending * reciprocal
                 + self.volumetric.curvature(invariants.change, invariants.jacobian),
+        };
+        (self.slopes_of(invariants, power, [a, b]), curvatures)
+    }
+}
+
+impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
+    /// The slopes, given J^(−2/3) and those of W̄.
+    #[inline(always)]
+    fn slopes_of<T: Real>(&self, invariants: &Invariants<T>, power: T, [a, b]: [T; 2]) -> Slopes<T> {
+        let first = a * power;
+        let volume = self.volumetric.mean_kirchhoff(invariants.change, invariants.jacobian);
+        let mut residual = volume - T::lit(2.0 / 3.0) * (first * invariants.first);
+        if !I::SECOND {
+            return Slopes { first, second: T::zero(), residual };
         }
+        let second = b * (power * power);
+        residual -= T::lit(4.0 / 3.0) * (second * invariants.second);
+        Slopes { first, second, residual }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The two constants of an isotropic linear solid, from any pair of the six in use.
 
 use crate::ConstitutiveError;
-use crate::error::check_bound;
+use crate::error::{check_bound, check_finite};
 
 const LAW: &str = "elastic constants";
 
@@ -68,8 +68,12 @@ fn check_compressible(nu: f64) -> Result<(), ConstitutiveError> {
 
 impl ElasticConstants {
     /// From λ and μ that have been checked.
-    fn of(lambda: f64, mu: f64) -> Self {
-        Self { mu, lambda: Some(lambda) }
+    /// A pair can overflow them: near ν = ½ λ is as large as the number allows.
+    fn of(lambda: f64, mu: f64) -> Result<Self, ConstitutiveError> {
+        check_finite(LAW, "lambda", lambda)?;
+        check_positive("mu", mu, "0 < μ")?;
+        check_finite(LAW, "3 λ + 2 μ", 3.0 * lambda + 2.0 * mu)?;
+        Ok(Self { mu, lambda: Some(lambda) })
     }
 
     /// λ and μ: 0 < μ, 0 < 3 λ + 2 μ.
@@ -79,7 +83,7 @@ impl ElasticConstants {
     pub fn from_lame(lambda: f64, mu: f64) -> Result<Self, ConstitutiveError> {
         check_positive("mu", mu, "0 < μ")?;
         check_bound(LAW, "lambda", lambda, "0 < 3 λ + 2 μ", 0.0 < 3.0 * lambda + 2.0 * mu)?;
-        Ok(Self::of(lambda, mu))
+        Self::of(lambda, mu)
     }
 
     /// An incompressible solid: ν = ½.
@@ -100,7 +104,7 @@ impl ElasticConstants {
         check_poisson(nu)?;
         let mu = 0.5 * young / (1.0 + nu);
         let beyond = 1.0 - 2.0 * nu;
-        Ok(if 0.0 < beyond { Self::of(2.0 * mu * nu / beyond, mu) } else { Self { mu, lambda: None } })
+        if 0.0 < beyond { Self::of(2.0 * mu * nu / beyond, mu) } else { Ok(Self { mu, lambda: None }) }
     }
 
     /// G and ν: 0 < G, −1 < ν ≤ ½.
@@ -111,7 +115,7 @@ impl ElasticConstants {
         check_positive("G", mu, "0 < G")?;
         check_poisson(nu)?;
         let beyond = 1.0 - 2.0 * nu;
-        Ok(if 0.0 < beyond { Self::of(2.0 * mu * nu / beyond, mu) } else { Self { mu, lambda: None } })
+        if 0.0 < beyond { Self::of(2.0 * mu * nu / beyond, mu) } else { Ok(Self { mu, lambda: None }) }
     }
 
     /// E and G: 0 < E ≤ 3 G, incompressible where they are equal.
@@ -122,7 +126,7 @@ impl ElasticConstants {
         check_positive("G", mu, "0 < G")?;
         check_bound(LAW, "E", young, "0 < E ≤ 3 G", 0.0 < young && young <= 3.0 * mu)?;
         let beyond = 3.0 * mu - young;
-        Ok(if 0.0 < beyond { Self::of(mu * (young - 2.0 * mu) / beyond, mu) } else { Self { mu, lambda: None } })
+        if 0.0 < beyond { Self::of(mu * (young - 2.0 * mu) / beyond, mu) } else { Ok(Self { mu, lambda: None }) }
     }
 
     /// K and G: 0 < K, 0 < G.
@@ -132,7 +136,7 @@ impl ElasticConstants {
     pub fn from_bulk_shear(bulk: f64, mu: f64) -> Result<Self, ConstitutiveError> {
         check_positive("K", bulk, "0 < K")?;
         check_positive("G", mu, "0 < G")?;
-        Ok(Self::of(bulk - 2.0 / 3.0 * mu, mu))
+        Self::of(bulk - 2.0 / 3.0 * mu, mu)
     }
 
     /// K and ν: 0 < K, −1 < ν < ½. At ½ a finite K would be that of a fluid.
@@ -143,7 +147,7 @@ impl ElasticConstants {
         check_positive("K", bulk, "0 < K")?;
         check_compressible(nu)?;
         let share = 3.0 * bulk / (1.0 + nu);
-        Ok(Self::of(share * nu, 0.5 * share * (1.0 - 2.0 * nu)))
+        Self::of(share * nu, 0.5 * share * (1.0 - 2.0 * nu))
     }
 
     /// K and E: 0 < K, 0 < E < 9 K.
@@ -154,7 +158,7 @@ impl ElasticConstants {
         check_positive("K", bulk, "0 < K")?;
         check_bound(LAW, "E", young, "0 < E < 9 K", 0.0 < young && young < 9.0 * bulk)?;
         let share = 3.0 * bulk / (9.0 * bulk - young);
-        Ok(Self::of(share * (3.0 * bulk - young), share * young))
+        Self::of(share * (3.0 * bulk - young), share * young)
     }
 
     /// λ and E: 0 < E, any λ.
@@ -178,7 +182,7 @@ impl ElasticConstants {
     pub fn from_lame_poisson(lambda: f64, nu: f64) -> Result<Self, ConstitutiveError> {
         check_compressible(nu)?;
         check_bound(LAW, "lambda", lambda, "0 < λ/ν", 0.0 < lambda / nu)?;
-        Ok(Self::of(lambda, 0.5 * (lambda / nu) * (1.0 - 2.0 * nu)))
+        Self::of(lambda, 0.5 * (lambda / nu) * (1.0 - 2.0 * nu))
     }
 
     /// λ and K: 0 < K, λ < K.
@@ -188,7 +192,7 @@ impl ElasticConstants {
     pub fn from_lame_bulk(lambda: f64, bulk: f64) -> Result<Self, ConstitutiveError> {
         check_positive("K", bulk, "0 < K")?;
         check_bound(LAW, "lambda", lambda, "λ < K", lambda < bulk)?;
-        Ok(Self::of(lambda, 1.5 * (bulk - lambda)))
+        Self::of(lambda, 1.5 * (bulk - lambda))
     }
 
     /// λ and M: λ < M, 0 < 2 λ + M.
@@ -199,7 +203,7 @@ impl ElasticConstants {
         check_positive("M", uniaxial, "0 < M")?;
         let holds = lambda < uniaxial && 0.0 < 2.0 * lambda + uniaxial;
         check_bound(LAW, "lambda", lambda, "−½ M < λ < M", holds)?;
-        Ok(Self::of(lambda, 0.5 * (uniaxial - lambda)))
+        Self::of(lambda, 0.5 * (uniaxial - lambda))
     }
 
     /// G and M: 0 < G, 4/3 G < M.
@@ -209,7 +213,7 @@ impl ElasticConstants {
     pub fn from_shear_uniaxial(mu: f64, uniaxial: f64) -> Result<Self, ConstitutiveError> {
         check_positive("G", mu, "0 < G")?;
         check_bound(LAW, "M", uniaxial, "4/3 G < M", 4.0 * mu < 3.0 * uniaxial)?;
-        Ok(Self::of(uniaxial - 2.0 * mu, mu))
+        Self::of(uniaxial - 2.0 * mu, mu)
     }
 
     /// K and M: 0 < K < M.
@@ -219,7 +223,7 @@ impl ElasticConstants {
     pub fn from_bulk_uniaxial(bulk: f64, uniaxial: f64) -> Result<Self, ConstitutiveError> {
         check_positive("K", bulk, "0 < K")?;
         check_bound(LAW, "M", uniaxial, "K < M", bulk < uniaxial)?;
-        Ok(Self::of(0.5 * (3.0 * bulk - uniaxial), 0.75 * (uniaxial - bulk)))
+        Self::of(0.5 * (3.0 * bulk - uniaxial), 0.75 * (uniaxial - bulk))
     }
 
     /// ν and M: −1 < ν < ½, 0 < M.
@@ -230,7 +234,7 @@ impl ElasticConstants {
         check_positive("M", uniaxial, "0 < M")?;
         check_compressible(nu)?;
         let share = uniaxial / (1.0 - nu);
-        Ok(Self::of(share * nu, 0.5 * share * (1.0 - 2.0 * nu)))
+        Self::of(share * nu, 0.5 * share * (1.0 - 2.0 * nu))
     }
 
     /// E and M: 0 < E ≤ M. Two solids have them; the sign of ν chooses.
@@ -251,15 +255,15 @@ impl ElasticConstants {
         // S² = (E − M)(E − 9 M); in each branch the root without a difference.
         let beyond = uniaxial - young;
         let root = (beyond * (9.0 * uniaxial - young)).sqrt();
-        Ok(match sign {
+        match sign {
             PoissonSign::NonNegative => {
                 Self::of(0.25 * (beyond + root), 2.0 * young * uniaxial / (3.0 * uniaxial + young + root))
             }
             PoissonSign::Negative => {
                 let share = if 0.0 < beyond { beyond / (beyond + root) } else { 0.0 };
-                Self::from_lame(-2.0 * uniaxial * share, 0.125 * (3.0 * uniaxial + young + root))?
+                Self::from_lame(-2.0 * uniaxial * share, 0.125 * (3.0 * uniaxial + young + root))
             }
-        })
+        }
     }
 
     /// μ = G, Pa.

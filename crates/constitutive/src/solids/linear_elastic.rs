@@ -1,10 +1,10 @@
 //! Linear elasticity of isotropic solids.
 
 use piola_continuum::strain::LinearStrain;
-use piola_continuum::stress::tangents::FirstPiolaTangent;
+use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::tensor::voigt::{ComplianceMatrix, StiffnessMatrix, VoigtOrder};
 use piola_continuum::tensor::{FourthOrder, MajorSymmetric};
-use piola_continuum::{CauchyStress, Deformation, FirstPiola, Symmetric};
+use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::Real;
 
 use super::{ElasticConstants, Hyperelastic};
@@ -18,9 +18,8 @@ const LAW: &str = "linear elastic";
 /// T = λ tr ε 1 + 2 μ ε        W = ½ λ (tr ε)² + μ ε : ε        ε = sym ∇u
 /// σ = M ε   with M = [λ + 2μ on the diagonal of the normals, λ beside it, μ for the engineering shears]
 /// ```
-/// Its methods speak of the linear strain, where all stresses are one. As a [`Hyperelastic`] law it gives
-/// P = ∂W/∂F = T with the constant tangent ∂P/∂F; S, τ and the Cauchy stress follow from P and F and differ from T by
-/// terms of second order. It is not frame-indifferent: a turned body is taken for a strained one.
+/// For small strain and small rotation, where all measures of stress are T and all tangents λ 1 ⊗ 1 + 2 μ: each method
+/// of [`Hyperelastic`] returns these. It is not frame-indifferent: a turned body is taken for a strained one.
 ///
 /// Of an incompressible solid see [`MixedLinearElastic`].
 ///
@@ -174,6 +173,31 @@ impl Hyperelastic for LinearElastic {
     #[inline(always)]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         FirstPiola(self.hooke(&LinearStrain::of(deformation).0).matrix())
+    }
+
+    #[inline(always)]
+    fn second_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
+        SecondPiola(self.hooke(&LinearStrain::of(deformation).0))
+    }
+
+    #[inline(always)]
+    fn kirchhoff<T: Real>(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
+        KirchhoffStress(self.hooke(&LinearStrain::of(deformation).0))
+    }
+
+    #[inline(always)]
+    fn cauchy<T: Real>(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
+        self.stress(&LinearStrain::of(deformation))
+    }
+
+    #[inline(always)]
+    fn material_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MaterialTangent<T> {
+        MaterialTangent(self.stiffness())
+    }
+
+    #[inline(always)]
+    fn truesdell_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
+        TruesdellTangent(self.stiffness())
     }
 
     #[inline(always)]

@@ -31,6 +31,7 @@ mod ogden;
 mod parameters;
 mod polynomial;
 mod pressurised;
+mod range;
 mod reinforced;
 pub mod response;
 mod saint_venant_kirchhoff;

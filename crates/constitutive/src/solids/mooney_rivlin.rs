@@ -69,15 +69,25 @@ impl MooneyRivlin {
     /// d = 2 (C₁₀ + 2 C₀₁ + c), so that the reference is free of stress.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As [`new`](Self::new); and unless the bulk modulus λ + ⅔ μ of the reference is positive and 0 ≤ d, without which
+    /// W would fall without bound as J → 0.
     pub fn stress_free(c10: f64, c01: f64, c: f64) -> Result<Self, ConstitutiveError> {
-        Self { c10, c01, c, d: 2.0 * (c10 + 2.0 * c01 + c), residual: 0.0 }.checked()
+        let law = Self { c10, c01, c, d: 2.0 * (c10 + 2.0 * c01 + c), residual: 0.0 }.checked()?;
+        // λ = 4 (c + C₀₁), μ = 2 (C₁₀ + C₀₁).
+        let bulk = 4.0 * (c + c01) + 4.0 / 3.0 * (c10 + c01);
+        check_bound(LAW, "c", c, "0 < λ + ⅔ μ = 4 (c + C01) + 4/3 (C10 + C01)", 0.0 < bulk)?;
+        check_bound(LAW, "d", law.d, "0 ≤ d = 2 (C10 + 2 C01 + c)", 0.0 <= law.d)?;
+        Ok(law)
     }
 
     fn checked(self) -> Result<Self, ConstitutiveError> {
         check_finite(LAW, "C01", self.c01)?;
         check_bound(LAW, "C10", self.c10, "0 < C10 + C01", 0.0 < self.c10 + self.c01)?;
         check_bound(LAW, "c", self.c, "0 ≤ c", 0.0 <= self.c)?;
+        // Sums of finite parameters can overflow.
+        check_finite(LAW, "d", self.d)?;
+        check_finite(LAW, "2 C10 + 4 C01 + 2 c − d", self.residual)?;
+        check_finite(LAW, "C10 + C01", self.c10 + self.c01)?;
         Ok(self)
     }
 

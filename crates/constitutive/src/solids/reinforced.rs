@@ -110,21 +110,22 @@ impl StrainEnergy for ReinforcedNeoHookean {
     }
     #[inline(always)]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
-        let (structure, stretch) = self.stretch(deformation);
-        let (inverse, less_inverse) = inverse_metric(deformation);
-        less_inverse * T::lit(self.mu)
-            + inverse * (T::lit(self.lambda) * deformation.ln_jacobian())
-            + structure * (T::lit(2.0 * self.k) * stretch)
+        self.stress_and_tangent(deformation).0
     }
     #[inline(always)]
     fn tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MajorSymmetric<T> {
-        let (structure, _) = self.stretch(deformation);
-        let (inverse, _) = inverse_metric(deformation);
-        let lambda = T::lit(self.lambda);
-        let shear = T::lit(self.mu) - lambda * deformation.ln_jacobian();
-        MajorSymmetric::dyad(&inverse) * lambda
-            + MajorSymmetric::square_dyad(&inverse) * (T::lit(2.0) * shear)
-            + MajorSymmetric::dyad(&structure) * T::lit(4.0 * self.k)
+        self.stress_and_tangent(deformation).1
+    }
+    #[inline(always)]
+    fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
+        let (structure, stretch) = self.stretch(deformation);
+        let (inverse, less_inverse) = inverse_metric(deformation);
+        let (lambda, volume) = (T::lit(self.lambda), T::lit(self.lambda) * deformation.ln_jacobian());
+        let stress = less_inverse * T::lit(self.mu) + inverse * volume + structure * (T::lit(2.0 * self.k) * stretch);
+        let tangent = MajorSymmetric::dyad(&inverse) * lambda
+            + MajorSymmetric::square_dyad(&inverse) * (T::lit(2.0) * (T::lit(self.mu) - volume))
+            + MajorSymmetric::dyad(&structure) * T::lit(4.0 * self.k);
+        (stress, tangent)
     }
 }
 

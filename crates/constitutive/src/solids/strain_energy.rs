@@ -17,6 +17,11 @@ pub(super) trait StrainEnergy {
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T>;
     /// ∂S/∂E, Pa.
     fn tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MajorSymmetric<T>;
+    /// S and ∂S/∂E, with what they share computed once.
+    #[inline(always)]
+    fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
+        (self.stress(deformation), self.tangent(deformation))
+    }
     /// Where the law has no answer.
     #[inline(always)]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
@@ -110,18 +115,18 @@ macro_rules! hyperelastic_of_strain {
                 &self,
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> piola_continuum::stress::tangents::FirstPiolaTangent<T> {
-                let stress = self.stress(deformation);
-                $crate::solids::strain_energy::nominal_tangent(&stress, &self.tangent(deformation), deformation)
+                let (stress, tangent) = self.stress_and_tangent(deformation);
+                $crate::solids::strain_energy::nominal_tangent(&stress, &tangent, deformation)
             }
             #[inline(always)]
             fn first_piola_and_tangent<T: piola_numerics::Real>(
                 &self,
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
-                let stress = self.stress(deformation);
+                let (stress, tangent) = self.stress_and_tangent(deformation);
                 (
                     $crate::solids::strain_energy::nominal(&stress, deformation),
-                    $crate::solids::strain_energy::nominal_tangent(&stress, &self.tangent(deformation), deformation),
+                    $crate::solids::strain_energy::nominal_tangent(&stress, &tangent, deformation),
                 )
             }
             #[inline(always)]
@@ -130,6 +135,26 @@ macro_rules! hyperelastic_of_strain {
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> piola_continuum::stress::tangents::MaterialTangent<T> {
                 piola_continuum::stress::tangents::MaterialTangent(self.tangent(deformation))
+            }
+            #[inline(always)]
+            fn second_piola_and_tangent<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
+                let (stress, tangent) = self.stress_and_tangent(deformation);
+                (piola_continuum::SecondPiola(stress), piola_continuum::stress::tangents::MaterialTangent(tangent))
+            }
+            #[inline(always)]
+            fn cauchy_and_tangent<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
+                let (stress, tangent) = self.stress_and_tangent(deformation);
+                let spatial = stress.congruence(deformation.gradient_rows());
+                (
+                    piola_continuum::KirchhoffStress(spatial).cauchy(deformation),
+                    piola_continuum::stress::tangents::MaterialTangent(tangent).truesdell(deformation),
+                )
             }
         }
     };

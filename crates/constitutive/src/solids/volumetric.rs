@@ -354,7 +354,7 @@ impl Volumetric for Miehe {
 parameters! {
     /// U = κ β⁻² (J^(−β) − 1 + β ln J).
     ///
-    /// κ in Pa, 0 ≤ κ; β ≠ 0. β = 9 is Ogden's value for rubber, β = −2 is [`SimoTaylor`]'s energy.
+    /// κ in Pa, 0 ≤ κ; β ≠ 0, κ/β² finite. β = 9 is Ogden's value for rubber, β = −2 is [`SimoTaylor`]'s energy.
     ///
     /// # Example
     /// ```
@@ -367,7 +367,7 @@ parameters! {
         /// κ, Pa.
         kappa: "0 ≤ κ" => 0.0 <= kappa,
         /// β.
-        beta: "0 < |β|" => 0.0 < beta.abs(),
+        beta: "0 < |β|, κ/β² finite" => 0.0 < beta.abs() && (kappa / (beta * beta)).is_finite(),
     }
 }
 

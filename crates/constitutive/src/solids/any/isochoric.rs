@@ -37,6 +37,7 @@ macro_rules! any_isochoric {
 
         impl Isochoric for AnyIsochoric {
             const SECOND: bool = true;
+            const REFUSED_IS_NOT_FINITE: bool = true;
 
             #[inline(always)]
             fn energy<T: Real>(&self, first: T, second: T) -> T {
@@ -49,6 +50,10 @@ macro_rules! any_isochoric {
             #[inline(always)]
             fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3] {
                 match self { $(Self::$name(part) => part.curvatures(first, second)),+ }
+            }
+            #[inline(always)]
+            fn slopes_and_curvatures<T: Real>(&self, first: T, second: T) -> ([T; 2], [T; 3]) {
+                match self { $(Self::$name(part) => part.slopes_and_curvatures(first, second)),+ }
             }
             fn check(&self, first: f64, second: f64) -> Result<(), ConstitutiveError> {
                 match self { $(Self::$name(part) => part.check(first, second)),+ }

@@ -69,6 +69,13 @@ impl ArrudaBoyce {
         ((first + T::lit(3.0)) / T::lit(3.0 * self.links)).sqrt()
     }
 
+    /// [∂W̄/∂Ī₁, 0] of x, λ and β.
+    #[inline(always)]
+    fn slope<T: Real>(&self, first: T, stretch: T, beta: T) -> [T; 2] {
+        let slope = T::lit(self.rubbery_modulus / 6.0) * (beta / stretch);
+        [within(first, self.limit(), slope), T::zero()]
+    }
+
     /// ln(sinh β/β), for 0 < β.
     #[inline(always)]
     fn logarithm<T: Real>(beta: T) -> T {
@@ -80,6 +87,7 @@ impl ArrudaBoyce {
 
 impl Isochoric for ArrudaBoyce {
     const SECOND: bool = false;
+    const REFUSED_IS_NOT_FINITE: bool = true;
 
     /// β₀ (λ − λ₀) + ∫ (λ − ℒ(b)) db from β₀ to β: of second order where it must be, by quadrature while β − β₀ ≤ 1.
     #[inline(always)]
@@ -111,19 +119,23 @@ impl Isochoric for ArrudaBoyce {
     #[inline(always)]
     fn slopes<T: Real>(&self, first: T, _second: T) -> [T; 2] {
         let stretch = self.stretch(first);
-        let slope = T::lit(self.rubbery_modulus / 6.0) * (inverse_langevin(stretch) / stretch);
-        [within(first, self.limit(), slope), T::zero()]
+        self.slope(first, stretch, inverse_langevin(stretch))
     }
 
-    /// n/(36 N λ²) (1/ℒ′(β) − β/λ).
     #[inline(always)]
-    fn curvatures<T: Real>(&self, first: T, _second: T) -> [T; 3] {
+    fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3] {
+        self.slopes_and_curvatures(first, second).1
+    }
+
+    /// ∂²W̄/∂Ī₁² = n/(36 N λ²) (1/ℒ′(β) − β/λ).
+    #[inline(always)]
+    fn slopes_and_curvatures<T: Real>(&self, first: T, _second: T) -> ([T; 2], [T; 3]) {
         let stretch = self.stretch(first);
         let beta = inverse_langevin(stretch);
         let (_, slope) = ratio_and_slope(beta);
         let inner = slope.recip() - beta / stretch;
         let curvature = T::lit(self.rubbery_modulus / (36.0 * self.links)) * (inner / (stretch * stretch));
-        [within(first, self.limit(), curvature), T::zero(), T::zero()]
+        (self.slope(first, stretch, beta), [within(first, self.limit(), curvature), T::zero(), T::zero()])
     }
 
     fn check(&self, first: f64, _second: f64) -> Result<(), ConstitutiveError> {
@@ -168,6 +180,7 @@ parameters! {
 
 impl Isochoric for ArrudaBoyceSeries {
     const SECOND: bool = false;
+    const REFUSED_IS_NOT_FINITE: bool = true;
 
     /// Ī₁ᵏ − 3ᵏ = x (Ī₁ᵏ⁻¹ + 3 Ī₁ᵏ⁻² + … + 3ᵏ⁻¹).
     #[inline(always)]

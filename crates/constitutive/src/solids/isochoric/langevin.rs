@@ -72,7 +72,7 @@ pub(super) fn ratio_and_slope<T: Real>(beta: T) -> (T, T) {
 /// 6 ulp × the condition number λ/(β ℒ′(β)), that is 6 ulp for small λ and 6 ulp/(1 − λ) near the limit.
 ///
 /// # Errors
-/// NaN where 1 ≤ |λ|.
+/// NaN where 1 ≤ |λ|, derivatives included.
 ///
 /// # Example
 /// ```
@@ -91,5 +91,6 @@ pub fn inverse_langevin<T: Real>(lambda: T) -> T {
         let (ratio, slope) = ratio_and_slope(beta);
         beta += (lambda - beta * ratio) / slope;
     }
-    T::select(lambda.abs().less_than(T::one()), beta, T::lit(f64::NAN))
+    // A product: the derivatives beyond the limit are NaN too.
+    beta * T::select(lambda.abs().less_than(T::one()), T::one(), T::lit(f64::NAN))
 }

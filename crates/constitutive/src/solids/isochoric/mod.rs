@@ -69,6 +69,9 @@ pub use yeoh::Yeoh;
 pub trait Isochoric {
     /// Whether W̄ depends on Ī₂.
     const SECOND: bool;
+    /// Whether energy, slopes and curvatures are not finite wherever [`check`](Self::check) refuses, if it refuses
+    /// anything: batches then ask it only where an answer is not finite.
+    const REFUSED_IS_NOT_FINITE: bool = false;
 
     /// W̄(x, y), J/m³.
     #[must_use]
@@ -81,6 +84,13 @@ pub trait Isochoric {
     /// [∂²W̄/∂x², ∂²W̄/∂x∂y, ∂²W̄/∂y²], Pa.
     #[must_use]
     fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3];
+
+    /// The slopes and curvatures, with what they share computed once.
+    #[inline(always)]
+    #[must_use]
+    fn slopes_and_curvatures<T: Real>(&self, first: T, second: T) -> ([T; 2], [T; 3]) {
+        (self.slopes(first, second), self.curvatures(first, second))
+    }
 
     /// Refuses changes of shape beyond what the law can answer.
     ///
@@ -100,6 +110,7 @@ pub trait Isochoric {
 
 impl<I: Isochoric> Isochoric for &I {
     const SECOND: bool = I::SECOND;
+    const REFUSED_IS_NOT_FINITE: bool = I::REFUSED_IS_NOT_FINITE;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, second: T) -> T {
@@ -112,6 +123,10 @@ impl<I: Isochoric> Isochoric for &I {
     #[inline(always)]
     fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3] {
         I::curvatures(self, first, second)
+    }
+    #[inline(always)]
+    fn slopes_and_curvatures<T: Real>(&self, first: T, second: T) -> ([T; 2], [T; 3]) {
+        I::slopes_and_curvatures(self, first, second)
     }
     fn check(&self, first: f64, second: f64) -> Result<(), ConstitutiveError> {
         I::check(self, first, second)
@@ -133,7 +148,9 @@ fn check_below(law: &'static str, quantity: &'static str, value: f64, limit: f64
 }
 
 /// `value` where `x` is below its limit, NaN beyond.
+///
+/// A product, so that every derivative that the scalar carries is NaN too: those of a constant NaN would be zero.
 #[inline(always)]
 fn within<T: Real>(x: T, limit: f64, value: T) -> T {
-    T::select(x.less_than(T::lit(limit)), value, T::lit(f64::NAN))
+    value * T::select(x.less_than(T::lit(limit)), T::one(), T::lit(f64::NAN))
 }

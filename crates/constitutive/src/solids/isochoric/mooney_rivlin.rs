@@ -35,6 +35,7 @@ parameters! {
 
 impl Isochoric for MooneyRivlin {
     const SECOND: bool = true;
+    const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, second: T) -> T {

@@ -31,6 +31,7 @@ parameters! {
 
 impl Isochoric for NeoHookean {
     const SECOND: bool = false;
+    const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {

@@ -95,6 +95,7 @@ impl From<Rivlin> for Vec<RivlinTerm> {
 
 impl Isochoric for Rivlin {
     const SECOND: bool = true;
+    const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, second: T) -> T {

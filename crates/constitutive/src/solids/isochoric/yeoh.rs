@@ -37,6 +37,7 @@ parameters! {
 
 impl Isochoric for Yeoh {
     const SECOND: bool = false;
+    const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {

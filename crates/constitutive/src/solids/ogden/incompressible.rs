@@ -29,7 +29,7 @@ const LAW: &str = "incompressible Ogden";
 /// With an excess pressure P, S, τ relative 1e-13 down to ∇u = 1e-16; with a whole pressure a few ulp of p and of the moduli.
 ///
 /// # Errors
-/// `check` refuses 1e-6 ≤ |J − 1|.
+/// `check` refuses 1e-6 ≤ |J − 1| and powers beyond the range of the scalar.
 ///
 /// # Example
 /// ```
@@ -110,7 +110,8 @@ impl StretchEnergy for IncompressibleOgden {
 
     #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
-        check_volume(LAW, deformation)
+        check_volume(LAW, deformation)?;
+        self.series.check(LAW, deformation, false)
     }
     fn is_incompressible(&self) -> bool {
         true

@@ -1,5 +1,6 @@
 //! Ogden's solids: series of powers of the principal stretches.
 
+use piola_continuum::Deformation;
 use piola_numerics::Real;
 
 use super::stretch::{StretchEnergy, Volume, hyperelastic_of_stretches};
@@ -180,7 +181,7 @@ impl<U: Volumetric> IsochoricOgden<U> {
 
 /// What both have: their parts, and the closed forms of all laws of stretches.
 macro_rules! ogden {
-    ($law:ident, isochoric: $isochoric:literal) => {
+    ($law:ident, $name:ident, isochoric: $isochoric:literal) => {
         impl<U: Volumetric> $law<U> {
             /// The same with U in another form.
             pub(super) fn map<V>(self, volumetric: impl FnOnce(U) -> V) -> $law<V> {
@@ -209,6 +210,11 @@ macro_rules! ogden {
         impl<U: Volumetric> StretchEnergy for $law<U> {
             const ISOCHORIC: bool = $isochoric;
             parts_of_series!();
+
+            #[inline(always)]
+            fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
+                self.series.check($name, deformation, $isochoric)
+            }
 
             #[inline(always)]
             fn volume_energy<T: Real>(&self, volume: &Volume<T>) -> T {
@@ -243,8 +249,8 @@ macro_rules! ogden {
         }
     };
 }
-ogden!(Ogden, isochoric: false);
-ogden!(IsochoricOgden, isochoric: true);
+ogden!(Ogden, LAW, isochoric: false);
+ogden!(IsochoricOgden, ISOCHORIC, isochoric: true);
 
 /// The parameters as they are written.
 #[cfg(feature = "serde")]

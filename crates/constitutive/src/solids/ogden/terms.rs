@@ -1,11 +1,14 @@
 //! The series of powers of the principal stretches that all of Ogden's solids share.
 
-use piola_continuum::spectral::{Exponential, IsotropicFunction};
-use piola_numerics::Real;
+use piola_continuum::Deformation;
+use piola_continuum::spectral::{Exponential, IsotropicFunction, StretchAnalysis};
+use piola_continuum::tensor::rows::double_contraction;
+use piola_numerics::{Mask, Real};
 
 use crate::ConstitutiveError;
 use crate::elementary::excess_of_exponential;
 use crate::error::{check_bound, check_finite};
+use crate::solids::range::{check_exponent, largest_logarithm, small_exponent};
 
 /// The largest number of terms.
 const CAPACITY: usize = 8;
@@ -55,6 +58,53 @@ impl Series {
     /// Σ μₚ, Pa.
     pub(super) fn moduli(&self) -> f64 {
         self.terms().iter().map(|term| term.mu).sum()
+    }
+
+    /// Refuses stretches whose powers leave the range of the scalar.
+    #[inline(always)]
+    pub(super) fn check<T: Real>(
+        &self,
+        law: &'static str,
+        deformation: &impl Deformation<T>,
+        isochoric: bool,
+    ) -> Result<(), ConstitutiveError> {
+        let (mut steepest, mut stiffest) = (0.0_f64, 0.0_f64);
+        for OgdenTerm { mu, alpha } in self.terms() {
+            steepest = steepest.max(alpha.abs());
+            stiffest = stiffest.max((mu * alpha).abs());
+        }
+        // λ₁ ≤ |F| and 1/λ₃ ≤ |F⁻¹|; the isochoric stretches are between λ₃/λ₁ and λ₁/λ₃.
+        let (f, inverse) = (deformation.gradient_rows(), deformation.inverse_rows());
+        let (longest, shortest) = (double_contraction(f, f), double_contraction(inverse, inverse));
+        let range = if isochoric { longest * shortest } else { longest.max(shortest) };
+        // Tangents are put together with squares of the parts: half the exponent is left.
+        let reach = (small_exponent::<T>() / steepest).min(80.0).exp();
+        let modest = if largest_logarithm::<T>() < 100.0 { 1e10 } else { 1e100 };
+        if range.less_than(T::lit(reach)).all() && stiffest < modest {
+            return Ok(());
+        }
+        self.check_closely(law, deformation, isochoric, T::lit(8.0 * stiffest) * (T::one() + shortest))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn check_closely<T: Real>(
+        &self,
+        law: &'static str,
+        deformation: &impl Deformation<T>,
+        isochoric: bool,
+        factor: T,
+    ) -> Result<(), ConstitutiveError> {
+        let logarithms = StretchAnalysis::of(deformation).log_principal_stretches();
+        let mean = if isochoric { deformation.ln_jacobian() * T::lit(1.0 / 3.0) } else { T::zero() };
+        let mut exponent = T::zero();
+        for OgdenTerm { alpha, .. } in self.terms() {
+            for logarithm in logarithms {
+                exponent = exponent.max(T::lit(*alpha) * (logarithm - mean));
+            }
+        }
+        let two = T::lit(2.0);
+        check_exponent(law, "2 alpha ln λ", two * exponent, factor * factor)
     }
 
     #[inline(always)]
