@@ -113,7 +113,7 @@ pub fn equilibrium(
 /// the start; [`ConstitutiveError::UndeterminedMultiplier`] when nothing that is prescribed sees a reaction.
 ///
 /// # Example
-/// A cord along 1 in a block that is sheared along 1: it is stretched by nothing, and takes what the shear would.
+/// A bar with a cord along it, its sides free: it is stretched by no force, which the cord takes whole.
 /// ```
 /// use piola_constitutive::homogeneous::{Control, Controls, constrained_equilibrium};
 /// use piola_constitutive::internal_constraints::Inextensibility;
@@ -121,9 +121,7 @@ pub fn equilibrium(
 /// use piola_continuum::DisplacementGradient;
 /// let rubber = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?; // μ = 1, λ = 4
 /// let cord = Inextensibility::along(Fibre::new([1.0, 0.0, 0.0])?);
-/// let (held, free) = (Control::HELD, Control::FREE);
-/// // A force along the cord, all other faces free: nothing moves.
-/// let pulled = Controls::axial([Control::Nominal(3.0), free, free])?;
+/// let pulled = Controls::axial([Control::Nominal(3.0), Control::FREE, Control::FREE])?;
 /// let bar = constrained_equilibrium(&rubber, &cord, &pulled, &DisplacementGradient::zero())?;
 /// assert!(bar.state.deformation.matrix().norm() < 1e-14);
 /// assert!((Inextensibility::tension(bar.multipliers[0]) - 3.0).abs() < 1e-14);

@@ -65,7 +65,7 @@ fn parameters_from_exact_stresses_equal_those_that_made_them() {
 }
 
 #[test]
-fn known_parameters_are_inside_their_intervals_as_often_as_these_say() {
+fn known_parameters_are_inside_their_intervals_in_nine_of_ten_trials() {
     for (model, parameters) in known() {
         let options = Options { stability: Stability::Free, ..Options::default() };
         let mut inside = vec![0_u64; parameters.len()];
