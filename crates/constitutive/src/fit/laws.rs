@@ -7,7 +7,11 @@ use piola_numerics::Real;
 
 use super::{Model, Parameter, StableSign};
 use crate::ConstitutiveError;
-use crate::solids::isochoric::inverse_langevin;
+use crate::solids::isochoric::{self, RivlinTerm};
+use crate::solids::{
+    AnyIsochoric, AnySolid, AnyVolumetric, Compressible, IncompressibleOgden, IncompressibleSolid, IsochoricOgden,
+    OgdenTerm, ogden_term,
+};
 
 /// The largest number of terms, or degree, of a series.
 const MOST: usize = 6;
@@ -28,6 +32,9 @@ const STARTS: usize = 48;
 /// | `Polynomial(n)` | Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ, 1 ≤ i + j ≤ n | Cᵢⱼ |
 /// | `Ogden(n)` | Σ μₚ/αₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3) | μₚ, αₚ |
 ///
+/// The energies are those of the [laws](crate::solids), the same functions over numbers that have derivatives with respect to the
+/// parameters; [`law`](Self::law) and [`compressible`](Self::compressible) make laws of fitted parameters.
+///
 /// They are stable by the signs of their parameters: μ, n, C₁₀ and C₀₁ not negative, and 0 ≤ μₚ αₚ. Yeoh's and the
 /// polynomial have no such signs that are necessary: their stability is looked at where there are data.
 ///
@@ -37,7 +44,8 @@ const STARTS: usize = 48;
 /// let ogden: AnyModel = "ogden:2".parse()?;
 /// let names: Vec<_> = ogden.parameters(5.0).into_iter().map(|parameter| parameter.name).collect();
 /// assert_eq!(names, ["mu1", "alpha1", "mu2", "alpha2"]);
-/// assert_eq!(ogden.energy([2.0, 1.0, 0.5], &[3.0, 2.0, 1.0, -2.0]), 3.375 - 1.125); // I₁ = I₂ = 5.25
+/// let energy: f64 = ogden.energy([2.0, 1.0, 0.5], &[3.0, 2.0, 1.0, -2.0]); // I₁ = I₂ = 5.25
+/// assert!((energy - (3.375 - 1.125)).abs() < 1e-15);
 /// assert!("ogden:0".parse::<AnyModel>().is_err());
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
@@ -86,15 +94,83 @@ impl Series {
     }
 
     /// (i, j) with 1 ≤ i + j ≤ n, by degree, powers of I₁ − 3 first.
-    fn powers(self) -> impl Iterator<Item = (usize, usize)> {
-        (1..=self.0).flat_map(|degree| (0..=degree).map(move |j| (degree - j, j)))
+    fn powers(self) -> impl Iterator<Item = [u8; 2]> {
+        let degrees = (1_u8..).take(self.0);
+        degrees.flat_map(|degree| (0..=degree).map(move |j| [degree - j, j]))
     }
+}
+
+/// What a model with its parameters says of a change of shape.
+enum Shape {
+    Invariants(AnyIsochoric),
+    Stretches(Vec<OgdenTerm>),
 }
 
 impl AnyModel {
     /// All names that can be parsed.
     pub const NAMES: [&'static str; 7] =
         ["neo-hookean", "mooney-rivlin", "yeoh", "gent", "arruda-boyce", "polynomial:n", "ogden:n"];
+
+    /// The incompressible law with these parameters, without excess pressure.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::NumberOfValues`]; what the law's constructor refuses, such as a modulus that is not positive.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fit::AnyModel;
+    /// use piola_constitutive::homogeneous::{Mode, nominal_stress};
+    /// let rubber = AnyModel::MooneyRivlin.law(&[0.5, 0.25])?;
+    /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
+    /// assert!((stress - 2.0 * 1.75 * 0.625).abs() < 1e-14); // 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ)
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    pub fn law(&self, parameters: &[f64]) -> Result<AnySolid, ConstitutiveError> {
+        Ok(match self.shape(parameters)? {
+            Shape::Invariants(isochoric) => IncompressibleSolid::new(isochoric).into(),
+            Shape::Stretches(terms) => IncompressibleOgden::new(&terms)?.into(),
+        })
+    }
+
+    /// The compressible law whose energy of the change of shape has these parameters.
+    ///
+    /// # Errors
+    /// As [`law`](Self::law).
+    pub fn compressible(
+        &self,
+        parameters: &[f64],
+        volumetric: impl Into<AnyVolumetric>,
+    ) -> Result<AnySolid, ConstitutiveError> {
+        let volumetric = volumetric.into();
+        Ok(match self.shape(parameters)? {
+            Shape::Invariants(isochoric) => Compressible::new(isochoric, volumetric).into(),
+            Shape::Stretches(terms) => IsochoricOgden::with_volumetric(&terms, volumetric)?.into(),
+        })
+    }
+
+    fn shape(&self, parameters: &[f64]) -> Result<Shape, ConstitutiveError> {
+        // The number of parameters is the same for any data; 3 is the invariant of the reference.
+        let (values, expected) = (parameters.len(), self.parameters(3.0).len());
+        if values != expected {
+            return Err(ConstitutiveError::NumberOfValues { model: self.to_string(), parameters: expected, values });
+        }
+        let p = parameters;
+        Ok(Shape::Invariants(match self {
+            Self::NeoHookean => isochoric::NeoHookean::new(p[0])?.into(),
+            Self::MooneyRivlin => isochoric::MooneyRivlin::new(p[0], p[1])?.into(),
+            Self::Yeoh => isochoric::Yeoh::new(p[0], p[1], p[2])?.into(),
+            Self::Gent => isochoric::Gent::new(p[0], p[1])?.into(),
+            Self::ArrudaBoyce => isochoric::ArrudaBoyce::new(p[0], p[1])?.into(),
+            Self::Polynomial(series) => {
+                let term = |([first, second], &coefficient): ([u8; 2], &f64)| RivlinTerm { first, second, coefficient };
+                isochoric::Rivlin::new(series.powers().zip(p).map(term).collect())?.into()
+            }
+            Self::Ogden(_) => {
+                let terms = p.chunks_exact(2).map(|term| OgdenTerm { mu: term[0], alpha: term[1] });
+                return Ok(Shape::Stretches(terms.collect()));
+            }
+        }))
+    }
 }
 
 impl fmt::Display for AnyModel {
@@ -163,7 +239,7 @@ impl Model for AnyModel {
                 let links = (largest_first_invariant / 3.0).max(1.0);
                 vec![positive("n"), Parameter::number("N", [links, f64::INFINITY])]
             }
-            Self::Polynomial(series) => series.powers().map(|(i, j)| Parameter::factor(format!("C{i}{j}"))).collect(),
+            Self::Polynomial(series) => series.powers().map(|[i, j]| Parameter::factor(format!("C{i}{j}"))).collect(),
             Self::Ogden(series) => (0..series.0)
                 .flat_map(|p| {
                     let exponent = StableSign::SameAs(2 * p + 1);
@@ -182,24 +258,16 @@ impl Model for AnyModel {
         let first = a + b + c - three;
         let second = || a * b + b * c + c * a - three;
         match self {
-            Self::NeoHookean => T::lit(0.5) * parameters[0] * first,
-            Self::MooneyRivlin => parameters[0] * first + parameters[1] * second(),
-            Self::Yeoh => first * (parameters[0] + first * (parameters[1] + first * parameters[2])),
-            Self::Gent => T::lit(-0.5) * parameters[0] * parameters[1] * (-first / parameters[1]).ln_1p(),
-            Self::ArrudaBoyce => {
-                let (modulus, links) = (parameters[0], parameters[1]);
-                let stretch = ((first + three) / (three * links)).sqrt();
-                let beta = inverse_langevin(stretch);
-                // ln(sinh β/β) = β + ln((1 − e^(−2β))/(2β)).
-                let twice = T::lit(2.0) * beta;
-                let logarithm = beta + (-(-twice).exp_m1() / twice).ln();
-                modulus * links * (beta * stretch - logarithm)
-            }
+            Self::NeoHookean => isochoric::neo_hookean(parameters[0], first),
+            Self::MooneyRivlin => isochoric::mooney_rivlin([parameters[0], parameters[1]], first, second()),
+            Self::Yeoh => isochoric::yeoh([parameters[0], parameters[1], parameters[2]], first),
+            Self::Gent => isochoric::gent(parameters[0], parameters[1], first),
+            Self::ArrudaBoyce => isochoric::arruda_boyce(parameters[0], parameters[1], first),
             Self::Polynomial(series) => {
                 let second = second();
                 let mut energy = T::zero();
-                for ((i, j), factor) in series.powers().zip(parameters) {
-                    energy += *factor * (power(first, i) * power(second, j));
+                for (powers, factor) in series.powers().zip(parameters) {
+                    energy += isochoric::rivlin_term(*factor, powers, first, second);
                 }
                 energy
             }
@@ -207,9 +275,8 @@ impl Model for AnyModel {
                 let logarithms = stretches.map(Real::ln);
                 let mut energy = T::zero();
                 for term in parameters.chunks_exact(2) {
-                    let (mu, alpha) = (term[0], term[1]);
-                    let [a, b, c] = logarithms.map(|x| (alpha * x).exp_m1());
-                    energy += mu / alpha * (a + b + c);
+                    let [a, b, c] = logarithms.map(|x| ogden_term(term[0], term[1], x));
+                    energy += a + b + c;
                 }
                 energy
             }
@@ -237,15 +304,6 @@ impl Model for AnyModel {
             }
         }
     }
-}
-
-/// x to a small whole power; 1 for the power 0, with derivatives everywhere.
-fn power<T: Real>(x: T, count: usize) -> T {
-    let mut product = T::one();
-    for _ in 0..count {
-        product *= x;
-    }
-    product
 }
 
 /// Sets of different exponents, evenly from all that can be chosen of a list.

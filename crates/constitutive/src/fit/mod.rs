@@ -9,6 +9,7 @@
 //! | a law with unknown parameters | [`AnyModel`] (`"ogden:3".parse()`), or your own [`Model`] |
 //! | the fit | [`fit`] with [`Options`]: weights, bounds, stability |
 //! | what came of it | [`Fit`]: [`Estimate`]s with errors, [`Covariance`], [`Residuals`] of each test, [`Criteria`], [`StabilityReport`] |
+//! | the law itself, for all else | [`Fit::law`], [`Fit::compressible`] |
 //!
 //! Derivatives of the stresses with respect to the parameters are exact: a model is one function over any scalar. Parameters
 //! that are factors are eliminated, so that a law of factors alone is solved directly; the others are searched for by
@@ -42,6 +43,7 @@ pub use statistics::{Covariance, Criteria, student};
 pub use test::{Component, Data, Measure, Table, Test};
 
 use crate::ConstitutiveError;
+use crate::solids::{AnySolid, AnyVolumetric};
 use search::{Best, Problem};
 
 /// What residuals are divided by.
@@ -222,6 +224,40 @@ impl Fit {
     #[must_use]
     pub fn values(&self) -> Vec<f64> {
         self.parameters.iter().map(|parameter| parameter.value).collect()
+    }
+
+    /// The fitted law, incompressible and without excess pressure.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::UnknownModel`] for a model of your own; as [`AnyModel::law`] otherwise.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fit::{AnyModel, Data, Measure, Options, Table, Test, fit};
+    /// use piola_constitutive::homogeneous::{Mode, nominal_stress};
+    /// use piola_constitutive::solids::{Hyperelastic, volumetric::SimoTaylor};
+    /// use piola_continuum::DeformationGradient;
+    /// let bar = Table::Uniaxial(vec![[1.5, 0.4], [2.0, 0.6], [3.0, 1.1]]);
+    /// let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
+    /// let fitted = fit(&AnyModel::NeoHookean, &data, &Options::default())?;
+    /// let mu = fitted.parameters[0].value;
+    /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &fitted.law()?);
+    /// assert!((stress - 1.75 * mu).abs() < 1e-15); // μ (λ − λ⁻²)
+    /// let solid = fitted.compressible(SimoTaylor::new(1e3)?)?; // for a finite-element code
+    /// let sheared = solid.cauchy(&DeformationGradient::simple_shear(0.5)?).0.components[3];
+    /// assert!((sheared - 0.5 * mu).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn law(&self) -> Result<AnySolid, ConstitutiveError> {
+        self.model.parse::<AnyModel>()?.law(&self.values())
+    }
+
+    /// The compressible law whose energy of the change of shape is the fitted one.
+    ///
+    /// # Errors
+    /// As [`law`](Self::law).
+    pub fn compressible(&self, volumetric: impl Into<AnyVolumetric>) -> Result<AnySolid, ConstitutiveError> {
+        self.model.parse::<AnyModel>()?.compressible(&self.values(), volumetric)
     }
 
     /// The largest relative RMS residual of the tests.

@@ -120,6 +120,8 @@ impl InvariantEnergy for BlatzKo {
             first: T::lit(0.5 * solid),
             second: T::lit(0.5 * foam) * square,
             residual: T::lit(foam) * (up + shape) - T::lit(solid) * down,
+            volume: T::lit(foam) * ((T::one() + up) - invariants.second_whole * square)
+                - T::lit(solid) * (T::one() + down),
         }
     }
 
@@ -130,7 +132,7 @@ impl InvariantEnergy for BlatzKo {
         let (down, up) = self.powers(super::volumetric::logarithm(invariants.change, invariants.jacobian));
         let reciprocal = invariants.jacobian.recip();
         let square = reciprocal * reciprocal;
-        let inverse = (invariants.second + T::lit(3.0)) * square;
+        let inverse = invariants.second_whole * square;
         let growth = T::lit(3.0) * inverse + T::lit(2.0 * beta - 1.0) * (one + up);
         Curvatures {
             second_volume: T::lit(-foam) * (square * reciprocal),

@@ -2,7 +2,7 @@
 
 use piola_continuum::Deformation;
 use piola_continuum::strain::invariants;
-use piola_numerics::Real;
+use piola_numerics::{Mask, Real};
 
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, hyperelastic_of_invariants};
 use super::isochoric::{self, Isochoric};
@@ -82,11 +82,19 @@ fn isochoric_of<T: Real, I: Isochoric>(invariants: &Invariants<T>) -> (T, T, T) 
     // J^(−2/3) − 1 = −(r − 1)(r + 1)/r² with r − 1 = (J − 1)/(r² + r + 1).
     let root_change = invariants.change / (root * root + root + one);
     let power_change = -root_change * (root + one) * power;
-    let first = power * invariants.first + three * power_change;
-    if !I::SECOND {
-        return (power, first, T::zero());
+    let mut first = power * invariants.first + three * power_change;
+    let mut second = T::zero();
+    if I::SECOND {
+        second = power * power * invariants.second + three * power_change * (power + one);
     }
-    let second = power * power * invariants.second + three * power_change * (power + one);
+    // Of a body that is compressed to nearly nothing, or blown up, nothing is left of differences from the reference.
+    let beside = invariants.change.abs().at_most(T::lit(0.5));
+    if !beside.all() {
+        first = T::select(beside, first, power * invariants.first_whole - three);
+        if I::SECOND {
+            second = T::select(beside, second, power * power * invariants.second_whole - three);
+        }
+    }
     (power, first, second)
 }
 
@@ -155,13 +163,19 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
     fn slopes_of<T: Real>(&self, invariants: &Invariants<T>, power: T, [a, b]: [T; 2]) -> Slopes<T> {
         let first = a * power;
         let volume = self.volumetric.mean_kirchhoff(invariants.change, invariants.jacobian);
-        let mut residual = volume - T::lit(2.0 / 3.0) * (first * invariants.first);
+        let (two_thirds, four_thirds) = (T::lit(2.0 / 3.0), T::lit(4.0 / 3.0));
+        let beside = volume - two_thirds * (first * invariants.first);
+        let whole = volume - two_thirds * (first * invariants.first_whole);
         if !I::SECOND {
-            return Slopes { first, second: T::zero(), residual };
+            return Slopes { first, second: T::zero(), residual: beside, volume: whole };
         }
         let second = b * (power * power);
-        residual -= T::lit(4.0 / 3.0) * (second * invariants.second);
-        Slopes { first, second, residual }
+        Slopes {
+            first,
+            second,
+            residual: beside - four_thirds * (second * invariants.second),
+            volume: whole - four_thirds * (second * invariants.second_whole),
+        }
     }
 }
 

@@ -31,6 +31,11 @@ impl Fibre {
         for component in vector {
             check_finite("fibre", "direction", component)?;
         }
+        // What is a unit vector to the last bit stays as it is.
+        let square: f64 = vector.iter().map(|x| x * x).sum();
+        if (square - 1.0).abs() <= 2.0 * f64::EPSILON {
+            return Ok(Self { direction: vector });
+        }
         let size = vector.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         check_bound("fibre", "direction", size, "0 < |direction|", 0.0 < size)?;
         let scaled = vector.map(|x| x / size);

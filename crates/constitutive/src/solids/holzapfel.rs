@@ -3,7 +3,7 @@
 use piola_continuum::strain::{invariants, kernels};
 use piola_continuum::tensor::MajorSymmetric;
 use piola_continuum::{Deformation, Symmetric};
-use piola_numerics::Real;
+use piola_numerics::{Mask, Real};
 
 use super::Fibre;
 use super::range::check_exponent;
@@ -143,14 +143,17 @@ impl HolzapfelGasserOgden {
 }
 
 /// What the isochoric invariants J^(−2/3) C : H are made of.
-struct Metric<T> {
-    /// C − 1, C⁻¹ and 1 − C⁻¹.
+struct Metric<T: Real> {
+    /// C, C − 1, C⁻¹ and 1 − C⁻¹.
+    whole: Symmetric<T>,
     change: Symmetric<T>,
     inverse: Symmetric<T>,
     less_inverse: Symmetric<T>,
     /// J^(−2/3) and its difference from 1.
     scale: T,
     scale_change: T,
+    /// Where the volume is near that of the reference: elsewhere differences from the reference would hide what is left.
+    near: T::Mask,
 }
 
 /// J^(−2/3) C : H − tr H with its derivatives by C.
@@ -165,6 +168,8 @@ impl<T: Real> Metric<T> {
         let (inverse, less_inverse) = inverse_metric(deformation);
         let power = deformation.ln_jacobian() * T::lit(-2.0 / 3.0);
         Self {
+            whole: kernels::right_cauchy_green(deformation.gradient_rows()),
+            near: deformation.volume_change().abs().at_most(T::lit(0.5)),
             change: kernels::right_cauchy_green_minus_one(deformation.displacement_rows()),
             inverse,
             less_inverse,
@@ -177,7 +182,19 @@ impl<T: Real> Metric<T> {
     #[inline(always)]
     fn excess(&self, structure: &Symmetric, trace: f64) -> T {
         let part = self.change.double_contraction(&constant(structure));
-        self.scale * part + self.scale_change * T::lit(trace)
+        self.selected(part, structure, trace).0
+    }
+
+    /// J^(−2/3) C : H − tr H and C : H, of (C − 1) : H near the volume of the reference.
+    #[inline(always)]
+    fn selected(&self, part: T, structure: &Symmetric, trace: f64) -> (T, T) {
+        let trace = T::lit(trace);
+        let excess = self.scale * part + self.scale_change * trace;
+        if self.near.all() {
+            return (excess, part + trace);
+        }
+        let whole = self.whole.double_contraction(&constant(structure));
+        (T::select(self.near, excess, self.scale * whole - trace), T::select(self.near, part + trace, whole))
     }
 
     /// With the slope J^(−2/3) (H − ⅓ (C : H) C⁻¹).
@@ -187,8 +204,14 @@ impl<T: Real> Metric<T> {
         let h = constant::<T>(structure);
         let part = self.change.double_contraction(&h);
         let deviator = h - Symmetric::identity() * T::lit(trace / 3.0);
-        let slope = deviator + (self.less_inverse * T::lit(trace) - self.inverse * part) * third;
-        Invariant { excess: self.scale * part + self.scale_change * T::lit(trace), slope: slope * self.scale }
+        let mut slope = deviator + (self.less_inverse * T::lit(trace) - self.inverse * part) * third;
+        let (excess, whole) = self.selected(part, structure, trace);
+        if !self.near.all() {
+            let plain = h - self.inverse * (whole * third);
+            let choose = |k: usize| T::select(self.near, slope.components[k], plain.components[k]);
+            slope = Symmetric { components: [choose(0), choose(1), choose(2), choose(3), choose(4), choose(5)] };
+        }
+        Invariant { excess, slope: slope * self.scale }
     }
 
     /// The second derivative of an invariant: −⅓ (h ⊗ C⁻¹ + C⁻¹ ⊗ h) − c/9 C⁻¹ ⊗ C⁻¹ + c/3 C⁻¹ ⊙ C⁻¹, c = J^(−2/3) C : H.

@@ -297,7 +297,10 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
                 beyond - T::lit(q) * invariants.jacobian
             }
         };
-        Slopes { first: a, second: if I::SECOND { second } else { T::zero() }, residual }
+        let second = if I::SECOND { second } else { T::zero() };
+        // J is 1: no digits are lost.
+        let volume = residual - (two * a + T::lit(4.0) * second);
+        Slopes { first: a, second, residual, volume }
     }
 
     #[inline(always)]

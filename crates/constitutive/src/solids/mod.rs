@@ -57,6 +57,8 @@ pub use linear_elastic::{LinearElastic, MixedLinearElastic};
 pub use membrane::{Membrane, ThinPlate};
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::{NeoHookean, NeoHookeanCiarlet, NeoHookeanLogarithmic};
+#[cfg(feature = "fit")]
+pub(crate) use ogden::ogden_term;
 pub use ogden::{IncompressibleOgden, IsochoricOgden, Ogden, OgdenTerm};
 pub use polynomial::{Polynomial, PolynomialTerm};
 pub use pressurised::Pressurised;

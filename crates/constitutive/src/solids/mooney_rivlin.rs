@@ -149,6 +149,7 @@ impl InvariantEnergy for MooneyRivlin {
             second: T::lit(self.c01),
             // 2 c (J² − 1), and what a reference with stress has.
             residual: T::lit(2.0 * self.c) * (change * (change + T::lit(2.0))) + T::lit(self.residual),
+            volume: T::lit(2.0 * self.c) * (invariants.jacobian * invariants.jacobian) - T::lit(self.d),
         }
     }
 

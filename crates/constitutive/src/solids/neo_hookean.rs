@@ -127,11 +127,8 @@ impl<U: Volumetric> InvariantEnergy for NeoHookean<U> {
 
     #[inline(always)]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
-        Slopes {
-            first: T::lit(0.5 * self.mu),
-            second: T::zero(),
-            residual: self.volumetric.mean_kirchhoff(invariants.change, invariants.jacobian),
-        }
+        let residual = self.volumetric.mean_kirchhoff(invariants.change, invariants.jacobian);
+        Slopes { first: T::lit(0.5 * self.mu), second: T::zero(), residual, volume: residual - T::lit(self.mu) }
     }
 
     #[inline(always)]

@@ -25,6 +25,7 @@ macro_rules! parameters {
             /// [`ConstitutiveError::NotFinite`](crate::ConstitutiveError::NotFinite),
             /// [`ConstitutiveError::OutOfBounds`](crate::ConstitutiveError::OutOfBounds).
             pub fn new($($field: f64),+) -> Result<Self, crate::ConstitutiveError> {
+                $(crate::error::check_finite($law, stringify!($field), $field)?;)+
                 $(crate::error::check_bound($law, stringify!($field), $field, $bound, $holds)?;)+
                 Ok(Self { $($field),+ })
             }

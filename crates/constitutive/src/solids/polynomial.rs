@@ -194,6 +194,7 @@ impl InvariantEnergy for Polynomial {
             second: T::lit(self.linear[1]) + second,
             // J ∂W/∂J = 2 J² ∂W/∂I₃ = 2 ∂W/∂I₃ + 2 (I₃ − 1) ∂W/∂I₃.
             residual: two * first + four * second + two * third + two * z * whole + T::lit(self.residual),
+            volume: two * (invariants.jacobian * invariants.jacobian) * whole,
         }
     }
 

@@ -88,9 +88,9 @@ impl<T: Real> IsotropicResponse<T> {
     pub fn of<L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> Self {
         let invariants = invariants_of(law, deformation);
         let slopes = law.slopes(&invariants);
-        let (two, four) = (T::lit(2.0), T::lit(4.0));
+        let two = T::lit(2.0);
         let reciprocal = invariants.jacobian.recip();
-        let volume = (slopes.residual - (two * slopes.first + four * slopes.second)) * reciprocal;
+        let volume = slopes.volume * reciprocal;
         let trace = invariants.first + T::lit(3.0);
         let twice = two * reciprocal;
         Self {

@@ -136,6 +136,10 @@ impl Volumetric for Quadratic {
     fn curvature<T: Real>(&self, _change: T, _jacobian: T) -> T {
         T::lit(self.kappa)
     }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
+        T::lit(self.kappa) * (jacobian * (jacobian + change))
+    }
 }
 
 parameters! {
@@ -249,6 +253,10 @@ impl Volumetric for QuadraticLogarithmic {
         let beyond = (T::one() - logarithm(change, jacobian)) * (reciprocal * reciprocal);
         T::lit(0.5 * self.kappa) * (T::one() + beyond)
     }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
+        T::lit(0.5 * self.kappa) * (jacobian * (jacobian + change) + T::one())
+    }
 }
 
 parameters! {
@@ -283,6 +291,10 @@ impl Volumetric for SimoTaylor {
         let reciprocal = jacobian.recip();
         T::lit(0.5 * self.kappa) * (T::one() + reciprocal * reciprocal)
     }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, _change: T, jacobian: T) -> T {
+        T::lit(self.kappa) * (jacobian * jacobian)
+    }
 }
 
 parameters! {
@@ -316,6 +328,10 @@ impl Volumetric for Liu {
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         T::lit(self.kappa) / jacobian
     }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
+        T::lit(self.kappa) * (jacobian * (T::one() + logarithm(change, jacobian)))
+    }
 }
 
 parameters! {
@@ -348,6 +364,10 @@ impl Volumetric for Miehe {
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         T::lit(self.kappa) * (reciprocal * reciprocal)
+    }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, _change: T, jacobian: T) -> T {
+        T::lit(self.kappa) * jacobian
     }
 }
 
@@ -395,6 +415,10 @@ impl Volumetric for OgdenVolumetric {
         let slope = T::one() + T::lit((self.beta + 1.0) / self.beta) * self.power(change, jacobian);
         T::lit(self.kappa) * slope * (reciprocal * reciprocal)
     }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
+        T::lit(self.kappa) * (T::lit(-self.beta) * logarithm(change, jacobian)).exp()
+    }
 }
 
 parameters! {
@@ -441,5 +465,10 @@ impl Volumetric for HartmannNeff {
         let square = jacobian * jacobian;
         let seventh = square * square * square * jacobian;
         T::lit(0.2 * self.kappa) * (T::lit(2.0) * (square * jacobian) + T::lit(3.0) / seventh)
+    }
+    #[inline(always)]
+    fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
+        let (_, fifth) = Self::powers(change, jacobian);
+        T::lit(0.5 * self.kappa) * (fifth + fifth.recip())
     }
 }

@@ -57,6 +57,8 @@ fn impossible_models_and_options_are_refused() {
         "{}",
         gent(&with("Jm", [0.0, 5.0]))
     );
+    let chains = sentence(fit(&AnyModel::ArrudaBoyce, &data(20), &with("N", [1.0, 3.0])));
+    assert!(chains.starts_with("arruda-boyce: no value of `N` is at least 3.2"), "{chains}");
     assert!(gent(&with("mu", [2.0, 1.0])).contains("no value of `mu`"));
     assert!(gent(&with("mu", [f64::NAN, 1.0])).contains("no value of `mu`"));
     assert_eq!(gent(&Options { confidence: 1.0, ..Options::default() }), "the confidence 1 is not between 0 and 1");
@@ -68,6 +70,21 @@ fn impossible_models_and_options_are_refused() {
         sentence(contradiction),
         "ogden:1: the stresses are finite, and the bounds kept, at no start of the search"
     );
+}
+
+/// Stresses beyond a limiting stretch are no numbers: a model asked there has no start, and a fit stays below.
+#[test]
+fn stretches_beyond_a_limit_have_no_stress_and_no_fit_ends_there() {
+    use piola_constitutive::homogeneous::{Mode, nominal_stress};
+    for (model, parameters) in [(AnyModel::Gent, [1.0, 3.0]), (AnyModel::ArrudaBoyce, [1.0, 2.0])] {
+        let law = Fitted::new(&model, parameters).expect("as many");
+        assert!(nominal_stress(Mode::Uniaxial, 2.0_f64, &law).is_finite());
+        assert!(nominal_stress(Mode::Uniaxial, 3.0_f64, &law).is_nan());
+        let found = fit(&model, &data(20), &Options::default()).expect("a fit");
+        let reach = data(20).largest_first_invariant();
+        let limit = if model == AnyModel::Gent { found.values()[1] + 3.0 } else { 3.0 * found.values()[1] };
+        assert!(reach < limit && found.tests[0].rms.is_finite(), "{model}: {limit} {reach}");
+    }
 }
 
 /// A neo-Hookean solid with parameters as they come.

@@ -20,7 +20,7 @@ fn impossible_parameters_are_refused_by_name() {
     assert_eq!(refused(isochoric::NeoHookean::new(0.0)), ("isochoric neo-Hookean", "mu", "0 < μ"));
     assert_eq!(refused(Rivlin::new(vec![])), ("Rivlin series", "C10 + C01", "0 < C10 + C01"));
     assert_eq!(refused(Quadratic::new(-1.0)), ("quadratic volumetric energy", "kappa", "0 ≤ κ"));
-    assert_eq!(refused(OgdenVolumetric::new(1.0, 0.0)), ("Ogden volumetric energy", "beta", "0 < |β|"));
+    assert_eq!(refused(OgdenVolumetric::new(1.0, 0.0)), ("Ogden volumetric energy", "beta", "0 < |β|, κ/β² finite"));
     assert_eq!(refused(BlatzKo::new(1.0, 0.5, 0.5)), ("Blatz–Ko", "nu", "0 ≤ ν < ½"));
     assert_eq!(refused(SaintVenantKirchhoff::new(-1.0, 1.0)), ("St. Venant–Kirchhoff", "lambda", "0 < 3 λ + 2 μ"));
     assert_eq!(refused(NeoHookeanLogarithmic::with_constants(0.0, 1.0)), ("neo-Hookean", "mu", "0 < μ"));

@@ -116,23 +116,20 @@ pub enum AnySolid {
 /// What is done with the law that an [`AnySolid`] is.
 ///
 /// # Example
+/// The energy of many points: the law is chosen once. A [batch](crate::batch) goes into a visitor in the same way.
 /// ```
-/// use piola_constitutive::ConstitutiveError;
-/// use piola_constitutive::batch;
 /// use piola_constitutive::solids::{AnySolid, Hyperelastic, SaintVenantKirchhoff, SolidVisitor};
-/// use piola_continuum::{DeformationGradient, FirstPiola};
-/// struct Stresses<'a> { deformations: &'a [DeformationGradient], stresses: &'a mut [FirstPiola] }
-/// impl SolidVisitor for Stresses<'_> {
-///     type Output = Result<(), ConstitutiveError>;
-///     fn visit<L: Hyperelastic + Sync>(self, law: &L) -> Self::Output {
-///         batch::evaluate(self.deformations, batch::first_piola(law, self.stresses)).map(|_| ())
+/// use piola_continuum::DeformationGradient;
+/// struct Energy<'a>(&'a [DeformationGradient]);
+/// impl SolidVisitor for Energy<'_> {
+///     type Output = f64;
+///     fn visit<L: Hyperelastic + Sync>(self, law: &L) -> f64 {
+///         self.0.iter().map(|deformation| law.energy(deformation)).sum()
 ///     }
 /// }
 /// let bars = [DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 100];
-/// let mut stresses = [FirstPiola::zero(); 100];
 /// let solid = AnySolid::from(SaintVenantKirchhoff::new(1.0, 2.0)?);
-/// solid.visit(Stresses { deformations: &bars, stresses: &mut stresses })?;
-/// assert_eq!(stresses[99].0[(0, 0)], 15.0);
+/// assert_eq!(solid.visit(Energy(&bars)), 562.5); // 100 · ½ (λ + 2 μ) E₁₁²
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait SolidVisitor {

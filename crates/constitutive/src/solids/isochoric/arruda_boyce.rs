@@ -66,54 +66,66 @@ impl ArrudaBoyce {
     /// λ of x = Ī₁ − 3.
     #[inline(always)]
     fn stretch<T: Real>(&self, first: T) -> T {
-        ((first + T::lit(3.0)) / T::lit(3.0 * self.links)).sqrt()
+        stretch_of(T::lit(self.links), first)
     }
 
     /// [∂W̄/∂Ī₁, 0] of x, λ and β.
     #[inline(always)]
     fn slope<T: Real>(&self, first: T, stretch: T, beta: T) -> [T; 2] {
         let slope = T::lit(self.rubbery_modulus / 6.0) * (beta / stretch);
-        [within(first, self.limit(), slope), T::zero()]
+        [within(first, T::lit(self.limit()), slope), T::zero()]
     }
+}
 
-    /// ln(sinh β/β), for 0 < β.
-    #[inline(always)]
-    fn logarithm<T: Real>(beta: T) -> T {
-        // sinh β/β = e^β (1 − e^(−2β))/(2β).
-        let two = T::lit(2.0);
-        beta + (-(-two * beta).exp_m1() / (two * beta)).ln()
+/// λ of N and x = Ī₁ − 3.
+#[inline(always)]
+fn stretch_of<T: Real>(links: T, first: T) -> T {
+    ((first + T::lit(3.0)) / (T::lit(3.0) * links)).sqrt()
+}
+
+/// ln(sinh β/β), for 0 < β.
+#[inline(always)]
+fn logarithm<T: Real>(beta: T) -> T {
+    // sinh β/β = e^β (1 − e^(−2β))/(2β).
+    let two = T::lit(2.0);
+    beta + (-(-two * beta).exp_m1() / (two * beta)).ln()
+}
+
+/// n N (f(λ) − f(λ₀)), over any scalar: parameters may have derivatives too.
+///
+/// It is β₀ (λ − λ₀) + ∫ (λ − ℒ(b)) db from β₀ to β: of second order where it must be, by quadrature while β − β₀ ≤ 1.
+#[inline(always)]
+pub(crate) fn arruda_boyce<T: Real>(modulus: T, links: T, first: T) -> T {
+    let (one, half, three) = (T::one(), T::lit(0.5), T::lit(3.0));
+    let rest = stretch_of(links, T::zero());
+    let now = stretch_of(links, first);
+    let (start, end) = (inverse_langevin(rest), inverse_langevin(now));
+    // λ − λ₀ of λ² − λ₀².
+    let change = first / (three * links * (now + rest));
+    let length = end - start;
+    let near = length.abs().at_most(one);
+    let mut second = now * length - (logarithm(end) - logarithm(start));
+    if near.any() {
+        let (centre, reach) = (half * (start + end), half * length);
+        let mut sum = T::zero();
+        for (node, weight) in GAUSS {
+            let away = T::lit(node) * reach;
+            let below = now - langevin(centre - away);
+            let above = now - langevin(centre + away);
+            sum += T::lit(weight) * (below + above);
+        }
+        second = T::select(near, sum * reach, second);
     }
+    within(first, three * (links - one), modulus * links * (start * change + second))
 }
 
 impl Isochoric for ArrudaBoyce {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
 
-    /// β₀ (λ − λ₀) + ∫ (λ − ℒ(b)) db from β₀ to β: of second order where it must be, by quadrature while β − β₀ ≤ 1.
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
-        let (one, half) = (T::one(), T::lit(0.5));
-        let rest = self.stretch(T::zero());
-        let now = self.stretch(first);
-        let (start, end) = (inverse_langevin(rest), inverse_langevin(now));
-        // λ − λ₀ of λ² − λ₀².
-        let change = first / (T::lit(3.0 * self.links) * (now + rest));
-        let length = end - start;
-        let near = length.abs().at_most(one);
-        let mut second = now * length - (Self::logarithm(end) - Self::logarithm(start));
-        if near.any() {
-            let (centre, reach) = (half * (start + end), half * length);
-            let mut sum = T::zero();
-            for (node, weight) in GAUSS {
-                let away = T::lit(node) * reach;
-                let below = now - langevin(centre - away);
-                let above = now - langevin(centre + away);
-                sum += T::lit(weight) * (below + above);
-            }
-            second = T::select(near, sum * reach, second);
-        }
-        let energy = T::lit(self.rubbery_modulus * self.links) * (start * change + second);
-        within(first, self.limit(), energy)
+        arruda_boyce(T::lit(self.rubbery_modulus), T::lit(self.links), first)
     }
 
     #[inline(always)]
@@ -135,7 +147,7 @@ impl Isochoric for ArrudaBoyce {
         let (_, slope) = ratio_and_slope(beta);
         let inner = slope.recip() - beta / stretch;
         let curvature = T::lit(self.rubbery_modulus / (36.0 * self.links)) * (inner / (stretch * stretch));
-        (self.slope(first, stretch, beta), [within(first, self.limit(), curvature), T::zero(), T::zero()])
+        (self.slope(first, stretch, beta), [within(first, T::lit(self.limit()), curvature), T::zero(), T::zero()])
     }
 
     fn check(&self, first: f64, _second: f64) -> Result<(), ConstitutiveError> {

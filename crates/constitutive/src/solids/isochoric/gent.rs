@@ -41,27 +41,32 @@ parameters! {
     }
 }
 
+/// −½ μ Jₘ ln(1 − x/Jₘ), over any scalar: parameters may have derivatives too.
+#[inline(always)]
+pub(crate) fn gent<T: Real>(mu: T, limit: T, first: T) -> T {
+    within(first, limit, T::lit(-0.5) * mu * limit * (-first / limit).ln_1p())
+}
+
 impl Isochoric for Gent {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
-        let energy = T::lit(-0.5 * self.mu * self.limit) * (-first / T::lit(self.limit)).ln_1p();
-        within(first, self.limit, energy)
+        gent(T::lit(self.mu), T::lit(self.limit), first)
     }
 
     #[inline(always)]
     fn slopes<T: Real>(&self, first: T, _second: T) -> [T; 2] {
         let slope = T::lit(0.5 * self.mu * self.limit) / (T::lit(self.limit) - first);
-        [within(first, self.limit, slope), T::zero()]
+        [within(first, T::lit(self.limit), slope), T::zero()]
     }
 
     #[inline(always)]
     fn curvatures<T: Real>(&self, first: T, _second: T) -> [T; 3] {
         let reciprocal = (T::lit(self.limit) - first).recip();
         let curvature = T::lit(0.5 * self.mu * self.limit) * (reciprocal * reciprocal);
-        [within(first, self.limit, curvature), T::zero(), T::zero()]
+        [within(first, T::lit(self.limit), curvature), T::zero(), T::zero()]
     }
 
     fn check(&self, first: f64, _second: f64) -> Result<(), ConstitutiveError> {

@@ -29,13 +29,19 @@ mod neo_hookean;
 mod rivlin;
 mod yeoh;
 
+pub(crate) use arruda_boyce::arruda_boyce;
 pub use arruda_boyce::{ArrudaBoyce, ArrudaBoyceSeries};
 pub use gent::Gent;
+pub(crate) use gent::gent;
 pub use langevin::{inverse_langevin, langevin};
 pub use mooney_rivlin::MooneyRivlin;
+pub(crate) use mooney_rivlin::mooney_rivlin;
 pub use neo_hookean::NeoHookean;
+pub(crate) use neo_hookean::neo_hookean;
+pub(crate) use rivlin::rivlin_term;
 pub use rivlin::{Rivlin, RivlinTerm};
 pub use yeoh::Yeoh;
+pub(crate) use yeoh::yeoh;
 
 /// An energy of Ī₁ − 3 and Ī₂ − 3, zero where both are.
 ///
@@ -151,6 +157,6 @@ fn check_below(law: &'static str, quantity: &'static str, value: f64, limit: f64
 ///
 /// A product, so that every derivative that the scalar carries is NaN too: those of a constant NaN would be zero.
 #[inline(always)]
-fn within<T: Real>(x: T, limit: f64, value: T) -> T {
-    value * T::select(x.less_than(T::lit(limit)), T::one(), T::lit(f64::NAN))
+fn within<T: Real>(x: T, limit: T, value: T) -> T {
+    value * T::select(x.less_than(limit), T::one(), T::lit(f64::NAN))
 }

@@ -33,13 +33,19 @@ parameters! {
     }
 }
 
+/// C₁₀ x + C₀₁ y, over any scalar: parameters may have derivatives too.
+#[inline(always)]
+pub(crate) fn mooney_rivlin<T: Real>([c10, c01]: [T; 2], first: T, second: T) -> T {
+    c10 * first + c01 * second
+}
+
 impl Isochoric for MooneyRivlin {
     const SECOND: bool = true;
     const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, second: T) -> T {
-        T::lit(self.c10) * first + T::lit(self.c01) * second
+        mooney_rivlin([self.c10, self.c01].map(T::lit), first, second)
     }
 
     #[inline(always)]

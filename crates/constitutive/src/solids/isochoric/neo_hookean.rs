@@ -29,13 +29,19 @@ parameters! {
     }
 }
 
+/// ½ μ x, over any scalar: parameters may have derivatives too.
+#[inline(always)]
+pub(crate) fn neo_hookean<T: Real>(mu: T, first: T) -> T {
+    T::lit(0.5) * mu * first
+}
+
 impl Isochoric for NeoHookean {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
-        T::lit(0.5 * self.mu) * first
+        neo_hookean(T::lit(self.mu), first)
     }
 
     #[inline(always)]

@@ -93,6 +93,12 @@ impl From<Rivlin> for Vec<RivlinTerm> {
     }
 }
 
+/// C xⁱ yʲ, over any scalar: the coefficient may have derivatives too.
+#[inline(always)]
+pub(crate) fn rivlin_term<T: Real>(coefficient: T, [i, j]: [u8; 2], first: T, second: T) -> T {
+    coefficient * power(first, i) * power(second, j)
+}
+
 impl Isochoric for Rivlin {
     const SECOND: bool = true;
     const REFUSED_IS_NOT_FINITE: bool = true;
@@ -101,7 +107,7 @@ impl Isochoric for Rivlin {
     fn energy<T: Real>(&self, first: T, second: T) -> T {
         let mut sum = T::zero();
         for term in &self.terms {
-            sum += T::lit(term.coefficient) * power(first, term.first) * power(second, term.second);
+            sum += rivlin_term(T::lit(term.coefficient), [term.first, term.second], first, second);
         }
         sum
     }

@@ -35,13 +35,19 @@ parameters! {
     }
 }
 
+/// C₁ x + C₂ x² + C₃ x³, over any scalar: parameters may have derivatives too.
+#[inline(always)]
+pub(crate) fn yeoh<T: Real>([c1, c2, c3]: [T; 3], first: T) -> T {
+    first * (c1 + first * (c2 + first * c3))
+}
+
 impl Isochoric for Yeoh {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
-        first * (T::lit(self.c1) + first * (T::lit(self.c2) + first * T::lit(self.c3)))
+        yeoh([self.c1, self.c2, self.c3].map(T::lit), first)
     }
 
     #[inline(always)]

@@ -13,6 +13,7 @@ mod terms;
 
 pub use incompressible::IncompressibleOgden;
 pub use terms::OgdenTerm;
+pub(crate) use terms::ogden_term;
 use terms::{Series, parts_of_series};
 
 /// Ogden's compressible solid, with ln J and any energy of the change of volume.

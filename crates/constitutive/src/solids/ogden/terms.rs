@@ -118,7 +118,7 @@ impl Series {
 
     #[inline(always)]
     pub(super) fn part<T: Real>(&self, x: T) -> T {
-        self.sum(|mu, alpha| T::lit(mu / alpha) * excess_of_exponential(T::lit(alpha) * x))
+        self.sum(|mu, alpha| ogden_term(T::lit(mu), T::lit(alpha), x))
     }
 
     #[inline(always)]
@@ -139,6 +139,12 @@ impl Series {
             T::lit(mu * alpha) * Exponential.divided_difference(x, y)
         })
     }
+}
+
+/// μ/α (e^(α x) − 1 − α x), over any scalar: parameters may have derivatives too.
+#[inline(always)]
+pub(crate) fn ogden_term<T: Real>(mu: T, alpha: T, x: T) -> T {
+    mu / alpha * excess_of_exponential(alpha * x)
 }
 
 /// w and its derivatives are those of the series.

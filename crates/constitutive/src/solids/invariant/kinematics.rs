@@ -1,0 +1,180 @@
+//! What the stress and tangent of a law of invariants share: near the reference, turned from it, and far from it.
+
+use piola_continuum::strain::kernels;
+use piola_continuum::tensor::rows::{Rows, cofactor, double_contraction, product, scaled, sum};
+use piola_continuum::{Deformation, Symmetric};
+use piola_numerics::{Mask, Real};
+
+use super::{InvariantEnergy, Invariants, Slopes};
+
+/// Strains with components up to this size take the forms in which everything is as small as the strain.
+pub(super) const SMALL: f64 = 0.25;
+
+/// |∇u|² up to which everything is computed from ∇u: stretches differ from 1 by less than 0.87 then.
+const NEAR: f64 = 0.75;
+
+/// What stress and tangent share.
+pub(super) struct Kinematics<T: Real> {
+    /// F.
+    pub(super) gradient: Rows<T>,
+    /// 1 where what follows is a difference from the reference, 0 where it is not.
+    pub(super) shift: T,
+    /// C − 1; C where the strain is large.
+    pub(super) change: Symmetric<T>,
+    pub(super) cofactor: Rows<T>,
+    pub(super) invariants: Invariants<T>,
+    /// F − Cof F where ∇u is small, computed from ∇u; F − F⁻ᵀ where only the strain is; F elsewhere.
+    beyond: Rows<T>,
+    /// Where ∇u is small.
+    near: T::Mask,
+    /// Where the strain is small.
+    turned: T::Mask,
+}
+
+impl<T: Real> Kinematics<T> {
+    /// Errors are relative to the strain or to |∇u|², as a stress needs it: those of the invariants themselves, as an
+    /// energy needs it, are those of [`invariants_of`].
+    #[inline(always)]
+    pub(super) fn of<L: InvariantEnergy>(deformation: &impl Deformation<T>) -> Self {
+        let (one, two) = (T::one(), T::lit(2.0));
+        let gradient = deformation.gradient_rows();
+        let h = deformation.displacement_rows();
+        let change = kernels::right_cauchy_green_minus_one(h);
+        let [a, b, c, ..] = change.components;
+        let first = a + b + c;
+        let trace = h[0][0] + h[1][1] + h[2][2];
+        // |∇u|² = I₁ − 3 − 2 tr ∇u; NaN is not near.
+        let near = (first - two * trace).at_most(T::lit(NEAR));
+
+        // Cof F = (1 + tr H) 1 − Hᵀ + Cof H, J = 1 + tr H + i₂(H) + det H, F − Cof F = H + Hᵀ − (tr H) 1 − Cof H.
+        let m = cofactor(h);
+        let second_trace = m[0][0] + m[1][1] + m[2][2];
+        let bend = second_trace + (h[0][0] * m[0][0] + h[0][1] * m[0][1] + h[0][2] * m[0][2]);
+        let volume = trace + bend;
+        let k = |i: usize| (trace - h[i][i]) + m[i][i];
+        let minors = [
+            [k(0), m[0][1] - h[1][0], m[0][2] - h[2][0]],
+            [m[1][0] - h[0][1], k(1), m[1][2] - h[2][1]],
+            [m[2][0] - h[0][2], m[2][1] - h[1][2], k(2)],
+        ];
+        let (x, y, z) = (h[0][1] + h[1][0], h[1][2] + h[2][1], h[0][2] + h[2][0]);
+        let d = |i: usize| (h[i][i] + h[i][i]) - trace - m[i][i];
+        let beyond =
+            [[d(0), x - m[0][1], z - m[0][2]], [x - m[1][0], d(1), y - m[1][2]], [z - m[2][0], y - m[2][1], d(2)]];
+        let second =
+            if L::SECOND { two * (two * trace + second_trace) + double_contraction(minors, minors) } else { T::zero() };
+        let closed = Self {
+            gradient,
+            change,
+            cofactor: [
+                [one + minors[0][0], minors[0][1], minors[0][2]],
+                [minors[1][0], one + minors[1][1], minors[1][2]],
+                [minors[2][0], minors[2][1], one + minors[2][2]],
+            ],
+            invariants: Invariants {
+                first,
+                second,
+                change: volume,
+                jacobian: one + volume,
+                first_whole: first + T::lit(3.0),
+                second_whole: second + T::lit(3.0),
+            },
+            shift: one,
+            beyond,
+            near,
+            turned: near,
+        };
+        if near.all() { closed } else { closed.with_far::<L>(deformation) }
+    }
+
+    /// With what is far from the reference, where it is.
+    #[inline(always)]
+    fn with_far<L: InvariantEnergy>(self, deformation: &impl Deformation<T>) -> Self {
+        let (one, three) = (T::one(), T::lit(3.0));
+        let jacobian = deformation.jacobian();
+        let plain_cofactor = cofactor(self.gradient);
+        // I₁ = F : F and I₂ = Cof F : Cof F.
+        let first = double_contraction(self.gradient, self.gradient);
+        let second = if L::SECOND { double_contraction(plain_cofactor, plain_cofactor) } else { three };
+        let (near, closed) = (self.near, self.invariants);
+        let turned = largest_modulus(&self.change).at_most(T::lit(SMALL));
+        let mut beyond = self.gradient;
+        let mut shift = T::zero();
+        let mut change = kernels::right_cauchy_green(self.gradient);
+        if turned.any() {
+            // F − F⁻ᵀ = F⁻ᵀ (C − 1), as for large rotations.
+            let inverse_transpose = scaled(plain_cofactor, jacobian.recip());
+            beyond = select(turned, product(inverse_transpose, self.change.rows()), beyond);
+            shift = T::select(turned, one, shift);
+            change = select_symmetric(turned, &self.change, &change);
+        }
+        Self {
+            gradient: self.gradient,
+            shift: T::select(near, one, shift),
+            change: select_symmetric(near, &self.change, &change),
+            cofactor: select(near, self.cofactor, plain_cofactor),
+            invariants: Invariants {
+                first: closed.first,
+                second: T::select(near, closed.second, second - three),
+                change: T::select(near, closed.change, jacobian - one),
+                jacobian: T::select(near, closed.jacobian, jacobian),
+                first_whole: T::select(near, closed.first_whole, first),
+                second_whole: T::select(near, closed.second_whole, second),
+            },
+            beyond: select(near, self.beyond, beyond),
+            near,
+            turned,
+        }
+    }
+
+    /// tr (C − 1), or tr C.
+    #[inline(always)]
+    pub(super) fn trace(&self) -> T {
+        let [a, b, c, ..] = self.change.components;
+        a + b + c
+    }
+
+    /// P = k (F − Cof F) + (s + k (J − 1))/J Cof F + 2 w₂ F ((I₁ − 3) 1 − (C − 1)),  k = 2 w₁ + 4 w₂;
+    /// at large strain P = 2 w₁ F + w_J Cof F + 2 w₂ F (I₁ 1 − C).
+    #[inline(always)]
+    pub(super) fn first_piola<L: InvariantEnergy>(&self, slopes: &Slopes<T>) -> Rows<T> {
+        let (two, four) = (T::lit(2.0), T::lit(4.0));
+        let mut stiffness = two * slopes.first;
+        if L::SECOND {
+            stiffness += four * slopes.second * self.shift;
+        }
+        let mut pressure = slopes.residual + stiffness * self.invariants.change;
+        if !self.near.all() {
+            let far = T::select(self.turned, slopes.residual, slopes.volume);
+            pressure = T::select(self.near, pressure, far);
+        }
+        let stress =
+            sum(scaled(self.beyond, stiffness), scaled(self.cofactor, pressure * self.invariants.jacobian.recip()));
+        if !L::SECOND {
+            return stress;
+        }
+        let inner = (Symmetric::identity() * self.trace() - self.change) * (two * slopes.second);
+        sum(stress, product(self.gradient, inner.rows()))
+    }
+}
+
+#[inline(always)]
+pub(super) fn largest_modulus<T: Real>(a: &Symmetric<T>) -> T {
+    let [a, b, c, d, e, f] = a.components;
+    let (a, b, c, d, e, f) = (a.abs(), b.abs(), c.abs(), d.abs(), e.abs(), f.abs());
+    let larger = |a: T, b: T| T::select(a.less_than(b), b, a);
+    larger(larger(larger(a, b), larger(c, d)), larger(e, f))
+}
+
+#[inline(always)]
+fn select<T: Real>(mask: T::Mask, a: Rows<T>, b: Rows<T>) -> Rows<T> {
+    let entry = |i: usize, j: usize| T::select(mask, a[i][j], b[i][j]);
+    let row = |i: usize| [entry(i, 0), entry(i, 1), entry(i, 2)];
+    [row(0), row(1), row(2)]
+}
+
+#[inline(always)]
+pub(super) fn select_symmetric<T: Real>(mask: T::Mask, a: &Symmetric<T>, b: &Symmetric<T>) -> Symmetric<T> {
+    let choose = |k: usize| T::select(mask, a.components[k], b.components[k]);
+    Symmetric { components: [choose(0), choose(1), choose(2), choose(3), choose(4), choose(5)] }
+}

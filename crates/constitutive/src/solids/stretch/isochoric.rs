@@ -1,0 +1,52 @@
+//! The isochoric part of a deformation.
+
+use piola_continuum::Deformation;
+use piola_continuum::tensor::rows::{Rows, identity, scaled, sum};
+use piola_numerics::Real;
+
+/// J^(−1/3) F, kept as itself and as its difference from 1.
+#[derive(Clone, Copy)]
+pub(super) struct Isochoric<T> {
+    gradient: Rows<T>,
+    displacement: Rows<T>,
+}
+
+impl<T: Real> Isochoric<T> {
+    #[inline(always)]
+    pub(super) fn of(deformation: &impl Deformation<T>) -> Self {
+        let third = deformation.ln_jacobian() * T::lit(-1.0 / 3.0);
+        let scale = third.exp();
+        let mut displacement = scaled(deformation.displacement_rows(), scale);
+        let change = third.exp_m1();
+        for (k, row) in displacement.iter_mut().enumerate() {
+            row[k] += change;
+        }
+        Self { gradient: scaled(deformation.gradient_rows(), scale), displacement }
+    }
+}
+
+impl<T: Real> Deformation<T> for Isochoric<T> {
+    #[inline(always)]
+    fn gradient_rows(&self) -> Rows<T> {
+        self.gradient
+    }
+    #[inline(always)]
+    fn displacement_rows(&self) -> Rows<T> {
+        self.displacement
+    }
+    #[inline(always)]
+    fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
+        let entry = |i: usize, j: usize| lift(i, j, self.displacement[i][j]);
+        let row = |i: usize| [entry(i, 0), entry(i, 1), entry(i, 2)];
+        let displacement = [row(0), row(1), row(2)];
+        Isochoric { gradient: sum(displacement, identity()), displacement }
+    }
+    #[inline(always)]
+    fn jacobian(&self) -> T {
+        T::one()
+    }
+    #[inline(always)]
+    fn volume_change(&self) -> T {
+        T::zero()
+    }
+}

@@ -1,0 +1,116 @@
+//! Volumes from a millionth to a million times that of the reference, against the same formulas in twice the precision.
+
+use piola_constitutive::ConstitutiveError;
+use piola_constitutive::solids::volumetric::{
+    HartmannNeff, Lame, Liu, Logarithmic, Miehe, OgdenVolumetric, Quadratic, QuadraticLogarithmic, SimoTaylor,
+};
+use piola_constitutive::solids::{AnySolid, AnyVolumetric, Hyperelastic, volumetric::Volumetric};
+use piola_continuum::{Deformation, DeformationGradient};
+use piola_numerics::Real;
+use piola_testkit::strategies::{rotation, rotation_matrix, vector};
+use piola_testkit::{DoubleDouble, Tol, assert_close, condition_number};
+use proptest::prelude::*;
+
+use super::laws::all;
+
+const BOUND: f64 = 1e-13;
+
+/// W, P, S, τ and ∂P/∂F.
+fn answers<T: Real>(law: &AnySolid, f: &impl Deformation<T>) -> [Vec<T>; 5] {
+    let (stress, tangent) = law.first_piola_and_tangent(f);
+    let (material, spatial) = (law.second_piola(f).0.components, law.kirchhoff(f).0.components);
+    let tangent = tangent.0.components.as_flattened().to_vec();
+    [vec![law.energy(f)], stress.0.as_slice().to_vec(), material.to_vec(), spatial.to_vec(), tangent]
+}
+
+fn deformation(entries: &[f64]) -> DeformationGradient {
+    DeformationGradient::from_rows(core::array::from_fn(|i| core::array::from_fn(|j| entries[3 * i + j])))
+        .expect("0 < det F")
+}
+
+/// 1e-13, or eight units in the last place as the entries of F magnify them.
+fn tolerance(law: &AnySolid, which: usize, f: &DeformationGradient) -> Tol {
+    let entries = f.gradient_rows();
+    let condition = condition_number(|x| answers(law, &deformation(x))[which].clone(), entries.as_flattened());
+    Tol::stated((8.0 * f64::EPSILON * condition).max(BOUND), "1e-13, or 8 ulp × the condition number")
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    #[test]
+    fn answers_at_extreme_volumes_equal_those_of_twice_the_precision(
+        r in rotation(),
+        q in rotation(),
+        stretches in vector(3, -0.35..0.35),
+        exponent in -6.0..6.0_f64,
+    ) {
+        let (r, q) = (rotation_matrix(r), rotation_matrix(q));
+        let mean = stretches.iter().sum::<f64>() / 3.0;
+        let size = 10.0_f64.powf(exponent / 3.0);
+        let along: Vec<f64> = stretches.iter().map(|x| size * (x - mean).exp()).collect();
+        let entry = |i: usize, j: usize| (0..3).map(|k| r[i][k] * along[k] * q[k][j]).sum::<f64>();
+        let f = deformation(&(0..9).map(|k| entry(k / 3, k % 3)).collect::<Vec<_>>());
+        let wide = f.lifted(|_, _, x| DoubleDouble::lit(x));
+        for (law, any_volume) in all() {
+            if !any_volume || law.check(&f).is_err() {
+                continue;
+            }
+            let (rounded, exact) = (answers(&law, &f), answers(&law, &wide));
+            for (which, (actual, expected)) in rounded.into_iter().zip(exact).enumerate() {
+                let size = expected.iter().fold(0.0_f64, |size, x| size.max(x.primal(0).abs()));
+                let error = actual.iter().zip(&expected).fold(0.0_f64, |e, (y, x)| e.max(x.rounding_of(*y).abs()));
+                if error <= BOUND * size {
+                    continue;
+                }
+                let expected: Vec<f64> = expected.iter().map(|x| x.primal(0)).collect();
+                let what = format!("{law:?}: {} at J = 10^{exponent}, {f:?}", ["W", "P", "S", "τ", "∂P/∂F"][which]);
+                assert_close(&what, &actual, &expected, tolerance(&law, which, &f));
+            }
+        }
+    }
+}
+
+/// U, J U′, U″ and J (J U′)′.
+fn parts<T: Real>(law: &AnyVolumetric, jacobian: T) -> [T; 4] {
+    let change = jacobian - T::one();
+    [
+        law.energy(change, jacobian),
+        law.mean_kirchhoff(change, jacobian),
+        law.curvature(change, jacobian),
+        law.stiffness(change, jacobian),
+    ]
+}
+
+#[test]
+fn energies_of_volume_from_a_millionth_to_a_million_equal_those_of_twice_the_precision() -> Result<(), ConstitutiveError>
+{
+    let laws: [AnyVolumetric; 10] = [
+        Quadratic::new(7.0)?.into(),
+        Logarithmic::new(7.0)?.into(),
+        Lame::new(7.0)?.into(),
+        QuadraticLogarithmic::new(7.0)?.into(),
+        SimoTaylor::new(7.0)?.into(),
+        Liu::new(7.0)?.into(),
+        Miehe::new(7.0)?.into(),
+        OgdenVolumetric::new(7.0, 9.0)?.into(),
+        OgdenVolumetric::new(7.0, -2.0)?.into(),
+        HartmannNeff::new(7.0)?.into(),
+    ];
+    for law in laws {
+        for k in -600..=600 {
+            let jacobian = 10.0_f64.powf(0.01 * f64::from(k));
+            let (rounded, exact) = (parts(&law, jacobian), parts(&law, DoubleDouble::lit(jacobian)));
+            for (which, (actual, expected)) in rounded.into_iter().zip(exact).enumerate() {
+                if expected.rounding_of(actual).abs() <= BOUND * actual.abs() {
+                    continue;
+                }
+                // Where U″ passes through zero no digit is left of it.
+                let condition = condition_number(|x| vec![parts(&law, x[0])[which]], &[jacobian]);
+                let tolerance = Tol::ulps(8.0).times(condition);
+                assert_close(&format!("{law:?}, {which}, J = {jacobian}"), &[actual], &[expected.primal(0)], tolerance);
+            }
+        }
+    }
+    Ok(())
+}
