@@ -5,7 +5,7 @@
 //! | discharge of a pipe | [`functions::pipe`] | [`pipe`] |
 //! | discharge of a channel | [`functions::channel`] | [`channel`] |
 //! | speeds of coaxial cylinders | [`functions::couette`] | [`couette`] |
-//! | their normal stresses | [`functions::normal_stress_data`], [`functions::couette`] | |
+//! | their normal stresses | [`functions::normal_stress_data`], [`functions::couette`] | [`normal_stress`] |
 //! | torque of parallel plates | [`functions::parallel_plates`] | [`parallel_plates`] |
 //! | thrust of parallel plates | [`functions::parallel_plates_thrust`] | [`parallel_plates_thrust`] |
 //! | torque and thrust of cone and plate | [`cone_and_plate`] | the same, row by row |
@@ -77,6 +77,18 @@ pub struct StressCurvePoint {
     /// τ or N₁ − N₂, Pa.
     pub stress: f64,
     /// Where the stress lies, if a band was asked for.
+    pub band: Option<[f64; 2]>,
+}
+
+/// A recovered normal stress difference with its band.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct NormalStressPoint {
+    /// τ, Pa.
+    pub shear_stress: f64,
+    /// N₁ = σ₂ − σ₁, Pa.
+    pub first_normal_stress_difference: f64,
+    /// Where N₁ lies, if a band was asked for.
     pub band: Option<[f64; 2]>,
 }
 
@@ -166,6 +178,17 @@ recovered_curve! {
     /// # Example
     /// See [`parallel_plates`].
     StressCurve, StressCurvePoint, shear_rate, stress, "1/s"
+}
+
+recovered_curve! {
+    /// First normal stress differences over shear stresses, with what they were recovered by.
+    ///
+    /// # Accuracy
+    /// As [`FlowCurve`].
+    ///
+    /// # Example
+    /// See [`normal_stress`].
+    NormalStressCurve, NormalStressPoint, shear_stress, first_normal_stress_difference, "Pa"
 }
 
 impl FlowCurve {
@@ -275,6 +298,36 @@ pub fn couette(table: &FlowTable<CouetteGeometry>) -> Result<FlowCurve, Viscomet
 pub fn couette_with(table: &FlowTable<CouetteGeometry>, options: Options) -> Result<FlowCurve, ViscometryError> {
     let rule = Rule::Series { step: table.geometry.step(), order: Order::Full, exponent: None };
     Ok(FlowCurve { recovered: Recovered::new(table, rule, table.geometry.stress_per_torque(), options)? })
+}
+
+/// N₁ = σ₂ − σ₁ over the shear stress at the inner of coaxial cylinders, by the series W(23.92): from a table of torques for each
+/// length, N, and positive differences `T_rr(R₂) − T_rr(R₁)` with the centrifugal part made good
+/// ([`functions::normal_stress_data`]), Pa.
+///
+/// # Errors
+/// As [`pipe`].
+///
+/// # Accuracy
+/// That of [`NormalStressCurve`].
+///
+/// # Example
+/// N₁ = 4 T² with T = M/(2πR²): the difference is ½ ∫ N₁ ds/s = T₁² − T₂², for R₁ = 1, R₂ = 2.
+/// ```
+/// use core::f64::consts::TAU;
+/// use piola_viscometry::recover::{self, FlowTable};
+/// let difference = |stress: f64| stress * stress * (1.0 - 1.0 / 16.0);
+/// let rows: Vec<_> = (1..=12).map(f64::from).map(|stress| [TAU * stress, difference(stress)]).collect();
+/// let curve = recover::normal_stress(&FlowTable::couette(1.0, 2.0, &rows)?)?;
+/// assert!((curve.at(3.0)?.first_normal_stress_difference - 36.0).abs() < 1e-9);
+/// # Ok::<(), piola_viscometry::ViscometryError>(())
+/// ```
+///
+/// # Source
+/// W(23.88)–W(23.92).
+pub fn normal_stress(table: &FlowTable<CouetteGeometry>) -> Result<NormalStressCurve, ViscometryError> {
+    let rule = Rule::Series { step: table.geometry.step(), order: Order::Full, exponent: None };
+    let recovered = Recovered::new(table, rule, table.geometry.stress_per_torque(), Options::default())?;
+    Ok(NormalStressCurve { recovered })
 }
 
 /// The shear stress over the shear rate at the rim of parallel plates, from a table of torques.

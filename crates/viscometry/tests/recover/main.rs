@@ -1,6 +1,7 @@
 //! Tests of `piola_viscometry::recover`.
 
 mod corrections;
+mod flows;
 mod fluids;
 mod golden;
 mod laws;

@@ -1,0 +1,160 @@
+//! Tables made by the flows of this crate give back the fluid that flowed.
+
+use piola_constitutive::fluids::{
+    CarreauYasuda, Cross, Ellis, Eyring, HerschelBulkley, PowerLaw, SecondOrder, Sisko, ViscometricFluid,
+};
+use piola_testkit::golden::{number, text, vector};
+use piola_testkit::{Tol, assert_close};
+use piola_viscometry::recover::{
+    self, ChannelGeometry, CouetteGeometry, FlowCurve, FlowTable, Noise, PipeGeometry, functions,
+};
+use piola_viscometry::{Channel, Couette, Estimate, ParallelPlates, Poiseuille, ViscometryError};
+use proptest::prelude::*;
+
+use super::fluids::{Discharge, Plateau, Sheet, Speed};
+use super::golden::cases;
+
+/// Rows of a flow over a factor of e³ in the wall stress.
+fn rows(
+    lowest: f64,
+    answer: impl Fn(f64) -> Result<Estimate, ViscometryError>,
+) -> Result<Vec<[f64; 2]>, ViscometryError> {
+    (0..25).map(|i| lowest * (0.125 * f64::from(i)).exp()).map(|x| Ok([x, answer(x)?.value])).collect()
+}
+
+/// Curves from a pipe, a channel and cylinders of an outer radius, of wall stresses from `lowest` on.
+fn curves<F: ViscometricFluid>(fluid: &F, lowest: f64, outer: f64) -> Result<[FlowCurve; 3], ViscometryError> {
+    let pipe = rows(lowest, |c| Poiseuille::new(2.0, c)?.discharge(fluid))?;
+    let channel = rows(lowest, |c| Channel::new(1.0, c)?.discharge(fluid))?;
+    let couette = rows(core::f64::consts::TAU * lowest, |m| Couette::new(1.0, outer, m)?.speed_difference(fluid))?;
+    Ok([
+        recover::pipe(&FlowTable::pipe(2.0, &pipe)?)?.with_band(0.95)?,
+        recover::channel(&FlowTable::channel(1.0, &channel)?)?.with_band(0.95)?,
+        recover::couette(&FlowTable::couette(1.0, outer, &couette)?)?.with_band(0.95)?,
+    ])
+}
+
+/// The truth lies in the bands, and the median error is small.
+fn check<F: ViscometricFluid>(fluid: &F, lowest: f64, outer: f64) {
+    for (flow, curve) in ["pipe", "channel", "cylinders"].into_iter().zip(curves(fluid, lowest, outer).expect("curves"))
+    {
+        let mut errors = Vec::new();
+        for point in curve.points() {
+            let point = point.expect("measured");
+            let truth: f64 = fluid.shear_rate(point.shear_stress).expect("a rate");
+            let [low, high] = point.band.expect("asked for");
+            let what = format!("{} in a {flow}, R2/R1 = {outer}", F::NAME);
+            assert!(low <= truth && truth <= high, "{what}: {truth} is not in {low} .. {high}");
+            errors.push((point.shear_rate / truth - 1.0).abs());
+        }
+        errors.sort_by(f64::total_cmp);
+        // Of a wide gap much lies below the smallest torque: its bands say so.
+        let asked = if flow == "cylinders" && 1.3 < outer { 1e-2 } else { 1e-5 };
+        assert!(errors[12] < asked, "{} in a {flow}, R2/R1 = {outer}: {}", F::NAME, errors[12]);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn solved_flows_recover_the_fluid_within_their_bands(
+        ratio in prop::sample::select(vec![0.5, 0.8, 0.9, 0.99, 0.999]),
+        viscosity in 0.1..10.0_f64, time in 0.05..2.0_f64, exponent in 0.3..1.0_f64, lowest in 0.1..1.0_f64,
+    ) {
+        let outer = 1.0 / ratio;
+        check(&CarreauYasuda::new(viscosity, 0.02 * viscosity, time, exponent, 2.0).expect("a fluid"), lowest, outer);
+        check(&Cross::new(viscosity, 0.02 * viscosity, time, 1.0 - 0.9 * exponent).expect("a fluid"), lowest, outer);
+        check(&Ellis::new(viscosity, 1.0 + time, 1.0 + exponent).expect("a fluid"), lowest, outer);
+        check(&Eyring::new(1.0 + viscosity, time).expect("a fluid"), lowest, outer);
+        check(&Sisko::new(viscosity, 1.0, exponent).expect("a fluid"), lowest, outer);
+        check(&PowerLaw::new(viscosity, exponent).expect("a fluid"), lowest, outer);
+    }
+}
+
+#[test]
+fn a_fluid_with_a_yield_stress_is_recovered_within_the_band_right_down_to_it() {
+    let ketchup = HerschelBulkley::new(15.0, 20.0, 0.4).expect("a fluid");
+    for lowest in [15.01, 15.5, 20.0, 60.0] {
+        let curves = curves(&ketchup, lowest, 1.25).expect("curves");
+        for point in curves.iter().flat_map(FlowCurve::points) {
+            let point = point.expect("measured");
+            let truth: f64 = ketchup.shear_rate(point.shear_stress).expect("a rate");
+            let [low, high] = point.band.expect("asked for");
+            assert!(
+                low <= truth && truth <= high,
+                "{lowest}: {truth} at {} not in {low} .. {high}",
+                point.shear_stress
+            );
+        }
+    }
+}
+
+#[test]
+fn measured_functions_recover_the_rates_of_the_reference_values() {
+    let tol = Tol::stated(1e-8, "what is asked of inversions of a measured function");
+    for case in cases() {
+        if text(&case["fluid"]) != "carreau_yasuda" {
+            continue;
+        }
+        let parameter = |name: &str| number(&case["params"][name]);
+        let fluid = Plateau {
+            eta: [parameter("eta0"), parameter("eta_inf")],
+            time: parameter("lam"),
+            power: parameter("a"),
+            exponent: parameter("n"),
+        };
+        let couette = &case["input"]["couette"];
+        let gap = CouetteGeometry::new(1.0, number(&couette["R2"])).expect("a gap");
+        let speed = Speed { fluid: &fluid, outer: number(&couette["R2"]) };
+        let truth = vector(&case["output"]["couette"]["kappa_inner"]);
+        for (torque, rate) in vector(&couette["M"]).into_iter().zip(&truth) {
+            let found = functions::couette(&speed, gap, torque).expect("a sum").value;
+            assert_close("cylinders", &[found], &[*rate], tol);
+        }
+        // The quadratures of the test's own flows have 48 points: below the bend of the flow curve they are exact.
+        for (gradient, rate) in vector(&case["input"]["channel"]["c"]).into_iter().zip(&truth).take(12) {
+            let channel = ChannelGeometry::new(1.0).expect("a channel");
+            let found = functions::channel(&Sheet { fluid: &fluid }, channel, gradient).expect("finite").shear_rate;
+            assert_close("channel", &[found], &[*rate], tol);
+            let pipe = PipeGeometry::new(1.0).expect("a pipe");
+            let found = functions::pipe(&Discharge { fluid: &fluid }, pipe, 2.0 * gradient).expect("finite").shear_rate;
+            assert_close("pipe", &[found], &[*rate], tol);
+        }
+    }
+}
+
+#[test]
+fn normal_stresses_between_cylinders_and_torques_of_discs_recover_the_fluid() {
+    let fluid = SecondOrder::new(2.0, 0.3, -0.2).expect("a fluid");
+    let tol = Tol::stated(1e-9, "rounding through the derivative of a spline of degree 7");
+    let difference = |m: f64| Couette::new(1.0, 1.25, m)?.radial_difference(&fluid);
+    let pressures = rows(1.0, |m| Ok(difference(m)?.scaled(difference(1.0)?.value.signum()))).expect("rows");
+    let sign = difference(1.0).expect("a difference").value.signum();
+    let table =
+        FlowTable::couette(1.0, 1.25, &pressures).and_then(|table| table.with_noise(Noise::Exact)).expect("a table");
+    for point in recover::normal_stress(&table).expect("a curve").points() {
+        let point = point.expect("measured");
+        let rate: f64 = fluid.shear_rate(point.shear_stress).expect("a rate");
+        let truth = sign * fluid.first_normal_stress_difference(rate);
+        assert_close("N1", &[point.first_normal_stress_difference], &[truth], tol);
+    }
+    let torques = rows(1.0, |speed| ParallelPlates::new(1.0, 0.5, speed)?.torque(&fluid)).expect("rows");
+    let discs = FlowTable::parallel_plates(1.0, 0.5, &torques).expect("a table");
+    for point in recover::parallel_plates(&discs).expect("a curve").points() {
+        let point = point.expect("measured");
+        assert_close("torque", &[point.stress], &[fluid.shear_stress(point.shear_rate)], tol);
+    }
+    let thrust = |speed: f64| ParallelPlates::new(1.0, 0.5, speed)?.thrust(&fluid);
+    let sign = thrust(1.0).expect("a thrust").value.signum();
+    let thrusts = rows(1.0, |speed| Ok(thrust(speed)?.scaled(sign))).expect("rows");
+    let discs = FlowTable::parallel_plates(1.0, 0.5, &thrusts).expect("a table");
+    for point in recover::parallel_plates_thrust(&discs).expect("a curve").points() {
+        let point = point.expect("measured");
+        let [n1, n2]: [f64; 2] = [
+            fluid.first_normal_stress_difference(point.shear_rate),
+            fluid.second_normal_stress_difference(point.shear_rate),
+        ];
+        assert_close("thrust", &[point.stress], &[sign * (n1 - n2)], tol);
+    }
+}
