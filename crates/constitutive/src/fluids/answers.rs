@@ -61,7 +61,7 @@ pub(super) fn moment_of_power(power: i32, exponent: f64, scale: f64, from: f64, 
     whole * share / q
 }
 
-/// (τ_y + u)ᵖ = Σ cᵢ uⁱ for 0 ≤ p: the cᵢ, and how many.
+/// (τᵧ + u)ᵖ = Σ cᵢ uⁱ for 0 ≤ p: the cᵢ, and how many.
 pub(super) fn shifted_power(moment: FlowMoment, yield_stress: f64) -> Option<([f64; 3], usize)> {
     match moment {
         FlowMoment::Reciprocal => None,

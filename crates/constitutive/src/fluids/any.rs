@@ -81,7 +81,7 @@ any_fluid! {
     /// | `sisko` | [`Sisko`] | `infinite_rate_viscosity`, `consistency`, `exponent` |
     /// | `papanastasiou` | [`Papanastasiou`] | `apparent_yield_stress`, `consistency`, `exponent`, `growth_time` |
     /// | `constant_reiner_rivlin` | [`ConstantReinerRivlin`] | `linear`, `quadratic` |
-    /// | `second_order` | [`SecondOrder`] | `viscosity_coefficient`, `first_coefficient`, `second_coefficient` |
+    /// | `second_order` | [`SecondOrder`] | `viscosity_coefficient`, `alpha1`, `alpha2` |
     /// | `upper_convected_maxwell` | [`UpperConvectedMaxwell`] | `polymer_viscosity`, `time` |
     /// | `oldroyd_b` | [`OldroydB`] | `solvent_viscosity`, `polymer_viscosity`, `time` |
     /// | `giesekus` | [`Giesekus`] | the same, and `mobility` |
@@ -118,23 +118,23 @@ any_fluid! {
     Newtonian,
     /// K |k|ⁿ.
     PowerLaw,
-    /// τ_y + μ k.
+    /// τᵧ + μ k.
     Bingham,
-    /// τ_y + K kⁿ.
+    /// τᵧ + K kⁿ.
     HerschelBulkley,
-    /// (√τ_y + √(μ k))².
+    /// (√τᵧ + √(μ k))².
     Casson,
-    /// (η_∞ + (η₀ − η_∞) (1 + (λ k)^a)^((n − 1)/a)) k.
+    /// (η∞ + (η₀ − η∞) (1 + (λ k)^a)^((n − 1)/a)) k.
     CarreauYasuda,
-    /// (η_∞ + (η₀ − η_∞)/(1 + (λ k)^m)) k.
+    /// (η∞ + (η₀ − η∞)/(1 + (λ k)^m)) k.
     Cross,
-    /// k = (τ/η₀) (1 + (τ/τ_½)^(α − 1)).
+    /// k = (τ/η₀) (1 + (τ/τ½)^(α − 1)).
     Ellis,
     /// τ₀ arsinh(λ k).
     Eyring,
-    /// η_∞ k + K kⁿ.
+    /// η∞ k + K kⁿ.
     Sisko,
-    /// K kⁿ + τ_y (1 − exp(−m k)).
+    /// K kⁿ + τᵧ (1 − exp(−m k)).
     Papanastasiou,
     /// g₁ k/2, with normal stresses.
     ConstantReinerRivlin,
@@ -142,13 +142,13 @@ any_fluid! {
     SecondOrder,
     /// η k, with N₁ = 2 η λ k².
     UpperConvectedMaxwell,
-    /// (η_s + η_p) k, with N₁ = 2 η_p λ k².
+    /// (ηₛ + ηₚ) k, with N₁ = 2 ηₚ λ k².
     OldroydB,
-    /// τ + (α λ/η_p) τ² relaxes.
+    /// τ + (α λ/ηₚ) τ² relaxes.
     Giesekus,
-    /// (1 + ε (λ/η_p) tr τ) τ relaxes.
+    /// (1 + ε (λ/ηₚ) tr τ) τ relaxes.
     LinearPhanThienTanner,
-    /// exp(ε (λ/η_p) tr τ) τ relaxes.
+    /// exp(ε (λ/ηₚ) tr τ) τ relaxes.
     ExponentialPhanThienTanner,
     /// Several [`OldroydB`].
     OldroydBModes,

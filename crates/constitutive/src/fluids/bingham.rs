@@ -12,18 +12,18 @@ fluid_of_parameters! {
     /// Bingham's plastic: at rest up to a yield stress, linear beyond.
     ///
     /// ```text
-    /// τ = (τ_y + μ |k|) sign k      ζ = (|τ| − τ_y) sign τ / μ where τ_y < |τ|, else 0
+    /// τ = (τᵧ + μ |k|) sign k      ζ = (|τ| − τᵧ) sign τ / μ where τᵧ < |τ|, else 0
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | τ_y | `yield_stress` | Pa | 0 ≤ τ_y |
+    /// | τᵧ | `yield_stress` | Pa | 0 ≤ τᵧ |
     /// | μ | `plastic_viscosity` | Pa s | 0 < μ |
     ///
     /// All moments of ζ are closed.
     ///
     /// # Accuracy
     /// 2 ulp of τ and, also close to yield, of ζ; 16 ulp of the moments, in narrow intervals and close to yield too: they
-    /// are sums of positive terms in s − τ_y.
+    /// are sums of positive terms in s − τᵧ.
     ///
     /// # Example
     /// ```
@@ -38,8 +38,8 @@ fluid_of_parameters! {
     /// # Source
     /// E. C. Bingham, *Fluidity and Plasticity* (1922); an example of the functions of W(23.13).
     pub struct Bingham("Bingham") {
-        /// τ_y, Pa.
-        yield_stress: "0 ≤ τ_y" => 0.0 <= yield_stress,
+        /// τᵧ, Pa.
+        yield_stress: "0 ≤ τᵧ" => 0.0 <= yield_stress,
         /// μ, Pa s.
         plastic_viscosity: "0 < μ" => 0.0 < plastic_viscosity,
     }
@@ -91,8 +91,8 @@ impl ViscometricFluid for Bingham {
         finite_rate::<Self, T>(shear_stress, rate / T::lit(self.plastic_viscosity))
     }
 
-    /// With u = s − τ_y: ∫ (τ_y + u)ᵖ u du/μ, expanded; for p = −1 the difference w − τ_y ln(1 + w/a) over [a, a + w] as
-    /// w (a − τ_y)/a + τ_y (w/a − ln(1 + w/a)).
+    /// With u = s − τᵧ: ∫ (τᵧ + u)ᵖ u du/μ, expanded; for p = −1 the difference w − τᵧ ln(1 + w/a) over [a, a + w] as
+    /// w (a − τᵧ)/a + τᵧ (w/a − ln(1 + w/a)).
     fn flow_moment(&self, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
         let start = from.max(self.yield_stress);
         if to <= start {

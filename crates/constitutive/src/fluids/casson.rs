@@ -12,17 +12,17 @@ fluid_of_parameters! {
     /// Casson's plastic: blood, chocolate, printing ink.
     ///
     /// ```text
-    /// √|τ| = √τ_y + √(μ |k|)      ζ = (√|τ| − √τ_y)² sign τ / μ where τ_y < |τ|, else 0
+    /// √|τ| = √τᵧ + √(μ |k|)      ζ = (√|τ| − √τᵧ)² sign τ / μ where τᵧ < |τ|, else 0
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | τ_y | `yield_stress` | Pa | 0 ≤ τ_y |
+    /// | τᵧ | `yield_stress` | Pa | 0 ≤ τᵧ |
     /// | μ | `plastic_viscosity` | Pa s | 0 < μ |
     ///
     /// All moments of ζ are closed.
     ///
     /// # Accuracy
-    /// 4 ulp of τ and, close to yield too, 8 ulp of ζ; 32 ulp of the moments: with x = √s − √τ_y = (s − τ_y)/(√s + √τ_y) they
+    /// 4 ulp of τ and, close to yield too, 8 ulp of ζ; 32 ulp of the moments: with x = √s − √τᵧ = (s − τᵧ)/(√s + √τᵧ) they
     /// are sums of positive terms, so that nothing cancels just above yield or in a narrow interval.
     ///
     /// # Example
@@ -38,8 +38,8 @@ fluid_of_parameters! {
     /// # Source
     /// N. Casson, in *Rheology of Disperse Systems* (1959) 84; an example of the functions of W(23.13).
     pub struct Casson("Casson") {
-        /// τ_y, Pa.
-        yield_stress: "0 ≤ τ_y" => 0.0 <= yield_stress,
+        /// τᵧ, Pa.
+        yield_stress: "0 ≤ τᵧ" => 0.0 <= yield_stress,
         /// μ, Pa s.
         plastic_viscosity: "0 < μ" => 0.0 < plastic_viscosity,
     }
@@ -62,7 +62,7 @@ impl Parameters<2> for Casson {
     }
 }
 
-/// 2 √(τ_y μ |k|), zero without derivatives where one of them is.
+/// 2 √(τᵧ μ |k|), zero without derivatives where one of them is.
 #[inline(always)]
 fn mixed<T: Real>(yield_stress: T, viscosity: T, shear_rate: T) -> T {
     let (rest, rate) = moving(shear_rate);
@@ -99,13 +99,13 @@ impl ViscometricFluid for Casson {
         }
         let excess = beyond(shear_stress, yield_stress);
         let (_, size) = moving(shear_stress);
-        // (s − τ_y)²/(√s + √τ_y)²: no difference of roots.
+        // (s − τᵧ)²/(√s + √τᵧ)²: no difference of roots.
         let roots = size.sqrt() + yield_stress.sqrt();
         let x = excess / roots;
         finite_rate::<Self, T>(shear_stress, signed(shear_stress, x * (x / T::lit(self.plastic_viscosity))))
     }
 
-    /// With √s = a + x, a = √τ_y: ∫ sᵖ ζ ds = (2/μ) ∫ (a + x)²ᵖ⁺¹ x² dx, expanded about the lower end.
+    /// With √s = a + x, a = √τᵧ: ∫ sᵖ ζ ds = (2/μ) ∫ (a + x)²ᵖ⁺¹ x² dx, expanded about the lower end.
     fn flow_moment(&self, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
         let start = from.max(self.yield_stress);
         if to <= start {

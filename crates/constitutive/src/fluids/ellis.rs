@@ -11,18 +11,18 @@ fluid_of_parameters! {
     /// Ellis' fluid: linear at small stresses, a power law at large ones; the rate is explicit in the stress.
     ///
     /// ```text
-    /// k = (τ/η₀) (1 + |τ/τ_½|^(α − 1))
+    /// k = (τ/η₀) (1 + |τ/τ½|^(α − 1))
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
     /// | η₀ | `zero_rate_viscosity` | Pa s | 0 < η₀ |
-    /// | τ_½ | `half_stress`, at which the viscosity is η₀/2 | Pa | 0 < τ_½ |
+    /// | τ½ | `half_stress`, at which the viscosity is η₀/2 | Pa | 0 < τ½ |
     /// | α | `exponent` | – | 1 ≤ α; 1/α is the exponent of the power law |
     ///
     /// All moments of ζ are closed. τ is found by Newton's method on a convex function.
     ///
     /// # Accuracy
-    /// ζ and the moments: 4 ulp beyond the rounding of τ/τ_½ to a power; τ: 4 ulp.
+    /// ζ and the moments: 4 ulp beyond the rounding of τ/τ½ to a power; τ: 4 ulp.
     ///
     /// # Example
     /// ```
@@ -39,14 +39,14 @@ fluid_of_parameters! {
     pub struct Ellis("Ellis") {
         /// η₀, Pa s.
         zero_rate_viscosity: "0 < η₀" => 0.0 < zero_rate_viscosity,
-        /// τ_½, Pa.
-        half_stress: "0 < τ_½" => 0.0 < half_stress,
+        /// τ½, Pa.
+        half_stress: "0 < τ½" => 0.0 < half_stress,
         /// α.
         exponent: "1 ≤ α" => 1.0 <= exponent,
     }
 }
 
-/// x = y + y^α, the rate and the stress in units of τ_½.
+/// x = y + y^α, the rate and the stress in units of τ½.
 struct Flow<T> {
     exponent: T,
 }
@@ -95,7 +95,7 @@ impl ViscometricFluid for Ellis {
         finite_rate::<Self, T>(shear_stress, rate)
     }
 
-    /// ∫ sᵖ⁺¹ ds/η₀ + ∫ sᵖ⁺¹ (s/τ_½)^(α − 1) ds/η₀.
+    /// ∫ sᵖ⁺¹ ds/η₀ + ∫ sᵖ⁺¹ (s/τ½)^(α − 1) ds/η₀.
     fn flow_moment(&self, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
         let power = moment.power() + 2;
         let sum = moment_of_power(power, 0.0, 1.0, from, to)

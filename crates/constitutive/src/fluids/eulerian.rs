@@ -8,11 +8,11 @@ use super::parameters::fluid_of_parameters;
 /// An Eulerian (elastic, barotropic) fluid.
 ///
 /// ```text
-/// T = −p(ρ) 1      ρ = ρ_κ/det F      S = −p J C⁻¹
+/// T = −p(ρ) 1      ρ = ρ₀/det F      S = −p J C⁻¹
 /// ```
 /// | symbol | method | unit |
 /// |---|---|---|
-/// | ρ_κ | [`reference_density`](Self::reference_density) | kg/m³ |
+/// | ρ₀ | [`reference_density`](Self::reference_density) | kg/m³ |
 /// | p | [`pressure`](Self::pressure) | Pa |
 /// | dp/dρ | [`pressure_slope`](Self::pressure_slope), the square of the speed of sound | m²/s² |
 /// | T, S | [`cauchy`](Self::cauchy), [`second_piola`](Self::second_piola) | Pa |
@@ -31,7 +31,7 @@ use super::parameters::fluid_of_parameters;
 /// # Source
 /// W(19.34).
 pub trait EulerianFluid {
-    /// ρ_κ, kg/m³, where det F = 1.
+    /// ρ₀, kg/m³, where det F = 1.
     #[must_use]
     fn reference_density(&self) -> f64;
 
@@ -46,7 +46,7 @@ pub trait EulerianFluid {
         self.pressure(Dual::variable(density)).tangent
     }
 
-    /// ρ = ρ_κ/det F, kg/m³.
+    /// ρ = ρ₀/det F, kg/m³.
     #[inline(always)]
     #[must_use]
     fn density<T: Real>(&self, deformation: &impl Deformation<T>) -> T {

@@ -80,7 +80,7 @@ impl ViscometricFluid for Eyring {
         let (a, b) = (from / self.stress, to / self.stress);
         let integral = match moment {
             FlowMoment::Reciprocal => return None,
-            FlowMoment::Zeroth => 2.0 * ((b + a) / 2.0).sinh() * ((to - from) / self.stress / 2.0).sinh(),
+            FlowMoment::Zeroth => 2.0 * f64::midpoint(b, a).sinh() * ((to - from) / self.stress / 2.0).sinh(),
             FlowMoment::First | FlowMoment::Second => {
                 let (below, all) = (primitive(moment.power(), a), primitive(moment.power(), b));
                 if all / 2.0 < below {

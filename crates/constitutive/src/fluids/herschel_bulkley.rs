@@ -12,11 +12,11 @@ fluid_of_parameters! {
     /// The plastic of Herschel and Bulkley: at rest up to a yield stress, a power law beyond.
     ///
     /// ```text
-    /// τ = (τ_y + K |k|ⁿ) sign k      ζ = ((|τ| − τ_y)/K)^(1/n) sign τ where τ_y < |τ|, else 0
+    /// τ = (τᵧ + K |k|ⁿ) sign k      ζ = ((|τ| − τᵧ)/K)^(1/n) sign τ where τᵧ < |τ|, else 0
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | τ_y | `yield_stress` | Pa | 0 ≤ τ_y |
+    /// | τᵧ | `yield_stress` | Pa | 0 ≤ τᵧ |
     /// | K | `consistency` | Pa sⁿ | 0 < K |
     /// | n | `exponent` | – | 0 < n |
     ///
@@ -38,8 +38,8 @@ fluid_of_parameters! {
     /// # Source
     /// W. H. Herschel, R. Bulkley, Kolloid-Z. 39 (1926) 291; an example of the functions of W(23.13).
     pub struct HerschelBulkley("Herschel-Bulkley") {
-        /// τ_y, Pa.
-        yield_stress: "0 ≤ τ_y" => 0.0 <= yield_stress,
+        /// τᵧ, Pa.
+        yield_stress: "0 ≤ τᵧ" => 0.0 <= yield_stress,
         /// K, Pa sⁿ.
         consistency: "0 < K" => 0.0 < consistency,
         /// n.
@@ -102,7 +102,7 @@ impl ViscometricFluid for HerschelBulkley {
         finite_rate::<Self, T>(shear_stress, rate)
     }
 
-    /// With u = s − τ_y: ∫ (τ_y + u)ᵖ (u/K)^(1/n) du, expanded: terms are positive.
+    /// With u = s − τᵧ: ∫ (τᵧ + u)ᵖ (u/K)^(1/n) du, expanded: terms are positive.
     fn flow_moment(&self, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
         let start = from.max(self.yield_stress);
         if to <= start {

@@ -15,7 +15,7 @@ pub trait Damping {
     /// The name of its fluid in errors.
     const NAME: &'static str;
 
-    /// h at I₁ − 3 = tr C_t⁻¹ − 3 and I₂ − 3 = tr C_t − 3, both at least zero.
+    /// h at I₁ − 3 = tr Cₜ⁻¹ − 3 and I₂ − 3 = tr Cₜ − 3, both at least zero.
     #[must_use]
     fn factor<T: Real>(&self, first: T, second: T) -> T;
 }
@@ -102,7 +102,7 @@ pub struct Relaxation {
 /// The fluid of Kaye, Bernstein, Kearsley and Zapas, factored: a memory of Maxwell's kind times a damping.
 ///
 /// ```text
-/// T + p 1 = ∫ m(s) h(I₁, I₂) (C_t⁻¹(t − s) − 1) ds      m(s) = Σ (η/λ²) e^(−s/λ)
+/// T + p 1 = ∫ m(s) h(I₁, I₂) (Cₜ⁻¹(t − s) − 1) ds      m(s) = Σ (η/λ²) e^(−s/λ)
 /// in steady shear: τ = ∫ m h k s ds,  N₁ = ∫ m h k² s² ds,  N₂ = 0
 /// ```
 /// Without damping it is the Maxwell fluid. In steady shear the integrals are sums over equal steps of ln s, that converge
@@ -117,8 +117,9 @@ pub struct Relaxation {
 /// use piola_constitutive::fluids::{ExponentialDamping, Kbkz, Relaxation, ViscometricFluid};
 /// let memory = vec![Relaxation { viscosity: 8.0, time: 1.0 }];
 /// let melt = Kbkz::new(memory, ExponentialDamping::new(0.5, 1.0)?)?;
-/// assert!((melt.shear_stress(2.0) - 4.0).abs() < 1e-13);
-/// assert!((melt.first_normal_stress_difference(2.0) - 8.0).abs() < 1e-13);
+/// let [shear, first]: [f64; 2] = [melt.shear_stress(2.0), melt.first_normal_stress_difference(2.0)];
+/// assert!((shear - 4.0).abs() < 1e-13);
+/// assert!((first - 8.0).abs() < 1e-13);
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
 ///
@@ -257,7 +258,7 @@ impl<H: Damping> Kbkz<H> {
         })
     }
 
-    /// T + p 1, Pa, now, from the history C_t⁻¹(t − s) of a motion that began from rest `age` seconds ago; ∞ for one that lasts
+    /// T + p 1, Pa, now, from the history Cₜ⁻¹(t − s) of a motion that began from rest `age` seconds ago; ∞ for one that lasts
     /// since always.
     ///
     /// By adaptive quadrature in ln s, with its error bound. The motion must be smooth within (0, age).

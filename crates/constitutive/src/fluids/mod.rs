@@ -10,6 +10,17 @@
 //! ```
 //!
 //! A fluid of your own gives τ as one function over any scalar; its inverse, viscosity and derivatives follow.
+//!
+//! | the fluid | is |
+//! |---|---|
+//! | thins or thickens, no elasticity | [`PowerLaw`], [`CarreauYasuda`], [`Cross`], [`Ellis`], [`Eyring`], [`Sisko`] |
+//! | is solid at small stresses | [`Bingham`], [`HerschelBulkley`], [`Casson`]; nearly so: [`Papanastasiou`] |
+//! | flows in three dimensions by the present rate | [`LinearViscous`], [`GeneralisedNewtonian`], [`ReinerRivlin`], [`SecondOrder`]: [`ViscousFluid`] |
+//! | is a pressure that depends on the density | [`EulerianFluid`], [`Polytropic`] |
+//! | remembers, by an equation along the motion | [`UpperConvectedMaxwell`], [`OldroydB`], [`Giesekus`], [`LinearPhanThienTanner`], [`ExponentialPhanThienTanner`], [`Modes`] of them: [`DifferentialFluid`] |
+//! | remembers, by an integral over its history | [`Kbkz`] |
+//! | is at another temperature | [`Arrhenius`], [`WilliamsLandelFerry`] |
+//! | is read from a file | [`AnyFluid`] |
 
 mod answers;
 mod any;

@@ -12,11 +12,11 @@ fluid_of_parameters! {
     /// Papanastasiou's plastic: that of Herschel and Bulkley, with a yield stress that grows with the rate instead of a jump.
     ///
     /// ```text
-    /// τ = K |k|ⁿ sign k + τ_y (1 − exp(−m |k|)) sign k
+    /// τ = K |k|ⁿ sign k + τᵧ (1 − exp(−m |k|)) sign k
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | τ_y | `apparent_yield_stress` | Pa | 0 ≤ τ_y |
+    /// | τᵧ | `apparent_yield_stress` | Pa | 0 ≤ τᵧ |
     /// | K | `consistency` | Pa sⁿ | 0 < K |
     /// | n | `exponent`; 1 for Bingham's plastic | – | 0 < n |
     /// | m | `growth_time` | s | 0 < m |
@@ -38,8 +38,8 @@ fluid_of_parameters! {
     /// # Source
     /// T. C. Papanastasiou, J. Rheol. 31 (1987) 385; an example of the functions of W(23.13).
     pub struct Papanastasiou("Papanastasiou") {
-        /// τ_y, Pa.
-        apparent_yield_stress: "0 ≤ τ_y" => 0.0 <= apparent_yield_stress,
+        /// τᵧ, Pa.
+        apparent_yield_stress: "0 ≤ τᵧ" => 0.0 <= apparent_yield_stress,
         /// K, Pa sⁿ.
         consistency: "0 < K" => 0.0 < consistency,
         /// n.

@@ -18,8 +18,8 @@ fluid_of_parameters! {
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
     /// | μ | `viscosity_coefficient` | Pa s | 0 < μ |
-    /// | α₁ | `first_coefficient`; negative where N₁ is positive, as measured | Pa s² | finite |
-    /// | α₂ | `second_coefficient` | Pa s² | finite |
+    /// | α₁ | `alpha1`; negative where N₁ is positive, as measured | Pa s² | finite |
+    /// | α₂ | `alpha2` | Pa s² | finite |
     ///
     /// As a [`ViscousFluid`] it is in a steady homogeneous flow, where Ȧ₁ = 0; elsewhere
     /// [`extra_stress_of`](Self::extra_stress_of) takes A₁ and A₂.
@@ -44,9 +44,9 @@ fluid_of_parameters! {
         /// μ, Pa s.
         viscosity_coefficient: "0 < μ" => 0.0 < viscosity_coefficient,
         /// α₁, Pa s².
-        first_coefficient: "finite" => true,
+        alpha1: "finite" => true,
         /// α₂, Pa s².
-        second_coefficient: "finite" => true,
+        alpha2: "finite" => true,
     }
 }
 
@@ -56,8 +56,8 @@ impl SecondOrder {
     #[must_use]
     pub fn extra_stress_of<T: Real>(&self, first: &RivlinEricksen<T>, second: &RivlinEricksen<T>) -> Symmetric<T> {
         first.0 * T::lit(self.viscosity_coefficient)
-            + second.0 * T::lit(self.first_coefficient)
-            + first.0.square() * T::lit(self.second_coefficient)
+            + second.0 * T::lit(self.alpha1)
+            + first.0.square() * T::lit(self.alpha2)
     }
 }
 
@@ -81,16 +81,16 @@ impl ViscometricFluid for SecondOrder {
 
     #[inline(always)]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
-        T::lit(2.0 * self.first_coefficient + self.second_coefficient) * shear_rate * shear_rate
+        T::lit(2.0 * self.alpha1 + self.alpha2) * shear_rate * shear_rate
     }
 
     #[inline(always)]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
-        T::lit(self.second_coefficient) * shear_rate * shear_rate
+        T::lit(self.alpha2) * shear_rate * shear_rate
     }
 
     #[inline(always)]
     fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
-        T::lit(-2.0 * self.first_coefficient) * shear_rate * shear_rate
+        T::lit(-2.0 * self.alpha1) * shear_rate * shear_rate
     }
 }

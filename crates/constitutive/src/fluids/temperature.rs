@@ -15,13 +15,13 @@ pub trait TemperatureShift {
     /// Its name in errors.
     const NAME: &'static str;
 
-    /// ln a_T at the temperature, K.
+    /// ln aₜ at the temperature, K.
     ///
     /// # Errors
     /// [`ConstitutiveError::OutOfBounds`] outside the temperatures for which it is meant.
     fn logarithm(&self, temperature: f64) -> Result<f64, ConstitutiveError>;
 
-    /// a_T: times at the temperature, K, in units of those at the reference temperature.
+    /// aₜ: times at the temperature, K, in units of those at the reference temperature.
     ///
     /// # Errors
     /// As [`logarithm`](Self::logarithm).
@@ -32,7 +32,7 @@ pub trait TemperatureShift {
     /// The fluid at another temperature than that, the reference, for which it is given.
     ///
     /// # Errors
-    /// As [`logarithm`](Self::logarithm), and [`ConstitutiveError::OutOfBounds`] where a_T is not a number beyond zero.
+    /// As [`logarithm`](Self::logarithm), and [`ConstitutiveError::OutOfBounds`] where aₜ is not a number beyond zero.
     fn shifted<F: ViscometricFluid>(&self, fluid: F, temperature: f64) -> Result<Shifted<F>, ConstitutiveError> {
         Shifted::new(fluid, self.factor(temperature)?)
     }
@@ -42,7 +42,7 @@ fluid_of_parameters! {
     /// The shift of Arrhenius: jumps over a barrier, far above the glass transition.
     ///
     /// ```text
-    /// ln a_T = (E/R) (1/θ − 1/θ₀)
+    /// ln aₜ = (E/R) (1/θ − 1/θ₀)
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
@@ -50,7 +50,7 @@ fluid_of_parameters! {
     /// | θ₀ | `reference_temperature` | K | 0 < θ₀ |
     ///
     /// # Accuracy
-    /// 4 ulp of ln a_T, near θ₀ too.
+    /// 4 ulp of ln aₜ, near θ₀ too.
     ///
     /// # Example
     /// ```
@@ -76,7 +76,7 @@ fluid_of_parameters! {
     /// The shift of Williams, Landel and Ferry: free volume, up to 100 K above the glass transition.
     ///
     /// ```text
-    /// log₁₀ a_T = −C₁ (θ − θ₀)/(C₂ + θ − θ₀)      θ₀ − C₂ < θ
+    /// log₁₀ aₜ = −C₁ (θ − θ₀)/(C₂ + θ − θ₀)      θ₀ − C₂ < θ
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
@@ -85,7 +85,7 @@ fluid_of_parameters! {
     /// | θ₀ | `reference_temperature` | K | 0 < θ₀ |
     ///
     /// # Accuracy
-    /// 4 ulp of ln a_T.
+    /// 4 ulp of ln aₜ.
     ///
     /// # Example
     /// ```
@@ -129,10 +129,10 @@ impl TemperatureShift for WilliamsLandelFerry {
     }
 }
 
-/// A fluid all of whose times are multiplied by a_T, with the same moduli and yield stress.
+/// A fluid all of whose times are multiplied by aₜ, with the same moduli and yield stress.
 ///
 /// ```text
-/// τ(k) = τ₀(a_T k)      σ(k) = σ₀(a_T k)      η(k) = a_T η₀(a_T k)      ζ(τ) = ζ₀(τ)/a_T
+/// τ(k) = τ₀(aₜ k)      σ(k) = σ₀(aₜ k)      η(k) = aₜ η₀(aₜ k)      ζ(τ) = ζ₀(τ)/aₜ
 /// ```
 ///
 /// # Example
@@ -150,12 +150,12 @@ pub struct Shifted<F> {
 }
 
 impl<F: ViscometricFluid> Shifted<F> {
-    /// Of the fluid at the reference temperature and a_T.
+    /// Of the fluid at the reference temperature and aₜ.
     ///
     /// # Errors
-    /// [`ConstitutiveError::NotFinite`]; [`ConstitutiveError::OutOfBounds`] unless 0 < a_T.
+    /// [`ConstitutiveError::NotFinite`]; [`ConstitutiveError::OutOfBounds`] unless 0 < aₜ.
     pub fn new(fluid: F, factor: f64) -> Result<Self, ConstitutiveError> {
-        check_bound(F::NAME, "shift factor", factor, "0 < a_T", 0.0 < factor)?;
+        check_bound(F::NAME, "shift factor", factor, "0 < aₜ", 0.0 < factor)?;
         Ok(Self { fluid, factor })
     }
 
@@ -165,7 +165,7 @@ impl<F: ViscometricFluid> Shifted<F> {
         &self.fluid
     }
 
-    /// a_T.
+    /// aₜ.
     #[must_use]
     pub const fn factor(&self) -> f64 {
         self.factor

@@ -196,7 +196,7 @@ pub(in crate::fluids) fn rate_at_stress<F: ViscometricFluid + ?Sized, T: Real>(
         let at = fluid.shear_stress(Dual { value: rate.frozen(), tangent: T::one() });
         let excess = fluid.shear_stress(rate) - size;
         let step = excess / at.tangent;
-        rate = rate - T::select(step.is_finite(), step, T::zero());
+        rate -= T::select(step.is_finite(), step, T::zero());
     }
     let residual = (fluid.shear_stress(rate.frozen()) - size.frozen()).abs();
     let exact = residual.at_most(T::lit(1e-12) * size.frozen()) & rate.is_finite();

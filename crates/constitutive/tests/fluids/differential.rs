@@ -7,9 +7,9 @@ use piola_constitutive::fluids::{
     LinearPhanThienTanner, Mode, Modes, OldroydB, ShearStresses, UpperConvectedMaxwell, ViscometricFluid, follow,
     follow_shear, oscillate,
 };
-use piola_continuum::Symmetric;
 use piola_continuum::rates::{VelocityGradient, exponential_rows};
 use piola_continuum::tensor::rows::{product_transposed, scaled};
+use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::{Dual, Lanes, Real};
 use piola_testkit::golden::{load, number, text};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
@@ -91,7 +91,7 @@ fn motions_of_maxwell_fluids_equal_golden() {
     assert_eq!(count, 20);
 }
 
-/// C_t⁻¹(t − s) − 1 of a steady motion.
+/// Cₜ⁻¹(t − s) − 1 of a steady motion.
 fn finger_strain(l: &VelocityGradient, s: f64) -> Symmetric {
     let e = exponential_rows(scaled(l.rows(), s));
     Symmetric::symmetric_part(product_transposed(e, e)) - Symmetric::identity()
@@ -115,32 +115,32 @@ fn viscometric_functions_of_oldroyd_fluid_equal_golden() {
     }
 }
 
-/// Fluid of η_s = 1/8, η_p = 2, λ = ½; α or ε; k; T₁₂, N₁, N₂ by mpmath at 80 digits from the formulas as published.
+/// Fluid of ηₛ = 1/8, ηₚ = 2, λ = ½; α or ε; k; T₁₂, N₁, N₂ by mpmath at 80 digits from the formulas as published.
 const SHEAR: &[(&str, f64, f64, [f64; 3])] = &[
-    ("giesekus", 0.3, 1e-06, [2.12499999999964e-06, 1.9999999999994297e-12, -2.999999999998987e-13]),
-    ("giesekus", 0.5, 1e-06, [2.1249999999995e-06, 1.99999999999925e-12, -4.999999999997812e-13]),
-    ("linear", 0.25, 1e-06, [2.12499999999975e-06, 1.9999999999995e-12, 0.0]),
-    ("exponential", 0.25, 1e-06, [2.12499999999975e-06, 1.9999999999995e-12, 0.0]),
-    ("giesekus", 0.3, 0.001, [0.0021249996400001434, 1.9999994300002585e-06, -2.9999989875004824e-07]),
-    ("giesekus", 0.5, 0.001, [0.00212499950000025, 1.9999992500004218e-06, -4.99999781250129e-07]),
-    ("linear", 0.25, 0.001, [0.002124999750000094, 1.9999995000002187e-06, 0.0]),
-    ("exponential", 0.25, 0.001, [0.0021249997500000783, 1.9999995000001874e-06, 0.0]),
-    ("giesekus", 0.3, 0.7, [1.383417471997799, 0.867273411042712, -0.1271680352565126]),
-    ("giesekus", 0.5, 0.7, [1.3483889232764017, 0.8376242970349863, -0.20392846179647497]),
-    ("linear", 0.25, 0.7, [1.4144798087888926, 0.880437706466703, 0.0]),
-    ("exponential", 0.25, 0.7, [1.412734630414608, 0.8781234128250712, 0.0]),
-    ("giesekus", 0.3, 40.0, [10.443978064751564, 50.1728875545853, -2.8186090690015444]),
-    ("giesekus", 0.5, 40.0, [8.901249804748511, 34.460425670083104, -3.116682412181382]),
-    ("linear", 0.25, 40.0, [17.900961851167118, 83.21740834263467, 0.0]),
-    ("exponential", 0.25, 40.0, [13.475548406581714, 35.91746039615492, 0.0]),
-    ("giesekus", 0.3, 10000.0, [1256.0735483857297, 897.147764525548, -3.9177660772229457]),
-    ("giesekus", 0.5, 10000.0, [1253.99960002, 565.6005784992799, -3.943434285861487]),
-    ("linear", 0.25, 10000.0, [1336.0536119842814, 3702.612067770629, 0.0]),
-    ("exponential", 0.25, 10000.0, [1265.1627400643774, 114.95434312993831, 0.0]),
-    ("giesekus", 0.3, 100000000.0, [12500006.109739842, 90254.29787418336, -3.9991728056873677]),
-    ("giesekus", 0.5, 100000000.0, [12500003.99999996, 56568.54164639567, -3.9994343145778792]),
-    ("linear", 0.25, 100000000.0, [12501856.629788285, 1723537.0853753437, 0.0]),
-    ("exponential", 0.25, 100000000.0, [12500022.62375904, 255.91723656732003, 0.0]),
+    ("giesekus", 0.3, 1e-06, [2.124_999_999_999_64e-06, 1.999_999_999_999_429_7e-12, -2.999_999_999_998_987e-13]),
+    ("giesekus", 0.5, 1e-06, [2.124_999_999_999_5e-06, 1.999_999_999_999_25e-12, -4.999_999_999_997_812e-13]),
+    ("linear", 0.25, 1e-06, [2.124_999_999_999_75e-06, 1.999_999_999_999_5e-12, 0.0]),
+    ("exponential", 0.25, 1e-06, [2.124_999_999_999_75e-06, 1.999_999_999_999_5e-12, 0.0]),
+    ("giesekus", 0.3, 0.001, [0.002_124_999_640_000_143_4, 1.999_999_430_000_258_5e-06, -2.999_998_987_500_482_4e-07]),
+    ("giesekus", 0.5, 0.001, [0.002_124_999_500_000_25, 1.999_999_250_000_421_8e-06, -4.999_997_812_501_29e-07]),
+    ("linear", 0.25, 0.001, [0.002_124_999_750_000_094, 1.999_999_500_000_218_7e-06, 0.0]),
+    ("exponential", 0.25, 0.001, [0.002_124_999_750_000_078_3, 1.999_999_500_000_187_4e-06, 0.0]),
+    ("giesekus", 0.3, 0.7, [1.383_417_471_997_799, 0.867_273_411_042_712, -0.127_168_035_256_512_6]),
+    ("giesekus", 0.5, 0.7, [1.348_388_923_276_401_7, 0.837_624_297_034_986_3, -0.203_928_461_796_474_97]),
+    ("linear", 0.25, 0.7, [1.414_479_808_788_892_6, 0.880_437_706_466_703, 0.0]),
+    ("exponential", 0.25, 0.7, [1.412_734_630_414_608, 0.878_123_412_825_071_2, 0.0]),
+    ("giesekus", 0.3, 40.0, [10.443_978_064_751_564, 50.172_887_554_585_3, -2.818_609_069_001_544_4]),
+    ("giesekus", 0.5, 40.0, [8.901_249_804_748_511, 34.460_425_670_083_104, -3.116_682_412_181_382]),
+    ("linear", 0.25, 40.0, [17.900_961_851_167_118, 83.217_408_342_634_67, 0.0]),
+    ("exponential", 0.25, 40.0, [13.475_548_406_581_714, 35.917_460_396_154_92, 0.0]),
+    ("giesekus", 0.3, 10000.0, [1_256.073_548_385_729_7, 897.147_764_525_548, -3.917_766_077_222_945_7]),
+    ("giesekus", 0.5, 10000.0, [1_253.999_600_02, 565.600_578_499_279_9, -3.943_434_285_861_487]),
+    ("linear", 0.25, 10000.0, [1_336.053_611_984_281_4, 3_702.612_067_770_629, 0.0]),
+    ("exponential", 0.25, 10000.0, [1_265.162_740_064_377_4, 114.954_343_129_938_31, 0.0]),
+    ("giesekus", 0.3, 100_000_000.0, [12_500_006.109_739_842, 90_254.297_874_183_36, -3.999_172_805_687_367_7]),
+    ("giesekus", 0.5, 100_000_000.0, [12_500_003.999_999_96, 56_568.541_646_395_67, -3.999_434_314_577_879_2]),
+    ("linear", 0.25, 100_000_000.0, [12_501_856.629_788_285, 1_723_537.085_375_343_7, 0.0]),
+    ("exponential", 0.25, 100_000_000.0, [12_500_022.623_759_04, 255.917_236_567_320_03, 0.0]),
 ];
 
 fn giesekus(alpha: f64) -> Giesekus {
@@ -344,6 +344,20 @@ fn motions_followed_by_integration_equal_the_exact_ones() {
 }
 
 #[test]
+fn motions_followed_through_samples_equal_the_exact_ones() {
+    let fluid = OldroydB::new(0.0, 1.5, 0.75).expect("bounds");
+    let l = VelocityGradient::from_rows([[0.25, -0.1, 0.05], [0.3, -0.15, 0.1], [-0.2, 0.4, -0.1]]).expect("finite");
+    let at = |time: f64| {
+        (time, DeformationGradient::from_rows(exponential_rows(scaled(l.rows(), time))).expect("det F > 0"))
+    };
+    let mut memory = [Symmetric::zero()];
+    fluid.advance_through(&mut memory, &[0.0, 0.1, 0.7, 0.9, 2.5].map(at)).expect("bounded");
+    let exact = fluid.start_up_stress(&l, 2.5).expect("bounded");
+    assert_close("samples", &memory[0].components, &exact.components, CLOSED);
+    assert!(fluid.advance_through(&mut memory, &[at(1.0), at(1.0)]).is_err());
+}
+
+#[test]
 fn start_up_of_nonlinear_fluids_ends_in_their_steady_state() {
     struct Check;
     impl Visit for Check {
@@ -420,6 +434,32 @@ proptest! {
         }
         for name in ["giesekus", "linear", "exponential"] {
             with_fluid(name, parameter, &mut Check(10.0_f64.powf(log)));
+        }
+    }
+
+    #[test]
+    fn rate_of_stress_seen_by_a_turning_observer_is_the_turned_rate(
+        entries in strategies::vector(15, -2.0..2.0), q in strategies::rotation(), spin in strategies::vector(3, -2.0..2.0),
+    ) {
+        struct Check<'a>(&'a [f64], Matrix3<f64>, nalgebra::Vector3<f64>);
+        impl Visit for Check<'_> {
+            fn fluid<F: DifferentialFluid<Mode = F> + Mode>(&mut self, fluid: &F) {
+                let Self(entries, q, spin) = self;
+                let l = VelocityGradient::new(Matrix3::from_row_slice(&entries[..9])).expect("finite");
+                let stress = Symmetric { components: core::array::from_fn(|i| entries[9 + i]) };
+                let turned = stress.rotated(q).expect("a rotation");
+                let rate = fluid.stress_rate(&stress, &l).matrix();
+                let omega = spin.cross_matrix();
+                let expected = *q * rate * q.transpose() + omega * turned.matrix() - turned.matrix() * omega;
+                let seen = fluid.stress_rate(&turned, &l.seen_from(q, spin)).matrix();
+                let tolerance = Tol::ulps(256.0);
+                assert_close_at_scale(F::NAME, seen.as_slice(), expected.as_slice(), 1.0, tolerance);
+            }
+        }
+        let r = strategies::rotation_matrix(q);
+        let (rotation, spin) = (Matrix3::from_fn(|i, j| r[i][j]), nalgebra::Vector3::from_column_slice(&spin));
+        for name in ["giesekus", "linear", "exponential"] {
+            with_fluid(name, 0.3, &mut Check(&entries, rotation, spin));
         }
     }
 

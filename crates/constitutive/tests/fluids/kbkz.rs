@@ -21,7 +21,7 @@ fn wagner(strength: f64) -> Kbkz<ExponentialDamping> {
     Kbkz::new(memory, ExponentialDamping::new(strength, 1.0).expect("bounds")).expect("bounds")
 }
 
-/// C_t⁻¹ of a shear γ.
+/// Cₜ⁻¹ of a shear γ.
 fn inverse(strain: f64) -> Symmetric {
     Symmetric::new(1.0, 1.0 + strain * strain, 1.0, strain, 0.0, 0.0)
 }

@@ -15,15 +15,15 @@ fn bad_parameters_are_refused_by_name() {
     refused(Newtonian::new(-1.0).map(Into::into), "Newtonian: viscosity_coefficient = -1e0 violates 0 < μ");
     refused(Newtonian::new(f64::NAN).map(Into::into), "viscosity_coefficient = NaN is not finite");
     refused(PowerLaw::new(1.0, 0.0).map(Into::into), "power law: exponent = 0e0 violates 0 < n");
-    refused(Bingham::new(-1.0, 1.0).map(Into::into), "Bingham: yield_stress = -1e0 violates 0 ≤ τ_y");
+    refused(Bingham::new(-1.0, 1.0).map(Into::into), "Bingham: yield_stress = -1e0 violates 0 ≤ τᵧ");
     refused(HerschelBulkley::new(1.0, 0.0, 0.5).map(Into::into), "Herschel-Bulkley: consistency = 0e0 violates 0 < K");
     refused(Casson::new(1.0, f64::INFINITY).map(Into::into), "Casson: plastic_viscosity = inf is not finite");
-    refused(CarreauYasuda::new(1.0, 2.0, 1.0, 1.5, 2.0).map(Into::into), "η_∞ ≤ η₀ where 1 < n: τ grows");
+    refused(CarreauYasuda::new(1.0, 2.0, 1.0, 1.5, 2.0).map(Into::into), "η∞ ≤ η₀ where 1 < n: τ grows");
     refused(CarreauYasuda::new(1.0, 0.0, 1.0, 0.5, 0.0).map(Into::into), "transition = 0e0 violates 0 < a");
-    refused(Cross::new(9.0, 0.0, 1.0, 1.5).map(Into::into), "(m − 1)² (η₀ − η_∞) ≤ 4 m η_∞");
+    refused(Cross::new(9.0, 0.0, 1.0, 1.5).map(Into::into), "(m − 1)² (η₀ − η∞) ≤ 4 m η∞");
     refused(Ellis::new(1.0, 1.0, 0.5).map(Into::into), "Ellis: exponent = 5e-1 violates 1 ≤ α");
     refused(Eyring::new(1.0, 0.0).map(Into::into), "Eyring: time = 0e0 violates 0 < λ");
-    refused(Sisko::new(0.0, 1.0, 0.5).map(Into::into), "Sisko: infinite_rate_viscosity = 0e0 violates 0 < η_∞");
+    refused(Sisko::new(0.0, 1.0, 0.5).map(Into::into), "Sisko: infinite_rate_viscosity = 0e0 violates 0 < η∞");
     refused(Papanastasiou::new(1.0, 1.0, 1.0, 0.0).map(Into::into), "growth_time = 0e0 violates 0 < m");
 }
 

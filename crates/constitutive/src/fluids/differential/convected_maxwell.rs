@@ -1,12 +1,12 @@
 //! The fluids of Maxwell and Oldroyd: linear in the convected rate, and so exact in every motion.
 //!
 //! ```text
-//! λ (τ̇ − L τ − τ Lᵀ) + τ = 2 η_p D      τ(t) = ∫ (η_p/λ²) exp(−s/λ) (C_t⁻¹(t − s) − 1) ds
+//! λ (τ̇ − L τ − τ Lᵀ) + τ = 2 ηₚ D      τ(t) = ∫ (ηₚ/λ²) exp(−s/λ) (Cₜ⁻¹(t − s) − 1) ds
 //! ```
 
-use piola_continuum::Symmetric;
-use piola_continuum::rates::{VelocityGradient, exponential_rows};
+use piola_continuum::rates::{RelativeDeformation, VelocityGradient, exponential_rows, logarithm};
 use piola_continuum::tensor::rows::{difference, identity, scaled};
+use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::linear::lu;
 
@@ -57,13 +57,13 @@ fluid_of_parameters! {
     /// Oldroyd's fluid B: an upper-convected Maxwell fluid in a Newtonian solvent.
     ///
     /// ```text
-    /// V = 2 η_s D + τ      λ (τ̇ − L τ − τ Lᵀ) + τ = 2 η_p D
-    /// in steady shear: T₁₂ = (η_s + η_p) k, N₁ = 2 η_p λ k², N₂ = 0
+    /// V = 2 ηₛ D + τ      λ (τ̇ − L τ − τ Lᵀ) + τ = 2 ηₚ D
+    /// in steady shear: T₁₂ = (ηₛ + ηₚ) k, N₁ = 2 ηₚ λ k², N₂ = 0
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | η_s | `solvent_viscosity` | Pa s | 0 ≤ η_s |
-    /// | η_p | `polymer_viscosity` | Pa s | 0 < η_p |
+    /// | ηₛ | `solvent_viscosity` | Pa s | 0 ≤ ηₛ |
+    /// | ηₚ | `polymer_viscosity` | Pa s | 0 < ηₚ |
     /// | λ | `time` | s | 0 < λ |
     ///
     /// # Accuracy
@@ -81,10 +81,10 @@ fluid_of_parameters! {
     /// # Source
     /// J. G. Oldroyd, Proc. R. Soc. A 200 (1950) 523; an example of the simple fluids of W(18.1).
     pub struct OldroydB("Oldroyd-B") {
-        /// η_s, Pa s.
-        solvent_viscosity: "0 ≤ η_s" => 0.0 <= solvent_viscosity,
-        /// η_p, Pa s.
-        polymer_viscosity: "0 < η_p" => 0.0 < polymer_viscosity,
+        /// ηₛ, Pa s.
+        solvent_viscosity: "0 ≤ ηₛ" => 0.0 <= solvent_viscosity,
+        /// ηₚ, Pa s.
+        polymer_viscosity: "0 < ηₚ" => 0.0 < polymer_viscosity,
         /// λ, s.
         time: "0 < λ" => 0.0 < time,
     }
@@ -176,7 +176,7 @@ macro_rules! linear_mode {
                 *stress
             }
 
-            /// 2 η_p ε̇ᵢ/(1 − 2 λ ε̇ᵢ), while 2 λ ε̇ᵢ < 1.
+            /// 2 ηₚ ε̇ᵢ/(1 − 2 λ ε̇ᵢ), while 2 λ ε̇ᵢ < 1.
             fn steady_extension(&self, rates: [f64; 3]) -> Result<[f64; 3], ConstitutiveError> {
                 let mut stresses = [0.0; 3];
                 for (stress, rate) in stresses.iter_mut().zip(rates) {
@@ -219,7 +219,7 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     /// The stresses at the time t after the start of shear at the rate k from rest.
     ///
     /// ```text
-    /// T₁₂ = η_s k + Σ η_p k (1 − e^(−t/λ))      N₁ = Σ 2 η_p λ k² (1 − e^(−t/λ) (1 + t/λ))
+    /// T₁₂ = ηₛ k + Σ ηₚ k (1 − e^(−t/λ))      N₁ = Σ 2 ηₚ λ k² (1 − e^(−t/λ) (1 + t/λ))
     /// ```
     ///
     /// # Errors
@@ -246,7 +246,7 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     /// The stresses at the time t after the end of a long steady shear at the rate k.
     ///
     /// ```text
-    /// T₁₂ = Σ η_p k e^(−t/λ)      N₁ = Σ 2 η_p λ k² e^(−t/λ)
+    /// T₁₂ = Σ ηₚ k e^(−t/λ)      N₁ = Σ 2 ηₚ λ k² e^(−t/λ)
     /// ```
     ///
     /// # Errors
@@ -297,7 +297,7 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     /// Advances τ of each mode, Pa, over the time Δt of a motion with the constant velocity gradient L, exactly.
     ///
     /// ```text
-    /// τ ← G τ Gᵀ + ∫ 2 (η_p/λ) G(s) D G(s)ᵀ ds      G(s) = exp(s L − s/(2 λ))
+    /// τ ← G τ Gᵀ + ∫ 2 (ηₚ/λ) G(s) D G(s)ᵀ ds      G(s) = exp(s L − s/(2 λ))
     /// ```
     ///
     /// # Errors
@@ -324,11 +324,34 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
         Ok(())
     }
 
-    /// T + p 1, Pa, now, from the history C_t⁻¹(t − s) − 1 of a motion that began from rest `age` seconds ago; without the
+    /// Advances τ of each mode, Pa, through the deformations F at the times of the `samples`, s, from the first to the last.
+    ///
+    /// Between two samples the velocity gradient is taken as constant, L = ln(F₂ F₁⁻¹)/(t₂ − t₁), and the motion is followed
+    /// exactly; a motion that is sampled finely enough is followed to the second order of the steps.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::OutOfBounds`] unless the times grow; [`ConstitutiveError::Continuum`] where two samples are half a
+    /// turn or more apart; as [`advance`](Self::advance).
+    fn advance_through(
+        &self,
+        memory: &mut [Symmetric],
+        samples: &[(f64, DeformationGradient)],
+    ) -> Result<(), ConstitutiveError> {
+        for pair in samples.windows(2) {
+            let [(before, first), (time, second)] = pair else { continue };
+            check_bound(Self::Mode::NAME, "time", *time, "each time is later than the one before", before < time)?;
+            let step = RelativeDeformation::of(first, second)?;
+            let velocity_gradient = VelocityGradient::new(logarithm(step.displacement.matrix())? / (time - before))?;
+            self.advance(memory, &velocity_gradient, time - before)?;
+        }
+        Ok(())
+    }
+
+    /// T + p 1, Pa, now, from the history Cₜ⁻¹(t − s) − 1 of a motion that began from rest `age` seconds ago; without the
     /// solvent, which asks for the present rate.
     ///
     /// ```text
-    /// Σ ∫ (η_p/λ²) e^(−s/λ) (C_t⁻¹(t − s) − 1) ds from 0 to age + (η_p/λ) e^(−age/λ) (C_t⁻¹(t − age) − 1)
+    /// Σ ∫ (ηₚ/λ²) e^(−s/λ) (Cₜ⁻¹(t − s) − 1) ds from 0 to age + (ηₚ/λ) e^(−age/λ) (Cₜ⁻¹(t − age) − 1)
     /// ```
     /// By adaptive quadrature in ln s, with its error bound. Histories with kinks are better followed in pieces with
     /// [`advance`](Self::advance).
@@ -359,7 +382,7 @@ fn check_flow<F: DifferentialFluid + ?Sized>(shear_rate: f64, time: f64) -> Resu
     check_bound(F::Mode::NAME, "time", time, "0 ≤ time", 0.0 <= time)
 }
 
-/// τ of a steady motion: τ − λ (L τ + τ Lᵀ) = 2 η_p D.
+/// τ of a steady motion: τ − λ (L τ + τ Lᵀ) = 2 ηₚ D.
 fn steady_mode<M: LinearMode>(mode: &M, velocity_gradient: &VelocityGradient) -> Result<Symmetric, ConstitutiveError> {
     let mut matrix = [0.0; 36];
     for (column, entries) in matrix.chunks_exact_mut(6).enumerate() {
@@ -379,7 +402,7 @@ fn steady_mode<M: LinearMode>(mode: &M, velocity_gradient: &VelocityGradient) ->
     let mut exchanges = [0; 6];
     lu::factor_in_place(&mut matrix, &mut exchanges).map_err(|_| beyond())?;
     lu::solve_in_place(&matrix, &exchanges, &mut stress).map_err(|_| beyond())?;
-    // A = 1 + (λ/η_p) τ solves Lyapunov's equation of L − 1/(2 λ), which is stable where A is positive definite.
+    // A = 1 + (λ/ηₚ) τ solves Lyapunov's equation of L − 1/(2 λ), which is stable where A is positive definite.
     let stress = Symmetric { components: stress };
     let shape = Symmetric::identity() + stress * (mode.time() / mode.polymer_viscosity());
     let [a, b, _, c, ..] = shape.components;
@@ -402,7 +425,7 @@ fn from_rest<M: LinearMode>(mode: &M, velocity_gradient: &VelocityGradient, time
         step /= 2.0;
         doublings += 1;
     }
-    // Σ hʲ⁺¹/(j + 1)! Mʲ (2 η_p/λ D) with M x = L x + x Lᵀ − x/λ.
+    // Σ hʲ⁺¹/(j + 1)! Mʲ (2 ηₚ/λ D) with M x = L x + x Lᵀ − x/λ.
     let mut term = velocity_gradient.stretching().0 * (2.0 * mode.polymer_viscosity() / mode.time() * step);
     let mut stress = term;
     for j in 2..24 {

@@ -12,15 +12,15 @@ fluid_of_parameters! {
     /// Giesekus' fluid: polymers drag less along the direction in which they are drawn out.
     ///
     /// ```text
-    /// V = 2 η_s D + τ      λ (τ̇ − L τ − τ Lᵀ) + τ + (α λ/η_p) τ² = 2 η_p D
+    /// V = 2 ηₛ D + τ      λ (τ̇ − L τ − τ Lᵀ) + τ + (α λ/ηₚ) τ² = 2 ηₚ D
     /// in steady shear, with w = λ |k|, r = √(1 + 16 α (1 − α) w²), χ² = 2/(1 + r), d = 1 + (1 − 2 α) χ:
     /// f/α = 16 (1 − α) w²/((1 + r)² (1 + χ) d)      1 − f = 2 (1 − α) χ/d
-    /// T₁₂ = η_s k + η_p k 2 (1 − α) χ²/d,  N₁ = 2 (η_p/λ) (f/α) (1 − α f)/(1 − f),  N₂ = −(η_p/λ) f
+    /// T₁₂ = ηₛ k + ηₚ k 2 (1 − α) χ²/d,  N₁ = 2 (ηₚ/λ) (f/α) (1 − α f)/(1 − f),  N₂ = −(ηₚ/λ) f
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | η_s | `solvent_viscosity` | Pa s | 0 ≤ η_s |
-    /// | η_p | `polymer_viscosity` | Pa s | 0 < η_p |
+    /// | ηₛ | `solvent_viscosity` | Pa s | 0 ≤ ηₛ |
+    /// | ηₚ | `polymer_viscosity` | Pa s | 0 < ηₚ |
     /// | λ | `time` | s | 0 < λ |
     /// | α | `mobility`; 0 is Oldroyd's fluid B | – | 0 ≤ α ≤ ½; beyond, the polymer's shear stress falls |
     ///
@@ -41,10 +41,10 @@ fluid_of_parameters! {
     /// # Source
     /// H. Giesekus, J. Non-Newtonian Fluid Mech. 11 (1982) 69; an example of the functions of W(23.13–23.24).
     pub struct Giesekus("Giesekus") {
-        /// η_s, Pa s.
-        solvent_viscosity: "0 ≤ η_s" => 0.0 <= solvent_viscosity,
-        /// η_p, Pa s.
-        polymer_viscosity: "0 < η_p" => 0.0 < polymer_viscosity,
+        /// ηₛ, Pa s.
+        solvent_viscosity: "0 ≤ ηₛ" => 0.0 <= solvent_viscosity,
+        /// ηₚ, Pa s.
+        polymer_viscosity: "0 < ηₚ" => 0.0 < polymer_viscosity,
         /// λ, s.
         time: "0 < λ" => 0.0 < time,
         /// α.
@@ -72,7 +72,7 @@ impl Giesekus {
         [share, mobility * share, T::lit(2.0) * free * chi / d]
     }
 
-    /// η_p/λ.
+    /// ηₚ/λ.
     #[inline(always)]
     fn modulus<T: Real>(&self) -> T {
         T::lit(self.polymer_viscosity / self.time)
@@ -141,7 +141,7 @@ impl Mode for Giesekus {
         *stress + stress.square() * T::lit(self.mobility * self.time / self.polymer_viscosity)
     }
 
-    /// α y² + (1 − 2 w) y = 2 w with y = λ τ/η_p, w = λ ε̇: the root that starts at zero.
+    /// α y² + (1 − 2 w) y = 2 w with y = λ τ/ηₚ, w = λ ε̇: the root that starts at zero.
     fn steady_extension(&self, rates: [f64; 3]) -> Result<[f64; 3], ConstitutiveError> {
         let mut stresses = [0.0; 3];
         for (stress, rate) in stresses.iter_mut().zip(rates) {

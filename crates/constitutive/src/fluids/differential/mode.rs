@@ -10,14 +10,14 @@ use crate::fluids::ViscometricFluid;
 /// One mode of a differential fluid: a polymer of one relaxation time beside a Newtonian solvent.
 ///
 /// ```text
-/// V = 2 η_s D + τ      λ (τ̇ − L τ − τ Lᵀ) + R(τ) = 2 η_p D
+/// V = 2 ηₛ D + τ      λ (τ̇ − L τ − τ Lᵀ) + R(τ) = 2 ηₚ D
 /// ```
 /// R(τ) = τ + … is what tells the fluids apart.
 pub trait Mode: ViscometricFluid + Clone {
-    /// η_s, Pa s.
+    /// ηₛ, Pa s.
     #[must_use]
     fn solvent_viscosity(&self) -> f64;
-    /// η_p, Pa s.
+    /// ηₚ, Pa s.
     #[must_use]
     fn polymer_viscosity(&self) -> f64;
     /// λ, s.
@@ -115,8 +115,8 @@ impl<T: Real> ShearStresses<T> {
 /// A differential fluid: one mode, or several side by side.
 ///
 /// ```text
-/// G(t) = Σ (η_p/λ) exp(−t/λ)
-/// G′(ω) = Σ (η_p/λ) (λω)²/(1 + (λω)²)      G″(ω) = η_s ω + Σ (η_p/λ) λω/(1 + (λω)²)
+/// G(t) = Σ (ηₚ/λ) exp(−t/λ)
+/// G′(ω) = Σ (ηₚ/λ) (λω)²/(1 + (λω)²)      G″(ω) = ηₛ ω + Σ (ηₚ/λ) λω/(1 + (λω)²)
 /// ```
 /// | to get | use |
 /// |---|---|
@@ -132,7 +132,7 @@ impl<T: Real> ShearStresses<T> {
 /// let fluid = OldroydB::new(0.5, 2.0, 4.0)?;
 /// assert_eq!(fluid.storage_modulus(0.25), 0.25); // (2/4)/2 at λω = 1
 /// assert_eq!(fluid.loss_modulus(0.25), 0.375);
-/// assert_eq!(fluid.extensional_viscosity(Extension::Uniaxial, 0.0)?, 7.5); // 3 (η_s + η_p)
+/// assert_eq!(fluid.extensional_viscosity(Extension::Uniaxial, 0.0)?, 7.5); // 3 (ηₛ + ηₚ)
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
 pub trait DifferentialFluid {
@@ -143,13 +143,13 @@ pub trait DifferentialFluid {
     #[must_use]
     fn modes(&self) -> &[Self::Mode];
 
-    /// Σ η_s, Pa s.
+    /// Σ ηₛ, Pa s.
     #[must_use]
     fn total_solvent_viscosity(&self) -> f64 {
         self.modes().iter().map(Mode::solvent_viscosity).sum()
     }
 
-    /// Σ (η_s + η_p), Pa s.
+    /// Σ (ηₛ + ηₚ), Pa s.
     #[must_use]
     fn zero_rate_viscosity(&self) -> f64 {
         self.modes().iter().map(|mode| mode.solvent_viscosity() + mode.polymer_viscosity()).sum()
@@ -211,7 +211,7 @@ pub trait DifferentialFluid {
     }
 }
 
-/// Σ (η_p/λ) f.
+/// Σ (ηₚ/λ) f.
 fn sum_of<M: Mode>(modes: &[M], share: impl Fn(&M) -> f64) -> f64 {
     modes.iter().map(|mode| mode.polymer_viscosity() / mode.time() * share(mode)).sum()
 }

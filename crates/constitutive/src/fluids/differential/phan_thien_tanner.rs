@@ -14,13 +14,13 @@ fluid_of_parameters! {
     /// The linear fluid of Phan-Thien and Tanner: a network whose junctions break the faster the more it is drawn out.
     ///
     /// ```text
-    /// V = 2 η_s D + τ      λ (τ̇ − L τ − τ Lᵀ) + f τ = 2 η_p D      f = 1 + ε (λ/η_p) tr τ
-    /// in steady shear, with y = λ τ₁₂/η_p: y (1 + 2 ε y²) = λ k      N₁ = 2 (η_p/λ) y²,  N₂ = 0
+    /// V = 2 ηₛ D + τ      λ (τ̇ − L τ − τ Lᵀ) + f τ = 2 ηₚ D      f = 1 + ε (λ/ηₚ) tr τ
+    /// in steady shear, with y = λ τ₁₂/ηₚ: y (1 + 2 ε y²) = λ k      N₁ = 2 (ηₚ/λ) y²,  N₂ = 0
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | η_s | `solvent_viscosity` | Pa s | 0 ≤ η_s |
-    /// | η_p | `polymer_viscosity` | Pa s | 0 < η_p |
+    /// | ηₛ | `solvent_viscosity` | Pa s | 0 ≤ ηₛ |
+    /// | ηₚ | `polymer_viscosity` | Pa s | 0 < ηₚ |
     /// | λ | `time` | s | 0 < λ |
     /// | ε | `extensibility`; 0 is Oldroyd's fluid B | – | 0 ≤ ε |
     ///
@@ -43,10 +43,10 @@ fluid_of_parameters! {
     /// N. Phan-Thien, R. I. Tanner, J. Non-Newtonian Fluid Mech. 2 (1977) 353, without slip of the network (ξ = 0); an example
     /// of the functions of W(23.13–23.24).
     pub struct LinearPhanThienTanner("linear Phan-Thien-Tanner") {
-        /// η_s, Pa s.
-        solvent_viscosity: "0 ≤ η_s" => 0.0 <= solvent_viscosity,
-        /// η_p, Pa s.
-        polymer_viscosity: "0 < η_p" => 0.0 < polymer_viscosity,
+        /// ηₛ, Pa s.
+        solvent_viscosity: "0 ≤ ηₛ" => 0.0 <= solvent_viscosity,
+        /// ηₚ, Pa s.
+        polymer_viscosity: "0 < ηₚ" => 0.0 < polymer_viscosity,
         /// λ, s.
         time: "0 < λ" => 0.0 < time,
         /// ε.
@@ -58,13 +58,13 @@ fluid_of_parameters! {
     /// The exponential fluid of Phan-Thien and Tanner.
     ///
     /// ```text
-    /// V = 2 η_s D + τ      λ (τ̇ − L τ − τ Lᵀ) + f τ = 2 η_p D      f = exp(ε (λ/η_p) tr τ)
-    /// in steady shear, with y = λ τ₁₂/η_p: y exp(2 ε y²) = λ k      N₁ = 2 (η_p/λ) y²,  N₂ = 0
+    /// V = 2 ηₛ D + τ      λ (τ̇ − L τ − τ Lᵀ) + f τ = 2 ηₚ D      f = exp(ε (λ/ηₚ) tr τ)
+    /// in steady shear, with y = λ τ₁₂/ηₚ: y exp(2 ε y²) = λ k      N₁ = 2 (ηₚ/λ) y²,  N₂ = 0
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | η_s | `solvent_viscosity` | Pa s | 0 ≤ η_s |
-    /// | η_p | `polymer_viscosity` | Pa s | 0 < η_p |
+    /// | ηₛ | `solvent_viscosity` | Pa s | 0 ≤ ηₛ |
+    /// | ηₚ | `polymer_viscosity` | Pa s | 0 < ηₚ |
     /// | λ | `time` | s | 0 < λ |
     /// | ε | `extensibility`; 0 is Oldroyd's fluid B | – | 0 ≤ ε |
     ///
@@ -87,10 +87,10 @@ fluid_of_parameters! {
     /// N. Phan-Thien, J. Rheol. 22 (1978) 259, without slip of the network (ξ = 0); an example of the functions of
     /// W(23.13–23.24).
     pub struct ExponentialPhanThienTanner("exponential Phan-Thien-Tanner") {
-        /// η_s, Pa s.
-        solvent_viscosity: "0 ≤ η_s" => 0.0 <= solvent_viscosity,
-        /// η_p, Pa s.
-        polymer_viscosity: "0 < η_p" => 0.0 < polymer_viscosity,
+        /// ηₛ, Pa s.
+        solvent_viscosity: "0 ≤ ηₛ" => 0.0 <= solvent_viscosity,
+        /// ηₚ, Pa s.
+        polymer_viscosity: "0 < ηₚ" => 0.0 < polymer_viscosity,
         /// λ, s.
         time: "0 < λ" => 0.0 < time,
         /// ε.
@@ -144,19 +144,19 @@ fn exponential<T: Real>(extensibility: T, w: T) -> T {
 macro_rules! phan_thien_tanner {
     ($fluid:ident, $solve:ident, $relation:ident, $breaking:ident, $moments:ident) => {
         impl $fluid {
-            /// y = λ |τ₁₂|/η_p of the polymer.
+            /// y = λ |τ₁₂|/ηₚ of the polymer.
             #[inline(always)]
             fn share<T: Real>(&self, shear_rate: T) -> T {
                 $solve(T::lit(self.extensibility), T::lit(self.time) * shear_rate.abs())
             }
 
-            /// η_p/λ.
+            /// ηₚ/λ.
             #[inline(always)]
             fn modulus(&self) -> f64 {
                 self.polymer_viscosity / self.time
             }
 
-            /// f at (λ/η_p) tr τ.
+            /// f at (λ/ηₚ) tr τ.
             #[inline(always)]
             fn breaking<T: Real>(&self, trace: T) -> T {
                 $breaking(T::lit(self.extensibility) * trace)
@@ -274,7 +274,7 @@ fn exponential_breaking<T: Real>(x: T) -> T {
     x.exp()
 }
 
-/// Those of ζ = (s/η_p) (1 + 2 ε (s/G)²) with G = η_p/λ.
+/// Those of ζ = (s/ηₚ) (1 + 2 ε (s/G)²) with G = ηₚ/λ.
 #[expect(clippy::unnecessary_wraps, reason = "the other fluid has none")]
 fn linear_moments(fluid: &LinearPhanThienTanner, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
     let power = moment.power() + 2;
