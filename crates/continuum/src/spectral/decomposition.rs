@@ -5,7 +5,7 @@ use piola_numerics::linear::matrix3::dot;
 #[cfg(feature = "serde")]
 use piola_numerics::linear::matrix3::from_rows;
 
-use super::frame::{combination, components_in, principal_frame};
+use super::frame::{axes_in_order, combination, components_in, in_order, separated_frame};
 use crate::Symmetric;
 use crate::tensor::rows::Rows;
 #[cfg(feature = "serde")]
@@ -89,14 +89,15 @@ pub(crate) fn check_principal<T: Real>(values: &[T; 3], axes: Rows<T>) -> Result
 #[must_use]
 pub fn decompose<T: Real>(a: &Symmetric<T>) -> SpectralDecomposition<T> {
     let frozen = Symmetric { components: a.components.map(T::frozen) };
-    let axes =
-        if T::ORDER == 0 { principal_frame(a) } else { principal_frame(&frozen).map(|axis| axis.map(T::frozen)) };
+    let (axes, first) = separated_frame(if T::ORDER == 0 { a } else { &frozen });
+    let axes = if T::ORDER == 0 { axes } else { axes.map(|axis| axis.map(T::frozen)) };
     let m = components_in(&axes, a);
     if T::ORDER == 0 {
-        return SpectralDecomposition { values: descending([m[0], m[1], m[2]]), vectors: axes };
+        let values = descending(in_order(first, [m[0], m[1], m[2]]));
+        return SpectralDecomposition { values, vectors: axes_in_order(first, axes) };
     }
     let (values, turns) = lifted(m);
-    SpectralDecomposition { values, vectors: turned(&axes, turns) }
+    SpectralDecomposition { values: in_order(first, values), vectors: axes_in_order(first, turned(&axes, turns)) }
 }
 
 /// The values in descending order: within rounding they are already.

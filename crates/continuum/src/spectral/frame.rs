@@ -56,7 +56,7 @@ fn range<T: Real>() -> Range {
     if unit_in_last_place::<T>() < 1e-10 { DOUBLE } else { SINGLE }
 }
 
-/// The root y of y³ − 3y = 2q in [√3, 2], for 0 ≤ q ≤ 1.
+/// The root y of y³ − 3y = 2q in [√3, 2], for 0 ≤ q ≤ 1, or beyond by rounding.
 #[inline(always)]
 fn separated_root<T: Real>(q: T) -> T {
     let c = |k: usize| T::lit(ROOT[k]);
@@ -73,6 +73,12 @@ fn separated_root<T: Real>(q: T) -> T {
 #[inline(always)]
 pub(super) fn larger<T: Real>(a: T, b: T) -> T {
     T::select(a.less_than(b), b, a)
+}
+
+/// The smaller of two numbers by one comparison.
+#[inline(always)]
+pub(super) fn smaller<T: Real>(a: T, b: T) -> T {
+    T::select(b.less_than(a), b, a)
 }
 
 /// The largest modulus of six numbers.
@@ -104,75 +110,116 @@ fn times<T: Real>([x, y, z]: [T; 3], a: T) -> [T; 3] {
     [x * a, y * a, z * a]
 }
 
-/// Orthonormal right-handed axes, one a row, in which A is diagonal to rounding of its deviator, the largest
-/// component first. For scalars without derivatives, or frozen ones.
+/// ½ A:A/3 of the squares of its components, and a little.
+#[inline(always)]
+fn mean_square<T: Real>([xx, yy, zz, xy, yz, xz]: [T; 6], little: f64) -> T {
+    (xx + yy + zz) * T::lit(1.0 / 6.0) + ((xy + yz + xz) * T::lit(1.0 / 3.0) + T::lit(little))
+}
+
+/// A over its largest modulus where the mask holds and A is not zero.
+#[cold]
+#[inline(never)]
+fn brought_into_range<T: Real>(mask: T::Mask, a: [T; 6]) -> [T; 6] {
+    let largest = largest_modulus(a);
+    let divisor = T::select(mask & T::zero().less_than(largest), largest, T::one());
+    a.map(|x| x / divisor)
+}
+
+/// Orthonormal right-handed axes, one a row, in which A is diagonal to rounding of its deviator. For scalars without
+/// derivatives, or frozen ones.
+///
+/// The first axis is that of the separated eigenvalue, the largest where the mask holds and the smallest elsewhere; of the
+/// other two that of the larger one comes first: [`in_order`] puts them into descending order.
 ///
 /// # Accuracy
 /// The axes are orthonormal within 2 ulp; the components that remain off the diagonal are a few ulp of the
 /// deviator, whatever the gaps are. For A = m 1 the axes are some axes.
 #[inline(always)]
-pub(crate) fn principal_frame<T: Real>(a: &Symmetric<T>) -> Rows<T> {
+pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
     let range = range::<T>();
     let (one, half) = (T::one(), T::lit(0.5));
     let [xx, yy, zz, xy, yz, xz] = a.components;
 
-    // The deviator, brought into range where its cubes would leave it.
-    // By differences: a large mean takes no digits from it.
-    let (third, upper, lower, outer) = (T::lit(1.0 / 3.0), xx - yy, yy - zz, xx - zz);
-    let (mut xx, mut yy, mut zz) = ((upper + outer) * third, (lower - upper) * third, -((outer + lower) * third));
-    let (mut xy, mut yz, mut xz) = (xy, yz, xz);
-    let largest = largest_modulus([xx, yy, zz, xy, yz, xz]);
-    let low = T::lit(range.low);
-    let outside = largest.less_than(low) | T::lit(range.high).less_than(largest);
+    // Three times the deviator, by differences: a large mean takes no digits from it.
+    let (three, upper, lower, outer) = (T::lit(3.0), xx - yy, yy - zz, xx - zz);
+    let (mut xx, mut yy, mut zz) = (upper + outer, lower - upper, -(outer + lower));
+    let (mut xy, mut yz, mut xz) = (xy * three, yz * three, xz * three);
+    let mut squares = [xx * xx, yy * yy, zz * zz, xy * xy, yz * yz, xz * xz];
+    let mut square = mean_square(squares, range.nothing_squared);
+    // Brought into range where its cubes would leave it.
+    let outside = !(T::lit(range.low * range.low).at_most(square) & square.at_most(T::lit(range.high * range.high)));
     if outside.any() {
-        let divisor = T::select(outside & T::zero().less_than(largest), largest, one);
-        (xx, yy, zz, xy, yz, xz) = (xx / divisor, yy / divisor, zz / divisor, xy / divisor, yz / divisor, xz / divisor);
+        [xx, yy, zz, xy, yz, xz] = brought_into_range(outside, [xx, yy, zz, xy, yz, xz]);
+        squares = [xx * xx, yy * yy, zz * zz, xy * xy, yz * yz, xz * xz];
+        square = mean_square(squares, range.nothing_squared);
     }
 
     // B, scaled to ½ B:B = 3; its determinant by that of the deviator, beside the root and the quotient.
-    let square = (xx * xx + yy * yy + zz * zz) * T::lit(1.0 / 6.0) + (xy * xy + yz * yz + xz * xz) * T::lit(1.0 / 3.0);
-    let scale = (square + T::lit(range.nothing_squared)).sqrt().recip();
-    let determinant = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+    let size = square.sqrt();
+    let scale = size.recip();
+    let [xxxx, yyyy, zzzz, xyxy, yzyz, xzxz] = squares;
+    let determinant = xx * (yy * zz - yzyz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+
+    // The column of adj(B − x1) = B² + x B + (x² − 3) 1 with the largest diagonal, or nearly: by a mean x, so that
+    // the choice need not wait for x.
+    let mean_root = (T::lit(1.87) * size).copysign(determinant);
+    let (ax, ay, az) = (
+        (xxxx + (xyxy + xzxz)) + mean_root * xx,
+        (yyyy + (xyxy + yzyz)) + mean_root * yy,
+        (zzzz + (yzyz + xzxz)) + mean_root * zz,
+    );
+    let (first, last) = (ay.at_most(ax), larger(ax, ay).less_than(az));
+
     let r = ((half * determinant) * scale) * (scale * scale);
     let (xx, yy, zz, xy, yz, xz) = (xx * scale, yy * scale, zz * scale, xy * scale, yz * scale, xz * scale);
 
-    // The separated eigenvalue x and its eigenvector v, a column of adj(B − x1).
-    let x = separated_root(T::select(one.less_than(r.abs()), one, r.abs())).copysign(r);
+    // The separated eigenvalue x and its eigenvector v, that column of adj(B − x1).
+    let x = separated_root(r.abs()).copysign(r);
     let (mx, my, mz) = (xx - x, yy - x, zz - x);
     let (ax, ay, az) = (my * mz - yz * yz, mx * mz - xz * xz, mx * my - xy * xy);
     let (axy, ayz, axz) = (yz * xz - xy * mz, xy * xz - yz * mx, xy * yz - xz * my);
-    let most = larger(ax, ay);
-    let (first, last) = (ay.at_most(ax), most.less_than(az));
     let v = choose::<T>(last, [axz, ayz, az], choose::<T>(first, [ax, axy, axz], [axy, ay, ayz]));
 
     // Across it: u with one component left out, not the largest of v, and w = v × u.
     let u = choose::<T>(last, [T::zero(), v[2], -v[1]], [-v[1], v[0], T::zero()]);
     let w = cross(v, u);
-    let (uu, length) = (dot(u, u), dot(v, v).sqrt());
+    let (vv, uu) = (dot(v, v), dot(u, u));
+    let length = vv.sqrt();
     let v_scale = length.recip();
     let u_scale = uu.sqrt().recip();
-    let w_scale = u_scale * v_scale;
 
     // The 2×2 problem there, by one rotation: half the difference of its diagonal, h, and its shear, b, both times
-    // |u|² |v|, since only their ratio counts. What need not wait for a root or a quotient does not.
+    // |u|² |v|, since only their ratio counts. What need not wait for a root or a quotient does not: h |v|⁻¹ does not
+    // wait for |v|, nor do the unit vectors for the angle.
     let image = [dot([xx, xy, xz], u), dot([xy, yy, yz], u), dot([xz, yz, zz], u)];
-    let h = (dot(u, image) + (half * x) * uu) * length;
+    let h = dot(u, image) + (half * x) * uu;
     let b = dot(w, image);
-    let adjacent = (h.abs() + T::lit(range.nothing)) + (h * h + b * b).sqrt();
-    // By quotients: 1 and 0 exactly where nothing is to be turned.
-    let root = (adjacent * adjacent + b * b).sqrt();
-    let (cosine, sine) = (adjacent / root, b / root);
+    let b_squared = b * b;
+    let adjacent = (h.abs() * length + T::lit(range.nothing)) + ((h * h) * vv + b_squared).sqrt();
+    let root = (adjacent * adjacent + b_squared).sqrt();
     // By products with 1 and 0, which no compiler turns into a jump.
     let forward = half + half.copysign(h);
     let backward = one - forward;
-    let (c, s) = (forward * cosine + backward * sine, forward * sine + backward * cosine);
-    let larger = combination(c * u_scale, u, s * w_scale, w);
-    let smaller = combination(c * w_scale, w, -(s * u_scale), u);
-    let n = times(v, v_scale);
+    // By quotients: 1 and 0 exactly where nothing is to be turned.
+    let (c, s) = ((forward * adjacent + backward * b) / root, (forward * b + backward * adjacent) / root);
+    let (n, u, w) = (times(v, v_scale), times(u, u_scale), times(w, u_scale * v_scale));
+    let larger = combination(c, u, s, w);
+    let smaller = combination(c, w, -s, u);
 
     // By x and not by r, whose zero may be negative: then x is the smallest.
-    let above = T::zero().at_most(x);
-    [choose::<T>(above, n, larger), choose::<T>(above, larger, smaller), choose::<T>(above, smaller, n)]
+    ([n, larger, smaller], T::zero().at_most(x))
+}
+
+/// Of [`separated_frame`], what belongs to the axes, in descending order.
+#[inline(always)]
+pub(crate) fn in_order<T: Real>(first: T::Mask, [n, larger, smaller]: [T; 3]) -> [T; 3] {
+    choose::<T>(first, [n, larger, smaller], [larger, smaller, n])
+}
+
+/// The axes of [`separated_frame`] in descending order, right-handed as they are.
+#[inline(always)]
+pub(crate) fn axes_in_order<T: Real>(first: T::Mask, [n, larger, smaller]: Rows<T>) -> Rows<T> {
+    [choose::<T>(first, n, larger), choose::<T>(first, larger, smaller), choose::<T>(first, smaller, n)]
 }
 
 /// Q A Qᵀ for axes Q by rows: the components 11, 22, 33, 12, 23, 13 of A in that frame.

@@ -71,7 +71,8 @@ impl IsotropicFunction for Logarithm {
         // 2/(a + b) is within z²/3 for z = (a − b)/(a + b).
         let (sum, gap) = (a + b, a - b);
         let near = gap.abs().less_than(sum * T::lit(1e-4));
-        T::select(near, T::lit(2.0), log_of_a - log_of_b) / T::select(near, sum, gap)
+        // The quotient need not wait for the logarithms.
+        T::select(near, T::lit(2.0), log_of_a - log_of_b) * T::select(near, sum, gap).recip()
     }
     #[inline(always)]
     fn slope_at_one<T: Real>(&self) -> T {

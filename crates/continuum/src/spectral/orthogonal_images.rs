@@ -11,7 +11,10 @@ use crate::tensor::rows::{Rows, apply};
 const MOST_SWEEPS: usize = 8;
 
 /// Axes and images with orthogonal images, in the lanes of `mask`; the others are left as they are.
-#[inline(always)]
+///
+/// Apart from the kernel that rarely calls it: within, its loops would have the registers.
+#[cold]
+#[inline(never)]
 pub(super) fn orthogonalise<T: Real>(
     mask: T::Mask,
     gradient: Rows<T>,

@@ -10,7 +10,7 @@ use piola_numerics::{Dual, Real};
 
 use super::IsotropicFunction;
 use super::expansion::expand;
-use super::frame::{components_in, from_frame, principal_frame};
+use super::frame::{axes_in_order, components_in, from_frame, separated_frame};
 use crate::Symmetric;
 use crate::tensor::rows::Rows;
 
@@ -41,12 +41,14 @@ pub fn tensor_function<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmet
 #[inline(always)]
 fn frame_of<T: Real>(a: &Symmetric<T>) -> (Rows<T>, [T; 3], [T; 6]) {
     if T::ORDER == 0 {
-        let axes = principal_frame(a);
+        let (axes, _) = separated_frame(a);
         let [x, y, z, xy, yz, xz] = components_in(&axes, a);
         return (axes, [x, y, z], [T::zero(), T::zero(), T::zero(), xy, yz, xz]);
     }
     let frozen = Symmetric { components: a.components.map(T::frozen) };
-    let axes = principal_frame(&frozen).map(|axis| axis.map(T::frozen));
+    let (axes, first) = separated_frame(&frozen);
+    // Divided differences of higher orders take the values in descending order.
+    let axes = axes_in_order(first, axes).map(|axis| axis.map(T::frozen));
     let [x, y, z, xy, yz, xz] = components_in(&axes, a);
     let nodes = [x.frozen(), y.frozen(), z.frozen()];
     (axes, nodes, [x - nodes[0], y - nodes[1], z - nodes[2], xy, yz, xz])
