@@ -55,7 +55,7 @@ fn check<F: ViscometricFluid>(fluid: &F, lowest: f64, outer: f64) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(ProptestConfig::with_cases(16))]
 
     #[test]
     fn solved_flows_recover_the_fluid_within_their_bands(
