@@ -3,6 +3,7 @@
 mod alloc;
 mod bad_points;
 mod cases;
+mod every_request;
 mod identical;
 mod requests;
 mod views;
