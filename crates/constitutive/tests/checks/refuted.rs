@@ -131,6 +131,51 @@ fn anisotropic_laws_keep_their_group_and_no_larger_one() {
     assert!(!material_symmetry(&Stored(&Cubic), &isotropic, &search()).passes());
 }
 
+/// W = ½ |E|² and one more invariant of a turn about e₃, of z = E₁₁ − E₂₂ + 2i E₁₂ and w = E₁₃ + i E₂₃, which turn
+/// twice and once with the axes.
+struct About {
+    /// How often the invariant turns with the axes: 3 of z w, 4 of z², 6 of z³.
+    fold: u32,
+    /// Its imaginary part instead of its real one.
+    imaginary: bool,
+}
+
+impl Hyperelastic for About {
+    fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
+        let strain = GreenStrain::of(deformation).0;
+        let [a, b, _, d, e, f] = strain.components;
+        let times = |x: [T; 2], y: [T; 2]| [x[0] * y[0] - x[1] * y[1], x[0] * y[1] + x[1] * y[0]];
+        let (z, w) = ([a - b, d + d], [f, e]);
+        let [real, imaginary] = match self.fold {
+            3 => times(z, w),
+            4 => times(z, z),
+            _ => times(times(z, z), z),
+        };
+        T::lit(0.5) * strain.double_contraction(&strain) + if self.imaginary { imaginary } else { real }
+    }
+}
+
+#[test]
+fn half_turns_of_the_high_classes_are_about_the_first_axis() {
+    use CrystalClass::{HexagonalHigh, HexagonalLow, TetragonalHigh, TetragonalLow, TrigonalHigh, TrigonalLow};
+    // A half turn about e₁ takes z to its conjugate and w to the negative of its own.
+    for (fold, kept, low, high) in [
+        (3, true, TrigonalLow, TrigonalHigh),
+        (4, false, TetragonalLow, TetragonalHigh),
+        (6, false, HexagonalLow, HexagonalHigh),
+    ] {
+        for imaginary in [false, true] {
+            let law = About { fold, imaginary };
+            let passes = |class| material_symmetry(&Stored(&law), &SymmetryGroup::crystal(class), &search()).passes();
+            assert!(passes(low), "{low:?}, {imaginary}");
+            assert_eq!(passes(high), imaginary == kept, "{high:?}, {imaginary}");
+        }
+    }
+    for (symbol, class) in [("-4m2", TetragonalHigh), ("-62m", HexagonalHigh), ("31m", TrigonalHigh)] {
+        assert_eq!(CrystalClass::of_symbol(symbol), Some(class));
+    }
+}
+
 #[test]
 fn group_of_a_changed_reference_is_the_conjugate_group() {
     let held = DeformationGradient::from_rows([[1.4, 0.3, 0.0], [0.0, 0.8, 0.1], [0.0, 0.0, 1.1]]).expect("K");

@@ -1,3 +1,5 @@
 //! The tests of `piola-constitutive`.
 
 mod golden;
+mod range;
+mod single;
