@@ -11,10 +11,7 @@ use crate::tensor::rows::{Rows, apply};
 const MOST_SWEEPS: usize = 8;
 
 /// Axes and images with orthogonal images, in the lanes of `mask`; the others are left as they are.
-///
-/// Apart from the kernel that rarely calls it: within, its loops would have the registers.
-#[cold]
-#[inline(never)]
+#[inline(always)]
 pub(super) fn orthogonalise<T: Real>(
     mask: T::Mask,
     gradient: Rows<T>,
@@ -36,6 +33,19 @@ pub(super) fn orthogonalise<T: Real>(
     }
     let axes = freeze(q);
     (axes, [apply(gradient, axes[0]), apply(gradient, axes[1]), apply(gradient, axes[2])])
+}
+
+/// [`orthogonalise`], apart from the kernel of a single point that rarely calls it: within, its loops would have the
+/// registers.
+#[cold]
+#[inline(never)]
+pub(super) fn orthogonalise_apart<T: Real>(
+    mask: T::Mask,
+    gradient: Rows<T>,
+    axes: Rows<T>,
+    images: Rows<T>,
+) -> (Rows<T>, Rows<T>) {
+    orthogonalise(mask, gradient, axes, images)
 }
 
 /// One rotation of axes i and j, where their images are not orthogonal to rounding; says where that was.

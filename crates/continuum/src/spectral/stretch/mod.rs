@@ -22,7 +22,7 @@ use self::in_frame::{departure_of, roots_of, skewed};
 use super::IsotropicFunction;
 use super::decomposition::{descending, lifted, turned};
 use super::frame::{axes_in_order, components_in, in_order, larger, largest_modulus, separated_frame};
-use super::orthogonal_images::orthogonalise;
+use super::orthogonal_images::{orthogonalise, orthogonalise_apart};
 use crate::tensor::rows::{Rows, apply, transpose};
 use crate::{Deformation, Symmetric};
 
@@ -176,7 +176,12 @@ impl<T: Real> StretchAnalysis<T> {
                 if T::ORDER == 0 { tilted(0, 1, 3) | tilted(1, 2, 4) | tilted(0, 2, 5) } else { skewed(&images) };
             slow = !small & skew;
             if slow.any() {
-                (axes, images) = orthogonalise(slow, gradient, axes, images);
+                // In lanes within, or it would not have their width.
+                (axes, images) = if T::LANES == 1 {
+                    orthogonalise_apart(slow, gradient, axes, images)
+                } else {
+                    orthogonalise(slow, gradient, axes, images)
+                };
                 square = choose(small, square, gram(&images));
                 roots = roots_of(small, &square);
             }
