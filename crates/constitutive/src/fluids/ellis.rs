@@ -35,7 +35,7 @@ fluid_of_parameters! {
     /// ```
     ///
     /// # Source
-    /// S. Matsuhisa, R. B. Bird, AIChE J. 11 (1965) 588; an example of the function ζ of W(23.42).
+    /// S. Matsuhisa, R. B. Bird, A. I. Ch. E. Journal 11 (1965) 588; an example of the function ζ of W(23.42).
     pub struct Ellis("Ellis") {
         /// η₀, Pa s.
         zero_rate_viscosity: "0 < η₀" => 0.0 < zero_rate_viscosity,
