@@ -5,9 +5,9 @@ use piola_numerics::{Mask, Real};
 
 use super::{StretchAnalysis, choose, freeze, gram, twice_green};
 use crate::Symmetric;
+use crate::spectral::IsotropicFunction;
 use crate::spectral::expansion::expand;
 use crate::spectral::frame::{combination, from_frame, larger, smaller};
-use crate::spectral::{IsotropicFunction, Logarithm};
 use crate::tensor::rows::{Rows, transpose};
 
 impl<T: Real> StretchAnalysis<T> {
@@ -48,45 +48,6 @@ impl<T: Real> StretchAnalysis<T> {
         } else {
             [plain(0), plain(1), plain(2)]
         }
-    }
-
-    /// ½ ln of the diagonal of G, without derivatives, and that diagonal.
-    #[inline(always)]
-    pub(super) fn halved_logarithms(&self) -> ([T; 3], [T; 3]) {
-        let half = T::lit(0.5);
-        let of = |k: usize| {
-            let x = if T::ORDER == 0 { self.square[k] } else { self.square[k].frozen() };
-            if !self.small.any() {
-                return (half * x.ln(), x);
-            }
-            // 1 + x = node + rest.
-            let node = T::select(self.small, T::one() + x, x);
-            let rest = T::select(self.small, x - (node - T::one()), T::zero());
-            (half * (node.ln() + rest / node), node)
-        };
-        let (a, b, c) = (of(0), of(1), of(2));
-        ([a.0, b.0, c.0], [a.1, b.1, c.1])
-    }
-
-    /// ln S = ½ ln G, less E for small strain, and 1: as [`frame_function`](Self::frame_function).
-    ///
-    /// It does not wait for the roots, and half the logarithm is closer to linear.
-    #[inline(always)]
-    pub(super) fn frame_logarithm(&self) -> ([T; 6], T) {
-        let (values, nodes) = self.halved_logarithms();
-        let g = self.square;
-        let departure = if T::ORDER == 0 {
-            [T::zero(), T::zero(), T::zero(), g[3], g[4], g[5]]
-        } else {
-            [g[0] - g[0].frozen(), g[1] - g[1].frozen(), g[2] - g[2].frozen(), g[3], g[4], g[5]]
-        };
-        let function = expand(&HalfLogarithm, nodes, values, departure);
-        if !self.small.any() {
-            return (function, T::zero());
-        }
-        let part = T::lit(0.5) * self.shift;
-        let less = |k: usize| function[k] - part * g[k];
-        ([less(0), less(1), less(2), less(3), less(4), less(5)], T::one())
     }
 
     /// f(S), less f′(1) E for small strain, and f′(1): what is left out then is added without a rotation.
@@ -196,25 +157,6 @@ impl<T: Real> StretchAnalysis<T> {
         let divided = self.divided_images();
         let row = |k: usize| combination(self.shift, self.images[k], T::one(), divided[k]);
         [row(0), row(1), row(2)]
-    }
-}
-
-/// ½ ln x.
-struct HalfLogarithm;
-
-impl IsotropicFunction for HalfLogarithm {
-    #[inline(always)]
-    fn value<T: Real>(&self, x: T) -> T {
-        T::lit(0.5) * Logarithm.value(x)
-    }
-    #[inline(always)]
-    fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
-        T::lit(0.5) * Logarithm.divided_difference(a, b)
-    }
-    #[inline(always)]
-    fn rough_divided_difference<T: Real>(&self, a: T, b: T, value_at_a: T, value_at_b: T) -> T {
-        let half = T::lit(0.5);
-        half * Logarithm.rough_divided_difference(a, b, value_at_a + value_at_a, value_at_b + value_at_b)
     }
 }
 

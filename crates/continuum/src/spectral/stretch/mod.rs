@@ -19,10 +19,10 @@ use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
 use self::in_frame::{departure_of, roots_of, skewed};
-use super::IsotropicFunction;
 use super::decomposition::{descending, lifted, turned};
 use super::frame::{axes_in_order, components_in, in_order, larger, largest_modulus, separated_frame};
 use super::orthogonal_images::{orthogonalise, orthogonalise_apart};
+use super::{IsotropicFunction, Logarithm};
 use crate::tensor::rows::{Rows, apply, transpose};
 use crate::{Deformation, Symmetric};
 
@@ -251,7 +251,7 @@ impl<T: Real> StretchAnalysis<T> {
     #[must_use]
     pub fn log_principal_stretches(&self) -> [T; 3] {
         if T::ORDER == 0 {
-            return descending(self.halved_logarithms().0);
+            return descending(self.values_at_stretches(&Logarithm));
         }
         let excess = in_order(self.first, lifted(self.frame_stretch()).0);
         excess.map(|x| {
@@ -448,8 +448,7 @@ impl<T: Real> StretchAnalysis<T> {
     #[inline(always)]
     #[must_use]
     pub fn hencky_material(&self) -> Symmetric<T> {
-        let (components, slope) = self.frame_logarithm();
-        self.material(components, slope, T::zero())
+        self.material_function(&Logarithm)
     }
 
     /// Hencky's strain ln V = R ln U Rᵀ in space.
@@ -464,8 +463,7 @@ impl<T: Real> StretchAnalysis<T> {
     #[inline(always)]
     #[must_use]
     pub fn hencky_spatial(&self) -> Symmetric<T> {
-        let (components, slope) = self.frame_logarithm();
-        self.spatial(components, slope, T::zero())
+        self.spatial_function(&Logarithm)
     }
 
     /// f(U) for a function f of the stretch.
