@@ -6,7 +6,7 @@ use piola_constitutive::solids::volumetric::SimoTaylor;
 use piola_constitutive::solids::{
     AnySolid, Compressible, Hencky, Hyperelastic, IncompressibleSolid, SaintVenantKirchhoff, SolidVisitor,
 };
-use piola_continuum::{DeformationGradient, DisplacementGradient};
+use piola_continuum::DisplacementGradient;
 
 fn check<L: Hyperelastic + Clone + Into<AnySolid>>(law: &L) {
     let any: AnySolid = law.clone().into();
@@ -34,15 +34,18 @@ fn answers_of_the_one_type_equal_those_of_the_law() -> Result<(), ConstitutiveEr
 
 #[test]
 fn a_visitor_meets_the_law_that_the_one_type_is() {
-    struct Energy(DeformationGradient);
-    impl SolidVisitor for Energy {
-        type Output = f64;
-        fn visit<L: Hyperelastic + Sync>(self, law: &L) -> f64 {
-            law.energy(&self.0)
+    /// The name of its type, of which no kernel need be compiled.
+    struct Name;
+    impl SolidVisitor for Name {
+        type Output = &'static str;
+        fn visit<L: Hyperelastic + Sync>(self, _law: &L) -> &'static str {
+            core::any::type_name::<L>()
         }
     }
-    let f = DeformationGradient::from_rows([[1.1, 0.2, 0.0], [-0.1, 0.9, 0.3], [0.05, 0.1, 1.02]]).expect("0 < det F");
     for (law, _) in super::laws::all() {
-        assert_eq!(law.visit(Energy(f)).to_bits(), law.energy(&f).to_bits(), "{law:?}");
+        let variant = format!("{law:?}");
+        let (name, _) = variant.split_once('(').expect("a variant");
+        let (name, met) = (name.replace("Incompressible", ""), law.visit(Name));
+        assert!(met.contains(&name), "{name}: {met}");
     }
 }

@@ -135,7 +135,7 @@ impl<T: Real> Kinematics<T> {
     }
 
     /// P = k (F − Cof F) + (s + k (J − 1))/J Cof F + 2 w₂ F ((I₁ − 3) 1 − (C − 1)),  k = 2 w₁ + 4 w₂;
-    /// at large strain P = 2 w₁ F + w_J Cof F + 2 w₂ F (I₁ 1 − C).
+    /// at large strain P = 2 w₁ F + ∂W/∂J Cof F + 2 w₂ F (I₁ 1 − C).
     #[inline(always)]
     pub(super) fn first_piola<L: InvariantEnergy>(&self, slopes: &Slopes<T>) -> Rows<T> {
         let (two, four) = (T::lit(2.0), T::lit(4.0));

@@ -23,7 +23,7 @@ impl<T: Real> Invariants<T> {
     }
 }
 
-/// τ = s 1 + (2 w₁ + 4 w₂)(B − 1) + 2 w₂ B ((I₁ − 3) 1 − (B − 1)); at large strain τ = J w_J 1 + 2 w₁ B + 2 w₂ (I₁ B − B²).
+/// τ = s 1 + (2 w₁ + 4 w₂)(B − 1) + 2 w₂ B ((I₁ − 3) 1 − (B − 1)); at large strain τ = J ∂W/∂J 1 + 2 w₁ B + 2 w₂ (I₁ B − B²).
 #[inline(always)]
 #[must_use]
 pub fn kirchhoff<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
@@ -66,7 +66,7 @@ fn beside_kirchhoff<T: Real, L: InvariantEnergy>(
     stress + inner * (two * slopes.second)
 }
 
-/// S = s C⁻¹ + (2 w₁ + 4 w₂)(1 − C⁻¹) + 2 w₂ ((I₁ − 3) 1 − (C − 1)); at large strain S = J w_J C⁻¹ + 2 w₁ 1 + 2 w₂ (I₁ 1 − C).
+/// S = s C⁻¹ + (2 w₁ + 4 w₂)(1 − C⁻¹) + 2 w₂ ((I₁ − 3) 1 − (C − 1)); at large strain S = J ∂W/∂J C⁻¹ + 2 w₁ 1 + 2 w₂ (I₁ 1 − C).
 #[inline(always)]
 #[must_use]
 pub fn second_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> SecondPiola<T> {

@@ -6,7 +6,7 @@
 //! ```
 //! It is `2 w₁ F + 2 w₂ F (I₁ 1 − C) + J w_J F⁻ᵀ`, ordered so that each term is as small as the strain: at the reference
 //! every one vanishes, if the law's *residual* s does. A law gives s without cancellation, from I₁ − 3, I₂ − 3 and J − 1.
-//! At large strain the order is the printed one, with J w_J from I₁, I₂ and J: where a body is compressed to nearly nothing
+//! At large strain the order is the printed one, with J ∂W/∂J from I₁, I₂ and J: where a body is compressed to nearly nothing
 //! the differences from the reference would hide what is left.
 
 use piola_continuum::strain::{invariants, kernels};
