@@ -17,7 +17,7 @@ const LAW: &str = "pressurised solid";
 /// ```text
 /// T = T_law − p 1,   det F = 1        P = P_law − p Cof F        W = W_law − p (J − 1)
 /// ```
-/// T_law is all that the law answers. What it says of volumes has nothing to do at det F = 1: Ogden's, Hencky's, Fung's
+/// `T_law` is all that the law answers. What it says of volumes has nothing to do at det F = 1: Ogden's, Hencky's, Fung's
 /// or a fibre-reinforced law of any bulk modulus becomes the incompressible one. The reference is as free of stress as that
 /// of the law where p = 0. To have p from a condition such as a free face see
 /// [`equilibrium`](crate::homogeneous::equilibrium) and [`IncompressibleState`](crate::homogeneous::IncompressibleState).
