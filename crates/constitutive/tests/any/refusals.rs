@@ -99,11 +99,14 @@ fn bounds_of_laws_of_invariants_are_named() {
     assert_eq!((infinite(solid.at_pressure(f64::NAN)), infinite(solid.at_excess_pressure(f64::INFINITY))), ("p", "q"));
 }
 
+/// A constructor from terms.
+type Make = fn(&[OgdenTerm]) -> Result<(), ConstitutiveError>;
+
 #[test]
 fn bounds_of_laws_of_stretches_are_named() {
     let term = |mu: f64, alpha: f64| OgdenTerm { mu, alpha };
     let volume = Lame::new(-10.0).expect("finite");
-    let made: [(&str, fn(&[OgdenTerm]) -> Result<(), ConstitutiveError>); 3] = [
+    let made: [(&str, Make); 3] = [
         ("Ogden", |terms| Ogden::new(terms, 1.0).map(|_| ())),
         ("isochoric Ogden", |terms| IsochoricOgden::new(terms, 1.0).map(|_| ())),
         ("incompressible Ogden", |terms| IncompressibleOgden::new(terms).map(|_| ())),

@@ -94,7 +94,7 @@ pub fn second_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Def
     let mut uniform = two * slopes.first;
     if L::SECOND {
         uniform += two * slopes.second * invariants.first_whole;
-        plain = plain - kernels::right_cauchy_green(deformation.gradient_rows()) * (two * slopes.second);
+        plain -= kernels::right_cauchy_green(deformation.gradient_rows()) * (two * slopes.second);
     }
     SecondPiola(select_symmetric(small, &beside, &(plain + Symmetric::identity() * uniform)))
 }
