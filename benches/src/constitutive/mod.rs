@@ -1,12 +1,15 @@
-//! The Mooney–Rivlin solid by other means: its printed formula in nalgebra's matrices, in lanes, and without a tangent.
+//! The laws that are measured, and the Mooney–Rivlin solid by other means: its printed formula in nalgebra's matrices and
+//! in lanes, and without a tangent.
 //!
 //! ```text
 //! P = 2 C₁₀ F + 2 C₀₁ F (I₁ 1 − C) + (2 c J² − d) F⁻ᵀ
 //! ```
 //! It cancels at small strain: its `error` says so.
 
+pub mod laws;
+
 use nalgebra::{Matrix3, SMatrix};
-use piola_constitutive::solids::Hyperelastic;
+use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
 use piola_continuum::tensor::rows::{Rows, cofactor, product, scaled, sum, transposed_product};
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::Real;
@@ -61,7 +64,7 @@ impl Printed {
     }
 }
 
-/// The printed formula in lanes, of a law that has no tangent at all: the floor of a stress alone.
+/// The printed formula in lanes.
 impl Hyperelastic for Printed {
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
@@ -83,5 +86,24 @@ impl Hyperelastic for Printed {
         inner[2][2] += diagonal;
         let volume = (T::lit(2.0 * self.c) * j * j - T::lit(self.d)) / j;
         FirstPiola(from_rows(sum(product(f, inner), scaled(cofactor, volume))))
+    }
+}
+
+/// The law with its energy and stress alone: its tangent is nowhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WithoutTangent(
+    /// The law.
+    pub MooneyRivlin,
+);
+
+impl Hyperelastic for WithoutTangent {
+    #[inline(always)]
+    fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
+        self.0.energy(deformation)
+    }
+
+    #[inline(always)]
+    fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        self.0.first_piola(deformation)
     }
 }

@@ -97,23 +97,96 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
 
 /// Runs a kernel at a given level, or at the best of this machine if it lacks that: for tests and benches.
 #[inline]
+pub fn dispatch_at<K: Kernel>(level: Level, kernel: K) -> K::Output {
+    dispatch_one_of(level, kernel, |kernel| kernel, |kernel| kernel, |kernel| kernel)
+}
+
+/// A computation over any number of lanes.
+pub trait LaneKernel {
+    /// What it returns.
+    type Output;
+    /// Computes with N lanes; to be marked `#[inline(always)]`.
+    fn run<const N: usize>(self) -> Self::Output;
+}
+
+/// Runs a kernel at the best level of this machine, with a number of lanes for each level.
+///
+/// More lanes than a register holds, and fewer, are both slower: the compiler then mixes neighbouring values into
+/// one register, and shuffles them.
+///
+/// # Example
+/// ```
+/// use piola_numerics::{LaneKernel, Lanes, dispatch_lanes};
+/// struct Sum<'a>(&'a [f64]);
+/// impl LaneKernel for Sum<'_> {
+///     type Output = f64;
+///     #[inline(always)]
+///     fn run<const N: usize>(self) -> f64 {
+///         let chunks = self.0.chunks(N).map(|chunk| Lanes::<f64, N>::load(chunk, 0.0));
+///         chunks.fold(Lanes::splat(0.0), |sum, chunk| sum + chunk).0.iter().sum()
+///     }
+/// }
+/// assert_eq!(dispatch_lanes::<_, 2, 4, 8>(Sum(&[1.0; 11])), 11.0);
+/// ```
+#[inline]
+pub fn dispatch_lanes<K: LaneKernel, const BASE: usize, const AVX2: usize, const AVX512: usize>(
+    kernel: K,
+) -> K::Output {
+    dispatch_one_of(Level::best(), kernel, Of::<K, BASE>, Of::<K, AVX2>, Of::<K, AVX512>)
+}
+
+/// A kernel with its number of lanes.
+struct Of<K, const N: usize>(K);
+
+impl<K: LaneKernel, const N: usize> Kernel for Of<K, N> {
+    type Output = K::Output;
+    #[inline(always)]
+    fn run(self) -> K::Output {
+        self.0.run::<N>()
+    }
+}
+
+/// Runs the kernel that is made for the level.
+#[inline]
 #[cfg(target_arch = "x86_64")]
 #[expect(unsafe_code, reason = "the only way to call a function compiled for features found at run time")]
-pub fn dispatch_at<K: Kernel>(level: Level, kernel: K) -> K::Output {
+fn dispatch_one_of<K, O, A, B, C>(
+    level: Level,
+    kernel: K,
+    base: impl FnOnce(K) -> A,
+    avx2: impl FnOnce(K) -> B,
+    avx512: impl FnOnce(K) -> C,
+) -> O
+where
+    A: Kernel<Output = O>,
+    B: Kernel<Output = O>,
+    C: Kernel<Output = O>,
+{
     match level.min(Level::best()) {
-        Level::Base => kernel.run(),
+        Level::Base => base(kernel).run(),
         // SAFETY: `best` is at least `Avx2` only when the processor has its features.
-        Level::Avx2 => unsafe { run_avx2(kernel) },
+        Level::Avx2 => unsafe { run_avx2(avx2(kernel)) },
         // SAFETY: `best` is `Avx512` only when the processor has its features.
-        Level::Avx512 => unsafe { run_avx512(kernel) },
+        Level::Avx512 => unsafe { run_avx512(avx512(kernel)) },
     }
 }
 
 /// Runs a kernel: this architecture has one level.
 #[inline]
 #[cfg(not(target_arch = "x86_64"))]
-pub fn dispatch_at<K: Kernel>(_level: Level, kernel: K) -> K::Output {
-    kernel.run()
+fn dispatch_one_of<K, O, A, B, C>(
+    _level: Level,
+    kernel: K,
+    base: impl FnOnce(K) -> A,
+    _avx2: impl FnOnce(K) -> B,
+    _avx512: impl FnOnce(K) -> C,
+) -> O
+where
+    A: Kernel<Output = O>,
+    B: Kernel<Output = O>,
+    C: Kernel<Output = O>,
+{
+    base(kernel).run()
 }
 
 #[cfg(target_arch = "x86_64")]

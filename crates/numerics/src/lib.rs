@@ -29,7 +29,7 @@ mod num_dual;
 mod real;
 pub mod sums;
 
-pub use dispatch::{Kernel, Level, dispatch, dispatch_at};
+pub use dispatch::{Kernel, LaneKernel, Level, dispatch, dispatch_at, dispatch_lanes};
 pub use dual::Dual;
 pub use error::Error;
 pub use gradient::Gradient;

@@ -15,7 +15,8 @@ pub(super) const COMMAND: Command = Command {
     name: "bench",
     usage: "[--json FILE] [--filter NAME] [--peers]",
     help: "run the benches in cargo's own release profile, on one core where `taskset` exists
---filter NAME   only the benches whose `group/name` matches the regular expression NAME
+--filter NAME   only the benches whose `group/name` matches the regular expression NAME; where it begins with the name
+                of a group, only that group is compiled
 --json FILE     write the results as a list of {group, name, ns_per_item, items, error?, peer?}:
                 nanoseconds per item (median), items in one iteration, the error of the result where the bench
                 states one, and the peer's name where it is a peer that ran
@@ -28,11 +29,12 @@ pub(super) const COMMAND: Command = Command {
         let target = Workspace::target(shell)?;
         let (criterion, notes) = (target.join("criterion"), target.join("bench-notes"));
         let start = SystemTime::now();
-        let run = run(shell, filter.as_deref())
+        let targets = targets(filter.as_deref());
+        let run = run(shell, &targets, filter.as_deref())
             .env("CRITERION_HOME", &criterion)
             // Where a bench states the error of its result and whether it is a peer's: see `benches/src/notes.rs`.
             .env("PIOLA_BENCH_NOTES", &notes);
-        let mut steps = vec![compile(shell), Step::program("bench: run", run, "a bench failed")];
+        let mut steps = vec![compile(shell, &targets), Step::program("bench: run", run, "a bench failed")];
         if peers {
             for manifest in PEERS {
                 let run = peer(shell, manifest, filter.as_deref())
@@ -58,20 +60,32 @@ pub(super) const COMPILE: Command = Command {
     name: "bench",
     usage: COMMAND.usage,
     help: COMMAND.help,
-    prepare: |shell, _, _| Ok(vec![compile(shell)]),
+    prepare: |shell, _, _| Ok(vec![compile(shell, &targets(None))]),
 };
 
-fn compile(shell: &Shell) -> Step<'_> {
+/// Each is a file of that name in `benches/benches`, and its group has the same name.
+const GROUPS: [&str; 6] = ["numerics", "nbody", "lagrangian", "integrators", "continuum", "constitutive"];
+
+/// What to tell cargo: the one bench whose name begins the filter, or all of them.
+fn targets(filter: Option<&str>) -> Vec<&'static str> {
+    let group = filter.and_then(|name| name.split('/').next());
+    match GROUPS.into_iter().find(|known| group == Some(*known)) {
+        Some(known) => vec!["--bench", known],
+        None => vec!["--benches"],
+    }
+}
+
+fn compile<'a>(shell: &'a Shell, targets: &[&str]) -> Step<'a> {
     Step::program(
         "bench: compile",
-        cmd!(shell, "cargo bench --profile plain-release --package piola-benches --benches --no-run"),
+        cmd!(shell, "cargo bench --profile plain-release --package piola-benches --no-run").args(targets),
         "the benches do not compile",
     )
 }
 
-fn run<'a>(shell: &'a Shell, filter: Option<&str>) -> Cmd<'a> {
+fn run<'a>(shell: &'a Shell, targets: &[&str], filter: Option<&str>) -> Cmd<'a> {
     let command =
-        pinned(shell).args(["bench", "--profile", "plain-release", "--package", "piola-benches", "--benches"]);
+        pinned(shell).args(["bench", "--profile", "plain-release", "--package", "piola-benches"]).args(targets);
     match filter {
         Some(name) => command.args(["--", name]),
         None => command,
@@ -188,7 +202,19 @@ fn parse(path: &Path) -> Result<Value, String> {
 mod tests {
     use serde_json::json;
 
-    use super::record;
+    use super::{GROUPS, record, targets};
+
+    #[test]
+    fn a_filter_that_names_a_group_compiles_it_alone() {
+        assert_eq!(targets(Some("continuum")), ["--bench", "continuum"]);
+        assert_eq!(targets(Some("constitutive/mooney_rivlin/.*/1k")), ["--bench", "constitutive"]);
+        for filter in [None, Some("con"), Some(".*/first_piola")] {
+            assert_eq!(targets(filter), ["--benches"]);
+        }
+        let benches = concat!(env!("CARGO_MANIFEST_DIR"), "/../benches/benches");
+        let found = std::fs::read_dir(benches).expect("the benches").count();
+        assert_eq!(found, GROUPS.len());
+    }
 
     #[test]
     fn a_record_divides_the_median_by_the_items_and_carries_the_notes() {

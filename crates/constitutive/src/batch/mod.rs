@@ -28,7 +28,8 @@
 //! | [`first_piola_derivative`] | (∂P/∂F) : δF of a given δF | 9 | `&mut [FirstPiola<T>]` |
 //!
 //! Deformations and destinations are the views of [`piola_continuum::batch`]: arrays of structures, structures of
-//! arrays ([`Components`](piola_continuum::batch::Components)), strided numbers, of `f64` or `f32`. Any
+//! arrays ([`Components`](piola_continuum::batch::Components)), strided numbers and, the fastest, blocks of lanes
+//! ([`LaneBlocks`](piola_continuum::batch::LaneBlocks)), of `f64` or `f32`. Any
 //! [`Hyperelastic`](crate::solids::Hyperelastic) law will do, also one that gives only its energy. At 10⁶ points 81 numbers take longer to store than
 //! to compute: 45 hold the same, and a product with a direction needs none.
 

@@ -16,8 +16,35 @@ pub(super) fn flat<T: Real>(stress: &FirstPiola<T>) -> [T; 9] {
 
 /// All lanes of a block whose deformations the law accepts, or none: each point is asked then.
 #[inline(always)]
-pub(super) fn accepted<T: Real, L: Hyperelastic>(law: &L, deformation: &impl Deformation<T>) -> T::Mask {
-    Mask::splat(law.check(deformation).is_ok())
+fn accepted<T: Real, L: Hyperelastic>(law: &L, deformation: &impl Deformation<T>) -> T::Mask {
+    // Not `is_ok`: an error would be dropped in any case, by a function that the compiler does not look into.
+    match law.check(deformation) {
+        Ok(()) => Mask::splat(true),
+        Err(_) => Mask::splat(false),
+    }
+}
+
+/// Lanes that the law accepts, by the answer itself where that tells.
+#[inline(always)]
+pub(super) fn answered<T: Real, L: Hyperelastic, const K: usize>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+    answer: &[T; K],
+) -> T::Mask {
+    if !L::REFUSED_IS_NOT_FINITE {
+        return accepted(law, deformation);
+    }
+    // x − x is zero but for ∞ and NaN.
+    #[expect(clippy::eq_op, reason = "the difference is zero but for infinity and NaN")]
+    let mut nothing = answer[0] - answer[0];
+    let mut k = 1;
+    while k < K && k < 9 {
+        #[expect(clippy::eq_op, reason = "the difference is zero but for infinity and NaN")]
+        let difference = answer[k] - answer[k];
+        nothing += difference;
+        k += 1;
+    }
+    nothing.is_finite()
 }
 
 macro_rules! quantities {
@@ -53,8 +80,8 @@ macro_rules! quantities {
             }
 
             #[inline(always)]
-            fn exists<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>) -> T::Mask {
-                $crate::batch::requests::accepted(self.0, point)
+            fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, value: &[T; $k]) -> T::Mask {
+                $crate::batch::requests::answered(self.0, point, value)
             }
 
             fn check<T: Real, D: Deformation<T>>(&self, deformation: &D) -> Result<(), Refusal> {

@@ -7,7 +7,7 @@ use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Lanes, Real};
 
-use super::requests::{accepted, flat, quantities};
+use super::requests::{answered, flat, quantities};
 use crate::solids::Hyperelastic;
 
 /// The entries (r, s) with r ≤ s of the 9×9 array, by rows.
@@ -110,6 +110,7 @@ where
     V: Destination<FirstPiola, T, 9>,
     W: Destination<FirstPiolaTangentOf<'static, ()>, T, 45>,
 {
+    const IN_LANES: bool = V::IN_LANES && W::IN_LANES;
     fn count(&self) -> usize {
         // Both are checked: no batch is as long as a pair of unlike lengths.
         let (stress, tangent) = (self.0.count(), self.1.count());
@@ -198,8 +199,8 @@ impl<L: Hyperelastic + Sync> Quantity<9, 9> for FirstPiolaDerivativeOf<'_, L> {
     }
 
     #[inline(always)]
-    fn exists<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>) -> T::Mask {
-        accepted(self.0, point)
+    fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, value: &[T; 9]) -> T::Mask {
+        answered(self.0, point, value)
     }
 
     fn check<T: Real, D: Deformation<T>>(&self, deformation: &D) -> Result<(), Refusal> {

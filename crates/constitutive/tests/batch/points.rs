@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use piola_constitutive::batch;
 use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
-use piola_continuum::batch::{Components, Gradients};
+use piola_continuum::batch::{Components, Gradients, LaneBlocks};
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::tensor::FourthOrder;
 use piola_continuum::{CauchyStress, Deformation, DeformationGradient, FirstPiola, KirchhoffStress, SecondPiola};
@@ -78,6 +78,34 @@ fn structures_of_arrays_equal_arrays_of_structures_and_allocate_nothing() {
         assert!((0..9).all(|k| p[k][i].to_bits() == stress.0[(k / 3, k % 3)].to_bits()), "P of point {i}");
         let expected = upper(&tangent);
         assert!((0..45).all(|k| a[k][i].to_bits() == expected[k].to_bits()), "∂P/∂F of point {i}");
+    }
+}
+
+#[test]
+fn blocks_of_lanes_equal_single_points_and_allocate_nothing() {
+    let (law, f) = (rubber(), deformations(1003));
+    let (n, blocks) = (f.len(), f.len().div_ceil(8));
+    let mut gradients = vec![[[0.0; 8]; 9]; blocks];
+    for (i, f) in f.iter().enumerate() {
+        for k in 0..9 {
+            gradients[i / 8][k][i % 8] = f.matrix()[(k / 3, k % 3)];
+        }
+    }
+    let (mut p, mut a) = (vec![[[0.0; 8]; 9]; blocks], vec![[[0.0; 8]; 45]; blocks]);
+    let _ = piola_numerics::Level::best();
+    let (allocations, ()) = allocations_in(|| {
+        let input = Gradients(LaneBlocks::new(&gradients, n).expect("as many blocks"));
+        let stress = LaneBlocks::new_mut(&mut p, n).expect("as many blocks");
+        let tangent = LaneBlocks::new_mut(&mut a, n).expect("as many blocks");
+        batch::evaluate(input, batch::first_piola_and_tangent(&law, stress, tangent)).expect("deformations");
+    });
+    assert_eq!(allocations, 0);
+    for (i, f) in f.iter().enumerate() {
+        let (stress, tangent) = law.first_piola_and_tangent(f);
+        let (p, a) = (&p[i / 8], &a[i / 8]);
+        assert!((0..9).all(|k| p[k][i % 8].to_bits() == stress.0[(k / 3, k % 3)].to_bits()), "P of point {i}");
+        let expected = upper(&tangent);
+        assert!((0..45).all(|k| a[k][i % 8].to_bits() == expected[k].to_bits()), "∂P/∂F of point {i}");
     }
 }
 

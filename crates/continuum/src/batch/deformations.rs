@@ -3,7 +3,7 @@
 use piola_numerics::{Lanes, Real};
 
 use super::BatchScalar;
-use super::sources::{Source, by_rows};
+use super::sources::{Source, by_rows, fill};
 use crate::tensor::rows::Rows;
 use crate::{ContinuumError, Deformation, DeformationGradient, DisplacementGradient};
 
@@ -20,12 +20,26 @@ pub trait Deformations<T: BatchScalar>: Copy + Send + Sync {
     type Point<S: Real>: Deformation<S>;
     /// Whether 0 < det F < ∞ is known.
     const TRUSTED: bool;
+    /// Whether they lie in lanes as they are computed with: see [`Source::IN_LANES`].
+    const IN_LANES: bool = false;
 
     /// The number of points.
     fn count(&self) -> usize;
 
     /// The deformations at `count` ≤ N points from `first` on, a point a lane.
     fn load<const N: usize>(&self, first: usize, count: usize) -> Self::Point<Lanes<T, N>>;
+
+    /// As [`load`](Self::load), into memory from which [`filled`](Self::filled) makes the deformations.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn fill<const N: usize>(&self, _first: usize, _count: usize, _lanes: &mut [Lanes<T, N>; 9]) {}
+
+    /// The deformations that [`fill`](Self::fill) has read.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn filled<const N: usize>(&self, first: usize, count: usize, _lanes: [Lanes<T, N>; 9]) -> Self::Point<Lanes<T, N>> {
+        self.load(first, count)
+    }
 
     /// What is wrong with a point.
     ///
@@ -98,6 +112,7 @@ pub struct Undeformed(
 impl<T: BatchScalar, S: Source<DeformationGradient, T, 9>> Deformations<T> for Gradients<S> {
     type Point<U: Real> = DeformationGradient<U>;
     const TRUSTED: bool = false;
+    const IN_LANES: bool = S::IN_LANES;
     #[inline(always)]
     fn count(&self) -> usize {
         self.0.count().unwrap_or(0)
@@ -105,6 +120,19 @@ impl<T: BatchScalar, S: Source<DeformationGradient, T, 9>> Deformations<T> for G
     #[inline(always)]
     fn load<const N: usize>(&self, first: usize, count: usize) -> DeformationGradient<Lanes<T, N>> {
         DeformationGradient::trusted(rows(self.0.load(first, count)))
+    }
+    #[inline(always)]
+    fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
+        fill(&self.0, first, count, lanes);
+    }
+    #[inline(always)]
+    fn filled<const N: usize>(
+        &self,
+        _first: usize,
+        _count: usize,
+        lanes: [Lanes<T, N>; 9],
+    ) -> Self::Point<Lanes<T, N>> {
+        DeformationGradient::trusted(rows(lanes))
     }
     fn check(&self, index: usize) -> Result<(), ContinuumError> {
         DeformationGradient::from_rows(rows(self.0.point(index))).map(|_| ())
@@ -114,6 +142,7 @@ impl<T: BatchScalar, S: Source<DeformationGradient, T, 9>> Deformations<T> for G
 impl<T: BatchScalar, S: Source<DisplacementGradient, T, 9>> Deformations<T> for Displacements<S> {
     type Point<U: Real> = DisplacementGradient<U>;
     const TRUSTED: bool = false;
+    const IN_LANES: bool = S::IN_LANES;
     #[inline(always)]
     fn count(&self) -> usize {
         self.0.count().unwrap_or(0)
@@ -121,6 +150,19 @@ impl<T: BatchScalar, S: Source<DisplacementGradient, T, 9>> Deformations<T> for 
     #[inline(always)]
     fn load<const N: usize>(&self, first: usize, count: usize) -> DisplacementGradient<Lanes<T, N>> {
         DisplacementGradient::trusted(rows(self.0.load(first, count)))
+    }
+    #[inline(always)]
+    fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
+        fill(&self.0, first, count, lanes);
+    }
+    #[inline(always)]
+    fn filled<const N: usize>(
+        &self,
+        _first: usize,
+        _count: usize,
+        lanes: [Lanes<T, N>; 9],
+    ) -> Self::Point<Lanes<T, N>> {
+        DisplacementGradient::trusted(rows(lanes))
     }
     fn check(&self, index: usize) -> Result<(), ContinuumError> {
         DisplacementGradient::from_rows(rows(self.0.point(index))).map(|_| ())
@@ -151,6 +193,19 @@ macro_rules! typed {
             fn load<const N: usize>(&self, first: usize, count: usize) -> $name<Lanes<T, N>> {
                 $name::trusted(rows(Source::<$name, T, 9>::load(self, first, count)))
             }
+            #[inline(always)]
+            fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
+                fill::<_, $name, T, 9, N>(self, first, count, lanes);
+            }
+            #[inline(always)]
+            fn filled<const N: usize>(
+                &self,
+                _first: usize,
+                _count: usize,
+                lanes: [Lanes<T, N>; 9],
+            ) -> Self::Point<Lanes<T, N>> {
+                $name::trusted(rows(lanes))
+            }
             fn check(&self, _index: usize) -> Result<(), ContinuumError> {
                 Ok(())
             }
@@ -163,6 +218,7 @@ typed!(DisplacementGradient);
 impl<T: BatchScalar> Deformations<T> for Undeformed {
     type Point<U: Real> = DeformationGradient<U>;
     const TRUSTED: bool = true;
+    const IN_LANES: bool = true;
     #[inline(always)]
     fn count(&self) -> usize {
         self.0

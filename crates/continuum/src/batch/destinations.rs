@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use piola_numerics::{Element, Lanes};
 
 use super::sources::transposed;
-use super::{BatchScalar, ColumnMajor, Components, Strided};
+use super::{BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
 use crate::{
     BiotStress, CauchyStress, ContinuumError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
 };
@@ -18,13 +18,18 @@ use crate::{
 /// | [`ColumnMajor`] | nine numbers by columns for each point |
 /// | [`Strided`] | numbers at a stride |
 /// | [`Components`] | an array for each component |
+/// | [`LaneBlocks`] | blocks of points, in a block an array for each component: the fastest |
 ///
 /// A symmetric tensor fills all nine components of a `Matrix3<T>`.
 pub trait Destination<Q, T: Element, const K: usize>: Send + Sized {
+    /// Whether each component of neighbouring points lies side by side, so that [`store`](Self::store) moves nothing from
+    /// lane to lane.
+    const IN_LANES: bool = false;
+
     /// The number of points.
     fn count(&self) -> usize;
 
-    /// The first `middle` points and the rest.
+    /// The first `middle` points and the rest; `middle` is a multiple of 64.
     fn split(self, middle: usize) -> (Self, Self);
 
     /// Writes the components of one point.
@@ -33,15 +38,20 @@ pub trait Destination<Q, T: Element, const K: usize>: Send + Sized {
     /// Writes the first `count` ≤ N lanes to the points from `first` on.
     #[inline(always)]
     fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; K]) {
-        if count == N {
-            for lane in 0..N {
-                self.put(first + lane, lane_of(&values, lane));
-            }
-        } else {
-            for lane in 0..count {
-                self.put(first + lane, lane_of(&values, lane));
-            }
-        }
+        scatter(self, first, count, &values);
+    }
+}
+
+/// Point by point.
+#[inline(always)]
+pub(super) fn scatter<V: Destination<Q, T, K>, Q, T: Element, const K: usize, const N: usize>(
+    to: &mut V,
+    first: usize,
+    count: usize,
+    values: &[Lanes<T, N>; K],
+) {
+    for lane in 0..count.min(N) {
+        to.put(first + lane, lane_of(values, lane));
     }
 }
 
@@ -148,7 +158,51 @@ impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Strided<&mut [T], K
     }
 }
 
+impl<Q, T: Element, const K: usize, const B: usize> Destination<Q, T, K> for LaneBlocks<&mut [[[T; B]; K]]> {
+    const IN_LANES: bool = true;
+    #[inline(always)]
+    fn count(&self) -> usize {
+        self.count
+    }
+    #[inline(always)]
+    fn split(self, middle: usize) -> (Self, Self) {
+        let (head, tail) = self.blocks.split_at_mut(middle / B);
+        (Self { blocks: head, count: middle }, Self { blocks: tail, count: self.count - middle })
+    }
+    #[inline(always)]
+    fn put(&mut self, index: usize, components: [T; K]) {
+        let block = &mut self.blocks[index / B];
+        let mut k = 0;
+        while k < K {
+            block[k][index % B] = components[k];
+            k += 1;
+        }
+    }
+    #[inline(always)]
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; K]) {
+        if count < N {
+            scatter::<_, Q, T, K, N>(self, first, count, &values);
+        } else if N <= B {
+            let block = &mut self.blocks[first / B];
+            let mut k = 0;
+            while k < K {
+                block[k].as_chunks_mut().0[first % B / N] = values[k].0;
+                k += 1;
+            }
+        } else {
+            for (part, block) in self.blocks[first / B..][..N / B].iter_mut().enumerate() {
+                let mut k = 0;
+                while k < K {
+                    block[k].copy_from_slice(&values[k].0[part * B..][..B]);
+                    k += 1;
+                }
+            }
+        }
+    }
+}
+
 impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Components<&mut [T], K> {
+    const IN_LANES: bool = true;
     #[inline(always)]
     fn count(&self) -> usize {
         self.0[0].len()

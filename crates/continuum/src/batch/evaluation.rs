@@ -2,7 +2,7 @@
 
 use core::marker::PhantomData;
 
-use piola_numerics::{Element, Kernel, Lanes, Mask, Real, dispatch};
+use piola_numerics::{Element, LaneKernel, Lanes, Mask, Real, dispatch_lanes};
 
 use super::deformations::Deformations;
 use super::point::Point;
@@ -17,16 +17,21 @@ pub trait BatchScalar: Element + Real {
 }
 
 macro_rules! scalar {
-    ($float:ident, $lanes:literal) => {
+    ($float:ident: $base:literal $avx2:literal $avx512:literal) => {
         impl BatchScalar for $float {
             fn run<D: Deformations<Self>, R: Requests<Self>>(points: D, range: [usize; 2], requests: R) -> Tally {
-                Evaluation::<Self, _, _, $lanes> { points, range, requests, scalar: PhantomData }.run()
+                dispatch_lanes::<_, $base, $avx2, $avx512>(Evaluation {
+                    points,
+                    range,
+                    requests,
+                    scalar: PhantomData::<Self>,
+                })
             }
         }
     };
 }
-scalar!(f64, 4);
-scalar!(f32, 8);
+scalar!(f64: 2 4 8);
+scalar!(f32: 4 8 16);
 
 /// A batch that was evaluated, all points good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,54 +145,179 @@ fn halved<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(points: D, range: 
 }
 
 /// The points of a range, whose outputs go to the start of the destinations.
-struct Evaluation<T, D, R, const N: usize> {
+struct Evaluation<T, D, R> {
     points: D,
     range: [usize; 2],
     requests: R,
     scalar: PhantomData<T>,
 }
 
-impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluation<T, D, R, N> {
-    /// Where much is computed, reading, computing and writing of a block are compiled apart, with the block in memory
-    /// between them: together, the compiler would mix the order of the caller's memory into the lanes of the
-    /// computation. Within a loop over blocks it would also go through the whole again for each of its thousands of
-    /// operations. A few operations are done between reading and writing.
-    fn run(mut self) -> Tally {
+/// Blocks that are staged together.
+const STAGED_BLOCKS: usize = 4;
+
+type LanesMask<T, const N: usize> = <Lanes<T, N> as Real>::Mask;
+
+impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> LaneKernel for Evaluation<T, D, R> {
+    type Output = Tally;
+
+    #[inline(always)]
+    fn run<const N: usize>(mut self) -> Tally {
         let mut tally = Tally::default();
-        let [start, end] = self.range;
-        let mut buffers = R::buffers::<N>();
-        let mut first = start;
-        while first < end {
-            let count = N.min(end - first);
-            let (good, slow) = if R::STAGED {
-                let deformation = self.load(first, count, &mut buffers);
-                let block = Block { deformation: &deformation, requests: &self.requests, buffers: &mut buffers };
-                let masks = dispatch::<Block<'_, T, D, R, N>>(block);
-                self.store(first - start, count, &buffers);
-                masks
-            } else {
-                dispatch(Direct { evaluation: &mut self, first, count, buffers: &mut buffers })
-            };
-            if R::NEEDS_STRETCH && slow.any() {
-                tally.slow_path += (0..count).filter(|&lane| slow.lane(lane)).count();
-            }
-            if !good.all() {
-                self.record(first, count, &mut tally);
-            }
-            first += N;
+        if D::IN_LANES && R::IN_LANES {
+            self.direct::<N>(&mut tally);
+        } else {
+            self.staged::<N>(&mut tally);
         }
         tally
     }
+}
 
-    #[inline(never)]
-    fn load(&self, first: usize, count: usize, buffers: &mut R::Buffers<N>) -> D::Point<Lanes<T, N>> {
-        self.requests.load(first, count, buffers);
-        self.points.load::<N>(first, count)
+impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
+    /// From the caller's memory to the caller's memory, block by block.
+    #[inline(always)]
+    fn direct<const N: usize>(&mut self, tally: &mut Tally) {
+        let [start, end] = self.range;
+        let mut first = start;
+        while N <= end - first {
+            self.pass::<N>(first, tally);
+            first += N;
+        }
+        if first < end {
+            self.singly(first, tally);
+        }
     }
 
+    /// The points from `first` on, fewer than a block, one by one: this is compiled once for all numbers of lanes.
     #[inline(never)]
-    fn store(&mut self, at: usize, count: usize, buffers: &R::Buffers<N>) {
-        self.requests.store(at, count, buffers);
+    fn singly(&mut self, first: usize, tally: &mut Tally) {
+        for index in first..self.range[1] {
+            self.pass::<1>(index, tally);
+        }
+    }
+
+    /// N points from `first` on.
+    #[inline(always)]
+    fn pass<const N: usize>(&mut self, first: usize, tally: &mut Tally) {
+        let (good, slow, point) = Self::point::<N>(self.points.load::<N>(first, N));
+        let good = good & self.requests.pass(first, first - self.range[0], &point);
+        self.note::<N>(first, N, good, slow, tally);
+    }
+
+    /// Where the caller's memory has another order than lanes: a few blocks are read, computed and written, each a
+    /// pass of its own. Together, the compiler would mix the order of the memory into the lanes of the computation.
+    #[inline(always)]
+    fn staged<const N: usize>(&mut self, tally: &mut Tally) {
+        let [start, end] = self.range;
+        if end <= start {
+            return;
+        }
+        let no = Mask::splat(false);
+        let mut buffers = [R::buffers::<N>(); STAGED_BLOCKS];
+        let mut masks: [(LanesMask<T, N>, LanesMask<T, N>); STAGED_BLOCKS] = [(no, no); STAGED_BLOCKS];
+        let mut deformations = [[Lanes::splat(T::zero()); 9]; STAGED_BLOCKS];
+        let mut first = start;
+        while first < end {
+            let count = (STAGED_BLOCKS * N).min(end - first);
+            self.load(first, count, &mut deformations, &mut buffers);
+            let blocks = count.div_ceil(N);
+            let mut block = 0;
+            while block < blocks {
+                let at = first + block * N;
+                let (good, slow, point) =
+                    Self::point::<N>(self.points.filled(at, N.min(end - at), deformations[block]));
+                let good = good & self.requests.compute(&point, &mut buffers[block]);
+                masks[block] = (good, slow);
+                if !good.all() {
+                    // A loop with a call is not made one over several blocks at once, which would scatter its lanes.
+                    bad_block();
+                }
+                block += 1;
+            }
+            self.store(first - start, count, &buffers);
+            for (block, (good, slow)) in masks[..blocks].iter().enumerate() {
+                let at = first + block * N;
+                self.note::<N>(at, N.min(end - at), *good, *slow, tally);
+            }
+            first += STAGED_BLOCKS * N;
+        }
+    }
+
+    /// What the outputs need of a block; where its points are good, and where they took the slow path.
+    #[inline(always)]
+    fn point<const N: usize>(
+        deformation: D::Point<Lanes<T, N>>,
+    ) -> (LanesMask<T, N>, LanesMask<T, N>, Point<Lanes<T, N>, D::Point<Lanes<T, N>>>) {
+        let mut good: LanesMask<T, N> = Mask::splat(true);
+        let mut jacobian = None;
+        if !D::TRUSTED {
+            let determinant = deformation.jacobian();
+            good = Lanes::splat(T::zero()).less_than(determinant) & determinant.is_finite();
+            jacobian = Some(determinant);
+        }
+        let mut slow = Mask::splat(false);
+        let mut stretch = None;
+        if R::NEEDS_STRETCH {
+            let analysis = StretchAnalysis::of(&deformation);
+            slow = analysis.slow_path() & good;
+            stretch = Some(analysis);
+        }
+        (good, slow, Point { deformation, jacobian, stretch })
+    }
+
+    /// Counts points of the slow path, records bad ones.
+    #[inline(always)]
+    fn note<const N: usize>(
+        &mut self,
+        first: usize,
+        count: usize,
+        good: LanesMask<T, N>,
+        slow: LanesMask<T, N>,
+        tally: &mut Tally,
+    ) {
+        if R::NEEDS_STRETCH && slow.any() {
+            tally.slow_path += (0..count).filter(|&lane| slow.lane(lane)).count();
+        }
+        if !good.all() {
+            self.record(first, count, tally);
+        }
+    }
+
+    /// Reads `count` points from `first` on.
+    #[inline(never)]
+    fn load<const N: usize>(
+        &self,
+        first: usize,
+        count: usize,
+        deformations: &mut [[Lanes<T, N>; 9]; STAGED_BLOCKS],
+        buffers: &mut [R::Buffers<N>; STAGED_BLOCKS],
+    ) {
+        let mut done = 0;
+        for (deformation, buffers) in deformations.iter_mut().zip(buffers) {
+            let (at, left) = (first + done, count - done);
+            if N <= left {
+                self.points.fill(at, N, deformation);
+                self.requests.load(at, N, buffers);
+            } else if 0 < left {
+                self.points.fill(at, left, deformation);
+                self.requests.load(at, left, buffers);
+            }
+            done += N.min(left);
+        }
+    }
+
+    /// Writes `count` points from `at` on.
+    #[inline(never)]
+    fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &[R::Buffers<N>; STAGED_BLOCKS]) {
+        let mut done = 0;
+        for buffers in buffers {
+            let (at, left) = (at + done, count - done);
+            if N <= left {
+                self.requests.store(at, N, buffers);
+            } else if 0 < left {
+                self.requests.store(at, left, buffers);
+            }
+            done += N.min(left);
+        }
     }
 
     /// Finds the bad points of a block, says what is wrong with them and voids their outputs.
@@ -205,61 +335,8 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Evaluat
     }
 }
 
-/// A block of N points in lanes.
-struct Block<'a, T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> {
-    deformation: &'a D::Point<Lanes<T, N>>,
-    requests: &'a R,
-    buffers: &'a mut R::Buffers<N>,
-}
-
-type LanesMask<T, const N: usize> = <Lanes<T, N> as Real>::Mask;
-
-impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Kernel for Block<'_, T, D, R, N> {
-    /// Where the points are good and where they took the slow path.
-    type Output = (LanesMask<T, N>, LanesMask<T, N>);
-
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        let deformation = *self.deformation;
-        let mut good: LanesMask<T, N> = Mask::splat(true);
-        let mut jacobian = None;
-        if !D::TRUSTED {
-            let determinant = deformation.jacobian();
-            good = Lanes::splat(T::zero()).less_than(determinant) & determinant.is_finite();
-            jacobian = Some(determinant);
-        }
-        let mut slow = Mask::splat(false);
-        let mut stretch = None;
-        if R::NEEDS_STRETCH {
-            let analysis = StretchAnalysis::of(&deformation);
-            slow = analysis.slow_path() & good;
-            stretch = Some(analysis);
-        }
-        let point = Point { deformation, jacobian, stretch };
-        (good & self.requests.compute(&point, self.buffers), slow)
-    }
-}
-
-/// The `count` ≤ N points from `first` on, from the caller's memory to the caller's memory.
-struct Direct<'a, T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> {
-    evaluation: &'a mut Evaluation<T, D, R, N>,
-    first: usize,
-    count: usize,
-    buffers: &'a mut R::Buffers<N>,
-}
-
-impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>, const N: usize> Kernel for Direct<'_, T, D, R, N> {
-    type Output = (LanesMask<T, N>, LanesMask<T, N>);
-
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        let Self { evaluation: Evaluation { points, range, requests, .. }, first, count, buffers } = self;
-        requests.load(first, count, buffers);
-        let deformation = points.load::<N>(first, count);
-        let block: Block<'_, T, D, R, N> =
-            Block { deformation: &deformation, requests: &*requests, buffers: &mut *buffers };
-        let masks = block.run();
-        requests.store(first - range[0], count, buffers);
-        masks
-    }
+#[cold]
+#[inline(never)]
+fn bad_block() {
+    core::hint::black_box(());
 }

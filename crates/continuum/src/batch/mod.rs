@@ -61,4 +61,4 @@ pub use spectral::*;
 pub use stresses::*;
 pub use tangents::*;
 pub use transport::*;
-pub use views::{ColumnMajor, Components, Strided, points_of, points_of_mut};
+pub use views::{ColumnMajor, Components, LaneBlocks, Strided, points_of, points_of_mut};

@@ -2,7 +2,9 @@
 
 use piola_numerics::{Lanes, Mask, Real};
 
+use super::destinations::scatter;
 use super::point::Point;
+use super::sources::fill;
 use super::{BatchScalar, Destination, Refusal, Source};
 use crate::error::check_finite;
 use crate::{ContinuumError, Deformation};
@@ -54,6 +56,12 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
         Mask::splat(true)
     }
 
+    /// As [`exists`](Self::exists), of the value too.
+    #[inline(always)]
+    fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, _value: &[T; K]) -> T::Mask {
+        self.exists(point)
+    }
+
     /// Refuses a point that has no value.
     ///
     /// # Errors
@@ -98,13 +106,13 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
     /// The requests for the first `middle` points and for the rest.
     fn split(self, middle: usize) -> (Self, Self);
 
-    /// Whether so much is computed that reading and writing are better kept apart from it.
+    /// Whether all views hold lanes as they are computed with.
     #[doc(hidden)]
-    const STAGED: bool;
+    const IN_LANES: bool;
 
     /// Memory for the inputs and outputs of N points, a point a lane.
     #[doc(hidden)]
-    type Buffers<const N: usize>;
+    type Buffers<const N: usize>: Copy;
 
     /// Memory for a block.
     #[doc(hidden)]
@@ -122,6 +130,16 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
         buffers: &mut Self::Buffers<N>,
     ) -> <Lanes<T, N> as Real>::Mask;
 
+    /// As [`load`](Self::load) from `first` on, [`compute`](Self::compute) and [`store`](Self::store) from `at` on of N
+    /// points, without memory between them.
+    #[doc(hidden)]
+    fn pass<const N: usize, D: Deformation<Lanes<T, N>>>(
+        &mut self,
+        first: usize,
+        at: usize,
+        point: &Point<Lanes<T, N>, D>,
+    ) -> <Lanes<T, N> as Real>::Mask;
+
     /// Writes the outputs of `count` ≤ N points to the destination's points from `at` on.
     #[doc(hidden)]
     fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>);
@@ -136,6 +154,30 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
     fn void(&mut self, at: usize);
 }
 
+impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
+    /// Where the input is finite and the quantity exists.
+    #[inline(always)]
+    fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, input: &[T; I], value: &[T; K]) -> T::Mask
+    where
+        Q: Quantity<I, K>,
+    {
+        let exists = self.quantity.good(point, value);
+        if I == 0 {
+            return exists;
+        }
+        // x − x is zero but for ∞ and NaN.
+        let mut nothing = T::zero();
+        let mut i = 0;
+        while i < I {
+            #[expect(clippy::eq_op, reason = "the difference is zero but for infinity and NaN")]
+            let difference = input[i] - input[i];
+            nothing += difference;
+            i += 1;
+        }
+        exists & nothing.is_finite()
+    }
+}
+
 impl<T, Q, S, V, const I: usize, const K: usize> Requests<T> for Request<Q, S, V, I, K>
 where
     T: BatchScalar,
@@ -144,7 +186,7 @@ where
     V: Destination<Q::Output, T, K>,
 {
     const NEEDS_STRETCH: bool = Q::NEEDS_STRETCH;
-    const STAGED: bool = Q::NEEDS_STRETCH || 16 < I + K;
+    const IN_LANES: bool = S::IN_LANES && V::IN_LANES;
 
     fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
         let read = self.source.count().unwrap_or(expected);
@@ -174,8 +216,10 @@ where
 
     #[inline(always)]
     fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>) {
-        if 0 < I {
+        if S::IN_LANES {
             buffers.0 = self.source.load::<N>(first, count);
+        } else if 0 < I {
+            fill(&self.source, first, count, &mut buffers.0);
         }
     }
 
@@ -185,24 +229,31 @@ where
         point: &Point<Lanes<T, N>, D>,
         buffers: &mut Self::Buffers<N>,
     ) -> <Lanes<T, N> as Real>::Mask {
-        let input = buffers.0;
-        // x − x is zero but for ∞ and NaN.
-        let mut nothing = Lanes::splat(T::zero());
-        let mut i = 0;
-        while i < I {
-            #[expect(clippy::eq_op, reason = "the difference is zero but for infinity and NaN")]
-            let difference = input[i] - input[i];
-            nothing += difference;
-            i += 1;
-        }
-        buffers.1 = self.quantity.of(point, input);
-        let exists = self.quantity.exists(point);
-        if I == 0 { exists } else { exists & nothing.is_finite() }
+        let value = self.quantity.of(point, buffers.0);
+        buffers.1 = value;
+        self.good(point, &buffers.0, &value)
+    }
+
+    #[inline(always)]
+    fn pass<const N: usize, D: Deformation<Lanes<T, N>>>(
+        &mut self,
+        first: usize,
+        at: usize,
+        point: &Point<Lanes<T, N>, D>,
+    ) -> <Lanes<T, N> as Real>::Mask {
+        let input = self.source.load::<N>(first, N);
+        let value = self.quantity.of(point, input);
+        self.to.store(at, N, value);
+        self.good(point, &input, &value)
     }
 
     #[inline(always)]
     fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>) {
-        self.to.store(at, count, buffers.1);
+        if V::IN_LANES {
+            self.to.store(at, count, buffers.1);
+        } else {
+            scatter(&mut self.to, at, count, &buffers.1);
+        }
     }
 
     fn check<D: Deformation<Lanes<T, 1>>>(&self, index: usize, deformation: &D) -> Result<(), ContinuumError> {
@@ -221,7 +272,7 @@ macro_rules! tuple {
     ($($name:ident $place:tt),+) => {
         impl<T: BatchScalar, $($name: Requests<T>),+> Requests<T> for ($($name,)+) {
             const NEEDS_STRETCH: bool = $($name::NEEDS_STRETCH)|+;
-            const STAGED: bool = $($name::STAGED)|+;
+            const IN_LANES: bool = $($name::IN_LANES)&+;
 
             fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
                 $(self.$place.check_lengths(expected)?;)+
@@ -254,6 +305,18 @@ macro_rules! tuple {
             ) -> <Lanes<T, N> as Real>::Mask {
                 let mut good: <Lanes<T, N> as Real>::Mask = Mask::splat(true);
                 $(good = good & self.$place.compute(point, &mut buffers.$place);)+
+                good
+            }
+
+            #[inline(always)]
+            fn pass<const N: usize, De: Deformation<Lanes<T, N>>>(
+                &mut self,
+                first: usize,
+                at: usize,
+                point: &Point<Lanes<T, N>, De>,
+            ) -> <Lanes<T, N> as Real>::Mask {
+                let mut good: <Lanes<T, N> as Real>::Mask = Mask::splat(true);
+                $(good = good & self.$place.pass(first, at, point);)+
                 good
             }
 

@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use piola_numerics::{Element, Lanes};
 
-use super::{BatchScalar, ColumnMajor, Components, Strided};
+use super::{BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
 use crate::{
     BiotStress, CauchyStress, ContinuumError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
 };
@@ -19,7 +19,12 @@ use crate::{
 /// | [`ColumnMajor`] | nine numbers by columns for each point |
 /// | [`Strided`] | numbers at a stride, from [`points_of`](super::points_of) where it is K |
 /// | [`Components`] | an array for each component |
+/// | [`LaneBlocks`] | blocks of points, in a block an array for each component: the fastest |
 pub trait Source<Q, T: Element, const K: usize>: Copy + Send + Sync {
+    /// Whether each component of neighbouring points lies side by side, so that [`load`](Self::load) moves nothing from
+    /// lane to lane.
+    const IN_LANES: bool = false;
+
     /// The number of points; none where nothing is read.
     fn count(&self) -> Option<usize>;
 
@@ -30,18 +35,32 @@ pub trait Source<Q, T: Element, const K: usize>: Copy + Send + Sync {
     #[inline(always)]
     fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; K] {
         let mut lanes = [Lanes([T::zero(); N]); K];
-        for lane in 0..N {
-            let point = self.point(first + lane.min(count - 1));
-            for (lanes, component) in lanes.iter_mut().zip(point) {
-                lanes.0[lane] = component;
-            }
-        }
+        fill(self, first, count, &mut lanes);
         lanes
+    }
+}
+
+/// As [`Source::load`], straight into memory, point by point.
+#[inline(always)]
+pub(super) fn fill<S: Source<Q, T, K>, Q, T: Element, const K: usize, const N: usize>(
+    source: &S,
+    first: usize,
+    count: usize,
+    lanes: &mut [Lanes<T, N>; K],
+) {
+    for lane in 0..N {
+        let point = source.point(first + lane.min(count - 1));
+        let mut k = 0;
+        while k < K {
+            lanes[k].0[lane] = point[k];
+            k += 1;
+        }
     }
 }
 
 /// Nothing is read.
 impl<Q, T: Element> Source<Q, T, 0> for () {
+    const IN_LANES: bool = true;
     #[inline(always)]
     fn count(&self) -> Option<usize> {
         None
@@ -133,7 +152,52 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for Strided<&[T], K> {
     }
 }
 
+impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBlocks<&[[[T; B]; K]]> {
+    const IN_LANES: bool = true;
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        Some(self.count)
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; K] {
+        let block = &self.blocks[index / B];
+        let mut point = [T::zero(); K];
+        let mut k = 0;
+        while k < K {
+            point[k] = block[k][index % B];
+            k += 1;
+        }
+        point
+    }
+    #[inline(always)]
+    fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; K] {
+        let mut lanes = [Lanes([T::zero(); N]); K];
+        if count < N {
+            fill::<_, Q, T, K, N>(self, first, count, &mut lanes);
+            return lanes;
+        }
+        if N <= B {
+            let block = &self.blocks[first / B];
+            let mut k = 0;
+            while k < K {
+                lanes[k] = Lanes(block[k].as_chunks().0[first % B / N]);
+                k += 1;
+            }
+        } else {
+            for (part, block) in self.blocks[first / B..][..N / B].iter().enumerate() {
+                let mut k = 0;
+                while k < K {
+                    lanes[k].0[part * B..][..B].copy_from_slice(&block[k]);
+                    k += 1;
+                }
+            }
+        }
+        lanes
+    }
+}
+
 impl<Q, T: Element, const K: usize> Source<Q, T, K> for Components<&[T], K> {
+    const IN_LANES: bool = true;
     #[inline(always)]
     fn count(&self) -> Option<usize> {
         Some(self.0[0].len())

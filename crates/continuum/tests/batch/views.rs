@@ -1,7 +1,7 @@
 //! Arrays of structures and structures of arrays, by rows and by columns, with a stride: all give the same.
 
 use nalgebra::Matrix3;
-use piola_continuum::batch::{self, ColumnMajor, Components, Displacements, Gradients, Strided};
+use piola_continuum::batch::{self, ColumnMajor, Components, Displacements, Gradients, LaneBlocks, Strided};
 use piola_continuum::{ContinuumError, DeformationGradient, DisplacementGradient, Symmetric};
 
 use super::cases::deformations;
@@ -102,4 +102,73 @@ fn lengths_that_differ_are_refused_before_anything_is_computed() {
     assert!(Strided::<_, 2>::new(&[0.0; 21][..], 10, [0, 9]).is_err());
     let none: [DeformationGradient; 0] = [];
     assert_eq!(batch::evaluate(&none[..], batch::jacobian(&mut [0.0; 0][..])).map(|report| report.points), Ok(0));
+}
+
+/// C of so many points, in blocks of B in and out; what lies beyond the last point is NaN before and after.
+fn in_blocks<const B: usize>(f: &[DeformationGradient]) {
+    let count = f.len();
+    let mut gradients = vec![[[f64::NAN; B]; 9]; count.div_ceil(B)];
+    for (i, f) in f.iter().enumerate() {
+        for k in 0..9 {
+            gradients[i / B][k][i % B] = f.matrix()[(k / 3, k % 3)];
+        }
+    }
+    let mut expected = vec![Symmetric::zero(); count];
+    batch::evaluate(f, batch::right_cauchy_green(&mut expected[..])).expect("deformations");
+    let input = Gradients(LaneBlocks::new(&gradients, count).expect("as many blocks"));
+    let (mut blocks, mut mixed) = (vec![[[f64::NAN; B]; 6]; gradients.len()], vec![Symmetric::zero(); count]);
+    let to = LaneBlocks::new_mut(&mut blocks, count).expect("as many blocks");
+    batch::evaluate(input, batch::right_cauchy_green(to)).expect("deformations");
+    batch::evaluate(input, batch::right_cauchy_green(&mut mixed[..])).expect("deformations");
+    assert_eq!(mixed, expected, "{count} points in blocks of {B}");
+    for i in 0..gradients.len() * B {
+        let point: [f64; 6] = core::array::from_fn(|k| blocks[i / B][k][i % B]);
+        match expected.get(i) {
+            Some(c) => assert_eq!(point, c.components, "point {i} of {count} in blocks of {B}"),
+            None => assert!(point.iter().all(|x| x.is_nan()), "beyond {count} points in blocks of {B}"),
+        }
+    }
+}
+
+#[test]
+fn blocks_of_lanes_hold_what_arrays_of_structures_hold() {
+    for count in [0, 1, 7, 8, 9, 32, 37, 64, 101] {
+        let f = deformations(count);
+        in_blocks::<1>(&f);
+        in_blocks::<4>(&f);
+        in_blocks::<8>(&f);
+        in_blocks::<16>(&f);
+        in_blocks::<64>(&f);
+    }
+}
+
+#[test]
+fn blocks_that_do_not_fit_the_points_are_refused() {
+    let blocks = [[[1.0; 8]; 9]; 2];
+    for (count, fits) in [(8, false), (9, true), (16, true), (17, false)] {
+        assert_eq!(LaneBlocks::new(&blocks, count).is_ok(), fits, "{count} points");
+    }
+    let expected = ContinuumError::WrongLength { quantity: "blocks of points", found: 2, expected: 3 };
+    assert_eq!(LaneBlocks::new(&blocks, 17).err(), Some(expected));
+}
+
+#[test]
+fn bad_points_in_blocks_are_found_and_the_others_written() {
+    let mut gradients = [[[0.0; 8]; 9]; 3];
+    for block in &mut gradients {
+        for k in [0, 4, 8] {
+            block[k] = [2.0; 8];
+        }
+    }
+    gradients[1][0][3] = -1.0;
+    gradients[2][4][1] = f64::NAN;
+    let mut j = [[[0.0; 8]; 1]; 3];
+    let to = LaneBlocks::new_mut(&mut j, 18).expect("as many blocks");
+    let result = batch::evaluate(Gradients(LaneBlocks::new(&gradients, 18).expect("as many")), batch::jacobian(to));
+    let Err(ContinuumError::BadPoints { points, .. }) = result else { panic!("two bad points") };
+    assert_eq!(points.iter().map(|point| point.index).collect::<Vec<_>>(), [11, 17]);
+    for i in 0..18 {
+        let j = j[i / 8][0][i % 8];
+        assert!(if i == 11 || i == 17 { j.is_nan() } else { j.to_bits() == 8.0_f64.to_bits() }, "point {i}");
+    }
 }
