@@ -28,7 +28,7 @@ proptest! {
             let derived = derived::first_piola(&law, &f);
             close("P", stress.0.as_slice(), derived.0.as_slice(), moduli);
             // An energy of small strain speaks of one stress, whatever its measure.
-            if !format!("{law:?}").contains("Linear(") {
+            if !format!("{law:?}").contains("Linear") {
                 close("S", &law.second_piola(&f).0.components, &derived.second_piola(&f).0.components, moduli * inverse);
                 close("τ", &law.kirchhoff(&f).0.components, &derived.kirchhoff(&f).0.components, moduli * 2.0);
                 close("T", &law.cauchy(&f).0.components, &derived.cauchy(&f).0.components, moduli * 4.0);
@@ -61,7 +61,7 @@ proptest! {
                     prop_assert_eq!(entry.to_bits(), entries[column][row].to_bits(), "{:?}: major symmetry", law);
                 }
             }
-            if !format!("{law:?}").contains("Linear(") {
+            if !format!("{law:?}").contains("Linear") {
                 let stress = law.second_piola(&f);
                 let material = derived.material(&stress, &f).0.major_part().slots();
                 let by_strain = law.material_tangent(&f);

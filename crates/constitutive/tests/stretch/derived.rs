@@ -21,12 +21,15 @@ impl Visitor for ClosedFormsEqualDerived {
     fn visit<L: Hyperelastic>(&mut self, name: &str, law: &L, _: Group) {
         let f = &self.0;
         let (stress, tangent) = law.first_piola_and_tangent(f);
-        assert_eq!((stress, tangent), (law.first_piola(f), law.first_piola_tangent(f)), "{name}: together and apart");
         let entries = tangent.0.components;
         let moduli = largest(entries.as_flattened());
         let close = |what: &str, actual: &[f64], expected: &[f64], scale: f64| {
             assert_close_at_scale(&format!("{name}: {what} at {f:?}"), actual, expected, scale, DERIVED);
         };
+        // Together they share what apart each rounds for itself.
+        close("P apart", law.first_piola(f).0.as_slice(), stress.0.as_slice(), moduli);
+        let apart = law.first_piola_tangent(f).0.components;
+        close("∂P/∂F apart", apart.as_flattened(), entries.as_flattened(), moduli);
         close("P", stress.0.as_slice(), derived::first_piola(law, f).0.as_slice(), moduli);
         let expected = derived::first_piola_tangent(law, f);
         close("∂P/∂F", entries.as_flattened(), expected.0.components.as_flattened(), moduli);
