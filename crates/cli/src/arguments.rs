@@ -27,6 +27,10 @@ pub(crate) enum Command {
     Check(SceneArguments),
     /// Fit laws of rubber to measured stresses; compare them in a table, a summary and a figure.
     Fit(FitArguments),
+    /// Recover a fluid's flow curve, with a band, from discharges of pipes or channels or speeds of coaxial cylinders.
+    Recover(RecoverArguments),
+    /// Fit fluids to a flow curve, or straight to discharges or speeds; compare them in a table, a summary and a figure.
+    FitFlow(FitFlowArguments),
     /// Print the JSON Schema of scenes, for editors.
     Schema(SchemaArguments),
 }
@@ -80,6 +84,62 @@ pub(crate) struct FitArguments {
     /// Print JSON to standard output.
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+/// A table of viscometric measurements and where they were made.
+#[derive(Debug, Args)]
+pub(crate) struct FlowArguments {
+    /// The measurements: CSV with units in the header and the geometry in comments, as `# radius: 2 mm`.
+    pub(crate) data: PathBuf,
+    /// What was measured: pipe, channel, couette or curve.
+    #[arg(long)]
+    pub(crate) flow: String,
+    /// Radius of the pipe, as 2mm, instead of the file's.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) radius: Option<String>,
+    /// Half the width of the channel instead of the file's.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) half_width: Option<String>,
+    /// Radius of the inner cylinder instead of the file's.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) inner_radius: Option<String>,
+    /// Radius of the outer cylinder instead of the file's.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) outer_radius: Option<String>,
+    /// The probability of the band or the intervals.
+    #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
+    pub(crate) confidence: f64,
+    /// Folder of the results instead of out/COMMAND-DATA.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print JSON to standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RecoverArguments {
+    #[command(flatten)]
+    pub(crate) flow: FlowArguments,
+    /// Relative standard deviation of the second column; 0 for exact data. Without it, it is estimated.
+    #[arg(long, value_name = "SHARE")]
+    pub(crate) noise: Option<f64>,
+    /// Smooth until the shear rate rises with the stress.
+    #[arg(long)]
+    pub(crate) rising: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FitFlowArguments {
+    #[command(flatten)]
+    pub(crate) flow: FlowArguments,
+    /// A fluid: newtonian, power-law, bingham, casson, herschel-bulkley, papanastasiou, eyring, sisko, ellis, cross,
+    /// carreau-yasuda. Without any, all of them.
+    #[arg(long = "fluid", value_name = "FLUID")]
+    pub(crate) fluids: Vec<String>,
+    /// Suppose errors of one size in all rows, instead of a part of each answer.
+    #[arg(long)]
+    pub(crate) equal_errors: bool,
 }
 
 #[derive(Debug, Args)]

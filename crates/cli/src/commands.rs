@@ -142,7 +142,7 @@ fn request(arguments: &FitArguments) -> Result<Request, SceneError> {
 }
 
 /// Where the results are.
-fn listing(folder: &Folder, written: &Written) -> String {
+pub(crate) fn listing(folder: &Folder, written: &Written) -> String {
     let names: Vec<_> = written.files.iter().filter_map(|path| path.file_name()?.to_str()).collect();
     format!("written to {}: {}\n", folder.path().display(), names.join(", "))
 }
@@ -160,7 +160,7 @@ fn load(arguments: &SceneArguments) -> Result<Scene, SceneError> {
     Scene::load(&arguments.scene, &arguments.settings)
 }
 
-fn invalid(error: &SceneError, json: bool) -> Exit {
+pub(crate) fn invalid(error: &SceneError, json: bool) -> Exit {
     match error {
         SceneError::Invalid(report) if json => print_json(&serde_json::json!({
             "valid": false,
@@ -188,11 +188,11 @@ fn print_json(value: &impl serde::Serialize) {
 }
 
 /// Standard output; a reader that has gone away is no error.
-fn print(text: &str) {
+pub(crate) fn print(text: &str) {
     let _ = std::io::stdout().lock().write_all(text.as_bytes());
 }
 
 /// Standard error.
-fn note(text: &str) {
+pub(crate) fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

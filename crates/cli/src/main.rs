@@ -6,6 +6,7 @@
 mod arguments;
 mod commands;
 mod comparison;
+mod flows;
 mod interrupt;
 mod progress;
 mod report;
@@ -33,6 +34,8 @@ fn main() -> ExitCode {
         Command::Plan(arguments) => commands::plan(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
         Command::Fit(arguments) => commands::fit(&arguments),
+        Command::Recover(arguments) => flows::recover(&arguments),
+        Command::FitFlow(arguments) => flows::fit(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
     };
     match exit {

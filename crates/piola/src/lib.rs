@@ -62,7 +62,7 @@
 //! | particles, bodies, attitudes, inertia, placement maps | [`kinematics`] | `kinematics` |
 //! | Lagrange's and Hamilton's equations, gravitation | [`dynamics`] | `dynamics` |
 //! | deformation, strain, stress, rates, balance; batches in lanes | [`continuum`] | `continuum` |
-//! | laws of solids | [`constitutive`] | `constitutive` |
+//! | laws of solids and fluids | [`constitutive`] | `constitutive` |
 //! | viscometric flows: profiles, stresses, discharges, torques | [`viscometry`] | `viscometry` |
 //! | time stepping | [`integrators`] | `integrators` |
 //!
@@ -86,7 +86,7 @@ pub use piola_numerics as numerics;
 pub use piola_viscometry as viscometry;
 
 /// The snippets of the project's read-me run as tests.
-#[cfg(all(doctest, feature = "dynamics", feature = "constitutive"))]
+#[cfg(all(doctest, feature = "dynamics", feature = "viscometry"))]
 #[doc = include_str!("../../../README.md")]
 struct ProjectReadMe;
 
@@ -109,6 +109,9 @@ mod book {
     #[cfg(feature = "constitutive")]
     #[doc = include_str!("../../../docs/solids.md")]
     struct Solids;
+    #[cfg(feature = "viscometry")]
+    #[doc = include_str!("../../../docs/rheometry.md")]
+    struct Rheometry;
     #[cfg(feature = "fit")]
     #[doc = include_str!("../../../docs/fitting.md")]
     struct Fitting;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use piola_constitutive::ConstitutiveError;
+use piola_viscometry::ViscometryError;
 
 use crate::document::Report;
 use crate::fitting::TableReport;
@@ -66,7 +67,7 @@ pub enum SceneError {
         /// The operating system's word.
         cause: String,
     },
-    /// A table of measured stresses has mistakes; all of them.
+    /// A table of measurements has mistakes; all of them.
     #[error("{0}")]
     Table(TableReport),
     /// An argument of a fit cannot be read.
@@ -88,4 +89,7 @@ pub enum SceneError {
     /// A law or its data are refused.
     #[error(transparent)]
     Constitutive(#[from] ConstitutiveError),
+    /// A fluid or its data are refused.
+    #[error(transparent)]
+    Viscometry(#[from] ViscometryError),
 }

@@ -9,7 +9,8 @@
 //! | run | [`run`](mod@run) | plan → history, drift of invariants, errors against the reference ([`kepler`] or a table) |
 //! | write | [`output`] | run → `summary.json`, CSV tables, SVG figures |
 //!
-//! Beside scenes: [`fitting`], parameters of laws from tables of measured stresses.
+//! Beside scenes: [`fitting`], parameters of laws from tables of measured stresses; [`rheology`], fluids from viscometric
+//! measurements.
 #![forbid(unsafe_code)]
 
 pub mod document;
@@ -19,6 +20,7 @@ pub mod kepler;
 pub mod model;
 pub mod output;
 pub mod plan;
+pub mod rheology;
 pub mod run;
 pub mod schema;
 pub mod units;

@@ -240,3 +240,52 @@ fn fit_of_bad_tables_laws_or_bounds_exits_with_2_and_writes_nothing() {
     let report = json(&out(&folder.piola(&["fit", "bad.csv", "--json"])));
     assert_eq!((&report["valid"], &report["mistakes"][0]["line"]), (&false.into(), &4.into()), "{report}");
 }
+
+/// Discharges of a fluid of viscosity 2 in a pipe of radius 1, π c/16.
+fn discharges() -> String {
+    let row = |c: i32| format!("{c},{}\n", core::f64::consts::PI * f64::from(c) / 16.0);
+    (1..=12).map(row).fold("# radius: 1 m\npressure_gradient,discharge\n".to_owned(), |text, row| text + &row)
+}
+
+#[test]
+fn recover_and_fit_flow_write_summaries_tables_and_figures() {
+    let folder = Folder::new("flow");
+    std::fs::write(folder.0.join("pipe.csv"), discharges()).unwrap_or_else(|error| panic!("{error}"));
+    let output = folder.piola(&["recover", "pipe.csv", "--flow", "pipe"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let summary = json(&read(&folder.0.join("out/recover-pipe/summary.json")));
+    let rate = summary["flow_curve"][3]["shear_rate"].as_f64().unwrap_or_default();
+    assert!((rate - 1.0).abs() < 1e-10, "{summary}"); // τ = c/2 = 2
+    for file in ["flow-curve.csv", "residuals.csv", "flow-curve.svg"] {
+        assert!(!read(&folder.0.join("out/recover-pipe").join(file)).is_empty());
+    }
+    let output =
+        folder.piola(&["fit-flow", "pipe.csv", "--flow", "pipe", "--fluid", "newtonian", "--json", "--out", "fits"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let summary = json(&out(&output));
+    assert_eq!(summary, json(&read(&folder.0.join("fits/summary.json"))));
+    let viscosity = summary["fluids"][0]["parameters"][0]["value"].as_f64().unwrap_or_default();
+    assert!((viscosity - 2.0).abs() < 1e-9, "{summary}");
+}
+
+#[test]
+fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
+    let folder = Folder::new("bad-flow");
+    std::fs::write(folder.0.join("pipe.csv"), discharges()).unwrap_or_else(|error| panic!("{error}"));
+    let bad = discharges().replace("3,0.589", "3,-0.589");
+    std::fs::write(folder.0.join("bad.csv"), bad).unwrap_or_else(|error| panic!("{error}"));
+    let cases: [(&[&str], &str); 6] = [
+        (&["recover", "bad.csv", "--flow", "pipe"], "bad.csv:5: discharge is -0.589"),
+        (&["recover", "pipe.csv", "--flow", "hose"], "`hose` cannot be read; valid: pipe, channel, couette or curve"),
+        (&["recover", "pipe.csv", "--flow", "channel"], "half_width is not given"),
+        (&["recover", "pipe.csv", "--flow", "pipe", "--radius", "1kg"], "`radius = 1kg` cannot be read"),
+        (&["recover", "pipe.csv", "--flow", "pipe", "--confidence", "2"], "the confidence 2"),
+        (&["fit-flow", "pipe.csv", "--flow", "pipe", "--fluid", "water"], "`water` cannot be read; valid: newtonian"),
+    ];
+    for (arguments, expected) in cases {
+        let output = folder.piola(arguments);
+        assert!(err(&output).contains(expected), "{arguments:?}: {}", err(&output));
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
+    assert!(!folder.0.join("out").exists());
+}

@@ -7,6 +7,7 @@ mod extremes;
 mod kinks;
 mod laws;
 mod limits;
+mod pairs;
 mod refusals;
 mod same;
 #[cfg(feature = "serde")]

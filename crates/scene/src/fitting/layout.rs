@@ -25,7 +25,7 @@ const SAME_STRETCH: f64 = 1e-3;
 const TRACTION_FREE: usize = 2;
 
 /// The text of a file.
-pub(super) fn read(path: &Path) -> Result<String, SceneError> {
+pub(crate) fn read(path: &Path) -> Result<String, SceneError> {
     let mut bytes = Vec::new();
     std::fs::File::open(path)
         .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
@@ -100,7 +100,7 @@ pub(super) fn parse(text: &str) -> Read {
 }
 
 /// The line of a record: its position is where the one before it ends, comments and empty lines come between.
-fn line_of(text: &str, position: &csv::Position) -> u64 {
+pub(crate) fn line_of(text: &str, position: &csv::Position) -> u64 {
     let start = usize::try_from(position.byte()).unwrap_or(usize::MAX);
     let between = |line: &&str| line.trim().is_empty() || line.starts_with('#');
     let skipped = text.get(start..).unwrap_or_default().lines().take_while(between).count();

@@ -16,7 +16,7 @@ pub struct TableMistake {
 }
 
 impl TableMistake {
-    pub(super) fn new(line: u64, what: impl Into<String>, valid: impl Into<String>) -> Self {
+    pub(crate) fn new(line: u64, what: impl Into<String>, valid: impl Into<String>) -> Self {
         Self { line, what: what.into(), valid: valid.into() }
     }
 }
@@ -34,7 +34,7 @@ pub struct TableReport {
 }
 
 impl TableReport {
-    pub(super) fn new(path: PathBuf, mut mistakes: Vec<TableMistake>) -> Self {
+    pub(crate) fn new(path: PathBuf, mut mistakes: Vec<TableMistake>) -> Self {
         /// Mistakes beyond this are counted only.
         const SHOWN: usize = 20;
         let more = mistakes.len().saturating_sub(SHOWN);

@@ -8,7 +8,7 @@
 //! | write | [`write()`]: `summary.json`, `curves.csv`, `residuals.csv`, `fit.svg` |
 
 mod figure;
-mod layout;
+pub(crate) mod layout;
 mod mistake;
 mod request;
 mod tables;
@@ -141,18 +141,13 @@ pub fn summary(measurements: &Measurements, comparison: &Comparison) -> String {
 /// Writes summary, tables and figure.
 #[must_use]
 pub fn write(folder: &Folder, measurements: &Measurements, comparison: &Comparison) -> Written {
-    let mut written = Written::default();
-    let files = [
-        ("summary.json", tables::summary(measurements, comparison)),
-        ("curves.csv", tables::curves(measurements, comparison)),
-        ("residuals.csv", tables::residuals(measurements, comparison)),
-        ("fit.svg", figure::comparison(measurements, comparison)),
-    ];
-    for (name, text) in files {
-        match folder.write(name, &text) {
-            Ok(path) => written.files.push(path),
-            Err(error) => written.failures.push(error),
-        }
-    }
-    written
+    Written::of(
+        folder,
+        [
+            ("summary.json", tables::summary(measurements, comparison)),
+            ("curves.csv", tables::curves(measurements, comparison)),
+            ("residuals.csv", tables::residuals(measurements, comparison)),
+            ("fit.svg", figure::comparison(measurements, comparison)),
+        ],
+    )
 }

@@ -440,7 +440,7 @@ pub(crate) fn legend(area: &Area<'_>, entries: &[(&str, RGBColor)]) -> Drawn {
 }
 
 /// 1e-13 as 10⁻¹³.
-fn power_of_ten(y: f64) -> String {
+pub(crate) fn power_of_ten(y: f64) -> String {
     #[expect(clippy::cast_possible_truncation, reason = "an exponent of a double")]
     let exponent = y.log10().round() as i32;
     let digit = |c: char| match c {

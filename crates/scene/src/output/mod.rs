@@ -28,6 +28,20 @@ pub struct Written {
     pub failures: Vec<SceneError>,
 }
 
+impl Written {
+    /// Writes files into a folder.
+    pub(crate) fn of<const N: usize>(folder: &Folder, files: [(&str, String); N]) -> Self {
+        let mut written = Self::default();
+        for (name, text) in files {
+            match folder.write(name, &text) {
+                Ok(path) => written.files.push(path),
+                Err(error) => written.failures.push(error),
+            }
+        }
+        written
+    }
+}
+
 /// Writes everything that the plan lists.
 #[must_use]
 pub fn write(folder: &Folder, scene: &Scene, plan: &Plan, run: &Run, summary: &Summary) -> Written {

@@ -14,6 +14,7 @@ pub struct NamedUnit {
 }
 
 const FORCE: Dimension = Dimension { mass: 1, ..Dimension::ACCELERATION };
+const PRESSURE: Dimension = Dimension { length: -1, mass: 1, time: -2, angle: 0 };
 const ENERGY: Dimension = Dimension { length: 2, ..FORCE };
 const POWER: Dimension = Dimension { time: -3, ..ENERGY };
 
@@ -58,6 +59,10 @@ pub const UNITS: &[NamedUnit] = &[
     named("Hz", 1.0, 1.0, Dimension { time: -1, ..Dimension::NONE }, "hertz, 1/s"),
     named("N", 1.0, 1.0, FORCE, "newton"),
     named("kN", 1e3, 1.0, FORCE, "kilonewton"),
+    named("Pa", 1.0, 1.0, PRESSURE, "pascal"),
+    named("kPa", 1e3, 1.0, PRESSURE, "kilopascal"),
+    named("MPa", 1e6, 1.0, PRESSURE, "megapascal"),
+    named("bar", 1e5, 1.0, PRESSURE, "bar, 100 kPa"),
     named("J", 1.0, 1.0, ENERGY, "joule"),
     named("kJ", 1e3, 1.0, ENERGY, "kilojoule"),
     named("W", 1.0, 1.0, POWER, "watt"),

@@ -5,6 +5,7 @@ mod fitting;
 mod kepler;
 mod plan;
 mod reference;
+mod rheology;
 mod run;
 mod schema;
 mod settings;

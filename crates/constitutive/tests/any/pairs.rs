@@ -1,0 +1,89 @@
+//! Stresses and tangents asked for together equal those asked for apart, and share their work.
+
+use core::cell::Cell;
+
+use piola_constitutive::ConstitutiveError;
+use piola_constitutive::solids::isochoric::{Gent, Isochoric};
+use piola_constitutive::solids::volumetric::Quadratic;
+use piola_constitutive::solids::{Compressible, Hyperelastic};
+use piola_continuum::tensor::PairSymmetric;
+use piola_continuum::{Deformation, DeformationGradient};
+use piola_numerics::Real;
+use piola_testkit::{Tol, assert_close_at_scale};
+use proptest::prelude::*;
+
+use super::laws::{all, gradient, largest};
+
+const TOGETHER: Tol = Tol::stated(1e-13, "two orders of the same sums, relative to the moduli");
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1_000))]
+
+    #[test]
+    fn stress_and_tangent_together_equal_those_apart(rows in gradient()) {
+        let f = DeformationGradient::from_rows(rows).expect("0 < det F");
+        let inverse = largest(f.inverse_rows().as_flattened());
+        for (law, _) in all() {
+            let (nominal, tangent) = law.first_piola_and_tangent(&f);
+            let moduli = largest(tangent.0.components.as_flattened());
+            let close = |what: &str, actual: &[f64], expected: &[f64], scale: f64| {
+                assert_close_at_scale(&format!("{law:?}: {what} at {f:?}"), actual, expected, scale, TOGETHER);
+            };
+            close("P", nominal.0.as_slice(), law.first_piola(&f).0.as_slice(), moduli);
+            let apart = law.first_piola_tangent(&f).0.components;
+            close("∂P/∂F", tangent.0.components.as_flattened(), apart.as_flattened(), moduli);
+            let (stress, tangent) = law.second_piola_and_tangent(&f);
+            close("S", &stress.0.components, &law.second_piola(&f).0.components, moduli * inverse);
+            let apart = law.material_tangent(&f).0.slots();
+            close("∂S/∂E", tangent.0.slots().as_flattened(), apart.as_flattened(), moduli * inverse * inverse);
+            let (stress, tangent) = law.cauchy_and_tangent(&f);
+            close("T", &stress.0.components, &law.cauchy(&f).0.components, moduli * 4.0);
+            let apart = law.truesdell_tangent(&f).0.slots();
+            close("c/J", tangent.0.slots().as_flattened(), apart.as_flattened(), moduli * 4.0);
+        }
+    }
+}
+
+/// Counts how often its slopes and curvatures are asked for.
+struct Counted {
+    law: Gent,
+    slopes: Cell<usize>,
+    curvatures: Cell<usize>,
+}
+
+impl Isochoric for Counted {
+    const SECOND: bool = Gent::SECOND;
+    fn energy<T: Real>(&self, first: T, second: T) -> T {
+        self.law.energy(first, second)
+    }
+    fn slopes<T: Real>(&self, first: T, second: T) -> [T; 2] {
+        self.slopes.set(self.slopes.get() + 1);
+        self.law.slopes(first, second)
+    }
+    fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3] {
+        self.curvatures.set(self.curvatures.get() + 1);
+        self.law.curvatures(first, second)
+    }
+}
+
+#[test]
+fn slopes_and_curvatures_are_evaluated_once_and_curvatures_only_for_a_tangent() -> Result<(), ConstitutiveError> {
+    let counted = Counted { law: Gent::new(0.8, 30.0)?, slopes: Cell::new(0), curvatures: Cell::new(0) };
+    let law = Compressible::new(counted, Quadratic::new(5.0)?);
+    let f = DeformationGradient::from_rows([[1.1, 0.2, 0.0], [-0.1, 0.9, 0.3], [0.05, 0.1, 1.02]]).expect("0 < det F");
+    let counts = |ask: &dyn Fn()| {
+        let part = &law.isochoric;
+        part.slopes.set(0);
+        part.curvatures.set(0);
+        ask();
+        (part.slopes.get(), part.curvatures.get())
+    };
+    assert_eq!(counts(&|| _ = law.energy(&f)), (0, 0));
+    assert_eq!(counts(&|| _ = law.first_piola(&f)), (1, 0));
+    assert_eq!(counts(&|| _ = law.cauchy(&f)), (1, 0));
+    assert_eq!(counts(&|| _ = law.first_piola_tangent(&f)), (1, 1));
+    assert_eq!(counts(&|| _ = law.first_piola_and_tangent(&f)), (1, 1));
+    assert_eq!(counts(&|| _ = law.second_piola_and_tangent(&f)), (1, 1));
+    assert_eq!(counts(&|| _ = law.cauchy_and_tangent(&f)), (1, 1));
+    Ok(())
+}

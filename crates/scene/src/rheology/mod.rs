@@ -1,0 +1,25 @@
+//! Fluids from viscometric measurements: tables in; flow curves with bands, or parameters of fluids, out.
+//!
+//! | stage | item |
+//! |---|---|
+//! | read | [`Measured::load`]: a CSV table with units, its geometry in comments; every mistake with its line |
+//! | recover | [`recover`]: shear rates over shear stresses with a band, by [`piola_viscometry::recover`] |
+//! | fit | [`compare`]: fluids on the same data, by [`piola_viscometry::fit`] |
+//! | write | [`Recovery::write`], [`Comparison::write`]: `summary.json`, CSV tables, a figure |
+//!
+//! ```text
+//! # radius: 2 mm
+//! pressure_gradient [kPa/m], discharge [mm^3/s]
+//! 10, 125.3
+//! ```
+
+mod figure;
+mod fluids;
+mod recovery;
+mod table;
+
+pub use fluids::{Candidate, Comparison, FluidName, Request, compare};
+pub use piola_viscometry::fit::Weighting;
+pub use piola_viscometry::recover::{Noise, Rise};
+pub use recovery::{Recovery, RecoveryRequest, recover};
+pub use table::{Flow, FlowKind, Measured};
