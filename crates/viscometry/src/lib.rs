@@ -3,9 +3,9 @@
 #![forbid(unsafe_code)]
 
 mod error;
+mod estimate;
 #[cfg(feature = "fit")]
 pub mod fit;
-mod estimate;
 mod flows;
 mod inverse;
 pub mod quadrature;
