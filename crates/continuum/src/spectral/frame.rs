@@ -104,10 +104,10 @@ pub(super) fn combination<T: Real>(a: T, u: [T; 3], b: T, v: [T; 3]) -> [T; 3] {
     [a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]]
 }
 
-/// a u.
+/// u/a: a vector along an axis over its length is exactly of length 1, which by the reciprocal it need not be.
 #[inline(always)]
-fn times<T: Real>([x, y, z]: [T; 3], a: T) -> [T; 3] {
-    [x * a, y * a, z * a]
+fn over<T: Real>([x, y, z]: [T; 3], a: T) -> [T; 3] {
+    [x / a, y / a, z / a]
 }
 
 /// ½ A:A/3 of the squares of its components, and a little.
@@ -185,8 +185,6 @@ pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
     let w = cross(v, u);
     let (vv, uu) = (dot(v, v), dot(u, u));
     let length = vv.sqrt();
-    let v_scale = length.recip();
-    let u_scale = uu.sqrt().recip();
 
     // The 2×2 problem there, by one rotation: half the difference of its diagonal, h, and its shear, b, both times
     // |u|² |v|, since only their ratio counts. What need not wait for a root or a quotient does not: h |v|⁻¹ does not
@@ -202,7 +200,8 @@ pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
     let backward = one - forward;
     // By quotients: 1 and 0 exactly where nothing is to be turned.
     let (c, s) = ((forward * adjacent + backward * b) / root, (forward * b + backward * adjacent) / root);
-    let (n, u, w) = (times(v, v_scale), times(u, u_scale), times(w, u_scale * v_scale));
+    let (n, u) = (over(v, length), over(u, uu.sqrt()));
+    let w = cross(n, u);
     let larger = combination(c, u, s, w);
     let smaller = combination(c, w, -s, u);
 
