@@ -1,8 +1,8 @@
 //! The isochoric part of a deformation.
 
 use piola_continuum::Deformation;
-use piola_continuum::tensor::rows::{Rows, identity, scaled, sum};
-use piola_numerics::Real;
+use piola_continuum::tensor::rows::{Rows, difference, identity, scaled, sum};
+use piola_numerics::{Mask, Real};
 
 /// J^(−1/3) F, kept as itself and as its difference from 1.
 #[derive(Clone, Copy)]
@@ -21,7 +21,18 @@ impl<T: Real> Isochoric<T> {
         for (k, row) in displacement.iter_mut().enumerate() {
             row[k] += change;
         }
-        Self { gradient: scaled(deformation.gradient_rows(), scale), displacement }
+        let gradient = scaled(deformation.gradient_rows(), scale);
+        // Of a body that is compressed to nearly nothing, or blown up, nothing is left of differences from the reference.
+        let beside = deformation.volume_change().abs().at_most(T::lit(0.5));
+        if !beside.all() {
+            let plain = difference(gradient, identity());
+            for (row, plain) in displacement.iter_mut().zip(plain) {
+                for (entry, plain) in row.iter_mut().zip(plain) {
+                    *entry = T::select(beside, *entry, plain);
+                }
+            }
+        }
+        Self { gradient, displacement }
     }
 }
 
