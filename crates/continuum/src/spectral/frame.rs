@@ -200,8 +200,7 @@ pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
     let backward = one - forward;
     // By quotients: 1 and 0 exactly where nothing is to be turned.
     let (c, s) = ((forward * adjacent + backward * b) / root, (forward * b + backward * adjacent) / root);
-    let (n, u) = (over(v, length), over(u, uu.sqrt()));
-    let w = cross(n, u);
+    let (n, u, w) = (over(v, length), over(u, uu.sqrt()), over(w, dot(w, w).sqrt()));
     let larger = combination(c, u, s, w);
     let smaller = combination(c, w, -s, u);
 
