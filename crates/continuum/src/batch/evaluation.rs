@@ -16,16 +16,20 @@ pub trait BatchScalar: Element + Real {
     fn run<D: Deformations<Self>, R: Requests<Self>>(points: D, range: [usize; 2], requests: R) -> Tally;
 }
 
+/// Components up to which outputs that need the stretches run in the widest lanes.
+const FEW_COMPONENTS: usize = 9;
+
 macro_rules! scalar {
     ($float:ident: $base:literal $avx2:literal $avx512:literal) => {
         impl BatchScalar for $float {
             fn run<D: Deformations<Self>, R: Requests<Self>>(points: D, range: [usize; 2], requests: R) -> Tally {
-                dispatch_lanes::<_, $base, $avx2, $avx512>(Evaluation {
-                    points,
-                    range,
-                    requests,
-                    scalar: PhantomData::<Self>,
-                })
+                let evaluation = Evaluation { points, range, requests, scalar: PhantomData::<Self> };
+                // Many outputs of the stretches do not fit the registers in the widest lanes.
+                if R::NEEDS_STRETCH && FEW_COMPONENTS < R::COMPONENTS {
+                    dispatch_lanes::<_, $base, $avx2, $avx2>(evaluation)
+                } else {
+                    dispatch_lanes::<_, $base, $avx2, $avx512>(evaluation)
+                }
             }
         }
     };

@@ -110,6 +110,10 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
     #[doc(hidden)]
     const IN_LANES: bool;
 
+    /// How many components all outputs have.
+    #[doc(hidden)]
+    const COMPONENTS: usize;
+
     /// Memory for the inputs and outputs of N points, a point a lane.
     #[doc(hidden)]
     type Buffers<const N: usize>: Copy;
@@ -187,6 +191,7 @@ where
 {
     const NEEDS_STRETCH: bool = Q::NEEDS_STRETCH;
     const IN_LANES: bool = S::IN_LANES && V::IN_LANES;
+    const COMPONENTS: usize = K;
 
     fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
         let read = self.source.count().unwrap_or(expected);
@@ -273,6 +278,7 @@ macro_rules! tuple {
         impl<T: BatchScalar, $($name: Requests<T>),+> Requests<T> for ($($name,)+) {
             const NEEDS_STRETCH: bool = $($name::NEEDS_STRETCH)|+;
             const IN_LANES: bool = $($name::IN_LANES)&+;
+            const COMPONENTS: usize = 0 $(+ $name::COMPONENTS)+;
 
             fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
                 $(self.$place.check_lengths(expected)?;)+

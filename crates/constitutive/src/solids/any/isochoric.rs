@@ -4,7 +4,7 @@ use piola_numerics::Real;
 
 use crate::ConstitutiveError;
 use crate::solids::isochoric::{
-    ArrudaBoyce, ArrudaBoyceSeries, Gent, Isochoric, MooneyRivlin, NeoHookean, Rivlin, RivlinTerm, Yeoh,
+    ArrudaBoyce, ArrudaBoyceSeries, Gent, Isochoric, MooneyRivlin, NeoHookean, Rivlin, Yeoh,
 };
 
 /// Declares the enum of all parts, their conversions, and the dispatch.
@@ -85,7 +85,8 @@ any_isochoric! {
 mod terms {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    use super::{Rivlin, RivlinTerm};
+    use super::Rivlin;
+    use crate::solids::isochoric::RivlinTerm;
 
     #[derive(Serialize, Deserialize)]
     #[serde(deny_unknown_fields)]

@@ -29,18 +29,24 @@ mod neo_hookean;
 mod rivlin;
 mod yeoh;
 
+#[cfg(feature = "fit")]
 pub(crate) use arruda_boyce::arruda_boyce;
 pub use arruda_boyce::{ArrudaBoyce, ArrudaBoyceSeries};
 pub use gent::Gent;
+#[cfg(feature = "fit")]
 pub(crate) use gent::gent;
 pub use langevin::{inverse_langevin, langevin};
 pub use mooney_rivlin::MooneyRivlin;
+#[cfg(feature = "fit")]
 pub(crate) use mooney_rivlin::mooney_rivlin;
 pub use neo_hookean::NeoHookean;
+#[cfg(feature = "fit")]
 pub(crate) use neo_hookean::neo_hookean;
+#[cfg(feature = "fit")]
 pub(crate) use rivlin::rivlin_term;
 pub use rivlin::{Rivlin, RivlinTerm};
 pub use yeoh::Yeoh;
+#[cfg(feature = "fit")]
 pub(crate) use yeoh::yeoh;
 
 /// An energy of Ī₁ − 3 and Ī₂ − 3, zero where both are.

@@ -13,6 +13,7 @@ mod terms;
 
 pub use incompressible::IncompressibleOgden;
 pub use terms::OgdenTerm;
+#[cfg(feature = "fit")]
 pub(crate) use terms::ogden_term;
 use terms::{Series, parts_of_series};
 
