@@ -22,7 +22,7 @@ struct Points<'a> {
     l: &'a mut [Symmetric],
 }
 
-impl<'a> Points<'a> {
+impl Points<'_> {
     fn halves(self) -> (Self, Self) {
         let half = (self.f.len() / 2).next_multiple_of(64);
         let (f, t) = (self.f.split_at(half), self.t.split_at(half));
@@ -35,6 +35,7 @@ impl<'a> Points<'a> {
     }
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "one signature for both requests")]
 fn cheap(points: Points<'_>) {
     let request = batch::cauchy_to_first_piola(black_box(points.t), points.p);
     black_box(batch::evaluate(black_box(points.f), request).is_ok());

@@ -70,11 +70,14 @@ pub fn each(visit: &mut impl Visit) -> Result<(), Box<dyn Error>> {
     visit.law("hencky", Some("hencky"), &Hencky::new(2.0, 0.9)?)
 }
 
+/// F and the expected P, by rows.
+type Case = (DeformationGradient, Vec<f64>);
+
 /// F and the expected P of the cases of a model near the identity.
 ///
 /// # Errors
 /// A case is no deformation.
-pub fn near_identity(model: &str) -> Result<Vec<(DeformationGradient, Vec<f64>)>, Box<dyn Error>> {
+pub fn near_identity(model: &str) -> Result<Vec<Case>, Box<dyn Error>> {
     let golden = golden::load("hyperelastic");
     let near = golden
         .cases
@@ -95,12 +98,11 @@ pub fn near_identity(model: &str) -> Result<Vec<(DeformationGradient, Vec<f64>)>
 pub fn error_near_identity<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<f64, Box<dyn Error>> {
     let mut largest = 0.0_f64;
     for (f, expected) in near_identity(model.unwrap_or("mooney_rivlin_compressible"))? {
-        let expected = match model {
-            Some(_) => expected,
-            None => {
-                let precise = law.first_piola(&f.lifted(|_, _, x| DoubleDouble::lit(x)));
-                by_rows(&precise).iter().map(|x| x.primal(0)).collect()
-            }
+        let expected = if model.is_some() {
+            expected
+        } else {
+            let precise = law.first_piola(&f.lifted(|_, _, x| DoubleDouble::lit(x)));
+            by_rows(&precise).iter().map(|x| x.primal(0)).collect()
         };
         largest = largest.max(relative_error(&by_rows(&law.first_piola(&f)), &expected));
     }

@@ -16,7 +16,7 @@ pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
     request.confidence = flow.confidence;
     request.noise = match arguments.noise {
         None => Noise::Estimated,
-        Some(level) if level == 0.0 => Noise::Exact,
+        Some(0.0) => Noise::Exact,
         Some(level) => Noise::Relative(level),
     };
     request.rise = if arguments.rising { Rise::Enforced } else { Rise::Reported };

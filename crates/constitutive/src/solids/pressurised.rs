@@ -88,14 +88,14 @@ impl<L> Pressurised<L> {
 }
 
 impl<L: Hyperelastic> Pressurised<L> {
-    /// P_law − p Cof F.
+    /// `P_law` − p Cof F.
     #[inline(always)]
     fn pressed<T: Real>(&self, stress: FirstPiola<T>, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         let p = T::lit(self.pressure);
         FirstPiola(stress.0 - from_rows(deformation.cofactor_rows()).map(|x| x * p))
     }
 
-    /// A_law − p ∂ Cof F/∂F, ∂ Cofᵢⱼ/∂Fₖₗ = εᵢₖₘ εⱼₗₙ Fₘₙ.
+    /// `A_law` − p ∂ Cof F/∂F, ∂ Cofᵢⱼ/∂Fₖₗ = εᵢₖₘ εⱼₗₙ Fₘₙ.
     #[inline(always)]
     fn stiffened<T: Real>(
         &self,

@@ -87,8 +87,8 @@ fn blocks_of_lanes_equal_single_points_and_allocate_nothing() {
     let (n, blocks) = (f.len(), f.len().div_ceil(8));
     let mut gradients = vec![[[0.0; 8]; 9]; blocks];
     for (i, f) in f.iter().enumerate() {
-        for k in 0..9 {
-            gradients[i / 8][k][i % 8] = f.matrix()[(k / 3, k % 3)];
+        for (k, lanes) in gradients[i / 8].iter_mut().enumerate() {
+            lanes[i % 8] = f.matrix()[(k / 3, k % 3)];
         }
     }
     let (mut p, mut a) = (vec![[[0.0; 8]; 9]; blocks], vec![[[0.0; 8]; 45]; blocks]);

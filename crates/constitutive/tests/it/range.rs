@@ -114,11 +114,12 @@ fn nearly_incompressible_foam_is_refused_beyond_the_range() {
 #[test]
 fn unstable_references_are_refused() {
     let named = |law: Result<MooneyRivlin, ConstitutiveError>| match law {
-        Err(ConstitutiveError::OutOfBounds {
-            law: "compressible Mooney–Rivlin" | "Mooney–Rivlin", parameter,
-        ..
-        }) => parameter,
-        Err(ConstitutiveError::NotFinite { parameter, .. }) => parameter,
+        Err(
+            ConstitutiveError::OutOfBounds {
+                law: "compressible Mooney–Rivlin" | "Mooney–Rivlin", parameter, ..
+            }
+            | ConstitutiveError::NotFinite { parameter, .. },
+        ) => parameter,
         other => panic!("{other:?}"),
     };
     // λ = −6, μ = 1.

@@ -161,6 +161,9 @@ const STAGED_BLOCKS: usize = 4;
 
 type LanesMask<T, const N: usize> = <Lanes<T, N> as Real>::Mask;
 
+/// Where points are good, where they took the slow path, and what the outputs need of them.
+type Examined<T, P, const N: usize> = (LanesMask<T, N>, LanesMask<T, N>, Point<Lanes<T, N>, P>);
+
 impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> LaneKernel for Evaluation<T, D, R> {
     type Output = Tally;
 
@@ -248,9 +251,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
 
     /// What the outputs need of a block; where its points are good, and where they took the slow path.
     #[inline(always)]
-    fn point<const N: usize>(
-        deformation: D::Point<Lanes<T, N>>,
-    ) -> (LanesMask<T, N>, LanesMask<T, N>, Point<Lanes<T, N>, D::Point<Lanes<T, N>>>) {
+    fn point<const N: usize>(deformation: D::Point<Lanes<T, N>>) -> Examined<T, D::Point<Lanes<T, N>>, N> {
         let mut good: LanesMask<T, N> = Mask::splat(true);
         let mut jacobian = None;
         if !D::TRUSTED {

@@ -109,8 +109,8 @@ fn in_blocks<const B: usize>(f: &[DeformationGradient]) {
     let count = f.len();
     let mut gradients = vec![[[f64::NAN; B]; 9]; count.div_ceil(B)];
     for (i, f) in f.iter().enumerate() {
-        for k in 0..9 {
-            gradients[i / B][k][i % B] = f.matrix()[(k / 3, k % 3)];
+        for (k, lanes) in gradients[i / B].iter_mut().enumerate() {
+            lanes[i % B] = f.matrix()[(k / 3, k % 3)];
         }
     }
     let mut expected = vec![Symmetric::zero(); count];
@@ -124,7 +124,11 @@ fn in_blocks<const B: usize>(f: &[DeformationGradient]) {
     for i in 0..gradients.len() * B {
         let point: [f64; 6] = core::array::from_fn(|k| blocks[i / B][k][i % B]);
         match expected.get(i) {
-            Some(c) => assert_eq!(point, c.components, "point {i} of {count} in blocks of {B}"),
+            Some(c) => assert_eq!(
+                point.map(f64::to_bits),
+                c.components.map(f64::to_bits),
+                "point {i} of {count} in blocks of {B}"
+            ),
             None => assert!(point.iter().all(|x| x.is_nan()), "beyond {count} points in blocks of {B}"),
         }
     }

@@ -385,13 +385,14 @@ fn geometry(text: &str, kind: FlowKind, given: &[(String, f64)], mistakes: &mut 
         let valid = format!("a comment `# {name}: 2 mm`, or the argument --{}", name.replace('_', "-"));
         match text.lines().enumerate().find_map(in_comment) {
             None => mistakes.push(TableMistake::new(1, format!("{name} is not given"), valid)),
-            Some((index, value)) => match length(&value) {
-                Some(value) => found.push(value),
-                None => {
+            Some((index, value)) => {
+                if let Some(value) = length(&value) {
+                    found.push(value);
+                } else {
                     let line = u64::try_from(index + 1).unwrap_or(u64::MAX);
                     mistakes.push(TableMistake::new(line, format!("{name} is `{value}`"), "a positive length"));
                 }
-            },
+            }
         }
     }
     match (kind, found.as_slice()) {
