@@ -35,12 +35,12 @@ impl Points<'_> {
     }
 }
 
-#[expect(clippy::needless_pass_by_value, reason = "one signature for both requests")]
 fn cheap(points: Points<'_>) {
     let request = batch::cauchy_to_first_piola(black_box(points.t), points.p);
     black_box(batch::evaluate(black_box(points.f), request).is_ok());
 }
 
+#[expect(clippy::needless_pass_by_value, reason = "one signature for both requests")]
 fn dear(points: Points<'_>) {
     black_box(methods::polar_batch(black_box(points.f), points.r, points.u, points.l));
 }
