@@ -35,7 +35,7 @@ pub struct BadPoint {
 /// use piola_continuum::DeformationGradient;
 /// let law = Compressible::new(Gent::new(1.0, 2.0)?, Quadratic::new(10.0)?); // Ī₁ − 3 < 2
 /// let f = [1.5, 9.0, 1.0].map(|stretch| DeformationGradient::uniaxial(stretch, 1.0).unwrap());
-/// let mut w = [0.0; 3];
+/// let mut w = [0.0_f64; 3];
 /// let Err(ConstitutiveError::BadPoints { points, .. }) = batch::evaluate(&f[..], batch::energy(&law, &mut w[..])) else {
 ///     unreachable!()
 /// };
