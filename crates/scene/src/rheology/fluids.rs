@@ -214,7 +214,7 @@ pub struct Comparison {
 /// let text = "shear_rate,shear_stress\n1,3\n4,6\n9,9\n100,30\n"; // 3 √k
 /// let measured = Measured::parse("curve.csv", text, FlowKind::Curve, &[])?;
 /// let comparison = compare(&measured, &Request::of(vec!["power-law".parse()?]))?;
-/// let fit = comparison.candidates[0].fit.as_ref()?;
+/// let fit = comparison.candidates[0].fit.clone()?;
 /// assert!((fit.parameters[1].value - 0.5).abs() < 1e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
