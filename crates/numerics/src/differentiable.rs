@@ -144,6 +144,13 @@ macro_rules! implement_real {
                 self.chain(r, || f1, || -(T::lit(2.0) * f1 / (T::lit(3.0) * self.value)))
             }
             #[inline(always)]
+            fn recip_cbrt(self) -> Self {
+                let r = self.value.recip_cbrt();
+                let square = r * r;
+                let fourth = square * square;
+                self.chain(r, || fourth * T::lit(-1.0 / 3.0), || T::lit(4.0 / 9.0) * (fourth * square * r))
+            }
+            #[inline(always)]
             fn powi(self, n: i32) -> Self {
                 // x⁰ and x¹ have no term in x⁻¹, so their derivatives stay finite at x = 0.
                 let degree = f64::from(n);

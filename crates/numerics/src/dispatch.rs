@@ -92,7 +92,7 @@ fn detect() -> Level {
 /// Runs a kernel at the best level of this machine.
 #[inline]
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
-    dispatch_at(Level::best(), kernel)
+    dispatch_at(Level::Avx512, kernel)
 }
 
 /// Runs a kernel at a given level, or at the best of this machine if it lacks that: for tests and benches.
@@ -132,7 +132,7 @@ pub trait LaneKernel {
 pub fn dispatch_lanes<K: LaneKernel, const BASE: usize, const AVX2: usize, const AVX512: usize>(
     kernel: K,
 ) -> K::Output {
-    dispatch_one_of(Level::best(), kernel, Of::<K, BASE>, Of::<K, AVX2>, Of::<K, AVX512>)
+    dispatch_one_of(Level::Avx512, kernel, Of::<K, BASE>, Of::<K, AVX2>, Of::<K, AVX512>)
 }
 
 /// A kernel with its number of lanes.

@@ -23,6 +23,7 @@ mod error;
 mod gradient;
 mod jet;
 mod lanes;
+mod lanewise;
 pub mod linear;
 #[cfg(feature = "num-dual")]
 mod num_dual;
@@ -35,6 +36,7 @@ pub use error::Error;
 pub use gradient::Gradient;
 pub use jet::Jet;
 pub use lanes::{Element, LaneMask, Lanes};
+pub use lanewise::Lanewise;
 pub use real::{Mask, Real};
 
 #[cfg(doctest)]

@@ -22,6 +22,8 @@ use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, N
 
 use num_traits::{One, Zero};
 
+use crate::Lanewise;
+
 /// The result of a comparison: one truth value for each lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
     /// The same truth value in every lane.
@@ -185,6 +187,17 @@ pub trait Real:
     fn recip(self) -> Self {
         Self::one() / self
     }
+    /// 1/∛x, for negative `x` too: in lanes without a division.
+    ///
+    /// ```
+    /// use piola_numerics::{Lanes, Real};
+    /// assert_eq!(Lanes([8.0, -0.125, 0.0, f64::INFINITY]).recip_cbrt(), Lanes([0.5, -2.0, f64::INFINITY, 0.0]));
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    fn recip_cbrt(self) -> Self {
+        self.cbrt().recip()
+    }
     /// sin x.
     #[inline(always)]
     #[must_use]
@@ -215,6 +228,25 @@ pub trait Real:
     #[must_use]
     fn max(self, other: Self) -> Self {
         Self::select(other.at_most(self) | self.is_nan(), self, other)
+    }
+    /// The computation at these numbers, in lanes one lane after the other in a loop: see [`Lanewise`].
+    ///
+    /// ```
+    /// use piola_numerics::{Lanes, Lanewise, Real};
+    /// struct Hypotenuse;
+    /// impl Lanewise<2, 1> for Hypotenuse {
+    ///     #[inline(always)]
+    ///     fn run<T: Real>(&self, [x, y]: [T; 2]) -> [T; 1] {
+    ///         [(x * x + y * y).sqrt()]
+    ///     }
+    /// }
+    /// assert_eq!(f64::lanewise(&Hypotenuse, [3.0, 4.0]), [5.0]);
+    /// assert_eq!(Lanes::lanewise(&Hypotenuse, [Lanes([3.0, 5.0]), Lanes([4.0, 12.0])]), [Lanes([5.0, 13.0])]);
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    fn lanewise<const I: usize, const O: usize>(computation: &impl Lanewise<I, O>, inputs: [Self; I]) -> [Self; O] {
+        computation.run(inputs)
     }
     /// Where the value is not a number.
     #[inline(always)]

@@ -7,7 +7,7 @@
 
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LN_2, LOG2_E, PI};
 
-use super::power::{CUBE_ROOT, with_conventions};
+use super::power::{CUBE_ROOT, start_of_recip_cbrt, with_conventions};
 use super::trigonometric::{HALF_PI, flip};
 use super::{
     FRACTION, ROUND, both, choose, cubic, either, logarithm, nearest, polynomial_5, polynomial_6, power_of_two,
@@ -244,4 +244,15 @@ pub(crate) fn cbrt(x: f64) -> f64 {
     let improved = g - (g * g * g - u) / (3.0 * g * g);
     let result = improved * power_of_two(q);
     choose(both(0.0 < magnitude, magnitude < f64::INFINITY), result, magnitude).copysign(x)
+}
+
+/// 1/∛x, of singles: even the smallest is an ordinary double.
+#[inline(always)]
+pub(crate) fn recip_cbrt(x: f64) -> f64 {
+    let magnitude = x.abs();
+    let y = start_of_recip_cbrt(magnitude);
+    let h = 1.0 - (magnitude * y) * (y * y);
+    let improved = y + y * (h * (1.0 / 3.0));
+    let defined = choose(magnitude == 0.0, f64::INFINITY, choose(magnitude == f64::INFINITY, 0.0, improved));
+    defined.copysign(x)
 }

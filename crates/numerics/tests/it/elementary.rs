@@ -2,7 +2,7 @@
 //! values, and bit for bit between widths and sets of instructions.
 
 use piola_numerics::{Element, Kernel, Lanes, Level, Real, dispatch_at};
-use piola_testkit::golden;
+use piola_testkit::{DoubleDouble, golden};
 
 /// What the documentation promises, in units in the last place of the exact value.
 const STATED_ULPS: f64 = 2.0;
@@ -10,8 +10,23 @@ const STATED_ULPS: f64 = 2.0;
 const ULPS_FROM_STANDARD: f64 = STATED_ULPS + 1.0;
 
 /// All functions of one argument, then those of two.
-const UNARY: [&str; 14] =
-    ["exp", "exp_m1", "ln", "ln_1p", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "cbrt"];
+const UNARY: [&str; 15] = [
+    "exp",
+    "exp_m1",
+    "ln",
+    "ln_1p",
+    "sin",
+    "cos",
+    "tan",
+    "asin",
+    "acos",
+    "atan",
+    "sinh",
+    "cosh",
+    "tanh",
+    "cbrt",
+    "recip_cbrt",
+];
 const BINARY: [&str; 2] = ["powf", "atan2"];
 
 /// The function `name` of x, or of x and y.
@@ -32,6 +47,7 @@ fn apply<T: Real>(name: &str, x: T, y: T) -> T {
         "cosh" => x.cosh(),
         "tanh" => x.tanh(),
         "cbrt" => x.cbrt(),
+        "recip_cbrt" => x.recip_cbrt(),
         "powf" => x.powf(y),
         "atan2" => x.atan2(y),
         _ => unreachable!("no function {name}"),
@@ -127,7 +143,8 @@ fn sweep(name: &str, sequence: &mut Sequence) -> (f64, f64) {
         "sin" | "cos" | "tan" => (sequence.spread(-40.0, 40.0), 0.0), // beyond the reduction in lanes too
         "asin" | "acos" if near => (sequence.between(-1.0, 1.0), 0.0),
         "asin" | "acos" => (sequence.spread(-40.0, 0.0), 0.0),
-        "atan" | "cbrt" => (sequence.spread(-100.0, 100.0), 0.0),
+        "recip_cbrt" if near => (sequence.spread(-1070.0, 1023.0), 0.0),
+        "atan" | "cbrt" | "recip_cbrt" => (sequence.spread(-100.0, 100.0), 0.0),
         "powf" if near => (sequence.between(0.0, 4.0), sequence.between(-100.0, 100.0)),
         "powf" => (sequence.spread(-200.0, 200.0).abs(), sequence.between(-4.0, 4.0)),
         "atan2" if near => (sequence.between(-1.0, 1.0), sequence.between(-1.0, 1.0)),
@@ -149,6 +166,18 @@ fn lanes_equal_the_standard_library_to_the_sum_of_their_errors() {
                 assert!(error <= ULPS_FROM_STANDARD, "{name}({x:e}, {y:e}) = {lane:e}, not {scalar:e}: {error} ulp");
             }
         }
+    }
+}
+
+#[test]
+fn reciprocal_cube_roots_in_lanes_equal_those_of_thirty_digits_within_two_ulp() {
+    let mut sequence = Sequence(5);
+    for _ in 0..10_000 {
+        let x = sequence.spread(-300.0, 300.0);
+        let exact = DoubleDouble::lit(x).recip_cbrt();
+        let [lane, ..] = Lanes([x; 4]).recip_cbrt().0;
+        let error = (DoubleDouble::lit(lane) - exact).primal(0).abs() / unit(lane, 53, f64::from_bits(1));
+        assert!(error <= STATED_ULPS, "{x:e}^(−1/3) = {lane:e}: {error} ulp");
     }
 }
 

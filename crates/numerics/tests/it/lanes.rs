@@ -133,3 +133,38 @@ fn dispatched_kernels_equal_the_kernel_alone_at_every_level() {
     }
     assert_eq!(Level::available().last(), Some(Level::best()));
 }
+
+/// Records of K numbers to N lanes and back, number by number the same.
+fn records_through_lanes<const N: usize, const K: usize, const ROWS: usize>() {
+    let numbers: [[f64; K]; N] = core::array::from_fn(|lane| core::array::from_fn(|k| (100 * lane + k) as f64));
+    let mut components = [Lanes([0.0; N]); K];
+    Lanes::gather::<K, ROWS>(numbers.each_ref(), &mut components);
+    for (place, lanes) in components.iter().enumerate() {
+        // Place (row, column) of a matrix by rows is number (column, row) by columns.
+        let columns = K / ROWS;
+        let number = place % columns * ROWS + place / columns;
+        for (x, record) in lanes.0.iter().zip(&numbers) {
+            assert_eq!(x.to_bits(), record[number].to_bits(), "{N} records of {K}");
+        }
+    }
+    let mut written = [[f64::NAN; K]; N];
+    Lanes::scatter::<K, ROWS>(&components, written.each_mut());
+    let equal = written.as_flattened().iter().zip(numbers.as_flattened()).all(|(x, y)| x.to_bits() == y.to_bits());
+    assert!(equal, "{N} records of {K}: {written:?}");
+}
+
+#[test]
+fn gathered_lanes_are_the_numbers_of_the_records_and_scattered_ones_the_records() {
+    macro_rules! all {
+        ($($k:literal)*) => { $(
+            records_through_lanes::<2, $k, 1>();
+            records_through_lanes::<4, $k, 1>();
+            records_through_lanes::<8, $k, 1>();
+            records_through_lanes::<16, $k, 1>();
+        )* };
+    }
+    all!(1 2 3 4 5 6 7 8 9 10 11 21 36 45 81);
+    records_through_lanes::<4, 9, 3>();
+    records_through_lanes::<8, 9, 3>();
+    records_through_lanes::<8, 6, 2>();
+}

@@ -56,7 +56,7 @@ proptest! {
 
     #[test]
     fn derivatives_of_inverse_functions_are_reciprocal(x in finite(0.05..0.95)) {
-        let pairs: [(Function, Function); 8] = [
+        let pairs: [(Function, Function); 9] = [
             (Real::exp, Real::ln),
             (Real::exp_m1, Real::ln_1p),
             (Real::sin, Real::asin),
@@ -64,6 +64,7 @@ proptest! {
             (Real::tan, Real::atan),
             (Real::sqrt, |x| x * x),
             (Real::cbrt, |x| x.powi(3)),
+            (Real::recip_cbrt, |x| x.powi(-3)),
             (|x| x.powf(Dual::lit(1.5)), |x| x.powf(Dual::lit(1.0 / 1.5))),
         ];
         for (forth, back) in pairs {

@@ -190,9 +190,10 @@ fn nan_is_neither_smaller_nor_larger_and_not_lost() {
 #[test]
 fn nan_comes_out_of_every_function_as_nan() {
     type Function = fn(Dual<f64>) -> Dual<f64>;
-    let functions: [(&str, Function); 20] = [
+    let functions: [(&str, Function); 21] = [
         ("sqrt", Real::sqrt),
         ("cbrt", Real::cbrt),
+        ("recip_cbrt", Real::recip_cbrt),
         ("exp", Real::exp),
         ("exp_m1", Real::exp_m1),
         ("ln", Real::ln),
