@@ -3,6 +3,7 @@
 use piola_numerics::{Lanes, Real};
 
 use super::BatchScalar;
+use super::records::gather;
 use super::sources::{Source, by_rows, fill};
 use crate::tensor::rows::Rows;
 use crate::{ContinuumError, Deformation, DeformationGradient, DisplacementGradient};
@@ -22,6 +23,9 @@ pub trait Deformations<T: BatchScalar>: Copy + Send + Sync {
     const TRUSTED: bool;
     /// Whether they lie in lanes as they are computed with: see [`Source::IN_LANES`].
     const IN_LANES: bool = false;
+    /// As [`Source::RECORDS`].
+    #[doc(hidden)]
+    const RECORDS: bool = false;
 
     /// The number of points.
     fn count(&self) -> usize;
@@ -32,7 +36,7 @@ pub trait Deformations<T: BatchScalar>: Copy + Send + Sync {
     /// As [`load`](Self::load), into memory from which [`filled`](Self::filled) makes the deformations.
     #[doc(hidden)]
     #[inline(always)]
-    fn fill<const N: usize>(&self, _first: usize, _count: usize, _lanes: &mut [Lanes<T, N>; 9]) {}
+    fn fill<const N: usize>(&self, _first: usize, _count: usize, _lanes: &mut [Lanes<T, N>; 9], _in_registers: bool) {}
 
     /// The deformations that [`fill`](Self::fill) has read.
     #[doc(hidden)]
@@ -113,6 +117,7 @@ impl<T: BatchScalar, S: Source<DeformationGradient, T, 9>> Deformations<T> for G
     type Point<U: Real> = DeformationGradient<U>;
     const TRUSTED: bool = false;
     const IN_LANES: bool = S::IN_LANES;
+    const RECORDS: bool = S::RECORDS;
     #[inline(always)]
     fn count(&self) -> usize {
         self.0.count().unwrap_or(0)
@@ -122,8 +127,12 @@ impl<T: BatchScalar, S: Source<DeformationGradient, T, 9>> Deformations<T> for G
         DeformationGradient::trusted(rows(self.0.load(first, count)))
     }
     #[inline(always)]
-    fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
-        fill(&self.0, first, count, lanes);
+    fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9], in_registers: bool) {
+        if in_registers {
+            self.0.gather(first, count, lanes);
+        } else {
+            fill(&self.0, first, count, lanes);
+        }
     }
     #[inline(always)]
     fn filled<const N: usize>(
@@ -143,6 +152,7 @@ impl<T: BatchScalar, S: Source<DisplacementGradient, T, 9>> Deformations<T> for 
     type Point<U: Real> = DisplacementGradient<U>;
     const TRUSTED: bool = false;
     const IN_LANES: bool = S::IN_LANES;
+    const RECORDS: bool = S::RECORDS;
     #[inline(always)]
     fn count(&self) -> usize {
         self.0.count().unwrap_or(0)
@@ -152,8 +162,12 @@ impl<T: BatchScalar, S: Source<DisplacementGradient, T, 9>> Deformations<T> for 
         DisplacementGradient::trusted(rows(self.0.load(first, count)))
     }
     #[inline(always)]
-    fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
-        fill(&self.0, first, count, lanes);
+    fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9], in_registers: bool) {
+        if in_registers {
+            self.0.gather(first, count, lanes);
+        } else {
+            fill(&self.0, first, count, lanes);
+        }
     }
     #[inline(always)]
     fn filled<const N: usize>(
@@ -180,11 +194,21 @@ macro_rules! typed {
             fn point(&self, index: usize) -> [T; 9] {
                 by_rows(self[index].matrix())
             }
+            const RECORDS: bool = true;
+            #[inline(always)]
+            fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
+                if count < N {
+                    fill::<_, $name, T, 9, N>(self, first, count, lanes);
+                } else {
+                    gather(self, first, lanes);
+                }
+            }
         }
 
         impl<T: BatchScalar> Deformations<T> for &[$name<T>] {
             type Point<U: Real> = $name<U>;
             const TRUSTED: bool = true;
+            const RECORDS: bool = true;
             #[inline(always)]
             fn count(&self) -> usize {
                 self.len()
@@ -194,8 +218,18 @@ macro_rules! typed {
                 $name::trusted(rows(Source::<$name, T, 9>::load(self, first, count)))
             }
             #[inline(always)]
-            fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
-                fill::<_, $name, T, 9, N>(self, first, count, lanes);
+            fn fill<const N: usize>(
+                &self,
+                first: usize,
+                count: usize,
+                lanes: &mut [Lanes<T, N>; 9],
+                in_registers: bool,
+            ) {
+                if in_registers {
+                    Source::<$name, T, 9>::gather(self, first, count, lanes);
+                } else {
+                    fill::<_, $name, T, 9, N>(self, first, count, lanes);
+                }
             }
             #[inline(always)]
             fn filled<const N: usize>(
@@ -219,6 +253,7 @@ impl<T: BatchScalar> Deformations<T> for Undeformed {
     type Point<U: Real> = DeformationGradient<U>;
     const TRUSTED: bool = true;
     const IN_LANES: bool = true;
+    const RECORDS: bool = true;
     #[inline(always)]
     fn count(&self) -> usize {
         self.0

@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 use piola_numerics::{Element, Lanes};
 
+use super::records;
 use super::sources::transposed;
 use super::{BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
 use crate::{
@@ -26,6 +27,10 @@ pub trait Destination<Q, T: Element, const K: usize>: Send + Sized {
     /// lane to lane.
     const IN_LANES: bool = false;
 
+    /// Whether the numbers of a point lie side by side, so that lanes become points in registers.
+    #[doc(hidden)]
+    const RECORDS: bool = false;
+
     /// The number of points.
     fn count(&self) -> usize;
 
@@ -38,7 +43,14 @@ pub trait Destination<Q, T: Element, const K: usize>: Send + Sized {
     /// Writes the first `count` ≤ N lanes to the points from `first` on.
     #[inline(always)]
     fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; K]) {
-        scatter(self, first, count, &values);
+        self.scatter(first, count, &values);
+    }
+
+    /// As [`store`](Self::store), straight from memory.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; K]) {
+        scatter(self, first, count, values);
     }
 }
 
@@ -66,9 +78,25 @@ fn lane_of<T: Element, const N: usize, const K: usize>(values: &[Lanes<T, N>; K]
     point
 }
 
+/// What a structure of K numbers side by side does better than point by point.
+macro_rules! records {
+    (record $quantity:ty, $k:tt) => {
+        const RECORDS: bool = true;
+        #[inline(always)]
+        fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; $k]) {
+            if count < N {
+                scatter::<_, $quantity, T, $k, N>(self, first, count, values);
+            } else {
+                records::scatter(self, first, values);
+            }
+        }
+    };
+}
+
 macro_rules! slice {
-    ([$($generics:tt)*] $quantity:ty, $element:ty, $k:tt, |$components:ident| $structure:expr) => {
+    ([$($generics:tt)*] $quantity:ty, $element:ty, $k:tt, |$components:ident| $structure:expr $(, $record:ident)?) => {
         impl<$($generics)*> Destination<$quantity, T, $k> for &mut [$element] {
+            $(records!($record $quantity, $k);)?
             #[inline(always)]
             fn count(&self) -> usize {
                 self.len()
@@ -86,18 +114,19 @@ macro_rules! slice {
 }
 
 slice!([Q, T: Element] Q, T, 1, |x| x[0]);
-slice!([Q, T: BatchScalar] Q, Symmetric<T>, 6, |x| Symmetric { components: x });
-slice!([Q, T: Element] Q, [[T; 3]; 3], 9, |x| [[x[0], x[1], x[2]], [x[3], x[4], x[5]], [x[6], x[7], x[8]]]);
-slice!([Q, T: Element] Q, Matrix3<T>, 9, |x| matrix(x));
+slice!([Q, T: BatchScalar] Q, Symmetric<T>, 6, |x| Symmetric { components: x }, record);
+slice!([Q, T: Element] Q, [[T; 3]; 3], 9, |x| [[x[0], x[1], x[2]], [x[3], x[4], x[5]], [x[6], x[7], x[8]]], record);
+slice!([Q, T: Element] Q, Matrix3<T>, 9, |x| matrix(x), record);
 slice!([Q, T: Element] Q, Matrix3<T>, 6, |x| matrix([x[0], x[3], x[5], x[3], x[1], x[4], x[5], x[4], x[2]]));
-slice!([T: BatchScalar] CauchyStress, CauchyStress<T>, 6, |x| CauchyStress(Symmetric { components: x }));
-slice!([T: BatchScalar] KirchhoffStress, KirchhoffStress<T>, 6, |x| KirchhoffStress(Symmetric { components: x }));
-slice!([T: BatchScalar] SecondPiola, SecondPiola<T>, 6, |x| SecondPiola(Symmetric { components: x }));
-slice!([T: BatchScalar] FirstPiola, FirstPiola<T>, 9, |x| FirstPiola(matrix(x)));
-slice!([T: BatchScalar] MandelStress, MandelStress<T>, 9, |x| MandelStress(matrix(x)));
-slice!([T: BatchScalar] BiotStress, BiotStress<T>, 9, |x| BiotStress(matrix(x)));
+slice!([T: BatchScalar] CauchyStress, CauchyStress<T>, 6, |x| CauchyStress(Symmetric { components: x }), record);
+slice!([T: BatchScalar] KirchhoffStress, KirchhoffStress<T>, 6, |x| KirchhoffStress(Symmetric { components: x }), record);
+slice!([T: BatchScalar] SecondPiola, SecondPiola<T>, 6, |x| SecondPiola(Symmetric { components: x }), record);
+slice!([T: BatchScalar] FirstPiola, FirstPiola<T>, 9, |x| FirstPiola(matrix(x)), record);
+slice!([T: BatchScalar] MandelStress, MandelStress<T>, 9, |x| MandelStress(matrix(x)), record);
+slice!([T: BatchScalar] BiotStress, BiotStress<T>, 9, |x| BiotStress(matrix(x)), record);
 
 impl<Q, T: Element, const K: usize> Destination<Q, T, K> for &mut [[T; K]] {
+    records!(record Q, K);
     #[inline(always)]
     fn count(&self) -> usize {
         self.len()

@@ -16,20 +16,12 @@ pub trait BatchScalar: Element + Real {
     fn run<D: Deformations<Self>, R: Requests<Self>>(points: D, range: [usize; 2], requests: R) -> Tally;
 }
 
-/// Components up to which outputs that need the stretches run in the widest lanes.
-const FEW_COMPONENTS: usize = 9;
-
 macro_rules! scalar {
     ($float:ident: $base:literal $avx2:literal $avx512:literal) => {
         impl BatchScalar for $float {
             fn run<D: Deformations<Self>, R: Requests<Self>>(points: D, range: [usize; 2], requests: R) -> Tally {
                 let evaluation = Evaluation { points, range, requests, scalar: PhantomData::<Self> };
-                // Many outputs of the stretches do not fit the registers in the widest lanes.
-                if R::NEEDS_STRETCH && FEW_COMPONENTS < R::COMPONENTS {
-                    dispatch_lanes::<_, $base, $avx2, $avx2>(evaluation)
-                } else {
-                    dispatch_lanes::<_, $base, $avx2, $avx512>(evaluation)
-                }
+                dispatch_lanes::<_, $base, $avx2, $avx512>(evaluation)
             }
         }
     };
@@ -39,6 +31,7 @@ scalar!(f32: 4 8 16);
 
 /// A batch that was evaluated, all points good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Report {
     /// The number of points.
     pub points: usize,
@@ -66,9 +59,9 @@ pub struct Tally {
 
 /// Points from which on, with feature `rayon`, a batch runs on all threads.
 ///
-/// Where two threads pay for the cheapest requests: of P from T, 8192 points take 5.5 ns each on two threads and 6.6 on
-/// one, 4096 points 9.5 and 7.6. R, U and ln U would gain from a thousand points on (65 and 84 ns). Two virtual cores,
-/// the shortest of some hundred passes, the halves handed over by a thread outside the pool.
+/// Where two threads pay: 8192 points of P from T take 5.0 ns each on two threads and 6.3 on one, of R, U and ln U 21
+/// and 26; 4096 points 11.5 and 4.9, 42 and 29. Two virtual cores, the shortest of some hundred passes, the halves
+/// handed over by a thread outside the pool.
 pub const PARALLEL_POINTS: usize = 1 << 13;
 
 /// Points below which a part of a batch is not divided among threads.
@@ -156,6 +149,10 @@ struct Evaluation<T, D, R> {
     scalar: PhantomData<T>,
 }
 
+/// Bytes of a batch up to which points become lanes in registers. Of memory that is in no cache whole registers, which lie
+/// across its lines, are slower than number by number: P of 10⁶ points takes 13.5 ns a point and 7.7.
+const CACHED: usize = 1 << 20;
+
 /// Blocks that are staged together.
 const STAGED_BLOCKS: usize = 4;
 
@@ -218,6 +215,8 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
         if end <= start {
             return;
         }
+        // Of the whole batch: its parts on several threads are small, but not their memory.
+        let in_registers = Self::in_registers::<N>() && self.points.count() * Self::POINT <= CACHED;
         let no = Mask::splat(false);
         let mut buffers = [R::buffers::<N>(); STAGED_BLOCKS];
         let mut masks: [(LanesMask<T, N>, LanesMask<T, N>); STAGED_BLOCKS] = [(no, no); STAGED_BLOCKS];
@@ -225,7 +224,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
         let mut first = start;
         while first < end {
             let count = (STAGED_BLOCKS * N).min(end - first);
-            self.load(first, count, &mut deformations, &mut buffers);
+            self.load(first, count, &mut deformations, &mut buffers, in_registers);
             let blocks = count.div_ceil(N);
             let mut block = 0;
             while block < blocks {
@@ -240,7 +239,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
                 }
                 block += 1;
             }
-            self.store(first - start, count, &buffers);
+            self.store(first - start, count, &buffers, in_registers);
             for (block, (good, slow)) in masks[..blocks].iter().enumerate() {
                 let at = first + block * N;
                 self.note::<N>(at, N.min(end - at), *good, *slow, tally);
@@ -254,7 +253,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
     fn point<const N: usize>(deformation: D::Point<Lanes<T, N>>) -> Examined<T, D::Point<Lanes<T, N>>, N> {
         let mut good: LanesMask<T, N> = Mask::splat(true);
         let mut jacobian = None;
-        if !D::TRUSTED {
+        if !D::TRUSTED && !R::KNOWS_DEFORMATIONS {
             let determinant = deformation.jacobian();
             good = Lanes::splat(T::zero()).less_than(determinant) & determinant.is_finite();
             jacobian = Some(determinant);
@@ -287,6 +286,15 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
         }
     }
 
+    /// Bytes of the deformation and the outputs of a point.
+    const POINT: usize = (9 + R::COMPONENTS) * size_of::<T>();
+
+    /// Whether points become lanes by shuffles in registers.
+    #[inline(always)]
+    const fn in_registers<const N: usize>() -> bool {
+        D::RECORDS && R::RECORDS && Lanes::<T, N>::IN_REGISTERS
+    }
+
     /// Reads `count` points from `first` on.
     #[inline(never)]
     fn load<const N: usize>(
@@ -295,16 +303,17 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
         count: usize,
         deformations: &mut [[Lanes<T, N>; 9]; STAGED_BLOCKS],
         buffers: &mut [R::Buffers<N>; STAGED_BLOCKS],
+        in_registers: bool,
     ) {
         let mut done = 0;
         for (deformation, buffers) in deformations.iter_mut().zip(buffers) {
             let (at, left) = (first + done, count - done);
             if N <= left {
-                self.points.fill(at, N, deformation);
-                self.requests.load(at, N, buffers);
+                self.points.fill(at, N, deformation, in_registers);
+                self.requests.load(at, N, buffers, in_registers);
             } else if 0 < left {
-                self.points.fill(at, left, deformation);
-                self.requests.load(at, left, buffers);
+                self.points.fill(at, left, deformation, in_registers);
+                self.requests.load(at, left, buffers, in_registers);
             }
             done += N.min(left);
         }
@@ -312,14 +321,20 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
 
     /// Writes `count` points from `at` on.
     #[inline(never)]
-    fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &[R::Buffers<N>; STAGED_BLOCKS]) {
+    fn store<const N: usize>(
+        &mut self,
+        at: usize,
+        count: usize,
+        buffers: &[R::Buffers<N>; STAGED_BLOCKS],
+        in_registers: bool,
+    ) {
         let mut done = 0;
         for buffers in buffers {
             let (at, left) = (at + done, count - done);
             if N <= left {
-                self.requests.store(at, N, buffers);
+                self.requests.store(at, N, buffers, in_registers);
             } else if 0 < left {
-                self.requests.store(at, left, buffers);
+                self.requests.store(at, left, buffers, in_registers);
             }
             done += N.min(left);
         }

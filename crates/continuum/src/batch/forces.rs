@@ -1,6 +1,6 @@
 //! Tractions and stress power.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
 
@@ -10,7 +10,10 @@ use super::requests::{Quantity, Request};
 use crate::rates::strain::GreenStrainRate;
 use crate::rates::{GradientRate, VelocityGradient};
 use crate::tensor::rows::{Rows, apply};
-use crate::{CauchyStress, Deformation, FirstPiola, SecondPiola, Symmetric};
+use crate::{
+    BiotStress, CauchyStress, Deformation, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
+    UnitNormal,
+};
 
 #[inline(always)]
 fn rows<T: Copy>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> Rows<T> {
@@ -52,7 +55,7 @@ pairs! {
     ///
     /// # Example
     /// ```
-    /// use nalgebra::Vector3;
+    /// use nalgebra::{Matrix3, Vector3};
     /// use piola_continuum::{CauchyStress, DeformationGradient, batch};
     /// let stress = [CauchyStress::new(10.0, 0.0, 0.0, 5.0, 0.0, 0.0)?; 3];
     /// let (normal, mut traction) = ([Vector3::x(); 3], [Vector3::zeros(); 3]);
@@ -133,5 +136,89 @@ pairs! {
         "stress and rate of Green's strain" |_point, input| {
             let stress = SecondPiola(Symmetric { components: part(&input, 0) });
             [stress.power_per_reference_volume(&GreenStrainRate(Symmetric { components: part(&input, 6) }))]
+        };
+    /// n · T n, Pa: see [`CauchyStress::normal_traction`]; n has length 1.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::{CauchyStress, DeformationGradient, batch};
+    /// let stress = [CauchyStress::new(10.0, 0.0, 0.0, 5.0, 0.0, 0.0)?; 3];
+    /// let (normal, mut out) = ([Vector3::x(); 3], [0.0; 3]);
+    /// let request = batch::normal_traction(&stress[..], &normal[..], &mut out[..]);
+    /// assert!((request.at(&DeformationGradient::identity(), 2)[0] - 10.0_f64).abs() < 1e-14);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    normal_traction NormalTraction CauchyStress [6] normal: Vector3<f64> [9 => 1] "stress and normal" |_point, input| {
+        let stress = CauchyStress(Symmetric { components: part(&input, 0) });
+        [stress.normal_traction(&UnitNormal::trusted(part(&input, 6)))]
+    };
+    /// T n less its part along n, Pa: see [`CauchyStress::shear_traction`]; n has length 1.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_continuum::{CauchyStress, DeformationGradient, batch};
+    /// let stress = [CauchyStress::new(10.0, 0.0, 0.0, 5.0, 0.0, 0.0)?; 3];
+    /// let (normal, mut out) = ([Vector3::x(); 3], [Vector3::zeros(); 3]);
+    /// let request = batch::shear_traction(&stress[..], &normal[..], &mut out[..]);
+    /// assert_eq!(request.at(&DeformationGradient::identity(), 2), [0.0, 5.0, 0.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    shear_traction ShearTraction CauchyStress [6] normal: Vector3<f64> [9 => 3] "stress and normal" |_point, input| {
+        let stress = CauchyStress(Symmetric { components: part(&input, 0) });
+        stress.shear_traction(&UnitNormal::trusted(part(&input, 6))).into()
+    };
+    /// tr(τ L), W per reference m³: see [`KirchhoffStress::power_per_reference_volume`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{DeformationGradient, KirchhoffStress, batch, rates::VelocityGradient};
+    /// let stress = [KirchhoffStress::new(0.0, 0.0, 0.0, 5.0, 0.0, 0.0)?; 3];
+    /// let shearing = [VelocityGradient::new(Matrix3::new(0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))?; 3];
+    /// let mut power = [0.0; 3];
+    /// let request = batch::power_of_kirchhoff(&stress[..], &shearing[..], &mut power[..]);
+    /// assert_eq!(request.at(&DeformationGradient::identity(), 2), [15.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    power_of_kirchhoff PowerOfKirchhoff KirchhoffStress [6] velocity_gradient: VelocityGradient [15 => 1]
+        "stress and velocity gradient" |_point, input| {
+            let stress = KirchhoffStress(Symmetric { components: part(&input, 0) });
+            [stress.power_per_reference_volume(&VelocityGradient(from_rows(rows(part(&input, 6)))))]
+        };
+    /// sym(Rᵀ P) : U̇, W per reference m³: see [`BiotStress::power_per_reference_volume`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{BiotStress, DeformationGradient, Symmetric, batch};
+    /// let stress = [BiotStress::new(Matrix3::from_diagonal(&[5.0, 0.0, 0.0].into()))?; 3];
+    /// let (rate, mut power) = ([Symmetric::diagonal([3.0, 0.0, 0.0]); 3], [0.0; 3]);
+    /// let request = batch::power_of_biot(&stress[..], &rate[..], &mut power[..]);
+    /// assert_eq!(request.at(&DeformationGradient::identity(), 2), [15.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    power_of_biot PowerOfBiot BiotStress [9] rate: Symmetric [15 => 1] "stress and rate of U" |_point, input| {
+        let stress = BiotStress(from_rows(rows(part(&input, 0))));
+        [stress.power_per_reference_volume(&Symmetric { components: part(&input, 9) })]
+    };
+    /// M : F⁻¹ L F, W per reference m³, of M and the velocity gradient pulled back: see
+    /// [`MandelStress::power_per_reference_volume`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::{DeformationGradient, MandelStress, batch};
+    /// let pull = Matrix3::from_diagonal(&[5.0, 0.0, 0.0].into());
+    /// let (stress, rate, mut power) = ([MandelStress::new(pull)?; 3], [pull; 3], [0.0; 3]);
+    /// let request = batch::power_of_mandel(&stress[..], &rate[..], &mut power[..]);
+    /// assert_eq!(request.at(&DeformationGradient::identity(), 2), [25.0]);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    power_of_mandel PowerOfMandel MandelStress [9] rate: Matrix3<f64> [18 => 1] "stress and pulled-back gradient"
+        |_point, input| {
+            let stress = MandelStress(from_rows(rows(part(&input, 0))));
+            [stress.power_per_reference_volume(&from_rows(rows(part(&input, 9))))]
         };
 }

@@ -27,24 +27,29 @@
 //! allocated unless points are bad; those are all reported, and all others computed.
 
 mod deformations;
+mod derivatives;
 mod destinations;
 mod evaluation;
 mod forces;
 mod invariants;
 mod kinematic;
+mod motions;
 mod parts;
 mod point;
 mod rates;
+mod records;
 mod refusal;
 mod requests;
 mod sources;
 mod spectral;
+mod spinning;
 mod stresses;
 mod tangents;
 mod transport;
 mod views;
 
 pub use deformations::{Deformations, Displacements, Gradients, Undeformed};
+pub use derivatives::*;
 pub use destinations::Destination;
 #[doc(hidden)]
 pub use evaluation::Tally;
@@ -52,13 +57,15 @@ pub use evaluation::{BadPoint, BatchScalar, PARALLEL_POINTS, Report, evaluate};
 pub use forces::*;
 pub use invariants::*;
 pub use kinematic::*;
+pub use motions::*;
 pub use point::Point;
 pub use rates::*;
 pub use refusal::Refusal;
 pub use requests::{Quantity, Request, Requests};
 pub use sources::Source;
 pub use spectral::*;
+pub use spinning::*;
 pub use stresses::*;
 pub use tangents::*;
 pub use transport::*;
-pub use views::{ColumnMajor, Components, LaneBlocks, Strided, points_of, points_of_mut};
+pub use views::{AllEntries, ColumnMajor, Components, LaneBlocks, Strided, points_of, points_of_mut};

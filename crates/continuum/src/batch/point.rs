@@ -8,7 +8,8 @@ use crate::Deformation;
 use crate::spectral::StretchAnalysis;
 use crate::tensor::rows::Rows;
 
-/// A deformation with what is already known of it: J where it was checked, the stretches where an output needs them.
+/// A deformation with what is already known of it: J where it was checked, the stretches as far as an output
+/// needs them.
 #[derive(Clone, Copy)]
 pub struct Point<T: Real, D> {
     pub(super) deformation: D,
@@ -34,9 +35,16 @@ impl<T: Real, D: Deformation<T>> Point<T, D> {
     pub fn stretch(&self) -> StretchAnalysis<T> {
         match self.stretch {
             Some(stretch) => stretch,
-            None => StretchAnalysis::of(&self.deformation),
+            None => analysed(&self.deformation),
         }
     }
+}
+
+/// Of a point beside a batch: compiled once, not into every quantity.
+#[cold]
+#[inline(never)]
+fn analysed<T: Real, D: Deformation<T>>(deformation: &D) -> StretchAnalysis<T> {
+    StretchAnalysis::of(deformation)
 }
 
 impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {

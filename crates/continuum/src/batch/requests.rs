@@ -44,6 +44,9 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
     type Output;
     /// Whether it is computed from the analysis of the stretches.
     const NEEDS_STRETCH: bool;
+    /// Whether it is not [`good`](Self::good) wherever F is no deformation, by itself: no det F is formed then before it is
+    /// computed.
+    const KNOWS_DEFORMATIONS: bool = false;
     /// What the I components are, for messages.
     const INPUT: &'static str;
 
@@ -60,6 +63,21 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
     #[inline(always)]
     fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, _value: &[T; K]) -> T::Mask {
         self.exists(point)
+    }
+
+    /// False where the input may not be what it is taken for: [`check_input`](Self::check_input) is asked of those
+    /// points then.
+    #[inline(always)]
+    fn admits<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, _input: &[T; I]) -> T::Mask {
+        Mask::splat(true)
+    }
+
+    /// Refuses input that is not what it is taken for, though finite.
+    ///
+    /// # Errors
+    /// What is wrong with it; most quantities take any finite input.
+    fn check_input<T: Real, D: Deformation<T>>(&self, _deformation: &D, _input: &[T; I]) -> Result<(), ContinuumError> {
+        Ok(())
     }
 
     /// Refuses a point that has no value.
@@ -96,6 +114,9 @@ impl<Q: Quantity<I, K>, S, V, const I: usize, const K: usize> Request<Q, S, V, I
 pub trait Requests<T: BatchScalar>: Send + Sized {
     /// Whether an output is computed from the analysis of the stretches.
     const NEEDS_STRETCH: bool;
+    /// Whether all outputs know by themselves where F is no deformation.
+    #[doc(hidden)]
+    const KNOWS_DEFORMATIONS: bool;
 
     /// Whether all views have the length of the batch.
     ///
@@ -110,6 +131,10 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
     #[doc(hidden)]
     const IN_LANES: bool;
 
+    /// Whether the numbers of a point lie side by side in all views.
+    #[doc(hidden)]
+    const RECORDS: bool;
+
     /// How many components all outputs have.
     #[doc(hidden)]
     const COMPONENTS: usize;
@@ -122,9 +147,10 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
     #[doc(hidden)]
     fn buffers<const N: usize>() -> Self::Buffers<N>;
 
-    /// Reads the inputs of `count` ≤ N points from `first` on.
+    /// Reads the inputs of `count` ≤ N points from `first` on; in registers or point by point where they lie not in
+    /// lanes.
     #[doc(hidden)]
-    fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>);
+    fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>, in_registers: bool);
 
     /// Computes the outputs in lanes; tells in which lanes the input is finite and the quantities exist.
     #[doc(hidden)]
@@ -146,12 +172,12 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
 
     /// Writes the outputs of `count` ≤ N points to the destination's points from `at` on.
     #[doc(hidden)]
-    fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>);
+    fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>, in_registers: bool);
 
-    /// Whether the input of a point is finite and the quantities exist there.
+    /// Whether the input of a point is finite and what it is taken for, and the quantities exist there.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::Refused`].
+    /// [`ContinuumError::NotFinite`], [`ContinuumError::Refused`], and those of [`Quantity::check_input`].
     fn check<D: Deformation<Lanes<T, 1>>>(&self, index: usize, deformation: &D) -> Result<(), ContinuumError>;
 
     /// Writes NaN at a point.
@@ -178,7 +204,7 @@ impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
             nothing += difference;
             i += 1;
         }
-        exists & nothing.is_finite()
+        exists & nothing.is_finite() & self.quantity.admits(point, input)
     }
 }
 
@@ -190,7 +216,9 @@ where
     V: Destination<Q::Output, T, K>,
 {
     const NEEDS_STRETCH: bool = Q::NEEDS_STRETCH;
+    const KNOWS_DEFORMATIONS: bool = Q::KNOWS_DEFORMATIONS;
     const IN_LANES: bool = S::IN_LANES && V::IN_LANES;
+    const RECORDS: bool = S::RECORDS && V::RECORDS;
     const COMPONENTS: usize = K;
 
     fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
@@ -220,9 +248,11 @@ where
     }
 
     #[inline(always)]
-    fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>) {
+    fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>, in_registers: bool) {
         if S::IN_LANES {
             buffers.0 = self.source.load::<N>(first, count);
+        } else if 0 < I && in_registers {
+            self.source.gather(first, count, &mut buffers.0);
         } else if 0 < I {
             fill(&self.source, first, count, &mut buffers.0);
         }
@@ -253,9 +283,11 @@ where
     }
 
     #[inline(always)]
-    fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>) {
+    fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>, in_registers: bool) {
         if V::IN_LANES {
             self.to.store(at, count, buffers.1);
+        } else if in_registers {
+            self.to.scatter(at, count, &buffers.1);
         } else {
             scatter(&mut self.to, at, count, &buffers.1);
         }
@@ -263,7 +295,10 @@ where
 
     fn check<D: Deformation<Lanes<T, 1>>>(&self, index: usize, deformation: &D) -> Result<(), ContinuumError> {
         if 0 < I {
-            check_finite(Q::INPUT, &self.source.point(index))?;
+            self.source.check(Q::INPUT, index)?;
+            let input = self.source.point(index);
+            check_finite(Q::INPUT, &input)?;
+            self.quantity.check_input(deformation, &input.map(|x| Lanes([x])))?;
         }
         self.quantity.check(deformation).map_err(ContinuumError::Refused)
     }
@@ -277,7 +312,9 @@ macro_rules! tuple {
     ($($name:ident $place:tt),+) => {
         impl<T: BatchScalar, $($name: Requests<T>),+> Requests<T> for ($($name,)+) {
             const NEEDS_STRETCH: bool = $($name::NEEDS_STRETCH)|+;
+            const KNOWS_DEFORMATIONS: bool = $($name::KNOWS_DEFORMATIONS)&+;
             const IN_LANES: bool = $($name::IN_LANES)&+;
+            const RECORDS: bool = $($name::RECORDS)&+;
             const COMPONENTS: usize = 0 $(+ $name::COMPONENTS)+;
 
             fn check_lengths(&self, expected: usize) -> Result<(), ContinuumError> {
@@ -299,8 +336,14 @@ macro_rules! tuple {
             }
 
             #[inline(always)]
-            fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>) {
-                $(self.$place.load(first, count, &mut buffers.$place);)+
+            fn load<const N: usize>(
+                &self,
+                first: usize,
+                count: usize,
+                buffers: &mut Self::Buffers<N>,
+                in_registers: bool,
+            ) {
+                $(self.$place.load(first, count, &mut buffers.$place, in_registers);)+
             }
 
             #[inline(always)]
@@ -327,8 +370,14 @@ macro_rules! tuple {
             }
 
             #[inline(always)]
-            fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>) {
-                $(self.$place.store(at, count, &buffers.$place);)+
+            fn store<const N: usize>(
+                &mut self,
+                at: usize,
+                count: usize,
+                buffers: &Self::Buffers<N>,
+                in_registers: bool,
+            ) {
+                $(self.$place.store(at, count, &buffers.$place, in_registers);)+
             }
 
             fn check<De: Deformation<Lanes<T, 1>>>(

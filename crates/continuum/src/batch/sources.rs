@@ -1,9 +1,11 @@
 //! Where the components of points are read from: arrays of structures, structures of arrays, strided numbers.
 
 use nalgebra::Matrix3;
-use piola_numerics::{Element, Lanes};
+use piola_numerics::sums::unit_in_last_place;
+use piola_numerics::{Element, Lanes, Real};
 
-use super::{BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
+use super::records::gather;
+use super::{AllEntries, BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
 use crate::{
     BiotStress, CauchyStress, ContinuumError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
 };
@@ -17,6 +19,7 @@ use crate::{
 /// | `&[Symmetric<T>]`, `&[Matrix3<T>]`, `&[[[T; 3]; 3]]`, `&[[T; K]]` | a structure for each point |
 /// | `&[CauchyStress<T>]` and the other measures, each only where that measure is asked for | so too |
 /// | [`ColumnMajor`] | nine numbers by columns for each point |
+/// | [`AllEntries`] | symmetric tensors by any layout of nine numbers, which are checked |
 /// | [`Strided`] | numbers at a stride, from [`points_of`](super::points_of) where it is K |
 /// | [`Components`] | an array for each component |
 /// | [`LaneBlocks`] | blocks of points, in a block an array for each component: the fastest |
@@ -24,6 +27,10 @@ pub trait Source<Q, T: Element, const K: usize>: Copy + Send + Sync {
     /// Whether each component of neighbouring points lies side by side, so that [`load`](Self::load) moves nothing from
     /// lane to lane.
     const IN_LANES: bool = false;
+
+    /// Whether the numbers of a point lie side by side, so that they become lanes in registers.
+    #[doc(hidden)]
+    const RECORDS: bool = false;
 
     /// The number of points; none where nothing is read.
     fn count(&self) -> Option<usize>;
@@ -35,12 +42,28 @@ pub trait Source<Q, T: Element, const K: usize>: Copy + Send + Sync {
     #[inline(always)]
     fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; K] {
         let mut lanes = [Lanes([T::zero(); N]); K];
-        fill(self, first, count, &mut lanes);
+        self.gather(first, count, &mut lanes);
         lanes
+    }
+
+    /// Whether the numbers at a point are what they are taken for; errors name the quantity.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotSymmetric`] from [`AllEntries`].
+    #[doc(hidden)]
+    fn check(&self, _quantity: &'static str, _index: usize) -> Result<(), ContinuumError> {
+        Ok(())
+    }
+
+    /// As [`load`](Self::load), straight into memory.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; K]) {
+        fill(self, first, count, lanes);
     }
 }
 
-/// As [`Source::load`], straight into memory, point by point.
+/// Point by point.
 #[inline(always)]
 pub(super) fn fill<S: Source<Q, T, K>, Q, T: Element, const K: usize, const N: usize>(
     source: &S,
@@ -61,6 +84,7 @@ pub(super) fn fill<S: Source<Q, T, K>, Q, T: Element, const K: usize, const N: u
 /// Nothing is read.
 impl<Q, T: Element> Source<Q, T, 0> for () {
     const IN_LANES: bool = true;
+    const RECORDS: bool = true;
     #[inline(always)]
     fn count(&self) -> Option<usize> {
         None
@@ -72,6 +96,15 @@ impl<Q, T: Element> Source<Q, T, 0> for () {
 }
 
 impl<Q, T: BatchScalar> Source<Q, T, 6> for &[Symmetric<T>] {
+    const RECORDS: bool = true;
+    #[inline(always)]
+    fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 6]) {
+        if count < N {
+            fill::<_, Q, T, 6, N>(self, first, count, lanes);
+        } else {
+            gather(self, first, lanes);
+        }
+    }
     #[inline(always)]
     fn count(&self) -> Option<usize> {
         Some(self.len())
@@ -83,6 +116,15 @@ impl<Q, T: BatchScalar> Source<Q, T, 6> for &[Symmetric<T>] {
 }
 
 impl<Q, T: Element, const K: usize> Source<Q, T, K> for &[[T; K]] {
+    const RECORDS: bool = true;
+    #[inline(always)]
+    fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; K]) {
+        if count < N {
+            fill::<_, Q, T, K, N>(self, first, count, lanes);
+        } else {
+            gather(self, first, lanes);
+        }
+    }
     #[inline(always)]
     fn count(&self) -> Option<usize> {
         Some(self.len())
@@ -94,6 +136,15 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for &[[T; K]] {
 }
 
 impl<Q, T: Element> Source<Q, T, 9> for &[[[T; 3]; 3]] {
+    const RECORDS: bool = true;
+    #[inline(always)]
+    fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
+        if count < N {
+            fill::<_, Q, T, 9, N>(self, first, count, lanes);
+        } else {
+            gather(self, first, lanes);
+        }
+    }
     #[inline(always)]
     fn count(&self) -> Option<usize> {
         Some(self.len())
@@ -119,6 +170,15 @@ pub(super) fn by_rows<T: Element>(matrix: &Matrix3<T>) -> [T; 9] {
 }
 
 impl<Q, T: Element> Source<Q, T, 9> for &[Matrix3<T>] {
+    const RECORDS: bool = true;
+    #[inline(always)]
+    fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
+        if count < N {
+            fill::<_, Q, T, 9, N>(self, first, count, lanes);
+        } else {
+            gather(self, first, lanes);
+        }
+    }
     #[inline(always)]
     fn count(&self) -> Option<usize> {
         Some(self.len())
@@ -196,6 +256,39 @@ impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBloc
     }
 }
 
+impl<Q, T: BatchScalar, A: Source<Q, T, 9>> Source<Q, T, 6> for AllEntries<A> {
+    const IN_LANES: bool = A::IN_LANES;
+    #[inline(always)]
+    fn count(&self) -> Option<usize> {
+        self.0.count()
+    }
+    #[inline(always)]
+    fn point(&self, index: usize) -> [T; 6] {
+        symmetric_or_not_finite(self.0.point(index))
+    }
+    #[inline(always)]
+    fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; 6] {
+        symmetric_or_not_finite(self.0.load::<N>(first, count))
+    }
+    fn check(&self, quantity: &'static str, index: usize) -> Result<(), ContinuumError> {
+        let [a, b, c, d, e, f, g, h, i] = self.0.point(index);
+        Symmetric::of_quantity(quantity, [[a, b, c], [d, e, f], [g, h, i]]).map(|_| ())
+    }
+}
+
+/// The symmetric part where opposite entries agree as [`Symmetric::from_rows`] asks, otherwise not finite, by which the
+/// point is looked at.
+#[inline(always)]
+fn symmetric_or_not_finite<X: Real>([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [X; 9]) -> [X; 6] {
+    let largest = xx.abs().max(yy.abs()).max(zz.abs()).max(xy.abs()).max(yz.abs()).max(xz.abs());
+    let scale = largest.max(yx.abs()).max(zy.abs()).max(zx.abs());
+    let tolerance = scale * X::lit(32.0 * unit_in_last_place::<X>());
+    let agree =
+        (xy - yx).abs().at_most(tolerance) & (yz - zy).abs().at_most(tolerance) & (xz - zx).abs().at_most(tolerance);
+    let (half, xx) = (X::lit(0.5), X::select(agree, xx, X::lit(f64::NAN)));
+    [xx, yy, zz, half * (xy + yx), half * (yz + zy), half * (xz + zx)]
+}
+
 impl<Q, T: Element, const K: usize> Source<Q, T, K> for Components<&[T], K> {
     const IN_LANES: bool = true;
     #[inline(always)]
@@ -220,6 +313,15 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for Components<&[T], K> {
 macro_rules! symmetric_measures {
     ($($name:ident)*) => { $(
         impl<T: BatchScalar> Source<$name, T, 6> for &[$name<T>] {
+            const RECORDS: bool = true;
+            #[inline(always)]
+            fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 6]) {
+                if count < N {
+                    fill::<_, $name, T, 6, N>(self, first, count, lanes);
+                } else {
+                    gather(self, first, lanes);
+                }
+            }
             #[inline(always)]
             fn count(&self) -> Option<usize> {
                 Some(self.len())
@@ -236,6 +338,15 @@ symmetric_measures!(CauchyStress KirchhoffStress SecondPiola);
 macro_rules! general_measures {
     ($($name:ident)*) => { $(
         impl<T: BatchScalar> Source<$name, T, 9> for &[$name<T>] {
+            const RECORDS: bool = true;
+            #[inline(always)]
+            fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
+                if count < N {
+                    fill::<_, $name, T, 9, N>(self, first, count, lanes);
+                } else {
+                    gather(self, first, lanes);
+                }
+            }
             #[inline(always)]
             fn count(&self) -> Option<usize> {
                 Some(self.len())

@@ -6,8 +6,10 @@ use super::kinematic::flat;
 use super::parts::part;
 use super::point::Point;
 use super::requests::{Quantity, Request};
+use super::tangents::slots;
 use super::{BatchScalar, Destination};
-use crate::spectral::{IsotropicFunction, decompose, derivative};
+use crate::spectral::{IsotropicFunction, decompose, derivative, derivative_array, second_derivative};
+use crate::tensor::MinorSymmetric;
 use crate::{Deformation, Symmetric};
 
 /// Eigenvalues and eigenvectors of a symmetric tensor: see [`decompose`].
@@ -145,5 +147,79 @@ impl<F: IsotropicFunction + Copy + Send + Sync> Quantity<12, 6> for TensorFuncti
     fn of<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, input: [T; 12]) -> [T; 6] {
         let (a, h) = (Symmetric { components: part(&input, 0) }, Symmetric { components: part(&input, 6) });
         derivative(&self.0, &a, &h).components
+    }
+}
+
+/// The second derivatives of f at symmetric tensors A along symmetric H and K: see
+/// [`second_derivative`](crate::spectral::second_derivative).
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, Symmetric, batch, spectral::SquareRoot};
+/// let (a, h) = ([Symmetric::<f64>::identity(); 3], [Symmetric::diagonal([1.0, 2.0, 0.0]); 3]);
+/// let mut along = [Symmetric::zero(); 3];
+/// let any = DeformationGradient::identity();
+/// let request = batch::tensor_function_second_derivative(SquareRoot, &a[..], &h[..], &h[..], &mut along[..]);
+/// assert!((request.at(&any, 2)[1] + 1.0).abs() < 1e-15); // √(1 + h) = 1 + h/2 − h²/8
+/// ```
+#[must_use]
+pub fn tensor_function_second_derivative<F, S, H, K, V>(
+    f: F,
+    tensor: S,
+    first: H,
+    second: K,
+    to: V,
+) -> Request<TensorFunctionSecondDerivative<F>, (S, H, K), V, 18, 6> {
+    Request { quantity: TensorFunctionSecondDerivative(f), source: (tensor, first, second), to }
+}
+
+/// The output of [`tensor_function_second_derivative`].
+#[derive(Clone, Copy, Debug)]
+pub struct TensorFunctionSecondDerivative<F>(F);
+
+impl<F: IsotropicFunction + Copy + Send + Sync> Quantity<18, 6> for TensorFunctionSecondDerivative<F> {
+    type Input = (Symmetric, Symmetric, Symmetric);
+    type Output = Self;
+    const NEEDS_STRETCH: bool = false;
+    const INPUT: &'static str = "tensor and directions";
+
+    #[inline(always)]
+    fn of<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, input: [T; 18]) -> [T; 6] {
+        let (a, h) = (Symmetric { components: part(&input, 0) }, Symmetric { components: part(&input, 6) });
+        second_derivative(&self.0, &a, &h, &Symmetric { components: part(&input, 12) }).components
+    }
+}
+
+/// The whole derivatives ∂f(A)/∂A of symmetric tensors A, six rows of six: see [`derivative_array`].
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DeformationGradient, Symmetric, batch, spectral::SquareRoot};
+/// let (a, mut out) = ([Symmetric::<f64>::identity(); 3], [[0.0; 36]; 3]);
+/// let request = batch::tensor_function_derivative_array(SquareRoot, &a[..], &mut out[..]);
+/// assert!((request.at(&DeformationGradient::identity(), 2)[0] - 0.5).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn tensor_function_derivative_array<F, S, V>(
+    f: F,
+    tensor: S,
+    to: V,
+) -> Request<TensorFunctionDerivativeArray<F>, S, V, 6, 36> {
+    Request { quantity: TensorFunctionDerivativeArray(f), source: tensor, to }
+}
+
+/// The output of [`tensor_function_derivative_array`].
+#[derive(Clone, Copy, Debug)]
+pub struct TensorFunctionDerivativeArray<F>(F);
+
+impl<F: IsotropicFunction + Copy + Send + Sync> Quantity<6, 36> for TensorFunctionDerivativeArray<F> {
+    type Input = Symmetric;
+    type Output = Self;
+    const NEEDS_STRETCH: bool = false;
+    const INPUT: &'static str = "tensor";
+
+    #[inline(always)]
+    fn of<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, components: [T; 6]) -> [T; 36] {
+        slots(&MinorSymmetric { components: derivative_array(&self.0, &Symmetric { components }) })
     }
 }

@@ -7,7 +7,10 @@ use super::kinematic::flat;
 use super::point::Point;
 use super::requests::{Quantity, Request};
 use crate::tensor::rows::Rows;
-use crate::{BiotStress, CauchyStress, Deformation, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric};
+use crate::{
+    BiotStress, CauchyStress, ContinuumError, Deformation, FirstPiola, KirchhoffStress, MandelStress, SecondPiola,
+    Symmetric,
+};
 
 /// The components of a measure of stress as a batch holds them.
 trait Measure<T, const K: usize> {
@@ -89,8 +92,27 @@ macro_rules! size {
     };
 }
 
+/// What a conversion asks of its input beyond that it is finite.
+macro_rules! input {
+    (any) => {};
+    (balanced) => {
+        #[inline(always)]
+        fn admits<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, input: &[T; 9]) -> T::Mask {
+            FirstPiola::of_components(*input).is_balanced(point)
+        }
+
+        fn check_input<T: Real, D: Deformation<T>>(
+            &self,
+            deformation: &D,
+            input: &[T; 9],
+        ) -> Result<(), ContinuumError> {
+            FirstPiola::of_components(*input).check_balance(deformation)
+        }
+    };
+}
+
 macro_rules! conversions {
-    ($stretch:literal: $($(#[$documentation:meta])* $function:ident $name:ident $from:ident [$i:literal] $to:ident [$k:literal]
+    ($stretch:literal $input:ident: $($(#[$documentation:meta])* $function:ident $name:ident $from:ident [$i:literal] $to:ident [$k:literal]
         |$stress:ident, $point:ident| $value:expr;)*) => { $(
         $(#[$documentation])*
         ///
@@ -126,11 +148,13 @@ macro_rules! conversions {
                 let converted: $to<T> = $value;
                 converted.components()
             }
+
+            input!($input);
         }
     )* };
 }
 
-conversions! { false:
+conversions! { false any:
     /// τ = J T.
     cauchy_to_kirchhoff CauchyToKirchhoff CauchyStress [6] KirchhoffStress [6] |stress, point| stress.kirchhoff(point);
     /// P = T Cof F.
@@ -147,12 +171,6 @@ conversions! { false:
     kirchhoff_to_second_piola KirchhoffToSecondPiola KirchhoffStress [6] SecondPiola [6] |stress, point| stress.second_piola(point);
     /// M = Fᵀ τ F⁻ᵀ.
     kirchhoff_to_mandel KirchhoffToMandel KirchhoffStress [6] MandelStress [9] |stress, point| stress.mandel(point);
-    /// T = sym(P Fᵀ)/J.
-    first_piola_to_cauchy FirstPiolaToCauchy FirstPiola [9] CauchyStress [6] |stress, point| stress.cauchy(point);
-    /// τ = sym(P Fᵀ).
-    first_piola_to_kirchhoff FirstPiolaToKirchhoff FirstPiola [9] KirchhoffStress [6] |stress, point| stress.kirchhoff(point);
-    /// S = sym(F⁻¹ P).
-    first_piola_to_second_piola FirstPiolaToSecondPiola FirstPiola [9] SecondPiola [6] |stress, point| stress.second_piola(point);
     /// M = Fᵀ P.
     first_piola_to_mandel FirstPiolaToMandel FirstPiola [9] MandelStress [9] |stress, point| stress.mandel(point);
     /// T = F S Fᵀ/J.
@@ -173,7 +191,25 @@ conversions! { false:
     mandel_to_second_piola MandelToSecondPiola MandelStress [9] SecondPiola [6] |stress, point| stress.second_piola(point);
 }
 
-conversions! { true:
+conversions! { false balanced:
+    /// T = sym(P Fᵀ)/J.
+    ///
+    /// A point where P Fᵀ is not symmetric is a bad one, [`ContinuumError::NotSymmetric`]: by more than 96 ulp of
+    /// |P| |F| max(1, |F|³/J), by largest entries.
+    first_piola_to_cauchy FirstPiolaToCauchy FirstPiola [9] CauchyStress [6] |stress, point| stress.cauchy(point);
+    /// τ = sym(P Fᵀ).
+    ///
+    /// A point where P Fᵀ is not symmetric is a bad one, [`ContinuumError::NotSymmetric`]: by more than 96 ulp of
+    /// |P| |F| max(1, |F|³/J), by largest entries.
+    first_piola_to_kirchhoff FirstPiolaToKirchhoff FirstPiola [9] KirchhoffStress [6] |stress, point| stress.kirchhoff(point);
+    /// S = sym(F⁻¹ P).
+    ///
+    /// A point where P Fᵀ is not symmetric is a bad one, [`ContinuumError::NotSymmetric`]: by more than 96 ulp of
+    /// |P| |F| max(1, |F|³/J), by largest entries.
+    first_piola_to_second_piola FirstPiolaToSecondPiola FirstPiola [9] SecondPiola [6] |stress, point| stress.second_piola(point);
+}
+
+conversions! { true any:
     /// Biot's stress Rᵀ T Cof F.
     cauchy_to_biot CauchyToBiot CauchyStress [6] BiotStress [9]
         |stress, point| stress.first_piola(point).biot_of_analysis(&point.stretch());

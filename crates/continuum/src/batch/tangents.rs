@@ -15,7 +15,7 @@ use crate::{CauchyStress, Deformation, SecondPiola, Symmetric};
 
 /// Nine rows of nine entries.
 #[inline(always)]
-fn general<T: Real>(entries: [T; 81]) -> FourthOrder<T> {
+pub(super) fn general<T: Real>(entries: [T; 81]) -> FourthOrder<T> {
     let mut tensor = FourthOrder::zero();
     let mut k = 0;
     while k < 81 {
@@ -39,7 +39,7 @@ fn entries<T: Real>(tensor: &FourthOrder<T>) -> [T; 81] {
 
 /// The entries of six rows of six.
 #[inline(always)]
-fn slots<T: Real>(tensor: &MinorSymmetric<T>) -> [T; 36] {
+pub(super) fn slots<T: Real>(tensor: &MinorSymmetric<T>) -> [T; 36] {
     let mut slots = [T::zero(); 36];
     let mut k = 0;
     while k < 36 {
@@ -142,6 +142,19 @@ tangents! {
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     truesdell_to_material_tangent TruesdellToMaterialTangent TruesdellTangent material MaterialTangent;
+    /// c of c/J: see [`TruesdellTangent::lie`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::batch;
+    /// use piola_continuum::{DeformationGradient, tensor::MajorSymmetric};
+    /// let f = [DeformationGradient::diagonal([2.0, 1.0, 1.0])?];
+    /// let (truesdell, mut lie) = ([MajorSymmetric::isotropic(1.0, 1.0)], [MajorSymmetric::zero()]);
+    /// let request = batch::truesdell_to_lie_tangent(&truesdell[..], &mut lie[..]);
+    /// assert_eq!(request.at(&f[0], 0)[0], 6.0);
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
+    truesdell_to_lie_tangent TruesdellToLieTangent TruesdellTangent lie LieTangent;
 }
 
 /// A tangent of a stress and another tangent.

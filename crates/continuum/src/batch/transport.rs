@@ -58,6 +58,16 @@ carried! {
     pull_covector PullCovector [3] |point, v| transport::pull_covector(point, &Vector3::from(v)).into(), 2.0;
     /// n da = Cof F N dA (Nanson): an element of area, as the vector along its normal with its size.
     push_area PushArea [3] |point, v| point.area_element(Vector3::from(v)).into(), 0.25;
+    /// N dA = J⁻¹ Fᵀ n da, the way back of [`push_area`].
+    pull_area PullArea [3] |point, v| {
+        let carried: [T; 3] = transport::pull_covector(point, &Vector3::from(v)).into();
+        let jacobian = point.jacobian();
+        [carried[0] / jacobian, carried[1] / jacobian, carried[2] / jacobian]
+    }, 4.0;
+    /// J f of a body force f per deformed volume, as one per reference volume: see
+    /// [`reference_body_force`](crate::stress::reference_body_force).
+    pull_body_force PullBodyForce [3]
+        |point, v| crate::stress::reference_body_force(point, &Vector3::from(v)).into(), 0.5;
     /// F A Fᵀ.
     push_contravariant PushContravariant [6]
         |point, a| transport::push_contravariant(point, &Symmetric { components: a }).components, 4.0;

@@ -20,6 +20,34 @@ pub struct ColumnMajor<A>(
     pub A,
 );
 
+/// Symmetric tensors given by all nine numbers, which must agree.
+///
+/// Where a symmetric tensor is asked for, this reads any layout of nine. A point whose opposite entries differ by more
+/// than 32 ulp of its largest is a bad point, [`ContinuumError::NotSymmetric`]; of the others the symmetric part is
+/// taken.
+///
+/// # Example
+/// ```
+/// use nalgebra::Matrix3;
+/// use piola_continuum::ContinuumError;
+/// use piola_continuum::batch::{self, AllEntries, Undeformed};
+/// let mut stress = [Matrix3::from_diagonal(&[250.0, 0.0, 0.0].into()); 100];
+/// let mut equivalent = [0.0; 100];
+/// batch::evaluate(Undeformed(100), batch::von_mises(AllEntries(&stress[..]), &mut equivalent[..]))?;
+/// assert_eq!(equivalent[7], 250.0);
+/// stress[7][(0, 1)] = 0.5; // and (1, 0) = 0
+/// let bad = batch::evaluate(Undeformed(100), batch::von_mises(AllEntries(&stress[..]), &mut equivalent[..]));
+/// let Err(ContinuumError::BadPoints { points, .. }) = bad else { unreachable!() };
+/// assert_eq!(points[0].index, 7);
+/// assert!(matches!(points[0].error, ContinuumError::NotSymmetric { row: 0, column: 1, .. }));
+/// # Ok::<(), ContinuumError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct AllEntries<A>(
+    /// Nine numbers for each point.
+    pub A,
+);
+
 /// A structure of arrays: an array for each component, in the order of the components.
 ///
 /// # Example

@@ -92,6 +92,13 @@ pub trait Deformation<T: Real>: Copy {
         volume::logarithm(self.volume_change(), self.jacobian())
     }
 
+    /// Where strain and rotation are moderate, see [`is_moderate`](crate::strain::kernels::is_moderate).
+    #[inline(always)]
+    #[must_use]
+    fn is_moderate(&self) -> T::Mask {
+        crate::strain::kernels::is_moderate(self.gradient_rows(), self.displacement_rows())
+    }
+
     /// Cof F = J F⁻ᵀ, by rows.
     #[inline(always)]
     #[must_use]

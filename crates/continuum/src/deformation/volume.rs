@@ -19,25 +19,25 @@ const CANCELLATION: f64 = 16.0;
 
 /// An unevaluated sum, of about twice the digits of `T`.
 #[derive(Clone, Copy)]
-struct Pair<T> {
+pub(crate) struct Pair<T> {
     high: T,
     low: T,
 }
 
 impl<T: Real> Pair<T> {
     #[inline(always)]
-    fn of(high: T) -> Self {
+    pub(crate) fn of(high: T) -> Self {
         Self { high, low: T::zero() }
     }
 
     #[inline(always)]
-    fn product(a: T, b: T) -> Self {
+    pub(crate) fn product(a: T, b: T) -> Self {
         let (high, low) = two_product(a, b);
         Self { high, low }
     }
 
     #[inline(always)]
-    fn plus(self, other: Self) -> Self {
+    pub(crate) fn plus(self, other: Self) -> Self {
         let (high, error) = two_sum(self.high, other.high);
         let (high, low) = two_sum(high, error + (self.low + other.low));
         Self { high, low }
@@ -56,7 +56,7 @@ impl<T: Real> Pair<T> {
     }
 
     #[inline(always)]
-    fn value(self) -> T {
+    pub(crate) fn value(self) -> T {
         self.high + self.low
     }
 }

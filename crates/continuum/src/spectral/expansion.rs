@@ -10,7 +10,7 @@
 use piola_numerics::{Mask, Real};
 
 use super::IsotropicFunction;
-use super::isotropic::{clustered, difference_of_series, series_at};
+use super::isotropic::{clustered, difference_of_series, series_at, unit_at};
 
 /// The largest order of derivatives that the expansion brings in.
 const LARGEST_ORDER: usize = 4;
@@ -31,8 +31,12 @@ pub(super) fn expand<T: Real, F: IsotropicFunction + ?Sized>(
     const { assert!(T::ORDER <= LARGEST_ORDER, "isotropic functions have derivatives up to the fourth order") };
     let [a, b, c] = nodes;
     if T::ORDER == 0 {
-        let rough = |i: usize, j: usize| f.rough_divided_difference(nodes[i], nodes[j], values[i], values[j]);
-        let pairs = [rough(0, 1), rough(1, 2), rough(0, 2)];
+        let [u, v, w] = values;
+        let pairs = [
+            f.rough_divided_difference(a, b, u, v),
+            f.rough_divided_difference(b, c, v, w),
+            f.rough_divided_difference(a, c, u, w),
+        ];
         return [values[0], values[1], values[2], pairs[0] * n[3], pairs[1] * n[4], pairs[2] * n[5]];
     }
     let pairs = [f.divided_difference(a, b), f.divided_difference(b, c), f.divided_difference(a, c)];
@@ -102,7 +106,9 @@ impl<T: Real> Table<T> {
             let middle = T::lit(0.5) * (nodes[first] + nodes[last]);
             let near = clustered(f, nodes[last], nodes[first]);
             let gap = T::select(near, T::one(), nodes[first] - nodes[last]);
-            let series = series_at(f, middle);
+            let unit = unit_at(f, middle);
+            let series = series_at(f, middle, unit);
+            let cube = unit * unit * unit;
             for total in 4..=T::ORDER + 1 {
                 for count in counts(total) {
                     let spans = count[first] != 0
@@ -119,12 +125,14 @@ impl<T: Real> Table<T> {
                         } else {
                             2
                         };
-                        nodes[which] - middle
+                        (nodes[which] - middle) / unit
                     };
                     let by_series = if total == 4 {
-                        difference_of_series(series, [offset(0), offset(1), offset(2), offset(3)])
+                        difference_of_series(series, [offset(0), offset(1), offset(2), offset(3)]) / cube
                     } else {
                         difference_of_series(series, [offset(0), offset(1), offset(2), offset(3), offset(4)])
+                            / cube
+                            / unit
                     };
                     let e = &mut table.entries;
                     let [i, j, k] = count;

@@ -14,7 +14,7 @@ use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
 use crate::Symmetric;
-use crate::tensor::rows::Rows;
+use crate::tensor::rows::{Rows, apply};
 
 /// Near-minimax polynomial of the root y in |r| − ½ on [−½, ½], error 2·10⁻¹⁶.
 const ROOT: [f64; 18] = [
@@ -56,17 +56,22 @@ fn range<T: Real>() -> Range {
     if unit_in_last_place::<T>() < 1e-10 { DOUBLE } else { SINGLE }
 }
 
+/// Four terms of the polynomial of the root, from k on.
+#[inline(always)]
+fn cubic<T: Real>(k: usize, t: T, t2: T) -> T {
+    (T::lit(ROOT[k]) + T::lit(ROOT[k + 1]) * t) + (T::lit(ROOT[k + 2]) + T::lit(ROOT[k + 3]) * t) * t2
+}
+
 /// The root y of y³ − 3y = 2q in [√3, 2], for 0 ≤ q ≤ 1, or beyond by rounding.
 #[inline(always)]
 fn separated_root<T: Real>(q: T) -> T {
-    let c = |k: usize| T::lit(ROOT[k]);
     let t = q - T::lit(0.5);
     let t2 = t * t;
     let t4 = t2 * t2;
-    let cubic = |k: usize| (c(k) + c(k + 1) * t) + (c(k + 2) + c(k + 3) * t) * t2;
-    let low = cubic(0) + cubic(4) * t4;
-    let high = (cubic(8) + cubic(12) * t4) + (c(16) + c(17) * t) * (t4 * t4);
-    low + high * (t4 * t4)
+    let t8 = t4 * t4;
+    let low = cubic(0, t, t2) + cubic(4, t, t2) * t4;
+    let high = cubic(8, t, t2) + cubic(12, t, t2) * t4;
+    (low + (T::lit(ROOT[16]) + T::lit(ROOT[17]) * t) * (t8 * t8)) + high * t8
 }
 
 /// The larger of two numbers by one comparison.
@@ -104,6 +109,12 @@ pub(super) fn combination<T: Real>(a: T, u: [T; 3], b: T, v: [T; 3]) -> [T; 3] {
     [a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]]
 }
 
+/// a u.
+#[inline(always)]
+fn times<T: Real>([x, y, z]: [T; 3], a: T) -> [T; 3] {
+    [x * a, y * a, z * a]
+}
+
 /// u/a: a vector along an axis over its length is exactly of length 1, which by the reciprocal it need not be.
 #[inline(always)]
 fn over<T: Real>([x, y, z]: [T; 3], a: T) -> [T; 3] {
@@ -125,6 +136,48 @@ fn brought_into_range<T: Real>(mask: T::Mask, a: [T; 6]) -> [T; 6] {
     a.map(|x| x / divisor)
 }
 
+/// A principal frame before its last rotation, which is that of a 2×2 problem.
+#[derive(Clone, Copy)]
+pub(super) struct UnturnedFrame<T: Real> {
+    /// The first axis, and two unit vectors across it, by rows.
+    pub(super) vectors: Rows<T>,
+    /// (cos φ, sin φ) r of the angle φ by which these two are to be turned.
+    turn: [T; 2],
+    /// r², which is 1 exactly where nothing is to be turned.
+    square: T,
+    /// Where the first axis is that of the largest eigenvalue, and not of the smallest.
+    pub(super) first: T::Mask,
+}
+
+impl<T: Real> UnturnedFrame<T> {
+    /// The axes by rows.
+    #[inline(always)]
+    pub(super) fn axes(&self) -> Rows<T> {
+        let ([n, u, w], [c, s]) = (self.vectors, self.turn);
+        let inverse = self.square.sqrt().recip();
+        let (c, s) = (c * inverse, s * inverse);
+        [n, combination(c, u, s, w), combination(c, w, -s, u)]
+    }
+
+    /// (F qₖ by rows, their products) for the axes qₖ, from F: neither waits for r, the root with which the angle ends.
+    #[inline(always)]
+    pub(super) fn images(&self, f: Rows<T>) -> (Rows<T>, [T; 6]) {
+        let ([n, u, w], [c, s]) = (self.vectors, self.turn);
+        let (n, u, w) = (apply(f, n), apply(f, u), apply(f, w));
+        let (u, w) = (combination(c, u, s, w), combination(c, w, -s, u));
+        let (inverse, inverse_square) = (self.square.sqrt().recip(), self.square.recip());
+        let [nn, uu, ww, nu, uw, nw] = gram(&[n, u, w]);
+        let products = [nn, uu * inverse_square, ww * inverse_square, nu * inverse, uw * inverse_square, nw * inverse];
+        ([n, times(u, inverse), times(w, inverse)], products)
+    }
+}
+
+/// Gₖₗ = bₖ · bₗ for 11, 22, 33, 12, 23, 13.
+#[inline(always)]
+pub(super) fn gram<T: Real>([a, b, c]: &Rows<T>) -> [T; 6] {
+    [dot(*a, *a), dot(*b, *b), dot(*c, *c), dot(*a, *b), dot(*b, *c), dot(*a, *c)]
+}
+
 /// Orthonormal right-handed axes, one a row, in which A is diagonal to rounding of its deviator. For scalars without
 /// derivatives, or frozen ones.
 ///
@@ -136,6 +189,13 @@ fn brought_into_range<T: Real>(mask: T::Mask, a: [T; 6]) -> [T; 6] {
 /// deviator, whatever the gaps are. For A = m 1 the axes are some axes.
 #[inline(always)]
 pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
+    let frame = unturned_frame(a);
+    (frame.axes(), frame.first)
+}
+
+/// [`separated_frame`] but for its last rotation.
+#[inline(always)]
+pub(super) fn unturned_frame<T: Real>(a: &Symmetric<T>) -> UnturnedFrame<T> {
     let range = range::<T>();
     let (one, half) = (T::one(), T::lit(0.5));
     let [xx, yy, zz, xy, yz, xz] = a.components;
@@ -156,7 +216,9 @@ pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
 
     // B, scaled to ½ B:B = 3; its determinant by that of the deviator, beside the root and the quotient.
     let size = square.sqrt();
-    let scale = size.recip();
+    // 1/√s and r without waiting for the root.
+    let inverse = square.recip();
+    let scale = size * inverse;
     let [xxxx, yyyy, zzzz, xyxy, yzyz, xzxz] = squares;
     let determinant = xx * (yy * zz - yzyz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
 
@@ -170,7 +232,7 @@ pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
     );
     let (first, last) = (ay.at_most(ax), larger(ax, ay).less_than(az));
 
-    let r = ((half * determinant) * scale) * (scale * scale);
+    let r = ((half * determinant) * inverse * inverse) * size;
     let (xx, yy, zz, xy, yz, xz) = (xx * scale, yy * scale, zz * scale, xy * scale, yz * scale, xz * scale);
 
     // The separated eigenvalue x and its eigenvector v, that column of adj(B − x1).
@@ -194,18 +256,16 @@ pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
     let b = dot(w, image);
     let b_squared = b * b;
     let adjacent = (h.abs() * length + T::lit(range.nothing)) + ((h * h) * vv + b_squared).sqrt();
-    let root = (adjacent * adjacent + b_squared).sqrt();
+    let tangent = b / adjacent;
+    let square = one + tangent * tangent;
     // By products with 1 and 0, which no compiler turns into a jump.
     let forward = half + half.copysign(h);
     let backward = one - forward;
-    // By quotients: 1 and 0 exactly where nothing is to be turned.
-    let (c, s) = ((forward * adjacent + backward * b) / root, (forward * b + backward * adjacent) / root);
-    let (n, u, w) = (over(v, length), over(u, uu.sqrt()), over(w, dot(w, w).sqrt()));
-    let larger = combination(c, u, s, w);
-    let smaller = combination(c, w, -s, u);
+    let turn = [forward + backward * tangent, backward + forward * tangent];
+    let vectors = [over(v, length), over(u, uu.sqrt()), over(w, dot(w, w).sqrt())];
 
     // By x and not by r, whose zero may be negative: then x is the smallest.
-    ([n, larger, smaller], T::zero().at_most(x))
+    UnturnedFrame { vectors, turn, square, first: T::zero().at_most(x) }
 }
 
 /// Of [`separated_frame`], what belongs to the axes, in descending order.
@@ -228,14 +288,31 @@ pub(crate) fn components_in<T: Real>(axes: &Rows<T>, a: &Symmetric<T>) -> [T; 6]
     [dot(q, aq), dot(r, ar), dot(s, a_s), dot(q, ar), dot(r, a_s), dot(q, a_s)]
 }
 
+/// Σ mₖ qₖ. A function, as all that lanes go through: what a closure holds the compiler may leave out of line.
+#[inline(always)]
+pub(super) fn weighted<T: Real>([q, r, s]: &Rows<T>, [a, b, c]: [T; 3]) -> [T; 3] {
+    [a * q[0] + b * r[0] + c * s[0], a * q[1] + b * r[1] + c * s[1], a * q[2] + b * r[2] + c * s[2]]
+}
+
+/// Entry (i, j) of Σ aₖ ⊗ bₖ.
+#[inline(always)]
+pub(super) fn product_entry<T: Real>([a0, a1, a2]: &Rows<T>, [b0, b1, b2]: &Rows<T>, i: usize, j: usize) -> T {
+    a0[i] * b0[j] + a1[i] * b1[j] + a2[i] * b2[j]
+}
+
 /// Σ Mₖₗ qₖ ⊗ qₗ: the tensor that has the components M in the frame of axes Q by rows.
 #[inline(always)]
 pub(crate) fn from_frame<T: Real>(axes: &Rows<T>, m: [T; 6]) -> Symmetric<T> {
-    let [q, r, s] = *axes;
-    let row = |a: T, b: T, c: T| -> [T; 3] {
-        [a * q[0] + b * r[0] + c * s[0], a * q[1] + b * r[1] + c * s[1], a * q[2] + b * r[2] + c * s[2]]
-    };
-    let (mq, mr, ms) = (row(m[0], m[3], m[5]), row(m[3], m[1], m[4]), row(m[5], m[4], m[2]));
-    let entry = |i: usize, j: usize| q[i] * mq[j] + r[i] * mr[j] + s[i] * ms[j];
-    Symmetric { components: [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)] }
+    let [xx, yy, zz, xy, yz, xz] = m;
+    let images = [weighted(axes, [xx, xy, xz]), weighted(axes, [xy, yy, yz]), weighted(axes, [xz, yz, zz])];
+    Symmetric {
+        components: [
+            product_entry(axes, &images, 0, 0),
+            product_entry(axes, &images, 1, 1),
+            product_entry(axes, &images, 2, 2),
+            product_entry(axes, &images, 0, 1),
+            product_entry(axes, &images, 1, 2),
+            product_entry(axes, &images, 0, 2),
+        ],
+    }
 }

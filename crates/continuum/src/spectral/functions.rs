@@ -4,6 +4,8 @@ use piola_numerics::Real;
 
 use super::IsotropicFunction;
 use super::decomposition::ordered;
+use crate::ContinuumError;
+use crate::error::check_finite;
 
 /// √x.
 ///
@@ -15,6 +17,7 @@ use super::decomposition::ordered;
 /// assert!(error.norm() < 4e-15_f64);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SquareRoot;
 
 impl IsotropicFunction for SquareRoot {
@@ -49,6 +52,7 @@ impl IsotropicFunction for SquareRoot {
 /// assert_eq!(Logarithm.divided_difference(2.0, 2.0), 0.5); // ln′ 2
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Logarithm;
 
 impl IsotropicFunction for Logarithm {
@@ -59,6 +63,14 @@ impl IsotropicFunction for Logarithm {
     #[inline(always)]
     fn value_beside_one<T: Real>(&self, x: T) -> T {
         x.ln_1p()
+    }
+    #[inline(always)]
+    fn value_of_root<T: Real>(&self, _root: T, square: T) -> T {
+        T::lit(0.5) * square.ln()
+    }
+    #[inline(always)]
+    fn value_of_root_beside_one<T: Real>(&self, _excess: T, square_less_one: T) -> T {
+        T::lit(0.5) * square_less_one.ln_1p()
     }
     #[inline(always)]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
@@ -89,6 +101,7 @@ impl IsotropicFunction for Logarithm {
 /// assert!((exponential.components[0] - 1.0_f64.exp()).abs() < 1e-15);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Exponential;
 
 impl IsotropicFunction for Exponential {
@@ -117,10 +130,20 @@ impl IsotropicFunction for Exponential {
 /// assert_eq!(inverse.components[..3], [0.25, 0.5, 1.0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "f64"))]
 pub struct Power(
     /// p.
     pub f64,
 );
+
+impl TryFrom<f64> for Power {
+    type Error = ContinuumError;
+    fn try_from(exponent: f64) -> Result<Self, ContinuumError> {
+        check_finite("exponent", &[exponent])?;
+        Ok(Self(exponent))
+    }
+}
 
 impl IsotropicFunction for Power {
     #[inline(always)]

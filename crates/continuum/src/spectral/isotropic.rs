@@ -47,6 +47,22 @@ pub trait IsotropicFunction {
         self.value(T::one() + x)
     }
 
+    /// f(√s), given √s and s: to be stated by functions that need not wait for the root, such as the logarithm.
+    #[inline(always)]
+    #[must_use]
+    fn value_of_root<T: Real>(&self, root: T, square: T) -> T {
+        let _ = square;
+        self.value(root)
+    }
+
+    /// f(√(1 + s)), given √(1 + s) − 1 and s.
+    #[inline(always)]
+    #[must_use]
+    fn value_of_root_beside_one<T: Real>(&self, excess: T, square_less_one: T) -> T {
+        let _ = square_less_one;
+        self.value_beside_one(excess)
+    }
+
     /// f[a, b], equal to f′(a) for a = b.
     ///
     /// The provided one is accurate to a few ulp of the largest of |f|/d and |f′| where d is
@@ -92,10 +108,27 @@ pub trait IsotropicFunction {
     }
 }
 
-/// The power series of f at `centre`.
+/// The power series of f(centre + unit ε) in ε.
 #[inline]
-pub(super) fn series_at<T: Real, F: IsotropicFunction + ?Sized>(f: &F, centre: T) -> [T; TERMS] {
-    f.value(Series::variable(centre)).0
+pub(super) fn series_at<T: Real, F: IsotropicFunction + ?Sized>(f: &F, centre: T, unit: T) -> [T; TERMS] {
+    f.value(Series::variable(centre, unit)).0
+}
+
+/// The unit of a power series at `centre`: one, unless powers of distances as small or large as those within which f is
+/// smooth would leave the range of numbers.
+#[inline]
+pub(super) fn unit_at<T: Real, F: IsotropicFunction + ?Sized>(f: &F, centre: T) -> T {
+    let reach = f.smooth_within(centre).frozen();
+    let tiny = T::zero().less_than(reach) & reach.less_than(T::lit(1e-6));
+    T::select(tiny | T::lit(1e6).less_than(reach), reach, T::one())
+}
+
+/// As [`difference_of_series`], of f at nodes around a centre.
+#[inline]
+fn difference_about<T: Real, F: IsotropicFunction + ?Sized, const M: usize>(f: &F, centre: T, nodes: [T; M]) -> T {
+    let unit = unit_at(f, centre);
+    let sum = difference_of_series(series_at(f, centre, unit), nodes.map(|node| (node - centre) / unit));
+    (1..M).fold(sum, |sum, _| sum / unit)
 }
 
 /// f[x₁, …, xₘ] from the power series at a centre that the nodes are near: Σₖ cₘ₋₁₊ₖ hₖ(x − centre), with the
@@ -136,7 +169,7 @@ pub(super) fn first_difference<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a:
     if !near.any() {
         return quotient;
     }
-    T::select(near, difference_of_series(series_at(f, middle), [a - middle, b - middle]), quotient)
+    T::select(near, difference_about(f, middle, [a, b]), quotient)
 }
 
 #[inline(always)]
@@ -150,6 +183,5 @@ fn second_difference<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: T, b: T, 
     if !near.any() {
         return quotient;
     }
-    let offsets = [high - middle, between - middle, low - middle];
-    T::select(near, difference_of_series(series_at(f, middle), offsets), quotient)
+    T::select(near, difference_about(f, middle, [high, between, low]), quotient)
 }

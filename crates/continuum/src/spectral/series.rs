@@ -20,11 +20,11 @@ pub(super) const TERMS: usize = 28;
 pub(super) struct Series<T>(pub(super) [T; TERMS]);
 
 impl<T: Real> Series<T> {
-    /// x₀ + ε.
+    /// x₀ + x₁ ε.
     #[inline]
-    pub(super) fn variable(value: T) -> Self {
+    pub(super) fn variable(value: T, unit: T) -> Self {
         let mut series = Self::constant(value);
-        series.0[1] = T::one();
+        series.0[1] = unit;
         series
     }
     #[inline]

@@ -199,6 +199,12 @@ pub struct Rotation<T = f64> {
 }
 
 impl<T: Real> Rotation<T> {
+    /// Of a matrix that is known to be a rotation.
+    #[cfg(feature = "serde")]
+    pub(crate) const fn trusted(matrix: Matrix3<T>) -> Self {
+        Self { matrix }
+    }
+
     /// R of a deformation.
     ///
     /// # Accuracy

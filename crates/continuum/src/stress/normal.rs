@@ -69,7 +69,7 @@ macro_rules! unit_normal {
 
             /// From components that a kernel has normalised.
             #[inline(always)]
-            pub(super) const fn trusted(components: [T; 3]) -> Self {
+            pub(crate) const fn trusted(components: [T; 3]) -> Self {
                 Self { components }
             }
 

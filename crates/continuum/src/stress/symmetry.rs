@@ -5,6 +5,7 @@
 //! ```
 
 use nalgebra::{Matrix3, Vector3};
+use piola_numerics::linear::matrix3::dot;
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
@@ -83,26 +84,80 @@ impl<T: Real> FirstPiola<T> {
     pub fn check_moment(&self, deformation: &impl Deformation<T>) -> Result<(), ContinuumError> {
         let absolute = |rows: Rows<T>| rows.map(|row| row.map(T::abs));
         let (p, f) = (self.rows(), deformation.gradient_rows());
-        let kirchhoff = product_transposed(p, f);
         let terms = product_transposed(absolute(p), absolute(f));
         let scale = terms.as_flattened().iter().fold(T::zero(), |scale, x| scale.max(*x));
-        let tolerance = scale * T::lit(32.0 * unit_in_last_place::<T>());
-        for (row, column) in [(0, 1), (1, 2), (0, 2)] {
-            let difference = kirchhoff[row][column] - kirchhoff[column][row];
-            if !difference.abs().at_most(tolerance).all() {
-                let exceeds = |lane: usize| tolerance.primal(lane) < difference.primal(lane).abs();
-                let lane = (0..T::LANES).find(|&lane| exceeds(lane)).unwrap_or(0);
-                return Err(ContinuumError::NotSymmetric {
-                    quantity: "P F^T",
-                    row,
-                    column,
-                    difference: difference.primal(lane),
-                    scale: scale.primal(lane),
-                });
-            }
-        }
-        Ok(())
+        refuse_differences(off_diagonal_differences(p, f), scale, scale * T::lit(32.0 * unit_in_last_place::<T>()))
     }
+
+    /// Where P surely obeys the balance: the differences are within 8 ulp of P Fᵀ itself, which is cheaply seen and never
+    /// more than [`check_balance`](Self::check_balance) allows; that one is to be asked elsewhere.
+    #[inline(always)]
+    pub(crate) fn is_balanced(&self, deformation: &impl Deformation<T>) -> T::Mask {
+        let (p, f) = (self.rows(), deformation.gradient_rows());
+        let [a, b, c] = off_diagonal_differences(p, f);
+        let (x, y, z) = (dot(p[0], f[0]), dot(p[1], f[1]), dot(p[2], f[2]));
+        let (u, v, w) = (dot(p[0], f[1]), dot(p[1], f[2]), dot(p[0], f[2]));
+        let size = (x * x + y * y + z * z) + (u * u + v * v + w * w);
+        let ulps = 8.0 * unit_in_last_place::<T>();
+        (a * a + b * b + c * c).at_most(size * T::lit(ulps * ulps)) & size.is_finite()
+    }
+
+    /// Refuses a stress that does not obey the balance, unless the roundings of T Cof F or F S, from which it may have
+    /// been computed, allow that.
+    ///
+    /// # Errors
+    /// [`ContinuumError::NotSymmetric`] when two opposite entries of P Fᵀ differ by more than 96 ulp of
+    /// |P| |F| max(1, |F|³/J), by largest entries: T Cof F is rounded by ulp of |T| |F|², and T is |P| |F|/J.
+    #[cold]
+    pub(crate) fn check_balance(&self, deformation: &impl Deformation<T>) -> Result<(), ContinuumError> {
+        let differences = off_diagonal_differences(self.rows(), deformation.gradient_rows());
+        let (scale, tolerance) = self.tolerated(deformation);
+        refuse_differences(differences, scale, tolerance)
+    }
+
+    /// |P| |F|, and how much of it roundings may make of the difference of opposite entries.
+    #[inline(always)]
+    fn tolerated(&self, deformation: &impl Deformation<T>) -> (T, T) {
+        let f = largest(deformation.gradient_rows());
+        let scale = largest(self.rows()) * f;
+        let magnified = scale * T::one().max(f * f * f / deformation.jacobian());
+        (scale, magnified * T::lit(96.0 * unit_in_last_place::<T>()))
+    }
+}
+
+/// (P Fᵀ)₁₂ − (P Fᵀ)₂₁, and those of 23 and 13.
+#[inline(always)]
+fn off_diagonal_differences<T: Real>(p: Rows<T>, f: Rows<T>) -> [T; 3] {
+    [dot(p[0], f[1]) - dot(p[1], f[0]), dot(p[1], f[2]) - dot(p[2], f[1]), dot(p[0], f[2]) - dot(p[2], f[0])]
+}
+
+/// The size of the largest entry.
+#[inline(always)]
+fn largest<T: Real>([a, b, c]: Rows<T>) -> T {
+    largest_of(a).max(largest_of(b)).max(largest_of(c))
+}
+
+#[inline(always)]
+fn largest_of<T: Real>([x, y, z]: [T; 3]) -> T {
+    x.abs().max(y.abs()).max(z.abs())
+}
+
+/// Refuses the first difference above the tolerance, of any lane.
+fn refuse_differences<T: Real>(differences: [T; 3], scale: T, tolerance: T) -> Result<(), ContinuumError> {
+    for (difference, (row, column)) in differences.into_iter().zip([(0, 1), (1, 2), (0, 2)]) {
+        if !difference.abs().at_most(tolerance).all() {
+            let exceeds = |lane: usize| tolerance.primal(lane) < difference.primal(lane).abs();
+            let lane = (0..T::LANES).find(|&lane| exceeds(lane)).unwrap_or(0);
+            return Err(ContinuumError::NotSymmetric {
+                quantity: "P F^T",
+                row,
+                column,
+                difference: difference.primal(lane),
+                scale: scale.primal(lane),
+            });
+        }
+    }
+    Ok(())
 }
 
 impl<T: Real> MandelStress<T> {

@@ -19,6 +19,7 @@ pub(crate) mod rotation;
 pub mod rows;
 pub(crate) mod scale;
 mod skew;
+pub(crate) mod skew_measure;
 mod slots;
 pub mod symmetric;
 pub mod transport;

@@ -29,17 +29,17 @@ use piola_testkit::{Tol, assert_close};
 use super::cases::deformations;
 
 /// Rows one after the other.
-fn flat(matrix: &Matrix3<f64>) -> [f64; 9] {
+pub(super) fn flat(matrix: &Matrix3<f64>) -> [f64; 9] {
     let rows = rows_of(matrix);
     std::array::from_fn(|k| rows[k / 3][k % 3])
 }
 
-fn flat_rows(rows: [[f64; 3]; 3]) -> [f64; 9] {
+pub(super) fn flat_rows(rows: [[f64; 3]; 3]) -> [f64; 9] {
     std::array::from_fn(|k| rows[k / 3][k % 3])
 }
 
 /// The same formula, called in two ways.
-fn same<Q, S, V, const I: usize, const K: usize>(
+pub(super) fn same<Q, S, V, const I: usize, const K: usize>(
     request: &Request<Q, S, V, I, K>,
     deformation: &DeformationGradient,
     expected: [f64; K],
@@ -58,6 +58,7 @@ macro_rules! all {
         same(&batch::$function($($argument,)* &mut [[0.0; _]; 0][..]), $f, $expected);
     )* };
 }
+pub(super) use all;
 
 #[test]
 fn measures_of_deformation_equal_those_of_one_point() {
@@ -251,11 +252,11 @@ fn rates_equal_those_of_one_point() {
     }
 }
 
-fn slots(tensor: &MinorSymmetric) -> [f64; 36] {
+pub(super) fn slots(tensor: &MinorSymmetric) -> [f64; 36] {
     std::array::from_fn(|k| tensor.components[k / 6][k % 6])
 }
 
-fn entries(tensor: &FourthOrder) -> [f64; 81] {
+pub(super) fn entries(tensor: &FourthOrder) -> [f64; 81] {
     std::array::from_fn(|k| tensor.components[k / 9][k % 9])
 }
 
@@ -281,6 +282,7 @@ fn tangents_equal_those_of_one_point() {
             lie_to_truesdell_tangent(c) = lie.truesdell(f).0.components;
             pull_back_tangent(c) = lie.material(f).0.components;
             truesdell_to_material_tangent(c) = truesdell.material(f).0.components;
+            truesdell_to_lie_tangent(c) = truesdell.lie(f).0.components;
             first_piola_tangent(s, c) = entries(&material.first_piola(&second, f).0);
             material_tangent(s, a) = slots(&nominal.material(&second, f).0);
             jaumann_tangent(s, c) = truesdell.jaumann(&t).0.components;

@@ -186,3 +186,26 @@ fn polar_identities_hold_to_the_fourth_order() {
         }
     }
 }
+
+#[test]
+fn second_derivatives_scale_with_the_size_of_the_tensor() {
+    // Powers of 10 that double precision does not hold exactly, far beyond where the power series of ln and x^p in the
+    // distances themselves would leave its range.
+    let mut random = Random::new(24);
+    for exponent in (-60..=60).step_by(5) {
+        let size = 10.0_f64.powi(exponent);
+        for gap in [0.0, 1e-9, 0.1, 1.0] {
+            let stretches = [1.0, 1.0 + gap, 1.0 + 2.0 * gap];
+            let (h, k) = (symmetric(random.matrix()), symmetric(random.matrix()));
+            let (one, a) = (Symmetric::diagonal(stretches), Symmetric::diagonal(stretches) * size);
+            let ordinary = second_derivative(&Logarithm, &one, &h, &k);
+            let found = second_derivative(&Logarithm, &a, &h, &k) * size * size;
+            let what = format!("1e{exponent}, gap {gap}");
+            let tolerance = Tol::stated(1e-13, "rounding of the powers of ten");
+            assert_close(&what, &found.components, &ordinary.components, tolerance);
+            let ordinary = second_derivative(&Power(-0.5), &one, &h, &k);
+            let found = second_derivative(&Power(-0.5), &a, &h, &k) * size * size * size.sqrt();
+            assert_close(&what, &found.components, &ordinary.components, tolerance);
+        }
+    }
+}

@@ -1,13 +1,14 @@
 //! The same kernel over singles, lanes, doubled precision and differentiable numbers.
 
 use nalgebra::Matrix3;
-use piola_continuum::spectral::{StretchAnalysis, decompose};
+use piola_continuum::spectral::{StretchAnalysis, decompose, polar_hencky};
 use piola_continuum::{DeformationGradient, Symmetric};
+use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Dual, Gradient, Jet, Kernel, Lanes, Level, Real, dispatch_at};
 use piola_testkit::spectral::{Random, Rows, adversarial_set, polar_reference, with_stretches};
 use piola_testkit::{DoubleDouble, Tol, assert_close, difference_quotient, ulps_between};
 
-use super::cases::{analysis, matrix};
+use super::cases::{analysis, gradient, matrix};
 
 struct Batch<'a>(&'a [DeformationGradient<Lanes<f64, 4>>], &'a mut Vec<[Lanes<f64, 4>; 27]>);
 
@@ -56,6 +57,17 @@ fn lanes_equal_scalars() {
                 assert_close(case.kind, &logarithm, &expected, Tol::ulps(4.0));
             }
         }
+    }
+}
+
+#[test]
+fn results_for_the_machine_equal_those_for_any_machine() {
+    for case in adversarial_set() {
+        let stretch = analysis(case.gradient);
+        let polar = polar_hencky(&gradient(case.gradient));
+        assert_eq!(polar.rotation, from_rows(stretch.rotation()), "R, {}", case.kind);
+        assert_eq!(polar.right_stretch, stretch.right_stretch(), "U, {}", case.kind);
+        assert_eq!(polar.hencky, stretch.hencky_material(), "ln U, {}", case.kind);
     }
 }
 

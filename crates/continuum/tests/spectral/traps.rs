@@ -295,3 +295,32 @@ fn decompositions_are_read_as_written() {
     assert!(read(&written("[3.0,2.0,2.0]", "[2.0,0.0,0.0]")).is_err());
     assert!(read(&written("[3.0,2.0,2.0]", "[-1.0,0.0,0.0]")).is_err()); // left-handed
 }
+
+#[cfg(feature = "serde")]
+#[test]
+fn polar_parts_and_functions_are_read_as_written() {
+    use piola_continuum::spectral::{Exponential, Logarithm, PolarHencky, Power, SquareRoot, polar_hencky};
+    let read = |text: &str| serde_json::from_str::<PolarHencky>(text);
+    let mut random = Random::new(78);
+    for _ in 0..100 {
+        let f = with_stretches(&random.rotation(), [1.5, 1.25, 0.75], &random.rotation());
+        let polar = polar_hencky(&DeformationGradient::from_rows(f).expect("a deformation"));
+        let text = serde_json::to_string(&polar).expect("text");
+        assert_eq!(read(&text).expect("as written"), polar, "{text}");
+    }
+    let written = |first: &str, stretch: &str, logarithm: &str| {
+        let rotation = format!("[{first},[0.0,1.0,0.0],[0.0,0.0,1.0]]");
+        format!(
+            r#"{{"rotation":{rotation},"right_stretch":[{stretch},1.0,1.0,0.0,0.0,0.0],"hencky":[{logarithm},0,0,0,0,0]}}"#
+        )
+    };
+    assert!(read(&written("[1.0,0.0,0.0]", "2.0", "0.5")).is_ok());
+    assert!(read(&written("[-1.0,0.0,0.0]", "2.0", "0.5")).is_err()); // left-handed
+    assert!(read(&written("[1.0,0.0,0.0]", "-2.0", "0.5")).is_err()); // no stretch
+    assert!(read(&written("[1.0,0.0,0.0]", "2.0", "null")).is_err());
+
+    let text = serde_json::to_string(&(SquareRoot, Logarithm, Exponential, Power(1.5))).expect("text");
+    let functions: (SquareRoot, Logarithm, Exponential, Power) = serde_json::from_str(&text).expect("as written");
+    assert_eq!(functions, (SquareRoot, Logarithm, Exponential, Power(1.5)));
+    assert!(serde_json::from_str::<Power>("1e999").is_err() && Power::try_from(f64::NAN).is_err());
+}

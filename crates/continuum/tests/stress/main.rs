@@ -1,6 +1,7 @@
 //! The tests of stress: measures, tractions, invariants, power.
 
 mod alloc;
+mod areas;
 mod cases;
 #[cfg(feature = "glam")]
 mod edges;

@@ -1,13 +1,12 @@
 //! U, its inverse and its functions by their components in the frame of the axes, and tensors made of these.
 
-use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
-use super::{StretchAnalysis, choose, freeze, gram, twice_green};
+use super::{StretchAnalysis, any_tilted, choose, freeze, twice_green};
 use crate::Symmetric;
-use crate::spectral::IsotropicFunction;
 use crate::spectral::expansion::expand;
-use crate::spectral::frame::{combination, from_frame, larger, smaller};
+use crate::spectral::frame::{combination, from_frame, gram, larger, smaller, weighted};
+use crate::spectral::{IsotropicFunction, Logarithm};
 use crate::tensor::rows::{Rows, transpose};
 
 impl<T: Real> StretchAnalysis<T> {
@@ -35,33 +34,84 @@ impl<T: Real> StretchAnalysis<T> {
     /// f at the diagonal of S.
     #[inline(always)]
     pub(super) fn values_at_stretches<F: IsotropicFunction + ?Sized>(&self, f: &F) -> [T; 3] {
-        let beside = |k: usize| f.value_beside_one(self.excess[k]);
-        let plain = |k: usize| f.value(self.stretches[k]);
         if self.small.all() {
-            [beside(0), beside(1), beside(2)]
+            [self.beside_one(f, 0), self.beside_one(f, 1), self.beside_one(f, 2)]
         } else if self.small.any() {
             [
-                T::select(self.small, beside(0), plain(0)),
-                T::select(self.small, beside(1), plain(1)),
-                T::select(self.small, beside(2), plain(2)),
+                T::select(self.small, self.beside_one(f, 0), self.plain(f, 0)),
+                T::select(self.small, self.beside_one(f, 1), self.plain(f, 1)),
+                T::select(self.small, self.beside_one(f, 2), self.plain(f, 2)),
             ]
         } else {
-            [plain(0), plain(1), plain(2)]
+            [self.plain(f, 0), self.plain(f, 1), self.plain(f, 2)]
         }
+    }
+
+    /// f(λₖ) for small strain.
+    #[inline(always)]
+    fn beside_one<F: IsotropicFunction + ?Sized>(&self, f: &F, k: usize) -> T {
+        f.value_of_root_beside_one(self.excess[k], frozen(self.square[k]))
+    }
+
+    /// f(λₖ).
+    #[inline(always)]
+    fn plain<F: IsotropicFunction + ?Sized>(&self, f: &F, k: usize) -> T {
+        f.value_of_root(self.stretches[k], frozen(self.square[k]))
     }
 
     /// f(S), less f′(1) E for small strain, and f′(1): what is left out then is added without a rotation.
     #[inline(always)]
     pub(super) fn frame_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> ([T; 6], T) {
-        let function = expand(f, self.stretches, self.values_at_stretches(f), self.departure);
+        self.frame_function_of(f, self.values_at_stretches(f))
+    }
+
+    /// (λₖ, ln λₖ) in the order of the frame, without derivatives: for functions of the logarithm that one computes oneself
+    /// and gives to [`material_function_of`](Self::material_function_of).
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    pub fn stretches_in_frame(&self) -> ([T; 3], [T; 3]) {
+        (self.stretches, self.values_at_stretches(&Logarithm))
+    }
+
+    /// [`material_function`](Self::material_function), given f at the stretches of
+    /// [`stretches_in_frame`](Self::stretches_in_frame); for scalars without derivatives.
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    pub fn material_function_of<F: IsotropicFunction + ?Sized>(&self, f: &F, values: [T; 3]) -> Symmetric<T> {
+        let (components, slope) = self.frame_function_of(f, values);
+        self.material(components, slope, T::zero())
+    }
+
+    /// As [`material_function_of`](Self::material_function_of), f(V).
+    #[doc(hidden)]
+    #[inline(always)]
+    #[must_use]
+    pub fn spatial_function_of<F: IsotropicFunction + ?Sized>(&self, f: &F, values: [T; 3]) -> Symmetric<T> {
+        let (components, slope) = self.frame_function_of(f, values);
+        self.spatial(components, slope, T::zero())
+    }
+
+    /// As [`frame_function`](Self::frame_function), given f at the diagonal of S.
+    #[inline(always)]
+    fn frame_function_of<F: IsotropicFunction + ?Sized>(&self, f: &F, values: [T; 3]) -> ([T; 6], T) {
+        let function = expand(f, self.stretches, values, self.departure);
         if !self.small.any() {
             return (function, T::zero());
         }
         let slope = f.slope_at_one::<T>();
         let part = T::lit(0.5) * self.shift * slope;
-        let e = self.square;
-        let less = |k: usize| function[k] - part * e[k];
-        ([less(0), less(1), less(2), less(3), less(4), less(5)], slope)
+        let ([xx, yy, zz, xy, yz, xz], e) = (function, self.square);
+        let less = [
+            xx - part * e[0],
+            yy - part * e[1],
+            zz - part * e[2],
+            xy - part * e[3],
+            yz - part * e[4],
+            xz - part * e[5],
+        ];
+        (less, slope)
     }
 
     /// S less the shift.
@@ -88,15 +138,25 @@ impl<T: Real> StretchAnalysis<T> {
         let [x, y, z, xy, yz, xz] = k;
         let half = T::lit(-0.5);
         // Products of two shears matter only where they are more than rounding.
-        let shears = |a: T, b: T| if T::ORDER == 0 { T::zero() } else { a * b };
-        let square = [
-            half * (x * x + (shears(xy, xy) + shears(xz, xz))),
-            half * (y * y + (shears(xy, xy) + shears(yz, yz))),
-            half * (z * z + (shears(yz, yz) + shears(xz, xz))),
-            half * (xy * (x + y) + shears(xz, yz)),
-            half * (yz * (y + z) + shears(xy, xz)),
-            half * (xz * (x + z) + shears(xy, yz)),
-        ];
+        let square = if T::ORDER == 0 {
+            [
+                half * (x * x),
+                half * (y * y),
+                half * (z * z),
+                half * (xy * (x + y)),
+                half * (yz * (y + z)),
+                half * (xz * (x + z)),
+            ]
+        } else {
+            [
+                half * (x * x + (xy * xy + xz * xz)),
+                half * (y * y + (xy * xy + yz * yz)),
+                half * (z * z + (yz * yz + xz * xz)),
+                half * (xy * (x + y) + xz * yz),
+                half * (yz * (y + z) + xy * xz),
+                half * (xz * (x + z) + xy * yz),
+            ]
+        };
         if self.small.all() {
             return (square, T::zero());
         }
@@ -108,17 +168,16 @@ impl<T: Real> StretchAnalysis<T> {
     pub(super) fn frame_inverse(&self) -> [T; 6] {
         let d = self.departure;
         let reciprocal = [self.stretches[0].recip(), self.stretches[1].recip(), self.stretches[2].recip()];
-        let less = |k: usize| {
-            if self.small.any() {
-                T::select(self.small, -(self.excess[k] * reciprocal[k]), reciprocal[k])
-            } else {
-                reciprocal[k]
-            }
+        let [x, y, z] = if self.small.any() {
+            let ([x, y, z], [a, b, c]) = (self.excess, reciprocal);
+            [T::select(self.small, -(x * a), a), T::select(self.small, -(y * b), b), T::select(self.small, -(z * c), c)]
+        } else {
+            reciprocal
         };
         let start = [
-            less(0),
-            less(1),
-            less(2),
+            x,
+            y,
+            z,
             -(d[3] * (reciprocal[0] * reciprocal[1])),
             -(d[4] * (reciprocal[1] * reciprocal[2])),
             -(d[5] * (reciprocal[0] * reciprocal[2])),
@@ -146,17 +205,19 @@ impl<T: Real> StretchAnalysis<T> {
     #[inline(always)]
     pub(super) fn divided_images(&self) -> Rows<T> {
         let [xx, yy, zz, xy, yz, xz] = self.frame_inverse();
-        let [a, b, c] = self.images;
-        let row = |x: T, y: T, z: T| combination(T::one(), combination(x, a, y, b), z, c);
-        [row(xx, xy, xz), row(xy, yy, yz), row(xz, yz, zz)]
+        [
+            weighted(&self.images, [xx, xy, xz]),
+            weighted(&self.images, [xy, yy, yz]),
+            weighted(&self.images, [xz, yz, zz]),
+        ]
     }
 
     /// R qₖ by rows.
     #[inline(always)]
     pub(super) fn turned_frame(&self) -> Rows<T> {
-        let divided = self.divided_images();
-        let row = |k: usize| combination(self.shift, self.images[k], T::one(), divided[k]);
-        [row(0), row(1), row(2)]
+        let ([a, b, c], [x, y, z]) = (self.images, self.divided_images());
+        let (s, one) = (self.shift, T::one());
+        [combination(s, a, one, x), combination(s, b, one, y), combination(s, c, one, z)]
     }
 }
 
@@ -172,32 +233,38 @@ fn shifted<T: Real>(a: Symmetric<T>, s: T) -> Symmetric<T> {
 /// Whether images are not orthogonal enough for the first order to suffice.
 #[inline(always)]
 pub(super) fn skewed<T: Real>(images: &Rows<T>) -> T::Mask {
-    let enough = T::lit((0.125 * unit_in_last_place::<T>()).sqrt());
     let g = gram(&freeze(*images));
-    let length = [g[0].sqrt(), g[1].sqrt(), g[2].sqrt()];
-    let tilted = |i: usize, j: usize, place: usize| (enough * (length[i] * length[j])).less_than(g[place].abs());
-    tilted(0, 1, 3) | tilted(1, 2, 4) | tilted(0, 2, 5)
+    any_tilted(&[g[0].sqrt(), g[1].sqrt(), g[2].sqrt()], &g)
 }
 
 /// (λₖ, λₖ − shift) from the diagonal, 2eₖ for small strain and λₖ² otherwise, without derivatives.
 #[inline(always)]
 pub(super) fn roots_of<T: Real>(small: T::Mask, square: &[T; 6]) -> ([T; 3], [T; 3]) {
-    let root = |k: usize| {
-        let x = if T::ORDER == 0 { square[k] } else { square[k].frozen() };
-        if !small.any() {
-            let root = x.sqrt();
-            return (root, root);
-        }
-        let beside = (T::one() + x).sqrt();
-        let excess = x / (T::one() + beside);
-        if small.all() {
-            return (beside, excess);
-        }
-        let root = T::select(small, beside, x.sqrt());
-        (root, T::select(small, excess, root))
-    };
-    let (a, b, c) = (root(0), root(1), root(2));
+    let [a, b, c] = [root_of(small, square[0]), root_of(small, square[1]), root_of(small, square[2])];
     ([a.0, b.0, c.0], [a.1, b.1, c.1])
+}
+
+/// One of [`roots_of`].
+#[inline(always)]
+fn root_of<T: Real>(small: T::Mask, square: T) -> (T, T) {
+    let x = frozen(square);
+    if !small.any() {
+        let root = x.sqrt();
+        return (root, root);
+    }
+    let beside = (T::one() + x).sqrt();
+    let excess = x / (T::one() + beside);
+    if small.all() {
+        return (beside, excess);
+    }
+    let root = T::select(small, beside, x.sqrt());
+    (root, T::select(small, excess, root))
+}
+
+/// x without derivatives.
+#[inline(always)]
+fn frozen<T: Real>(x: T) -> T {
+    if T::ORDER == 0 { x } else { x.frozen() }
 }
 
 /// What S has beyond its frozen diagonal: Sᵢⱼ = Gᵢⱼ/(λᵢ + λⱼ) off the diagonal, and the orders of derivatives.

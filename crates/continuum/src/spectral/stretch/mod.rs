@@ -13,16 +13,14 @@
 //! For small strain everything is computed from 2E of ∇u, as the difference from the rotation alone.
 
 mod in_frame;
+mod quantities;
 
-use piola_numerics::linear::matrix3::dot;
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
 use self::in_frame::{departure_of, roots_of, skewed};
-use super::decomposition::{descending, lifted, turned};
-use super::frame::{axes_in_order, components_in, in_order, larger, largest_modulus, separated_frame};
+use super::frame::{axes_in_order, components_in, gram, larger, largest_modulus, product_entry, unturned_frame};
 use super::orthogonal_images::{orthogonalise, orthogonalise_apart};
-use super::{IsotropicFunction, Logarithm};
 use crate::tensor::rows::{Rows, apply, transpose};
 use crate::{Deformation, Symmetric};
 
@@ -83,20 +81,41 @@ pub struct StretchAnalysis<T: Real = f64> {
 /// 2E = H + Hᵀ + Hᵀ H, each rounding proportional to what it rounds also near pure rotations.
 #[inline(always)]
 fn twice_green<T: Real>(h: &Rows<T>) -> Symmetric<T> {
-    let two = T::lit(2.0);
-    let along = |i: usize, j: usize, k: usize| h[i][i] * (two + h[i][i]) + (h[j][i] * h[j][i] + h[k][i] * h[k][i]);
-    let across = |i: usize, j: usize, k: usize| {
-        (h[i][j] + h[j][i]) + ((h[i][i] * h[i][j] + h[j][i] * h[j][j]) + h[k][i] * h[k][j])
-    };
     Symmetric {
-        components: [along(0, 1, 2), along(1, 2, 0), along(2, 0, 1), across(0, 1, 2), across(1, 2, 0), across(0, 2, 1)],
+        components: [
+            along(h, 0, 1, 2),
+            along(h, 1, 2, 0),
+            along(h, 2, 0, 1),
+            across(h, 0, 1, 2),
+            across(h, 1, 2, 0),
+            across(h, 0, 2, 1),
+        ],
     }
 }
 
-/// Gₖₗ = bₖ · bₗ for 11, 22, 33, 12, 23, 13.
+/// (2E)ᵢᵢ.
 #[inline(always)]
-pub(super) fn gram<T: Real>([a, b, c]: &Rows<T>) -> [T; 6] {
-    [dot(*a, *a), dot(*b, *b), dot(*c, *c), dot(*a, *b), dot(*b, *c), dot(*a, *c)]
+fn along<T: Real>(h: &Rows<T>, i: usize, j: usize, k: usize) -> T {
+    h[i][i] * (T::lit(2.0) + h[i][i]) + (h[j][i] * h[j][i] + h[k][i] * h[k][i])
+}
+
+/// (2E)ᵢⱼ.
+#[inline(always)]
+fn across<T: Real>(h: &Rows<T>, i: usize, j: usize, k: usize) -> T {
+    (h[i][j] + h[j][i]) + ((h[i][i] * h[i][j] + h[j][i] * h[j][j]) + h[k][i] * h[k][j])
+}
+
+/// Whether the cosine of the angle between two images is more than rounding leaves.
+#[inline(always)]
+fn tilted<T: Real>(length: T, other: T, product: T) -> T::Mask {
+    let enough = T::lit((0.125 * unit_in_last_place::<T>()).sqrt());
+    (enough * (length * other)).less_than(product.abs())
+}
+
+/// Whether images of such lengths and products are not orthogonal enough for the first order to suffice.
+#[inline(always)]
+fn any_tilted<T: Real>([a, b, c]: &[T; 3], gram: &[T; 6]) -> T::Mask {
+    tilted(*a, *b, gram[3]) | tilted(*b, *c, gram[4]) | tilted(*a, *c, gram[5])
 }
 
 /// Lane by lane and component by component.
@@ -109,6 +128,16 @@ fn choose<T: Real>(mask: T::Mask, a: [T; 6], b: [T; 6]) -> [T; 6] {
         T::select(mask, a[3], b[3]),
         T::select(mask, a[4], b[4]),
         T::select(mask, a[5], b[5]),
+    ]
+}
+
+/// Σ aₖ ⊗ bₖ by rows.
+#[inline(always)]
+fn outer_products<T: Real>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
+    [
+        [product_entry(a, b, 0, 0), product_entry(a, b, 0, 1), product_entry(a, b, 0, 2)],
+        [product_entry(a, b, 1, 0), product_entry(a, b, 1, 1), product_entry(a, b, 1, 2)],
+        [product_entry(a, b, 2, 0), product_entry(a, b, 2, 1), product_entry(a, b, 2, 2)],
     ]
 }
 
@@ -151,29 +180,28 @@ impl<T: Real> StretchAnalysis<T> {
             green
         };
 
-        let (mut axes, mut first) = separated_frame(&measure);
-        if T::ORDER != 0 {
+        let frame = unturned_frame(&measure);
+        let (mut axes, mut first) = (frame.axes(), frame.first);
+        let (mut images, products) = if T::ORDER == 0 {
+            frame.images(gradient)
+        } else {
             (axes, first) = (freeze(axes_in_order(first, axes)), Mask::splat(true));
-        }
-        let mut images = images_of(gradient, &axes);
+            let images = images_of(gradient, &axes);
+            (images, gram(&images))
+        };
         // For small strain 2E in the frame, otherwise C.
         let mut square = if small.all() {
             components_in(&axes, &twice_green)
         } else if small.any() {
-            choose(small, components_in(&axes, &twice_green), gram(&images))
+            choose(small, components_in(&axes, &twice_green), products)
         } else {
-            gram(&images)
+            products
         };
 
         let mut roots = roots_of(small, &square);
         let mut slow = Mask::splat(false);
         if !small.all() {
-            let enough = T::lit((0.125 * unit_in_last_place::<T>()).sqrt());
-            let tilted = |i: usize, j: usize, place: usize| {
-                (enough * (roots.0[i] * roots.0[j])).less_than(square[place].abs().frozen())
-            };
-            let skew =
-                if T::ORDER == 0 { tilted(0, 1, 3) | tilted(1, 2, 4) | tilted(0, 2, 5) } else { skewed(&images) };
+            let skew = if T::ORDER == 0 { any_tilted(&roots.0, &square) } else { skewed(&images) };
             slow = !small & skew;
             if slow.any() {
                 // In lanes within, or it would not have their width.
@@ -182,7 +210,7 @@ impl<T: Real> StretchAnalysis<T> {
                 } else {
                     orthogonalise(slow, gradient, axes, images)
                 };
-                square = choose(small, square, gram(&images));
+                square = choose(slow, gram(&images), square);
                 roots = roots_of(small, &square);
             }
         }
@@ -217,298 +245,5 @@ impl<T: Real> StretchAnalysis<T> {
     #[must_use]
     pub fn slow_path(&self) -> T::Mask {
         self.slow
-    }
-
-    /// The principal stretches λ₁ ≥ λ₂ ≥ λ₃, W(14.12).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let stretches = StretchAnalysis::of(&DeformationGradient::diagonal([2.0, 1.0, 4.0])?).principal_stretches();
-    /// assert!((stretches[0] - 4.0_f64).abs() < 1e-14 && (stretches[2] - 1.0).abs() < 1e-14);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn principal_stretches(&self) -> [T; 3] {
-        if T::ORDER == 0 {
-            return descending(self.stretches);
-        }
-        in_order(self.first, lifted(self.frame_stretch()).0).map(|excess| self.shift + excess)
-    }
-
-    /// ln λₖ, descending, accurate for λ → 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DisplacementGradient, spectral::StretchAnalysis};
-    /// let tiny = DisplacementGradient::diagonal([1e-20, 0.0, 0.0])?;
-    /// let logarithms = StretchAnalysis::of(&tiny).log_principal_stretches();
-    /// assert!((logarithms[0] / 1e-20 - 1.0_f64).abs() < 1e-15);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn log_principal_stretches(&self) -> [T; 3] {
-        if T::ORDER == 0 {
-            return descending(self.values_at_stretches(&Logarithm));
-        }
-        let excess = in_order(self.first, lifted(self.frame_stretch()).0);
-        excess.map(|x| {
-            let beside = if self.small.any() { x.ln_1p() } else { x };
-            let plain = if self.small.all() { beside } else { x.ln() };
-            T::select(self.small, beside, plain)
-        })
-    }
-
-    /// The principal values (λₖ² − 1)/2 of Green's strain, descending, accurate for λ → 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let strains = StretchAnalysis::of(&DeformationGradient::diagonal([1.0, 2.0, 1.0])?).principal_green_strains();
-    /// assert!((strains[0] - 1.5_f64).abs() < 1e-15); // ½ (2² − 1)
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn principal_green_strains(&self) -> [T; 3] {
-        let excess = if T::ORDER == 0 { self.excess } else { lifted(self.frame_stretch()).0 };
-        let half = T::lit(0.5);
-        descending(excess.map(|x| {
-            let small = half * (x * (x + T::lit(2.0)));
-            T::select(self.small, small, half * ((x - T::one()) * (x + T::one())))
-        }))
-    }
-
-    /// The principal axes of U and C in the reference body: unit vectors by rows, right-handed, in the order of the
-    /// stretches.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let axes = StretchAnalysis::<f64>::of(&DeformationGradient::diagonal([1.0, 2.0, 3.0])?).material_axes();
-    /// assert!((axes[0][2].abs() - 1.0_f64).abs() < 1e-15); // the largest stretch is along 3
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn material_axes(&self) -> Rows<T> {
-        let axes = if T::ORDER == 0 { self.axes } else { turned(&self.axes, lifted(self.frame_stretch()).1) };
-        axes_in_order(self.first, axes)
-    }
-
-    /// The principal axes of V and B in space: the material axes turned by R, by rows.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
-    /// let axes = StretchAnalysis::<f64>::of(&turned).spatial_axes();
-    /// assert!((axes[0][1].abs() - 1.0_f64).abs() < 1e-15); // from 1, turned to 2
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn spatial_axes(&self) -> Rows<T> {
-        let turned_frame = self.turned_frame();
-        let axes = if T::ORDER == 0 { turned_frame } else { turned(&turned_frame, lifted(self.frame_stretch()).1) };
-        axes_in_order(self.first, axes)
-    }
-
-    /// R of F = R U = V R, W(14.11).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
-    /// assert_eq!(StretchAnalysis::of(&turned).rotation()[1], [1.0, 0.0, 0.0]);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn rotation(&self) -> Rows<T> {
-        let images = self.divided_images();
-        let f = self.gradient;
-        let beyond = self.small.any();
-        let entry = |i: usize, j: usize| {
-            let sum = images[0][i] * self.axes[0][j] + images[1][i] * self.axes[1][j] + images[2][i] * self.axes[2][j];
-            if beyond { self.shift * f[i][j] + sum } else { sum }
-        };
-        [
-            [entry(0, 0), entry(0, 1), entry(0, 2)],
-            [entry(1, 0), entry(1, 1), entry(1, 2)],
-            [entry(2, 0), entry(2, 1), entry(2, 2)],
-        ]
-    }
-
-    /// U = √C.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
-    /// assert_eq!(StretchAnalysis::of(&turned).right_stretch().components[..3], [2.0, 1.0, 1.0]);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn right_stretch(&self) -> Symmetric<T> {
-        let (components, middle) = self.beyond_green();
-        self.material(components, T::one(), self.shift + middle)
-    }
-
-    /// U − 1 (Biot's strain), without cancellation.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DisplacementGradient, spectral::StretchAnalysis};
-    /// let tiny = DisplacementGradient::diagonal([1e-20, 0.0, 0.0])?;
-    /// assert_eq!(StretchAnalysis::of(&tiny).right_stretch_less_one().components[0], 1e-20);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn right_stretch_less_one(&self) -> Symmetric<T> {
-        let (components, middle) = self.beyond_green();
-        self.material(components, T::one(), (self.shift - T::one()) + middle)
-    }
-
-    /// U⁻¹.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let inverse = StretchAnalysis::of(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).inverse_right_stretch();
-    /// assert!((inverse.components[0] - 0.5_f64).abs() < 1e-15);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn inverse_right_stretch(&self) -> Symmetric<T> {
-        self.material(self.frame_inverse(), T::zero(), self.shift)
-    }
-
-    /// V = √B = R U Rᵀ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
-    /// assert_eq!(StretchAnalysis::of(&turned).left_stretch().components[..3], [1.0, 2.0, 1.0]);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn left_stretch(&self) -> Symmetric<T> {
-        let (components, middle) = self.beyond_green();
-        self.spatial(components, T::one(), self.shift + middle)
-    }
-
-    /// V − 1, without cancellation.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DisplacementGradient, spectral::StretchAnalysis};
-    /// let tiny = DisplacementGradient::diagonal([1e-20, 0.0, 0.0])?;
-    /// assert_eq!(StretchAnalysis::of(&tiny).left_stretch_less_one().components[0], 1e-20);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn left_stretch_less_one(&self) -> Symmetric<T> {
-        let (components, middle) = self.beyond_green();
-        self.spatial(components, T::one(), (self.shift - T::one()) + middle)
-    }
-
-    /// V⁻¹.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
-    /// assert!((StretchAnalysis::of(&turned).inverse_left_stretch().components[1] - 0.5_f64).abs() < 1e-15);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn inverse_left_stretch(&self) -> Symmetric<T> {
-        self.spatial(self.frame_inverse(), T::zero(), self.shift)
-    }
-
-    /// Hencky's strain ln U, accurate for U → 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
-    /// assert_eq!(StretchAnalysis::of(&turned).hencky_material().components[0], 2.0_f64.ln());
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn hencky_material(&self) -> Symmetric<T> {
-        self.material_function(&Logarithm)
-    }
-
-    /// Hencky's strain ln V = R ln U Rᵀ in space.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
-    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
-    /// assert_eq!(StretchAnalysis::of(&turned).hencky_spatial().components[1], 2.0_f64.ln());
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn hencky_spatial(&self) -> Symmetric<T> {
-        self.spatial_function(&Logarithm)
-    }
-
-    /// f(U) for a function f of the stretch.
-    ///
-    /// Near U = 1 it is as accurate as [`IsotropicFunction::value_beside_one`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::{Power, StretchAnalysis}};
-    /// let cube = StretchAnalysis::of(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).material_function(&Power(3.0));
-    /// assert!((cube.components[0] - 8.0_f64).abs() < 1e-14);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn material_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
-        let (components, slope) = self.frame_function(f);
-        self.material(components, slope, T::zero())
-    }
-
-    /// f(V) = R f(U) Rᵀ for a function f of the stretch.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::{Power, StretchAnalysis}};
-    /// let turned = DeformationGradient::from_rows([[0.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
-    /// let cube = StretchAnalysis::of(&turned).spatial_function(&Power(3.0));
-    /// assert!((cube.components[1] - 8.0_f64).abs() < 1e-14);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn spatial_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
-        let (components, slope) = self.frame_function(f);
-        self.spatial(components, slope, T::zero())
-    }
-
-    /// (qₖ by rows, R qₖ by rows, S): a frame, its image, and U in it, diagonal but for rounding and derivatives.
-    #[inline(always)]
-    pub(crate) fn in_frame(&self) -> (Rows<T>, Rows<T>, [T; 6]) {
-        let [xx, yy, zz, xy, yz, xz] = self.frame_stretch();
-        let (first, shift) = (self.first, self.shift);
-        let [xx, yy, zz] = in_order(first, [xx + shift, yy + shift, zz + shift]);
-        // Turned about as the axes are: 12, 23, 31 become 23, 31, 12.
-        let [xy, yz, xz] = in_order(first, [xy, yz, xz]);
-        (axes_in_order(first, self.axes), axes_in_order(first, self.turned_frame()), [xx, yy, zz, xy, yz, xz])
     }
 }

@@ -15,8 +15,8 @@
 //! J and J − 1 are asked of the [`Deformation`] itself. Derivatives of Ī with respect to C are those functions that
 //! begin with `isochoric` and end with `derivative`.
 
-use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
+use piola_numerics::{Mask, Real};
 
 use super::kernels::right_cauchy_green;
 use crate::deformation::volume::trace_pair;
@@ -24,6 +24,7 @@ use crate::tensor::rows::{Rows, cofactor, double_contraction};
 use crate::{Deformation, Symmetric};
 
 mod isochoric;
+mod near_rotation;
 
 pub use isochoric::{
     isochoric_first, isochoric_first_derivative, isochoric_first_minus_three, isochoric_first_second_derivative,
@@ -142,7 +143,7 @@ pub fn third<T: Real>(deformation: &impl Deformation<T>) -> T {
 /// I₁ − 3 = 2 tr ∇u + ∇u : ∇u, without cancellation.
 ///
 /// # Accuracy
-/// A few ulp of |∇u|², or of I₁ − 3 where that is larger.
+/// A few ulp of |∇u|², or of I₁ − 3 where that is larger; of a rotation what its rounded entries amount to, within 4e-16.
 ///
 /// # Example
 /// ```
@@ -155,13 +156,20 @@ pub fn third<T: Real>(deformation: &impl Deformation<T>) -> T {
 pub fn first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let h = deformation.displacement_rows();
     let (trace, error) = trace_pair(h);
-    (trace + trace) + (double_contraction(h, h) + (error + error))
+    let square = double_contraction(h, h);
+    let plain = (trace + trace) + (square + (error + error));
+    let cancelling = near_rotation::cancels(plain, square);
+    if !cancelling.any() {
+        return plain;
+    }
+    near_rotation::refined(cancelling, near_rotation::first_minus_three(deformation), plain)
 }
 
 /// I₂ − 3 = 2 tr K + K : K with K = Cof F − 1 = (tr ∇u) 1 − ∇uᵀ + Cof ∇u, without cancellation.
 ///
 /// # Accuracy
-/// A few ulp of |∇u|², or of I₂ − 3 where that is larger; of |K|² at large strain.
+/// A few ulp of |∇u|², or of I₂ − 3 where that is larger; of |K|² at large strain; of a rotation what its rounded entries
+/// amount to, within 4e-16.
 ///
 /// # Example
 /// ```
@@ -183,7 +191,13 @@ pub fn second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     // tr K = 2 tr ∇u + tr Cof ∇u.
     let doubled_second = minors[0][0] + minors[1][1] + minors[2][2];
     let (four, two) = (T::lit(4.0), T::lit(2.0));
-    four * trace + ((two * doubled_second + double_contraction(k, k)) + four * error)
+    let square = double_contraction(k, k);
+    let plain = four * trace + ((two * doubled_second + square) + four * error);
+    let cancelling = near_rotation::cancels(plain, square);
+    if !cancelling.any() {
+        return plain;
+    }
+    near_rotation::refined(cancelling, near_rotation::second_minus_three(deformation), plain)
 }
 
 /// I₃ − 1 = (J − 1)(J + 1), without cancellation.

@@ -40,23 +40,33 @@ pub fn first_piola_tangent<T: Real>(f: Rows<T>, stress: &Symmetric<T>, material:
     let s = stress.rows();
     let mut tangent = [[T::zero(); 9]; 9];
     for a in 0..3 {
-        let [c0, c1, c2] = [&material[SLOT[0][a]], &material[SLOT[1][a]], &material[SLOT[2][a]]];
+        let columns = [&material[SLOT[0][a]], &material[SLOT[1][a]], &material[SLOT[2][a]]];
         for i in 0..3 {
-            // F_iC C_CA(DB) for the six pairs (DB).
-            let mut half = [T::zero(); 6];
-            for (slot, entry) in half.iter_mut().enumerate() {
-                *entry = f[i][0] * c0[slot] + f[i][1] * c1[slot] + f[i][2] * c2[slot];
+            let half = half_contracted(f[i], columns);
+            let row = &mut tangent[3 * i + a];
+            // Written out as `half`.
+            macro_rules! entries {
+                ($($j:literal $b:literal),*) => { $(
+                    row[3 * $j + $b] = dot(f[$j], [half[SLOT[0][$b]], half[SLOT[1][$b]], half[SLOT[2][$b]]]);
+                )* };
             }
-            for b in 0..3 {
-                let column = [half[SLOT[0][b]], half[SLOT[1][b]], half[SLOT[2][b]]];
-                for j in 0..3 {
-                    let entry = dot(f[j], column);
-                    tangent[3 * i + a][3 * j + b] = if i == j { entry + s[a][b] } else { entry };
-                }
-            }
+            entries!(0 0, 0 1, 0 2, 1 0, 1 1, 1 2, 2 0, 2 1, 2 2);
+            row[3 * i] += s[a][0];
+            row[3 * i + 1] += s[a][1];
+            row[3 * i + 2] += s[a][2];
         }
     }
     tangent
+}
+
+/// `F_iC C_CA(DB)` for the six pairs (DB), of row i of F and three rows of C. Written out: of a loop over pairs of eight
+/// lanes the compiler makes one over pairs, which gathers and scatters the lanes.
+#[inline(always)]
+fn half_contracted<T: Real>(f: [T; 3], [x, y, z]: [&[T; 6]; 3]) -> [T; 6] {
+    macro_rules! all {
+        ($($k:literal)*) => { [$(f[0] * x[$k] + f[1] * y[$k] + f[2] * z[$k]),*] };
+    }
+    all!(0 1 2 3 4 5)
 }
 
 /// ∂S/∂E of ∂P/∂F: `F⁻¹_Ci F⁻¹_Dj (A_iAjB − δ_ij S_AB)`, the mean over exchanges of indices within the pairs.

@@ -17,19 +17,19 @@ use crate::tensor::{Minor, MinorSymmetric, PairSymmetric, Skew, Symmetry};
 use crate::{CauchyStress, Deformation, Symmetric};
 
 /// D ↦ Z T − T Z for the two spins Z of the stretch rates: polar, and logarithmic.
-#[inline]
-fn turning_terms<T: Real>(
+#[inline(always)]
+fn turning_terms<T: Real, const LOGARITHMIC: bool>(
     stress: &CauchyStress<T>,
     deformation: &impl Deformation<T>,
-    spin: impl Fn(&StretchRates<T>) -> [T; 3],
+    analysis: StretchAnalysis<T>,
 ) -> MinorSymmetric<T> {
-    let analysis = StretchAnalysis::of(deformation);
     let mut images = [Symmetric::zero(); 6];
     for (slot, image) in images.iter_mut().enumerate() {
         let mut stretching = Symmetric::zero();
         stretching.components[slot] = T::one();
         let rate = GradientRate::of(deformation, &VelocityGradient::trusted(stretching.rows()));
-        let axial = spin(&StretchRates::of_analysis(analysis, &rate));
+        let rates = StretchRates::of_analysis(analysis, &rate);
+        let axial = if LOGARITHMIC { rates.logarithmic_spin().axial.into() } else { rates.polar_spin().axial.into() };
         *image = Skew { axial }.turning(&stress.0);
     }
     MinorSymmetric::from_images(&images)
@@ -37,7 +37,7 @@ fn turning_terms<T: Real>(
 
 /// Of a rate with the polar and of one with the logarithmic spin.
 macro_rules! spinning {
-    ($name:ident, $cauchy:ident, $of_jaumann:ident, $spin:ident) => {
+    ($name:ident, $cauchy:ident, $of_jaumann:ident, $of_analysis:ident, $logarithmic:literal) => {
         impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
             /// The tangent of the rate of τ, over J, with the spin of the stretch: less D ↦ Z T − T Z.
             ///
@@ -55,8 +55,18 @@ macro_rules! spinning {
             /// ```
             #[must_use]
             pub fn $of_jaumann(&self, stress: &CauchyStress<T>, deformation: &impl Deformation<T>) -> $name<T> {
-                let terms = turning_terms(stress, deformation, |rates| rates.$spin().axial.into());
-                $name(self.0.minor() - terms)
+                self.$of_analysis(stress, deformation, StretchAnalysis::of(deformation))
+            }
+
+            /// The same with the stretches known.
+            #[inline(always)]
+            pub(crate) fn $of_analysis(
+                &self,
+                stress: &CauchyStress<T>,
+                deformation: &impl Deformation<T>,
+                analysis: StretchAnalysis<T>,
+            ) -> $name<T> {
+                $name(self.0.minor() - turning_terms::<T, $logarithmic>(stress, deformation, analysis))
             }
         }
 
@@ -80,8 +90,18 @@ macro_rules! spinning {
                 stress: &CauchyStress<T>,
                 deformation: &impl Deformation<T>,
             ) -> JaumannTangent<T, Minor> {
-                let terms = turning_terms(stress, deformation, |rates| rates.$spin().axial.into());
-                JaumannTangent(self.0 + terms)
+                self.jaumann_of_analysis(stress, deformation, StretchAnalysis::of(deformation))
+            }
+
+            /// The same with the stretches known.
+            #[inline(always)]
+            pub(crate) fn jaumann_of_analysis(
+                &self,
+                stress: &CauchyStress<T>,
+                deformation: &impl Deformation<T>,
+                analysis: StretchAnalysis<T>,
+            ) -> JaumannTangent<T, Minor> {
+                JaumannTangent(self.0 + turning_terms::<T, $logarithmic>(stress, deformation, analysis))
             }
 
             /// The tangent of the same rate of Cauchy's stress: less T ⊗ 1.
@@ -121,5 +141,5 @@ macro_rules! spinning {
     };
 }
 
-spinning!(GreenNaghdiTangent, CauchyGreenNaghdiTangent, green_naghdi, polar_spin);
-spinning!(LogarithmicTangent, CauchyLogarithmicTangent, logarithmic, logarithmic_spin);
+spinning!(GreenNaghdiTangent, CauchyGreenNaghdiTangent, green_naghdi, green_naghdi_of_analysis, false);
+spinning!(LogarithmicTangent, CauchyLogarithmicTangent, logarithmic, logarithmic_of_analysis, true);

@@ -34,6 +34,21 @@ pub struct MajorSymmetric<T = f64> {
     pub components: [T; 21],
 }
 
+/// The 21 entries (row, column), row ≤ column, of a formula, written out: of a loop over entries of eight lanes the compiler
+/// makes one over entries, which gathers and scatters the lanes.
+macro_rules! upper {
+    ($i:ident, $j:ident => $entry:expr) => {
+        upper!(@all $i, $j, $entry; 0 0, 0 1, 0 2, 0 3, 0 4, 0 5, 1 1, 1 2, 1 3, 1 4, 1 5, 2 2, 2 3, 2 4, 2 5, 3 3, 3 4, 3 5,
+            4 4, 4 5, 5 5)
+    };
+    (@all $i:ident, $j:ident, $entry:expr; $($row:literal $column:literal),*) => {
+        [$({
+            let ($i, $j) = ($row, $column);
+            $entry
+        }),*]
+    };
+}
+
 impl<T: Real> MajorSymmetric<T> {
     /// 0.
     ///
@@ -119,7 +134,7 @@ impl<T: Real> MajorSymmetric<T> {
     #[must_use]
     pub fn dyad(a: &Symmetric<T>) -> Self {
         let a = a.components;
-        Self::from_fn(|i, j| a[i] * a[j])
+        Self { components: upper!(i, j => a[i] * a[j]) }
     }
 
     /// ½ (A ⊗ B + B ⊗ A).
@@ -135,7 +150,7 @@ impl<T: Real> MajorSymmetric<T> {
     #[must_use]
     pub fn symmetric_dyad(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
         let (a, b, half) = (a.components, b.components, T::lit(0.5));
-        Self::from_fn(|i, j| half * (a[i] * b[j] + b[i] * a[j]))
+        Self { components: upper!(i, j => half * (a[i] * b[j] + b[i] * a[j])) }
     }
 
     /// ½ (A ⊗̄ A + A ⊗̲ A) = ½ (`A_ik A_jl + A_il A_jk`): B ↦ A B A; its negative is ∂A⁻¹/∂A at A⁻¹.
@@ -152,10 +167,11 @@ impl<T: Real> MajorSymmetric<T> {
     #[must_use]
     pub fn square_dyad(a: &Symmetric<T>) -> Self {
         let (a, half) = (a.rows(), T::lit(0.5));
-        Self::from_fn(|p, q| {
+        let components = upper!(p, q => {
             let ((i, j), (k, l)) = (PAIR[p], PAIR[q]);
             half * (a[i][k] * a[j][l] + a[i][l] * a[j][k])
-        })
+        });
+        Self { components }
     }
 
     /// ¼ (A ⊗̄ B + A ⊗̲ B + B ⊗̄ A + B ⊗̲ A): C ↦ ½ (A C B + B C A).
@@ -212,11 +228,12 @@ impl<T: Real> MajorSymmetric<T> {
 
     #[inline(always)]
     fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
-        let mut components = a.components;
-        for (entry, other) in components.iter_mut().zip(&b.components) {
-            *entry = f(*entry, *other);
+        // Written out as those of `upper`.
+        let (a, b) = (&a.components, &b.components);
+        macro_rules! all {
+            ($($k:literal)*) => { [$(f(a[$k], b[$k])),*] };
         }
-        Self { components }
+        Self { components: all!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20) }
     }
 }
 
