@@ -298,6 +298,18 @@ pub enum ConstitutiveError {
         /// By how much the best rate's stress is off, Pa.
         residual: f64,
     },
+    /// Entries of a batch of shear rates or stresses have no answer; theirs are NaN, all others are computed.
+    #[error("{fluid}: {count} entries have no answer, first of all {value} at {index}")]
+    BadEntries {
+        /// The fluid.
+        fluid: &'static str,
+        /// The first such entry, from 0.
+        index: usize,
+        /// Its value, 1/s or Pa.
+        value: f64,
+        /// How many there are.
+        count: usize,
+    },
     /// Points of a batch are bad; the outputs of all others are computed.
     #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
     BadPoints {

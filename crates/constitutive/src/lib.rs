@@ -12,6 +12,7 @@ pub mod fluids;
 pub mod homogeneous;
 pub mod internal_constraints;
 pub mod memory;
+mod parameters;
 pub mod solids;
 
 pub use error::ConstitutiveError;

@@ -25,6 +25,7 @@
 //! | [`first_piola_tangent`] | the upper triangle of ∂P/∂F | 45 | |
 //! | [`first_piola_tangent_square`] | ∂P/∂F | 81 | `&mut [FirstPiolaTangent<T>]` |
 //! | [`first_piola_and_tangent`] | P and the upper triangle, from what they share | 9 + 45 | |
+//! | [`material_tangent`], [`truesdell_tangent`] | ∂S/∂E; c/J | 21 | |
 //! | [`first_piola_derivative`] | (∂P/∂F) : δF of a given δF | 9 | `&mut [FirstPiola<T>]` |
 //!
 //! Deformations and destinations are the views of [`piola_continuum::batch`]: arrays of structures, structures of

@@ -5,6 +5,7 @@ use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, Se
 use piola_numerics::linear::matrix3::rows_of;
 use piola_numerics::{Mask, Real};
 
+use crate::ConstitutiveError;
 use crate::solids::Hyperelastic;
 
 /// Nine components by rows.
@@ -17,11 +18,18 @@ pub(super) fn flat<T: Real>(stress: &FirstPiola<T>) -> [T; 9] {
 /// All lanes of a block whose deformations the law accepts, or none: each point is asked then.
 #[inline(always)]
 fn accepted<T: Real, L: Hyperelastic>(law: &L, deformation: &impl Deformation<T>) -> T::Mask {
-    // Not `is_ok`: an error would be dropped in any case, by a function that the compiler does not look into.
+    // The error is moved out where there is one: a result is dropped by a function that is not compiled for lanes.
     match law.check(deformation) {
         Ok(()) => Mask::splat(true),
-        Err(_) => Mask::splat(false),
+        Err(error) => refused(error),
     }
+}
+
+#[cold]
+#[inline(never)]
+fn refused<M: Mask>(error: ConstitutiveError) -> M {
+    drop(error);
+    M::splat(false)
 }
 
 /// Lanes that the law accepts, by the answer itself where that tells.
@@ -31,24 +39,20 @@ pub(super) fn answered<T: Real, L: Hyperelastic, const K: usize>(
     deformation: &impl Deformation<T>,
     answer: &[T; K],
 ) -> T::Mask {
-    if !L::REFUSED_IS_NOT_FINITE {
-        return accepted(law, deformation);
-    }
-    // x − x is zero but for ∞ and NaN.
-    #[expect(clippy::eq_op, reason = "the difference is zero but for infinity and NaN")]
-    let mut nothing = answer[0] - answer[0];
-    let mut k = 1;
-    while k < K && k < 9 {
-        #[expect(clippy::eq_op, reason = "the difference is zero but for infinity and NaN")]
-        let difference = answer[k] - answer[k];
-        nothing += difference;
-        k += 1;
-    }
-    nothing.is_finite()
+    // Where it refuses, and where F is no deformation, the first component is not finite if these say so.
+    let finite =
+        if L::REFUSED_IS_NOT_FINITE || L::KNOWS_DEFORMATIONS { answer[0].is_finite() } else { Mask::splat(true) };
+    if L::REFUSED_IS_NOT_FINITE { finite } else { finite & accepted(law, deformation) }
 }
 
 macro_rules! quantities {
-    ($($(#[$documentation:meta])* $visibility:vis $function:ident $name:ident [$k:literal] $output:ty, |$law:ident, $point:ident| $value:expr;)*) => { $(
+    (@knows $law:ident knows) => {
+        $law::KNOWS_DEFORMATIONS
+    };
+    (@knows $law:ident) => {
+        false
+    };
+    ($($(#[$documentation:meta])* $visibility:vis $function:ident $name:ident [$k:literal $($knows:ident)?] $output:ty, |$law:ident, $point:ident| $value:expr;)*) => { $(
         $(#[$documentation])*
         #[must_use]
         $visibility fn $function<L: Hyperelastic + Sync, V>(law: &L, to: V) -> Request<$name<'_, L>, (), V, 0, $k> {
@@ -71,6 +75,7 @@ macro_rules! quantities {
             type Input = ();
             type Output = $output;
             const NEEDS_STRETCH: bool = false;
+            const KNOWS_DEFORMATIONS: bool = $crate::batch::requests::quantities!(@knows L $($knows)?);
             const INPUT: &'static str = "";
 
             #[inline(always)]
@@ -109,7 +114,7 @@ quantities! {
     /// assert_eq!(p[6][0][0], 15.0); // 2 (λ + 2μ) E₁₁
     /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
     /// ```
-    pub first_piola FirstPiolaOf [9] FirstPiola, |law, point| flat(&law.first_piola(point));
+    pub first_piola FirstPiolaOf [9 knows] FirstPiola, |law, point| flat(&law.first_piola(point));
     /// S: see [`Hyperelastic::second_piola`].
     pub second_piola SecondPiolaOf [6] SecondPiola, |law, point| law.second_piola(point).0.components;
     /// τ: see [`Hyperelastic::kirchhoff`].

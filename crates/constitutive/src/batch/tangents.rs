@@ -68,13 +68,46 @@ quantities! {
     /// assert_eq!(a[6][..5], [5.0, 0.0, 0.0, 0.0, 1.0]); // λ + 2μ at (11, 11), λ at (11, 22)
     /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
     /// ```
-    pub first_piola_tangent FirstPiolaTangentOf [45] FirstPiolaTangentOf<'static, ()>, |law, point| upper(&law.first_piola_tangent(point));
+    pub first_piola_tangent FirstPiolaTangentOf [45 knows] FirstPiolaTangentOf<'static, ()>, |law, point| upper(&law.first_piola_tangent(point));
     /// All 81 entries of ∂P/∂F: see [`Hyperelastic::first_piola_tangent`].
-    pub first_piola_tangent_square FirstPiolaTangentSquareOf [81] FirstPiolaTangent,
+    pub first_piola_tangent_square FirstPiolaTangentSquareOf [81 knows] FirstPiolaTangent,
         |law, point| square(&law.first_piola_tangent(point));
+    /// The 21 components of ∂S/∂E, the upper triangle by rows of the 6×6 array over the pairs 11, 22, 33, 12, 23, 13 without
+    /// factors for shears, as in [`MajorSymmetric`](piola_continuum::tensor::MajorSymmetric): see
+    /// [`Hyperelastic::material_tangent`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::batch;
+    /// use piola_constitutive::solids::SaintVenantKirchhoff;
+    /// use piola_continuum::DeformationGradient;
+    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+    /// let (f, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [[0.0; 21]; 7]);
+    /// batch::evaluate(&f[..], batch::material_tangent(&law, &mut c[..]))?;
+    /// assert_eq!(c[6][..4], [5.0, 1.0, 1.0, 0.0]); // λ + 2μ at (11, 11), λ at (11, 22) at every deformation
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub material_tangent MaterialTangentOf [21] MaterialTangentOf<'static, ()>,
+        |law, point| law.material_tangent(point).0.components;
+    /// The 21 components of c/J, which takes D to the Truesdell rate of T, in the order of [`material_tangent`]: see
+    /// [`Hyperelastic::truesdell_tangent`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::batch;
+    /// use piola_constitutive::solids::SaintVenantKirchhoff;
+    /// use piola_continuum::DeformationGradient;
+    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+    /// let (f, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [[0.0; 21]; 7]);
+    /// batch::evaluate(&f[..], batch::truesdell_tangent(&law, &mut c[..]))?;
+    /// assert_eq!(c[6][..2], [40.0, 2.0]); // F₁₁⁴ (λ + 2μ)/J and F₁₁² λ/J
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub truesdell_tangent TruesdellTangentOf [21] TruesdellTangentOf<'static, ()>,
+        |law, point| law.truesdell_tangent(point).0.components;
     /// P to the first destination and the 45 entries of [`first_piola_tangent`] to the second: see
     /// [`Hyperelastic::first_piola_and_tangent`].
-    shared FirstPiolaAndTangentOf [54] FirstPiolaAndTangentOf<'static, ()>, |law, point| both(law.first_piola_and_tangent(point));
+    shared FirstPiolaAndTangentOf [54 knows] FirstPiolaAndTangentOf<'static, ()>, |law, point| both(law.first_piola_and_tangent(point));
 }
 
 /// P and the 45 entries of [`first_piola_tangent`], what they share computed once: see
@@ -111,6 +144,7 @@ where
     W: Destination<FirstPiolaTangentOf<'static, ()>, T, 45>,
 {
     const IN_LANES: bool = V::IN_LANES && W::IN_LANES;
+    const RECORDS: bool = V::RECORDS && W::RECORDS;
     fn count(&self) -> usize {
         // Both are checked: no batch is as long as a pair of unlike lengths.
         let (stress, tangent) = (self.0.count(), self.1.count());
@@ -132,6 +166,13 @@ where
         let (stress, tangent) = parts(&values);
         self.0.store(first, count, stress);
         self.1.store(first, count, tangent);
+    }
+    #[inline(always)]
+    fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; 54]) {
+        if let (Some(stress), Some(tangent)) = (values.first_chunk(), values.last_chunk()) {
+            self.0.scatter(first, count, stress);
+            self.1.scatter(first, count, tangent);
+        }
     }
 }
 

@@ -6,12 +6,18 @@ use super::viscometric::{FlowMoment, ViscometricFluid};
 use super::{
     Bingham, CarreauYasuda, Casson, ConstantCoefficients, Cross, Ellis, ExponentialDamping, ExponentialPhanThienTanner,
     Eyring, Giesekus, HerschelBulkley, Kbkz, LinearPhanThienTanner, Modes, Newtonian, OldroydB, Papanastasiou,
-    PowerLaw, RationalDamping, ReinerRivlin, SecondOrder, Sisko, UpperConvectedMaxwell,
+    PowerLaw, RationalDamping, ReinerRivlin, SecondOrder, Sisko, Slipping, UpperConvectedMaxwell,
 };
 use crate::ConstitutiveError;
 
 /// A Reiner–Rivlin fluid whose coefficients are constants.
 pub type ConstantReinerRivlin = ReinerRivlin<ConstantCoefficients>;
+/// The fluid of Johnson and Segalman: Oldroyd's fluid B that slips.
+pub type JohnsonSegalman = Slipping<OldroydB>;
+/// The linear fluid of Phan-Thien and Tanner, with slip.
+pub type SlippingLinearPhanThienTanner = Slipping<LinearPhanThienTanner>;
+/// The exponential fluid of Phan-Thien and Tanner, with slip.
+pub type SlippingExponentialPhanThienTanner = Slipping<ExponentialPhanThienTanner>;
 /// Several modes of Oldroyd's fluid B.
 pub type OldroydBModes = Modes<OldroydB>;
 /// Several modes of Giesekus' fluid.
@@ -86,6 +92,7 @@ any_fluid! {
     /// | `oldroyd_b` | [`OldroydB`] | `solvent_viscosity`, `polymer_viscosity`, `time` |
     /// | `giesekus` | [`Giesekus`] | the same, and `mobility` |
     /// | `linear_phan_thien_tanner`, `exponential_phan_thien_tanner` | [`LinearPhanThienTanner`], [`ExponentialPhanThienTanner`] | the same, and `extensibility` |
+    /// | `johnson_segalman`, `slipping_linear_phan_thien_tanner`, `slipping_exponential_phan_thien_tanner` | [`Slipping`] | `network` with its parameters, and `slip` |
     /// | `oldroyd_b_modes`, `giesekus_modes`, `linear_phan_thien_tanner_modes`, `exponential_phan_thien_tanner_modes` | [`Modes`] | `modes`, each with the parameters of one |
     /// | `kbkz_rational`, `kbkz_exponential` | [`Kbkz`] | `memory`, each term with `viscosity` and `time`; `damping` with `alpha`, `beta` or `strength`, `beta` |
     ///
@@ -150,6 +157,12 @@ any_fluid! {
     LinearPhanThienTanner,
     /// exp(ε (λ/ηₚ) tr τ) τ relaxes.
     ExponentialPhanThienTanner,
+    /// [`OldroydB`] that slips.
+    JohnsonSegalman,
+    /// [`LinearPhanThienTanner`] that slips.
+    SlippingLinearPhanThienTanner,
+    /// [`ExponentialPhanThienTanner`] that slips.
+    SlippingExponentialPhanThienTanner,
     /// Several [`OldroydB`].
     OldroydBModes,
     /// Several [`Giesekus`].
@@ -213,3 +226,5 @@ impl ViscometricFluid for AnyFluid {
         chosen!(self, fluid => fluid.flow_moment(moment, from, to))
     }
 }
+
+pub(in crate::fluids) use chosen;

@@ -3,12 +3,13 @@
 use piola_numerics::Real;
 
 use super::answers::{beyond, finite_rate, moment_of_power, shifted_power, signed, viscosity_with_limit};
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
 use crate::elementary::excess_over_logarithm;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// Bingham's plastic: at rest up to a yield stress, linear beyond.
     ///
     /// ```text
@@ -64,6 +65,7 @@ impl Parameters<2> for Bingham {
 
 impl ViscometricFluid for Bingham {
     const NAME: &'static str = Self::NAME;
+    const CLOSED_RATE: bool = true;
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {

@@ -3,11 +3,12 @@
 use piola_numerics::{Mask, Real};
 
 use super::answers::moving;
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::viscometric::ViscometricFluid;
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The fluid of Carreau and Yasuda: two plateaus of the viscosity and a power law between them.
     ///
     /// ```text

@@ -3,12 +3,13 @@
 use piola_numerics::Real;
 
 use super::answers::{beyond, finite_rate, moving, signed, viscosity_with_limit};
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
 use crate::elementary::excess_over_logarithm;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// Casson's plastic: blood, chocolate, printing ink.
     ///
     /// ```text
@@ -73,6 +74,7 @@ fn mixed<T: Real>(yield_stress: T, viscosity: T, shear_rate: T) -> T {
 
 impl ViscometricFluid for Casson {
     const NAME: &'static str = Self::NAME;
+    const CLOSED_RATE: bool = true;
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {

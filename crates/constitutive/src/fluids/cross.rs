@@ -3,11 +3,12 @@
 use piola_numerics::Real;
 
 use super::answers::moving;
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::viscometric::ViscometricFluid;
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// Cross's fluid: two plateaus of the viscosity.
     ///
     /// ```text

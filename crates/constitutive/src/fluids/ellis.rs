@@ -3,11 +3,12 @@
 use piola_numerics::{Dual, Real};
 
 use super::answers::{Relation, finite_rate, moment_of_power, moving, solve_from_above};
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// Ellis' fluid: linear at small stresses, a power law at large ones; the rate is explicit in the stress.
     ///
     /// ```text
@@ -81,6 +82,7 @@ impl Parameters<3> for Ellis {
 
 impl ViscometricFluid for Ellis {
     const NAME: &'static str = Self::NAME;
+    const CLOSED_RATE: bool = true;
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {

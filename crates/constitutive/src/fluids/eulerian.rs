@@ -3,7 +3,7 @@
 use piola_continuum::{CauchyStress, Deformation, SecondPiola, Symmetric};
 use piola_numerics::{Dual, Real};
 
-use super::parameters::fluid_of_parameters;
+use crate::parameters::parameters;
 
 /// An Eulerian (elastic, barotropic) fluid.
 ///
@@ -68,7 +68,7 @@ pub trait EulerianFluid {
     }
 }
 
-fluid_of_parameters! {
+parameters! {
     /// The polytropic gas.
     ///
     /// ```text

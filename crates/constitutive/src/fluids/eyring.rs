@@ -3,11 +3,12 @@
 use piola_numerics::Real;
 
 use super::answers::{finite_rate, inverse_sinh};
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The fluid of Prandtl and Eyring: flow by thermally activated jumps.
     ///
     /// ```text
@@ -62,6 +63,7 @@ impl Parameters<2> for Eyring {
 
 impl ViscometricFluid for Eyring {
     const NAME: &'static str = Self::NAME;
+    const CLOSED_RATE: bool = true;
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {

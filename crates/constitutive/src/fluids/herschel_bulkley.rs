@@ -3,12 +3,13 @@
 use piola_numerics::Real;
 
 use super::answers::{beyond, finite_rate, moment_of_power, moving, shifted_power, signed, viscosity_with_limit};
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::power_law::odd_power;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The plastic of Herschel and Bulkley: at rest up to a yield stress, a power law beyond.
     ///
     /// ```text
@@ -66,6 +67,7 @@ impl Parameters<3> for HerschelBulkley {
 
 impl ViscometricFluid for HerschelBulkley {
     const NAME: &'static str = Self::NAME;
+    const CLOSED_RATE: bool = true;
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {

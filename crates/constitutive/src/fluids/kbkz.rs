@@ -4,11 +4,11 @@ use piola_continuum::Symmetric;
 use piola_numerics::Real;
 
 use super::differential::ShearStresses;
-use super::parameters::fluid_of_parameters;
 use super::quadrature::{Integral, integrate};
 use super::viscometric::ViscometricFluid;
 use crate::ConstitutiveError;
 use crate::error::{check_bound, check_finite};
+use crate::parameters::parameters;
 
 /// How much less a large strain is remembered than a small one: h, with h = 1 at no strain.
 pub trait Damping {
@@ -20,7 +20,7 @@ pub trait Damping {
     fn factor<T: Real>(&self, first: T, second: T) -> T;
 }
 
-fluid_of_parameters! {
+parameters! {
     /// The damping of Papanastasiou, Scriven and Macosko.
     ///
     /// ```text
@@ -41,7 +41,7 @@ fluid_of_parameters! {
     }
 }
 
-fluid_of_parameters! {
+parameters! {
     /// Wagner's damping.
     ///
     /// ```text
@@ -105,8 +105,8 @@ pub struct Relaxation {
 /// T + p 1 = ∫ m(s) h(I₁, I₂) (Cₜ⁻¹(t − s) − 1) ds      m(s) = Σ (η/λ²) e^(−s/λ)
 /// in steady shear: τ = ∫ m h k s ds,  N₁ = ∫ m h k² s² ds,  N₂ = 0
 /// ```
-/// Without damping it is the Maxwell fluid. In steady shear the integrals are sums over equal steps of ln s, that converge
-/// exponentially; elsewhere quadrature is adaptive, with an error bound.
+/// Without damping it is the Maxwell fluid. In steady shear the integrals are sums over equal steps of u with s = s₀ e^(u − e^(−u)), that
+/// converge exponentially; elsewhere quadrature is adaptive, with an error bound.
 ///
 /// # Accuracy
 /// τ, N₁ in steady shear: 1e-14 for the dampings of this module; [`steady_shear`](Self::steady_shear) has the bound.
@@ -165,12 +165,23 @@ impl<H> From<Kbkz<H>> for Written<H> {
     }
 }
 
-/// The step of ln s: the integrands are analytic within ±π/2 of the real axis, so that the error is e^(−π²/step).
-const STEP: f64 = 0.25;
-/// How far below the shorter of λ and 1/k the integrals in ln s begin: s² counts e⁻⁴⁰ there.
-const DEPTH: f64 = 20.0;
-/// ln of the s/λ beyond which nothing is remembered: e^(−e^6.5).
+/// The step of u in s = s₀ e^(u − e^(−u)), where s₀ is about the shorter of λ and 1/k: the integrands vanish double exponentially downwards
+/// and are analytic nearly within ±π/2 of the real axis, so that the error is about e^(−π²/step).
+const STEP: f64 = 0.2;
+/// How far below zero u begins: s² counts e⁻⁴⁶ there.
+const DEPTH: f64 = 3.0;
+/// ln of the s/λ beyond which nothing is remembered in steady shear: e^(−e^3.9).
+const FARTHEST: f64 = 3.9;
+/// The same where a history is given.
 const HEIGHT: f64 = 6.5;
+
+/// How many steps there are from s₀ = e^`start` λ; at most 4000.
+#[inline(always)]
+fn steps(start: f64) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 30 and 4000")]
+    let count = ((DEPTH + FARTHEST - start) / STEP).ceil().min(4000.0) as usize;
+    count
+}
 
 impl<H: Damping> Kbkz<H> {
     /// From its memory, in any order, and its damping.
@@ -219,28 +230,22 @@ impl<H: Damping> Kbkz<H> {
         for term in &self.memory {
             let w = T::lit(term.time) * shear_rate.abs();
             let fastest = (0..T::LANES).map(|lane| w.primal(lane)).fold(0.0, f64::max);
-            let from = -fastest.ln_1p() - DEPTH;
+            let start = -fastest.ln_1p();
             let mut sum = T::zero();
-            let mut u = from + offset * STEP;
-            while u < HEIGHT {
-                let x = u.exp();
-                // dx = x du.
-                let weight = (-x).exp() * x;
+            for step in 0..steps(start) {
+                let u = (step as f64 + offset) * STEP - DEPTH;
+                let below = (-u).exp();
+                let x = (start + u - below).exp();
+                // dx = x (1 + e^(−u)) du.
+                let weight = (-x).exp() * x * (1.0 + below);
                 let strain = w * T::lit(x);
                 let square = strain * strain;
                 let share = if power == 1 { strain } else { square };
                 sum += T::lit(weight) * share * self.damping.factor(square, square);
-                u += STEP;
             }
             total += sum * T::lit(STEP * term.viscosity / term.time);
         }
         total
-    }
-
-    /// Of two grids that lie between one another.
-    #[inline(always)]
-    fn mean<T: Real>(&self, shear_rate: T, power: i32) -> T {
-        T::lit(0.5) * (self.sums(shear_rate, power, 0.0) + self.sums(shear_rate, power, 0.5))
     }
 
     /// τ and N₁ of steady shear, Pa, with bounds of their errors: by how much two grids differ, of which the mean is returned.
@@ -250,9 +255,8 @@ impl<H: Damping> Kbkz<H> {
             let [a, b] = [0.0, 0.5].map(|offset| self.sums(shear_rate, power, offset));
             let value = f64::midpoint(a, b);
             let bound = (a - b).abs() + 16.0 * f64::EPSILON * value.abs();
-            let points = |term: &Relaxation| (DEPTH + HEIGHT + (term.time * shear_rate.abs()).ln_1p()) / STEP;
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
-            let evaluations = 2 * self.memory.iter().map(points).sum::<f64>().ceil() as usize;
+            let points = |term: &Relaxation| steps(-(term.time * shear_rate.abs()).ln_1p());
+            let evaluations = 2 * self.memory.iter().map(points).sum::<usize>();
             let value = if power == 1 && shear_rate < 0.0 { -value } else { value };
             Integral { value, bound, evaluations }
         })
@@ -342,12 +346,12 @@ impl<H: Damping> ViscometricFluid for Kbkz<H> {
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
-        let size = self.mean(shear_rate, 1);
+        let size = self.sums(shear_rate, 1, 0.0);
         T::select(shear_rate.less_than(T::zero()), -size, size)
     }
 
     #[inline(always)]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
-        self.mean(shear_rate, 2)
+        self.sums(shear_rate, 2, 0.0)
     }
 }

@@ -4,11 +4,11 @@ use piola_continuum::Symmetric;
 use piola_continuum::rates::VelocityGradient;
 use piola_numerics::Real;
 
-use super::parameters::fluid_of_parameters;
 use super::viscous::ViscousFluid;
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The compressible Newtonian fluid of Navier and Stokes.
     ///
     /// ```text

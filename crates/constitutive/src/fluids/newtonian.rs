@@ -3,11 +3,12 @@
 use piola_numerics::Real;
 
 use super::answers::finite_rate;
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The incompressible Newtonian fluid.
     ///
     /// ```text
@@ -55,6 +56,7 @@ impl Parameters<1> for Newtonian {
 
 impl ViscometricFluid for Newtonian {
     const NAME: &'static str = Self::NAME;
+    const CLOSED_RATE: bool = true;
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {

@@ -3,12 +3,13 @@
 use piola_numerics::Real;
 
 use super::answers::viscosity_with_limit;
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::power_law::odd_power;
 use super::viscometric::ViscometricFluid;
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// Papanastasiou's plastic: that of Herschel and Bulkley, with a yield stress that grows with the rate instead of a jump.
     ///
     /// ```text

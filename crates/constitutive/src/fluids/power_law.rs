@@ -3,11 +3,12 @@
 use piola_numerics::Real;
 
 use super::answers::{finite_rate, moment_of_power, moving};
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The power law of Ostwald and de Waele.
     ///
     /// ```text
@@ -73,6 +74,7 @@ pub(super) fn odd_power<T: Real>(x: T, exponent: T) -> T {
 
 impl ViscometricFluid for PowerLaw {
     const NAME: &'static str = Self::NAME;
+    const CLOSED_RATE: bool = true;
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {

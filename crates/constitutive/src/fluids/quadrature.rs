@@ -47,11 +47,36 @@ const GAUSS: [f64; 4] =
 /// like s ds at s → 0.
 const DEPTH: f64 = 40.0;
 /// The most intervals.
-const MOST: usize = 2000;
+const MOST: usize = 512;
+
+/// An interval of ln s with its integral and what two rules differ by.
+#[derive(Clone, Copy)]
+struct Piece<const N: usize> {
+    low: f64,
+    high: f64,
+    value: [f64; N],
+    error: f64,
+}
 
 /// ∫ f(s) ds from 0 to `end`, for f that vanishes at s = 0 at least as s does: adaptive in ln s.
-pub(super) fn integrate<const N: usize>(mut f: impl FnMut(f64) -> [f64; N], end: f64) -> Integral<[f64; N]> {
+pub(super) fn integrate<const N: usize>(f: impl FnMut(f64) -> [f64; N], end: f64) -> Integral<[f64; N]> {
     let top = end.ln();
+    let edges: [f64; 9] = core::array::from_fn(|k| top - DEPTH * (8 - k) as f64 / 8.0);
+    adaptive(f, &edges, end)
+}
+
+/// ∫ f(s) ds from `start` to `end`, 0 < start: adaptive in ln s.
+pub(super) fn integrate_between<const N: usize>(
+    f: impl FnMut(f64) -> [f64; N],
+    start: f64,
+    end: f64,
+) -> Integral<[f64; N]> {
+    adaptive(f, &[start.ln(), end.ln()], end)
+}
+
+/// Halves the interval between `edges` of ln s whose error is the largest, until the sum of the errors is small. Allocates
+/// nothing.
+fn adaptive<const N: usize>(mut f: impl FnMut(f64) -> [f64; N], edges: &[f64], end: f64) -> Integral<[f64; N]> {
     let mut evaluations = 0;
     let mut rule = |low: f64, high: f64| {
         let (centre, half) = (f64::midpoint(low, high), (high - low) / 2.0);
@@ -72,26 +97,28 @@ pub(super) fn integrate<const N: usize>(mut f: impl FnMut(f64) -> [f64; N], end:
             }
         }
         let error = (0..N).map(|i| (fine[i] - coarse[i]).abs()).fold(0.0, f64::max);
-        (low, high, fine, error)
+        Piece { low, high, value: fine, error }
     };
-    let mut pieces: Vec<_> = (0..8)
-        .map(|k| {
-            let at = |k: i32| top - DEPTH * f64::from(8 - k) / 8.0;
-            rule(at(k), at(k + 1))
-        })
-        .collect();
+    let mut pieces = [Piece { low: 0.0, high: 0.0, value: [0.0; N], error: 0.0 }; MOST];
+    let mut count = 0;
+    for pair in edges.windows(2) {
+        pieces[count] = rule(pair[0], pair[1]);
+        count += 1;
+    }
     loop {
-        let value: [f64; N] = core::array::from_fn(|i| pieces.iter().map(|piece| piece.2[i]).sum());
-        let bound: f64 = pieces.iter().map(|piece| piece.3).sum();
+        let pieces_now = &pieces[..count];
+        let value: [f64; N] = core::array::from_fn(|i| pieces_now.iter().map(|piece| piece.value[i]).sum());
+        let bound: f64 = pieces_now.iter().map(|piece| piece.error).sum();
         let size = value.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let worst = (0..pieces.len()).max_by(|&a, &b| pieces[a].3.total_cmp(&pieces[b].3)).unwrap_or(0);
-        if bound <= 1e-13 * size || MOST < pieces.len() || !bound.is_finite() {
+        let worst = (0..count).max_by(|&a, &b| pieces[a].error.total_cmp(&pieces[b].error)).unwrap_or(0);
+        if bound <= 1e-13 * size || MOST <= count || !bound.is_finite() {
             // The rounding of the sum, the depth, and what the rules do not agree upon.
             return Integral { value, bound: bound + 32.0 * f64::EPSILON * size, evaluations };
         }
-        let (low, high, ..) = pieces.swap_remove(worst);
+        let Piece { low, high, .. } = pieces[worst];
         let centre = f64::midpoint(low, high);
-        pieces.push(rule(low, centre));
-        pieces.push(rule(centre, high));
+        pieces[worst] = rule(low, centre);
+        pieces[count] = rule(centre, high);
+        count += 1;
     }
 }

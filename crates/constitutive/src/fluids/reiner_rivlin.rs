@@ -4,9 +4,9 @@ use piola_continuum::Symmetric;
 use piola_continuum::rates::VelocityGradient;
 use piola_numerics::Real;
 
-use super::parameters::fluid_of_parameters;
 use super::viscometric::ViscometricFluid;
 use super::viscous::ViscousFluid;
+use crate::parameters::parameters;
 
 /// The coefficients g₁ and g₂ of a Reiner–Rivlin fluid, functions of the invariants of D:
 /// I = tr D, II = ½ (I² − D : D), III = det D.
@@ -19,7 +19,7 @@ pub trait ReinerRivlinCoefficients {
     fn second<T: Real>(&self, invariants: [T; 3]) -> T;
 }
 
-fluid_of_parameters! {
+parameters! {
     /// Coefficients of a Reiner–Rivlin fluid that are constants.
     ///
     /// | symbol | parameter | unit | bounds |

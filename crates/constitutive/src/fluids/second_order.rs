@@ -4,11 +4,11 @@ use piola_continuum::Symmetric;
 use piola_continuum::rates::{RivlinEricksen, VelocityGradient};
 use piola_numerics::Real;
 
-use super::parameters::fluid_of_parameters;
 use super::viscometric::ViscometricFluid;
 use super::viscous::ViscousFluid;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The second-order fluid: any simple fluid with fading memory in slow flow, one order beyond the Newtonian.
     ///
     /// ```text

@@ -2,12 +2,13 @@
 
 use piola_numerics::Real;
 
-use super::parameters::{Parameters, fluid_of_parameters};
+use super::parameters::Parameters;
 use super::power_law::odd_power;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// Sisko's fluid: a power law and a Newtonian fluid side by side; greases.
     ///
     /// ```text

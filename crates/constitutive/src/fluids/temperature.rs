@@ -2,10 +2,10 @@
 
 use piola_numerics::Real;
 
-use super::parameters::fluid_of_parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
 use crate::error::check_bound;
+use crate::parameters::parameters;
 
 /// The molar gas constant R, J/(mol K), exact by the definition of the unit.
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
@@ -38,7 +38,7 @@ pub trait TemperatureShift {
     }
 }
 
-fluid_of_parameters! {
+parameters! {
     /// The shift of Arrhenius: jumps over a barrier, far above the glass transition.
     ///
     /// ```text
@@ -72,7 +72,7 @@ fluid_of_parameters! {
     }
 }
 
-fluid_of_parameters! {
+parameters! {
     /// The shift of Williams, Landel and Ferry: free volume, up to 100 K above the glass transition.
     ///
     /// ```text
@@ -134,6 +134,8 @@ impl TemperatureShift for WilliamsLandelFerry {
 /// ```text
 /// τ(k) = τ₀(aₜ k)      σ(k) = σ₀(aₜ k)      η(k) = aₜ η₀(aₜ k)      ζ(τ) = ζ₀(τ)/aₜ
 /// ```
+/// Any motion is answered by the fluid's own clock: as a [`SimpleFluid`](super::SimpleFluid) it answers as the fluid at the reference
+/// temperature does to the same deformations in times 1/aₜ as long.
 ///
 /// # Example
 /// ```
@@ -141,6 +143,11 @@ impl TemperatureShift for WilliamsLandelFerry {
 /// let cold = Shifted::new(Bingham::new(1.0, 2.0)?, 3.0)?;
 /// assert_eq!(cold.shear_stress(0.5), 4.0); // 1 + 2 · 3 · 0.5
 /// assert_eq!(cold.shear_rate(4.0)?, 0.5);
+///
+/// use piola_constitutive::fluids::{OldroydB, SimpleFluid};
+/// let melt = Shifted::new(OldroydB::new(0.0, 2.0, 0.5)?, 3.0)?; // ηₚ = 6, λ = 1.5
+/// let start = melt.response_to_start(1.0, 1.5, 1e-9)?;
+/// assert!((start.shear - 6.0 * (1.0 - (-1.0_f64).exp())).abs() < 1e-14);
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,6 +182,7 @@ impl<F: ViscometricFluid> Shifted<F> {
 impl<F: ViscometricFluid> ViscometricFluid for Shifted<F> {
     const NAME: &'static str = F::NAME;
     const NORMAL_STRESSES: bool = F::NORMAL_STRESSES;
+    const CLOSED_RATE: bool = F::CLOSED_RATE;
 
     #[inline(always)]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {

@@ -73,6 +73,8 @@ pub trait ViscometricFluid {
     const NAME: &'static str;
     /// Whether a normal stress difference can differ from zero; where none can, none is computed.
     const NORMAL_STRESSES: bool = false;
+    /// Whether [`shear_rate`](Self::shear_rate) is a closed form: quadrature then goes by stresses.
+    const CLOSED_RATE: bool = false;
 
     /// τ, Pa, at a shear rate k, 1/s: odd in k, zero at rest. For a fluid with a yield stress its limit from above
     /// (below) where k > 0 (k < 0).
@@ -132,7 +134,7 @@ pub trait ViscometricFluid {
     /// ζ = τ⁻¹: the shear rate, 1/s, at a shear stress, Pa; zero up to the yield stress.
     ///
     /// Unless a fluid gives a closed form it is found by Newton's method on ln τ over ln k within a bracket that
-    /// shrinks, to the rounding of τ; derivatives and lanes are carried.
+    /// shrinks, by halves where the steps do not, to the rounding of τ; derivatives and lanes are carried.
     ///
     /// # Errors
     /// [`ConstitutiveError::NoShearRate`] where no rate has this stress, or τ does not grow there.
@@ -149,6 +151,9 @@ pub trait ViscometricFluid {
         None
     }
 }
+
+/// The step of ln k after which Newton's method has half of the digits: the last steps are those in k itself.
+const NEAR: f64 = 1e-9;
 
 /// ln k beyond which no rate is sought.
 const FARTHEST: f64 = 690.0;
@@ -172,6 +177,7 @@ pub(in crate::fluids) fn rate_at_stress<F: ViscometricFluid + ?Sized, T: Real>(
     let target = size.ln();
     let (mut low, mut high) = (T::lit(-FARTHEST), T::lit(FARTHEST));
     let mut x = T::zero();
+    let mut before = T::lit(2.0 * FARTHEST);
     for _ in 0..200 {
         let at = fluid.shear_stress(Dual { value: x.exp(), tangent: x.exp() });
         let excess = at.value.ln() - target;
@@ -180,9 +186,12 @@ pub(in crate::fluids) fn rate_at_stress<F: ViscometricFluid + ?Sized, T: Real>(
         high = T::select(below, high, x);
         let step = excess * at.value / at.tangent;
         let newton = x - step;
-        let inside = low.at_most(newton) & newton.at_most(high);
+        // Steps that do not become half as long may go to and fro across a bend for ever.
+        let shrinks = (T::lit(2.0) * step.abs()).at_most(before);
+        let inside = low.at_most(newton) & newton.at_most(high) & shrinks;
         let next = T::select(inside, newton, T::lit(0.5) * (low + high));
-        let settled = (next - x).abs().at_most(T::lit(4.0 * f64::EPSILON) * (T::one() + x.abs()));
+        before = (next - x).abs();
+        let settled = before.at_most(T::lit(NEAR));
         x = next;
         if (settled | !flows).all() {
             break;
@@ -199,7 +208,8 @@ pub(in crate::fluids) fn rate_at_stress<F: ViscometricFluid + ?Sized, T: Real>(
         rate -= T::select(step.is_finite(), step, T::zero());
     }
     let residual = (fluid.shear_stress(rate.frozen()) - size.frozen()).abs();
-    let exact = residual.at_most(T::lit(1e-12) * size.frozen()) & rate.is_finite();
+    let slope = fluid.shear_stress(Dual { value: rate.frozen(), tangent: T::one() }).tangent;
+    let exact = residual.at_most(T::lit(1e-12) * size.frozen()) & rate.is_finite() & T::zero().less_than(slope);
     if !(exact | !flows).all() {
         return Err(refusal::<F, T>(T::select(exact | !flows, T::zero(), wanted.abs()), residual));
     }

@@ -5,10 +5,10 @@ use piola_numerics::{Mask, Real};
 
 use super::incompressible::inverse_excess;
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants};
-use super::parameters::parameters;
 use super::range::check_exponent;
 use crate::ConstitutiveError;
 use crate::elementary::excess_over_given;
+use crate::parameters::parameters;
 
 parameters! {
     /// The solid of Blatz and Ko, for foamed and for solid rubber.

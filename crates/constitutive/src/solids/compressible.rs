@@ -6,6 +6,7 @@ use piola_numerics::{Mask, Real};
 
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, hyperelastic_of_invariants};
 use super::isochoric::{self, Isochoric};
+use super::unimodular::Unimodular;
 use super::volumetric::{Quadratic, Volumetric};
 use crate::ConstitutiveError;
 
@@ -76,19 +77,16 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
 /// g = J^(−2/3), Ī₁ − 3 and Ī₂ − 3 within an ulp of the strain.
 #[inline(always)]
 fn isochoric_of<T: Real, I: Isochoric>(invariants: &Invariants<T>) -> (T, T, T) {
-    let (one, three) = (T::one(), T::lit(3.0));
-    let root = invariants.jacobian.cbrt();
-    let power = (root * root).recip();
-    // J^(−2/3) − 1 = −(r − 1)(r + 1)/r² with r − 1 = (J − 1)/(r² + r + 1).
-    let root_change = invariants.change / (root * root + root + one);
-    let power_change = -root_change * (root + one) * power;
+    let three = T::lit(3.0);
+    let Unimodular { two_thirds: power, two_thirds_change: power_change, .. } =
+        Unimodular::of(invariants.change, invariants.jacobian);
     let mut first = power * invariants.first + three * power_change;
     let mut second = T::zero();
     if I::SECOND {
-        second = power * power * invariants.second + three * power_change * (power + one);
+        second = power * power * invariants.second + three * power_change * (power + T::one());
     }
     // Of a body that is compressed to nearly nothing, or blown up, nothing is left of differences from the reference.
-    let beside = invariants.change.abs().at_most(T::lit(0.5));
+    let beside = invariants.change.abs().at_most(T::lit(0.875));
     if !beside.all() {
         first = T::select(beside, first, power * invariants.first_whole - three);
         if I::SECOND {
@@ -102,6 +100,7 @@ impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
     const SECOND: bool = I::SECOND;
     const CURVED: bool = true;
     const REFUSED_IS_NOT_FINITE: bool = I::REFUSED_IS_NOT_FINITE;
+    const STRAIGHT: bool = I::STRAIGHT && U::STRAIGHT;
 
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {

@@ -8,6 +8,7 @@ use piola_numerics::{Mask, Real};
 use super::Fibre;
 use super::range::check_exponent;
 use super::strain_energy::{StrainEnergy, constant, hyperelastic_of_strain, inverse_metric};
+use super::unimodular::Unimodular;
 use crate::ConstitutiveError;
 use crate::error::check_bound;
 
@@ -166,15 +167,16 @@ impl<T: Real> Metric<T> {
     #[inline(always)]
     fn of(deformation: &impl Deformation<T>) -> Self {
         let (inverse, less_inverse) = inverse_metric(deformation);
-        let power = deformation.ln_jacobian() * T::lit(-2.0 / 3.0);
+        let change = deformation.volume_change();
+        let Unimodular { two_thirds, two_thirds_change, .. } = Unimodular::of(change, deformation.jacobian());
         Self {
             whole: kernels::right_cauchy_green(deformation.gradient_rows()),
-            near: deformation.volume_change().abs().at_most(T::lit(0.5)),
+            near: change.abs().at_most(T::lit(0.5)),
             change: kernels::right_cauchy_green_minus_one(deformation.displacement_rows()),
             inverse,
             less_inverse,
-            scale: power.exp(),
-            scale_change: power.exp_m1(),
+            scale: two_thirds,
+            scale_change: two_thirds_change,
         }
     }
 
@@ -208,8 +210,11 @@ impl<T: Real> Metric<T> {
         let (excess, whole) = self.selected(part, structure, trace);
         if !self.near.all() {
             let plain = h - self.inverse * (whole * third);
-            let choose = |k: usize| T::select(self.near, slope.components[k], plain.components[k]);
-            slope = Symmetric { components: [choose(0), choose(1), choose(2), choose(3), choose(4), choose(5)] };
+            let mut k = 0;
+            while k < 6 {
+                slope.components[k] = T::select(self.near, slope.components[k], plain.components[k]);
+                k += 1;
+            }
         }
         Invariant { excess, slope: slope * self.scale }
     }

@@ -26,7 +26,8 @@ use crate::ConstitutiveError;
 ///
 /// # Accuracy
 /// A derived stress is as accurate as the terms of the energy's derivative: near the reference, where these cancel, a few
-/// ulp of the moduli. Closed forms keep a relative 1e-13 down to ∇u = 1e-16 and say so.
+/// ulp of the moduli. Closed forms keep a relative 1e-13 down to ∇u = 1e-16 and say so. W itself is of second order there,
+/// and known to a few ulp of the moduli where F is given after a rotation.
 ///
 /// # Example
 /// A law in ten lines, W = ½ λ (tr E)² + μ E : E.
@@ -59,6 +60,9 @@ pub trait Hyperelastic {
     /// Whether no component of energy, stress and tangent is finite wherever [`check`](Self::check) refuses: batches then ask
     /// it only where the answer is not finite.
     const REFUSED_IS_NOT_FINITE: bool = false;
+    /// Whether the first components of P and ∂P/∂F are not finite wherever F is no deformation: batches, whose F may be
+    /// anything, then form no det F to find out.
+    const KNOWS_DEFORMATIONS: bool = false;
 
     /// W(F) − W(1), J per m³ of the reference configuration.
     #[must_use]

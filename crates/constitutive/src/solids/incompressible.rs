@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use piola_continuum::strain::{invariants, kernels};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, Symmetric};
-use piola_numerics::Real;
+use piola_numerics::{Mask, Real};
 
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants};
 use super::isochoric::{self, Isochoric};
@@ -56,19 +56,22 @@ impl TryFrom<Written> for Pressure {
 }
 
 /// Refuses a change of volume of what is incompressible.
+#[inline(always)]
 pub(super) fn check_volume<T: Real>(
     law: &'static str,
     deformation: &impl Deformation<T>,
 ) -> Result<(), ConstitutiveError> {
     let change = deformation.volume_change();
-    for lane in 0..T::LANES {
-        let value = change.primal(lane).abs();
-        let holds = value < VOLUME;
-        if !holds {
-            return Err(ConstitutiveError::BeyondLimit { law, quantity: "|J − 1|", value, limit: VOLUME });
-        }
-    }
-    Ok(())
+    if change.abs().less_than(T::lit(VOLUME)).all() { Ok(()) } else { Err(changed_volume(law, &change)) }
+}
+
+/// The first lane whose volume changes.
+#[cold]
+#[inline(never)]
+fn changed_volume<T: Real>(law: &'static str, change: &T) -> ConstitutiveError {
+    let values = (0..T::LANES).map(|lane| change.primal(lane).abs());
+    let value = values.into_iter().find(|value| VOLUME <= *value || value.is_nan()).unwrap_or(f64::NAN);
+    ConstitutiveError::BeyondLimit { law, quantity: "|J − 1|", value, limit: VOLUME }
 }
 
 /// An incompressible isotropic solid of any [`Isochoric`] energy, its pressure given.
@@ -244,6 +247,7 @@ pub(super) fn inverse_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
 impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
     const SECOND: bool = I::SECOND;
     const CURVED: bool = true;
+    const STRAIGHT: bool = I::STRAIGHT;
 
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
@@ -268,6 +272,7 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
         self.isochoric.energy(first, second) - T::lit(pressure) * change
     }
 
+    #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
         check_volume(LAW, deformation)?;
         let second = if I::SECOND { invariants::second_minus_three(deformation) } else { T::zero() };

@@ -33,7 +33,7 @@ use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::tensor::FourthOrder;
 use piola_numerics::Real;
 
-use super::parameters::parameters;
+use crate::parameters::parameters;
 
 parameters! {
     /// A membrane: energy ½ τ |∇u|², equilibrium f + τ Δu = 0.

@@ -27,8 +27,8 @@ mod linear_elastic;
 pub mod membrane;
 mod mooney_rivlin;
 mod neo_hookean;
+mod numbers;
 mod ogden;
-mod parameters;
 mod polynomial;
 mod pressurised;
 mod range;
@@ -39,6 +39,7 @@ mod series;
 mod stiffness;
 mod strain_energy;
 pub mod stretch;
+mod unimodular;
 pub mod volumetric;
 
 pub use anisotropic::{AnisotropicLinear, AnisotropicSaintVenantKirchhoff};

@@ -124,6 +124,7 @@ impl MooneyRivlin {
 
 impl InvariantEnergy for MooneyRivlin {
     const SECOND: bool = true;
+    const STRAIGHT: bool = true;
     const CURVED: bool = false;
 
     /// C₁₀ (I₁ − 3 − 2 ln J) + C₀₁ (I₂ − 3 − 4 ln J) + c (J² − 1 − 2 ln J) + r ln J, r the stress of the reference.

@@ -130,6 +130,7 @@ impl<L: Hyperelastic> Hyperelastic for Pressurised<L> {
         self.law.reference_energy()
     }
 
+    #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
         check_volume(LAW, deformation)?;
         self.law.check(deformation)

@@ -2,14 +2,14 @@
 
 use piola_continuum::strain::kernels;
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
-use piola_continuum::tensor::rows::product;
-use piola_continuum::tensor::{FourthOrder, MajorSymmetric};
+use piola_continuum::tensor::MajorSymmetric;
+use piola_continuum::tensor::rows::{Rows, product, scaled};
 use piola_continuum::{Deformation, FirstPiola, SecondPiola, Symmetric};
-use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
+use piola_numerics::{Lanewise, Real};
 
-use super::Hyperelastic;
-use super::parameters::parameters;
+use super::{Hyperelastic, numbers};
+use crate::parameters::parameters;
 
 parameters! {
     /// The solid of St. Venant and Kirchhoff: Hooke's law between E and S.
@@ -52,34 +52,55 @@ parameters! {
 impl SaintVenantKirchhoff {
     /// λ tr E 1 + 2 μ E.
     #[inline(always)]
-    fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
-        let strain = kernels::green(deformation.displacement_rows());
+    fn stress<T: Real>(&self, displacement: Rows<T>) -> Symmetric<T> {
+        let strain = kernels::green(displacement);
         Symmetric::identity() * (T::lit(self.lambda) * strain.trace()) + strain * T::lit(2.0 * self.mu)
     }
 
     /// `δ_ij S_AB + λ F_iA F_jB + μ (F_iB F_jA + B_ij δ_AB)`.
-    #[expect(clippy::needless_range_loop, reason = "row and column are pairs of indices of four tensors")]
     #[inline(always)]
-    fn tangent<T: Real>(&self, stress: &Symmetric<T>, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
-        let f = deformation.gradient_rows();
-        let (s, b) = (stress.rows(), kernels::left_cauchy_green(f).rows());
-        let (lambda, mu) = (T::lit(self.lambda), T::lit(self.mu));
-        let mut components = [[T::zero(); 9]; 9];
-        for row in 0..9 {
-            for column in row..9 {
-                let (i, p, j, q) = (row / 3, row % 3, column / 3, column % 3);
-                let mut entry = lambda * (f[i][p] * f[j][q]) + mu * (f[i][q] * f[j][p]);
+    fn tangent<T: Real>(&self, stress: &Symmetric<T>, f: Rows<T>) -> [[T; 9]; 9] {
+        let mu = T::lit(self.mu);
+        let (s, b) = (stress.rows(), (kernels::left_cauchy_green(f) * mu).rows());
+        let (l, m) = (scaled(f, T::lit(self.lambda)), scaled(f, mu));
+        let mut entries = [[T::zero(); 9]; 9];
+        // Written out: in a loop the compiler would decide at run time which terms an entry has.
+        macro_rules! row {
+            ($r:literal: $($c:literal)+) => { $(
+                let (i, p, j, q) = ($r / 3, $r % 3, $c / 3, $c % 3);
+                let mut entry = l[i][p] * f[j][q] + m[i][q] * f[j][p];
                 if i == j {
                     entry += s[p][q];
                 }
                 if p == q {
-                    entry += mu * b[i][j];
+                    entry += b[i][j];
                 }
-                components[row][column] = entry;
-                components[column][row] = entry;
-            }
+                entries[$r][$c] = entry;
+                entries[$c][$r] = entry;
+            )+ };
         }
-        FirstPiolaTangent(FourthOrder { components })
+        row!(0: 0 1 2 3 4 5 6 7 8);
+        row!(1: 1 2 3 4 5 6 7 8);
+        row!(2: 2 3 4 5 6 7 8);
+        row!(3: 3 4 5 6 7 8);
+        row!(4: 4 5 6 7 8);
+        row!(5: 5 6 7 8);
+        row!(6: 6 7 8);
+        row!(7: 7 8);
+        row!(8: 8);
+        entries
+    }
+}
+
+/// P and ∂P/∂F of F and ∇u.
+struct Both<'a>(&'a SaintVenantKirchhoff);
+
+impl Lanewise<18, 54> for Both<'_> {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
+        let [f, h] = numbers::gradients(inputs);
+        let stress = self.0.stress(h);
+        numbers::of_both(product(f, stress.rows()), &self.0.tangent(&stress, f))
     }
 }
 
@@ -93,17 +114,17 @@ impl Hyperelastic for SaintVenantKirchhoff {
 
     #[inline(always)]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-        FirstPiola(from_rows(product(deformation.gradient_rows(), self.stress(deformation).rows())))
+        FirstPiola(from_rows(product(deformation.gradient_rows(), self.stress(deformation.displacement_rows()).rows())))
     }
 
     #[inline(always)]
     fn second_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
-        SecondPiola(self.stress(deformation))
+        SecondPiola(self.stress(deformation.displacement_rows()))
     }
 
     #[inline(always)]
     fn first_piola_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
-        self.tangent(&self.stress(deformation), deformation)
+        self.first_piola_and_tangent(deformation).1
     }
 
     #[inline(always)]
@@ -111,9 +132,7 @@ impl Hyperelastic for SaintVenantKirchhoff {
         &self,
         deformation: &impl Deformation<T>,
     ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
-        let stress = self.stress(deformation);
-        let first = FirstPiola(from_rows(product(deformation.gradient_rows(), stress.rows())));
-        (first, self.tangent(&stress, deformation))
+        numbers::both(T::lanewise(&Both(self), numbers::of_deformation(deformation)))
     }
 
     #[inline(always)]

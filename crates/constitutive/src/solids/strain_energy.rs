@@ -65,13 +65,26 @@ pub(super) fn inverse_metric<T: Real>(deformation: &impl Deformation<T>) -> (Sym
 /// A constant tensor over any scalar.
 #[inline(always)]
 pub(super) fn constant<T: Real>(tensor: &Symmetric) -> Symmetric<T> {
-    Symmetric { components: tensor.components.map(T::lit) }
+    // A loop: `map` would be a call, which lanes pay with all their registers.
+    let mut components = [T::zero(); 6];
+    let mut k = 0;
+    while k < 6 {
+        components[k] = T::lit(tensor.components[k]);
+        k += 1;
+    }
+    Symmetric { components }
 }
 
 /// A constant tensor over any scalar.
 #[inline(always)]
 pub(super) fn constant_tangent<T: Real>(tensor: &MajorSymmetric) -> MajorSymmetric<T> {
-    MajorSymmetric { components: tensor.components.map(T::lit) }
+    let mut components = [T::zero(); 21];
+    let mut k = 0;
+    while k < 21 {
+        components[k] = T::lit(tensor.components[k]);
+        k += 1;
+    }
+    MajorSymmetric { components }
 }
 
 /// Writes [`Hyperelastic`](super::Hyperelastic) for a law of Green's strain.

@@ -21,8 +21,8 @@
 
 use piola_numerics::{Mask, Real};
 
-use super::parameters::parameters;
 use crate::elementary::excess_over_given as excess;
+use crate::parameters::parameters;
 
 /// An energy of the change of volume, zero with its first derivative at J = 1.
 ///
@@ -47,6 +47,9 @@ use crate::elementary::excess_over_given as excess;
 /// assert_eq!(Mine(3.0).bulk_modulus(), 3.0);
 /// ```
 pub trait Volumetric {
+    /// See [`InvariantEnergy::STRAIGHT`](super::invariant::InvariantEnergy::STRAIGHT).
+    const STRAIGHT: bool = false;
+
     /// U of J − 1 and J, J/m³, without cancellation.
     #[must_use]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T;
@@ -74,6 +77,8 @@ pub trait Volumetric {
 }
 
 impl<U: Volumetric> Volumetric for &U {
+    const STRAIGHT: bool = U::STRAIGHT;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         U::energy(self, change, jacobian)
@@ -124,6 +129,8 @@ parameters! {
 }
 
 impl Volumetric for Quadratic {
+    const STRAIGHT: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, _jacobian: T) -> T {
         T::lit(0.5 * self.kappa) * (change * change)
@@ -277,6 +284,8 @@ parameters! {
 }
 
 impl Volumetric for SimoTaylor {
+    const STRAIGHT: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let (two, logarithm) = (T::lit(2.0), logarithm(change, jacobian));

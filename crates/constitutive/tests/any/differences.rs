@@ -42,9 +42,11 @@ proptest! {
         let f = DeformationGradient::from_rows(rows).expect("0 < det F");
         let direction = Matrix3::from_iterator(entries);
         for (law, _) in all() {
-            // A kink within the reach of the differences has no derivative: fibres that are about to slacken.
+            // A kink within the reach of the differences has no derivative: fibres that are about to slacken. Two forms of
+            // a formula, for volumes near that of the reference and far from it, agree to double precision only.
             if let AnySolid::HolzapfelGasserOgden(wall) = &law
-                && wall.fibres().iter().any(|fibre| near_slack(wall.dispersion(), fibre.direction(), &f))
+                && (wall.fibres().iter().any(|fibre| near_slack(wall.dispersion(), fibre.direction(), &f))
+                    || ((f.jacobian() - 1.0).abs() - 0.5).abs() < 1e-2)
             {
                 continue;
             }

@@ -1,6 +1,7 @@
 //! Every built-in law as one type: each claim is tried on all of them.
 
 mod alloc;
+mod claims;
 mod derived;
 mod differences;
 mod extremes;

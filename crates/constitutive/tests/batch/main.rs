@@ -1,5 +1,6 @@
 //! The tests of batches of laws: the numbers of single points, every view, every refusal, nothing allocated.
 
+mod every;
 mod points;
 mod refusals;
 

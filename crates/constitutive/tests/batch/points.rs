@@ -2,14 +2,14 @@
 
 use nalgebra::Matrix3;
 use piola_constitutive::batch;
-use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
+use piola_constitutive::solids::{Hyperelastic, MooneyRivlin, SaintVenantKirchhoff};
 use piola_continuum::batch::{Components, Gradients, LaneBlocks};
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::tensor::FourthOrder;
 use piola_continuum::{CauchyStress, Deformation, DeformationGradient, FirstPiola, KirchhoffStress, SecondPiola};
 use piola_numerics::Real;
-use piola_testkit::allocations_in;
 use piola_testkit::spectral::Random;
+use piola_testkit::{Tol, allocations_in, assert_close};
 
 fn rubber() -> MooneyRivlin {
     MooneyRivlin::stress_free(0.5, 0.25, 1.0).expect("parameters")
@@ -54,6 +54,19 @@ fn a_batch_equals_its_points_to_the_last_bit() {
         assert_eq!((k[i], t[i]), (law.kirchhoff(f), law.cauchy(f)), "point {i}");
         assert_eq!(b[i], law.first_piola_tangent(f), "point {i}");
         assert_eq!(a[i].to_vec(), upper(&b[i]), "point {i}");
+    }
+}
+
+#[test]
+fn tangents_of_strain_in_a_batch_equal_those_of_points() {
+    let law = SaintVenantKirchhoff::new(1.5, 0.75).expect("parameters");
+    let f = deformations(45);
+    let (mut material, mut spatial) = (vec![[0.0; 21]; f.len()], vec![[0.0; 21]; f.len()]);
+    batch::evaluate(&f[..], batch::material_tangent(&law, &mut material[..])).expect("deformations");
+    batch::evaluate(&f[..], batch::truesdell_tangent(&law, &mut spatial[..])).expect("deformations");
+    for (i, f) in f.iter().enumerate() {
+        assert_close("∂S/∂E", &material[i], &law.material_tangent(f).0.components, Tol::ulps(0.0));
+        assert_close("c/J", &spatial[i], &law.truesdell_tangent(f).0.components, Tol::ulps(0.0));
     }
 }
 
@@ -119,8 +132,8 @@ fn a_derivative_of_a_batch_equals_the_tangent_times_its_direction() {
         let rows = core::array::from_fn(|i| core::array::from_fn(|j| direction[(i, j)]));
         let product = law.first_piola_tangent(f).0.contract(rows);
         let expected: Vec<f64> = product.as_flattened().to_vec();
-        let tolerance = piola_testkit::Tol::stated(1e-13, "a sum of nine products, in another order");
-        piola_testkit::assert_close("(∂P/∂F) : δF", q.0.transpose().as_slice(), &expected, tolerance);
+        let tolerance = Tol::stated(1e-13, "a sum of nine products, in another order");
+        assert_close("(∂P/∂F) : δF", q.0.transpose().as_slice(), &expected, tolerance);
     }
 }
 

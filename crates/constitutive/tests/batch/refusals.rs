@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use piola_constitutive::ConstitutiveError;
 use piola_constitutive::batch::{self, BadPoint};
-use piola_constitutive::solids::{Compressible, Hyperelastic, isochoric::Gent, volumetric::Quadratic};
+use piola_constitutive::solids::{Compressible, Hyperelastic, MooneyRivlin, isochoric::Gent, volumetric::Quadratic};
 use piola_continuum::batch::Gradients;
 use piola_continuum::{ContinuumError, DeformationGradient, FirstPiola};
 
@@ -37,4 +37,29 @@ fn points_beyond_a_limit_and_inverted_ones_are_named_and_void() {
         assert!(p[index].0.iter().all(|x| x.is_nan()), "point {index}");
     }
     assert!((0..41).filter(|index| !indices.contains(index)).all(|index| p[index].0.iter().all(|x| x.is_finite())));
+}
+
+#[test]
+fn gradients_of_no_deformation_are_named_whatever_is_asked_of_a_law_without_a_limit() {
+    let law = MooneyRivlin::stress_free(0.5, 0.25, 1.0).expect("parameters");
+    let mut f = vec![Matrix3::new(1.0, 0.25, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0); 41];
+    f[3] = Matrix3::from_diagonal_element(3.0);
+    f[5] = Matrix3::from_diagonal(&nalgebra::Vector3::new(-1.0, 1.0, 1.0));
+    f[18] = Matrix3::zeros();
+    f[20][(2, 1)] = f64::NAN;
+    f[35][(0, 1)] = f64::INFINITY;
+    let expected = [5, 18, 20, 35];
+    let mut p = vec![FirstPiola::<f64>::zero(); f.len()];
+    let (mut a, mut b) = (vec![[0.0_f64; 45]; f.len()], vec![[0.0_f64; 45]; f.len()]);
+    let named = |result| {
+        let Err(ConstitutiveError::BadPoints { points, .. }) = result else { panic!("bad points are expected") };
+        assert_eq!(points.iter().map(|point: &BadPoint| point.index).collect::<Vec<_>>(), expected);
+    };
+    named(batch::evaluate(Gradients(&f[..]), batch::first_piola(&law, &mut p[..])));
+    assert!((0..f.len()).all(|index| p[index].0.iter().all(|x| x.is_nan() == expected.contains(&index))));
+    named(batch::evaluate(Gradients(&f[..]), batch::first_piola_tangent(&law, &mut a[..])));
+    named(batch::evaluate(Gradients(&f[..]), batch::first_piola_and_tangent(&law, &mut p[..], &mut b[..])));
+    for tangents in [a, b] {
+        assert!((0..f.len()).all(|index| tangents[index].iter().all(|x| x.is_nan() == expected.contains(&index))));
+    }
 }

@@ -1,38 +1,11 @@
 //! Any fluid: what is written is read back, what is wrong is refused.
 #![cfg(feature = "serde")]
 
-use piola_constitutive::fluids::{
-    AnyFluid, ConstantCoefficients, ExponentialDamping, ExponentialPhanThienTanner, Giesekus, Kbkz,
-    LinearPhanThienTanner, Modes, OldroydB, RationalDamping, ReinerRivlin, Relaxation, SecondOrder,
-    UpperConvectedMaxwell, ViscometricFluid,
-};
+use piola_constitutive::fluids::{AnyFluid, Giesekus, ViscometricFluid};
 use piola_testkit::{Tol, assert_close};
 
+use super::elastic::elastic;
 use super::shear::fluids;
-
-/// One of each with normal stresses.
-fn elastic() -> Vec<AnyFluid> {
-    let memory = vec![Relaxation { viscosity: 2.0, time: 0.5 }];
-    let giesekus = Giesekus::new(0.125, 2.0, 0.5, 0.3).expect("bounds");
-    let linear = LinearPhanThienTanner::new(0.0, 2.0, 0.5, 0.3).expect("bounds");
-    let exponential = ExponentialPhanThienTanner::new(0.125, 2.0, 0.5, 0.3).expect("bounds");
-    let oldroyd = OldroydB::new(0.125, 2.0, 0.5).expect("bounds");
-    vec![
-        ReinerRivlin(ConstantCoefficients::new(1.5, 0.5).expect("bounds")).into(),
-        SecondOrder::new(2.0, -0.5, 0.75).expect("bounds").into(),
-        UpperConvectedMaxwell::new(2.0, 0.5).expect("bounds").into(),
-        oldroyd.into(),
-        giesekus.into(),
-        linear.into(),
-        exponential.into(),
-        Modes::new(vec![oldroyd, oldroyd]).expect("modes").into(),
-        Modes::new(vec![giesekus]).expect("modes").into(),
-        Modes::new(vec![linear]).expect("modes").into(),
-        Modes::new(vec![exponential]).expect("modes").into(),
-        Kbkz::new(memory.clone(), RationalDamping::new(8.0, 0.5).expect("bounds")).expect("bounds").into(),
-        Kbkz::new(memory, ExponentialDamping::new(0.2, 0.5).expect("bounds")).expect("bounds").into(),
-    ]
-}
 
 #[test]
 fn what_is_written_is_read_back() {
@@ -86,6 +59,8 @@ fn what_is_wrong_is_refused_by_name() {
     refused(r#"{"fluid":"giesekus_modes","modes":[]}"#, "number of modes = 0e0 violates 0 < number of modes");
     let mode = r#"{"solvent_viscosity":0.0,"polymer_viscosity":1.0,"time":1.0,"mobility":0.9}"#;
     refused(&format!(r#"{{"fluid":"giesekus_modes","modes":[{mode}]}}"#), "mobility = 9e-1 violates 0 ≤ α ≤ ½");
+    let network = r#"{"solvent_viscosity":0.0,"polymer_viscosity":1.0,"time":1.0}"#;
+    refused(&format!(r#"{{"fluid":"johnson_segalman","network":{network},"slip":1.5}}"#), "0 ≤ ξ ≤ 1");
     let damping = r#"{"alpha":1.0,"beta":2.0}"#;
     let memory = r#"[{"viscosity":1.0,"time":1.0}]"#;
     refused(&format!(r#"{{"fluid":"kbkz_rational","memory":{memory},"damping":{damping}}}"#), "0 ≤ β ≤ 1");

@@ -5,6 +5,8 @@ use piola_constitutive::fluids::{
     AnyFluid, Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou,
     PowerLaw, Sisko, ViscometricFluid,
 };
+use piola_numerics::Real;
+use piola_testkit::{Tol, assert_close};
 
 #[test]
 fn bad_parameters_are_refused_by_name() {
@@ -35,5 +37,28 @@ fn stresses_without_a_rate_are_refused_by_name() {
     for fluid in super::shear::fluids() {
         assert!(fluid.shear_rate(f64::NAN).is_err(), "{fluid:?} at NaN");
         assert!(fluid.shear_rate(f64::INFINITY).is_err(), "{fluid:?} at ∞");
+    }
+}
+
+/// τ = k/(1 + k²), which falls beyond k = 1.
+struct Falling;
+
+impl ViscometricFluid for Falling {
+    const NAME: &'static str = "falling";
+    fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
+        shear_rate / (T::one() + shear_rate * shear_rate)
+    }
+}
+
+#[test]
+fn rates_are_found_where_the_stress_grows_or_refused_by_name() {
+    for k in [1e-6, 0.1, 0.5, 0.9] {
+        let found: f64 = Falling.shear_rate(Falling.shear_stress(k)).expect("a growing branch");
+        // 1/τ′ magnifies the rounding of τ: 10 at k = 0.9.
+        assert_close("ζ", &[found], &[k], Tol::ulps(64.0));
+    }
+    for beyond in [0.500_001, 0.6, -3.0] {
+        let refused = Falling.shear_rate(beyond);
+        assert!(matches!(refused, Err(ConstitutiveError::NoShearRate { fluid: "falling", .. })), "{refused:?}");
     }
 }

@@ -182,7 +182,7 @@ fn derivatives_by_parameters_equal_difference_quotients() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
+    #![proptest_config(ProptestConfig::with_cases(10_000))]
 
     #[test]
     fn shear_stress_is_odd_and_viscosity_even(k in rates()) {

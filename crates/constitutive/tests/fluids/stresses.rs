@@ -33,7 +33,17 @@ fn stresses_of_viscous_fluids_equal_golden() {
         let stress = match text(&case["kind"]) {
             "newtonian" => {
                 let fluid = LinearViscous::new(of("lambda"), of("mu")).expect("bounds");
-                fluid.cauchy(of("p"), &gradient(&input["L"]))
+                let l = gradient(&input["L"]);
+                let (stress, rate) = (fluid.cauchy(of("p"), &l), l.stretching().0);
+                // T : D may cancel, pressure against viscous stresses; κ = λ + ⅔ μ too.
+                let power = [number(&output["stress_power"])];
+                let scale = stress.0.norm() * rate.norm();
+                assert_close_at_scale("T : D", &[stress.0.double_contraction(&rate)], &power, scale, CLOSED);
+                let parts = fluid.dissipation(&l) - of("p") * rate.trace();
+                assert_close_at_scale("V : D − p tr D", &[parts], &power, scale, CLOSED);
+                let kappa = [number(&output["bulk_viscosity"])];
+                assert_close_at_scale("κ", &[fluid.bulk_viscosity()], &kappa, of("mu"), CLOSED);
+                stress
             }
             "reiner_rivlin" => {
                 let fluid = ReinerRivlin(ConstantCoefficients::new(of("g1"), of("g2")).expect("bounds"));
@@ -165,7 +175,7 @@ fn seen_from<F: ViscousFluid>(fluid: &F, l: &VelocityGradient, rotation: &Matrix
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2_000))]
+    #![proptest_config(ProptestConfig::with_cases(10_000))]
 
     #[test]
     fn stress_seen_from_a_turning_observer_is_the_turned_stress(

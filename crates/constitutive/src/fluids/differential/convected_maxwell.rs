@@ -8,18 +8,18 @@ use piola_continuum::rates::{RelativeDeformation, VelocityGradient, exponential_
 use piola_continuum::tensor::rows::{difference, identity, scaled};
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::Real;
-use piola_numerics::linear::lu;
 
 use super::mode::{DifferentialFluid, Mode, ShearStresses, convected, only_mode};
 use crate::ConstitutiveError;
 use crate::elementary::excess_of_exponential;
 use crate::error::{check_bound, check_finite};
 use crate::fluids::answers::finite_rate;
-use crate::fluids::parameters::{Parameters, fluid_of_parameters};
+use crate::fluids::parameters::Parameters;
 use crate::fluids::quadrature::{Integral, integrate};
 use crate::fluids::{FlowMoment, Newtonian, ViscometricFluid};
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The upper-convected Maxwell fluid.
     ///
     /// ```text
@@ -53,7 +53,7 @@ fluid_of_parameters! {
     }
 }
 
-fluid_of_parameters! {
+parameters! {
     /// Oldroyd's fluid B: an upper-convected Maxwell fluid in a Newtonian solvent.
     ///
     /// ```text
@@ -206,7 +206,7 @@ only_mode!(UpperConvectedMaxwell, OldroydB);
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::fluids::{ConvectedMaxwell, OldroydB, ShearStresses};
+/// use piola_constitutive::fluids::{ConvectedMaxwell, DifferentialFluid, OldroydB};
 /// use piola_continuum::rates::VelocityGradient;
 /// let fluid = OldroydB::new(0.25, 1.5, 0.75)?;
 /// let shear = VelocityGradient::from_rows([[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]])?;
@@ -262,22 +262,6 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
         Ok(stresses)
     }
 
-    /// T + p 1, Pa, in a steady motion with the velocity gradient L since always.
-    ///
-    /// # Errors
-    /// [`ConstitutiveError::BeyondLimit`] where the stress would have grown without end: the largest real part of an
-    /// eigenvalue of 2 λ L is not below 1.
-    ///
-    /// # Accuracy
-    /// That of a linear system of six equations; diagonal for a diagonal L.
-    fn steady_stress(&self, velocity_gradient: &VelocityGradient) -> Result<Symmetric, ConstitutiveError> {
-        let mut total = velocity_gradient.stretching().0 * (2.0 * self.total_solvent_viscosity());
-        for mode in self.modes() {
-            total += steady_mode(mode, velocity_gradient)?;
-        }
-        Ok(total)
-    }
-
     /// T + p 1, Pa, at the time t after the start, from rest, of a motion with the constant velocity gradient L; of the solvent
     /// from 0 < t.
     ///
@@ -288,10 +272,13 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     /// # Accuracy
     /// 32 ulp of its norm for |L| t ≤ 1; beyond, that of exp(L t).
     fn start_up_stress(&self, velocity_gradient: &VelocityGradient, time: f64) -> Result<Symmetric, ConstitutiveError> {
-        let mut memory = vec![Symmetric::zero(); self.modes().len()];
-        self.advance(&mut memory, velocity_gradient, time)?;
+        check_flow::<Self>(0.0, time)?;
         let started = if 0.0 < time { 2.0 * self.total_solvent_viscosity() } else { 0.0 };
-        Ok(memory.iter().fold(velocity_gradient.stretching().0 * started, |sum, stress| sum + *stress))
+        let mut total = velocity_gradient.stretching().0 * started;
+        for mode in self.modes() {
+            total += bounded::<Self>(from_rest(mode, velocity_gradient, time), time)?;
+        }
+        Ok(total)
     }
 
     /// Advances τ of each mode, Pa, over the time Δt of a motion with the constant velocity gradient L, exactly.
@@ -310,16 +297,8 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     ) -> Result<(), ConstitutiveError> {
         check_flow::<Self>(0.0, duration)?;
         for (mode, stress) in self.modes().iter().zip(memory) {
-            *stress = stress.congruence(remaining(mode, velocity_gradient, duration))
-                + from_rest(mode, velocity_gradient, duration);
-            if !stress.components.iter().all(|x| x.is_finite()) {
-                return Err(ConstitutiveError::BeyondLimit {
-                    law: Self::Mode::NAME,
-                    quantity: "duration",
-                    value: duration,
-                    limit: duration,
-                });
-            }
+            let left = stress.congruence(remaining(mode, velocity_gradient, duration));
+            *stress = bounded::<Self>(left + from_rest(mode, velocity_gradient, duration), duration)?;
         }
         Ok(())
     }
@@ -382,32 +361,13 @@ fn check_flow<F: DifferentialFluid + ?Sized>(shear_rate: f64, time: f64) -> Resu
     check_bound(F::Mode::NAME, "time", time, "0 ≤ time", 0.0 <= time)
 }
 
-/// τ of a steady motion: τ − λ (L τ + τ Lᵀ) = 2 ηₚ D.
-fn steady_mode<M: LinearMode>(mode: &M, velocity_gradient: &VelocityGradient) -> Result<Symmetric, ConstitutiveError> {
-    let mut matrix = [0.0; 36];
-    for (column, entries) in matrix.chunks_exact_mut(6).enumerate() {
-        let mut unit = Symmetric::zero();
-        unit.components[column] = 1.0;
-        let image = unit - convected(&unit, velocity_gradient) * mode.time();
-        entries.copy_from_slice(&image.components);
+/// A stress that is beyond all numbers is refused.
+fn bounded<F: DifferentialFluid + ?Sized>(stress: Symmetric, duration: f64) -> Result<Symmetric, ConstitutiveError> {
+    if stress.components.iter().all(|x| x.is_finite()) {
+        return Ok(stress);
     }
-    let rates = velocity_gradient.stretching().0;
-    let mut stress = rates.components.map(|rate| 2.0 * mode.polymer_viscosity() * rate);
-    let beyond = || ConstitutiveError::BeyondLimit {
-        law: M::NAME,
-        quantity: "the largest real part of an eigenvalue of 2 λ L",
-        value: 2.0 * mode.time() * rates.norm(),
-        limit: 1.0,
-    };
-    let mut exchanges = [0; 6];
-    lu::factor_in_place(&mut matrix, &mut exchanges).map_err(|_| beyond())?;
-    lu::solve_in_place(&matrix, &exchanges, &mut stress).map_err(|_| beyond())?;
-    // A = 1 + (λ/ηₚ) τ solves Lyapunov's equation of L − 1/(2 λ), which is stable where A is positive definite.
-    let stress = Symmetric { components: stress };
-    let shape = Symmetric::identity() + stress * (mode.time() / mode.polymer_viscosity());
-    let [a, b, _, c, ..] = shape.components;
-    let definite = 0.0 < a && 0.0 < a * b - c * c && 0.0 < shape.determinant();
-    if definite { Ok(stress) } else { Err(beyond()) }
+    let (law, quantity) = (F::Mode::NAME, "duration");
+    Err(ConstitutiveError::BeyondLimit { law, quantity, value: duration, limit: duration })
 }
 
 /// exp(t L − t/(2 λ)).

@@ -6,9 +6,10 @@ use piola_numerics::Real;
 use super::mode::{Mode, only_mode};
 use crate::ConstitutiveError;
 use crate::fluids::ViscometricFluid;
-use crate::fluids::parameters::{Parameters, fluid_of_parameters};
+use crate::fluids::parameters::Parameters;
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// Giesekus' fluid: polymers drag less along the direction in which they are drawn out.
     ///
     /// ```text

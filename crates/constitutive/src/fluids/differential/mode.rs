@@ -3,7 +3,9 @@
 use piola_continuum::Symmetric;
 use piola_continuum::rates::VelocityGradient;
 use piola_numerics::Real;
+use piola_numerics::linear::matrix3::from_rows;
 
+use super::steady::steady_mode;
 use crate::ConstitutiveError;
 use crate::fluids::ViscometricFluid;
 
@@ -12,7 +14,7 @@ use crate::fluids::ViscometricFluid;
 /// ```text
 /// V = 2 ηₛ D + τ      λ (τ̇ − L τ − τ Lᵀ) + R(τ) = 2 ηₚ D
 /// ```
-/// R(τ) = τ + … is what tells the fluids apart.
+/// R(τ) = τ + … is what tells the fluids apart. A polymer that [slips](Self::slip) is carried by L − ξ D in place of L.
 pub trait Mode: ViscometricFluid + Clone {
     /// ηₛ, Pa s.
     #[must_use]
@@ -23,6 +25,12 @@ pub trait Mode: ViscometricFluid + Clone {
     /// λ, s.
     #[must_use]
     fn time(&self) -> f64;
+    /// ξ: the share of the stretching that the polymer does not follow; none of most.
+    #[inline(always)]
+    #[must_use]
+    fn slip(&self) -> f64 {
+        0.0
+    }
     /// R(τ), Pa.
     #[must_use]
     fn relaxing<T: Real>(&self, stress: &Symmetric<T>) -> Symmetric<T>;
@@ -37,8 +45,25 @@ pub trait Mode: ViscometricFluid + Clone {
     #[must_use]
     fn stress_rate<T: Real>(&self, stress: &Symmetric<T>, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
         let drawn = velocity_gradient.stretching().0 * T::lit(2.0 * self.polymer_viscosity()) - self.relaxing(stress);
-        drawn * T::lit(self.time().recip()) + convected(stress, velocity_gradient)
+        drawn * T::lit(self.time().recip()) + convected(stress, &carrying(self, velocity_gradient))
     }
+}
+
+/// L − ξ D.
+#[inline(always)]
+pub(super) fn carrying<M: Mode, T: Real>(mode: &M, velocity_gradient: &VelocityGradient<T>) -> VelocityGradient<T> {
+    if mode.slip() <= 0.0 {
+        return *velocity_gradient;
+    }
+    // Entry by entry: L less ξ D would lose the digits of a stretching that hardly draws.
+    let (half, l) = (T::lit(0.5 * mode.slip()), velocity_gradient.rows());
+    let (along, across) = (T::lit(1.0 - mode.slip()), T::lit(1.0 - 0.5 * mode.slip()));
+    let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = l;
+    VelocityGradient(from_rows([
+        [along * xx, across * xy - half * yx, across * xz - half * zx],
+        [across * yx - half * xy, along * yy, across * yz - half * zy],
+        [across * zx - half * xz, across * zy - half * yz, along * zz],
+    ]))
 }
 
 /// L τ + τ Lᵀ.
@@ -123,8 +148,9 @@ impl<T: Real> ShearStresses<T> {
 /// | τ, N₁, N₂ in steady shear | [`ViscometricFluid`] |
 /// | G(t), G′, G″, the viscosity at rest | this trait |
 /// | stresses and viscosity of steady extension | [`extensional_stress`](Self::extensional_stress), [`extensional_viscosity`](Self::extensional_viscosity) |
+/// | the stress of any steady motion, and its derivative with respect to L | [`steady_stress`](Self::steady_stress) |
 /// | start-up, cessation, any motion of Maxwell's and Oldroyd's fluids, exactly | [`ConvectedMaxwell`](super::ConvectedMaxwell) |
-/// | any motion of any of them, by integration; large oscillations | [`follow`](super::follow), [`follow_shear`](super::follow_shear), [`oscillate`](super::oscillate) |
+/// | any motion of any of them, by integration; large oscillations | [`Following`](super::Following), [`follow`](super::follow), [`follow_shear`](super::follow_shear), [`oscillate`](super::oscillate) |
 ///
 /// # Example
 /// ```
@@ -192,6 +218,48 @@ pub trait DifferentialFluid {
         for mode in self.modes() {
             let stresses = mode.steady_extension(rates)?;
             total = core::array::from_fn(|i| total[i] + stresses[i]);
+        }
+        Ok(total)
+    }
+
+    /// T + p 1, Pa, in a steady motion with the velocity gradient L since always; over dual numbers with its derivative.
+    ///
+    /// ```text
+    /// R(τ) − λ (L τ + τ Lᵀ) = 2 ηₚ D      with L − ξ D in the place of L where the polymer slips
+    /// ```
+    /// The state is the one that a motion started from rest ends in: that of a positive definite conformation
+    /// 1 + (1 − ξ) (λ/ηₚ) τ, which is unique and stable. It is found by Newton's method from rest, and where that fails along L that
+    /// grows from zero; derivatives are those of the equation. Each state takes steps of its own, so that lanes would wait for the
+    /// slowest at every one: a call over lanes does not compile. In shear the viscometric functions of
+    /// [`batch`](crate::fluids::batch) run in lanes.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::BeyondLimit`] where there is none: the stress would grow without end.
+    ///
+    /// # Accuracy
+    /// That of a linear system of six equations, balanced; diagonal for a diagonal L.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fluids::{DifferentialFluid, Giesekus, ViscometricFluid};
+    /// use piola_continuum::rates::VelocityGradient;
+    /// use piola_numerics::Dual;
+    /// let fluid = Giesekus::new(0.0, 2.0, 0.5, 0.25)?;
+    /// let zero = Dual::constant(0.0_f64);
+    /// let shear = VelocityGradient::from_rows([[zero; 3], [Dual::variable(4.0_f64), zero, zero], [zero; 3]])?;
+    /// let stress = fluid.steady_stress(&shear)?.components[3];
+    /// let function = fluid.shear_stress(Dual::variable(4.0));
+    /// assert!((stress.value - function.value).abs() < 1e-14);
+    /// assert!((stress.tangent - function.tangent).abs() < 1e-14); // dT₁₂/dk
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    fn steady_stress<T: Real>(
+        &self,
+        velocity_gradient: &VelocityGradient<T>,
+    ) -> Result<Symmetric<T>, ConstitutiveError> {
+        let mut total = velocity_gradient.stretching().0 * T::lit(2.0 * self.total_solvent_viscosity());
+        for mode in self.modes() {
+            total += steady_mode(mode, velocity_gradient)?;
         }
         Ok(total)
     }

@@ -4,13 +4,15 @@ use piola_continuum::Symmetric;
 use piola_numerics::{Dual, Real};
 
 use super::mode::{Mode, only_mode};
+use super::slipping::{NetworkMode, network_extension};
 use crate::ConstitutiveError;
 use crate::fluids::answers::{Relation, finite_rate, moment_of_power, moving, solve_from_above};
-use crate::fluids::parameters::{Parameters, fluid_of_parameters};
+use crate::fluids::parameters::Parameters;
 use crate::fluids::viscometric::rate_at_stress;
 use crate::fluids::{FlowMoment, ViscometricFluid};
+use crate::parameters::parameters;
 
-fluid_of_parameters! {
+parameters! {
     /// The linear fluid of Phan-Thien and Tanner: a network whose junctions break the faster the more it is drawn out.
     ///
     /// ```text
@@ -40,8 +42,8 @@ fluid_of_parameters! {
     /// ```
     ///
     /// # Source
-    /// N. Phan-Thien, R. I. Tanner, J. Non-Newtonian Fluid Mech. 2 (1977) 353, without slip of the network (ξ = 0); an example
-    /// of the functions of W(23.13–23.24).
+    /// N. Phan-Thien, R. I. Tanner, J. Non-Newtonian Fluid Mech. 2 (1977) 353, without slip of the network, ξ = 0: that is
+    /// [`Slipping`](super::Slipping)'s; an example of the functions of W(23.13–23.24).
     pub struct LinearPhanThienTanner("linear Phan-Thien-Tanner") {
         /// ηₛ, Pa s.
         solvent_viscosity: "0 ≤ ηₛ" => 0.0 <= solvent_viscosity,
@@ -54,7 +56,7 @@ fluid_of_parameters! {
     }
 }
 
-fluid_of_parameters! {
+parameters! {
     /// The exponential fluid of Phan-Thien and Tanner.
     ///
     /// ```text
@@ -137,7 +139,10 @@ fn exponential<T: Real>(extensibility: T, w: T) -> T {
     // 4 ε y² = W(4 ε w²) ≤ ln(1 + 4 ε w²) with Lambert's W.
     let (_, size) = moving(w.frozen());
     let (none, four) = moving(T::lit(4.0) * extensibility.frozen());
-    let start = T::select(none, size, ((four * size * size).ln_1p() / four).sqrt().min(size));
+    let square = four * size * size;
+    // What is slow is linear, and its square may be no number.
+    let slow = square.at_most(T::lit(1e-30));
+    let start = T::select(none | slow, size, (square.ln_1p() / four).sqrt().min(size));
     solve_from_above(&Exponential { extensibility }, w, start)
 }
 
@@ -154,12 +159,6 @@ macro_rules! phan_thien_tanner {
             #[inline(always)]
             fn modulus(&self) -> f64 {
                 self.polymer_viscosity / self.time
-            }
-
-            /// f at (λ/ηₚ) tr τ.
-            #[inline(always)]
-            fn breaking<T: Real>(&self, trace: T) -> T {
-                $breaking(T::lit(self.extensibility) * trace)
             }
         }
 
@@ -232,31 +231,15 @@ macro_rules! phan_thien_tanner {
                 *stress * self.breaking(stress.trace() * T::lit(self.modulus().recip()))
             }
 
-            /// yᵢ = 2 wᵢ/(f − 2 wᵢ) with w = λ ε̇, and f that of y₁ + y₂ + y₃.
             fn steady_extension(&self, rates: [f64; 3]) -> Result<[f64; 3], ConstitutiveError> {
-                let w = rates.map(|rate| 2.0 * self.time * rate);
-                let largest = w[0].max(w[1]).max(w[2]).max(0.0);
-                // By how much f is beyond the pole at the largest w: what a strong flow decides.
-                let stresses = |beyond: f64| w.map(|w| w / (beyond + (largest - w)));
-                let excess = |beyond: f64| self.breaking(stresses(beyond).iter().sum::<f64>()) - (largest + beyond);
-                if self.extensibility <= 0.0 {
-                    if 1.0 <= largest {
-                        let (law, quantity) = (Self::NAME, "2 λ ε̇");
-                        return Err(ConstitutiveError::BeyondLimit { law, quantity, value: largest, limit: 1.0 });
-                    }
-                    return Ok(stresses(1.0 - largest).map(|y| self.modulus() * y));
-                }
-                // f − f(tr) grows with f beyond the pole: a bracket, halved.
-                let (mut low, mut high) = (0.0, 1.0);
-                while 0.0 < excess(high) {
-                    high *= 2.0;
-                }
-                while 2.0 * f64::EPSILON * high < high - low {
-                    let middle = f64::midpoint(low, high);
-                    let above = excess(middle) <= 0.0;
-                    (low, high) = if above { (low, middle) } else { (middle, high) };
-                }
-                Ok(stresses(high).map(|y| self.modulus() * y))
+                network_extension(self, |trace| self.breaking(trace), rates)
+            }
+        }
+
+        impl NetworkMode for $fluid {
+            #[inline(always)]
+            fn breaking<T: Real>(&self, trace: T) -> T {
+                $breaking(T::lit(self.extensibility) * trace)
             }
         }
     };

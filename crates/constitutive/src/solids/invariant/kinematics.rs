@@ -10,9 +10,6 @@ use super::{InvariantEnergy, Invariants, Slopes};
 /// Strains with components up to this size take the forms in which everything is as small as the strain.
 pub(super) const SMALL: f64 = 0.25;
 
-/// |∇u|² up to which everything is computed from ∇u: stretches differ from 1 by less than 0.87 then.
-const NEAR: f64 = 0.75;
-
 /// What stress and tangent share.
 pub(super) struct Kinematics<T: Real> {
     /// F.
@@ -23,9 +20,9 @@ pub(super) struct Kinematics<T: Real> {
     pub(super) change: Symmetric<T>,
     pub(super) cofactor: Rows<T>,
     pub(super) invariants: Invariants<T>,
-    /// F − Cof F where ∇u is small, computed from ∇u; F − F⁻ᵀ where only the strain is; F elsewhere.
+    /// F − Cof F where ∇u is moderate, computed from ∇u; F − F⁻ᵀ where only the strain is; F elsewhere.
     beyond: Rows<T>,
-    /// Where ∇u is small.
+    /// Where ∇u is moderate.
     near: T::Mask,
     /// Where the strain is small.
     turned: T::Mask,
@@ -35,16 +32,26 @@ impl<T: Real> Kinematics<T> {
     /// Errors are relative to the strain or to |∇u|², as a stress needs it: those of the invariants themselves, as an
     /// energy needs it, are those of [`invariants_of`].
     #[inline(always)]
-    pub(super) fn of<L: InvariantEnergy>(deformation: &impl Deformation<T>) -> Self {
+    pub(super) fn of<L: InvariantEnergy>(gradient: Rows<T>, displacement: Rows<T>, jacobian: T) -> Self {
+        let closed = Self::near::<L>(gradient, displacement);
+        let near = kernels::is_moderate(gradient, displacement);
+        if near.all() { closed } else { Self { near, turned: near, ..closed }.with_far::<L>(jacobian) }
+    }
+
+    /// [`of`](Self::of) a deformation.
+    #[inline(always)]
+    pub(super) fn of_deformation<L: InvariantEnergy>(deformation: &impl Deformation<T>) -> Self {
+        Self::of::<L>(deformation.gradient_rows(), deformation.displacement_rows(), deformation.jacobian())
+    }
+
+    /// Those of F and ∇u where they are [moderate](kernels::is_moderate).
+    #[inline(always)]
+    pub(super) fn near<L: InvariantEnergy>(gradient: Rows<T>, h: Rows<T>) -> Self {
         let (one, two) = (T::one(), T::lit(2.0));
-        let gradient = deformation.gradient_rows();
-        let h = deformation.displacement_rows();
         let change = kernels::right_cauchy_green_minus_one(h);
         let [a, b, c, ..] = change.components;
         let first = a + b + c;
         let trace = h[0][0] + h[1][1] + h[2][2];
-        // |∇u|² = I₁ − 3 − 2 tr ∇u; NaN is not near.
-        let near = (first - two * trace).at_most(T::lit(NEAR));
 
         // Cof F = (1 + tr H) 1 − Hᵀ + Cof H, J = 1 + tr H + i₂(H) + det H, F − Cof F = H + Hᵀ − (tr H) 1 − Cof H.
         let m = cofactor(h);
@@ -63,7 +70,7 @@ impl<T: Real> Kinematics<T> {
             [[d(0), x - m[0][1], z - m[0][2]], [x - m[1][0], d(1), y - m[1][2]], [z - m[2][0], y - m[2][1], d(2)]];
         let second =
             if L::SECOND { two * (two * trace + second_trace) + double_contraction(minors, minors) } else { T::zero() };
-        let closed = Self {
+        Self {
             gradient,
             change,
             cofactor: [
@@ -81,17 +88,15 @@ impl<T: Real> Kinematics<T> {
             },
             shift: one,
             beyond,
-            near,
-            turned: near,
-        };
-        if near.all() { closed } else { closed.with_far::<L>(deformation) }
+            near: Mask::splat(true),
+            turned: Mask::splat(true),
+        }
     }
 
     /// With what is far from the reference, where it is.
     #[inline(always)]
-    fn with_far<L: InvariantEnergy>(self, deformation: &impl Deformation<T>) -> Self {
+    fn with_far<L: InvariantEnergy>(self, jacobian: T) -> Self {
         let (one, three) = (T::one(), T::lit(3.0));
-        let jacobian = deformation.jacobian();
         let plain_cofactor = cofactor(self.gradient);
         // I₁ = F : F and I₂ = Cof F : Cof F.
         let first = double_contraction(self.gradient, self.gradient);
@@ -168,13 +173,27 @@ pub(super) fn largest_modulus<T: Real>(a: &Symmetric<T>) -> T {
 
 #[inline(always)]
 fn select<T: Real>(mask: T::Mask, a: Rows<T>, b: Rows<T>) -> Rows<T> {
-    let entry = |i: usize, j: usize| T::select(mask, a[i][j], b[i][j]);
-    let row = |i: usize| [entry(i, 0), entry(i, 1), entry(i, 2)];
-    [row(0), row(1), row(2)]
+    // Loops, not closures: those would not be inlined into lanes.
+    let mut chosen = b;
+    let mut i = 0;
+    while i < 3 {
+        let mut j = 0;
+        while j < 3 {
+            chosen[i][j] = T::select(mask, a[i][j], b[i][j]);
+            j += 1;
+        }
+        i += 1;
+    }
+    chosen
 }
 
 #[inline(always)]
 pub(super) fn select_symmetric<T: Real>(mask: T::Mask, a: &Symmetric<T>, b: &Symmetric<T>) -> Symmetric<T> {
-    let choose = |k: usize| T::select(mask, a.components[k], b.components[k]);
-    Symmetric { components: [choose(0), choose(1), choose(2), choose(3), choose(4), choose(5)] }
+    let mut chosen = *b;
+    let mut k = 0;
+    while k < 6 {
+        chosen.components[k] = T::select(mask, a.components[k], b.components[k]);
+        k += 1;
+    }
+    chosen
 }

@@ -21,6 +21,7 @@ use crate::elementary::excess_over_given;
 
 mod kinematics;
 mod measures;
+mod straight;
 mod tangent;
 
 use kinematics::Kinematics;
@@ -92,6 +93,9 @@ pub trait InvariantEnergy {
     const CURVED: bool;
     /// See [`Hyperelastic::REFUSED_IS_NOT_FINITE`](super::Hyperelastic::REFUSED_IS_NOT_FINITE).
     const REFUSED_IS_NOT_FINITE: bool = false;
+    /// Whether slopes and curvatures are straight code, without a loop of a length that is known at run time only: lanes
+    /// are then computed by [`Real::lanewise`] while the strain is moderate. A law with such loops is slower by that.
+    const STRAIGHT: bool = false;
 
     /// W less W of the reference, J/m³, without cancellation: see [`first_excess`] and [`second_excess`].
     #[must_use]
@@ -195,7 +199,10 @@ fn beyond_trace<T: Real>(h: Rows<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-    let kinematics = Kinematics::of::<L>(deformation);
+    if L::STRAIGHT {
+        return straight::first_piola(law, deformation);
+    }
+    let kinematics = Kinematics::of_deformation::<L>(deformation);
     let slopes = law.slopes(&kinematics.invariants);
     FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes)))
 }
@@ -213,7 +220,10 @@ pub fn first_piola_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
 ) -> FirstPiolaTangent<T> {
-    let kinematics = Kinematics::of::<L>(deformation);
+    if L::STRAIGHT {
+        return straight::first_piola_and_tangent(law, deformation).1;
+    }
+    let kinematics = Kinematics::of_deformation::<L>(deformation);
     let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
     tangent::<T, L>(&slopes, &curvatures, &kinematics)
 }
@@ -225,7 +235,10 @@ pub fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
 ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
-    let kinematics = Kinematics::of::<L>(deformation);
+    if L::STRAIGHT {
+        return straight::first_piola_and_tangent(law, deformation);
+    }
+    let kinematics = Kinematics::of_deformation::<L>(deformation);
     let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
     let stress = FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes)));
     (stress, tangent::<T, L>(&slopes, &curvatures, &kinematics))
@@ -249,6 +262,7 @@ macro_rules! hyperelastic_of_invariants {
         impl<$($generics)*> $crate::solids::Hyperelastic for $law {
             const REFUSED_IS_NOT_FINITE: bool =
                 <$law as $crate::solids::invariant::InvariantEnergy>::REFUSED_IS_NOT_FINITE;
+            const KNOWS_DEFORMATIONS: bool = <$law as $crate::solids::invariant::InvariantEnergy>::STRAIGHT;
 
             #[inline(always)]
             fn energy<T: piola_numerics::Real>(&self, deformation: &impl piola_continuum::Deformation<T>) -> T {

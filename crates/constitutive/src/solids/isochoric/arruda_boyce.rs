@@ -5,7 +5,7 @@ use piola_numerics::{Mask, Real};
 use super::langevin::{inverse_langevin, langevin, ratio_and_slope};
 use super::{Isochoric, check_below, within};
 use crate::ConstitutiveError;
-use crate::solids::parameters::parameters;
+use crate::parameters::parameters;
 
 parameters! {
     /// The network of Arruda and Boyce: eight chains of N freely jointed links, exactly.
@@ -39,7 +39,7 @@ parameters! {
     /// ```
     ///
     /// # Source
-    /// Arruda & Boyce 1993; Kröger 2015 for the start of the inversion.
+    /// Arruda & Boyce 1993.
     pub struct ArrudaBoyce("Arruda–Boyce") {
         /// n k θ, Pa.
         rubbery_modulus: "0 < n" => 0.0 < rubbery_modulus,
@@ -193,6 +193,7 @@ parameters! {
 impl Isochoric for ArrudaBoyceSeries {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const STRAIGHT: bool = true;
 
     /// Ī₁ᵏ − 3ᵏ = x (Ī₁ᵏ⁻¹ + 3 Ī₁ᵏ⁻² + … + 3ᵏ⁻¹).
     #[inline(always)]

@@ -4,7 +4,7 @@ use piola_numerics::Real;
 
 use super::{Isochoric, check_below, within};
 use crate::ConstitutiveError;
-use crate::solids::parameters::parameters;
+use crate::parameters::parameters;
 
 parameters! {
     /// W̄ = −½ μ Jₘ ln(1 − (Ī₁ − 3)/Jₘ): a network whose chains can be stretched so far and no further.
@@ -50,6 +50,7 @@ pub(crate) fn gent<T: Real>(mu: T, limit: T, first: T) -> T {
 impl Isochoric for Gent {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const STRAIGHT: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {

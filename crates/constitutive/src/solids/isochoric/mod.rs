@@ -84,6 +84,8 @@ pub trait Isochoric {
     /// Whether energy, slopes and curvatures are not finite wherever [`check`](Self::check) refuses, if it refuses
     /// anything: batches then ask it only where an answer is not finite.
     const REFUSED_IS_NOT_FINITE: bool = false;
+    /// See [`InvariantEnergy::STRAIGHT`](super::invariant::InvariantEnergy::STRAIGHT).
+    const STRAIGHT: bool = false;
 
     /// W̄(x, y), J/m³.
     #[must_use]
@@ -123,6 +125,7 @@ pub trait Isochoric {
 impl<I: Isochoric> Isochoric for &I {
     const SECOND: bool = I::SECOND;
     const REFUSED_IS_NOT_FINITE: bool = I::REFUSED_IS_NOT_FINITE;
+    const STRAIGHT: bool = I::STRAIGHT;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, second: T) -> T {

@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use super::Isochoric;
-use crate::solids::parameters::parameters;
+use crate::parameters::parameters;
 
 parameters! {
     /// W̄ = C₁₀ (Ī₁ − 3) + C₀₁ (Ī₂ − 3).
@@ -42,6 +42,7 @@ pub(crate) fn mooney_rivlin<T: Real>([c10, c01]: [T; 2], first: T, second: T) ->
 impl Isochoric for MooneyRivlin {
     const SECOND: bool = true;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const STRAIGHT: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, second: T) -> T {

@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use super::Isochoric;
-use crate::solids::parameters::parameters;
+use crate::parameters::parameters;
 
 parameters! {
     /// W̄ = ½ μ (Ī₁ − 3): the network of Gaussian chains.
@@ -38,6 +38,7 @@ pub(crate) fn neo_hookean<T: Real>(mu: T, first: T) -> T {
 impl Isochoric for NeoHookean {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const STRAIGHT: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {

@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use super::Isochoric;
-use crate::solids::parameters::parameters;
+use crate::parameters::parameters;
 
 parameters! {
     /// W̄ = C₁ x + C₂ x² + C₃ x³ with x = Ī₁ − 3: one set of numbers for all modes of rubber with filler.
@@ -44,6 +44,7 @@ pub(crate) fn yeoh<T: Real>([c1, c2, c3]: [T; 3], first: T) -> T {
 impl Isochoric for Yeoh {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const STRAIGHT: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {

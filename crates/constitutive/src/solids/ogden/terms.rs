@@ -24,6 +24,17 @@ pub struct OgdenTerm {
     pub alpha: f64,
 }
 
+/// The sum of an expression over the terms. A macro and not a function of a closure, which cannot be forced inline.
+macro_rules! sum_of {
+    ($series:expr, |$mu:ident, $alpha:ident| $term:expr) => {{
+        let mut sum = T::zero();
+        for &OgdenTerm { mu: $mu, alpha: $alpha } in $series.terms() {
+            sum += $term;
+        }
+        sum
+    }};
+}
+
 /// Σ μ/α (e^(α x) − 1 − α x), of terms in place so that laws are `Copy`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Series {
@@ -78,7 +89,8 @@ impl Series {
         let (longest, shortest) = (double_contraction(f, f), double_contraction(inverse, inverse));
         let range = if isochoric { longest * shortest } else { longest.max(shortest) };
         // Tangents are put together with squares of the parts: half the exponent is left.
-        let reach = (small_exponent::<T>() / steepest).min(80.0).exp();
+        // A power of two below e^(that/steepest): a call of a function within a loop over lanes is dear.
+        let reach = power_of_two_below_exp((small_exponent::<T>() / steepest).min(80.0));
         let modest = if largest_logarithm::<T>() < 100.0 { 1e10 } else { 1e100 };
         if range.less_than(T::lit(reach)).all() && stiffest < modest {
             return Ok(());
@@ -108,37 +120,41 @@ impl Series {
     }
 
     #[inline(always)]
-    fn sum<T: Real>(&self, term: impl Fn(f64, f64) -> T) -> T {
-        let mut sum = T::zero();
-        for OgdenTerm { mu, alpha } in self.terms() {
-            sum += term(*mu, *alpha);
-        }
-        sum
-    }
-
-    #[inline(always)]
     pub(super) fn part<T: Real>(&self, x: T) -> T {
-        self.sum(|mu, alpha| ogden_term(T::lit(mu), T::lit(alpha), x))
+        sum_of!(self, |mu, alpha| ogden_term(T::lit(mu), T::lit(alpha), x))
     }
 
     #[inline(always)]
     pub(super) fn slope<T: Real>(&self, x: T) -> T {
-        self.sum(|mu, alpha| T::lit(mu) * (T::lit(alpha) * x).exp_m1())
+        sum_of!(self, |mu, alpha| T::lit(mu) * (T::lit(alpha) * x).exp_m1())
     }
 
     #[inline(always)]
     pub(super) fn curvature<T: Real>(&self, x: T) -> T {
-        self.sum(|mu, alpha| T::lit(mu * alpha) * (T::lit(alpha) * x).exp())
+        sum_of!(self, |mu, alpha| T::lit(mu * alpha) * (T::lit(alpha) * x).exp())
+    }
+
+    /// Σ μ α.
+    #[inline(always)]
+    pub(super) fn curvature_at_rest<T: Real>(&self) -> T {
+        sum_of!(self, |mu, alpha| T::lit(mu * alpha))
     }
 
     #[inline(always)]
     pub(super) fn secant<T: Real>(&self, x: T, y: T) -> T {
-        self.sum(|mu, alpha| {
-            let alpha_over_scalar = T::lit(alpha);
-            let (x, y) = (alpha_over_scalar * x, alpha_over_scalar * y);
-            T::lit(mu * alpha) * Exponential.divided_difference(x, y)
+        sum_of!(self, |mu, alpha| {
+            let order = T::lit(alpha);
+            T::lit(mu * alpha) * Exponential.divided_difference(order * x, order * y)
         })
     }
+}
+
+/// 2^⌊x/ln 2⌋ ≤ eˣ, for 0 ≤ x ≤ 80.
+#[inline(always)]
+fn power_of_two_below_exp(x: f64) -> f64 {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ x/ln 2 < 116")]
+    let exponent = (x * core::f64::consts::LOG2_E) as u64;
+    f64::from_bits((1023 + exponent) << 52)
 }
 
 /// μ/α (e^(α x) − 1 − α x), over any scalar: parameters may have derivatives too.
@@ -161,6 +177,10 @@ macro_rules! parts_of_series {
         #[inline(always)]
         fn curvature<T: Real>(&self, x: T) -> T {
             self.series.curvature(x)
+        }
+        #[inline(always)]
+        fn curvature_at_rest<T: Real>(&self) -> T {
+            self.series.curvature_at_rest()
         }
         #[inline(always)]
         fn secant<T: Real>(&self, x: T, y: T) -> T {

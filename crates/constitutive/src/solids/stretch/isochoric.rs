@@ -4,6 +4,8 @@ use piola_continuum::Deformation;
 use piola_continuum::tensor::rows::{Rows, difference, identity, scaled, sum};
 use piola_numerics::{Mask, Real};
 
+use crate::solids::unimodular::Unimodular;
+
 /// J^(−1/3) F, kept as itself and as its difference from 1.
 #[derive(Clone, Copy)]
 pub(super) struct Isochoric<T> {
@@ -14,16 +16,16 @@ pub(super) struct Isochoric<T> {
 impl<T: Real> Isochoric<T> {
     #[inline(always)]
     pub(super) fn of(deformation: &impl Deformation<T>) -> Self {
-        let third = deformation.ln_jacobian() * T::lit(-1.0 / 3.0);
-        let scale = third.exp();
+        let change_of_volume = deformation.volume_change();
+        let Unimodular { third: scale, third_change: change, .. } =
+            Unimodular::of(change_of_volume, deformation.jacobian());
         let mut displacement = scaled(deformation.displacement_rows(), scale);
-        let change = third.exp_m1();
         for (k, row) in displacement.iter_mut().enumerate() {
             row[k] += change;
         }
         let gradient = scaled(deformation.gradient_rows(), scale);
         // Of a body that is compressed to nearly nothing, or blown up, nothing is left of differences from the reference.
-        let beside = deformation.volume_change().abs().at_most(T::lit(0.5));
+        let beside = change_of_volume.abs().at_most(T::lit(0.875));
         if !beside.all() {
             let plain = difference(gradient, identity());
             for (row, plain) in displacement.iter_mut().zip(plain) {

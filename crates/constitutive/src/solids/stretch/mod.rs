@@ -89,6 +89,13 @@ pub trait StretchEnergy {
     #[must_use]
     fn curvature<T: Real>(&self, x: T) -> T;
 
+    /// w″(0), Pa.
+    #[inline(always)]
+    #[must_use]
+    fn curvature_at_rest<T: Real>(&self) -> T {
+        self.curvature(T::zero())
+    }
+
     /// w′[x, y] = (w′(x) − w′(y))/(x − y), w″(x) for x = y.
     #[must_use]
     fn secant<T: Real>(&self, x: T, y: T) -> T;
@@ -128,26 +135,42 @@ pub fn energy<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation
     stretches.material_function(&Part(law)).trace() + volume
 }
 
+/// Σ w′(xₐ)/λₐⁿ over the axes of U, or of V for `SPATIAL`; and Σ w′(xₐ), for an isochoric law.
+///
+/// Each logarithm and each w′ is computed once, whatever the number of powers in it.
+#[inline(always)]
+fn stress_function<T: Real, L: StretchEnergy, const N: usize, const SPATIAL: bool>(
+    law: &L,
+    stretches: &StretchAnalysis<T>,
+) -> (Symmetric<T>, T) {
+    let function = Stress::<L, N>(law);
+    if T::ORDER == 0 {
+        let ([l, m, n], [x, y, z]) = stretches.stretches_in_frame();
+        let [u, v, w] = [law.slope(x), law.slope(y), law.slope(z)];
+        let values = [Stress::<L, N>::divided(u, l), Stress::<L, N>::divided(v, m), Stress::<L, N>::divided(w, n)];
+        let stress = if SPATIAL {
+            stretches.spatial_function_of(&function, values)
+        } else {
+            stretches.material_function_of(&function, values)
+        };
+        return (stress, u + v + w);
+    }
+    let stress = if SPATIAL { stretches.spatial_function(&function) } else { stretches.material_function(&function) };
+    let sum = if L::ISOCHORIC { stretches.material_function(&Stress::<L, 0>(law)).trace() } else { T::zero() };
+    (stress, sum)
+}
+
 /// What is the same in all directions of βₐ: J U′, of an isochoric law less the mean of the w′.
 #[inline(always)]
-fn uniform<T: Real, L: StretchEnergy>(law: &L, stretches: &StretchAnalysis<T>, volume: &Volume<T>) -> T {
+fn uniform<T: Real, L: StretchEnergy>(law: &L, sum: T, volume: &Volume<T>) -> T {
     let slope = law.volume_slope(volume);
-    if !L::ISOCHORIC {
-        return slope;
-    }
-    let sum = if T::ORDER == 0 {
-        let [x, y, z] = stretches.log_principal_stretches();
-        law.slope(x) + law.slope(y) + law.slope(z)
-    } else {
-        stretches.material_function(&Stress::<L, 0>(law)).trace()
-    };
-    slope - sum * T::lit(1.0 / 3.0)
+    if L::ISOCHORIC { slope - sum * T::lit(1.0 / 3.0) } else { slope }
 }
 
 /// J^(−1/3) for an isochoric law, whose stretches are λₐ times it; otherwise 1.
 #[inline(always)]
 fn isochoric_scale<T: Real, L: StretchEnergy>(volume: &Volume<T>) -> T {
-    if L::ISOCHORIC { (volume.logarithm * T::lit(-1.0 / 3.0)).exp() } else { T::one() }
+    if L::ISOCHORIC { volume.jacobian.recip_cbrt() } else { T::one() }
 }
 
 /// τ.
@@ -155,7 +178,7 @@ fn isochoric_scale<T: Real, L: StretchEnergy>(volume: &Volume<T>) -> T {
 #[must_use]
 pub fn kirchhoff<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
     let volume = Volume::of(deformation);
-    let stress = analysis::<T, L>(deformation).spatial_function(&Stress::<L, 0>(law));
+    let (stress, _) = stress_function::<T, L, 0, true>(law, &analysis::<T, L>(deformation));
     let stress = if L::ISOCHORIC { stress.deviator() } else { stress };
     KirchhoffStress(stress + Symmetric::identity() * law.volume_slope(&volume))
 }
@@ -175,8 +198,9 @@ fn first_piola_rows<T: Real, L: StretchEnergy>(
     volume: &Volume<T>,
     deformation: &impl Deformation<T>,
 ) -> Rows<T> {
-    let stress = stretches.material_function(&Stress::<L, 1>(law)) * isochoric_scale::<T, L>(volume);
-    let uniform = uniform(law, stretches, volume);
+    let (stress, sum_of_slopes) = stress_function::<T, L, 1, false>(law, stretches);
+    let stress = stress * isochoric_scale::<T, L>(volume);
+    let uniform = uniform(law, sum_of_slopes, volume);
     let inverse_transpose = scaled(deformation.cofactor_rows(), volume.jacobian.recip());
     sum(product(stretches.rotation(), stress.rows()), scaled(inverse_transpose, uniform))
 }
@@ -188,10 +212,11 @@ pub fn second_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Defor
     let volume = Volume::of(deformation);
     let stretches = analysis::<T, L>(deformation);
     let scale = isochoric_scale::<T, L>(&volume);
-    let stress = stretches.material_function(&Stress::<L, 2>(law)) * (scale * scale);
+    let (stress, sum_of_slopes) = stress_function::<T, L, 2, false>(law, &stretches);
+    let stress = stress * (scale * scale);
     let inverse = deformation.inverse_rows();
     let inverse_square = Symmetric::gram(inverse);
-    SecondPiola(stress + inverse_square * uniform(law, &stretches, &volume))
+    SecondPiola(stress + inverse_square * uniform(law, sum_of_slopes, &volume))
 }
 
 /// ∂S/∂E, closed in the frame of the material axes.

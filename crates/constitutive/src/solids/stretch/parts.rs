@@ -28,7 +28,7 @@ pub(super) struct Stress<'a, L, const N: usize>(pub(super) &'a L);
 
 impl<L: StretchEnergy, const N: usize> Stress<'_, L, N> {
     #[inline(always)]
-    fn divided<T: Real>(slope: T, stretch: T) -> T {
+    pub(super) fn divided<T: Real>(slope: T, stretch: T) -> T {
         match N {
             0 => slope,
             1 => slope / stretch,
@@ -77,6 +77,6 @@ impl<L: StretchEnergy, const N: usize> IsotropicFunction for Stress<'_, L, N> {
     }
     #[inline(always)]
     fn slope_at_one<T: Real>(&self) -> T {
-        self.0.curvature(T::zero())
+        self.0.curvature_at_rest()
     }
 }

@@ -29,7 +29,8 @@ impl<T: Real> Principal<T> {
     pub(super) fn of<L: StretchEnergy>(law: &L, analysis: &StretchAnalysis<T>, volume: &Volume<T>) -> Self {
         let x = analysis.log_principal_stretches();
         let scale = isochoric_scale::<T, L>(volume).recip();
-        let stretches = analysis.principal_stretches().map(|stretch| stretch * scale);
+        let [l, m, n] = analysis.principal_stretches();
+        let stretches = [l * scale, m * scale, n * scale];
         let slope = [law.slope(x[0]), law.slope(x[1]), law.slope(x[2])];
         let curvature = [law.curvature(x[0]), law.curvature(x[1]), law.curvature(x[2])];
         let bulk = law.volume_curvature(volume);
@@ -47,53 +48,50 @@ impl<T: Real> Principal<T> {
         for entry in &mut stiffness {
             *entry += bulk;
         }
-        let secant = |a: usize, b: usize| {
-            let (l, m) = (stretches[a], stretches[b]);
-            T::lit(0.5) * law.secant(x[a], x[b]) * Logarithm.divided_difference(l * l, m * m)
-        };
-        Self {
-            stretches,
-            stress: [slope[0] + uniform, slope[1] + uniform, slope[2] + uniform],
-            stiffness,
-            secant: [secant(0, 1), secant(1, 2), secant(0, 2)],
-        }
+        let secant =
+            [secant(law, &x, &stretches, 0, 1), secant(law, &x, &stretches, 1, 2), secant(law, &x, &stretches, 0, 2)];
+        Self { stretches, stress: [slope[0] + uniform, slope[1] + uniform, slope[2] + uniform], stiffness, secant }
     }
 
     /// P = Σ βₐ/λₐ nₐ ⊗ Nₐ.
     #[inline(always)]
     pub(super) fn first_piola(&self, analysis: &StretchAnalysis<T>) -> FirstPiola<T> {
         let (n, m) = (analysis.spatial_axes(), analysis.material_axes());
-        let values = [0, 1, 2].map(|a| self.stress[a] / self.stretches[a]);
-        let entry = |i: usize, j: usize| {
-            (values[0] * n[0][i]) * m[0][j] + (values[1] * n[1][i]) * m[1][j] + (values[2] * n[2][i]) * m[2][j]
-        };
-        FirstPiola(from_rows([0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))))
+        let v = quotients(self.stress, self.stretches);
+        FirstPiola(from_rows([
+            [dyads(v, &n, &m, 0, 0), dyads(v, &n, &m, 0, 1), dyads(v, &n, &m, 0, 2)],
+            [dyads(v, &n, &m, 1, 0), dyads(v, &n, &m, 1, 1), dyads(v, &n, &m, 1, 2)],
+            [dyads(v, &n, &m, 2, 0), dyads(v, &n, &m, 2, 1), dyads(v, &n, &m, 2, 2)],
+        ]))
     }
 
     /// Σ valueₐ axisₐ ⊗ axisₐ.
     #[inline(always)]
-    pub(super) fn about(values: [T; 3], axes: &Rows<T>) -> Symmetric<T> {
-        let entry = |(i, j): (usize, usize)| {
-            (values[0] * axes[0][i]) * axes[0][j]
-                + (values[1] * axes[1][i]) * axes[1][j]
-                + (values[2] * axes[2][i]) * axes[2][j]
-        };
-        Symmetric { components: [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(entry) }
+    pub(super) fn about(v: [T; 3], n: &Rows<T>) -> Symmetric<T> {
+        Symmetric {
+            components: [
+                dyads(v, n, n, 0, 0),
+                dyads(v, n, n, 1, 1),
+                dyads(v, n, n, 2, 2),
+                dyads(v, n, n, 0, 1),
+                dyads(v, n, n, 1, 2),
+                dyads(v, n, n, 0, 2),
+            ],
+        }
     }
 
     /// S = Σ βₐ/λₐ² Nₐ ⊗ Nₐ.
     #[inline(always)]
     pub(super) fn second_piola(&self, analysis: &StretchAnalysis<T>) -> SecondPiola<T> {
-        let values = [0, 1, 2].map(|a| self.stress[a] / self.stretches[a] / self.stretches[a]);
+        let values = quotients(quotients(self.stress, self.stretches), self.stretches);
         SecondPiola(Self::about(values, &analysis.material_axes()))
     }
 
     /// ∂S/∂E: F⁻¹ nₐ = Nₐ/λₐ.
     #[inline(always)]
     pub(super) fn material_tangent(&self, analysis: &StretchAnalysis<T>) -> MaterialTangent<T> {
-        let axes = analysis.material_axes();
-        let pulled = |a: usize| axes[a].map(|x| x / self.stretches[a]);
-        let frame = transpose([pulled(0), pulled(1), pulled(2)]);
+        let ([a, b, c], [l, m, n]) = (analysis.material_axes(), self.stretches);
+        let frame = transpose([quotients(a, [l; 3]), quotients(b, [m; 3]), quotients(c, [n; 3])]);
         MaterialTangent(MajorSymmetric { components: push_forward(frame, &self.lie()) })
     }
 
@@ -145,6 +143,27 @@ impl<T: Real> Principal<T> {
     }
 }
 
+// Functions, not closures, which the compiler may leave out of line, where there are no lanes.
+
+/// (βₐ − βᵦ)/(λₐ² − λᵦ²).
+#[inline(always)]
+fn secant<T: Real, L: StretchEnergy>(law: &L, x: &[T; 3], stretches: &[T; 3], a: usize, b: usize) -> T {
+    let (l, m) = (stretches[a], stretches[b]);
+    T::lit(0.5) * law.secant(x[a], x[b]) * Logarithm.divided_difference(l * l, m * m)
+}
+
+/// Component by component.
+#[inline(always)]
+fn quotients<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> [T; 3] {
+    [a / x, b / y, c / z]
+}
+
+/// Entry (i, j) of Σ vₐ nₐ ⊗ mₐ.
+#[inline(always)]
+fn dyads<T: Real>(v: [T; 3], n: &Rows<T>, m: &Rows<T>, i: usize, j: usize) -> T {
+    (v[0] * n[0][i]) * m[0][j] + (v[1] * n[1][i]) * m[1][j] + (v[2] * n[2][i]) * m[2][j]
+}
+
 #[inline(always)]
 pub(super) fn tangent<T: Real>(principal: &Principal<T>, analysis: &StretchAnalysis<T>) -> FirstPiolaTangent<T> {
     let (n, m) = (analysis.spatial_axes(), analysis.material_axes());
@@ -170,13 +189,11 @@ pub(super) fn tangent<T: Real>(principal: &Principal<T>, analysis: &StretchAnaly
     }
     // The tangent in the frames, times the dyads.
     let mut half = [[T::zero(); 9]; 9];
-    let entry = |a: usize, b: usize| {
-        let place = [[0, 3, 5], [3, 1, 4], [5, 4, 2]][a][b];
-        let whole = if a == b { principal.stiffness[place] - principal.stress[a] } else { principal.stiffness[place] };
-        whole * (reciprocal[a] * reciprocal[b])
-    };
+    let ([xx, yy, zz, xy, yz, xz], stress) = (principal.stiffness, principal.stress);
+    let whole = [[xx - stress[0], xy, xz], [xy, yy - stress[1], yz], [xz, yz, zz - stress[2]]];
+    let scale = |a: usize, b: usize| reciprocal[a] * reciprocal[b];
     for a in 0..3 {
-        let (x, y, z) = (entry(a, 0), entry(a, 1), entry(a, 2));
+        let (x, y, z) = (whole[a][0] * scale(a, 0), whole[a][1] * scale(a, 1), whole[a][2] * scale(a, 2));
         for column in 0..9 {
             half[4 * a][column] = x * dyads[0][column] + y * dyads[4][column] + z * dyads[8][column];
         }

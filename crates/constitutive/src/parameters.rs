@@ -1,4 +1,4 @@
-//! What every law with plain parameters has: a checked constructor, getters and validated serde.
+//! What every law of a solid or fluid with plain parameters has: a checked constructor, getters and validated serde.
 
 /// Declares a law of numbers: each parameter with its documentation, its bound as text and as a condition on all of them.
 macro_rules! parameters {
@@ -52,4 +52,4 @@ macro_rules! parameters {
         }
     };
 }
-pub(super) use parameters;
+pub(crate) use parameters;

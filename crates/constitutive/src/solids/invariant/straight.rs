@@ -1,0 +1,102 @@
+//! Stress and tangent of laws of straight code: a loop over the lanes.
+
+use piola_continuum::strain::kernels;
+use piola_continuum::stress::tangents::FirstPiolaTangent;
+use piola_continuum::{Deformation, FirstPiola};
+use piola_numerics::{Lanewise, Mask, Real};
+
+use super::InvariantEnergy;
+use super::kinematics::Kinematics;
+use super::tangent::tangent;
+use crate::solids::numbers;
+
+/// P of F and ∇u, which are moderate.
+struct Near<'a, L>(&'a L);
+
+/// P of F, ∇u and J.
+struct Any<'a, L>(&'a L);
+
+#[inline(always)]
+fn stress<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T; 9] {
+    let slopes = law.slopes(&kinematics.invariants);
+    numbers::of_stress(kinematics.first_piola::<L>(&slopes))
+}
+
+#[inline(always)]
+fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T; 54] {
+    let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
+    let entries = tangent::<T, L>(&slopes, &curvatures, kinematics).0.components;
+    numbers::of_both(kinematics.first_piola::<L>(&slopes), &entries)
+}
+
+impl<L: InvariantEnergy> Lanewise<18, 10> for Near<'_, L> {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 10] {
+        let [f, h] = numbers::gradients(inputs);
+        let [a, b, c, d, e, g, i, j, k] = stress(self.0, &Kinematics::near::<L>(f, h));
+        [a, b, c, d, e, g, i, j, k, kernels::square(h)]
+    }
+}
+
+impl<L: InvariantEnergy> Lanewise<18, 55> for Near<'_, L> {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 55] {
+        let [f, h] = numbers::gradients(inputs);
+        numbers::with_one_more(both(self.0, &Kinematics::near::<L>(f, h)), kernels::square(h))
+    }
+}
+
+impl<L: InvariantEnergy> Lanewise<19, 9> for Any<'_, L> {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 19]) -> [T; 9] {
+        let ([f, h], jacobian) = numbers::gradients_and_jacobian(inputs);
+        stress(self.0, &Kinematics::of::<L>(f, h, jacobian))
+    }
+}
+
+impl<L: InvariantEnergy> Lanewise<19, 54> for Any<'_, L> {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 19]) -> [T; 54] {
+        let ([f, h], jacobian) = numbers::gradients_and_jacobian(inputs);
+        both(self.0, &Kinematics::of::<L>(f, h, jacobian))
+    }
+}
+
+/// P; not finite in its first component where F is no deformation.
+#[inline(always)]
+pub(super) fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+    let inputs = numbers::of_deformation(deformation);
+    let [a, b, c, d, e, f, g, h, i, square] = T::lanewise(&Near(law), inputs);
+    if square.at_most(T::lit(kernels::MODERATE)).all() {
+        return numbers::stress([a, b, c, d, e, f, g, h, i]);
+    }
+    let jacobian = deformation.jacobian();
+    let mut any = T::lanewise(&Any(law), numbers::with_jacobian(inputs, jacobian));
+    any[0] = existing(jacobian, any[0]);
+    numbers::stress(any)
+}
+
+/// P and ∂P/∂F; neither is finite in its first component where F is no deformation.
+#[inline(always)]
+pub(super) fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
+    let inputs = numbers::of_deformation(deformation);
+    let (near, square) = numbers::without_last(T::lanewise(&Near(law), inputs));
+    if square.at_most(T::lit(kernels::MODERATE)).all() {
+        return numbers::both(near);
+    }
+    let jacobian = deformation.jacobian();
+    let mut any = T::lanewise(&Any(law), numbers::with_jacobian(inputs, jacobian));
+    any[0] = existing(jacobian, any[0]);
+    any[9] = existing(jacobian, any[9]);
+    numbers::both(any)
+}
+
+/// The value where 0 < det F < ∞, NaN elsewhere.
+#[inline(always)]
+fn existing<T: Real>(jacobian: T, value: T) -> T {
+    let exists = T::zero().less_than(jacobian) & jacobian.is_finite();
+    if exists.all() { value } else { T::select(exists, value, T::lit(f64::NAN)) }
+}
