@@ -101,7 +101,7 @@ pub enum ViscometryError {
         row: usize,
         /// Its response.
         value: f64,
-        /// The response of the row before.
+        /// The largest response of the rows before.
         previous: f64,
     },
     /// A table is too short for a derivative.

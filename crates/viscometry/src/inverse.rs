@@ -1,6 +1,6 @@
 //! The drive that has a wanted answer.
 
-use crate::ViscometryError;
+use crate::{Estimate, ViscometryError};
 
 /// What cannot be had, for errors.
 #[derive(Clone, Copy, Debug)]
@@ -10,6 +10,9 @@ pub(crate) struct Wanted {
     /// 0 < value.
     pub(crate) value: f64,
 }
+
+/// The misfit from which one step of Newton's method leaves rounding only.
+const NEAR: f64 = 1e-9;
 
 /// The `excess` > 0 at which an increasing answer is the wanted one: Newton's method on logarithms, in a bracket that shrinks.
 ///
@@ -46,6 +49,10 @@ pub(crate) fn solve(
         let step = misfit / slope;
         let newton = x - step;
         let next = if step.is_finite() && low <= newton && newton <= high {
+            // The next misfit is of the order of the square of this one.
+            if misfit.abs() <= NEAR {
+                return Ok(start * newton.exp());
+            }
             newton
         } else if low.is_finite() && high.is_finite() {
             0.5 * (low + high)
@@ -64,6 +71,33 @@ pub(crate) fn solve(
         return Ok(start * (if (x - best.1).abs() <= 1e-11 { x } else { best.1 }).exp());
     }
     Err(refused.unwrap_or(ViscometryError::NoDrive { flow: wanted.flow, quantity: wanted.quantity, value: target }))
+}
+
+/// By how much a drive may be off that was sought for a wanted answer: what the answer to it misses and may be off, over its slope.
+///
+/// `least` is the drive below which nothing is sheared; `answer` is that to a drive 0 < d. Where the answer does not rise, as below a yield
+/// stress, it tells nothing of the drive: the error is infinite.
+pub(crate) fn drive_error(
+    drive: f64,
+    least: f64,
+    wanted: f64,
+    answer: impl Fn(f64) -> Result<Estimate, ViscometryError>,
+) -> Result<f64, ViscometryError> {
+    /// A step whose square is beside one what the slope may be off.
+    const STEP: f64 = 1e-4;
+    let (drive, wanted) = (drive.abs(), wanted.abs());
+    if drive <= 0.0 {
+        return Ok(0.0);
+    }
+    let at = answer(drive)?;
+    let missed = (at.value.abs() - wanted).abs() + at.error;
+    let step = STEP * if least < drive { drive - least } else { drive };
+    let rise = answer(drive + step)?.value.abs() - answer(drive - step)?.value.abs();
+    if rise <= 0.0 {
+        return Ok(f64::INFINITY);
+    }
+    // The drive is a number of a few roundings itself.
+    Ok(missed * (2.0 * step / rise) + 4.0 * f64::EPSILON * drive)
 }
 
 /// The number at which an increasing function changes sign, between two at which it has opposite ones.

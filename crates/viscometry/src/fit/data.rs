@@ -6,7 +6,7 @@ use piola_constitutive::fluids::{Parameters, ViscometricFluid};
 use piola_numerics::Real;
 
 use crate::ViscometryError;
-use crate::recover::{ChannelGeometry, CouetteGeometry, FlowTable, PipeGeometry};
+use crate::recover::{ChannelGeometry, ConeGeometry, CouetteGeometry, FlowTable, Noise, PipeGeometry, PlatesGeometry};
 
 /// Measurements of one kind.
 ///
@@ -22,6 +22,7 @@ use crate::recover::{ChannelGeometry, CouetteGeometry, FlowTable, PipeGeometry};
 pub struct FlowData {
     kind: Kind,
     rows: Vec<[f64; 2]>,
+    noise: Noise,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +32,8 @@ enum Kind {
     Pipe { radius: f64 },
     Channel { half_width: f64 },
     Couette { step: f64, stress_per_torque: f64 },
+    ParallelPlates { radius: f64, gap: f64 },
+    ConeAndPlate { radius: f64, angle: f64 },
 }
 
 impl FlowData {
@@ -39,19 +42,19 @@ impl FlowData {
     /// # Errors
     /// [`ViscometryError::Row`], [`ViscometryError::RowTwice`], [`ViscometryError::RowNotSorted`].
     pub fn flow_curve(rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
-        FlowTable::new((), rows).map(|table| Self { kind: Kind::FlowCurve, rows: table.rows().collect() })
+        FlowTable::new((), rows).map(|table| Self::of(Kind::FlowCurve, &table))
     }
 
     /// Discharges of a pipe.
     #[must_use]
     pub fn pipe(table: &FlowTable<PipeGeometry>) -> Self {
-        Self { kind: Kind::Pipe { radius: table.geometry().radius() }, rows: table.rows().collect() }
+        Self::of(Kind::Pipe { radius: table.geometry().radius() }, table)
     }
 
     /// Discharges of a channel.
     #[must_use]
     pub fn channel(table: &FlowTable<ChannelGeometry>) -> Self {
-        Self { kind: Kind::Channel { half_width: table.geometry().half_width() }, rows: table.rows().collect() }
+        Self::of(Kind::Channel { half_width: table.geometry().half_width() }, table)
     }
 
     /// Speeds of coaxial cylinders.
@@ -59,7 +62,43 @@ impl FlowData {
     pub fn couette(table: &FlowTable<CouetteGeometry>) -> Self {
         let gap = table.geometry();
         let kind = Kind::Couette { step: gap.step(), stress_per_torque: gap.stress_per_torque() };
-        Self { kind, rows: table.rows().collect() }
+        Self::of(kind, table)
+    }
+
+    /// Torques of parallel plates.
+    #[must_use]
+    pub fn parallel_plates(table: &FlowTable<PlatesGeometry>) -> Self {
+        let plates = table.geometry();
+        let kind = Kind::ParallelPlates { radius: plates.radius(), gap: plates.gap() };
+        Self::of(kind, table)
+    }
+
+    /// Torques of cone and plate.
+    #[must_use]
+    pub fn cone_and_plate(table: &FlowTable<ConeGeometry>) -> Self {
+        let cone = table.geometry();
+        let kind = Kind::ConeAndPlate { radius: cone.radius(), angle: cone.angle() };
+        Self::of(kind, table)
+    }
+
+    fn of<G>(kind: Kind, table: &FlowTable<G>) -> Self {
+        Self { kind, rows: table.rows().collect(), noise: table.noise() }
+    }
+
+    /// The same with what is known of its noise: by so much its responses may seem to fall. It changes no parameter.
+    ///
+    /// # Errors
+    /// As [`FlowTable::with_noise`].
+    pub fn with_noise(self, noise: Noise) -> Result<Self, ViscometryError> {
+        FlowTable::new((), &[])?.with_noise(noise).map(|table| Self { noise: table.noise(), ..self })
+    }
+
+    /// Refuses responses that fall by more than noise explains.
+    ///
+    /// # Errors
+    /// As [`FlowTable::check_rising`].
+    pub fn check_rising(&self) -> Result<(), ViscometryError> {
+        FlowTable::new((), &self.rows)?.with_noise(self.noise)?.check_rising()
     }
 
     /// Its rows: what was set, what was measured.
@@ -86,6 +125,8 @@ impl FlowData {
     /// pipe        Q = (8π/(3c³)) ∫ (T³ − τ(k)³) dk      up to ζ(T),  T = cR/2
     /// channel     Q = (1/c²) ∫ (T² − τ(k)²) dk          up to ζ(T),  T = cd
     /// cylinders   ΔΩ = ½ ∫ ln(T₁/max(τ(k), T₂)) dk      up to ζ(T₁)
+    /// plates      𝓜 = 2π (R/k_R)³ ∫ k² τ(k) dk           up to k_R = ΩR/h
+    /// cone        𝓜 = (2π/3) R³ τ(Ω/α)
     /// ```
     /// W(23.63), W(23.43), W(23.79) by parts: the integrands vanish at their upper ends, so that these may stay where they are while
     /// parameters vary.
@@ -128,6 +169,14 @@ impl FlowData {
                 };
                 T::lit(0.5) * (T::lit(outer_rate * step) + between)
             }
+            Kind::ParallelPlates { radius, gap } => {
+                let rim = drive * radius / gap;
+                let inside = |k: f64| T::lit((k / rim) * (k / rim) / rim) * stress(k);
+                T::lit(2.0 * PI * radius * radius * radius) * below(rim, &inside)
+            }
+            Kind::ConeAndPlate { radius, angle } => {
+                T::lit(2.0 / 3.0 * PI * radius * radius * radius) * stress(drive / angle)
+            }
         })
     }
 }
@@ -144,12 +193,18 @@ const DEEP: f64 = 34.0;
 
 /// ∫ f dk up to a rate, over ln k: rates of all sizes cost the same.
 fn below<T: Real>(rate: f64, f: &impl Fn(f64) -> T) -> T {
-    if 0.0 < rate { between(rate * (-DEEP).exp(), rate, f) } else { T::zero() }
+    // A rate that is nearly no number has nothing below it that is one.
+    let low = rate * (-DEEP).exp();
+    if f64::MIN_POSITIVE < low { between(low, rate, f) } else { T::zero() }
 }
 
 /// ∫ f dk between two positive rates: order 16 in panels of ln k no wider than 1.
 fn between<T: Real>(low: f64, high: f64, f: &impl Fn(f64) -> T) -> T {
     let width = ((high - low) / low).ln_1p();
+    if !width.is_finite() {
+        // No search may end beyond the range of numbers.
+        return T::lit(f64::INFINITY);
+    }
     let panels = width.ceil().max(1.0);
     let half = 0.5 * width / panels;
     let mut sum = T::zero();

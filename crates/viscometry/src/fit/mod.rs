@@ -109,7 +109,8 @@ pub struct FluidFit<F> {
 ///
 /// # Errors
 /// [`ViscometryError::TooFewRows`], [`ViscometryError::Confidence`], [`ViscometryError::UnknownParameter`],
-/// [`ViscometryError::ImpossibleBounds`], [`ViscometryError::NoStart`] if no start has finite answers.
+/// [`ViscometryError::ImpossibleBounds`], [`ViscometryError::NoStart`] if no start has finite answers;
+/// [`ViscometryError::ResponseFalls`] with the row of a set whose responses fall by more than its noise ([`FlowData::check_rising`]).
 ///
 /// # Accuracy
 /// Parameters to about the root of the rounding of S, ten digits where the data determine them; answers to 10⁻¹⁰. Intervals suppose
@@ -129,6 +130,7 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
     if rows < N {
         return Err(ViscometryError::TooFewRows { rows, least: N });
     }
+    data.iter().try_for_each(FlowData::check_rising)?;
     let bounds = bounds::<F, N>(&options.bounds)?;
     let problem = Problem::<F, N>::new(data, options.weighting, bounds, options.patience.max(1));
     let mut found: Vec<_> = starts.iter().filter_map(|start| problem.search(*start)).collect();

@@ -5,6 +5,7 @@ use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
 use super::declaration::flow_of_numbers;
 use super::wall::{Sheared, check_density, duct, entry_length, generalised_reynolds, normal_functions, plug, profile};
 use crate::error::{check_bound, check_finite};
+use crate::inverse::drive_error;
 use crate::{Estimate, Stresses, Validity, ViscometryError, WallSlip};
 
 flow_of_numbers! {
@@ -78,6 +79,27 @@ impl Channel {
         let mean = 0.5 * discharge / half_width;
         let wall = still.sheared().wall_stress_of(fluid, FlowMoment::First, mean, 3.0)?;
         Self::new(half_width, wall / half_width).map(|flow| flow.with_slip(slip))
+    }
+
+    /// By how much the pressure gradient, Pa/m, may be off that was sought for this discharge for each width, m²/s: what the answer to it misses and may itself be
+    /// off, over its slope. Infinite where that is zero, as below a yield stress.
+    ///
+    /// ```text
+    /// |δc| ≈ (|Q(c) − Q| + δQ)/(dQ/dc)
+    /// ```
+    ///
+    /// # Errors
+    /// What the fluid refuses.
+    pub fn pressure_gradient_error<F: ViscometricFluid + ?Sized>(
+        &self,
+        fluid: &F,
+        discharge: f64,
+    ) -> Result<f64, ViscometryError> {
+        check_finite(Self::NAME, "discharge", discharge)?;
+        let least = fluid.yield_stress() / self.half_width;
+        drive_error(self.pressure_gradient, least, discharge, |pressure_gradient| {
+            Self { pressure_gradient, ..*self }.discharge(fluid)
+        })
     }
 
     /// With slip at both walls.

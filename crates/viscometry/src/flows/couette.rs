@@ -7,7 +7,7 @@ use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
 use super::declaration::flow_of_numbers;
 use super::wall::{check_density, finite, normal_functions, profile};
 use crate::error::{check_bound, check_finite};
-use crate::inverse::{Wanted, solve};
+use crate::inverse::{Wanted, drive_error, solve};
 use crate::quadrature::{Span, integrate, scaled_moment, stress_integral};
 use crate::{Estimate, Stresses, Validity, ViscometryError, WallSlip, Warning};
 
@@ -138,6 +138,25 @@ impl Couette {
         check_bound(Self::NAME, "density", density, "0 ≤ ρ", 0.0 <= density)?;
         self.density = density;
         Ok(self)
+    }
+
+    /// By how much the moment, N m/m, may be off that was sought for this ΔΩ, rad/s: what the answer to it misses and may itself be
+    /// off, over its slope. Infinite where that is zero, as below a yield stress.
+    ///
+    /// ```text
+    /// |δM| ≈ (|ΔΩ(M) − ΔΩ| + δΔΩ)/(dΔΩ/dM)
+    /// ```
+    ///
+    /// # Errors
+    /// What the fluid refuses.
+    pub fn moment_error<F: ViscometricFluid + ?Sized>(
+        &self,
+        fluid: &F,
+        speed_difference: f64,
+    ) -> Result<f64, ViscometryError> {
+        check_finite(Self::NAME, "speed_difference", speed_difference)?;
+        let least = fluid.yield_stress() * (2.0 * PI * self.inner_radius * self.inner_radius);
+        drive_error(self.moment, least, speed_difference, |moment| Self { moment, ..*self }.speed_difference(fluid))
     }
 
     /// With slip at both walls.

@@ -6,8 +6,8 @@ use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
 use super::wall::{Sheared, generalised_reynolds, normal_functions, plug, profile};
-use crate::error::check_bound;
-use crate::inverse::{Wanted, solve};
+use crate::error::{check_bound, check_finite};
+use crate::inverse::{Wanted, drive_error, solve};
 use crate::{Estimate, Stresses, Validity, ViscometryError, WallSlip, Warning};
 
 flow_of_numbers! {
@@ -89,6 +89,25 @@ impl FallingFilm {
             Ok((film.discharge(fluid)?.value, slope))
         })?;
         Self::new((yields + excess) / weight, density, gravity, inclination)
+    }
+
+    /// By how much the thickness, m, may be off that was sought for this discharge for each width, m²/s: what the answer to it misses and may itself be
+    /// off, over its slope. Infinite where that is zero, as below a yield stress.
+    ///
+    /// ```text
+    /// |δδ| ≈ (|Q(δ) − Q| + δQ)/(dQ/dδ)
+    /// ```
+    ///
+    /// # Errors
+    /// What the fluid refuses.
+    pub fn thickness_error<F: ViscometricFluid + ?Sized>(
+        &self,
+        fluid: &F,
+        discharge: f64,
+    ) -> Result<f64, ViscometryError> {
+        check_finite(Self::NAME, "discharge", discharge)?;
+        let least = fluid.yield_stress() * (self.thickness / self.wall_stress());
+        drive_error(self.thickness, least, discharge, |thickness| Self { thickness, ..*self }.discharge(fluid))
     }
 
     /// With slip at the wall.

@@ -12,6 +12,7 @@ mod falling_film;
 mod parallel_plates;
 mod plane_couette;
 mod poiseuille;
+mod turning;
 mod wall;
 
 pub use annulus::Annulus;

@@ -5,11 +5,12 @@ use std::f64::consts::PI;
 use piola_constitutive::fluids::ViscometricFluid;
 
 use super::declaration::flow_of_numbers;
-use super::wall::{check_density, finite, normal_functions, secondary_flow};
+use super::turning::{Gap, Turning};
+use super::wall::{check_density, finite, normal_functions, rising_stress, secondary_flow};
 use crate::error::{check_bound, check_finite};
-use crate::inverse::{Wanted, solve};
+use crate::inverse::{Wanted, drive_error, solve};
 use crate::quadrature::rate_integral;
-use crate::{Estimate, Stresses, Validity, ViscometryError, Warning};
+use crate::{Estimate, Stresses, Validity, ViscometryError, WallSlip, Warning};
 
 flow_of_numbers! {
     /// The gap between two parallel discs, one of which turns; the shear rate grows with the radius.
@@ -25,10 +26,11 @@ flow_of_numbers! {
     /// | Ω | `speed` | rad/s | finite |
     ///
     /// Direction 1 is from disc to disc, 2 that of the rotation, 3 radial; pressures are counted from that of the air, which meets T₃₃ at
-    /// the rim.
+    /// the rim. With slip at both discs k(r) is the root of h k + 2 `v_s(τ(k))` = Ω r, and M = 2 π ∫ r² τ dr,
+    /// F = π ∫ r (N₁ − N₂) dr over the discs.
     ///
     /// # Accuracy
-    /// 1e-12, with the bound in the answer.
+    /// 1e-12, with the bound in the answer; with slip 1e-10.
     ///
     /// # Example
     /// ```
@@ -51,6 +53,10 @@ flow_of_numbers! {
         gap: "0 < h" => 0.0 < gap,
         /// Ω, rad/s.
         speed: "Ω is finite" => speed.is_finite(),
+    }
+    also {
+        /// Slip at both discs; none unless given.
+        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
     }
 }
 
@@ -83,7 +89,48 @@ impl ParallelPlates {
         Self::new(radius, gap, (rim * gap / radius).copysign(torque))
     }
 
-    /// `k_R` = Ω R/h, 1/s.
+    /// The flow of a fluid that slips at both discs under a given torque, N m; at rest without a torque.
+    ///
+    /// # Errors
+    /// As [`with_torque`](Self::with_torque).
+    pub fn with_slip_and_torque<F: ViscometricFluid + ?Sized>(
+        radius: f64,
+        gap: f64,
+        slip: WallSlip,
+        torque: f64,
+        fluid: &F,
+    ) -> Result<Self, ViscometryError> {
+        if slip.is_none() {
+            return Self::with_torque(radius, gap, torque, fluid);
+        }
+        let still = Self::new(radius, gap, 0.0)?.with_slip(slip);
+        check_finite(Self::NAME, "torque", torque)?;
+        let speed = still.turning().speed_of(fluid, torque)?.copysign(torque);
+        Ok(Self::new(radius, gap, speed)?.with_slip(slip))
+    }
+
+    /// By how much the angular velocity, rad/s, may be off that was sought for this torque, N m: what the answer to it misses and may itself be
+    /// off, over its slope. Infinite where that is zero, as below a yield stress.
+    ///
+    /// ```text
+    /// |δΩ| ≈ (|M(Ω) − M| + δM)/(dM/dΩ)
+    /// ```
+    ///
+    /// # Errors
+    /// What the fluid refuses.
+    pub fn speed_error<F: ViscometricFluid + ?Sized>(&self, fluid: &F, torque: f64) -> Result<f64, ViscometryError> {
+        check_finite(Self::NAME, "torque", torque)?;
+        drive_error(self.speed, 0.0, torque, |speed| Self { speed, ..*self }.torque(fluid))
+    }
+
+    /// With slip at both discs.
+    #[must_use]
+    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
+        self.slip = slip;
+        self
+    }
+
+    /// `k_R` = Ω R/h, 1/s: the rate at the rim of a fluid that sticks.
     #[must_use]
     pub const fn rim_shear_rate(&self) -> f64 {
         self.speed * self.radius / self.gap
@@ -92,37 +139,57 @@ impl ParallelPlates {
     /// k, 1/s, at the distance `r`, m, from the axis.
     ///
     /// # Errors
-    /// [`ViscometryError::OutOfBounds`] unless 0 ≤ r ≤ R.
-    pub fn shear_rate(&self, r: f64) -> Result<f64, ViscometryError> {
-        check_bound(Self::NAME, "r", r, "0 ≤ r ≤ R", 0.0 <= r && r <= self.radius)?;
-        Ok(self.speed * r / self.gap)
+    /// [`ViscometryError::OutOfBounds`] unless 0 ≤ r ≤ R; what the fluid refuses, where it slips.
+    pub fn shear_rate<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<f64, ViscometryError> {
+        self.check(r)?;
+        if self.slip.is_none() || r <= 0.0 {
+            return Ok(self.nominal(r));
+        }
+        self.turning().at(r)?.shear_rate(fluid)
     }
 
     /// T₁₂, Pa, at the distance `r`, m, from the axis; zero at rest.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::`shear_rate`); [`ViscometryError::NotIncreasing`] where τ falls.
     pub fn shear_stress<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<f64, ViscometryError> {
-        let rate = self.shear_rate(r)?;
-        Ok(if rate.abs() > 0.0 { fluid.shear_stress(rate) } else { 0.0 })
+        self.check(r)?;
+        let rate = self.nominal(r);
+        if self.slip.is_none() || r <= 0.0 {
+            return if rate.abs() > 0.0 { rising_stress(Self::NAME, fluid, rate) } else { Ok(0.0) };
+        }
+        self.turning().at(r)?.shear_stress(fluid)
     }
 
     /// v, m/s, at the distance `r`, m, from the axis and at the share `height` of the gap.
     ///
     /// # Errors
-    /// [`ViscometryError::OutOfBounds`] unless 0 ≤ r ≤ R and 0 ≤ height ≤ 1.
-    pub fn velocity(&self, r: f64, height: f64) -> Result<f64, ViscometryError> {
-        self.shear_rate(r)?;
+    /// [`ViscometryError::OutOfBounds`] unless 0 ≤ r ≤ R and 0 ≤ height ≤ 1; what the fluid refuses, where it slips.
+    pub fn velocity<F: ViscometricFluid + ?Sized>(
+        &self,
+        fluid: &F,
+        r: f64,
+        height: f64,
+    ) -> Result<f64, ViscometryError> {
+        self.check(r)?;
         check_bound(Self::NAME, "height", height, "0 ≤ height ≤ 1", 0.0 <= height && height <= 1.0)?;
-        Ok(self.speed * r * height)
+        if self.slip.is_none() || r <= 0.0 {
+            return Ok(self.speed * r * height);
+        }
+        self.turning().at(r)?.velocity(fluid, self.gap * height)
     }
 
     /// M, N m.
     ///
     /// # Errors
-    /// [`ViscometryError::NotFinite`] beyond the range of numbers.
+    /// As [`shear_stress`](Self::`shear_stress`) at the rim; [`ViscometryError::NotFinite`] beyond the range of numbers.
     pub fn torque<F: ViscometricFluid + ?Sized>(&self, fluid: &F) -> Result<Estimate, ViscometryError> {
+        if !self.slip.is_none() {
+            return self.turning().torque(fluid);
+        }
         let rim = self.rim_shear_rate();
+        // Discs turn steadily only where the stress rises out to the rim.
+        self.shear_stress(fluid, self.radius)?;
         let mean = mean_stress(fluid, rim.abs(), 0.0)?;
         finite(Self::NAME, "torque", mean.scaled((2.0 * PI * self.radius.powi(3)).copysign(rim)))
     }
@@ -134,6 +201,10 @@ impl ParallelPlates {
     pub fn thrust<F: ViscometricFluid + ?Sized>(&self, fluid: &F) -> Result<Estimate, ViscometryError> {
         if !F::NORMAL_STRESSES {
             return Ok(Estimate::ZERO);
+        }
+        if !self.slip.is_none() {
+            let difference = |r: f64, rate: f64| r * (fluid.sigma2(rate) - 2.0 * fluid.sigma1(rate));
+            return finite(Self::NAME, "thrust", self.turning().normal(fluid, 0.0, difference)?.scaled(PI));
         }
         let rim = self.rim_shear_rate().abs();
         let mean = rate_integral(0.0, rim, |rate| {
@@ -152,8 +223,12 @@ impl ParallelPlates {
         if !F::NORMAL_STRESSES {
             return Ok(Stresses::from_gradient(shear, 0.0, [0.0; 2], 0.0));
         }
-        let rate = self.shear_rate(r)?.abs();
+        let rate = self.shear_rate(fluid, r)?.abs();
         let sigma = normal_functions(fluid, rate);
+        if !self.slip.is_none() {
+            let hoop = self.turning().normal(fluid, r, |r, rate| fluid.sigma2(rate) / r)?;
+            return Ok(Stresses::from_gradient(shear, sigma[0] - hoop.value, sigma, hoop.error));
+        }
         let hoop = rate_integral(rate, self.rim_shear_rate().abs(), |rate| Ok(fluid.sigma2(rate) / rate))?;
         Ok(Stresses::from_gradient(shear, sigma[0] - hoop.value, sigma, hoop.error))
     }
@@ -179,9 +254,24 @@ impl ParallelPlates {
         const LEAST: f64 = 10.0;
         check_density(Self::NAME, density)?;
         let stress = self.shear_stress(fluid, self.radius)?;
-        let (reynolds, secondary) = secondary_flow(density, self.speed, self.gap, self.rim_shear_rate(), stress);
+        let rate = self.shear_rate(fluid, self.radius)?;
+        let (reynolds, secondary) = secondary_flow(density, self.speed, self.gap, rate, stress);
         let ratio = self.radius / self.gap;
         Ok(Validity::new(reynolds, [secondary, (ratio < LEAST, Warning::Ends { ratio, least: LEAST })]))
+    }
+
+    /// Ω r/h.
+    const fn nominal(&self, r: f64) -> f64 {
+        self.speed * r / self.gap
+    }
+
+    fn check(&self, r: f64) -> Result<(), ViscometryError> {
+        check_bound(Self::NAME, "r", r, "0 ≤ r ≤ R", 0.0 <= r && r <= self.radius)
+    }
+
+    const fn turning(&self) -> Turning {
+        let gap = Gap::Even(self.gap);
+        Turning { flow: Self::NAME, radius: self.radius, gap, speed: self.speed, slip: self.slip }
     }
 }
 

@@ -4,7 +4,7 @@ use piola_constitutive::fluids::ViscometricFluid;
 use piola_numerics::Dual;
 
 use super::declaration::flow_of_numbers;
-use super::wall::{check_density, normal_functions};
+use super::wall::{check_density, normal_functions, rising_stress};
 use crate::error::{check_bound, check_finite};
 use crate::inverse::{Wanted, solve};
 use crate::{Stresses, Validity, ViscometryError, WallSlip, Warning};
@@ -84,7 +84,8 @@ impl PlaneCouette {
     /// T₁₂, Pa; zero at rest.
     ///
     /// # Errors
-    /// What the fluid refuses, where it slips.
+    /// [`ViscometryError::NotIncreasing`] where τ falls; [`ViscometryError::NotFinite`] beyond the range of numbers; what the fluid
+    /// refuses, where it slips.
     pub fn shear_stress<F: ViscometricFluid + ?Sized>(&self, fluid: &F) -> Result<f64, ViscometryError> {
         let target = self.speed.abs();
         let nominal = target / self.gap;
@@ -92,7 +93,7 @@ impl PlaneCouette {
             return Ok(0.0);
         }
         if self.slip.is_none() {
-            return Ok(fluid.shear_stress(self.speed / self.gap));
+            return rising_stress(Self::NAME, fluid, self.speed / self.gap);
         }
         let yields = fluid.yield_stress();
         if target <= 2.0 * self.slip.speed(yields) {

@@ -7,6 +7,7 @@ use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
 use super::declaration::flow_of_numbers;
 use super::wall::{Sheared, check_density, entry_length, normal_functions};
 use crate::error::{check_bound, check_finite};
+use crate::inverse::drive_error;
 use crate::quadrature::{Span, stress_integral};
 use crate::{Estimate, Stresses, Validity, ViscometryError, WallSlip};
 
@@ -83,6 +84,38 @@ impl Poiseuille {
         let mean = discharge / (PI * radius * radius);
         let wall = still.sheared().wall_stress_of(fluid, FlowMoment::Second, mean, 4.0)?;
         Self::new(radius, 2.0 * wall / radius).map(|flow| flow.with_slip(slip))
+    }
+
+    /// By how much the pressure gradient, Pa/m, may be off that was sought for this discharge, m³/s: what the answer to it misses and may itself be
+    /// off, over its slope. Infinite where that is zero, as below a yield stress.
+    ///
+    /// ```text
+    /// |δc| ≈ (|Q(c) − Q| + δQ)/(dQ/dc)
+    /// ```
+    ///
+    /// # Errors
+    /// What the fluid refuses.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::fluids::PowerLaw;
+    /// use piola_viscometry::Poiseuille;
+    /// let fluid = PowerLaw::new(1.0, 0.5)?; // Q = π R³ (c R/2)²/5
+    /// let pipe = Poiseuille::with_discharge(2.0, 40.0 * std::f64::consts::PI, &fluid)?;
+    /// let error = pipe.pressure_gradient_error(&fluid, 40.0 * std::f64::consts::PI)?;
+    /// assert!((pipe.pressure_gradient() - 5.0).abs() <= error && error < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn pressure_gradient_error<F: ViscometricFluid + ?Sized>(
+        &self,
+        fluid: &F,
+        discharge: f64,
+    ) -> Result<f64, ViscometryError> {
+        check_finite(Self::NAME, "discharge", discharge)?;
+        let least = 2.0 * fluid.yield_stress() / self.radius;
+        drive_error(self.pressure_gradient, least, discharge, |pressure_gradient| {
+            Self { pressure_gradient, ..*self }.discharge(fluid)
+        })
     }
 
     /// With slip at the wall.

@@ -4,8 +4,9 @@
 //! moment ∫ sᵖ ζ ds over `τ_wᵖ⁺¹`.
 
 use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
+use piola_numerics::Dual;
 
-use crate::error::check_bound;
+use crate::error::{check_bound, check_finite};
 use crate::inverse::{Wanted, solve};
 use crate::quadrature::{Span, scaled_moment};
 use crate::{Estimate, Validity, ViscometryError, WallSlip, Warning};
@@ -98,6 +99,30 @@ pub(super) fn finite(
 /// 0 < ρ.
 pub(super) fn check_density(flow: &'static str, density: f64) -> Result<(), ViscometryError> {
     check_bound(flow, "density", density, "0 < ρ", 0.0 < density)
+}
+
+/// τ, Pa, at a rate other than 0; refused where it falls, for no steady shear is stable there.
+pub(super) fn rising_stress<F: ViscometricFluid + ?Sized>(
+    flow: &'static str,
+    fluid: &F,
+    rate: f64,
+) -> Result<f64, ViscometryError> {
+    let Dual { value, tangent } = fluid.shear_stress(Dual::variable(rate));
+    if tangent < 0.0 {
+        return Err(ViscometryError::NotIncreasing { fluid: F::NAME, shear_rate: rate, slope: tangent });
+    }
+    check_finite(flow, "shear stress", value)?;
+    Ok(value)
+}
+
+/// Refuses a fluid whose stress falls at one of 36 rates over eight decades below this one: a stress would have several rates.
+pub(super) fn check_rising<F: ViscometricFluid + ?Sized>(
+    flow: &'static str,
+    fluid: &F,
+    rate: f64,
+) -> Result<(), ViscometryError> {
+    let mut rates = (0..36).map(|k| rate * (-0.5 * f64::from(k)).exp()).take_while(|rate| *rate > 0.0);
+    rates.try_for_each(|rate| rising_stress(flow, fluid, rate).map(drop))
 }
 
 /// σ₁ and σ₂ at a rate; none is computed for a fluid that has none, nor at rest.

@@ -10,8 +10,11 @@ use crate::{Estimate, ViscometryError};
 /// Panels of ln(`k_top`/k) at the start: a decaying exponential is resolved on each.
 const LAYERS: [f64; 5] = [0.0, 3.0, 8.0, 18.0, 37.0];
 
-/// The share of what exceeds the yield stress below which an interval is narrow.
+/// The share of what exceeds the yield stress below which an interval is narrow: a closed form would lose digits there.
 const NARROW: f64 = 1.0 / 32.0;
+
+/// The same where ζ is a closed form: stresses are then the cheaper variable, unless the place where flow begins is near.
+const NARROW_CLOSED: f64 = 15.0 / 16.0;
 
 /// Roundings granted to a closed form.
 const CLOSED: f64 = 64.0 * f64::EPSILON;
@@ -36,15 +39,15 @@ enum Flowing {
 }
 
 impl Span {
-    /// The part that flows.
-    fn flowing<F: ViscometricFluid + ?Sized>(self, fluid: &F) -> Flowing {
+    /// The part that flows, narrow below a share of what exceeds the yield stress.
+    fn flowing<F: ViscometricFluid + ?Sized>(self, fluid: &F, narrow: f64) -> Flowing {
         let yields = fluid.yield_stress();
         let excess = self.top - yields;
         if !(excess > 0.0 && self.share > 0.0) {
             return Flowing::Nothing;
         }
         let width = self.top * self.share;
-        if width < NARROW * excess {
+        if width < narrow * excess {
             Flowing::Narrow
         } else if width < excess {
             Flowing::Wide((self.top * (1.0 - self.share)).max(yields))
@@ -92,7 +95,7 @@ pub(crate) fn scaled_moment<F: ViscometricFluid + ?Sized>(
 ) -> Result<Estimate, ViscometryError> {
     let top = span.top;
     let power = moment.power();
-    if let Flowing::Wide(from) = span.flowing(fluid)
+    if let Flowing::Wide(from) = span.flowing(fluid, NARROW)
         && let Some(closed) = fluid.flow_moment(moment, from, top)
     {
         let value = closed / top.powi(power + 1);
@@ -111,7 +114,7 @@ pub(crate) fn stress_integral<F: ViscometricFluid + ?Sized>(
     span: Span,
     mut weight: impl FnMut(f64, f64) -> f64,
 ) -> Result<Estimate, ViscometryError> {
-    match span.flowing(fluid) {
+    match span.flowing(fluid, if F::CLOSED_RATE { NARROW_CLOSED } else { NARROW }) {
         Flowing::Nothing => Ok(Estimate::ZERO),
         Flowing::Narrow => {
             let width = span.top * span.share;

@@ -8,13 +8,17 @@
 
 use core::f64::consts::PI;
 
+use super::Smoothing;
+use super::corrected::{Corrected, Found, Law};
 use super::geometry::PipeGeometry;
-use super::smoothing::{EXACT, Fitted, Smoother, noise};
 use super::table::{FlowTable, Noise};
 use crate::ViscometryError;
 use crate::error::check_bound;
 
 /// Slip at a wall stress.
+///
+/// # Example
+/// See [`slip_at_walls`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SlipPoint {
@@ -26,19 +30,65 @@ pub struct SlipPoint {
     pub slip_error: Option<f64>,
     /// 4Q/(πR³) less that of slip, 1/s.
     pub apparent_rate: f64,
+    /// k at the wall, 1/s, after Weissenberg, Rabinowitsch and Mooney.
+    pub shear_rate: f64,
+    /// Where k lies, if a band was asked for.
+    pub band: Option<[f64; 2]>,
 }
 
 /// What pipes of several radii tell of slip.
+///
+/// # Example
+/// See [`slip_at_walls`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SlipCorrection {
     /// Slip at the wall stresses of the first table that all tables reach.
     pub points: Vec<SlipPoint>,
-    /// What would flow through the pipe of the first table without slip: to be recovered from.
+    /// What would flow through the pipe of the first table without slip, smoothed: a band recovered from it would not know the noise of
+    /// the tables, which that of [`with_band`](Self::with_band) does.
     pub table: FlowTable<PipeGeometry>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    tables: Corrected,
+}
+
+impl SlipCorrection {
+    /// The same with bands of the shear rates that hold the whole curve at once with this confidence, if the errors of all rows are
+    /// independent and normal and the answers lie on Mooney's line.
+    ///
+    /// # Errors
+    /// [`ViscometryError::Confidence`] unless 0 < `confidence` < 1.
+    pub fn with_band(self, confidence: f64) -> Result<Self, ViscometryError> {
+        let tables = self.tables.with_band(confidence)?;
+        let point = |point: &SlipPoint| slip_point(&tables, point.wall_stress);
+        let points = self.points.iter().map(point).collect::<Result<_, _>>()?;
+        Ok(Self { points, tables, ..self })
+    }
+
+    /// Slip and shear rate at a wall stress, Pa, between those of the first and the last point.
+    ///
+    /// # Errors
+    /// [`ViscometryError::NotMeasured`] elsewhere; [`ViscometryError::NotRecovered`] where nothing positive is recovered.
+    pub fn at(&self, wall_stress: f64) -> Result<SlipPoint, ViscometryError> {
+        slip_point(&self.tables, wall_stress)
+    }
+
+    /// How each table was smoothed.
+    pub fn smoothing(&self) -> impl Iterator<Item = Smoothing> + '_ {
+        self.tables.smoothing()
+    }
+}
+
+fn slip_point(tables: &Corrected, stress: f64) -> Result<SlipPoint, ViscometryError> {
+    let Found { wall_stress, shear_rate, band, line: [value, slope], errors } = tables.at(stress)?;
+    let slip_error = errors.map(|[_, slope]| 0.25 * slope);
+    Ok(SlipPoint { wall_stress, slip_velocity: 0.25 * slope, slip_error, apparent_rate: value, shear_rate, band })
 }
 
 /// A capillary with the whole pressure lost in it.
+///
+/// # Example
+/// See [`end_correction`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Capillary {
@@ -67,6 +117,9 @@ impl Capillary {
 }
 
 /// The ends at a discharge.
+///
+/// # Example
+/// See [`end_correction`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct EndPoint {
@@ -80,57 +133,59 @@ pub struct EndPoint {
     pub end_error: Option<f64>,
     /// That pressure over 2 τ: the length in radii by which the capillary seems too long.
     pub end_length: f64,
+    /// k at the wall, 1/s, after Weissenberg, Rabinowitsch and Mooney.
+    pub shear_rate: f64,
+    /// Where k lies, if a band was asked for.
+    pub band: Option<[f64; 2]>,
 }
 
 /// What capillaries of several lengths tell of their ends.
+///
+/// # Example
+/// See [`end_correction`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct EndCorrection {
     /// The ends at the discharges of the first capillary that all capillaries reach.
     pub points: Vec<EndPoint>,
-    /// Pressure gradients without ends and discharges: to be recovered from.
+    /// Pressure gradients without ends, and discharges, smoothed: a band recovered from it would not know the noise of the tables, which
+    /// that of [`with_band`](Self::with_band) does.
     pub table: FlowTable<PipeGeometry>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    tables: Corrected,
 }
 
-/// ln response over ln drive of a table, by the criteria of recovery.
-fn smooth(table: &FlowTable<PipeGeometry>) -> Result<Fitted, ViscometryError> {
-    table.check_rising(f64::INFINITY)?;
-    let u: Vec<f64> = table.drive.iter().map(|x| x.ln()).collect();
-    let y: Vec<f64> = table.response.iter().map(|x| x.ln()).collect();
-    let (level, known) = match table.noise {
-        Noise::Exact => (0.0, None),
-        Noise::Relative(level) => (level, Some(level)),
-        Noise::Estimated => (noise(&u, &y), None),
-    };
-    table.check_rising(level)?;
-    let singular = || ViscometryError::RowsTooClose { rows: u.len() };
-    if level <= EXACT {
-        return Fitted::through(&u, &y, 7).ok_or_else(singular);
+impl EndCorrection {
+    /// The same with bands of the shear rates, each at its point's wall stress, that hold the whole curve at once with this confidence,
+    /// if the errors of all rows are independent and normal and the pressures lie on Bagley's line.
+    ///
+    /// # Errors
+    /// [`ViscometryError::Confidence`] unless 0 < `confidence` < 1.
+    pub fn with_band(self, confidence: f64) -> Result<Self, ViscometryError> {
+        let tables = self.tables.with_band(confidence)?;
+        let points = self.points.iter().map(|point| end_point(&tables, point.discharge)).collect::<Result<_, _>>()?;
+        Ok(Self { points, tables, ..self })
     }
-    let smoother = Smoother::new(&u, &y, 2).ok_or_else(singular)?;
-    Ok(smoother.fit(smoother.choose(known), known, false).fitted)
+
+    /// Ends and shear rate at a discharge, m³/s, between those of the first and the last point.
+    ///
+    /// # Errors
+    /// [`ViscometryError::NotMeasured`] elsewhere; [`ViscometryError::NotRecovered`] where nothing positive is recovered.
+    pub fn at(&self, discharge: f64) -> Result<EndPoint, ViscometryError> {
+        end_point(&self.tables, discharge)
+    }
+
+    /// How each table was smoothed.
+    pub fn smoothing(&self) -> impl Iterator<Item = Smoothing> + '_ {
+        self.tables.smoothing()
+    }
 }
 
-/// A line through points by least squares: its value at 0, its slope, and their standard errors beyond two points.
-struct Line {
-    value: f64,
-    slope: f64,
-    errors: Option<[f64; 2]>,
-}
-
-fn line(points: &[[f64; 2]]) -> Line {
-    let count = points.len() as f64;
-    let mean = |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / count;
-    let (x, y) = (mean(0), mean(1));
-    let square: f64 = points.iter().map(|point| (point[0] - x).powi(2)).sum();
-    let slope = points.iter().map(|point| (point[0] - x) * (point[1] - y)).sum::<f64>() / square;
-    let value = y - slope * x;
-    let left: f64 = points.iter().map(|point| (point[1] - value - slope * point[0]).powi(2)).sum();
-    let errors = (2 < points.len()).then(|| {
-        let variance = left / (count - 2.0);
-        [(variance * (count.recip() + x * x / square)).sqrt(), (variance / square).sqrt()]
-    });
-    Line { value, slope, errors }
+fn end_point(tables: &Corrected, discharge: f64) -> Result<EndPoint, ViscometryError> {
+    let Found { wall_stress, shear_rate, band, line: [value, slope], errors } = tables.at(discharge)?;
+    let end_error = errors.map(|[value, _]| value);
+    let end_length = value / slope;
+    Ok(EndPoint { discharge, wall_stress, end_pressure: value, end_error, end_length, shear_rate, band })
 }
 
 /// The abscissas of a table that all reach, a table being drives times a scale.
@@ -184,23 +239,21 @@ pub fn slip_at_walls(tables: &[FlowTable<PipeGeometry>]) -> Result<SlipCorrectio
     if tables.iter().all(|table| (table.geometry.radius / reference - 1.0).abs() < 1e-9) {
         return Err(ViscometryError::SameGeometry { quantity: "radius", value: reference });
     }
-    let curves: Vec<Fitted> = tables.iter().map(smooth).collect::<Result<_, _>>()?;
-    let (mut points, mut rows) = (Vec::new(), Vec::new());
-    for wall_stress in stresses {
-        let at = |(table, curve): (&FlowTable<PipeGeometry>, &Fitted)| {
+    let members: Vec<_> = tables
+        .iter()
+        .map(|table| {
             let radius = table.geometry.radius;
-            let discharge = curve.at((2.0 * wall_stress / radius).ln())[0].exp();
-            [radius.recip(), 4.0 * discharge / (PI * radius * radius * radius)]
-        };
-        let Line { value, slope, errors } = line(&tables.iter().zip(&curves).map(at).collect::<Vec<_>>());
-        if value <= 0.0 {
-            return Err(ViscometryError::NotRecovered { at: wall_stress });
-        }
-        let slip_error = errors.map(|[_, slope]| 0.25 * slope);
-        points.push(SlipPoint { wall_stress, slip_velocity: 0.25 * slope, slip_error, apparent_rate: value });
-        rows.push([2.0 * wall_stress / reference, 0.25 * PI * value * reference * reference * reference]);
-    }
-    Ok(SlipCorrection { points, table: FlowTable::pipe(reference, &rows)? })
+            (table, 0.5 * radius, 4.0 / (PI * radius * radius * radius), radius.recip())
+        })
+        .collect();
+    let tables = Corrected::new(Law::Slip, &members, &stresses)?;
+    let points: Vec<SlipPoint> =
+        stresses.iter().map(|stress| slip_point(&tables, *stress)).collect::<Result<_, _>>()?;
+    let row = |point: &SlipPoint| {
+        [2.0 * point.wall_stress / reference, 0.25 * PI * point.apparent_rate * reference * reference * reference]
+    };
+    let rows: Vec<_> = points.iter().map(row).collect();
+    Ok(SlipCorrection { points, table: FlowTable::pipe(reference, &rows)?, tables })
 }
 
 /// Bagley's correction: the pressure lost at the ends of capillaries of several lengths, and the gradient without it.
@@ -243,18 +296,10 @@ pub fn end_correction(capillaries: &[Capillary]) -> Result<EndCorrection, Viscom
     if capillaries.iter().all(|capillary| (capillary.length / length - 1.0).abs() < 1e-9) {
         return Err(ViscometryError::SameGeometry { quantity: "length", value: length });
     }
-    let curves: Vec<Fitted> = capillaries.iter().map(|capillary| smooth(&capillary.table)).collect::<Result<_, _>>()?;
-    let (mut points, mut rows) = (Vec::new(), Vec::new());
-    for discharge in discharges {
-        let at =
-            |(capillary, curve): (&Capillary, &Fitted)| [capillary.length / radius, curve.at(discharge.ln())[0].exp()];
-        let Line { value, slope, errors } = line(&capillaries.iter().zip(&curves).map(at).collect::<Vec<_>>());
-        if slope <= 0.0 {
-            return Err(ViscometryError::NotRecovered { at: discharge });
-        }
-        let (wall_stress, end_error) = (0.5 * slope, errors.map(|[value, _]| value));
-        points.push(EndPoint { discharge, wall_stress, end_pressure: value, end_error, end_length: value / slope });
-        rows.push([slope / radius, discharge]);
-    }
-    Ok(EndCorrection { points, table: FlowTable::pipe(radius, &rows)? })
+    let members: Vec<_> =
+        capillaries.iter().map(|capillary| (&capillary.table, 1.0, 1.0, capillary.length / radius)).collect();
+    let tables = Corrected::new(Law::Ends { radius }, &members, &discharges)?;
+    let points: Vec<EndPoint> = discharges.iter().map(|q| end_point(&tables, *q)).collect::<Result<_, _>>()?;
+    let rows: Vec<_> = points.iter().map(|point| [2.0 * point.wall_stress / radius, point.discharge]).collect();
+    Ok(EndCorrection { points, table: FlowTable::pipe(radius, &rows)?, tables })
 }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::band::critical;
 use super::rule::{ONE_POWER, Rule};
 use super::series::Order;
-use super::smoothing::{self, Criterion, EXACT, Fitted, Penalised, Smoother, Smoothing};
+use super::smoothing::{Criterion, EXACT, Fitted, Penalised, Smoother, Smoothing};
 use super::table::{FlowTable, Noise};
 use crate::ViscometryError;
 
@@ -62,6 +62,17 @@ pub enum Rise {
 }
 
 /// How to recover.
+///
+/// # Example
+/// ```
+/// use piola_viscometry::recover::{self, BelowSmallest, FlowTable, Options, Rise};
+/// let factor = 0.75 / (4.0 * core::f64::consts::PI); // ΔΩ/M of a Newtonian fluid of viscosity 1, R₂ = 2 R₁
+/// let rows: Vec<_> = (1..=12).map(f64::from).map(|torque| [torque, factor * torque]).collect();
+/// let options = Options { rise: Rise::Enforced, below_smallest: Some(BelowSmallest::Newtonian) };
+/// let curve = recover::couette_with(&FlowTable::couette(1.0, 2.0, &rows)?, options)?;
+/// assert!((curve.at(1.0)?.shear_rate - 1.0).abs() < 1e-12);
+/// # Ok::<(), piola_viscometry::ViscometryError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
@@ -73,13 +84,13 @@ pub struct Options {
 }
 
 /// Points between two rows at which bands are known.
-const FINE: usize = 4;
+pub(super) const FINE: usize = 4;
 /// The degree of a curve through exact rows.
-const DEGREE: usize = 7;
+pub(super) const DEGREE: usize = 7;
 /// Bands hold this times the differences between curves that differ in nothing but degree or one row.
-const SAFETY: f64 = 2.0;
+pub(super) const SAFETY: f64 = 2.0;
 /// Rows left out one at a time, at most.
-const LEFT_OUT: usize = 40;
+pub(super) const LEFT_OUT: usize = 40;
 
 /// A recovered curve: abscissas, the recovered quantity, and what bands follow from.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,6 +118,13 @@ pub(super) struct Recovered {
     band: Option<(f64, Vec<f64>)>,
 }
 
+/// At each fine point, the largest value within two rows.
+pub(super) fn envelope(values: &[f64]) -> Vec<f64> {
+    let reach = 2 * FINE;
+    let around = |i: usize| &values[i.saturating_sub(reach)..values.len().min(i + reach + 1)];
+    (0..values.len()).map(|i| around(i).iter().copied().fold(0.0, f64::max)).collect()
+}
+
 impl Recovered {
     pub(super) fn new<G>(
         table: &FlowTable<G>,
@@ -114,15 +132,11 @@ impl Recovered {
         scale: f64,
         options: Options,
     ) -> Result<Self, ViscometryError> {
-        table.check_rising(f64::INFINITY)?;
+        table.check_rows()?;
+        table.check_rising()?;
         let u: Vec<f64> = table.drive.iter().map(|x| x.ln()).collect();
         let y: Vec<f64> = table.response.iter().map(|x| x.ln()).collect();
-        let level = match table.noise {
-            Noise::Exact => 0.0,
-            Noise::Relative(level) => level,
-            Noise::Estimated => smoothing::noise(&u, &y),
-        };
-        table.check_rising(level)?;
+        let level = table.level();
         let singular = || ViscometryError::RowsTooClose { rows: u.len() };
         let rule = assumed(rule, options.below_smallest);
         let mut recovered = if level <= EXACT {
@@ -262,7 +276,7 @@ impl Recovered {
     fn assumption(&self, given: Option<BelowSmallest>) -> BelowSmallest {
         let [_, mean, variance, ..] = self.main.at(self.u[0]);
         match (self.rule, given) {
-            (Rule::Local { .. }, _) => BelowSmallest::NotNeeded,
+            (Rule::Plain { .. } | Rule::Local { .. }, _) => BelowSmallest::NotNeeded,
             (_, Some(given @ (BelowSmallest::Newtonian | BelowSmallest::PowerLaw { .. }))) => given,
             (Rule::Series { step, .. }, _) => {
                 let told = ONE_POWER < (variance * step * step).abs();
@@ -289,17 +303,10 @@ impl Recovered {
         Ok(self)
     }
 
-    /// At each fine point, the largest value within two rows.
-    fn envelope(values: &[f64]) -> Vec<f64> {
-        let reach = 2 * FINE;
-        let around = |i: usize| &values[i.saturating_sub(reach)..values.len().min(i + reach + 1)];
-        (0..values.len()).map(|i| around(i).iter().copied().fold(0.0, f64::max)).collect()
-    }
-
     /// The differences to other curves, at the fine points.
     fn differences(&self, others: &[Fitted], fine: &[f64]) -> Vec<f64> {
         let all: Vec<f64> = fine.iter().map(|&u| self.spread(others, u, self.terms[self.interval(u)])).collect();
-        Self::envelope(&all)
+        envelope(&all)
     }
 
     /// Simultaneous bands of a smoothed curve, with the difference to one that is smoothed otherwise.

@@ -44,6 +44,9 @@ pub trait MeasuredCurve {
 }
 
 /// A point of a flow curve.
+///
+/// # Example
+/// See [`pipe`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FlowPoint {
@@ -54,6 +57,9 @@ pub struct FlowPoint {
 }
 
 /// A point of a curve over the shear rate.
+///
+/// # Example
+/// See [`parallel_plates`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RatePoint {
@@ -64,6 +70,9 @@ pub struct RatePoint {
 }
 
 /// What the series of coaxial cylinders comes to.
+///
+/// # Example
+/// See [`couette`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Series {
@@ -81,6 +90,9 @@ pub struct Series {
 }
 
 /// A limit of the gap, and how far it may be off.
+///
+/// # Example
+/// See [`couette_wide_gap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Approximation {
@@ -176,6 +188,22 @@ pub fn channel(
 /// # Accuracy
 /// 4 ulp beyond those of the curve and its derivative.
 ///
+/// # Example
+/// τ = 2 k² between plates of radius and gap 1: 𝓜 = 2π·2 Ω²/5.
+/// ```
+/// use piola_numerics::Real;
+/// use piola_viscometry::recover::{MeasuredCurve, PlatesGeometry, functions};
+/// struct Torque;
+/// impl MeasuredCurve for Torque {
+///     fn response<T: Real>(&self, speed: T) -> T {
+///         T::lit(0.8 * core::f64::consts::PI) * speed * speed
+///     }
+/// }
+/// let rim = functions::parallel_plates(&Torque, PlatesGeometry::new(1.0, 1.0)?, 3.0)?;
+/// assert!((rim.stress - 18.0).abs() < 1e-14);
+/// # Ok::<(), piola_viscometry::ViscometryError>(())
+/// ```
+///
 /// # Source
 /// The analogue of W(23.64) for a torque 2π (R/k)³ ∫ s² τ(s) ds up to the rate k = ΩR/h of the rim.
 pub fn parallel_plates(
@@ -196,6 +224,22 @@ pub fn parallel_plates(
 ///
 /// # Accuracy
 /// 4 ulp beyond those of the curve and its derivative.
+///
+/// # Example
+/// N₁ − N₂ = 2 k² between plates of radius and gap 1: 𝓕 = π·2 Ω²/4.
+/// ```
+/// use piola_numerics::Real;
+/// use piola_viscometry::recover::{MeasuredCurve, PlatesGeometry, functions};
+/// struct Thrust;
+/// impl MeasuredCurve for Thrust {
+///     fn response<T: Real>(&self, speed: T) -> T {
+///         T::lit(0.5 * core::f64::consts::PI) * speed * speed
+///     }
+/// }
+/// let rim = functions::parallel_plates_thrust(&Thrust, PlatesGeometry::new(1.0, 1.0)?, 3.0)?;
+/// assert!((rim.stress - 18.0).abs() < 1e-14);
+/// # Ok::<(), piola_viscometry::ViscometryError>(())
+/// ```
 ///
 /// # Source
 /// The thrust is π (R/k)² ∫ s (N₁ − N₂) ds up to the rate k = ΩR/h of the rim.
@@ -329,6 +373,24 @@ fn summed(sum: f64, w: Derivatives, step: f64, terms: usize, shear_stress: f64) 
 /// # Accuracy
 /// The enclosure, wherever ζ rises with the stress; it narrows by (R₁/R₂)² a term for a Newtonian fluid.
 ///
+/// # Example
+/// ```
+/// use piola_numerics::Real;
+/// use piola_viscometry::recover::{CouetteGeometry, MeasuredCurve, functions};
+/// // ζ = T²: ΔΩ = (T₁² − T₂²)/4 with T = M/(2πR²).
+/// struct Squared(f64);
+/// impl MeasuredCurve for Squared {
+///     fn response<T: Real>(&self, torque: T) -> T {
+///         let stress = torque / T::lit(core::f64::consts::TAU);
+///         stress * stress * T::lit(0.25 * (1.0 - self.0.powi(-4)))
+///     }
+/// }
+/// let two = functions::couette_series(&Squared(2.0), CouetteGeometry::new(1.0, 2.0)?, core::f64::consts::TAU, 2)?;
+/// assert!((two.value - 255.0 / 256.0).abs() < 1e-15); // 15/16 (1 + 1/16) of ζ = 1
+/// assert!(two.enclosure[0] <= 1.0 && 1.0 <= two.enclosure[1]);
+/// # Ok::<(), piola_viscometry::ViscometryError>(())
+/// ```
+///
 /// # Source
 /// W(23.82).
 pub fn couette_series(
@@ -366,6 +428,23 @@ pub fn couette_series(
 /// # Accuracy
 /// Its bound 2ΔΩ/δ, which the neglected ζ(T₂) does not exceed.
 ///
+/// # Example
+/// ```
+/// use piola_numerics::Real;
+/// use piola_viscometry::recover::{CouetteGeometry, MeasuredCurve, functions};
+/// // ζ = T²: ΔΩ = (T₁² − T₂²)/4 with T = M/(2πR²).
+/// struct Squared(f64);
+/// impl MeasuredCurve for Squared {
+///     fn response<T: Real>(&self, torque: T) -> T {
+///         let stress = torque / T::lit(core::f64::consts::TAU);
+///         stress * stress * T::lit(0.25 * (1.0 - self.0.powi(-4)))
+///     }
+/// }
+/// let wide = functions::couette_wide_gap(&Squared(8.0), CouetteGeometry::new(1.0, 8.0)?, core::f64::consts::TAU)?;
+/// assert!((wide.shear_rate - (1.0 - 1.0 / 4096.0)).abs() < 1e-15 && 1.0 - wide.shear_rate <= wide.bound); // of ζ = 1
+/// # Ok::<(), piola_viscometry::ViscometryError>(())
+/// ```
+///
 /// # Source
 /// W(23.83).
 pub fn couette_wide_gap(
@@ -385,6 +464,24 @@ pub fn couette_wide_gap(
 ///
 /// # Accuracy
 /// Its bound: the mean 2ΔΩ/δ of ζ over the gap is exceeded by ζ(T₁) by no more than φ.
+///
+/// # Example
+/// ```
+/// use piola_numerics::Real;
+/// use piola_viscometry::recover::{CouetteGeometry, MeasuredCurve, functions};
+/// // ζ = T²: ΔΩ = (T₁² − T₂²)/4 with T = M/(2πR²).
+/// struct Squared(f64);
+/// impl MeasuredCurve for Squared {
+///     fn response<T: Real>(&self, torque: T) -> T {
+///         let stress = torque / T::lit(core::f64::consts::TAU);
+///         stress * stress * T::lit(0.25 * (1.0 - self.0.powi(-4)))
+///     }
+/// }
+/// let gap = CouetteGeometry::new(1.0, 1.001)?;
+/// let narrow = functions::couette_narrow_gap(&Squared(1.001), gap, core::f64::consts::TAU)?;
+/// assert!(1.0 - narrow.shear_rate < 0.003 && 1.0 - narrow.shear_rate <= narrow.bound); // of ζ = 1
+/// # Ok::<(), piola_viscometry::ViscometryError>(())
+/// ```
 ///
 /// # Source
 /// W(23.85).

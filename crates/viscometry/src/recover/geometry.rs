@@ -4,6 +4,9 @@ use crate::ViscometryError;
 use crate::error::check_bound;
 
 /// A pipe.
+///
+/// # Example
+/// See [`FlowTable`](super::FlowTable).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "written::PipeGeometry"))]
@@ -12,6 +15,9 @@ pub struct PipeGeometry {
 }
 
 /// A channel between parallel walls.
+///
+/// # Example
+/// See [`functions::channel`](super::functions::channel).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "written::ChannelGeometry"))]
@@ -20,6 +26,9 @@ pub struct ChannelGeometry {
 }
 
 /// The gap between coaxial cylinders.
+///
+/// # Example
+/// See [`functions::couette`](super::functions::couette).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "written::CouetteGeometry"))]
@@ -29,12 +38,27 @@ pub struct CouetteGeometry {
 }
 
 /// Parallel discs.
+///
+/// # Example
+/// See [`functions::parallel_plates`](super::functions::parallel_plates).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "written::PlatesGeometry"))]
 pub struct PlatesGeometry {
     pub(super) radius: f64,
     pub(super) gap: f64,
+}
+
+/// A cone of small angle on a plate.
+///
+/// # Example
+/// See [`cone_and_plate`](super::cone_and_plate).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "written::ConeGeometry"))]
+pub struct ConeGeometry {
+    pub(super) radius: f64,
+    pub(super) angle: f64,
 }
 
 impl PipeGeometry {
@@ -109,6 +133,43 @@ impl PlatesGeometry {
         check_bound("parallel plates", "gap", gap, "0 < h", 0.0 < gap)?;
         Ok(Self { radius, gap })
     }
+
+    /// R, m.
+    #[must_use]
+    pub const fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// h, m.
+    #[must_use]
+    pub const fn gap(&self) -> f64 {
+        self.gap
+    }
+}
+
+impl ConeGeometry {
+    /// R, m, and the angle α between cone and plate, rad.
+    ///
+    /// # Errors
+    /// [`ViscometryError::NotFinite`], [`ViscometryError::OutOfBounds`].
+    pub fn new(radius: f64, angle: f64) -> Result<Self, ViscometryError> {
+        check_bound("cone and plate", "radius", radius, "0 < R", 0.0 < radius)?;
+        let within = 0.0 < angle && angle < core::f64::consts::FRAC_PI_2;
+        check_bound("cone and plate", "angle", angle, "0 < alpha < pi/2", within)?;
+        Ok(Self { radius, angle })
+    }
+
+    /// R, m.
+    #[must_use]
+    pub const fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// α, rad.
+    #[must_use]
+    pub const fn angle(&self) -> f64 {
+        self.angle
+    }
 }
 
 /// Geometries as they are written.
@@ -141,5 +202,6 @@ mod written {
         ChannelGeometry { half_width }
         CouetteGeometry { inner_radius, outer_radius }
         PlatesGeometry { radius, gap }
+        ConeGeometry { radius, angle }
     }
 }

@@ -2,30 +2,14 @@
 
 use core::f64::consts::{PI, TAU};
 
+use super::geometry::ConeGeometry;
 use crate::ViscometryError;
 use crate::error::check_bound;
 
-/// A cone of small angle on a plate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ConeGeometry {
-    radius: f64,
-    angle: f64,
-}
-
-impl ConeGeometry {
-    /// R, m, and the angle between cone and plate, rad.
-    ///
-    /// # Errors
-    /// [`ViscometryError::NotFinite`], [`ViscometryError::OutOfBounds`].
-    pub fn new(radius: f64, angle: f64) -> Result<Self, ViscometryError> {
-        check_bound("cone and plate", "radius", radius, "0 < R", 0.0 < radius)?;
-        check_bound("cone and plate", "angle", angle, "0 < alpha < pi/2", 0.0 < angle && angle < 0.5 * PI)?;
-        Ok(Self { radius, angle })
-    }
-}
-
 /// What cone and plate tell at a speed.
+///
+/// # Example
+/// See [`cone_and_plate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ConePoint {

@@ -1,6 +1,7 @@
 //! What is recovered at a point, as a function of a smooth curve y(u) = ln W(ln x) and its derivatives there and below.
 //!
 //! ```text
+//! plain      a e^y
 //! local      a e^y (m + y′)
 //! series     Σ 2 e^y y′ at u − nδ, n < N, and the rest 2 e^y F(…) at u − Nδ
 //! ```
@@ -12,6 +13,8 @@ use super::splines::Derivatives;
 /// How the recovered quantity follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rule {
+    /// e^`logarithm` e^y.
+    Plain { logarithm: f64 },
     /// e^`logarithm` e^y (`multiple` + y′).
     Local { multiple: f64, logarithm: f64 },
     /// The series of coaxial cylinders with step δ, its rest by powers of this many moments, or of this exponent.
@@ -29,7 +32,7 @@ impl Rule {
     /// The most terms that stay above `lowest`.
     pub(super) fn most_terms(self, u: f64, lowest: f64) -> usize {
         match self {
-            Self::Local { .. } => 0,
+            Self::Plain { .. } | Self::Local { .. } => 0,
             Self::Series { step, exponent: None, .. } if step < NARROW => 0,
             Self::Series { step, exponent, .. } => {
                 // An exponent that is given holds below the lowest row and not above.
@@ -46,6 +49,7 @@ impl Rule {
     /// ln of the recovered quantity and the part of it that the rest of the series may be off; `None` unless it is positive.
     pub(super) fn value(self, curve: &Fitted, u: f64, terms: usize) -> Option<[f64; 2]> {
         match self {
+            Self::Plain { logarithm } => Some([logarithm + curve.at(u)[0], 0.0]),
             Self::Local { multiple, logarithm } => {
                 let [y, slope, ..] = curve.at(u);
                 let factor = multiple + slope;
@@ -59,7 +63,7 @@ impl Rule {
                     sum += (y - reference).exp() * slope;
                 }
                 let mut last = curve.at(u - terms as f64 * step);
-                assume(&mut last, step, exponent);
+                let order = assume(&mut last, step, order, exponent);
                 let rest = series::rest(last, step, order);
                 let size = (last[0] - reference).exp();
                 sum += size * rest.factor;
@@ -71,6 +75,7 @@ impl Rule {
     /// Adds the derivatives of the logarithm with respect to the coefficients to a row of zeros.
     pub(super) fn gradient(self, curve: &Fitted, u: f64, terms: usize, row: &mut [f64]) {
         match self {
+            Self::Plain { .. } => curve.splines.accumulate(row, [1.0, 0.0, 0.0, 0.0, 0.0], u),
             Self::Local { multiple, .. } => {
                 let slope = curve.at(u)[1];
                 curve.splines.accumulate(row, [1.0, 1.0 / (multiple + slope), 0.0, 0.0, 0.0], u);
@@ -85,7 +90,7 @@ impl Rule {
                 }
                 let at = u - terms as f64 * step;
                 let mut last = curve.at(at);
-                assume(&mut last, step, exponent);
+                let order = assume(&mut last, step, order, exponent);
                 let rest = series::rest(last, step, order);
                 let size = 2.0 * (last[0] - logarithm).exp();
                 let [first, second] = if exponent.is_some() { [0.0; 2] } else { rest.slopes };
@@ -95,13 +100,17 @@ impl Rule {
     }
 }
 
-/// One power of a given exponent in place of the measured derivatives; and where the rows show but one power, no derivatives of higher
-/// order, which would be rounding.
-fn assume(derivatives: &mut Derivatives, step: f64, exponent: Option<f64>) {
+/// One power of a given exponent in place of the measured derivatives. Where the rows show hardly more than one power, derivatives of
+/// higher order would be rounding: the variance is all that is taken, and they enter the error as those of powers four apart.
+fn assume(derivatives: &mut Derivatives, step: f64, order: Order, exponent: Option<f64>) -> Order {
     let [y, _, variance, ..] = *derivatives;
     if let Some(exponent) = exponent {
         *derivatives = [y, exponent, 0.0, 0.0, 0.0];
+        order
     } else if (variance * step * step).abs() < ONE_POWER {
-        [derivatives[3], derivatives[4]] = [0.0; 2];
+        [derivatives[3], derivatives[4]] = [4.0 * variance, 16.0 * variance];
+        Order::Variance
+    } else {
+        order
     }
 }

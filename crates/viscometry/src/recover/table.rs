@@ -1,6 +1,7 @@
 //! Tables of measurements, checked row by row.
 
-use super::geometry::{ChannelGeometry, CouetteGeometry, PipeGeometry, PlatesGeometry};
+use super::geometry::{ChannelGeometry, ConeGeometry, CouetteGeometry, PipeGeometry, PlatesGeometry};
+use super::smoothing;
 use crate::ViscometryError;
 use crate::error::check_bound;
 
@@ -27,6 +28,7 @@ pub enum Noise {
 /// | [`channel`](FlowTable::channel) | pressure gradient c, Pa/m | discharge for each width, m²/s |
 /// | [`couette`](FlowTable::couette) | torque for each length M, N | difference of angular velocity ΔΩ, rad/s |
 /// | [`parallel_plates`](FlowTable::parallel_plates) | angular velocity Ω, rad/s | torque, N m; or thrust, N |
+/// | [`cone_and_plate`](FlowTable::cone_and_plate) | angular velocity Ω, rad/s | torque, N m; or thrust, N |
 ///
 /// Rows rise in the first column, and every number is positive and finite.
 ///
@@ -113,19 +115,60 @@ impl<G> FlowTable<G> {
         self.noise
     }
 
-    /// Refuses a table with too few rows, and responses that fall by more than noise explains.
-    pub(super) fn check_rising(&self, level: f64) -> Result<(), ViscometryError> {
-        let rows = self.drive.len();
-        if rows < FEWEST {
-            return Err(ViscometryError::TooFewRows { rows, least: FEWEST });
-        }
-        let allowed = 5.0 * core::f64::consts::SQRT_2 * level;
-        for (row, pair) in self.response.windows(2).enumerate() {
-            if pair[1] <= pair[0] && allowed <= (pair[0] / pair[1]).ln() {
-                return Err(ViscometryError::ResponseFalls { row: row + 1, value: pair[1], previous: pair[0] });
+    /// Refuses responses that fall, or do not rise, by more than noise explains: below any response to a smaller drive, by five
+    /// standard deviations of a difference,
+    ///
+    /// ```text
+    /// ln(max Qⱼ/Qᵢ, j < i) ≥ 5 √2 σ
+    /// ```
+    /// σ is what is stated, or estimated from the rows; of fewer than five rows nothing is estimated, and σ = 0.
+    /// Whatever the noise, a table is refused in which nothing is above the first response.
+    ///
+    /// # Errors
+    /// [`ViscometryError::ResponseFalls`] with the first such row.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_viscometry::ViscometryError;
+    /// use piola_viscometry::recover::{FlowTable, Noise};
+    /// let table = FlowTable::pipe(1.0, &[[1.0, 2.0], [2.0, 4.0], [3.0, 3.9]])?;
+    /// assert_eq!(table.check_rising(), Err(ViscometryError::ResponseFalls { row: 2, value: 3.9, previous: 4.0 }));
+    /// assert_eq!(table.with_noise(Noise::Relative(0.01))?.check_rising(), Ok(()));
+    /// # Ok::<(), ViscometryError>(())
+    /// ```
+    pub fn check_rising(&self) -> Result<(), ViscometryError> {
+        let allowed = 5.0 * core::f64::consts::SQRT_2 * self.level();
+        let mut previous = 0.0_f64;
+        for (row, &value) in self.response.iter().enumerate() {
+            if value <= previous && allowed <= (previous / value).ln() {
+                return Err(ViscometryError::ResponseFalls { row, value, previous });
             }
+            previous = previous.max(value);
         }
-        Ok(())
+        match self.response.as_slice() {
+            [first, second, ..] if previous <= *first => {
+                Err(ViscometryError::ResponseFalls { row: 1, value: *second, previous })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses a table with too few rows for a derivative.
+    pub(super) const fn check_rows(&self) -> Result<(), ViscometryError> {
+        let rows = self.drive.len();
+        if rows < FEWEST { Err(ViscometryError::TooFewRows { rows, least: FEWEST }) } else { Ok(()) }
+    }
+
+    /// The relative noise, stated or estimated.
+    pub(super) fn level(&self) -> f64 {
+        let logarithms = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| x.ln()).collect() };
+        match self.noise {
+            Noise::Relative(level) => level,
+            Noise::Estimated if FEWEST <= self.drive.len() => {
+                smoothing::noise(&logarithms(&self.drive), &logarithms(&self.response))
+            }
+            Noise::Estimated | Noise::Exact => 0.0,
+        }
     }
 }
 
@@ -166,6 +209,16 @@ impl FlowTable<PlatesGeometry> {
     /// As [`PlatesGeometry::new`] and [`FlowTable::new`].
     pub fn parallel_plates(radius: f64, gap: f64, rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
         Self::new(PlatesGeometry::new(radius, gap)?, rows)
+    }
+}
+
+impl FlowTable<ConeGeometry> {
+    /// Of a cone of radius R, m, and angle α, rad, on a plate: angular velocities, rad/s, and torques, N m, or thrusts, N.
+    ///
+    /// # Errors
+    /// As [`ConeGeometry::new`] and [`FlowTable::new`].
+    pub fn cone_and_plate(radius: f64, angle: f64, rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
+        Self::new(ConeGeometry::new(radius, angle)?, rows)
     }
 }
 

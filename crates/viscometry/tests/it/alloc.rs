@@ -22,7 +22,7 @@ fn allocations_of_an_answer_equal_zero() -> Result<(), Box<dyn std::error::Error
         let couette = Couette::with_speed_difference(1.0, 1.25, 0.5, &thinning)?.with_density(1000.0)?;
         couette.stresses(&Normal, 1.125)?;
         PlaneCouette::new(1.0, 0.5)?.stresses(&thinning)?;
-        ConeAndPlate::with_torque(1.0, 0.05, 0.5, &thinning)?.thrust(&thinning);
+        ConeAndPlate::with_torque(1.0, 0.05, 0.5, &thinning)?.thrust(&Normal)?;
         ParallelPlates::with_torque(1.0, 0.05, 0.5, &thinning)?.thrust(&Normal)?;
         Annulus::new(0.5, 1.0, 3.0)?.discharge(&thinning)?;
         FallingFilm::with_discharge(0.5, 1000.0, 9.8, 1.0, &thinning)?;

@@ -6,27 +6,6 @@ use piola_constitutive::ConstitutiveError;
 use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
 use piola_numerics::Real;
 
-/// The fluid of Oldroyd with an upper-convected derivative, by its functions alone.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OldroydB {
-    pub(super) solvent: f64,
-    pub(super) polymer: f64,
-    pub(super) time: f64,
-}
-
-impl ViscometricFluid for OldroydB {
-    const NAME: &'static str = "Oldroyd's fluid of the tests";
-    const NORMAL_STRESSES: bool = true;
-
-    fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
-        T::lit(self.solvent + self.polymer) * shear_rate
-    }
-
-    fn sigma2<T: Real>(&self, shear_rate: T) -> T {
-        T::lit(2.0 * self.polymer * self.time) * shear_rate * shear_rate
-    }
-}
-
 /// A thinning fluid with both normal stress differences, none of them a power: τ = k/(1 + |k|)^½, N₁ = k²/(1 + k²)^½, N₂ = −N₁/4.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Normal;

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use piola_constitutive::fluids::{
-    Bingham, CarreauYasuda, Casson, Ellis, HerschelBulkley, Newtonian, PowerLaw, Sisko, ViscometricFluid,
+    Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, OldroydB, Papanastasiou,
+    PowerLaw, Sisko, ViscometricFluid,
 };
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use piola_viscometry::{
@@ -12,7 +13,7 @@ use piola_viscometry::{
 };
 use proptest::prelude::*;
 
-use super::fluids::{Normal, Numerical, OldroydB};
+use super::fluids::{Normal, Numerical};
 use super::numbers::equal;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -35,18 +36,18 @@ fn each_fluid(thinning: f64, yields: f64, mut visit: impl Visit) -> Outcome {
     visit.visit(&HerschelBulkley::new(yields, 1.1, thinning)?)?;
     visit.visit(&Ellis::new(1.4, 0.8, 1.0 / thinning.min(1.0))?)?;
     visit.visit(&Sisko::new(0.1, 0.9, thinning)?)?;
-    visit.visit(&OldroydB { solvent: 0.2, polymer: 0.6, time: thinning })?;
+    visit.visit(&OldroydB::new(0.2, 0.6, thinning)?)?;
     visit.visit(&Normal)
 }
 
 /// What is done with each fluid.
-trait Visit {
+pub(super) trait Visit {
     fn visit<F: ViscometricFluid>(&mut self, fluid: &F) -> Outcome;
 }
 
 /// Q against the integral of v.
-struct ProfilesAdd {
-    drive: f64,
+pub(super) struct ProfilesAdd {
+    pub(super) drive: f64,
 }
 
 impl Visit for ProfilesAdd {
@@ -64,13 +65,29 @@ impl Visit for ProfilesAdd {
         let rigid = 2.0 * plug * channel.velocity(fluid, 0.0)?.value;
         same(F::NAME, added.value + rigid, channel.discharge(fluid)?.value, QUADRATURE);
 
+        let film = FallingFilm::new(0.8, 1.0, self.drive, 1.1)?.with_slip(slip);
+        let yields = 0.8 - film.plug_thickness(fluid);
+        let added = quadrature::integrate(&[0.0, yields], |x| Ok(film.velocity(fluid, x)?.value))?;
+        let rigid = (0.8 - yields) * film.velocity(fluid, 0.8)?.value;
+        same(F::NAME, added.value + rigid, film.discharge(fluid)?.value, QUADRATURE);
+
+        // The speeds of cylinders add up from the rates, the torque of discs from the stresses.
+        let couette = Couette::new(0.4, 0.8, self.drive)?;
+        let ends = couette.yield_radius(fluid).unwrap_or(0.8);
+        let added = quadrature::integrate(&[0.4, ends], |r| Ok(couette.shear_rate(fluid, r)? / r))?;
+        same(F::NAME, added.value, couette.speed_difference(fluid)?.value, QUADRATURE);
+        let discs = ParallelPlates::new(0.8, 0.1, self.drive)?;
+        let added = quadrature::integrate(&[0.0, 1e-6, 1e-3, 0.05, 0.8], |r| {
+            Ok(2.0 * PI * r * r * discs.shear_stress(fluid, r)?)
+        })?;
+        same(F::NAME, added.value, discs.torque(fluid)?.value, QUADRATURE);
         Ok(())
     }
 }
 
 /// The answers of every flow change sign with the drive; normal stresses do not.
-struct Odd {
-    drive: f64,
+pub(super) struct Odd {
+    pub(super) drive: f64,
 }
 
 impl Visit for Odd {
@@ -92,48 +109,80 @@ impl Visit for Odd {
         let [discs, back] = [ParallelPlates::new(0.5, 0.1, 3.0)?, ParallelPlates::new(0.5, 0.1, -3.0)?];
         equal([discs.torque(fluid)?.value], [-back.torque(fluid)?.value]);
         assert_eq!(discs.thrust(fluid)?, back.thrust(fluid)?);
+        let [channel, back] = [Channel::new(0.8, self.drive)?, Channel::new(0.8, -self.drive)?];
+        equal([channel.discharge(fluid)?.value], [-back.discharge(fluid)?.value]);
+        let (there, here) = (channel.stresses(fluid, 0.5, 0.0)?, back.stresses(fluid, 0.5, 0.0)?);
+        equal([there.shear, there.gradient, there.flow], [-here.shear, here.gradient, here.flow]);
+        let [plane, back] = [PlaneCouette::new(0.8, self.drive)?, PlaneCouette::new(0.8, -self.drive)?];
+        let (there, here) = (plane.stresses(fluid)?, back.stresses(fluid)?);
+        equal([there.shear, there.flow, there.neutral], [-here.shear, here.flow, here.neutral]);
+        let [cone, back] = [ConeAndPlate::new(0.8, 0.05, self.drive)?, ConeAndPlate::new(0.8, 0.05, -self.drive)?];
+        equal(
+            [cone.torque(fluid)?.value, cone.thrust(fluid)?.value],
+            [-back.torque(fluid)?.value, back.thrust(fluid)?.value],
+        );
         Ok(())
     }
 }
 
+/// A drive that was found, within the error that is stated, which is small.
+fn off(what: &str, found: f64, drive: f64, error: f64) {
+    assert!((found - drive).abs() <= error, "{what}: {found:e} is off {drive:e} by more than {error:e}");
+    assert!(error <= 1e-9 * drive.abs(), "{what}: {error:e} of {drive:e}");
+}
+
 /// Given the answer, the drive.
-struct Inverses {
-    drive: f64,
+pub(super) struct Inverses {
+    pub(super) drive: f64,
 }
 
 impl Visit for Inverses {
     fn visit<F: ViscometricFluid>(&mut self, fluid: &F) -> Outcome {
         for slip in [WallSlip::NONE, WallSlip::new(0.3, 1.5)?] {
             let pipe = Poiseuille::new(0.8, -self.drive)?.with_slip(slip);
-            let again = Poiseuille::with_slip_and_discharge(0.8, slip, pipe.discharge(fluid)?.value, fluid)?;
+            let discharge = pipe.discharge(fluid)?.value;
+            let again = Poiseuille::with_slip_and_discharge(0.8, slip, discharge, fluid)?;
             same(F::NAME, again.pressure_gradient(), pipe.pressure_gradient(), INVERSE);
+            let error = again.pressure_gradient_error(fluid, discharge)?;
+            off(F::NAME, again.pressure_gradient(), pipe.pressure_gradient(), error);
             let channel = Channel::new(0.8, self.drive)?.with_slip(slip);
-            let again = Channel::with_slip_and_discharge(0.8, slip, channel.discharge(fluid)?.value, fluid)?;
+            let discharge = channel.discharge(fluid)?.value;
+            let again = Channel::with_slip_and_discharge(0.8, slip, discharge, fluid)?;
             same(F::NAME, again.pressure_gradient(), channel.pressure_gradient(), INVERSE);
+            let error = again.pressure_gradient_error(fluid, discharge)?;
+            off(F::NAME, again.pressure_gradient(), channel.pressure_gradient(), error);
             let couette = Couette::new(0.6, 0.8, self.drive)?.with_slip(slip);
             let difference = couette.speed_difference(fluid)?.value;
             let again = Couette::with_slip_and_speed_difference(0.6, 0.8, slip, difference, fluid)?;
             same(F::NAME, again.moment(), couette.moment(), INVERSE);
+            off(F::NAME, again.moment(), couette.moment(), again.moment_error(fluid, difference)?);
             let plane = PlaneCouette::new(0.6, self.drive)?.with_slip(slip);
             let stress = plane.shear_stress(fluid)?;
             let speed = 0.6 * fluid.shear_rate(stress)? + 2.0 * slip.speed(stress);
             same(F::NAME, speed, plane.speed(), INVERSE);
         }
         let cone = ConeAndPlate::new(0.6, 0.05, self.drive)?;
-        same(F::NAME, ConeAndPlate::with_torque(0.6, 0.05, cone.torque(fluid)?, fluid)?.speed(), cone.speed(), INVERSE);
+        let torque = cone.torque(fluid)?.value;
+        let again = ConeAndPlate::with_torque(0.6, 0.05, torque, fluid)?;
+        same(F::NAME, again.speed(), cone.speed(), INVERSE);
+        off(F::NAME, again.speed(), cone.speed(), again.speed_error(fluid, torque)?);
         let discs = ParallelPlates::new(0.6, 0.05, -self.drive)?;
-        let again = ParallelPlates::with_torque(0.6, 0.05, discs.torque(fluid)?.value, fluid)?;
+        let torque = discs.torque(fluid)?.value;
+        let again = ParallelPlates::with_torque(0.6, 0.05, torque, fluid)?;
         same(F::NAME, again.speed(), discs.speed(), INVERSE);
+        off(F::NAME, again.speed(), discs.speed(), again.speed_error(fluid, torque)?);
         let film = FallingFilm::new(0.3, 2.0, self.drive, 1.1)?;
-        let again = FallingFilm::with_discharge(film.discharge(fluid)?.value, 2.0, self.drive, 1.1, fluid)?;
+        let discharge = film.discharge(fluid)?.value;
+        let again = FallingFilm::with_discharge(discharge, 2.0, self.drive, 1.1, fluid)?;
         same(F::NAME, again.thickness(), film.thickness(), INVERSE);
+        off(F::NAME, again.thickness(), film.thickness(), again.thickness_error(fluid, discharge)?);
         Ok(())
     }
 }
 
 /// Radial momentum, `∂T_rr/∂r + (T_rr − T_θθ)/r + ρ r ω² = 0`, and its kin, added up between two radii.
-struct Momentum {
-    drive: f64,
+pub(super) struct Momentum {
+    pub(super) drive: f64,
 }
 
 impl Visit for Momentum {
@@ -175,6 +224,19 @@ impl Visit for Momentum {
         let across = (b * pipe.shear_stress(b)? - a * pipe.shear_stress(a)?) / (0.5 * (b * b - a * a));
         same(F::NAME, across, -along, Tol::stated(1e-12, "a difference of stresses along the pipe"));
 
+        // ∂T₁₂/∂x₁ + ∂T₂₂/∂x₂ = 0, and T₁₁ does not change across.
+        let channel = Channel::new(1.0, self.drive)?;
+        let [near, far] = [channel.stresses(fluid, a, 0.0)?, channel.stresses(fluid, b, 0.0)?];
+        let along = channel.stresses(fluid, a, 1.0)?.flow - near.flow;
+        same(F::NAME, (far.shear - near.shear) / (b - a), -along, Tol::stated(1e-12, "differences of stresses"));
+        equal([near.gradient], [far.gradient]);
+        // A film is held by its weight along the wall and across.
+        let film = FallingFilm::new(1.0, 2.0, self.drive, 1.1)?;
+        let [near, far] = [film.stresses(fluid, a)?, film.stresses(fluid, b)?];
+        let close = Tol::stated(1e-12, "differences of stresses");
+        same(F::NAME, (far.shear - near.shear) / (b - a), -2.0 * self.drive * 1.1_f64.sin(), close);
+        same(F::NAME, (far.gradient - near.gradient) / (b - a), 2.0 * self.drive * 1.1_f64.cos(), close);
+
         let discs = ParallelPlates::new(1.0, 0.1, self.drive)?;
         let force = quadrature::integrate(&[a, b], |r| {
             let at = discs.stresses(fluid, r)?;
@@ -192,20 +254,16 @@ impl Visit for Momentum {
             let r = (-x).exp();
             Ok(-2.0 * PI * r * r * cone.stresses(fluid, r)?.gradient)
         })?;
-        assert_close_at_scale(
-            F::NAME,
-            &[thrust.value],
-            &[cone.thrust(fluid)],
-            cone.thrust(fluid).abs().max(1e-300),
-            Tol::stated(1e-10, "the apex is left out"),
-        );
+        let pressed = cone.stresses(fluid, 1.0)?.gradient.abs().max(1e-300);
+        let apex = Tol::stated(1e-10, "the apex is left out");
+        assert_close_at_scale(F::NAME, &[thrust.value], &[cone.thrust(fluid)?.value], pressed, apex);
         Ok(())
     }
 }
 
 /// The annulus, whose place of rest is sought anew for each answer: the profile adds up, rings are in balance, the drive is found.
-struct Annular {
-    drive: f64,
+pub(super) struct Annular {
+    pub(super) drive: f64,
 }
 
 impl Visit for Annular {
@@ -236,8 +294,11 @@ impl Visit for Annular {
         assert_close_at_scale(F::NAME, &[gained + force], &[0.0], force.abs(), QUADRATURE);
 
         let annulus = Annulus::new(0.4, 1.0, -4.0 * self.drive)?;
-        let again = Annulus::with_discharge(0.4, 1.0, annulus.discharge(fluid)?.value, fluid)?;
+        let discharge = annulus.discharge(fluid)?.value;
+        let again = Annulus::with_discharge(0.4, 1.0, discharge, fluid)?;
         same(F::NAME, again.pressure_gradient(), annulus.pressure_gradient(), INVERSE);
+        let error = again.pressure_gradient_error(fluid, discharge)?;
+        off(F::NAME, again.pressure_gradient(), annulus.pressure_gradient(), error);
         Ok(())
     }
 }
@@ -358,7 +419,7 @@ fn same_flows<F: ViscometricFluid, G: ViscometricFluid>(one: &F, other: &G) -> O
     let plane = PlaneCouette::new(0.8, 3.0)?;
     same(what, plane.shear_stress(one)?, plane.shear_stress(other)?, CLOSE);
     let cone = ConeAndPlate::new(0.8, 0.05, 3.0)?;
-    same(what, cone.torque(one)?, cone.torque(other)?, CLOSE);
+    same(what, cone.torque(one)?.value, cone.torque(other)?.value, CLOSE);
     let discs = ParallelPlates::new(0.8, 0.05, 3.0)?;
     same(what, discs.torque(one)?.value, discs.torque(other)?.value, CLOSE);
     let annulus = Annulus::new(0.8, 0.9, 3.0)?;
@@ -375,7 +436,17 @@ fn flows_of_newtonian_limits_equal_those_of_the_newtonian_fluid() -> Outcome {
     same_flows(&Casson::new(0.0, 0.7)?, &newtonian)?;
     same_flows(&HerschelBulkley::new(0.0, 0.7, 1.0)?, &newtonian)?;
     same_flows(&Sisko::new(0.7, 0.0, 0.5)?, &newtonian)?;
-    same_flows(&OldroydB { solvent: 0.3, polymer: 0.4, time: 2.0 }, &newtonian)
+    // η∞ = η₀, or no time in which to thin.
+    same_flows(&Cross::new(0.7, 0.7, 1.5, 0.5)?, &newtonian)?;
+    same_flows(&Cross::new(0.7, 0.1, 0.0, 0.5)?, &newtonian)?;
+    // α = 1 halves the viscosity at every stress; a half stress that is never reached leaves it.
+    same_flows(&Ellis::new(1.4, 0.8, 1.0)?, &newtonian)?;
+    same_flows(&Ellis::new(0.7, 1e20, 2.0)?, &newtonian)?;
+    // τ₀ arsinh λk = τ₀ λ k (1 − (λk)²/6 …).
+    same_flows(&Eyring::new(0.7e8, 1e-8)?, &newtonian)?;
+    same_flows(&Papanastasiou::new(0.0, 0.7, 1.0, 100.0)?, &newtonian)?;
+    same_flows(&Papanastasiou::new(0.3, 0.7, 1.0, 1e-14)?, &newtonian)?;
+    same_flows(&OldroydB::new(0.3, 0.4, 2.0)?, &newtonian)
 }
 
 #[test]

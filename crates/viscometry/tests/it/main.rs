@@ -1,10 +1,14 @@
 //! The flows.
 
 mod alloc;
+mod annulus;
+mod every;
+mod extremes;
 mod fluids;
 mod golden;
 mod laws;
 mod numbers;
+mod slip;
 mod traps;
 
 #[global_allocator]

@@ -55,7 +55,7 @@ fn answers_at_rest_equal_zero_for_every_fluid() -> Outcome {
         let plane = PlaneCouette::new(1.0, 0.0)?;
         equal([plane.stresses(fluid)?.shear], [0.0]);
         equal([plane.validity(fluid, 1.0, 100.0)?.reynolds_number], [0.0]);
-        equal([ConeAndPlate::new(1.0, 0.1, 0.0)?.torque(fluid)?], [0.0]);
+        assert_eq!(ConeAndPlate::new(1.0, 0.1, 0.0)?.torque(fluid)?, Estimate::ZERO);
         let discs = ParallelPlates::new(1.0, 0.1, 0.0)?;
         assert_eq!([discs.torque(fluid)?, discs.thrust(fluid)?], [Estimate::ZERO; 2]);
         let annulus = Annulus::with_discharge(1.0, 2.0, 0.0, fluid)?;
@@ -247,6 +247,18 @@ fn a_shear_stress_that_falls_is_refused_with_its_rate() -> Outcome {
     };
     assert_eq!(fluid, "banding fluid");
     assert!(1.0 < shear_rate && slope < 0.0);
+    // So is it of every other flow that passes the fall.
+    let named = |refused: Result<f64, ViscometryError>| {
+        assert!(matches!(refused, Err(ViscometryError::NotIncreasing { .. })), "{refused:?}");
+    };
+    let value = |answer: Estimate| answer.value;
+    named(Channel::new(1.0, 1.0)?.discharge(&Banding).map(value));
+    named(FallingFilm::new(1.0, 1.0, 1.0, PI / 2.0)?.discharge(&Banding).map(value));
+    named(Couette::new(1.0, 2.0, 2.0 * PI)?.speed_difference(&Banding).map(value));
+    named(PlaneCouette::new(1.0, 2.0)?.shear_stress(&Banding));
+    named(ConeAndPlate::new(1.0, 0.1, -0.2)?.torque(&Banding).map(value));
+    named(ParallelPlates::new(1.0, 1.0, 2.0)?.torque(&Banding).map(value));
+    named(Annulus::new(1.0, 2.0, 2.0)?.discharge(&Banding).map(value));
     // Before the fall it flows as any other.
     assert!(Poiseuille::new(1.0, 0.5)?.discharge(&Banding)?.value > 0.0);
     Ok(())

@@ -2,7 +2,11 @@
 
 use piola_testkit::{Tol, assert_close};
 use piola_viscometry::ViscometryError;
-use piola_viscometry::recover::{self, Capillary, FlowTable, PipeGeometry, end_correction, slip_at_walls};
+use piola_viscometry::recover::{
+    self, Capillary, Criterion, FlowTable, Noise, PipeGeometry, end_correction, slip_at_walls,
+};
+
+use super::noise::Normal;
 
 const ROUNDING: Tol = Tol::stated(1e-10, "rounding through differences of nearly equal tables");
 
@@ -80,4 +84,84 @@ fn pressure_without_ends_recovers_the_fluid() {
     assert_eq!(mixed, Err(ViscometryError::DifferentGeometry { quantity: "radius", values: [0.5, 1.0] }));
     let same = end_correction(&[capillaries[0].clone(), capillaries[0].clone()]);
     assert_eq!(same, Err(ViscometryError::SameGeometry { quantity: "length", value: 5.0 }));
+}
+
+/// A fluid that slips, in three pipes: k = τ + τ², so that A = τ + 4τ²/5, and u = 0.3 τ^1.5; errors of a row by `error`.
+fn pipes(mut error: impl FnMut() -> f64) -> Result<Vec<FlowTable<PipeGeometry>>, ViscometryError> {
+    let mut pipe = |radius: f64, shift: f64| {
+        let rows: Vec<_> = (0..25)
+            .map(|i| (0.1 * f64::from(i) + shift).exp())
+            .map(|stress| {
+                let apparent = stress + 0.8 * stress * stress + 4.0 * 0.3 * stress.powf(1.5) / radius;
+                let discharge = 0.25 * core::f64::consts::PI * radius.powi(3) * apparent;
+                [2.0 * stress / radius, discharge * (1.0 + error())]
+            })
+            .collect();
+        FlowTable::pipe(radius, &rows)
+    };
+    Ok(vec![pipe(0.5, 0.0)?, pipe(1.0, -0.03)?, pipe(2.0, 0.04)?])
+}
+
+/// The same fluid in three capillaries that lose 4 τ at their ends.
+fn capillaries(mut error: impl FnMut() -> f64) -> Result<Vec<Capillary>, ViscometryError> {
+    let mut capillary = |length: f64, shift: f64| {
+        let rows: Vec<_> = (0..25)
+            .map(|i| (0.1 * f64::from(i) + shift).exp())
+            .map(|stress| {
+                let discharge = 0.25 * core::f64::consts::PI * 0.125 * (stress + 0.8 * stress * stress);
+                [discharge, (2.0 * stress * length / 0.5 + 4.0 * stress) * (1.0 + error())]
+            })
+            .collect();
+        Capillary::new(0.5, length, &rows)
+    };
+    Ok(vec![capillary(5.0, 0.0)?, capillary(10.0, -0.03)?, capillary(20.0, 0.04)?])
+}
+
+#[test]
+fn bands_of_corrected_exact_tables_hold_the_fluid_and_are_narrow() {
+    let slip = slip_at_walls(&pipes(|| 0.0).expect("tables")).and_then(|slip| slip.with_band(0.95)).expect("slip");
+    let ends = end_correction(&capillaries(|| 0.0).expect("tables")).and_then(|ends| ends.with_band(0.95));
+    let ends = ends.expect("ends");
+    assert!(slip.smoothing().chain(ends.smoothing()).all(|smoothing| smoothing.criterion == Criterion::Interpolation));
+    let slipping = slip.points.iter().map(|point| (point.wall_stress, point.shear_rate, point.band));
+    let ending = ends.points.iter().map(|point| (point.wall_stress, point.shear_rate, point.band));
+    for (stress, rate, band) in slipping.chain(ending) {
+        let truth = stress + stress * stress;
+        let [low, high] = band.expect("asked for");
+        assert!(low <= truth && truth <= high && high - low < 1e-3 * truth, "{truth} {low} {high}");
+        assert_close("rate", &[rate], &[truth], Tol::stated(1e-4, "splines of degree 7 at their ends"));
+    }
+    let middle = slip.at(2.0).expect("measured");
+    assert_close("slip", &[middle.slip_velocity], &[0.3 * 2.0_f64.powf(1.5)], Tol::stated(1e-7, "splines"));
+    assert!(matches!(slip.at(1e3), Err(ViscometryError::NotMeasured { .. })));
+    assert_eq!(slip.with_band(1.0), Err(ViscometryError::Confidence { value: 1.0 }));
+}
+
+#[test]
+fn bands_of_corrected_tables_with_a_percent_of_noise_hold_the_fluid_in_nine_of_ten_trials() {
+    let mut normal = Normal(17);
+    let inside = |(stress, band): (f64, Option<[f64; 2]>)| {
+        let [low, high] = band.expect("asked for");
+        let truth = stress + stress * stress;
+        low <= truth && truth <= high
+    };
+    let trials = 200;
+    let mut held = [0; 4];
+    for _ in 0..trials {
+        let noisy = pipes(|| 0.01 * normal.draw()).expect("tables");
+        let slip = slip_at_walls(&noisy).and_then(|slip| slip.with_band(0.95)).expect("slip");
+        held[0] += u32::from(slip.points.iter().map(|point| (point.wall_stress, point.band)).all(inside));
+        let known = noisy.into_iter().map(|table| table.with_noise(Noise::Relative(0.01)).expect("a level"));
+        let slip = slip_at_walls(&known.collect::<Vec<_>>()).and_then(|slip| slip.with_band(0.95)).expect("slip");
+        held[1] += u32::from(slip.points.iter().map(|point| (point.wall_stress, point.band)).all(inside));
+        let noisy = capillaries(|| 0.01 * normal.draw()).expect("tables");
+        let ends = end_correction(&noisy).and_then(|ends| ends.with_band(0.95)).expect("ends");
+        held[2] += u32::from(ends.points.iter().map(|point| (point.wall_stress, point.band)).all(inside));
+        let known = noisy.into_iter().map(|table| table.with_noise(Noise::Relative(0.01)).expect("a level"));
+        let ends = end_correction(&known.collect::<Vec<_>>()).and_then(|ends| ends.with_band(0.95)).expect("ends");
+        held[3] += u32::from(ends.points.iter().map(|point| (point.wall_stress, point.band)).all(inside));
+    }
+    for held in held {
+        assert!(9 * trials <= 10 * held, "{held} of {trials}");
+    }
 }

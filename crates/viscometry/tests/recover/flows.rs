@@ -3,59 +3,91 @@
 use piola_constitutive::fluids::{
     CarreauYasuda, Cross, Ellis, Eyring, HerschelBulkley, PowerLaw, SecondOrder, Sisko, ViscometricFluid,
 };
-use piola_testkit::golden::{number, text, vector};
 use piola_testkit::{Tol, assert_close};
-use piola_viscometry::recover::{
-    self, ChannelGeometry, CouetteGeometry, FlowCurve, FlowTable, Noise, PipeGeometry, functions,
-};
-use piola_viscometry::{Channel, Couette, Estimate, ParallelPlates, Poiseuille, ViscometryError};
+use piola_viscometry::recover::{self, FlowCurve, FlowTable, Noise};
+use piola_viscometry::{Channel, ConeAndPlate, Couette, Estimate, ParallelPlates, Poiseuille, ViscometryError};
 use proptest::prelude::*;
 
-use super::fluids::{Discharge, Plateau, Sheet, Speed};
-use super::golden::cases;
+/// Rows of a flow over a factor of e³ in the wall stress, and some below, eight for a factor of e.
+fn rows_from(
+    below: i32,
+    lowest: f64,
+    answer: impl Fn(f64) -> Result<Estimate, ViscometryError>,
+) -> Result<Vec<[f64; 2]>, ViscometryError> {
+    (-below..25).map(|i| lowest * (0.125 * f64::from(i)).exp()).map(|x| Ok([x, answer(x)?.value])).collect()
+}
 
 /// Rows of a flow over a factor of e³ in the wall stress.
 fn rows(
     lowest: f64,
     answer: impl Fn(f64) -> Result<Estimate, ViscometryError>,
 ) -> Result<Vec<[f64; 2]>, ViscometryError> {
-    (0..25).map(|i| lowest * (0.125 * f64::from(i)).exp()).map(|x| Ok([x, answer(x)?.value])).collect()
+    rows_from(0, lowest, answer)
+}
+
+/// The curve from cylinders with rows below.
+fn cylinders<F: ViscometricFluid>(
+    fluid: &F,
+    below: i32,
+    lowest: f64,
+    outer: f64,
+) -> Result<FlowCurve, ViscometryError> {
+    let torque = core::f64::consts::TAU * lowest;
+    let rows = rows_from(below, torque, |m| Couette::new(1.0, outer, m)?.speed_difference(fluid))?;
+    recover::couette(&FlowTable::couette(1.0, outer, &rows)?)?.with_band(0.95)
 }
 
 /// Curves from a pipe, a channel and cylinders of an outer radius, of wall stresses from `lowest` on.
 fn curves<F: ViscometricFluid>(fluid: &F, lowest: f64, outer: f64) -> Result<[FlowCurve; 3], ViscometryError> {
     let pipe = rows(lowest, |c| Poiseuille::new(2.0, c)?.discharge(fluid))?;
     let channel = rows(lowest, |c| Channel::new(1.0, c)?.discharge(fluid))?;
-    let couette = rows(core::f64::consts::TAU * lowest, |m| Couette::new(1.0, outer, m)?.speed_difference(fluid))?;
     Ok([
         recover::pipe(&FlowTable::pipe(2.0, &pipe)?)?.with_band(0.95)?,
         recover::channel(&FlowTable::channel(1.0, &channel)?)?.with_band(0.95)?,
-        recover::couette(&FlowTable::couette(1.0, outer, &couette)?)?.with_band(0.95)?,
+        cylinders(fluid, 0, lowest, outer)?,
     ])
+}
+
+/// The errors of a curve, sorted, all of them within the band.
+fn errors<F: ViscometricFluid>(what: &str, fluid: &F, curve: &FlowCurve) -> Vec<f64> {
+    let mut errors: Vec<_> = curve
+        .points()
+        .map(|point| {
+            let point = point.expect("measured");
+            let truth: f64 = fluid.shear_rate(point.shear_stress).expect("a rate");
+            let [low, high] = point.band.expect("asked for");
+            assert!(low <= truth && truth <= high, "{what}: {truth} is not in {low} .. {high}");
+            (point.shear_rate / truth - 1.0).abs()
+        })
+        .collect();
+    errors.sort_by(f64::total_cmp);
+    errors
 }
 
 /// The truth lies in the bands, and the median error is small.
 fn check<F: ViscometricFluid>(fluid: &F, lowest: f64, outer: f64) {
     for (flow, curve) in ["pipe", "channel", "cylinders"].into_iter().zip(curves(fluid, lowest, outer).expect("curves"))
     {
-        let mut errors = Vec::new();
-        for point in curve.points() {
-            let point = point.expect("measured");
-            let truth: f64 = fluid.shear_rate(point.shear_stress).expect("a rate");
-            let [low, high] = point.band.expect("asked for");
-            let what = format!("{} in a {flow}, R2/R1 = {outer}", F::NAME);
-            assert!(low <= truth && truth <= high, "{what}: {truth} is not in {low} .. {high}");
-            errors.push((point.shear_rate / truth - 1.0).abs());
-        }
-        errors.sort_by(f64::total_cmp);
-        // Of a wide gap much lies below the smallest torque: its bands say so.
-        let asked = if flow == "cylinders" && 1.3 < outer { 1e-2 } else { 1e-5 };
-        assert!(errors[12] < asked, "{} in a {flow}, R2/R1 = {outer}: {}", F::NAME, errors[12]);
+        let what = format!("{} in a {flow}, R2/R1 = {outer}", F::NAME);
+        let median = errors(&what, fluid, &curve)[12];
+        // Of a wide gap much lies below the smallest torque: no table without it tells the fluid to more digits.
+        let asked = match flow {
+            "cylinders" if 1.3 < outer => 1e-3,
+            "cylinders" if 1.05 < outer => 1e-5,
+            _ => 1e-6,
+        };
+        assert!(median < asked, "{what}: {median}");
+    }
+    // Where the rows reach down by a factor of e⁴ it does not matter.
+    if 1.05 < outer {
+        let what = format!("{} between cylinders with lower torques, R2/R1 = {outer}", F::NAME);
+        let all = errors(&what, fluid, &cylinders(fluid, 32, lowest, outer).expect("a curve"));
+        assert!(all[all.len() / 2] < 1e-6, "{what}: {}", all[all.len() / 2]);
     }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(16))]
+    #![proptest_config(ProptestConfig::with_cases(10))]
 
     #[test]
     fn solved_flows_recover_the_fluid_within_their_bands(
@@ -86,40 +118,6 @@ fn a_fluid_with_a_yield_stress_is_recovered_within_the_band_right_down_to_it() {
                 "{lowest}: {truth} at {} not in {low} .. {high}",
                 point.shear_stress
             );
-        }
-    }
-}
-
-#[test]
-fn measured_functions_recover_the_rates_of_the_reference_values() {
-    let tol = Tol::stated(1e-8, "what is asked of inversions of a measured function");
-    for case in cases() {
-        if text(&case["fluid"]) != "carreau_yasuda" {
-            continue;
-        }
-        let parameter = |name: &str| number(&case["params"][name]);
-        let fluid = Plateau {
-            eta: [parameter("eta0"), parameter("eta_inf")],
-            time: parameter("lam"),
-            power: parameter("a"),
-            exponent: parameter("n"),
-        };
-        let couette = &case["input"]["couette"];
-        let gap = CouetteGeometry::new(1.0, number(&couette["R2"])).expect("a gap");
-        let speed = Speed { fluid: &fluid, outer: number(&couette["R2"]) };
-        let truth = vector(&case["output"]["couette"]["kappa_inner"]);
-        for (torque, rate) in vector(&couette["M"]).into_iter().zip(&truth) {
-            let found = functions::couette(&speed, gap, torque).expect("a sum").value;
-            assert_close("cylinders", &[found], &[*rate], tol);
-        }
-        // The quadratures of the test's own flows have 48 points: below the bend of the flow curve they are exact.
-        for (gradient, rate) in vector(&case["input"]["channel"]["c"]).into_iter().zip(&truth).take(12) {
-            let channel = ChannelGeometry::new(1.0).expect("a channel");
-            let found = functions::channel(&Sheet { fluid: &fluid }, channel, gradient).expect("finite").shear_rate;
-            assert_close("channel", &[found], &[*rate], tol);
-            let pipe = PipeGeometry::new(1.0).expect("a pipe");
-            let found = functions::pipe(&Discharge { fluid: &fluid }, pipe, 2.0 * gradient).expect("finite").shear_rate;
-            assert_close("pipe", &[found], &[*rate], tol);
         }
     }
 }
@@ -156,5 +154,31 @@ fn normal_stresses_between_cylinders_and_torques_of_discs_recover_the_fluid() {
             fluid.second_normal_stress_difference(point.shear_rate),
         ];
         assert_close("thrust", &[point.stress], &[sign * (n1 - n2)], tol);
+    }
+}
+
+#[test]
+fn torques_and_thrusts_of_cones_recover_the_fluid() {
+    let fluid = SecondOrder::new(2.0, 0.3, -0.2).expect("a fluid");
+    let tol = Tol::stated(1e-12, "a spline of degree 7 at its rows");
+    let cone = |speed: f64| ConeAndPlate::new(0.5, 0.05, speed);
+    let torques = rows(1.0, |speed| cone(speed)?.torque(&fluid)).expect("rows");
+    let sign = cone(1.0).and_then(|cone| cone.thrust(&fluid)).expect("a thrust").value.signum();
+    let thrusts = rows(1.0, |speed| Ok(cone(speed)?.thrust(&fluid)?.scaled(sign))).expect("rows");
+    let stress = recover::cone_and_plate_torque(&FlowTable::cone_and_plate(0.5, 0.05, &torques).expect("a table"));
+    let stress = stress.and_then(|curve| curve.with_band(0.95)).expect("a curve");
+    let normal = recover::cone_and_plate_thrust(&FlowTable::cone_and_plate(0.5, 0.05, &thrusts).expect("a table"));
+    let normal = normal.and_then(|curve| curve.with_band(0.95)).expect("a curve");
+    for (stress, normal) in stress.points().zip(normal.points()) {
+        let (stress, normal) = (stress.expect("measured"), normal.expect("measured"));
+        let truth =
+            [fluid.shear_stress(stress.shear_rate), sign * fluid.first_normal_stress_difference(normal.shear_rate)];
+        assert_close("torque", &[stress.stress], &truth[..1], tol);
+        assert_close("thrust", &[normal.stress], &truth[1..], tol);
+        for ([low, high], truth) in
+            [stress.band, normal.band].map(|band| band.expect("asked for")).into_iter().zip(truth)
+        {
+            assert!(low <= truth && truth <= high);
+        }
     }
 }

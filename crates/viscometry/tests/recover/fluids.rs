@@ -97,7 +97,7 @@ fn integral<T: Real>(width: f64, f: impl Fn(f64) -> T) -> T {
 }
 
 /// Nodes and weights on [−1, 1], by Newton's method.
-fn legendre(count: u32) -> Vec<(f64, f64)> {
+pub(super) fn legendre(count: u32) -> Vec<(f64, f64)> {
     let n = f64::from(count);
     (0..count)
         .map(|i| {

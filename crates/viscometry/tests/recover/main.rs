@@ -1,9 +1,11 @@
 //! Tests of `piola_viscometry::recover`.
 
 mod corrections;
+mod errors;
 mod flows;
 mod fluids;
 mod golden;
+mod identity;
 mod laws;
 mod noise;
 mod traps;

@@ -9,7 +9,7 @@ use serde_json::Value;
 use super::golden::{cases, recovered};
 
 /// `SplitMix64` and the transform of Box and Muller.
-struct Normal(u64);
+pub(super) struct Normal(pub(super) u64);
 
 impl Normal {
     fn uniform(&mut self) -> f64 {
@@ -20,7 +20,7 @@ impl Normal {
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
     }
 
-    fn draw(&mut self) -> f64 {
+    pub(super) fn draw(&mut self) -> f64 {
         let (u, v) = (1.0 - self.uniform(), self.uniform());
         (-2.0 * u.ln()).sqrt() * (core::f64::consts::TAU * v).cos()
     }
@@ -52,7 +52,10 @@ fn held(case: &Value, flow: &str, trials: u32) -> u32 {
 #[test]
 fn bands_of_tables_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
     let case = cases().into_iter().find(|case| text(&case["id"]).starts_with("carreau_yasuda_5")).expect("there");
-    assert!(900 <= held(&case, "pipe", 1000));
+    for flow in ["pipe", "channel", "couette"] {
+        let held = held(&case, flow, 1000);
+        assert!(900 <= held, "{flow}: {held}");
+    }
 }
 
 #[test]
@@ -92,10 +95,10 @@ fn a_curve_that_falls_is_reported_or_smoothed_until_it_rises() {
         .map(|i| (0.06 * f64::from(i)).exp())
         .map(|c| [c, c.powf(0.05) * (1.0 + 0.02 * normal.draw())])
         .collect();
-    let table = FlowTable::pipe(1.0, &rows).expect("a table").with_noise(Noise::Relative(0.005)).expect("a level");
+    let table = FlowTable::pipe(1.0, &rows).expect("a table").with_noise(Noise::Relative(0.009)).expect("a level");
     let reported = pipe_with(&table, Options::default());
     let enforced = pipe_with(&table, Options { rise: Rise::Enforced, ..Options::default() });
-    // The noise is four times what is stated: falling rows are refused or the curve falls.
+    // The noise is twice what is stated: no row falls by more than five deviations of a difference, but the curve falls.
     if let (Ok(reported), Ok(enforced)) = (reported, enforced) {
         assert!(matches!(reported.monotonicity(), Monotonicity::Falling { .. }));
         assert_eq!(enforced.monotonicity(), Monotonicity::Rising);
