@@ -182,6 +182,100 @@ pub enum DynamicsError {
         /// The largest component of the last correction, relative to the velocity.
         correction: f64,
     },
+    /// Equations that Newton's iteration does not solve from its guess.
+    #[error(
+        "{condition} was not found by Newton's iteration: the residual {residual:e} is left, the last correction was \
+         {correction:e} of the largest unknown; start nearer"
+    )]
+    NotSolved {
+        /// What was sought.
+        condition: &'static str,
+        /// The largest residual left.
+        residual: f64,
+        /// The last correction over the largest unknown.
+        correction: f64,
+    },
+    /// A map of phase space whose Jacobian is not symplectic.
+    #[error(
+        "the map is not canonical: entry ({row}, {column}) of JᵀΩJ − Ω is {residual:e}, {relative:e} of the terms it is \
+         made of"
+    )]
+    NotCanonical {
+        /// The entry.
+        residual: f64,
+        /// The entry over the magnitudes of its terms.
+        relative: f64,
+        /// Its row, in the order (q, p).
+        row: usize,
+        /// Its column.
+        column: usize,
+    },
+    /// A field of vectors whose flow does not keep ω.
+    #[error(
+        "the field is not locally Hamiltonian: entry ({row}, {column}) of the Lie derivative of ω is {residual:e}, \
+         {relative:e} of the terms it is made of"
+    )]
+    NotLocallyHamiltonian {
+        /// The entry.
+        residual: f64,
+        /// The entry over the magnitudes of its terms.
+        relative: f64,
+        /// Its row, in the order (q, p).
+        row: usize,
+        /// Its column.
+        column: usize,
+    },
+    /// A function that is given as an integral and is none.
+    #[error("function {index} is no integral: its rate is {relative:e} of the terms it is made of")]
+    NotAnIntegral {
+        /// The function.
+        index: usize,
+        /// Its rate over the magnitudes of its terms.
+        relative: f64,
+    },
+    /// A Hamiltonian that depends on time where one is needed that does not.
+    #[error("the Hamiltonian changes with time, ∂H/∂t = {rate:e}: fronts of one energy need one that does not")]
+    TimeDependentHamiltonian {
+        /// ∂H/∂t, W.
+        rate: f64,
+    },
+    /// An action that no motion has.
+    #[error("the action {index} is {value}; it must lie between {least} and {greatest}")]
+    InvalidAction {
+        /// Its index.
+        index: usize,
+        /// The value given.
+        value: f64,
+        /// The least value possible.
+        least: f64,
+        /// The greatest.
+        greatest: f64,
+    },
+    /// 0 < x violated.
+    #[error("the {quantity} is {value}; it must be positive")]
+    NotPositive {
+        /// What it is.
+        quantity: &'static str,
+        /// The value given.
+        value: f64,
+    },
+    /// A body that is not bound to its centre: its orbit is no ellipse.
+    #[error("the energy is {energy} J; elements of an ellipse need a negative one")]
+    NotBound {
+        /// The energy.
+        energy: f64,
+    },
+    /// Elements of an orbit where an angle has no meaning.
+    #[error(
+        "the eccentricity is {eccentricity:e} and the sine of the inclination {sine_of_inclination:e}: both must be \
+         positive for the angles to have a meaning"
+    )]
+    DegenerateElements {
+        /// e.
+        eccentricity: f64,
+        /// sin i.
+        sine_of_inclination: f64,
+    },
     /// The forces do not balance anywhere near the guess.
     #[error("no equilibrium was found in {iterations} steps: the forces left are {residual:e} of those that balance")]
     NoEquilibrium {
@@ -299,6 +393,252 @@ pub enum DynamicsError {
         constraint: usize,
         /// Its name, if it has one.
         name: Option<String>,
+    },
+    /// Two events that an extremal joins at a conjugate point: neighbouring extremals join them too.
+    #[error(
+        "the events are conjugate: ∂q₁/∂p₀ along the extremal has singular values of ratio {ratio:e}, so that its action \
+         has no derivatives there"
+    )]
+    ConjugateEvents {
+        /// Smallest over largest singular value of ∂q₁/∂p₀, each made free of units by the size of q and p.
+        ratio: f64,
+    },
+    /// No extremal was found between two events.
+    #[error(
+        "none of {starts} extremals of the search region could be brought to the event: the nearest misses it by {miss:e}"
+    )]
+    NoExtremal {
+        /// The least distance |q(t₁) − q₁| met.
+        miss: f64,
+        /// The number of initial momenta tried.
+        starts: usize,
+    },
+    /// Two events at the same time: all extremals leave one place and none arrives at another.
+    #[error("both events are at the time {time} s")]
+    EventsAtOneTime {
+        /// The time.
+        time: f64,
+    },
+    /// Bounds of a search region that are not in order, or no numbers.
+    #[error("the bounds {lower} and {upper} of momentum {index} must satisfy −∞ < lower ≤ upper < ∞")]
+    InvalidRegion {
+        /// The component.
+        index: usize,
+        /// The lower bound.
+        lower: f64,
+        /// The upper bound.
+        upper: f64,
+    },
+    /// A Newton iteration that does not converge.
+    #[error("{unknown} were not found in {iterations} iterations: {residual:e} is left of the equations")]
+    NotFound {
+        /// What was sought.
+        unknown: &'static str,
+        /// Iterations made.
+        iterations: usize,
+        /// The largest residual left.
+        residual: f64,
+    },
+    /// A complete integral whose constants are not independent: det ∂²U/∂q∂Q = 0.
+    #[error("the integral is not complete: ∂²U/∂q∂Q has singular values of ratio {ratio:e} there")]
+    IncompleteIntegral {
+        /// Smallest over largest singular value of ∂²U/∂q∂Q scaled to rows and columns of unit size.
+        ratio: f64,
+    },
+    /// A function that does not solve the Hamilton–Jacobi equation where it is to give motions.
+    #[error(
+        "the function does not solve the Hamilton–Jacobi equation: it leaves {residual:e} J of terms of {scale:e} J"
+    )]
+    NoSolution {
+        /// ∂U/∂t + H.
+        residual: f64,
+        /// |∂U/∂t| + |H|.
+        scale: f64,
+    },
+    /// An initial manifold that the extremals touch: transversals do not leave it.
+    #[error("the extremal touches the initial manifold: dU/dt along it is {rate:e} of terms of {scale:e}")]
+    NotTransversal {
+        /// U_q·H_p + U_t.
+        rate: f64,
+        /// |U_q||H_p| + |U_t|.
+        scale: f64,
+    },
+    /// A point on a caustic, where transversals meet and their solution has no second derivatives.
+    #[error("the transversals meet in a caustic: their map has {ratio:e} of the Jacobian that they started with")]
+    OnCaustic {
+        /// The Jacobian relative to that of the start.
+        ratio: f64,
+    },
+    /// A coordinate where the motion with these constants does not reach.
+    #[error("coordinate {coordinate} cannot be {value}: the square of its momentum would be {square:e}")]
+    ForbiddenCoordinate {
+        /// The coordinate.
+        coordinate: usize,
+        /// Its value.
+        value: f64,
+        /// The square of the separated momentum.
+        square: f64,
+    },
+    /// The derivatives of a manifold along its parameters depend on each other.
+    #[error(
+        "the initial manifold is singular at {parameters:?}: its derivative along parameter {index} depends on those \
+         before (a share of {share:e} is its own)"
+    )]
+    DependentParameters {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The parameter.
+        index: usize,
+        /// The share of the derivative that is not a combination of those before.
+        share: f64,
+    },
+    /// No ξ near the guess satisfies u_τ = ξ·x_τ and Φ(x, u, ξ) = 0.
+    #[error(
+        "no ξ satisfies the data and the equation at {parameters:?} near the guess: at {covector:?} Φ is {residual:e} \
+         and changes by {slope:e} along the normal of the manifold"
+    )]
+    NoInitialCovector {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The nearest ξ found.
+        covector: Vec<f64>,
+        /// Φ there.
+        residual: f64,
+        /// Its derivative along the normal.
+        slope: f64,
+    },
+    /// A given ξ(τ) is not that of a strip, or does not satisfy the equation.
+    #[error(
+        "the ξ given at {parameters:?} violates condition {condition} of a strip (the last is Φ = 0) by {residual:e}"
+    )]
+    NotAStrip {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The parameter whose u_τ = ξ·x_τ is violated; their number where it is Φ = 0.
+        condition: usize,
+        /// u_τ − ξ·x_τ or Φ.
+        residual: f64,
+    },
+    /// An equation that declares itself linear in ξ but is not: its characteristics would be wrong.
+    #[error(
+        "the equation is not linear in ξ at {parameters:?} (a second difference is {residual:e}): leave out \
+         `const QUASILINEAR: bool = true`"
+    )]
+    NotQuasilinear {
+        /// τ.
+        parameters: Vec<f64>,
+        /// Φ(2ξ) − 2Φ(ξ) + Φ(0).
+        residual: f64,
+    },
+    /// A characteristic strip carries infinitely many solutions.
+    #[error(
+        "the initial strip is characteristic at {parameters:?} (sine {transversality:e} between the characteristic and \
+         the manifold, residual {residual:e}): infinitely many solutions contain it"
+    )]
+    CharacteristicStrip {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The sine of the angle between Φ_ξ and the manifold.
+        transversality: f64,
+        /// The relative residual of the condition on ξ′.
+        residual: f64,
+    },
+    /// A strip that is Monge but not characteristic lies on no solution.
+    #[error(
+        "the initial strip is a Monge strip but not a characteristic one at {parameters:?} (sine {transversality:e} \
+         between the characteristic and the manifold, residual {residual:e}): no twice differentiable solution \
+         contains it"
+    )]
+    MongeStrip {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The sine of the angle between Φ_ξ and the manifold.
+        transversality: f64,
+        /// The relative residual of the condition on ξ′.
+        residual: f64,
+    },
+    /// A point of the manifold that no characteristic leaves, because ξ is not determined or Φ_ξ = 0.
+    #[error(
+        "the initial manifold determines no solution at {parameters:?}: {kind:?}, sine {transversality:e} between it \
+         and the manifold"
+    )]
+    DegenerateStrip {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The sine of the angle between Φ_ξ and the manifold.
+        transversality: f64,
+        /// What the manifold is there.
+        kind: crate::first_order_pde::StripKind,
+    },
+    /// from ≤ 0 ≤ to violated by the span of characteristics, or an end that is not finite.
+    #[error("the characteristics are asked for from {from} to {to}; they start at 0, which must lie between")]
+    InvalidSpan {
+        /// The lower end.
+        from: f64,
+        /// The upper end.
+        to: f64,
+    },
+    /// An interval without extent, or with ends that are not finite.
+    #[error("the interval of `{quantity}` goes from {from} to {to}; it must satisfy −∞ < from < to < ∞")]
+    InvalidInterval {
+        /// What has that interval.
+        quantity: &'static str,
+        /// The lower end.
+        from: f64,
+        /// The upper end.
+        to: f64,
+    },
+    /// A point that no characteristic of the solution reaches.
+    #[error("no characteristic reaches {point:?}; the nearest, of parameters {parameters:?}, stays {distance:e} away")]
+    OutsideOfCharacteristics {
+        /// The point.
+        point: Vec<f64>,
+        /// τ of the nearest characteristic computed.
+        parameters: Vec<f64>,
+        /// Its distance.
+        distance: f64,
+    },
+    /// Several characteristics reach a point: the solution has several sheets there.
+    #[error("{} characteristics reach {point:?}, with u = {values:?}: ask for all sheets or for the first arrival", values.len())]
+    SeveralSheets {
+        /// The point.
+        point: Vec<f64>,
+        /// u on the sheets.
+        values: Vec<f64>,
+    },
+    /// The one characteristic that reaches a point has passed caustics.
+    #[error(
+        "the characteristic that reaches {point:?} with u = {value} has passed {caustics} caustics: ask for all sheets"
+    )]
+    BeyondCaustic {
+        /// The point.
+        point: Vec<f64>,
+        /// u on it.
+        value: f64,
+        /// The caustics passed.
+        caustics: usize,
+    },
+    /// The initial manifold would need more characteristics than are allowed.
+    #[error(
+        "{rays} characteristics leave an error of interpolation of {error:e}: allow more of them, more parts of each, or a coarser resolution"
+    )]
+    TooManyCharacteristics {
+        /// The characteristics made.
+        rays: usize,
+        /// The largest error of interpolation left.
+        error: f64,
+    },
+    /// No generator of the Monge cone was found over a direction.
+    #[error(
+        "no generator of the Monge cone lies over {direction:?}: at ξ = {covector:?} the conditions are violated by {residual:e}"
+    )]
+    NoGenerator {
+        /// x′.
+        direction: Vec<f64>,
+        /// The last ξ.
+        covector: Vec<f64>,
+        /// The largest relative residual of Φ_ξ = λ x′ and Φ = 0.
+        residual: f64,
     },
 }
 

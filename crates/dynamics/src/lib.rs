@@ -6,7 +6,9 @@
 //! | [`anholonomic`] | quasi-velocities: structure coefficients, Boltzmann–Hamel equations, rolling |
 //! | [`constraints`] | constraints φ(q, t) = 0 with multipliers: closed loops, redundancy, RATTLE |
 //! | [`small_motions`] | equilibria, linearisation about any state, normal and complex modes, stability |
-//! | [`hamiltonian`] | Hamilton's equations of any function H(q, p, t) |
+//! | [`hamiltonian`] | functions, forms and maps of phase space, integrals and symmetries, for any H(q, p, t) |
+//! | [`hamilton_jacobi`] | Hamilton–Jacobi equation, extremals between events, transversals, wave fronts |
+//! | [`first_order_pde`] | first-order partial differential equations Φ(x, u, ∇u) = 0 by characteristics |
 //! | [`newton_euler`] | Newton's and Euler's laws of particles and rigid bodies |
 //! | [`rigid_motion`] | the rotation of a rigid body by unit quaternions |
 //! | [`gravitation`] | many bodies attracting each other: direct summation in lanes, post-Newtonian term |
@@ -19,7 +21,9 @@ pub mod anholonomic;
 mod check;
 pub mod constraints;
 mod error;
+pub mod first_order_pde;
 pub mod gravitation;
+pub mod hamilton_jacobi;
 pub mod hamiltonian;
 pub mod lagrangian;
 pub mod newton_euler;

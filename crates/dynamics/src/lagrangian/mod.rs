@@ -47,7 +47,7 @@ mod motion;
 mod parts;
 mod potential;
 mod power;
-mod quadrature;
+pub(crate) mod quadrature;
 mod reactions;
 mod run;
 mod virtual_work;

@@ -50,13 +50,13 @@ struct Interval<const K: usize> {
 }
 
 /// Values and errors of K integrals.
-pub(super) struct Integrals<const K: usize> {
-    pub(super) values: [f64; K],
-    pub(super) errors: [f64; K],
+pub(crate) struct Integrals<const K: usize> {
+    pub(crate) values: [f64; K],
+    pub(crate) errors: [f64; K],
 }
 
 /// Integrates K functions from `from` to `to`, each to `relative` times ∫|f| plus `absolute`.
-pub(super) fn integrate<const K: usize>(
+pub(crate) fn integrate<const K: usize>(
     (from, to): (f64, f64),
     (relative, absolute): (f64, f64),
     mut functions: impl FnMut(f64) -> Result<[f64; K], DynamicsError>,

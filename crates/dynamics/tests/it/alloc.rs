@@ -1,7 +1,7 @@
 //! Evaluations and steps allocate nothing after set-up.
 
 use piola_dynamics::gravitation::Gravitation;
-use piola_dynamics::hamiltonian::{Hamiltonian, HamiltonianField};
+use piola_dynamics::hamiltonian::{HamiltonianField, PhaseFunction};
 use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Potential, Workspace};
 use piola_integrators::{Composition, Field, GaussLegendre, Order, Separable, State};
 use piola_numerics::Real;
@@ -74,8 +74,8 @@ fn million_steps_of_three_bodies_allocate_nothing() {
 #[test]
 fn implicit_steps_of_a_hamiltonian_allocate_nothing() {
     struct Pendulum;
-    impl Hamiltonian for Pendulum {
-        fn hamiltonian<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
+    impl PhaseFunction for Pendulum {
+        fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
             T::lit(0.5) * p[0] * p[0] - q[0].cos()
         }
     }

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 use std::collections::HashMap;
 
 use piola_dynamics::gravitation::Gravitation;
-use piola_dynamics::hamiltonian::{Hamiltonian, HamiltonianField};
+use piola_dynamics::hamiltonian::{HamiltonianField, PhaseFunction};
 use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Potential};
 use piola_dynamics::rigid_motion::RigidRotation;
 use piola_integrators::{Composition, DormandPrince853, Field, GaussLegendre, Order, Separable, State, Tolerance};
@@ -300,8 +300,8 @@ fn test_particle_follows_keplers_ellipses() {
 /// H = (p² + q²)/2 + x²y − y³/3.
 struct HenonHeiles;
 
-impl Hamiltonian for HenonHeiles {
-    fn hamiltonian<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
+impl PhaseFunction for HenonHeiles {
+    fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
         let half = T::lit(0.5);
         let (x, y) = (q[0], q[1]);
         half * (p[0] * p[0] + p[1] * p[1] + x * x + y * y) + x * x * y - y * y * y / T::lit(3.0)

@@ -1,0 +1,234 @@
+//! Identities of characteristics, for any data.
+
+use piola_dynamics::first_order_pde::{
+    CauchyProblem, FirstOrderPde, Front, InitialManifold, MongeCone, ParameterInterval, RayField, RayPoint, Refinement,
+    StripKind,
+};
+use piola_integrators::{Field, Tolerance};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale, difference_quotient};
+use proptest::prelude::*;
+
+use super::systems::{Bent, Eikonal, Ellipsoid, Hill, Multiplied, Relabelled, Reparametrised, Turned, Wave};
+
+fn integrated() -> Tol {
+    Tol::stated(1e-11, "a few dozen steps of local error 1e-13")
+}
+
+fn ray<P: FirstOrderPde, M: InitialManifold>(equation: &P, manifold: &M, tau: f64, s: f64) -> RayPoint {
+    CauchyProblem::new(equation, manifold, 2).unwrap().characteristic(&[tau], s).unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    /// W(A.20), W(A.25): Φ stays zero and ξ = ∇u, with ∇u from the ray map.
+    #[test]
+    fn equation_is_conserved_and_covector_is_gradient(tau in -2.0..2.0_f64, s in -0.4..0.6_f64) {
+        let point = ray(&Bent, &Wave, tau, s);
+        prop_assert!(point.equation.abs() < 1e-12, "{}", point.equation);
+        let loose = integrated().times(1.0 / point.determinant.abs().min(1.0));
+        prop_assert!(point.gradient_residual <= loose.value(), "{point:?}");
+    }
+
+    #[test]
+    fn turned_coordinates_leave_the_solution(
+        tau in -2.0..2.0_f64, s in -0.4..0.6_f64, angle in -3.0..3.0_f64, a in -1.0..1.0_f64, b in -1.0..1.0_f64,
+    ) {
+        let shift = [a, b];
+        let here = ray(&Bent, &Wave, tau, s);
+        let there = ray(&Turned { inner: Bent, angle, shift }, &Turned { inner: Wave, angle, shift }, tau, s);
+        assert_close_at_scale("u", &[there.u], &[here.u], 1.0, integrated());
+        assert_close_at_scale("D", &[there.determinant], &[here.determinant], 1.0, integrated());
+        let (sin, cos) = angle.sin_cos();
+        let back = [cos * there.x[0] - sin * there.x[1] + a, sin * there.x[0] + cos * there.x[1] + b];
+        assert_close_at_scale("x", &back, &here.x, 3.0, integrated());
+        let back = [cos * there.xi[0] - sin * there.xi[1], sin * there.xi[0] + cos * there.xi[1]];
+        assert_close_at_scale("ξ", &back, &here.xi, 1.0, integrated());
+    }
+
+    #[test]
+    fn relabelled_coordinates_leave_the_solution_and_turn_the_determinant(tau in -2.0..2.0_f64, s in -0.4..0.6_f64) {
+        let (here, there) = (ray(&Bent, &Wave, tau, s), ray(&Relabelled(Bent), &Relabelled(Wave), tau, s));
+        assert_close_at_scale("u", &[there.u], &[here.u], 1.0, integrated());
+        assert_close_at_scale("x", &[there.x[1], there.x[0]], &here.x, 1.0, integrated());
+        assert_close_at_scale("D", &[-there.determinant], &[here.determinant], 1.0, integrated());
+    }
+
+    /// W(A.40): the completed ξ is that of a strip, and its derivatives are those of the completion.
+    #[test]
+    fn completed_covectors_form_a_strip(tau in -2.0..2.0_f64) {
+        let problem = CauchyProblem::new(&Bent, &Wave, 2).unwrap();
+        let point = problem.initial_point(&[tau]).unwrap();
+        let rounding = Tol::ulps(32.0);
+        assert_close_at_scale("Φ, u_τ − ξ·x_τ", &[point.equation, point.strip[0]], &[0.0, 0.0], 1.0, rounding);
+        let quotient = difference_quotient(|tau| problem.initial_point(tau).unwrap().xi, &[tau], &[1.0]);
+        assert_close_at_scale("ξ_τ", &point.xi_tau, &quotient, 1.0, Tol::stated(1e-9, "a difference quotient"));
+    }
+
+    /// det(x_s, x_τ) and its slope against differences of rays.
+    #[test]
+    fn ray_map_equals_differences_of_rays(tau in -2.0..2.0_f64, s in -0.3..0.5_f64) {
+        let point = ray(&Bent, &Wave, tau, s);
+        let by_s = difference_quotient(|s| ray(&Bent, &Wave, tau, s[0]).x, &[s], &[1.0]);
+        let by_tau = difference_quotient(|tau| ray(&Bent, &Wave, tau[0], s).x, &[tau], &[1.0]);
+        let differences = Tol::stated(1e-9, "a difference quotient of integrated rays");
+        assert_close_at_scale("x_s", &point.jacobian[..2], &by_s, 1.0, differences);
+        assert_close_at_scale("x_τ", &point.jacobian[2..], &by_tau, 1.0, differences);
+    }
+
+    #[test]
+    fn slope_of_determinant_equals_its_difference(y in proptest::array::uniform10(-1.0..1.0_f64)) {
+        let mut field = RayField::new(&Bent, 2, 1);
+        let mut rate = [0.0; 10];
+        field.rate(0.0, &y, &mut rate).unwrap();
+        let slope = field.determinant_and_slope(&y).tangent;
+        let quotient = difference_quotient(|y| vec![RayField::new(&Bent, 2, 1).determinant(y)], &y, &rate);
+        assert_close_at_scale("D′", &[slope], &quotient, 1.0, Tol::stated(1e-9, "a difference quotient"));
+    }
+
+    /// W(A.35): at every point of a characteristic its direction is a generator of the cone, and a Monge direction.
+    #[test]
+    fn characteristics_run_along_generators_of_the_cone(tau in -2.0..2.0_f64, s in -0.4..0.6_f64) {
+        let point = ray(&Bent, &Wave, tau, s);
+        let cone = MongeCone::new(&Bent, &point.x, point.u).unwrap();
+        let x_rate = &point.jacobian[..2];
+        let generator = cone.generator_over(x_rate, &[point.xi[0] + 0.05, point.xi[1] - 0.05]).unwrap();
+        assert_close_at_scale("ξ", &generator.covector, &point.xi, 1.0, integrated());
+        let u_rate = generator.u_rate;
+        prop_assert!(cone.monge_residual(x_rate, u_rate, &point.xi).unwrap().largest() < 1e-10);
+        // Neither a steeper direction nor one across it belongs to the strip.
+        prop_assert!(0.01 < cone.monge_residual(x_rate, u_rate + 0.2, &point.xi).unwrap().largest());
+        prop_assert!(0.1 < cone.monge_residual(&[-x_rate[1], x_rate[0]], 0.0, &point.xi).unwrap().largest());
+    }
+}
+
+const WAVE: [ParameterInterval; 1] = [ParameterInterval { from: -1.5, to: 1.5, parts: 6 }];
+
+/// The solution does not know how its manifold or its characteristics are parametrised.
+#[test]
+fn solution_does_not_depend_on_parameters() {
+    let refinement = Refinement::to(1e-2);
+    let (other, faster) = (Reparametrised(Wave), Multiplied(Bent));
+    let plain = CauchyProblem::new(&Bent, &Wave, 2).unwrap();
+    let solution = plain.solve(&WAVE, (0.0, 0.6), refinement).unwrap();
+    let renamed = CauchyProblem::new(&Bent, &other, 2).unwrap().solve(&WAVE, (0.0, 0.6), refinement).unwrap();
+    let multiplied = CauchyProblem::new(&faster, &Wave, 2).unwrap().solve(&WAVE, (0.0, 0.1), refinement).unwrap();
+    for (tau, s) in [(-0.9, 0.1), (-0.3, 0.15), (0.2, 0.05), (0.7, 0.14)] {
+        let point = plain.characteristic(&[tau], s).unwrap();
+        let found = solution.at(&point.x).unwrap();
+        assert_close_at_scale("s, τ", &[found.point.s, found.point.parameters[0]], &[s, tau], 1.0, integrated());
+        for sheet in [renamed.at(&point.x).unwrap(), multiplied.at(&point.x).unwrap()] {
+            assert_close_at_scale("u", &[sheet.point.u], &[point.u], 1.0, integrated());
+            assert_close_at_scale("ξ", &sheet.point.xi, &point.xi, 1.0, integrated());
+        }
+    }
+}
+
+/// ξ = ∇u by differences of u at displaced points, each found by inverting the ray map anew.
+#[test]
+fn covector_equals_difference_quotient_of_solution() {
+    let solution = CauchyProblem::new(&Bent, &Wave, 2).unwrap().solve(&WAVE, (0.0, 0.5), Refinement::to(1e-2)).unwrap();
+    let x = [0.3, 0.2];
+    let xi = solution.at(&x).unwrap().point.xi;
+    let u = |x: &[f64]| vec![solution.at(x).unwrap().point.u];
+    let quotients = [difference_quotient(u, &x, &[1.0, 0.0]), difference_quotient(u, &x, &[0.0, 1.0])].concat();
+    assert_close_at_scale("ξ", &xi, &quotients, 1.0, Tol::stated(1e-9, "a difference quotient"));
+}
+
+/// A front in lanes is its characteristics one by one, and the same to the last bit in pieces.
+#[test]
+fn front_in_lanes_equals_single_characteristics() {
+    let problem = CauchyProblem::new(&Bent, &Wave, 2).unwrap();
+    let interval = [ParameterInterval { from: -1.5, to: 1.5, parts: 9 }];
+    let mut front = problem.front(&interval).unwrap();
+    assert_eq!(front.len(), 10);
+    let tolerance = Tolerance::relative(1e-13).unwrap();
+    let mut pieces: Vec<Front> = front.rows().chunks(4 * 5).map(|rows| Front::new(2, rows.to_vec()).unwrap()).collect();
+    front.advance(&Bent, 0.4, tolerance).unwrap();
+    for piece in &mut pieces {
+        piece.advance(&Bent, 0.4, tolerance).unwrap();
+    }
+    let joined: Vec<f64> = pieces.iter().flat_map(|piece| piece.rows().iter().copied()).collect();
+    assert!(front.rows().iter().zip(&joined).all(|(a, b)| a.to_bits() == b.to_bits()));
+    assert!(front.drift(&Bent) < 1e-12);
+    for (i, row) in front.rows().chunks(5).enumerate() {
+        let point = problem.characteristic(&[-1.5 + 3.0 * i as f64 / 9.0], 0.4).unwrap();
+        assert_close_at_scale("x", &row[..2], &point.x, 1.0, integrated());
+        assert_close_at_scale("ξ", &row[3..], &point.xi, 1.0, integrated());
+    }
+}
+
+/// What one workspace did before leaves no trace: a characteristic is the same to the last bit among any others.
+#[test]
+fn characteristics_do_not_depend_on_each_other() {
+    let problem = CauchyProblem::new(&Bent, &Wave, 2).unwrap();
+    let unrefined = Refinement { most_levels: 4, ..Refinement::to(1e3) };
+    let solve = |parts| {
+        let interval = [ParameterInterval { from: -1.5, to: 1.5, parts }];
+        problem.solve(&interval, (-0.2, 0.4), unrefined).unwrap()
+    };
+    let (coarse, fine) = (solve(3), solve(12));
+    assert_eq!((coarse.rays().len(), fine.rays().len()), (4, 13));
+    for (i, ray) in coarse.rays().iter().enumerate() {
+        let other = &fine.rays()[4 * i];
+        assert!(ray.states.iter().zip(&other.states).all(|(a, b)| (a - b).abs() < 1e-14));
+        assert_eq!(ray.parameters, other.parameters);
+    }
+    let again = solve(12);
+    for (ray, other) in fine.rays().iter().zip(again.rays()) {
+        assert!(ray.states.iter().zip(&other.states).all(|(a, b)| a.to_bits() == b.to_bits()));
+    }
+    let (x, u, xi) = fine.strip(4, 0).unwrap();
+    let point = problem.characteristic(&[-0.5], -0.2).unwrap();
+    assert_close_at_scale("x", x, &point.x, 1.0, integrated());
+    assert_close_at_scale("u, ξ", &[u, xi[0], xi[1]], &[point.u, point.xi[0], point.xi[1]], 1.0, integrated());
+    assert!(fine.strip(13, 0).is_none() && fine.strip(0, 99).is_none());
+}
+
+/// In four variables: a bundle of characteristics with its ray map.
+#[test]
+fn bundle_in_four_variables_is_inverted() {
+    let problem = CauchyProblem::new(&Eikonal, &Hill, 4).unwrap().near(&[0.0, 0.0, 0.0, 1.0]).unwrap();
+    let box_of_three = [ParameterInterval { from: -1.0, to: 1.0, parts: 2 }; 3];
+    let solution = problem.solve(&box_of_three, (0.0, 0.5), Refinement::to(1e-2)).unwrap();
+    assert_eq!((solution.rays().len(), solution.simplices().len()), (27, 0));
+    let point = problem.characteristic(&[0.3, -0.2, 0.6], 0.35).unwrap();
+    assert!(point.gradient_residual < 1e-12 && point.equation.abs() < 1e-13);
+    let found = solution.at(&point.x).unwrap();
+    assert_close_at_scale("τ", &found.point.parameters, &[0.3, -0.2, 0.6], 1.0, integrated());
+    assert_close_at_scale("u", &[found.point.u], &[0.35], 1.0, integrated());
+}
+
+/// In space: the normals of an ellipsoid meet its caustic at the radii of curvature; first at the smallest of them.
+#[test]
+fn first_loss_inside_an_ellipsoid_is_its_smallest_radius_of_curvature() {
+    let ellipsoid = Ellipsoid([1.5, 1.0, 1.25]);
+    let problem = CauchyProblem::new(&Eikonal, &ellipsoid, 3).unwrap();
+    let patch =
+        [ParameterInterval { from: -0.83, to: 0.7, parts: 3 }, ParameterInterval { from: -0.67, to: 0.8, parts: 3 }];
+    let solution = problem.solve(&patch, (0.0, 0.9), Refinement::to(3e-2)).unwrap();
+    let loss = solution.first_loss_of_invertibility().unwrap().unwrap();
+    // At the end of the longest axis the radii are b²/a and c²/a.
+    assert_close("s", &[loss.point.s], &[1.0 / 1.5], integrated());
+    assert_close_at_scale("τ", &loss.point.parameters, &[0.0, 0.0], 1.0, Tol::stated(1e-6, "descent along a gradient"));
+    let caustic = problem.caustic_points(&[0.0, 0.0], 0.0, 1.2).unwrap();
+    let radii: Vec<f64> = caustic.iter().map(|point| point.s).collect();
+    assert_close("radii", &radii, &[1.0 / 1.5, 1.25 * 1.25 / 1.5], integrated());
+    // A point within, on one sheet.
+    let point = problem.characteristic(&[0.2, -0.3], 0.4).unwrap();
+    let found = solution.at(&point.x).unwrap();
+    assert_close_at_scale("u", &[found.point.u], &[0.4], 1.0, integrated());
+    assert_close_at_scale("τ", &found.point.parameters, &[0.2, -0.3], 1.0, integrated());
+}
+
+/// All rays of a sphere meet in one point, where the determinant (1 − s)² touches zero.
+#[test]
+fn focus_of_a_sphere_is_a_touching_caustic() {
+    let sphere = Ellipsoid([1.0; 3]);
+    let problem = CauchyProblem::new(&Eikonal, &sphere, 3).unwrap();
+    let caustic = problem.caustic_points(&[0.3, 0.2], 0.0, 1.7).unwrap();
+    assert_eq!(caustic.len(), 1, "{caustic:?}");
+    assert!(caustic[0].touching);
+    assert_close("s", &[caustic[0].s], &[1.0], Tol::stated(1e-9, "a zero of the slope on dense output"));
+    assert_eq!(problem.initial_point(&[0.3, 0.2]).unwrap().kind, StripKind::Transversal);
+}

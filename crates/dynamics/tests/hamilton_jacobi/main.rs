@@ -1,0 +1,14 @@
+//! Tests of Hamilton–Jacobi theory: solutions, extremals between events, transversals, wave fronts.
+
+mod alloc;
+mod fronts;
+mod golden;
+mod laws;
+mod separable;
+mod strips;
+mod systems;
+mod transversals;
+mod traps;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
