@@ -27,7 +27,10 @@ pub(crate) enum Command {
     Check(SceneArguments),
     /// Fit laws of rubber to measured stresses; compare them in a table, a summary and a figure.
     Fit(FitArguments),
-    /// Recover a fluid's flow curve, with a band, from discharges of pipes or channels or speeds of coaxial cylinders.
+    /// Recover a fluid's flow curve and normal stresses, with bands, from discharges, speeds, torques and thrusts.
+    ///
+    /// --flow capillary takes capillaries of several lengths, a file each, and corrects for the pressure lost at their ends, after
+    /// Bagley.
     Recover(RecoverArguments),
     /// Fit fluids to a flow curve, or straight to discharges or speeds; compare them in a table, a summary and a figure.
     FitFlow(FitFlowArguments),
@@ -86,15 +89,13 @@ pub(crate) struct FitArguments {
     pub(crate) json: bool,
 }
 
-/// A table of viscometric measurements and where they were made.
+/// How viscometric measurements were made.
 #[derive(Debug, Args)]
 pub(crate) struct FlowArguments {
-    /// The measurements: CSV with units in the header and the geometry in comments, as `# radius: 2 mm`.
-    pub(crate) data: PathBuf,
-    /// What was measured: pipe, channel, couette or curve.
+    /// What was measured: pipe, channel, couette, plates or cone; capillary (recover only); curve (fit-flow only).
     #[arg(long)]
     pub(crate) flow: String,
-    /// Radius of the pipe, as 2mm, instead of the file's.
+    /// Radius of the pipe, the plates or the cone, as 2mm, instead of the file's.
     #[arg(long, value_name = "LENGTH")]
     pub(crate) radius: Option<String>,
     /// Half the width of the channel instead of the file's.
@@ -106,6 +107,15 @@ pub(crate) struct FlowArguments {
     /// Radius of the outer cylinder instead of the file's.
     #[arg(long, value_name = "LENGTH")]
     pub(crate) outer_radius: Option<String>,
+    /// Distance of the plates instead of the file's.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) gap: Option<String>,
+    /// Angle between cone and plate, as 2deg, instead of the file's.
+    #[arg(long, value_name = "ANGLE")]
+    pub(crate) angle: Option<String>,
+    /// Relative standard deviation of what answers; 0 for exact data. Without it, it is estimated.
+    #[arg(long, value_name = "SHARE")]
+    pub(crate) noise: Option<f64>,
     /// The probability of the band or the intervals.
     #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
     pub(crate) confidence: f64,
@@ -119,11 +129,15 @@ pub(crate) struct FlowArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct RecoverArguments {
+    /// The measurements: CSV with units in the header and the geometry in comments, as `# radius: 2 mm`. Several files for
+    /// --slip and for --flow capillary.
+    #[arg(required = true)]
+    pub(crate) data: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) flow: FlowArguments,
-    /// Relative standard deviation of the second column; 0 for exact data. Without it, it is estimated.
-    #[arg(long, value_name = "SHARE")]
-    pub(crate) noise: Option<f64>,
+    /// Correct for slip at the walls, after Mooney: pipes of several radii, a file each.
+    #[arg(long)]
+    pub(crate) slip: bool,
     /// Smooth until the shear rate rises with the stress.
     #[arg(long)]
     pub(crate) rising: bool,
@@ -131,6 +145,8 @@ pub(crate) struct RecoverArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct FitFlowArguments {
+    /// The measurements: CSV with units in the header and the geometry in comments, as `# radius: 2 mm`.
+    pub(crate) data: PathBuf,
     #[command(flatten)]
     pub(crate) flow: FlowArguments,
     /// A fluid: newtonian, power-law, bingham, casson, herschel-bulkley, papanastasiou, eyring, sisko, ellis, cross,

@@ -7,47 +7,83 @@ use std::path::Path;
 use piola_scene::fitting::{self, Measurements, Request};
 use piola_scene::output::{self, Folder, Summary, Written};
 use piola_scene::run::{self, Outcome};
-use piola_scene::{Plan, Scene, SceneError, schema};
+use piola_scene::studies::{self, StudyPlan};
+use piola_scene::{Plan, Scene, SceneError, SceneFile, Study, schema};
 
 use crate::arguments::{FitArguments, RunArguments, SceneArguments, SchemaArguments};
 use crate::interrupt::Interrupt;
-use crate::progress::ProgressLine;
+use crate::progress::{ProgressLine, STRIDE};
 use crate::{Exit, comparison, report};
 
 pub(crate) fn run(arguments: &RunArguments) -> Exit {
-    let mut scene = match load(&arguments.scene) {
-        Ok(scene) => scene,
-        Err(error) => return invalid(&error, arguments.scene.json),
-    };
-    if let Some(folder) = &arguments.out {
-        scene.output.folder.clone_from(folder);
+    match load(&arguments.scene) {
+        Ok(SceneFile::Motion(scene)) => run_motion(&scene, arguments),
+        Ok(SceneFile::Study(study)) => run_study(&study, arguments),
+        Err(error) => invalid(&error, arguments.scene.json),
     }
-    let folder = match Folder::prepare(&scene.output.folder) {
+}
+
+/// The folder of the results: the argument's, or the scene's.
+fn results(arguments: &RunArguments, asked: &Path) -> Result<Folder, SceneError> {
+    Folder::prepare(arguments.out.as_deref().unwrap_or(asked))
+}
+
+fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
+    let folder = match results(arguments, &study.output.folder) {
         Ok(folder) => folder,
         Err(error) => return invalid(&error, arguments.scene.json),
     };
-    let plan = Plan::of(&scene);
+    let plan = StudyPlan::of(study);
     let interrupt = Interrupt::listen();
-    let mut progress = ProgressLine::new(&plan);
-    let run = run::run(&scene, &plan, |step| {
-        progress.update(step);
+    let mut progress = ProgressLine::new(&plan.name, 1);
+    let run = studies::run(study, |fraction| {
+        progress.update(fraction);
         if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     progress.finish();
-    let summary = Summary::of(&scene, &plan, &run);
-    let written = output::write(&folder, &scene, &plan, &run, &summary);
+    let written = run.write(&folder, study, &plan);
+    if arguments.scene.json {
+        print(&run.summary(&plan));
+    } else {
+        print(&run.table(study, &plan));
+        print(&listing(&folder, &written));
+    }
+    let end = format!("what was found until then is in {}", folder.path().display());
+    ended(&run.outcome, &written, &end)
+}
+
+fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
+    let folder = match results(arguments, &scene.output.folder) {
+        Ok(folder) => folder,
+        Err(error) => return invalid(&error, arguments.scene.json),
+    };
+    let plan = Plan::of(scene);
+    let interrupt = Interrupt::listen();
+    let mut progress = ProgressLine::new(&plan.name, STRIDE);
+    let run = run::run(scene, &plan, |step| {
+        progress.update(step.fraction);
+        if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    progress.finish();
+    let summary = Summary::of(scene, &plan, &run);
+    let written = output::write(&folder, scene, &plan, &run, &summary);
     if arguments.scene.json {
         print(&summary.to_json());
     } else {
-        print(&report::table(&scene, &plan, &run));
+        print(&report::table(scene, &plan, &run));
         print(&listing(&folder, &written));
-    }
-    for failure in &written.failures {
-        note(&format!("error: {failure}"));
     }
     let end =
         format!("at {} s of {} s; what was computed until then is in {}", run.time, plan.end, folder.path().display());
-    match &run.outcome {
+    ended(&run.outcome, &written, &end)
+}
+
+/// Says what went wrong.
+fn ended(outcome: &Outcome, written: &Written, end: &str) -> Exit {
+    for failure in &written.failures {
+        note(&format!("error: {failure}"));
+    }
+    match outcome {
         Outcome::Completed if written.failures.is_empty() => Exit::Done,
         Outcome::Completed => Exit::Failed,
         Outcome::Interrupted => {
@@ -63,31 +99,33 @@ pub(crate) fn run(arguments: &RunArguments) -> Exit {
 
 pub(crate) fn plan(arguments: &SceneArguments) -> Exit {
     match load(arguments) {
-        Ok(scene) => {
-            let plan = Plan::of(&scene);
-            if arguments.json {
-                print_json(&plan);
-            } else {
-                print(&format!("{plan}\n"));
-            }
-            Exit::Done
-        }
+        Ok(SceneFile::Motion(scene)) => show_plan(&Plan::of(&scene), arguments.json),
+        Ok(SceneFile::Study(study)) => show_plan(&StudyPlan::of(&study), arguments.json),
         Err(error) => invalid(&error, arguments.json),
     }
 }
 
-pub(crate) fn check(arguments: &SceneArguments) -> Exit {
-    match load(arguments) {
-        Ok(scene) if arguments.json => {
-            print_json(&serde_json::json!({ "name": scene.name, "valid": true, "mistakes": [], "more": 0 }));
-            Exit::Done
-        }
-        Ok(scene) => {
-            print(&format!("{} is valid: {}\n", arguments.scene.display(), Plan::of(&scene).system));
-            Exit::Done
-        }
-        Err(error) => invalid(&error, arguments.json),
+fn show_plan(plan: &(impl serde::Serialize + core::fmt::Display), json: bool) -> Exit {
+    if json {
+        print_json(plan);
+    } else {
+        print(&format!("{plan}\n"));
     }
+    Exit::Done
+}
+
+pub(crate) fn check(arguments: &SceneArguments) -> Exit {
+    let (name, system) = match load(arguments) {
+        Ok(SceneFile::Motion(scene)) => (scene.name.clone(), Plan::of(&scene).system),
+        Ok(SceneFile::Study(study)) => (study.name.clone(), StudyPlan::of(&study).system),
+        Err(error) => return invalid(&error, arguments.json),
+    };
+    if arguments.json {
+        print_json(&serde_json::json!({ "name": name, "valid": true, "mistakes": [], "more": 0 }));
+    } else {
+        print(&format!("{} is valid: {system}\n", arguments.scene.display()));
+    }
+    Exit::Done
 }
 
 pub(crate) fn fit(arguments: &FitArguments) -> Exit {
@@ -156,8 +194,8 @@ pub(crate) fn schema(arguments: &SchemaArguments) -> Exit {
     Exit::Done
 }
 
-fn load(arguments: &SceneArguments) -> Result<Scene, SceneError> {
-    Scene::load(&arguments.scene, &arguments.settings)
+fn load(arguments: &SceneArguments) -> Result<SceneFile, SceneError> {
+    SceneFile::load(&arguments.scene, &arguments.settings)
 }
 
 pub(crate) fn invalid(error: &SceneError, json: bool) -> Exit {

@@ -14,41 +14,50 @@ pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
     let flow = &arguments.flow;
     let mut request = RecoveryRequest::default();
     request.confidence = flow.confidence;
-    request.noise = match arguments.noise {
-        None => Noise::Estimated,
-        Some(0.0) => Noise::Exact,
-        Some(level) => Noise::Relative(level),
-    };
+    request.noise = noise(flow);
     request.rise = if arguments.rising { Rise::Enforced } else { Rise::Reported };
-    let prepared = load(flow).and_then(|measured| {
-        let recovery = rheology::recover(&measured, &request)?;
-        Ok((recovery, folder(flow, "recover", &measured)?, measured))
+    let load_all = || arguments.data.iter().map(|path| load(path, flow)).collect::<Result<Vec<_>, _>>();
+    let prepared = load_all().and_then(|tables| {
+        let recovery = match tables.as_slice() {
+            tables if arguments.slip => rheology::recover_without_slip(tables, &request)?,
+            [single] => rheology::recover(single, &request)?,
+            several => rheology::recover_without_ends(several, &request)
+                .map_err(|error| if flow.flow == "capillary" { error } else { too_many(several) })?,
+        };
+        let first = tables.first().map(Measured::name).unwrap_or_default();
+        Ok((recovery, folder(flow, "recover", &first)?, tables))
     });
     match prepared {
-        Ok((recovery, folder, measured)) => {
-            let written = recovery.write(&folder, &measured);
-            let text = if flow.json { recovery.summary(&measured) } else { recovery.table(&measured) };
+        Ok((recovery, folder, tables)) => {
+            let written = recovery.write(&folder, &tables);
+            let text = if flow.json { recovery.summary(&tables) } else { recovery.table(&tables) };
             show(&text, flow.json, &folder, &written);
-            let whole = recovery.rows.len() == measured.rows.len();
-            if !whole {
-                let lost = measured.rows.len() - recovery.rows.len();
+            let lost = recovery.lost();
+            if 0 < lost {
                 note(&format!("error: nothing positive is recovered at {lost} rows: noise is stronger than the flow"));
             }
-            if whole && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+            if lost == 0 && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
         }
         Err(error) => invalid(&error, flow.json),
     }
 }
 
+/// Several tables of a flow that takes one.
+fn too_many(tables: &[Measured]) -> SceneError {
+    let argument = format!("{} files", tables.len());
+    SceneError::Argument { argument, valid: "one file, or several with --slip or --flow capillary" }
+}
+
 pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
     let flow = &arguments.flow;
-    let prepared = load(flow).and_then(|measured| {
+    let prepared = load(&arguments.data, flow).and_then(|measured| {
         let fluids = match arguments.fluids.as_slice() {
             [] => FluidName::ALL.to_vec(),
             names => names.iter().map(|name| name.parse()).collect::<Result<_, _>>()?,
         };
         let mut request = Request::of(fluids);
         request.confidence = flow.confidence;
+        request.noise = noise(flow);
         if arguments.equal_errors {
             request.weighting = Weighting::Equal;
         }
@@ -56,7 +65,7 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
         if let (None, Some((_, refused))) = (comparison.fits().next(), comparison.refusals().next()) {
             return Err(refused.clone().into());
         }
-        Ok((comparison, folder(flow, "fit-flow", &measured)?, measured))
+        Ok((comparison, folder(flow, "fit-flow", &measured.name())?, measured))
     });
     match prepared {
         Ok((comparison, folder, measured)) => {
@@ -72,21 +81,31 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
     }
 }
 
-fn load(arguments: &FlowArguments) -> Result<Measured, SceneError> {
+fn noise(arguments: &FlowArguments) -> Noise {
+    match arguments.noise {
+        None => Noise::Estimated,
+        Some(0.0) => Noise::Exact,
+        Some(level) => Noise::Relative(level),
+    }
+}
+
+fn load(path: &Path, arguments: &FlowArguments) -> Result<Measured, SceneError> {
     let kind: FlowKind = arguments.flow.parse()?;
     let given = [
         ("radius", &arguments.radius),
         ("half_width", &arguments.half_width),
         ("inner_radius", &arguments.inner_radius),
         ("outer_radius", &arguments.outer_radius),
+        ("gap", &arguments.gap),
+        ("angle", &arguments.angle),
     ];
-    let lengths: Vec<(String, String)> =
+    let sizes: Vec<(String, String)> =
         given.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value.clone()?))).collect();
-    Measured::load(&arguments.data, kind, &lengths)
+    Measured::load(path, kind, &sizes)
 }
 
-fn folder(arguments: &FlowArguments, command: &str, measured: &Measured) -> Result<Folder, SceneError> {
-    let beside: PathBuf = Path::new("out").join(format!("{command}-{}", measured.name()));
+fn folder(arguments: &FlowArguments, command: &str, name: &str) -> Result<Folder, SceneError> {
+    let beside: PathBuf = Path::new("out").join(format!("{command}-{name}"));
     Folder::prepare(arguments.out.as_ref().unwrap_or(&beside))
 }
 

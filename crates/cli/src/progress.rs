@@ -4,15 +4,13 @@ use std::io::{IsTerminal as _, Write as _};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use piola_scene::Plan;
-use piola_scene::run::Progress;
 
 /// Parts of the whole that the bar counts.
 const PARTS: f64 = 10_000.0;
 /// Time between two lines where there is no terminal.
 const PAUSE: Duration = Duration::from_secs(5);
-/// Time between two looks at the clock, in steps.
-const STRIDE: u64 = 256;
+/// Steps of an integrator between two looks at the clock.
+pub(crate) const STRIDE: u64 = 256;
 
 /// The display of a run's progress.
 pub(crate) struct ProgressLine {
@@ -20,28 +18,30 @@ pub(crate) struct ProgressLine {
     bar: Option<ProgressBar>,
     begun: Instant,
     shown: Instant,
+    stride: u64,
     seen: u64,
 }
 
 impl ProgressLine {
-    pub(crate) fn new(plan: &Plan) -> Self {
+    /// Of a run of this name, shown at every so many updates.
+    pub(crate) fn new(name: &str, stride: u64) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(10_000);
             let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} %, {eta} left");
             if let Ok(style) = style {
                 bar.set_style(style.progress_chars("=> "));
             }
-            bar.set_message(plan.name.clone());
+            bar.set_message(name.to_string());
             bar
         });
         let now = Instant::now();
-        Self { name: plan.name.clone(), bar, begun: now, shown: now, seen: 0 }
+        Self { name: name.to_string(), bar, begun: now, shown: now, stride, seen: 0 }
     }
 
-    /// Shows a step, if it is time to.
-    pub(crate) fn update(&mut self, progress: Progress) {
+    /// Shows the part that is done, if it is time to.
+    pub(crate) fn update(&mut self, fraction: f64) {
         self.seen += 1;
-        if !self.seen.is_multiple_of(STRIDE) {
+        if !self.seen.is_multiple_of(self.stride) {
             return;
         }
         if let Some(bar) = &self.bar {
@@ -50,12 +50,12 @@ impl ProgressLine {
                 clippy::cast_sign_loss,
                 reason = "between zero and ten thousand"
             )]
-            bar.set_position((progress.fraction * PARTS) as u64);
+            bar.set_position((fraction * PARTS) as u64);
         } else if PAUSE <= self.shown.elapsed() {
             self.shown = Instant::now();
             let spent = self.begun.elapsed().as_secs_f64();
-            let left = spent * (1.0 - progress.fraction) / progress.fraction.max(1e-9);
-            let percent = 100.0 * progress.fraction;
+            let left = spent * (1.0 - fraction) / fraction.max(1e-9);
+            let percent = 100.0 * fraction;
             let _ = writeln!(std::io::stderr().lock(), "{}: {percent:.0} %, {left:.0} s left", self.name);
         }
     }

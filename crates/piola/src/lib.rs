@@ -99,6 +99,8 @@ mod book {
     struct Mechanisms;
     #[doc = include_str!("../../../docs/constraints.md")]
     struct Constraints;
+    #[doc = include_str!("../../../docs/phase-space.md")]
+    struct PhaseSpace;
     #[doc = include_str!("../../../docs/integrators.md")]
     struct Integrators;
     #[doc = include_str!("../../../docs/scalars.md")]

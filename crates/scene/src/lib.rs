@@ -9,6 +9,8 @@
 //! | run | [`run`](mod@run) | plan → history, drift of invariants, errors against the reference ([`kepler`] or a table) |
 //! | write | [`output`] | run → `summary.json`, CSV tables, SVG figures |
 //!
+//! A file whose scene has no motion in time is a [study](studies) and goes the same way; [`SceneFile`] tells the two apart.
+//!
 //! Beside scenes: [`fitting`], parameters of laws from tables of measured stresses; [`rheology`], fluids from viscometric
 //! measurements.
 #![forbid(unsafe_code)]
@@ -22,7 +24,9 @@ pub mod output;
 pub mod plan;
 pub mod rheology;
 pub mod run;
+mod scene_file;
 pub mod schema;
+pub mod studies;
 pub mod units;
 mod validation;
 mod words;
@@ -31,3 +35,5 @@ pub use document::Document;
 pub use error::SceneError;
 pub use model::Scene;
 pub use plan::Plan;
+pub use scene_file::SceneFile;
+pub use studies::Study;

@@ -254,7 +254,7 @@ fn recover_and_fit_flow_write_summaries_tables_and_figures() {
     let output = folder.piola(&["recover", "pipe.csv", "--flow", "pipe"]);
     assert_eq!(output.status.code(), Some(0), "{}", err(&output));
     let summary = json(&read(&folder.0.join("out/recover-pipe/summary.json")));
-    let rate = summary["flow_curve"][3]["shear_rate"].as_f64().unwrap_or_default();
+    let rate = summary["flow_curve"]["points"][3]["shear_rate"].as_f64().unwrap_or_default();
     assert!((rate - 1.0).abs() < 1e-10, "{summary}"); // τ = c/2 = 2
     for file in ["flow-curve.csv", "residuals.csv", "flow-curve.svg"] {
         assert!(!read(&folder.0.join("out/recover-pipe").join(file)).is_empty());
@@ -269,14 +269,85 @@ fn recover_and_fit_flow_write_summaries_tables_and_figures() {
 }
 
 #[test]
+fn recover_corrects_for_slip_and_ends_and_takes_thrusts() {
+    let folder = Folder::new("corrections");
+    let write = |name: &str, head: &str, row: &dyn Fn(f64) -> String| {
+        let rows: Vec<String> = (1..=12).map(f64::from).map(row).collect();
+        std::fs::write(folder.0.join(name), format!("{head}\n{}\n", rows.join("\n"))).unwrap_or_else(|e| panic!("{e}"));
+    };
+    let quarter = 0.25 * core::f64::consts::PI;
+    for radius in [1.0_f64, 2.0, 4.0] {
+        // A viscosity of 1 and a slip of τ/10.
+        let head = format!("# radius: {radius} m\npressure_gradient,discharge");
+        let row = |t: f64| format!("{},{}", 2.0 * t / radius, quarter * radius.powi(3) * (t + 0.4 * t / radius));
+        write(&format!("pipe-{radius}.csv"), &head, &row);
+    }
+    let output = folder.piola(&["recover", "pipe-1.csv", "pipe-2.csv", "pipe-4.csv", "--flow", "pipe", "--slip"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let summary = json(&read(&folder.0.join("out/recover-pipe-1/summary.json")));
+    let [rate, slip] = [&summary["flow_curve"]["points"][3]["shear_rate"], &summary["slip"][3]["slip_velocity"]];
+    assert!((rate.as_f64().unwrap_or_default() - 4.0).abs() < 1e-9, "{summary}");
+    assert!((slip.as_f64().unwrap_or_default() - 0.4).abs() < 1e-9, "{summary}");
+    for file in ["flow-curve.csv", "slip.csv", "flow-curve.svg"] {
+        assert!(!read(&folder.0.join("out/recover-pipe-1").join(file)).is_empty());
+    }
+    for length in [10.0, 20.0] {
+        let head = format!("# radius: 1 m\n# length: {length} m\ndischarge,pressure_difference");
+        write(&format!("capillary-{length}.csv"), &head, &|t| format!("{},{}", quarter * t, t * (2.0 * length + 3.0)));
+    }
+    let files = ["recover", "capillary-10.csv", "capillary-20.csv", "--flow", "capillary", "--json", "--out", "ends"];
+    let output = folder.piola(&files);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let length = json(&out(&output))["ends"][3]["end_length"].as_f64().unwrap_or_default();
+    assert!((length - 1.5).abs() < 1e-9, "{}", out(&output));
+    // N₁ = 2F/(πR²) and k = Ω/α.
+    write("cone.csv", "angular_velocity,torque,thrust", &|w| format!("{w},{},{}", 4.0 * w, 2.0 * quarter * w * w));
+    let output =
+        folder.piola(&["recover", "cone.csv", "--flow", "cone", "--radius", "1m", "--angle", "0.1 rad", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let point = &json(&out(&output))["normal_stress"]["points"][3];
+    assert!((point["shear_rate"].as_f64().unwrap_or_default() - 40.0).abs() < 1e-9, "{point}");
+    assert!((point["first_normal_stress_difference"].as_f64().unwrap_or_default() - 16.0).abs() < 1e-9, "{point}");
+}
+
+#[test]
 fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
     let folder = Folder::new("bad-flow");
     std::fs::write(folder.0.join("pipe.csv"), discharges()).unwrap_or_else(|error| panic!("{error}"));
     let bad = discharges().replace("3,0.589", "3,-0.589");
     std::fs::write(folder.0.join("bad.csv"), bad).unwrap_or_else(|error| panic!("{error}"));
-    let cases: [(&[&str], &str); 6] = [
+    let tables = [
+        ("unsorted.csv", discharges().replace("3,0.589", "1.5,0.589")),
+        ("twice.csv", discharges().replace("3,0.589", "2,0.589")),
+        ("no-number.csv", discharges().replace("\n3,", "\n3,x")),
+        ("falling.csv", discharges().replace("\n3,0.5", "\n3,0.2")),
+        ("unit.csv", discharges().replace("discharge", "discharge [m^2/s]")),
+        ("banding.csv", "shear_rate,shear_stress\n1,1\n2,3\n3,2\n4,4\n".to_owned()),
+        ("gap.csv", "# inner_radius: 2 cm\n# outer_radius: 1 cm\ntorque_per_length,speed_difference\n1,1\n".to_owned()),
+    ];
+    for (name, text) in tables {
+        std::fs::write(folder.0.join(name), text).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let cases: [(&[&str], &str); 17] = [
         (&["recover", "bad.csv", "--flow", "pipe"], "bad.csv:5: discharge is -0.589"),
-        (&["recover", "pipe.csv", "--flow", "hose"], "`hose` cannot be read; valid: pipe, channel, couette or curve"),
+        (&["recover", "unsorted.csv", "--flow", "pipe"], "unsorted.csv:5: 1.5e0 follows 2e0"),
+        (&["recover", "twice.csv", "--flow", "pipe"], "twice.csv:5: 2e0 stands in the row before too"),
+        (&["fit-flow", "no-number.csv", "--flow", "pipe"], "no-number.csv:5: discharge is x0.58"),
+        (&["recover", "falling.csv", "--flow", "pipe", "--noise", "0"], "falling.csv:5: the response"),
+        (&["fit-flow", "unit.csv", "--flow", "pipe"], "unit.csv:2: `m^2/s` is no unit of discharge"),
+        (&["fit-flow", "falling.csv", "--flow", "pipe", "--noise", "0"], "falling.csv:5: the response"),
+        (&["fit-flow", "banding.csv", "--flow", "curve"], "banding.csv:4: the response 2e0 is not above the 3e0"),
+        (
+            &["recover", "gap.csv", "--flow", "couette"],
+            "gap.csv:2: inner_radius = 0.02 m, outer_radius = 0.01 m; valid",
+        ),
+        (
+            &["recover", "pipe.csv", "pipe.csv", "--flow", "pipe"],
+            "`2 files` cannot be read; valid: one file, or several",
+        ),
+        (&["recover", "pipe.csv", "pipe.csv", "--flow", "pipe", "--slip"], "radius 1e0 of all tables is the same"),
+        (&["fit-flow", "pipe.csv", "--flow", "capillary"], "length is not given"),
+        (&["recover", "pipe.csv", "--flow", "hose"], "`hose` cannot be read; valid: pipe, capillary, channel"),
         (&["recover", "pipe.csv", "--flow", "channel"], "half_width is not given"),
         (&["recover", "pipe.csv", "--flow", "pipe", "--radius", "1kg"], "`radius = 1kg` cannot be read"),
         (&["recover", "pipe.csv", "--flow", "pipe", "--confidence", "2"], "the confidence 2"),
@@ -288,4 +359,24 @@ fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
     }
     assert!(!folder.0.join("out").exists());
+}
+
+#[test]
+fn study_is_planned_checked_and_run_like_any_scene() {
+    let folder = Folder::new("study");
+    folder.scene("[room]\ntype = 'ellipse'\nsemi_axes = [2, 1]\nspeed = 1\ngrid = 31\n");
+    assert!(out(&folder.piola(&["check", "orbit.toml"])).contains("orbit.toml is valid: first arrival"));
+    let plan = json(&out(&folder.piola(&["plan", "orbit.toml", "--json"])));
+    let output = folder.piola(&["run", "orbit.toml", "--json"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    let summary = json(&out(&output));
+    assert_eq!(summary, json(&read(&folder.0.join("out/orbit/summary.json"))));
+    let loss = &summary["results"]["first_loss_of_invertibility"]["time_s"];
+    assert!((loss.as_f64().unwrap_or_default() - 0.5).abs() < 1e-9, "{summary}"); // b²/a
+    for file in plan["files"].as_array().into_iter().flatten() {
+        assert!(!read(&folder.0.join("out/orbit").join(file.as_str().unwrap_or_default())).is_empty());
+    }
+    let output = folder.piola(&["run", "orbit.toml", "--set", "room.speed=1 kg"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(err(&output).contains("--set:1:12"), "{}", err(&output));
 }

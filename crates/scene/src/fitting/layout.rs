@@ -84,8 +84,14 @@ pub(super) fn parse(text: &str) -> Read {
     let (tests, unit) = match names.as_slice() {
         ["mode", "stretch", stress] if stress.starts_with("stress") => {
             let suffix = stress.trim_start_matches("stress").trim_start_matches('_');
-            let unit = unit.or_else(|| (!suffix.is_empty()).then(|| suffix.to_owned()));
-            (short(body)?, unit)
+            let of_header = (!suffix.is_empty()).then(|| suffix.to_owned());
+            if let (Some(commented), Some(headed)) = (&unit, &of_header)
+                && commented != headed
+            {
+                let what = format!("the header says {headed} and a comment {commented}");
+                return Err(vec![TableMistake::new(header.line, what, "one unit")]);
+            }
+            (short(body)?, unit.or(of_header))
         }
         ["mode", "stress_type", rest @ ..] if rest == components() => (long(body)?, unit),
         _ => {
@@ -231,6 +237,8 @@ fn long(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
         let line = rows.first().map_or(1, |row| row.line);
         // A label of a mode that none of its rows has is but a name.
         let known = mode(&label).filter(|mode| rows.iter().any(|row| is_of(*mode, &row.deformation)));
+        // Where the stress that keeps the width is measured too, both are fitted.
+        let known = known.filter(|mode| *mode != Mode::Planar || rows.iter().all(|row| is_zero(row.stress[1][1])));
         let (name, table) = match known {
             Some(mode) => (mode.name().to_owned(), of_mode(mode, &label, &rows, &mut mistakes)),
             None => (label, of_components(&rows, &mut mistakes)),
@@ -269,9 +277,30 @@ fn of_mode(mode: Mode, label: &str, rows: &[Tensors], mistakes: &mut Vec<TableMi
             let what = format!("F is not that of the mode {label} at F11 = {stretch}");
             mistakes.push(TableMistake::new(*line, what, format!("the diagonal {expected:?}")));
         }
+        check_sides(mode, label, *line, stress, mistakes);
         points.push([stretch, stress[0][0]]);
     }
     Table::of_mode(mode, points)
+}
+
+fn is_zero(stress: f64) -> bool {
+    stress.abs() <= 0.0
+}
+
+/// The stresses beside S11 that a mode of stretches has: only S11 is fitted.
+fn check_sides(mode: Mode, label: &str, line: u64, stress: &[[f64; 3]; 3], mistakes: &mut Vec<TableMistake>) {
+    let first = stress[0][0];
+    for (i, j) in (1..9).map(|k| (k / 3, k % 3)) {
+        let found = stress[i][j];
+        let is_across = (i, j) == (1, 1) && mode == Mode::Equibiaxial;
+        let expected = if is_across { first } else { 0.0 };
+        let share = if is_across { SAME_STRETCH } else { 0.0 };
+        if share * first.abs() < (found - expected).abs() {
+            let name = format!("S{}{}", i + 1, j + 1);
+            let what = format!("{name} is {found}, which the mode {label} has not at S11 = {first}");
+            mistakes.push(TableMistake::new(line, what, format!("{name} = {expected}")));
+        }
+    }
 }
 
 /// Every component that is not zero throughout; the third axis carries no stress.

@@ -17,6 +17,7 @@ pub use mechanism::{JointTree, Mechanism, PartName};
 pub use reference::{ClosedForm, Comparison, Reference, ReferenceTable};
 
 use crate::document::{Document, Mistake};
+use crate::schema::{SCENE_KINDS, SceneKind};
 use crate::validation::{self, Record};
 use crate::{SceneError, words};
 
@@ -120,10 +121,8 @@ impl Scene {
     pub fn from_document(document: &Document) -> Result<Self, SceneError> {
         let (record, mistakes) = validation::records(document);
         let mut builder = Builder { document, mistakes };
-        match builder.scene(&record) {
-            Some(scene) if builder.mistakes.is_empty() => Ok(scene),
-            _ => Err(SceneError::Invalid(document.report(builder.mistakes))),
-        }
+        let scene = builder.scene(&record);
+        builder.finish(scene)
     }
 
     /// Names of everything that has a position, in the order of positions.
@@ -143,13 +142,56 @@ pub(crate) struct Builder<'d> {
     mistakes: Vec<Mistake>,
 }
 
-impl Builder<'_> {
+impl<'d> Builder<'d> {
+    pub(crate) fn new(document: &'d Document, mistakes: Vec<Mistake>) -> Self {
+        Self { document, mistakes }
+    }
+
+    /// What was built, if there is no mistake.
+    pub(crate) fn finish<T>(self, built: Option<T>) -> Result<T, SceneError> {
+        match built {
+            Some(built) if self.mistakes.is_empty() => Ok(built),
+            _ => Err(SceneError::Invalid(self.document.report(self.mistakes))),
+        }
+    }
+
+    /// The one kind of the scene, with what does not belong to it reported.
+    pub(crate) fn kind(&mut self, record: &Record) -> Option<&'static SceneKind> {
+        let written: Vec<_> = SCENE_KINDS.iter().filter(|kind| record.has(kind.name)).collect();
+        let [kind] = written.as_slice() else {
+            let what = if written.is_empty() {
+                let syntax = self.mistakes.iter().any(|mistake| mistake.syntax);
+                if syntax {
+                    return None;
+                }
+                Mistake::new(record.place.clone(), "the scene has no system")
+            } else {
+                let names: Vec<String> = written.iter().map(|kind| format!("[{}]", kind.name)).collect();
+                Mistake::new(record.place_of(written[1].name), format!("the scene has {}", names.join(" and ")))
+            };
+            let names: Vec<String> = SCENE_KINDS.iter().map(|kind| format!("[{}]", kind.name)).collect();
+            self.wrong(what.valid(format!("exactly one of {}", names.join(", "))));
+            return None;
+        };
+        for list in SCENE_KINDS.iter().flat_map(|kind| kind.lists) {
+            if record.has(list) && !kind.lists.contains(list) {
+                let lists: Vec<String> = kind.lists.iter().map(|list| format!("[[{list}]]")).collect();
+                let valid = if lists.is_empty() { "no such list".to_string() } else { lists.join(", ") };
+                self.wrong(
+                    Mistake::new(record.place_of(list), format!("[[{list}]] in a scene of [{}]", kind.name))
+                        .valid(valid),
+                );
+            }
+        }
+        Some(kind)
+    }
+
     pub(crate) fn wrong(&mut self, mistake: Mistake) {
         self.mistakes.push(mistake);
     }
 
     /// The scene; parts that cannot be built have mistakes of their own.
-    fn scene(&mut self, record: &Record) -> Option<Scene> {
+    pub(crate) fn scene(&mut self, record: &Record) -> Option<Scene> {
         let name = record.text("name").map_or_else(|| self.file_stem(), str::to_string);
         let system = self.system(record);
         let period = match &system {
@@ -172,7 +214,7 @@ impl Builder<'_> {
         })
     }
 
-    fn file_stem(&self) -> String {
+    pub(crate) fn file_stem(&self) -> String {
         let stem = Path::new(self.document.name()).file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let safe = |c: char| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' };
         stem.filter(|stem| !stem.is_empty())
@@ -180,34 +222,19 @@ impl Builder<'_> {
     }
 
     fn system(&mut self, record: &Record) -> Option<System> {
-        const KINDS: [(&str, &[&str]); 3] =
-            [("gravity", &["body"]), ("mechanism", &["joint", "particle", "rigid_body"]), ("central", &["body"])];
-        let written: Vec<_> = KINDS.iter().filter(|(kind, _)| record.has(kind)).collect();
-        let [(kind, lists)] = written.as_slice() else {
-            let what = if written.is_empty() {
-                let syntax = self.mistakes.iter().any(|mistake| mistake.syntax);
-                if syntax {
-                    return None;
-                }
-                Mistake::new(record.place.clone(), "the scene has no system")
-            } else {
-                let names: Vec<String> = written.iter().map(|(kind, _)| format!("[{kind}]")).collect();
-                Mistake::new(record.place_of(written[1].0), format!("the scene has {}", names.join(" and ")))
-            };
-            self.wrong(what.valid("exactly one of [gravity], [mechanism] and [central]"));
+        let kind = self.kind(record)?;
+        if kind.study {
+            self.wrong(
+                Mistake::new(
+                    record.place_of(kind.name),
+                    format!("a scene of [{}] is a study: nothing moves in it", kind.name),
+                )
+                .valid("[gravity], [mechanism] or [central]"),
+            );
             return None;
-        };
-        for list in ["body", "joint", "particle", "rigid_body"] {
-            if record.has(list) && !lists.contains(&list) {
-                let lists: Vec<String> = lists.iter().map(|list| format!("[[{list}]]")).collect();
-                self.wrong(
-                    Mistake::new(record.place_of(list), format!("[[{list}]] in a scene of [{kind}]"))
-                        .valid(lists.join(", ")),
-                );
-            }
         }
-        let table = record.record(kind)?;
-        match *kind {
+        let table = record.record(kind.name)?;
+        match kind.name {
             "gravity" => self.gravitation(record, table).map(System::Gravitation),
             "mechanism" => self.mechanism(record, table).map(System::Mechanism),
             _ => self.central(record, table).map(System::Central),
@@ -215,7 +242,16 @@ impl Builder<'_> {
     }
 
     fn time(&mut self, record: &Record, period: Option<f64>) -> Option<TimeSpan> {
-        let table = record.record("time")?;
+        let Some(table) = record.record("time") else {
+            let syntax = self.mistakes.iter().any(|mistake| mistake.syntax);
+            if !record.has("time") && !syntax {
+                self.wrong(
+                    Mistake::new(record.place.clone(), "the scene lacks [time]")
+                        .valid("time = a table, [time]: the span of time"),
+                );
+            }
+            return None;
+        };
         let start = table.number("start")?;
         if table.has("revolutions") && !record.has("central") {
             self.wrong(
@@ -319,7 +355,7 @@ impl Builder<'_> {
 }
 
 /// What is to be written.
-fn output(record: &Record, name: &str) -> OutputRequest {
+pub(crate) fn output(record: &Record, name: &str) -> OutputRequest {
     let table = record.record("output");
     let folder = table.and_then(|table| table.text("folder")).map(PathBuf::from);
     OutputRequest {

@@ -75,7 +75,7 @@ pub(crate) fn pixels(count: u32) -> i32 {
 }
 
 /// A unit for lengths of this size: name and metres.
-fn length_unit(largest: f64) -> (&'static str, f64) {
+pub(crate) fn length_unit(largest: f64) -> (&'static str, f64) {
     match largest {
         x if 1e10 <= x => ("au", 149_597_870_700.0),
         x if 1e5 <= x => ("km", 1e3),
@@ -239,7 +239,7 @@ fn plane(history: &History, gravity: Option<[f64; 3]>) -> (usize, usize) {
 }
 
 /// Points of which each is at least a distance from the one before.
-fn thinned(points: impl Iterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, f64)> {
+pub(crate) fn thinned(points: impl Iterator<Item = (f64, f64)>, least: f64) -> Vec<(f64, f64)> {
     let mut kept: Vec<(f64, f64)> = Vec::new();
     let mut last = None;
     for point in points.filter(|(x, y)| x.is_finite() && y.is_finite()) {

@@ -30,7 +30,7 @@ pub struct Written {
 
 impl Written {
     /// Writes files into a folder.
-    pub(crate) fn of<const N: usize>(folder: &Folder, files: [(&str, String); N]) -> Self {
+    pub(crate) fn of<'n>(folder: &Folder, files: impl IntoIterator<Item = (&'n str, String)>) -> Self {
         let mut written = Self::default();
         for (name, text) in files {
             match folder.write(name, &text) {

@@ -2,7 +2,7 @@
 
 use plotters::prelude::*;
 
-use super::{Comparison, Measured, Recovery};
+use super::{Answering, Comparison, Correction, Function, Measured, Point, RecoveredCurve};
 use crate::output::figures::{Area, Drawn, FINE, FONT, GRID, INK, colour, figure, legend, pixels, power_of_ten};
 
 /// Curves and marks of a panel with logarithmic axes.
@@ -15,45 +15,106 @@ struct Panel<'a> {
     band: Vec<(f64, [f64; 2])>,
 }
 
-/// The flow curve with its band, and the residuals of the rows.
-pub(super) fn recovery(measured: &Measured, recovery: &Recovery) -> String {
-    let point = |stress: f64, rate: f64| (stress, rate);
-    let flow = Panel {
-        title: "flow curve with its band",
-        axes: ["shear stress (Pa)", "shear rate (1/s)"],
-        marks: recovery.rows.iter().map(|p| point(p.shear_stress, p.shear_rate)).collect(),
-        curves: vec![recovery.points.iter().map(|p| point(p.shear_stress, p.shear_rate)).collect()],
-        band: recovery.points.iter().filter_map(|p| Some((p.shear_stress, p.band?))).collect(),
+/// The axes of a curve for a reader.
+fn axes(function: Function) -> [String; 2] {
+    function.axes().map(|(name, unit)| format!("{} ({unit})", name.replace('_', " ")))
+}
+
+/// Sizes of points and band: logarithms are drawn.
+fn sizes(points: &[Point]) -> Vec<(f64, f64)> {
+    points.iter().map(|point| (point.at, point.value.abs())).collect()
+}
+
+/// A recovered curve with its band.
+fn of_curve<'a>(curve: &RecoveredCurve, title: &'a str, axes: [&'a str; 2]) -> Panel<'a> {
+    let band = |point: &Point| {
+        let [low, high] = point.band?;
+        Some((point.at, if point.value < 0.0 { [-high, -low] } else { [low, high] }))
     };
-    let [drive, response] = measured.columns();
+    Panel {
+        title,
+        axes,
+        marks: sizes(&curve.rows),
+        curves: vec![sizes(&curve.points)],
+        band: curve.points.iter().filter_map(band).collect(),
+    }
+}
+
+/// A curve with its band, and the residuals of the rows.
+pub(super) fn recovery(measured: &Measured, curve: &RecoveredCurve, what: Answering) -> String {
+    let axes = axes(curve.function);
+    let title =
+        if curve.function.is_flow_curve() { "flow curve with its band" } else { "normal stresses with their band" };
+    let flow = of_curve(curve, title, [&axes[0], &axes[1]]);
+    let names = measured.columns(what);
+    let rows: &[[f64; 2]] =
+        measured.answers.iter().find(|answer| answer.what == what).map_or(&[], |answer| &answer.rows);
     let smooth = |([drive, response], residual): (&[f64; 2], &f64)| (*drive, response / (1.0 + residual));
     let data = Panel {
         title: "measured and smoothed",
-        axes: [&drive, &response],
-        marks: measured.rows.iter().map(|[drive, response]| (*drive, *response)).collect(),
-        curves: vec![measured.rows.iter().zip(recovery.curve.residuals()).map(smooth).collect()],
+        axes: [&names[0], &names[1]],
+        marks: rows.iter().map(|[drive, response]| (*drive, *response)).collect(),
+        curves: vec![rows.iter().zip(&curve.residuals).map(smooth).collect()],
         band: Vec::new(),
     };
-    let residuals = vec![recovery.curve.residuals().to_vec()];
+    let residuals = vec![curve.residuals.clone()];
     let title = format!("{}: the fluid behind it", measured.name());
     figure((1130, 420), &title, |area| {
         let parts = area.split_evenly((1, 3));
         logarithmic(&parts[0], &flow)?;
         logarithmic(&parts[1], &data)?;
-        of_residuals(&parts[2], measured, &residuals, "measured/smoothed − 1")
+        of_residuals(&parts[2], (&names[0], rows), &residuals, "measured/smoothed − 1")
+    })
+}
+
+/// The flow curve that several tables tell, what they seem to tell, and what they are corrected for.
+pub(super) fn correction(tables: &[Measured], curve: &RecoveredCurve, correction: &Correction) -> String {
+    let axes = axes(curve.function);
+    let flow = of_curve(curve, "flow curve with its band", [&axes[0], &axes[1]]);
+    let apparent = |measured: &Measured| -> Vec<(f64, f64)> {
+        measured.rows().iter().map(|row| measured.flow.apparent(*row).into()).collect()
+    };
+    let raw = Panel {
+        title: "without correction",
+        axes: ["shear stress (Pa)", "4Q/(πR³) (1/s)"],
+        marks: tables.iter().flat_map(apparent).collect(),
+        curves: tables.iter().map(apparent).collect(),
+        band: Vec::new(),
+    };
+    let (title, name, marks): (_, _, Vec<(f64, f64)>) = match correction {
+        Correction::Slip(slip) => (
+            "slip at the walls",
+            "slip velocity (m/s)",
+            slip.points.iter().map(|point| (point.wall_stress, point.slip_velocity)).collect(),
+        ),
+        Correction::Ends(ends) => (
+            "pressure lost at the ends",
+            "pressure (Pa)",
+            ends.points.iter().map(|point| (point.wall_stress, point.end_pressure)).collect(),
+        ),
+    };
+    // What is negative by noise has no logarithm.
+    let marks = marks.into_iter().filter(|(_, y)| 0.0 < *y).collect();
+    let lost = Panel { title, axes: ["shear stress (Pa)", name], marks, curves: Vec::new(), band: Vec::new() };
+    let names: Vec<String> = tables.iter().map(Measured::name).collect();
+    figure((1130, 420), &format!("{}: the fluid behind them", names.join(", ")), |area| {
+        let parts = area.split_evenly((1, 3));
+        logarithmic(&parts[0], &flow)?;
+        logarithmic(&parts[1], &raw)?;
+        logarithmic(&parts[2], &lost)
     })
 }
 
 /// Measured answers with those of each fluid, and their residuals.
 pub(super) fn comparison(measured: &Measured, comparison: &Comparison) -> String {
-    let [drive, response] = measured.columns();
+    let [drive, response] = measured.first_columns();
     let answers = |residuals: &[f64]| {
-        measured.rows.iter().zip(residuals).map(|([drive, response], r)| (*drive, response * r.exp())).collect()
+        measured.rows().iter().zip(residuals).map(|([drive, response], r)| (*drive, response * r.exp())).collect()
     };
     let data = Panel {
         title: "measured and fitted",
         axes: [&drive, &response],
-        marks: measured.rows.iter().map(|[drive, response]| (*drive, *response)).collect(),
+        marks: measured.rows().iter().map(|[drive, response]| (*drive, *response)).collect(),
         curves: comparison.fits().map(|(_, fit)| answers(&fit.residuals)).collect(),
         band: Vec::new(),
     };
@@ -76,7 +137,7 @@ pub(super) fn comparison(measured: &Measured, comparison: &Comparison) -> String
         let parts = plots.split_evenly((1, 3));
         logarithmic(&parts[0], &data)?;
         logarithmic(&parts[1], &flow)?;
-        of_residuals(&parts[2], measured, &residuals, "ln(fitted/measured)")?;
+        of_residuals(&parts[2], (&drive, measured.rows()), &residuals, "ln(fitted/measured)")?;
         let entries: Vec<(&str, RGBColor)> =
             names.iter().enumerate().map(|(k, name)| (name.as_str(), colour(k))).collect();
         legend(&side, &entries)
@@ -126,8 +187,8 @@ fn logarithmic(area: &Area<'_>, panel: &Panel<'_>) -> Drawn {
     Ok(())
 }
 
-fn of_residuals(area: &Area<'_>, measured: &Measured, residuals: &[Vec<f64>], name: &str) -> Drawn {
-    let drives = || measured.rows.iter().map(|row| row[0]);
+fn of_residuals(area: &Area<'_>, (drive, rows): (&str, &[[f64; 2]]), residuals: &[Vec<f64>], name: &str) -> Drawn {
+    let drives = || rows.iter().map(|row| row[0]);
     let (left, right) = (drives().fold(f64::INFINITY, f64::min), drives().fold(0.0, f64::max));
     let size = residuals.iter().flatten().filter(|r| r.is_finite()).fold(1e-15_f64, |size, r| size.max(r.abs()));
     let mut chart = ChartBuilder::on(area)
@@ -138,7 +199,6 @@ fn of_residuals(area: &Area<'_>, measured: &Measured, residuals: &[Vec<f64>], na
         .build_cartesian_2d((0.8 * left..1.25 * right).log_scale(), -1.1 * size..1.1 * size)?;
     let power = |x: &f64| power_of_ten(*x);
     let percent = |y: &f64| if 1e-4 < size { format!("{:.2} %", 100.0 * y) } else { format!("{y:.0e}") };
-    let drive = measured.columns()[0].clone();
     chart
         .configure_mesh()
         .set_all_tick_mark_size(pixels(5))
@@ -149,7 +209,7 @@ fn of_residuals(area: &Area<'_>, measured: &Measured, residuals: &[Vec<f64>], na
         .axis_style(INK.stroke_width(FINE))
         .label_style((FONT, pixels(13)).into_font().color(&INK))
         .axis_desc_style((FONT, pixels(14)).into_font().color(&INK))
-        .x_desc(drive.as_str())
+        .x_desc(drive)
         .y_desc(name)
         .x_label_formatter(&power)
         .y_label_formatter(&percent)

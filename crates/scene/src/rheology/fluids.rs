@@ -10,9 +10,10 @@ use piola_constitutive::fluids::{
 };
 use piola_viscometry::ViscometryError;
 use piola_viscometry::fit::{Criteria, FlowData, FluidParameter, Options, Outcome, Weighting, fit_flow};
+use piola_viscometry::recover::Noise;
 use serde_json::{Value, json};
 
-use super::{Measured, figure};
+use super::{Flow, Measured, figure};
 use crate::SceneError;
 use crate::output::{Folder, Written};
 
@@ -37,7 +38,7 @@ struct Look {
 
 impl Look {
     fn at(measured: &Measured) -> Self {
-        let apparent: Vec<[f64; 2]> = measured.rows.iter().map(|row| measured.flow.apparent(*row)).collect();
+        let apparent: Vec<[f64; 2]> = measured.rows().iter().map(|row| measured.flow.apparent(*row)).collect();
         let count = apparent.len().max(1) as f64;
         let logarithms = || apparent.iter().map(|[stress, rate]| [stress.ln(), rate.ln()]);
         let [y, x] = logarithms().fold([0.0; 2], |sum, l| [sum[0] + l[0] / count, sum[1] + l[1] / count]);
@@ -79,7 +80,7 @@ fn fitted<F: Parameters<N> + ViscometricFluid, const N: usize>(
     options: &Options,
 ) -> Result<FittedFluid, ViscometryError> {
     let fit = fit_flow::<F, N>(data, starts, options)?;
-    let rates = measured.rows.iter().map(|row| measured.flow.apparent(*row)[1]);
+    let rates = measured.rows().iter().map(|row| measured.flow.apparent(*row)[1]);
     let (low, high) = rates.fold((f64::INFINITY, 0.0_f64), |(low, high), rate| (low.min(rate), high.max(rate)));
     let rate = |k: u32| low * (high / low).powf(f64::from(k) / f64::from(POINTS));
     let curve = (0..=POINTS).map(|k| [rate(k), fit.fluid.shear_stress(rate(k))]).collect();
@@ -175,13 +176,15 @@ pub struct Request {
     pub weighting: Weighting,
     /// The probability of the intervals.
     pub confidence: f64,
+    /// What is known of the noise: what answers may fall by so much.
+    pub noise: Noise,
 }
 
 impl Request {
     /// Of some fluids, errors in proportion to each answer.
     #[must_use]
     pub fn of(fluids: Vec<FluidName>) -> Self {
-        Self { fluids, weighting: Weighting::Relative, confidence: 0.95 }
+        Self { fluids, weighting: Weighting::Relative, confidence: 0.95, noise: Noise::Estimated }
     }
 }
 
@@ -206,7 +209,8 @@ pub struct Comparison {
 /// Fits each fluid that is asked for.
 ///
 /// # Errors
-/// Data that viscometry refuses. What one fluid refuses stands in its [`Candidate`].
+/// [`SceneError::Table`] with the line of a row that viscometry refuses, or at which what answers falls by more than noise explains;
+/// [`SceneError::Argument`] for capillaries, whose ends are not known, and thrusts alone. What one fluid refuses stands in its [`Candidate`].
 ///
 /// # Example
 /// ```
@@ -219,7 +223,16 @@ pub struct Comparison {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn compare(measured: &Measured, request: &Request) -> Result<Comparison, SceneError> {
-    let data = [measured.data().map_err(|error| measured.refused(error))?];
+    let is_capillary = matches!(measured.flow, Flow::Capillary { .. });
+    if is_capillary || measured.sheared().is_none() {
+        let column = measured.answers.first().map_or("nothing", |answer| answer.what.column().0);
+        let argument = format!("--flow {} with {column}", measured.flow.kind().name());
+        let valid = "discharges of pipes or channels, speeds of cylinders, torques of plates or cones, or a flow curve";
+        return Err(SceneError::Argument { argument, valid });
+    }
+    let checked = |data: FlowData| data.check_rising().map(|()| [data]);
+    let data = measured.data().and_then(|data| data.with_noise(request.noise)).and_then(checked);
+    let data = data.map_err(|error| measured.refused(error))?;
     let look = Look::at(measured);
     let options = Options { weighting: request.weighting, confidence: request.confidence, ..Options::default() };
     let candidate = |&fluid: &FluidName| Candidate { fluid, fit: fluid.fit(measured, &data, &look, &options) };
@@ -270,7 +283,7 @@ impl Comparison {
         let summary = json!({
             "data": measured.path.display().to_string(),
             "flow": measured.flow.kind().name(),
-            "rows": measured.rows.len(),
+            "rows": measured.rows().len(),
             "best_by_aicc": self.best().map(|(fluid, _)| fluid.0),
             "fluids": fluids,
         });
@@ -284,7 +297,7 @@ impl Comparison {
     pub fn table(&self, measured: &Measured) -> String {
         let mut text = String::new();
         let _ =
-            writeln!(text, "{}: {} rows of {}\n", measured.name(), measured.rows.len(), measured.flow.kind().name());
+            writeln!(text, "{}: {} rows of {}\n", measured.name(), measured.rows().len(), measured.flow.kind().name());
         let _ = writeln!(text, "{:<18}{:>3}{:>14}{:>10}  search", "fluid", "k", "RMS residual", "AICc");
         for (fluid, fit) in self.fits() {
             let aicc = fit.criteria.aicc.map_or_else(|| "-".to_owned(), |x| format!("{x:.1}"));
@@ -317,13 +330,13 @@ impl Comparison {
                 let _ = writeln!(curves, "{fluid},{rate:?},{stress:?},{:?}", stress / rate);
             }
         }
-        let [drive, response] = measured.columns();
+        let [drive, response] = measured.first_columns();
         let mut residuals = format!("{drive},{response}");
         for (fluid, _) in self.fits() {
             let _ = write!(residuals, ",residual of {fluid}");
         }
         residuals.push('\n');
-        for (row, [drive, response]) in measured.rows.iter().enumerate() {
+        for (row, [drive, response]) in measured.rows().iter().enumerate() {
             let _ = write!(residuals, "{drive:?},{response:?}");
             for (_, fit) in self.fits() {
                 let _ = write!(residuals, ",{:?}", fit.residuals.get(row).copied().unwrap_or(f64::NAN));

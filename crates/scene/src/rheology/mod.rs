@@ -3,7 +3,8 @@
 //! | stage | item |
 //! |---|---|
 //! | read | [`Measured::load`]: a CSV table with units, its geometry in comments; every mistake with its line |
-//! | recover | [`recover`]: shear rates over shear stresses with a band, by [`piola_viscometry::recover`] |
+//! | recover | [`recover`]: flow curves and normal stresses with bands, by [`piola_viscometry::recover`] |
+//! | correct | [`recover_without_slip`], [`recover_without_ends`]: pipes of several radii, capillaries of several lengths |
 //! | fit | [`compare`]: fluids on the same data, by [`piola_viscometry::fit`] |
 //! | write | [`Recovery::write`], [`Comparison::write`]: `summary.json`, CSV tables, a figure |
 //!
@@ -21,5 +22,8 @@ mod table;
 pub use fluids::{Candidate, Comparison, FluidName, Request, compare};
 pub use piola_viscometry::fit::Weighting;
 pub use piola_viscometry::recover::{Noise, Rise};
-pub use recovery::{Recovery, RecoveryRequest, recover};
-pub use table::{Flow, FlowKind, Measured};
+pub use recovery::{
+    Correction, Function, Point, RecoveredCurve, Recovery, RecoveryRequest, recover, recover_without_ends,
+    recover_without_slip,
+};
+pub use table::{Answer, Answering, Flow, FlowKind, Measured};

@@ -1,13 +1,15 @@
-//! Flow curves out of discharges and speeds.
+//! Flow curves and normal stresses out of discharges, speeds, torques and thrusts.
 
 use core::fmt::Write as _;
 
+use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{
-    self, BelowSmallest, FlowCurve, FlowCurvePoint, FlowTable, Monotonicity, Noise, Options, Rise,
+    self, BelowSmallest, Capillary, EndCorrection, FlowCurve, FlowTable, Monotonicity, Noise, NormalStressCurve,
+    Options, PipeGeometry, Rise, SlipCorrection, Smoothing, StressCurve,
 };
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
-use super::{Flow, Measured, figure};
+use super::{Answer, Answering, Flow, Measured, figure};
 use crate::SceneError;
 use crate::output::{Folder, Written};
 
@@ -32,23 +34,180 @@ impl Default for RecoveryRequest {
     }
 }
 
-/// A flow curve with what it was recovered by.
-#[derive(Debug, Clone)]
+/// What a recovered curve gives over what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Recovery {
-    /// The curve with its band.
-    pub curve: FlowCurve,
-    /// Its points at the rows.
-    pub rows: Vec<FlowCurvePoint>,
-    /// Its points, closely.
-    pub points: Vec<FlowCurvePoint>,
+pub enum Function {
+    /// k over τ: the flow curve of discharges and speeds.
+    ShearRate,
+    /// τ over k: the flow curve of torques.
+    ShearStress,
+    /// N₁ over k: of the thrust of cone and plate.
+    FirstNormalStress,
+    /// N₁ − N₂ over k: of the thrust of parallel plates.
+    NormalStressesOfPlates,
+    /// N₁ over τ: of the radial stresses of coaxial cylinders.
+    FirstNormalStressOverStress,
 }
 
-/// The flow curve of a table of discharges or speeds.
+impl Function {
+    /// The names of abscissa and value, each with its unit.
+    pub(super) const fn axes(self) -> [(&'static str, &'static str); 2] {
+        const STRESS: (&str, &str) = ("shear_stress", "Pa");
+        const RATE: (&str, &str) = ("shear_rate", "1/s");
+        const FIRST: (&str, &str) = ("first_normal_stress_difference", "Pa");
+        match self {
+            Self::ShearRate => [STRESS, RATE],
+            Self::ShearStress => [RATE, STRESS],
+            Self::FirstNormalStress => [RATE, FIRST],
+            Self::NormalStressesOfPlates => [RATE, ("first_less_second_normal_stress_difference", "Pa")],
+            Self::FirstNormalStressOverStress => [STRESS, FIRST],
+        }
+    }
+
+    /// Whether it is a flow curve.
+    #[must_use]
+    pub const fn is_flow_curve(self) -> bool {
+        matches!(self, Self::ShearRate | Self::ShearStress)
+    }
+
+    /// The name of its files and of its place in the summary.
+    const fn name(self) -> &'static str {
+        if self.is_flow_curve() { "flow-curve" } else { "normal-stress" }
+    }
+
+    /// τ/k at a point.
+    fn viscosity(self, point: &Point) -> f64 {
+        if self == Self::ShearRate { point.at / point.value } else { point.value / point.at }
+    }
+}
+
+/// A point of a recovered curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Point {
+    /// The abscissa, Pa or 1/s.
+    pub at: f64,
+    /// The recovered value.
+    pub value: f64,
+    /// Where it lies.
+    pub band: Option<[f64; 2]>,
+}
+
+/// A recovered curve with what it was recovered by.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct RecoveredCurve {
+    /// What it gives over what.
+    pub function: Function,
+    /// The column it comes of; none where several tables tell it.
+    pub answering: Option<Answering>,
+    /// Its points at the rows.
+    pub rows: Vec<Point>,
+    /// Its points, closely.
+    pub points: Vec<Point>,
+    /// Response over smoothed response − 1, of each row of the column.
+    pub residuals: Vec<f64>,
+    /// How each table was smoothed.
+    pub smoothing: Vec<Smoothing>,
+    /// What is taken to hold below the smallest drive.
+    pub below_smallest: BelowSmallest,
+    /// Whether it rises.
+    pub monotonicity: Monotonicity,
+    /// The lines of the table between which it falls, if it does and one table tells it.
+    pub falls_between_lines: Option<[u64; 2]>,
+    /// The probability that the band holds all of it.
+    pub confidence: f64,
+    /// Rows at which nothing positive is recovered.
+    pub lost: usize,
+}
+
+/// A correction of capillaries.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Correction {
+    /// Mooney's, for slip at the walls.
+    Slip(SlipCorrection),
+    /// Bagley's, for the pressure lost at the ends.
+    Ends(EndCorrection),
+}
+
+/// What is recovered from a table, or from several.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Recovery {
+    /// One curve for each answering column.
+    pub curves: Vec<RecoveredCurve>,
+    /// What several tables were corrected for.
+    pub correction: Option<Correction>,
+}
+
+/// A recovered curve out of one of viscometry's, whose points have fields of this name.
+macro_rules! told {
+    ($curve:expr, $at:ident, $value:ident, $function:expr, $measured:expr, $answer:expr, $request:expr) => {{
+        let curve = $curve.with_band($request.confidence)?;
+        let sign = $answer.sign();
+        let band = |band: [f64; 2]| if sign < 0.0 { [-band[1], -band[0]] } else { band };
+        let (lines, rows): (Vec<u64>, Vec<Point>) = curve
+            .points()
+            .zip(&$measured.lines)
+            .filter_map(|(point, line)| {
+                let point = point.ok()?;
+                Some((*line, Point { at: point.$at, value: sign * point.$value, band: point.band.map(band) }))
+            })
+            .unzip();
+        let Some((low, high)) = rows.first().zip(rows.last()).map(|(first, last)| (first.at, last.at)) else {
+            let why = curve.points().find_map(Result::err);
+            return Err(why.unwrap_or(ViscometryError::TooFewRows { rows: 0, least: 1 }));
+        };
+        let points = closely(low, high)
+            .filter_map(|at| {
+                let point = curve.at(at).ok()?;
+                Some(Point { at, value: sign * point.$value, band: point.band.map(band) })
+            })
+            .collect();
+        Ok(RecoveredCurve {
+            function: $function,
+            answering: Some($answer.what),
+            lost: $answer.rows.len() - rows.len(),
+            falls_between_lines: falling_lines(curve.monotonicity(), &rows, &lines),
+            rows,
+            points,
+            residuals: curve.residuals().to_vec(),
+            smoothing: vec![curve.smoothing()],
+            below_smallest: curve.below_smallest(),
+            monotonicity: curve.monotonicity(),
+            confidence: $request.confidence,
+        })
+    }};
+}
+
+/// The lines of the rows around the stretch on which a curve falls.
+fn falling_lines(monotonicity: Monotonicity, rows: &[Point], lines: &[u64]) -> Option<[u64; 2]> {
+    let Monotonicity::Falling { from, to } = monotonicity else { return None };
+    let before = rows.iter().rposition(|row| row.at <= from).unwrap_or(0);
+    let after = rows.iter().position(|row| to <= row.at).unwrap_or(rows.len().saturating_sub(1));
+    Some([*lines.get(before)?, *lines.get(after)?])
+}
+
+/// Abscissas from `low` to `high`, evenly in the logarithm.
+fn closely(low: f64, high: f64) -> impl Iterator<Item = f64> {
+    (0..=POINTS).map(move |k| (low * (high / low).powf(f64::from(k) / f64::from(POINTS))).clamp(low, high))
+}
+
+/// What a table of one geometry tells: a curve for each column that answers.
+///
+/// | flow | column | curve |
+/// |---|---|---|
+/// | pipe, channel, couette | discharge or speed | k over τ |
+/// | couette | radial stress | N₁ over τ |
+/// | plates, cone | torque | τ over k |
+/// | plates | thrust | N₁ − N₂ over k |
+/// | cone | thrust | N₁ over k |
 ///
 /// # Errors
 /// [`SceneError::Table`] with the line of a row, [`SceneError::Viscometry`], [`SceneError::Argument`] for a table that is a flow curve
-/// already.
+/// already or that of a capillary, for which [`recover_without_ends`] is.
 ///
 /// # Example
 /// ```
@@ -59,89 +218,266 @@ pub struct Recovery {
 /// }
 /// let measured = Measured::parse("pipe.csv", &text, FlowKind::Pipe, &[])?;
 /// let recovery = recover(&measured, &RecoveryRequest::default())?;
-/// assert!((recovery.curve.viscosity(3.0)? - 2.0).abs() < 1e-10);
+/// let point = recovery.curves[0].rows[5]; // τ = c/2 and k = τ/2
+/// assert!((point.at - 3.0).abs() < 1e-14 && (point.value - 1.5).abs() < 1e-10);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn recover(measured: &Measured, request: &RecoveryRequest) -> Result<Recovery, SceneError> {
-    let options = Options { rise: request.rise, ..Options::default() };
-    let rows = &measured.rows;
-    let curve = match measured.flow {
-        Flow::Pipe { radius } => FlowTable::pipe(radius, rows)
-            .and_then(|table| recover::pipe_with(&table.with_noise(request.noise)?, options)),
-        Flow::Channel { half_width } => FlowTable::channel(half_width, rows)
-            .and_then(|table| recover::channel_with(&table.with_noise(request.noise)?, options)),
-        Flow::Couette { inner_radius, outer_radius } => FlowTable::couette(inner_radius, outer_radius, rows)
-            .and_then(|table| recover::couette_with(&table.with_noise(request.noise)?, options)),
+    let kind = measured.flow.kind().name();
+    match measured.flow {
         Flow::Curve => {
-            return Err(SceneError::Argument { argument: "--flow curve".into(), valid: "pipe, channel or couette" });
+            let valid = "pipe, channel, couette, plates, cone, or capillary with several tables";
+            return Err(SceneError::Argument { argument: format!("--flow {kind}"), valid });
         }
-    };
-    let curve = curve.and_then(|curve| curve.with_band(request.confidence)).map_err(|error| measured.refused(error))?;
-    let rows: Vec<FlowCurvePoint> = curve.points().filter_map(Result::ok).collect();
-    let ends = rows.first().zip(rows.last()).map(|(first, last)| (first.shear_stress, last.shear_stress));
-    let Some((low, high)) = ends else {
-        let at = curve.points().find_map(Result::err);
-        return Err(at.map_or(SceneError::Argument { argument: measured.name(), valid: "rows" }, SceneError::from));
-    };
-    let point = |k: u32| {
-        let share = f64::from(k) / f64::from(POINTS);
-        curve.at((low * (high / low).powf(share)).clamp(low, high)).ok()
-    };
-    let points = (0..=POINTS).filter_map(point).collect();
-    Ok(Recovery { curve, rows, points })
+        Flow::Capillary { .. } => {
+            return recover_without_ends(core::slice::from_ref(measured), request);
+        }
+        _ => {}
+    }
+    let curve = |answer| curve_of(measured, answer, request).map_err(|error| measured.refused(error));
+    Ok(Recovery { curves: measured.answers.iter().map(curve).collect::<Result<_, _>>()?, correction: None })
 }
 
-impl Recovery {
-    /// The numbers, as they stand in `summary.json`.
-    #[must_use]
-    pub fn summary(&self, measured: &Measured) -> String {
-        let below = serde_json::to_value(self.curve.below_smallest()).unwrap_or_default();
-        let rising = match self.curve.monotonicity() {
-            Monotonicity::Rising => json!(true),
-            Monotonicity::Falling { from, to } => json!({ "falls_from": from, "to": to }),
+/// The curve of a column.
+fn curve_of(
+    measured: &Measured,
+    answer: &Answer,
+    request: &RecoveryRequest,
+) -> Result<RecoveredCurve, ViscometryError> {
+    let options = Options { rise: request.rise, ..Options::default() };
+    let (rows, noise) = (&answer.rows, request.noise);
+    match (measured.flow, answer.what) {
+        (Flow::Channel { half_width }, _) => {
+            let table = FlowTable::channel(half_width, rows)?.with_noise(noise)?;
+            let curve: FlowCurve = recover::channel_with(&table, options)?;
+            told!(curve, shear_stress, shear_rate, Function::ShearRate, measured, answer, request)
+        }
+        (Flow::Couette { inner_radius, outer_radius }, what) => {
+            let table = FlowTable::couette(inner_radius, outer_radius, rows)?.with_noise(noise)?;
+            if what == Answering::RadialStressDifference {
+                let curve: NormalStressCurve = recover::normal_stress_with(&table, options)?;
+                let function = Function::FirstNormalStressOverStress;
+                told!(curve, shear_stress, first_normal_stress_difference, function, measured, answer, request)
+            } else {
+                let curve: FlowCurve = recover::couette_with(&table, options)?;
+                told!(curve, shear_stress, shear_rate, Function::ShearRate, measured, answer, request)
+            }
+        }
+        (Flow::Plates { radius, gap }, what) => {
+            let table = FlowTable::parallel_plates(radius, gap, rows)?.with_noise(noise)?;
+            let (curve, function): (StressCurve, _) = if what == Answering::Thrust {
+                (recover::parallel_plates_thrust_with(&table, options)?, Function::NormalStressesOfPlates)
+            } else {
+                (recover::parallel_plates_with(&table, options)?, Function::ShearStress)
+            };
+            told!(curve, shear_rate, stress, function, measured, answer, request)
+        }
+        (Flow::Cone { radius, angle }, what) => {
+            let table = FlowTable::cone_and_plate(radius, angle, rows)?.with_noise(noise)?;
+            let (curve, function): (StressCurve, _) = if what == Answering::Thrust {
+                (recover::cone_and_plate_thrust_with(&table, options)?, Function::FirstNormalStress)
+            } else {
+                (recover::cone_and_plate_torque_with(&table, options)?, Function::ShearStress)
+            };
+            told!(curve, shear_rate, stress, function, measured, answer, request)
+        }
+        (Flow::Pipe { radius } | Flow::Capillary { radius, .. }, _) => {
+            let table = FlowTable::pipe(radius, rows)?.with_noise(noise)?;
+            let curve: FlowCurve = recover::pipe_with(&table, options)?;
+            told!(curve, shear_stress, shear_rate, Function::ShearRate, measured, answer, request)
+        }
+        (Flow::Curve, _) => {
+            // Its columns are the other way round; there is nothing to recover.
+            Err(ViscometryError::TooFewTables { tables: 0, least: 1 })
+        }
+    }
+}
+
+/// Mooney's correction: the flow curve without slip, and the slip, of pipes of several radii.
+///
+/// # Errors
+/// [`SceneError::Argument`] for tables of other flows; [`SceneError::Table`] with the line of a row, [`SceneError::Viscometry`].
+///
+/// # Example
+/// A fluid of viscosity 1 that slips by u = τ/10: 4Q/(πR³) = τ + 4 u/R.
+/// ```
+/// use piola_scene::rheology::{Correction, FlowKind, Measured, RecoveryRequest, recover_without_slip};
+/// let pipe = |radius: f64| {
+///     let mut text = format!("# radius: {radius} m\npressure_gradient,discharge\n");
+///     for stress in (1..9).map(f64::from) {
+///         let discharge = 0.25 * core::f64::consts::PI * radius.powi(3) * (stress + 0.4 * stress / radius);
+///         text += &format!("{},{discharge}\n", 2.0 * stress / radius);
+///     }
+///     Measured::parse("pipe.csv", &text, FlowKind::Pipe, &[])
+/// };
+/// let recovery = recover_without_slip(&[pipe(1.0)?, pipe(2.0)?, pipe(4.0)?], &RecoveryRequest::default())?;
+/// let Some(Correction::Slip(slip)) = recovery.correction else { unreachable!() };
+/// assert!((slip.points[3].slip_velocity - 0.4).abs() < 1e-10); // at τ = 4
+/// assert!((recovery.curves[0].rows[3].value - 4.0).abs() < 1e-9);
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
+pub fn recover_without_slip(tables: &[Measured], request: &RecoveryRequest) -> Result<Recovery, SceneError> {
+    let table = |measured: &Measured| -> Result<FlowTable<PipeGeometry>, SceneError> {
+        let Flow::Pipe { radius } = measured.flow else {
+            let argument = format!("--slip with --flow {}", measured.flow.kind().name());
+            return Err(SceneError::Argument { argument, valid: "--flow pipe" });
         };
-        let summary = json!({
-            "data": measured.path.display().to_string(),
-            "flow": measured.flow.kind().name(),
-            "rows": measured.rows.len(),
-            "recovered": self.rows.len(),
-            "confidence_of_band": self.curve.confidence(),
-            "smoothing": serde_json::to_value(self.curve.smoothing()).unwrap_or_default(),
-            "below_the_smallest_drive": below,
+        let table = FlowTable::pipe(radius, measured.rows()).and_then(|table| table.with_noise(request.noise));
+        table.map_err(|error| measured.refused(error))
+    };
+    let pipes: Vec<_> = tables.iter().map(table).collect::<Result<_, _>>()?;
+    let slip = recover::slip_at_walls(&pipes)
+        .and_then(|slip| slip.with_band(request.confidence))
+        .map_err(|error| of_several(error, tables))?;
+    let rows: Vec<Point> =
+        slip.points.iter().map(|p| Point { at: p.wall_stress, value: p.shear_rate, band: p.band }).collect();
+    let ends = rows.first().zip(rows.last()).map(|(first, last)| (first.at, last.at));
+    let between = ends.into_iter().flat_map(|(low, high)| closely(low, high)).filter_map(|at| slip.at(at).ok());
+    let points = between.map(|p| Point { at: p.wall_stress, value: p.shear_rate, band: p.band }).collect();
+    let curve = of_line(rows, points, slip.smoothing().collect(), request);
+    Ok(Recovery { curves: vec![curve], correction: Some(Correction::Slip(slip)) })
+}
+
+/// Bagley's correction: the flow curve without the pressure lost at the ends, and that pressure, of capillaries of one radius and several
+/// lengths.
+///
+/// # Errors
+/// [`SceneError::Argument`] for tables of other flows; [`SceneError::Table`] with the line of a row, [`SceneError::Viscometry`].
+///
+/// # Example
+/// Δp = 2 τ L/R + 3 τ with 4Q/(πR³) = τ, a Newtonian fluid of viscosity 1.
+/// ```
+/// use piola_scene::rheology::{Correction, FlowKind, Measured, RecoveryRequest, recover_without_ends};
+/// let capillary = |length: f64| {
+///     let mut text = format!("# radius: 1 m\n# length: {length} m\ndischarge,pressure_difference\n");
+///     for stress in (1..9).map(f64::from) {
+///         text += &format!("{},{}\n", 0.25 * core::f64::consts::PI * stress, stress * (2.0 * length + 3.0));
+///     }
+///     Measured::parse("capillary.csv", &text, FlowKind::Capillary, &[])
+/// };
+/// let recovery = recover_without_ends(&[capillary(10.0)?, capillary(20.0)?], &RecoveryRequest::default())?;
+/// let Some(Correction::Ends(ends)) = recovery.correction else { unreachable!() };
+/// assert!((ends.points[3].end_length - 1.5).abs() < 1e-10);
+/// assert!((recovery.curves[0].rows[3].value - 4.0).abs() < 1e-9);
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
+pub fn recover_without_ends(tables: &[Measured], request: &RecoveryRequest) -> Result<Recovery, SceneError> {
+    let table = |measured: &Measured| -> Result<Capillary, SceneError> {
+        let Flow::Capillary { radius, length } = measured.flow else {
+            let argument = format!("--flow {}", measured.flow.kind().name());
+            return Err(SceneError::Argument { argument, valid: "--flow capillary" });
+        };
+        let table = Capillary::new(radius, length, measured.rows()).and_then(|table| table.with_noise(request.noise));
+        table.map_err(|error| measured.refused(error))
+    };
+    let capillaries: Vec<_> = tables.iter().map(table).collect::<Result<_, _>>()?;
+    let ends = recover::end_correction(&capillaries)
+        .and_then(|ends| ends.with_band(request.confidence))
+        .map_err(|error| of_several(error, tables))?;
+    let rows: Vec<Point> =
+        ends.points.iter().map(|p| Point { at: p.wall_stress, value: p.shear_rate, band: p.band }).collect();
+    let reach = ends.points.first().zip(ends.points.last()).map(|(first, last)| (first.discharge, last.discharge));
+    let between = reach.into_iter().flat_map(|(low, high)| closely(low, high)).filter_map(|q| ends.at(q).ok());
+    let points = between.map(|p| Point { at: p.wall_stress, value: p.shear_rate, band: p.band }).collect();
+    let curve = of_line(rows, points, ends.smoothing().collect(), request);
+    Ok(Recovery { curves: vec![curve], correction: Some(Correction::Ends(ends)) })
+}
+
+/// What viscometry refuses of several tables: a row's line in the only table in which that row is wrong.
+fn of_several(error: ViscometryError, tables: &[Measured]) -> SceneError {
+    let ViscometryError::ResponseFalls { row, value, .. } = error else { return SceneError::Viscometry(error) };
+    let wrong =
+        |measured: &&Measured| measured.rows().get(row).is_some_and(|[_, found]| found.total_cmp(&value).is_eq());
+    match tables.iter().find(wrong) {
+        Some(measured) => measured.refused(error),
+        None => SceneError::Viscometry(error),
+    }
+}
+
+/// A flow curve that several tables tell.
+fn of_line(
+    rows: Vec<Point>,
+    points: Vec<Point>,
+    smoothing: Vec<Smoothing>,
+    request: &RecoveryRequest,
+) -> RecoveredCurve {
+    let falling = points.windows(2).find(|pair| pair[1].value < pair[0].value);
+    let monotonicity =
+        falling.map_or(Monotonicity::Rising, |pair| Monotonicity::Falling { from: pair[0].at, to: pair[1].at });
+    RecoveredCurve {
+        function: Function::ShearRate,
+        answering: None,
+        rows,
+        points,
+        residuals: Vec::new(),
+        smoothing,
+        below_smallest: BelowSmallest::NotNeeded,
+        monotonicity,
+        falls_between_lines: None,
+        confidence: request.confidence,
+        lost: 0,
+    }
+}
+
+impl RecoveredCurve {
+    /// The numbers, as they stand in `summary.json`.
+    fn summary(&self) -> Value {
+        let rising = match self.monotonicity {
+            Monotonicity::Rising => json!(true),
+            Monotonicity::Falling { from, to } => {
+                json!({ "falls_from": from, "to": to, "between_lines": self.falls_between_lines })
+            }
+        };
+        let [(abscissa, _), (value, _)] = self.function.axes();
+        let point = |point: &Point| {
+            let mut fields = Map::new();
+            fields.insert(abscissa.into(), json!(point.at));
+            fields.insert(value.into(), json!(point.value));
+            fields.insert("band".into(), json!(point.band));
+            Value::Object(fields)
+        };
+        json!({
+            "confidence_of_band": self.confidence,
+            "band_of": value,
+            "smoothing": serde_json::to_value(&self.smoothing).unwrap_or_default(),
+            "below_the_smallest_drive": serde_json::to_value(self.below_smallest).unwrap_or_default(),
             "rises": rising,
-            "flow_curve": serde_json::to_value(&self.rows).unwrap_or_default(),
-        });
-        let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
-        text.push('\n');
-        text
+            "points": self.rows.iter().map(point).collect::<Vec<_>>(),
+        })
     }
 
     /// A table for a reader: one line a row.
-    #[must_use]
-    pub fn table(&self, measured: &Measured) -> String {
+    fn table(&self) -> String {
         let mut text = String::new();
-        let smoothing = self.curve.smoothing();
-        let confidence = self.curve.confidence().map_or(0.0, |share| 100.0 * share);
-        let _ = writeln!(text, "{}: {} rows of {}", measured.name(), measured.rows.len(), measured.flow.kind().name());
-        let _ = writeln!(text, "smoothed by {:?}, noise {:.1e} of the response", smoothing.criterion, smoothing.noise);
-        match self.curve.below_smallest() {
+        for (index, smoothing) in self.smoothing.iter().enumerate() {
+            let which = if 1 < self.smoothing.len() { format!("table {}: ", index + 1) } else { String::new() };
+            let (criterion, noise) = (smoothing.criterion, smoothing.noise);
+            let _ = writeln!(text, "{which}smoothed by {criterion:?}, noise {noise:.1e} of the response");
+        }
+        match self.below_smallest {
             BelowSmallest::NotNeeded => {}
             assumed => {
                 let _ = writeln!(text, "assumed below the smallest drive: {assumed:?}");
             }
         }
-        if let Monotonicity::Falling { from, to } = self.curve.monotonicity() {
-            let _ = writeln!(
-                text,
-                "the shear rate falls between {from:.4e} and {to:.4e} Pa: no steady shear is stable there"
-            );
+        let [(abscissa, unit), (value, other)] = self.function.axes();
+        if let Monotonicity::Falling { from, to } = self.monotonicity {
+            let why = if self.function.is_flow_curve() { ": no steady shear is stable there" } else { "" };
+            let of = self.falls_between_lines.map(|[a, b]| format!(", lines {a} and {b} of the table"));
+            let of = of.unwrap_or_default();
+            let _ = writeln!(text, "{value} falls between {from:.4e} and {to:.4e} {unit}{of}{why}");
         }
-        let _ =
-            writeln!(text, "\n{:>14}{:>14}{:>16}  {confidence:.0} % band", "stress Pa", "rate 1/s", "viscosity Pa s");
+        let _ = write!(text, "\n{:>18}  {:>30}", format!("{abscissa} {unit}"), format!("{value} {other}"));
+        if self.function.is_flow_curve() {
+            let _ = write!(text, "{:>16}", "viscosity Pa s");
+        }
+        let _ = writeln!(text, "  {:.0} % band", 100.0 * self.confidence);
         for point in &self.rows {
-            let FlowCurvePoint { shear_stress, shear_rate, band, .. } = *point;
-            let _ = write!(text, "{shear_stress:>14.5e}{shear_rate:>14.5e}{:>16.5e}", shear_stress / shear_rate);
-            if let Some([low, high]) = band {
+            let _ = write!(text, "{:>18.5e}  {:>30.5e}", point.at, point.value);
+            if self.function.is_flow_curve() {
+                let _ = write!(text, "{:>16.5e}", self.function.viscosity(point));
+            }
+            if let Some([low, high]) = point.band {
                 let _ = write!(text, "  [{low:.5e}, {high:.5e}]");
             }
             text.push('\n');
@@ -149,27 +485,163 @@ impl Recovery {
         text
     }
 
-    /// Writes summary, tables and figure.
-    #[must_use]
-    pub fn write(&self, folder: &Folder, measured: &Measured) -> Written {
-        let mut curve = String::from("shear_stress [Pa],shear_rate [1/s],low [1/s],high [1/s],viscosity [Pa s]\n");
-        for FlowCurvePoint { shear_stress, shear_rate, band, .. } in &self.points {
-            let [low, high] = band.unwrap_or([f64::NAN; 2]);
-            let _ = writeln!(curve, "{shear_stress:?},{shear_rate:?},{low:?},{high:?},{:?}", shear_stress / shear_rate);
+    /// Its points, closely, as CSV.
+    fn csv(&self) -> String {
+        let [(abscissa, unit), (value, other)] = self.function.axes();
+        let mut text = format!("{abscissa} [{unit}],{value} [{other}],low [{other}],high [{other}]");
+        text.push_str(if self.function.is_flow_curve() { ",viscosity [Pa s]\n" } else { "\n" });
+        for point in &self.points {
+            let [low, high] = point.band.unwrap_or([f64::NAN; 2]);
+            let _ = write!(text, "{:?},{:?},{low:?},{high:?}", point.at, point.value);
+            if self.function.is_flow_curve() {
+                let _ = write!(text, ",{:?}", self.function.viscosity(point));
+            }
+            text.push('\n');
         }
-        let [drive, response] = measured.columns();
-        let mut residuals = format!("{drive},{response},relative residual\n");
-        for ([drive, response], residual) in measured.rows.iter().zip(self.curve.residuals()) {
-            let _ = writeln!(residuals, "{drive:?},{response:?},{residual:?}");
-        }
-        Written::of(
-            folder,
-            [
-                ("summary.json", self.summary(measured)),
-                ("flow-curve.csv", curve),
-                ("residuals.csv", residuals),
-                ("flow-curve.svg", figure::recovery(measured, self)),
-            ],
-        )
+        text
     }
+}
+
+impl Correction {
+    /// Its points, as CSV.
+    fn csv(&self) -> String {
+        let error = |error: Option<f64>| error.map_or_else(String::new, |error| format!("{error:?}"));
+        let mut text = String::new();
+        match self {
+            Self::Slip(slip) => {
+                text.push_str(
+                    "wall_stress [Pa],slip_velocity [m/s],standard error [m/s],apparent_rate without slip [1/s]\n",
+                );
+                for p in &slip.points {
+                    let (stress, speed, rate) = (p.wall_stress, p.slip_velocity, p.apparent_rate);
+                    let _ = writeln!(text, "{stress:?},{speed:?},{},{rate:?}", error(p.slip_error));
+                }
+            }
+            Self::Ends(ends) => {
+                text.push_str(
+                    "discharge [m^3/s],wall_stress [Pa],end_pressure [Pa],standard error [Pa],end_length [radii]\n",
+                );
+                for p in &ends.points {
+                    let (q, stress, lost, length) = (p.discharge, p.wall_stress, p.end_pressure, p.end_length);
+                    let _ = writeln!(text, "{q:?},{stress:?},{lost:?},{},{length:?}", error(p.end_error));
+                }
+            }
+        }
+        text
+    }
+
+    /// A table for a reader.
+    fn table(&self) -> String {
+        let error = |error: Option<f64>| error.map_or_else(String::new, |error| format!(" ± {error:.1e}"));
+        let mut text = String::new();
+        match self {
+            Self::Slip(slip) => {
+                let _ = writeln!(text, "\n{:>14}  slip m/s (standard error by what Mooney's line leaves)", "stress Pa");
+                for p in &slip.points {
+                    let _ = writeln!(text, "{:>14.5e}  {:.5e}{}", p.wall_stress, p.slip_velocity, error(p.slip_error));
+                }
+            }
+            Self::Ends(ends) => {
+                let _ = writeln!(
+                    text,
+                    "\n{:>14}  pressure lost at the ends Pa (standard error by what Bagley's line leaves), in radii",
+                    "stress Pa"
+                );
+                for p in &ends.points {
+                    let (stress, lost, length) = (p.wall_stress, p.end_pressure, p.end_length);
+                    let _ = writeln!(text, "{stress:>14.5e}  {lost:.5e}{}, {length:.3}", error(p.end_error));
+                }
+            }
+        }
+        text
+    }
+}
+
+impl Recovery {
+    /// Rows at which nothing positive is recovered: noise is stronger than the flow there.
+    #[must_use]
+    pub fn lost(&self) -> usize {
+        self.curves.iter().map(|curve| curve.lost).sum()
+    }
+
+    /// The numbers, as they stand in `summary.json`.
+    #[must_use]
+    pub fn summary(&self, tables: &[Measured]) -> String {
+        let data: Vec<Value> = tables
+            .iter()
+            .map(|measured| json!({ "path": measured.path.display().to_string(), "rows": measured.rows().len() }))
+            .collect();
+        let mut summary = Map::new();
+        summary.insert("data".into(), Value::Array(data));
+        summary.insert("flow".into(), json!(tables.first().map(|measured| measured.flow.kind().name())));
+        for curve in &self.curves {
+            summary.insert(curve.function.name().replace('-', "_"), curve.summary());
+        }
+        match &self.correction {
+            Some(Correction::Slip(slip)) => {
+                summary.insert("slip".into(), serde_json::to_value(&slip.points).unwrap_or_default());
+            }
+            Some(Correction::Ends(ends)) => {
+                summary.insert("ends".into(), serde_json::to_value(&ends.points).unwrap_or_default());
+            }
+            None => {}
+        }
+        let mut text = serde_json::to_string_pretty(&Value::Object(summary)).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+
+    /// A table for a reader: one line a row.
+    #[must_use]
+    pub fn table(&self, tables: &[Measured]) -> String {
+        let mut text = String::new();
+        for measured in tables {
+            let (rows, kind) = (measured.rows().len(), measured.flow.kind().name());
+            let _ = writeln!(text, "{}: {rows} rows of {kind}", measured.name());
+        }
+        for curve in &self.curves {
+            text.push_str(&curve.table());
+        }
+        if let Some(correction) = &self.correction {
+            text.push_str(&correction.table());
+        }
+        text
+    }
+
+    /// Writes summary, tables and figures.
+    #[must_use]
+    pub fn write(&self, folder: &Folder, tables: &[Measured]) -> Written {
+        let mut files = vec![("summary.json", self.summary(tables))];
+        for curve in &self.curves {
+            let [csv, svg, residuals] = if curve.function.is_flow_curve() {
+                ["flow-curve.csv", "flow-curve.svg", "residuals.csv"]
+            } else {
+                ["normal-stress.csv", "normal-stress.svg", "normal-stress-residuals.csv"]
+            };
+            files.push((csv, curve.csv()));
+            if let (Some(measured), Some(what)) = (tables.first(), curve.answering) {
+                files.push((residuals, of_residuals(measured, curve, what)));
+                files.push((svg, figure::recovery(measured, curve, what)));
+            }
+        }
+        if let (Some(correction), Some(curve)) = (&self.correction, self.curves.first()) {
+            let name = if matches!(correction, Correction::Slip(_)) { "slip.csv" } else { "ends.csv" };
+            files.push((name, correction.csv()));
+            files.push(("flow-curve.svg", figure::correction(tables, curve, correction)));
+        }
+        Written::of(folder, files)
+    }
+}
+
+/// The rows of a column with their residuals, as CSV.
+fn of_residuals(measured: &Measured, curve: &RecoveredCurve, what: Answering) -> String {
+    let [drive, response] = measured.columns(what);
+    let mut text = format!("{drive},{response},relative residual\n");
+    let answer = measured.answers.iter().find(|answer| answer.what == what);
+    for (answer, ([drive, response], residual)) in
+        answer.into_iter().flat_map(|answer| answer.rows.iter().zip(&curve.residuals).map(move |row| (answer, row)))
+    {
+        let _ = writeln!(text, "{drive:?},{:?},{residual:?}", answer.sign() * response);
+    }
+    text
 }

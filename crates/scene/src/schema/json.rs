@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Absent, Key, Kind, Range, SCENE, Table};
+use super::{Absent, Key, Kind, Range, SCENE, SCENE_KINDS, Table};
 use crate::units::Dimension;
 
 /// The JSON Schema of a scene.
@@ -19,7 +19,10 @@ pub fn json_schema() -> Value {
     let mut schema = table(&SCENE);
     schema.insert("$schema".into(), "https://json-schema.org/draft/2020-12/schema".into());
     schema.insert("title".into(), "Piola scene".into());
-    let kinds = ["gravity", "mechanism", "central"].map(|kind| json!({ "required": [kind] }));
+    let kinds = SCENE_KINDS.each_ref().map(|kind| {
+        let time: &[&str] = if kind.study { &[] } else { &["time"] };
+        json!({ "required": ([&[kind.name], time].concat()) })
+    });
     schema.insert("oneOf".into(), kinds.to_vec().into());
     schema.into()
 }

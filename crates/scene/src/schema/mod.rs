@@ -5,13 +5,25 @@
 
 mod json;
 mod markdown;
+mod studies;
 mod tables;
 
 pub use json::json_schema;
 pub use markdown::markdown;
-pub use tables::{JOINT_TYPES, METHODS, SCENE};
+pub use tables::{JOINT_TYPES, METHODS, SCENE, SCENE_KINDS};
 
 use crate::units::Dimension;
+
+/// A kind of scene: the table that says so, and what else belongs to it.
+#[derive(Debug)]
+pub struct SceneKind {
+    /// Header of the table.
+    pub name: &'static str,
+    /// Whether it is a study, without a span of time.
+    pub study: bool,
+    /// Lists of tables that belong to it.
+    pub lists: &'static [&'static str],
+}
 
 /// A table of a scene.
 #[derive(Debug)]

@@ -1,13 +1,13 @@
 //! The tables and keys themselves.
 
-use super::{Absent, Key, Kind, Range, Table, Word};
+use super::{Absent, Key, Kind, Range, SceneKind, Table, Word, studies};
 use crate::units::Dimension;
 
-const fn key(name: &'static str, kind: Kind, absent: Absent, doc: &'static str) -> Key {
+pub(super) const fn key(name: &'static str, kind: Kind, absent: Absent, doc: &'static str) -> Key {
     Key { name, kind, absent, only_for: &[], doc }
 }
 
-const fn key_for(
+pub(super) const fn key_for(
     only_for: &'static [&'static str],
     name: &'static str,
     kind: Kind,
@@ -17,11 +17,11 @@ const fn key_for(
     Key { name, kind, absent, only_for, doc }
 }
 
-const fn word(name: &'static str, doc: &'static str) -> Word {
+pub(super) const fn word(name: &'static str, doc: &'static str) -> Word {
     Word { name, doc }
 }
 
-const fn quantity(dimension: Dimension, range: Range) -> Kind {
+pub(super) const fn quantity(dimension: Dimension, range: Range) -> Kind {
     Kind::Quantity(dimension, range)
 }
 
@@ -29,10 +29,29 @@ const fn vector(dimension: Dimension) -> Kind {
     Kind::Numbers(dimension, &[3])
 }
 
+/// The kinds of scenes.
+pub static SCENE_KINDS: [SceneKind; 7] = [
+    motion("gravity", &["body"]),
+    motion("mechanism", &["joint", "particle", "rigid_body"]),
+    motion("central", &["body"]),
+    study("wavefront", &["medium"]),
+    study("room", &[]),
+    study("kepler_arcs", &[]),
+    study("henon_heiles", &[]),
+];
+
+const fn motion(name: &'static str, lists: &'static [&'static str]) -> SceneKind {
+    SceneKind { name, study: false, lists }
+}
+
+const fn study(name: &'static str, lists: &'static [&'static str]) -> SceneKind {
+    SceneKind { name, study: true, lists }
+}
+
 /// A whole scene.
 pub static SCENE: Table = Table {
     name: "scene",
-    doc: "A scene has `[time]` and exactly one of `[gravity]`, `[mechanism]` and `[central]`, which says what kind of system it is.",
+    doc: "A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]` and `[central]` move in time and need `[time]`; `[wavefront]`, `[room]`, `[kepler_arcs]` and `[henon_heiles]` are studies without it.",
     keys: &[
         key(
             "name",
@@ -44,6 +63,20 @@ pub static SCENE: Table = Table {
         key("gravity", Kind::Table(&GRAVITY), Absent::Optional, "Bodies that attract each other."),
         key("mechanism", Kind::Table(&MECHANISM), Absent::Optional, "Particles and rigid bodies on joints."),
         key("central", Kind::Table(&CENTRAL), Absent::Optional, "Bodies about a fixed centre of attraction."),
+        key("wavefront", Kind::Table(&studies::WAVEFRONT), Absent::Optional, "Wave fronts and rays in a medium."),
+        key("room", Kind::Table(&studies::ROOM), Absent::Optional, "First arrival of a signal in a room."),
+        key(
+            "kepler_arcs",
+            Kind::Table(&studies::KEPLER_ARCS),
+            Absent::Optional,
+            "All arcs between two events about a centre.",
+        ),
+        key(
+            "henon_heiles",
+            Kind::Table(&studies::HENON_HEILES),
+            Absent::Optional,
+            "Sections of the motions of Hénon and Heiles.",
+        ),
         key("body", Kind::Tables(&BODY), Absent::Optional, "The bodies of `[gravity]` or `[central]`."),
         key(
             "joint",
@@ -53,7 +86,8 @@ pub static SCENE: Table = Table {
         ),
         key("particle", Kind::Tables(&PARTICLE), Absent::Optional, "Point masses of a `[mechanism]`."),
         key("rigid_body", Kind::Tables(&RIGID_BODY), Absent::Optional, "Rigid bodies of a `[mechanism]`."),
-        key("time", Kind::Table(&TIME), Absent::Required, "The span of time."),
+        key("medium", Kind::Tables(&studies::MEDIUM), Absent::Optional, "The parts of the medium of a `[wavefront]`."),
+        key("time", Kind::Table(&TIME), Absent::Optional, "The span of time, which every motion has."),
         key(
             "integrator",
             Kind::Table(&INTEGRATOR),
@@ -365,7 +399,7 @@ static OUTPUT: Table = Table {
             "samples",
             Kind::Count { least: 2, most: 1_000_000 },
             Absent::Default("1001"),
-            "Instants, evenly spread from start to end, at which the state is recorded. Those of the reference are added.",
+            "Instants of a motion, evenly spread from start to end, at which the state is recorded. Those of the reference are added.",
         ),
         key("tables", Kind::Flag, Absent::Default("true"), "Whether CSV tables are written."),
         key("figures", Kind::Flag, Absent::Default("true"), "Whether SVG figures are drawn."),

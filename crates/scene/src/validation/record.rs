@@ -78,6 +78,9 @@ impl Record {
     pub(crate) fn vector(&self, key: &str) -> Option<[f64; 3]> {
         self.numbers(key)?.try_into().ok()
     }
+    pub(crate) fn pair(&self, key: &str) -> Option<[f64; 2]> {
+        self.numbers(key)?.try_into().ok()
+    }
     pub(crate) fn record(&self, key: &str) -> Option<&Record> {
         match &self.fields.get(key)?.value {
             FieldValue::Record(record) => Some(record),

@@ -63,6 +63,27 @@ fn mistakes_of_components_are_named_with_their_line() {
 }
 
 #[test]
+fn stresses_on_sides_that_a_mode_leaves_free_are_refused_with_their_line() {
+    let line = |row: &str| sentence(&components(&[row]));
+    let sides = line("UT,PK1,4,0,0,0,0.5,0,0,0,0.5,1.5,0,0,0,0.3,0,0,0,0");
+    assert_eq!(sides, "rubber.csv:4: S22 is 0.3, which the mode UT has not at S11 = 1.5; valid: S22 = 0");
+    let shear = line("UT,PK1,4,0,0,0,0.5,0,0,0,0.5,1.5,0,0,0,0,0.2,0,0,0");
+    assert!(shear.starts_with("rubber.csv:4: S23 is 0.2"), "{shear}");
+    let unlike = line("ET,PK1,2,0,0,0,2,0,0,0,0.25,1.5,0,0,0,1.2,0,0,0,0");
+    assert!(unlike.ends_with("S22 is 1.2, which the mode ET has not at S11 = 1.5; valid: S22 = 1.5"), "{unlike}");
+    // A sheet whose width is kept has a stress across: it is fitted too.
+    let across = components(&["PS,PK1,2,0,0,0,1,0,0,0,0.5,1.5,0,0,0,0.7,0,0,0,0"]);
+    let sheet = Measurements::parse("rubber.csv", &across).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((sheet.data.tests()[0].name(), sheet.data.tests()[0].len()), ("PS", 2));
+}
+
+#[test]
+fn two_units_of_a_table_are_refused() {
+    let both = sentence("# unit: kPa\nmode,stretch,stress_MPa\nplanar,1.1,0.1\n");
+    assert_eq!(both, "rubber.csv:2: the header says MPa and a comment kPa; valid: one unit");
+}
+
+#[test]
 fn unreadable_files_are_refused_by_name() {
     let error = |path: &Path| Measurements::load(path).map(|_| ()).unwrap_err();
     assert!(matches!(error(Path::new("no-such-file.csv")), SceneError::Unreadable { .. }));

@@ -9,5 +9,6 @@ mod rheology;
 mod run;
 mod schema;
 mod settings;
+mod studies;
 mod support;
 mod units;

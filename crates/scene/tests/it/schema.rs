@@ -56,7 +56,7 @@ fn scenes_that_come_with_the_program_are_valid() {
     for entry in entries.filter_map(Result::ok) {
         let path = entry.path();
         if path.extension().is_some_and(|extension| extension == "toml")
-            && let Err(error) = piola_scene::Scene::load(&path, &[])
+            && let Err(error) = piola_scene::SceneFile::load(&path, &[])
         {
             panic!("{}: {error}", path.display());
         }

@@ -1,7 +1,7 @@
 //! Scenes to break, and readers of reports.
 
 use piola_scene::document::Report;
-use piola_scene::{Document, Scene, SceneError};
+use piola_scene::{Document, Scene, SceneError, SceneFile, Study};
 
 /// A valid scene of gravitation.
 pub(crate) const PAIR: &str = r#"
@@ -70,6 +70,15 @@ pub(crate) fn scene(text: &str) -> Scene {
     }
 }
 
+/// The study of a text that has no mistakes.
+pub(crate) fn study(text: &str) -> Study {
+    match SceneFile::from_document(&Document::parse("test.toml", text)) {
+        Ok(SceneFile::Study(study)) => study,
+        Ok(SceneFile::Motion(_)) => panic!("the scene is no study"),
+        Err(error) => panic!("{error}"),
+    }
+}
+
 /// The report on a text that has mistakes.
 pub(crate) fn report(text: &str) -> Report {
     report_with(text, &[])
@@ -81,7 +90,7 @@ pub(crate) fn report_with(text: &str, settings: &[&str]) -> Report {
     for setting in settings {
         document.set(setting);
     }
-    match Scene::from_document(&document) {
+    match SceneFile::from_document(&document) {
         Err(SceneError::Invalid(report)) => report,
         Err(error) => panic!("{error}"),
         Ok(_) => panic!("the scene has no mistakes"),

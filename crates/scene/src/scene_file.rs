@@ -1,0 +1,61 @@
+//! A scene file of either sort.
+
+use std::path::Path;
+
+use crate::document::Document;
+use crate::model::Builder;
+use crate::{Scene, SceneError, Study, validation};
+
+/// What a scene file holds.
+#[derive(Debug, Clone)]
+pub enum SceneFile {
+    /// A motion in time.
+    Motion(Box<Scene>),
+    /// A study.
+    Study(Study),
+}
+
+impl SceneFile {
+    /// Reads a scene file, applies settings of the form `path=value`, and checks the result.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with all mistakes; other variants when there is no text to check.
+    pub fn load(path: &Path, settings: &[String]) -> Result<Self, SceneError> {
+        let mut document = Document::read(path)?;
+        for setting in settings {
+            document.set(setting);
+        }
+        Self::from_document(&document)
+    }
+
+    /// Checks a document and builds what it holds.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] with every mistake found.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_scene::{Document, SceneFile};
+    /// let document = Document::parse("fronts.toml", "
+    ///     [wavefront]
+    ///     type = 'point'
+    ///     length = 1.0
+    ///     [[medium]]
+    ///     type = 'uniform'
+    /// ");
+    /// assert!(matches!(SceneFile::from_document(&document)?, SceneFile::Study(_)));
+    /// # Ok::<(), piola_scene::SceneError>(())
+    /// ```
+    pub fn from_document(document: &Document) -> Result<Self, SceneError> {
+        let (record, mistakes) = validation::records(document);
+        let mut builder = Builder::new(document, mistakes);
+        // One that has no kind, or several, is answered as a motion is.
+        let study = Study::kind(&record).is_some();
+        let built = if study {
+            builder.study(&record).map(Self::Study)
+        } else {
+            builder.scene(&record).map(|scene| Self::Motion(Box::new(scene)))
+        };
+        builder.finish(built)
+    }
+}

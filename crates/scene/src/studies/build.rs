@@ -1,0 +1,48 @@
+//! Studies from checked records.
+
+use super::{Study, Subject};
+use crate::document::Mistake;
+use crate::model::{self, Builder};
+use crate::schema::{SCENE_KINDS, SceneKind};
+use crate::validation::Record;
+
+/// What motions alone have.
+const OF_MOTIONS: [&str; 3] = ["time", "integrator", "reference"];
+
+impl Study {
+    /// The kind, if the record is of one study.
+    pub(crate) fn kind(record: &Record) -> Option<&'static SceneKind> {
+        let mut written = SCENE_KINDS.iter().filter(|kind| record.has(kind.name));
+        let kind = written.next()?;
+        (kind.study && written.next().is_none()).then_some(kind)
+    }
+}
+
+impl Builder<'_> {
+    /// The study; parts that cannot be built have mistakes of their own.
+    pub(crate) fn study(&mut self, record: &Record) -> Option<Study> {
+        let kind = self.kind(record)?;
+        for key in OF_MOTIONS.into_iter().filter(|key| record.has(key)) {
+            self.wrong(
+                Mistake::new(record.place_of(key), format!("[{key}] in a scene of [{}]", kind.name))
+                    .valid("nothing: this is a study, without a motion in time"),
+            );
+        }
+        if let Some(output) = record.record("output").filter(|output| output.has("samples")) {
+            self.wrong(
+                Mistake::new(output.place_of("samples"), format!("`samples` in a scene of [{}]", kind.name))
+                    .valid("nothing: there are no instants to record"),
+            );
+        }
+        let name = record.text("name").map_or_else(|| self.file_stem(), str::to_string);
+        let output = model::output(record, &name);
+        let table = record.record(kind.name)?;
+        let subject = match kind.name {
+            "room" => Subject::Room(self.room(table)?),
+            "kepler_arcs" => Subject::KeplerArcs(self.kepler_arcs(table)?),
+            "henon_heiles" => Subject::HenonHeiles(self.henon_heiles(table)?),
+            _ => Subject::Wavefront(self.wavefront(record, table)?),
+        };
+        Some(Study { name, title: record.text("title").map(str::to_string), subject, output })
+    }
+}

@@ -1,0 +1,236 @@
+//! Plane figures true to scale, and their colours.
+
+use core::fmt::Write as _;
+
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::contour::{Lattice, area};
+use crate::output::figures::{Area, Drawn, FINE, FONT, GRID, INK, format_short, length_unit, pixels, thinned};
+
+/// A rectangle of the plane.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Window {
+    pub(super) low: [f64; 2],
+    pub(super) high: [f64; 2],
+}
+
+impl Window {
+    /// The smallest one that holds all points, with some air.
+    pub(super) fn around(points: impl Iterator<Item = [f64; 2]>) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for point in points.filter(|point| point.iter().all(|x| x.is_finite())) {
+            for k in 0..2 {
+                low[k] = low[k].min(point[k]);
+                high[k] = high[k].max(point[k]);
+            }
+        }
+        if !(low[0] <= high[0] && low[1] <= high[1]) {
+            (low, high) = ([-1.0; 2], [1.0; 2]);
+        }
+        let air = 0.03 * (high[0] - low[0]).max(high[1] - low[1]).max(f64::MIN_POSITIVE);
+        Self { low: low.map(|x| x - air), high: high.map(|x| x + air) }
+    }
+
+    /// The size of a figure of about a width in which one scale holds for both axes.
+    pub(super) fn size(&self, width: u32) -> (u32, u32) {
+        let ratio = (self.high[1] - self.low[1]) / (self.high[0] - self.low[0]);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 260 and 1200")]
+        let height = (f64::from(width - 140) * ratio + 130.0).clamp(260.0, 1200.0) as u32;
+        (width, height)
+    }
+}
+
+pub(super) type Plane<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Curves and areas over a window, one scale for both axes.
+pub(super) struct Canvas<'a> {
+    chart: Plane<'a>,
+    /// The unit of a length in metres.
+    unit: f64,
+    /// Length of the plane that a coordinate of the drawing makes, in the unit.
+    grain: f64,
+}
+
+impl<'a> Canvas<'a> {
+    /// Axes in metres, or whatever suits them, with their names.
+    pub(super) fn metres(
+        area: &Area<'a>,
+        window: Window,
+        names: (&str, &str),
+    ) -> Result<Self, Box<dyn core::error::Error>> {
+        let largest = window.low.iter().chain(&window.high).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let (name, unit) = length_unit(largest);
+        Self::new(area, window, (name, unit), names)
+    }
+
+    pub(super) fn new(
+        area: &Area<'a>,
+        window: Window,
+        (name, unit): (&str, f64),
+        (across, up): (&str, &str),
+    ) -> Result<Self, Box<dyn core::error::Error>> {
+        let (width, height) = area.dim_in_pixel();
+        let (wide, tall) =
+            (f64::from(width.saturating_sub(100 * FINE).max(1)), f64::from(height.saturating_sub(75 * FINE).max(1)));
+        let Window { low, high } = window;
+        let grain = ((high[0] - low[0]) / wide).max((high[1] - low[1]) / tall) / unit;
+        let range = |k: usize, pixels: f64| {
+            let middle = 0.5 * (low[k] + high[k]) / unit;
+            middle - 0.5 * grain * pixels..middle + 0.5 * grain * pixels
+        };
+        let mut chart = ChartBuilder::on(area)
+            .margin(pixels(10))
+            .x_label_area_size(pixels(50))
+            .y_label_area_size(pixels(70))
+            .build_cartesian_2d(range(0, wide), range(1, tall))?;
+        let short = |x: &f64| format_short(*x);
+        let named = |axis: &str| if name.is_empty() { axis.to_string() } else { format!("{axis} ({name})") };
+        chart
+            .configure_mesh()
+            .set_all_tick_mark_size(pixels(5))
+            .x_labels(7)
+            .y_labels(7)
+            .light_line_style(WHITE)
+            .bold_line_style(GRID.stroke_width(FINE))
+            .axis_style(INK.stroke_width(FINE))
+            .label_style((FONT, pixels(14)).into_font().color(&INK))
+            .axis_desc_style((FONT, pixels(16)).into_font().color(&INK))
+            .x_desc(named(across))
+            .y_desc(named(up))
+            .x_label_formatter(&short)
+            .y_label_formatter(&short)
+            .draw()?;
+        Ok(Self { chart, unit, grain })
+    }
+
+    fn scaled(&self, points: &[[f64; 2]]) -> Vec<(f64, f64)> {
+        thinned(points.iter().map(|[x, y]| (x / self.unit, y / self.unit)), 1.5 * f64::from(FINE) * self.grain)
+    }
+
+    /// A curve; what leaves the window ends at its border.
+    pub(super) fn curve(&mut self, points: &[[f64; 2]], style: ShapeStyle) -> Drawn {
+        let points = self.scaled(points);
+        self.chart.draw_series(LineSeries::new(points, style))?;
+        Ok(())
+    }
+
+    /// A filled polygon.
+    pub(super) fn fill(&mut self, polygon: &[[f64; 2]], colour: RGBColor) -> Drawn {
+        let points = self.scaled(polygon);
+        if 2 < points.len() {
+            self.chart.draw_series([Polygon::new(points, colour.filled())])?;
+        }
+        Ok(())
+    }
+
+    /// White over everything outside of a closed curve.
+    pub(super) fn cover_outside(&mut self, curve: &[[f64; 2]]) -> Drawn {
+        let (x, y) = (self.chart.x_range(), self.chart.y_range());
+        let corners = [(x.start, y.start), (x.end, y.start), (x.end, y.end), (x.start, y.end), (x.start, y.start)];
+        let inner: Vec<(f64, f64)> = curve.iter().rev().map(|[x, y]| (x / self.unit, y / self.unit)).collect();
+        // One polygon: around the window, in to the curve, around it the other way.
+        let ring: Vec<(f64, f64)> = corners.into_iter().chain(inner).collect();
+        self.chart.draw_series([Polygon::new(ring, WHITE.filled())])?;
+        Ok(())
+    }
+
+    /// A disc with a white rim.
+    pub(super) fn mark(&mut self, [x, y]: [f64; 2], radius: u32, colour: RGBColor) -> Drawn {
+        let place = (x / self.unit, y / self.unit);
+        self.chart.draw_series([Circle::new(place, pixels(radius + 1), WHITE.filled())])?;
+        self.chart.draw_series([Circle::new(place, pixels(radius), colour.filled())])?;
+        Ok(())
+    }
+
+    /// The values of a lattice in steps of colour, from `beneath` up.
+    pub(super) fn bands(
+        &mut self,
+        lattice: &Lattice,
+        thresholds: &[f64],
+        colours: &[RGBColor],
+        beneath: RGBColor,
+    ) -> Drawn {
+        for (index, (threshold, colour)) in thresholds.iter().zip(colours).enumerate() {
+            for polygon in lattice.region(*threshold) {
+                let hole = area(&polygon) < 0.0;
+                let below = index.checked_sub(1).map_or(beneath, |below| colours[below]);
+                self.fill(&polygon, if hole { below } else { *colour })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Many small dots as one SVG path, to be put into the figure by [`with_paths`].
+    pub(super) fn dots(&self, points: &[[f64; 2]]) -> String {
+        let mut path = String::new();
+        for [x, y] in points {
+            let (x, y) = self.chart.backend_coord(&(x / self.unit, y / self.unit));
+            let _ = write!(path, "M{x} {y}h0");
+        }
+        path
+    }
+}
+
+/// A figure with further paths of dots, each in a colour, `eighths` of a pixel wide.
+pub(super) fn with_paths(figure: &str, paths: &[(String, RGBColor)], eighths: u32) -> String {
+    let mut drawn = String::new();
+    for (path, RGBColor(red, green, blue)) in paths {
+        let _ = writeln!(
+            drawn,
+            "<path d=\"{path}\" fill=\"none\" stroke=\"#{red:02X}{green:02X}{blue:02X}\" stroke-width=\"{eighths}\" \
+             stroke-linecap=\"round\"/>"
+        );
+    }
+    match figure.rfind("</svg>") {
+        Some(end) => format!("{}{drawn}{}", &figure[..end], &figure[end..]),
+        None => figure.to_string(),
+    }
+}
+
+/// Colours with the values at their borders, in a narrow area.
+pub(super) fn colour_bar(area: &Area<'_>, name: &str, colours: &[RGBColor], (low, high): (f64, f64)) -> Drawn {
+    let (_, height) = area.dim_in_pixel();
+    let (top, bottom) = (pixels(40), i32::try_from(height)? - pixels(70));
+    let count = i32::try_from(colours.len().max(1))?;
+    let style = (FONT, pixels(14)).into_font().color(&INK).pos(Pos::new(HPos::Left, VPos::Center));
+    area.draw(&Text::new(name.to_string(), (pixels(4), pixels(20)), style.clone()))?;
+    for (index, colour) in (0..).zip(colours) {
+        let place = |index: i32| bottom - (bottom - top) * index / count;
+        area.draw(&Rectangle::new([(pixels(6), place(index + 1)), (pixels(26), place(index))], colour.filled()))?;
+    }
+    for step in 0..=4 {
+        let value = low + f64::from(step) / 4.0 * (high - low);
+        let y = bottom - (bottom - top) * step / 4;
+        area.draw(&Text::new(format_short(value), (pixels(32), y), style.clone()))?;
+    }
+    Ok(())
+}
+
+/// A colour between two.
+pub(super) fn between(a: RGBColor, b: RGBColor, share: f64) -> RGBColor {
+    let share = share.clamp(0.0, 1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
+    let mixed = |a: u8, b: u8| (f64::from(a) + share * (f64::from(b) - f64::from(a))).round() as u8;
+    RGBColor(mixed(a.0, b.0), mixed(a.1, b.1), mixed(a.2, b.2))
+}
+
+/// From dark blue over green to yellow, evenly lighter: told apart by everyone, and in grey.
+pub(super) fn viridis(share: f64) -> RGBColor {
+    const STOPS: [RGBColor; 9] = [
+        RGBColor(68, 1, 84),
+        RGBColor(71, 44, 122),
+        RGBColor(59, 81, 139),
+        RGBColor(44, 113, 142),
+        RGBColor(33, 144, 141),
+        RGBColor(39, 173, 129),
+        RGBColor(92, 200, 99),
+        RGBColor(170, 220, 50),
+        RGBColor(253, 231, 37),
+    ];
+    let place = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between zero and eight")]
+    let index = (place as usize).min(STOPS.len() - 2);
+    between(STOPS[index], STOPS[index + 1], place - index as f64)
+}

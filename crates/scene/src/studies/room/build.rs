@@ -1,0 +1,88 @@
+//! Rooms from checked records.
+
+use super::{Outline, Room, Speed};
+use crate::document::Mistake;
+use crate::model::Builder;
+use crate::validation::Record;
+
+impl Builder<'_> {
+    pub(in crate::studies) fn room(&mut self, table: &Record) -> Option<Room> {
+        let outline = self.outline(table);
+        let speed = Speed { at_origin: table.number("speed")?, gradient: table.pair("speed_gradient")? };
+        let outline = outline?;
+        let [a, b] = outline.semi_axes;
+        let room = Room {
+            outline,
+            speed,
+            circle: None,
+            resolution: table.number("resolution").unwrap_or(a.min(b) / 2000.0),
+            grid: table.count("grid")?,
+        };
+        if room.least_speed() <= 0.0 {
+            let least = room.least_speed();
+            self.wrong(
+                Mistake::new(
+                    table.place_of("speed_gradient"),
+                    format!("the speed falls to {least} m/s at a corner of the rectangle around the room"),
+                )
+                .valid("a gradient so small that the speed is positive there"),
+            );
+            return None;
+        }
+        let circle = if table.text("signal")? == "circle" { Some(self.circle(table, &outline)?) } else { None };
+        if circle.is_none()
+            && let Some(key) = ["centre", "radius"].into_iter().find(|key| table.has(key))
+        {
+            self.wrong(
+                Mistake::new(table.place_of(key), format!("`{key}` with a signal from the wall"))
+                    .valid("signal = \"circle\", or nothing"),
+            );
+        }
+        Some(Room { circle, ..room })
+    }
+
+    fn outline(&mut self, table: &Record) -> Option<Outline> {
+        let semi_axes = table.pair("semi_axes")?;
+        if semi_axes.iter().any(|axis| *axis <= 0.0) {
+            self.wrong(
+                Mistake::new(table.place_of("semi_axes"), format!("semi-axes of {semi_axes:?} m"))
+                    .valid("two lengths greater than zero"),
+            );
+            return None;
+        }
+        let mut exponent = 2;
+        if table.text("type")? == "superellipse" {
+            let count = table.count("exponent")?;
+            if !count.is_multiple_of(2) {
+                self.wrong(
+                    Mistake::new(table.place_of("exponent"), format!("the exponent {count} is odd"))
+                        .valid("an even number from 2 to 12"),
+                );
+                return None;
+            }
+            exponent = i32::try_from(count).ok()?;
+        }
+        Some(Outline { centre: [0.0; 2], semi_axes, exponent })
+    }
+
+    fn circle(&mut self, table: &Record, room: &Outline) -> Option<Outline> {
+        if !table.has("radius") {
+            self.wrong(
+                Mistake::new(table.place.clone(), "a signal from a circle lacks `radius`")
+                    .valid("radius = a length greater than zero"),
+            );
+            return None;
+        }
+        let radius = table.number("radius")?;
+        let circle = Outline { centre: table.pair("centre")?, semi_axes: [radius; 2], exponent: 2 };
+        let inside = (0..360).all(|degree| room.level(circle.place(f64::from(degree).to_radians())) < 1.0);
+        if !inside {
+            self.wrong(
+                Mistake::new(table.place_of("radius"), "the circle is not within the room")
+                    .valid("a smaller radius, or another centre"),
+            );
+            return None;
+        }
+        Some(circle)
+    }
+}

@@ -1,0 +1,167 @@
+//! Runs a study and writes what it found.
+
+use core::fmt::Write as _;
+use core::ops::ControlFlow;
+use std::time::Instant;
+
+use serde_json::{Map, Value, json};
+
+use super::{Study, StudyPlan, Subject, arcs, room, sections, wavefront};
+use crate::output::{Folder, Written};
+use crate::run::Outcome;
+
+/// Who sees the part that is done, 0 to 1, and may stop the run.
+pub(super) type Observer<'o> = dyn FnMut(f64) -> ControlFlow<()> + 'o;
+
+/// What a study found.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub enum Findings {
+    /// Of wave fronts.
+    Wavefront(wavefront::Fronts),
+    /// Of a signal in a room.
+    Room(room::Arrivals),
+    /// Of arcs between two events.
+    KeplerArcs(arcs::Arcs),
+    /// Of the motions of Hénon and Heiles.
+    HenonHeiles(sections::Sections),
+}
+
+/// A study that was run, however far it came.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct StudyRun {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Wall time, s.
+    pub wall_time: f64,
+    /// What it found.
+    pub findings: Findings,
+}
+
+/// Runs a study. The observer sees the part that is done, from 0 to 1, and may stop the run.
+///
+/// A run that fails or is stopped returns what it found until then.
+///
+/// # Example
+/// ```
+/// use piola_scene::studies::{self, Findings};
+/// use piola_scene::{Document, SceneFile};
+/// let document = Document::parse("fronts.toml", "
+///     [wavefront]
+///     type = 'point'
+///     length = 3.0
+///     fronts = 1
+///     [[medium]]
+///     type = 'uniform'
+///     index = 1.5
+/// ");
+/// let SceneFile::Study(study) = SceneFile::from_document(&document)? else { panic!() };
+/// let run = studies::run(&study, |_| std::ops::ControlFlow::Continue(()));
+/// let Findings::Wavefront(found) = &run.findings else { panic!() };
+/// let [x, y] = found.fronts[0].pieces[0][0]; // a circle of radius 3/1.5
+/// assert!((x - 2.0).abs() < 1e-12 && y.abs() < 1e-12);
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
+pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> StudyRun {
+    let begun = Instant::now();
+    let (findings, outcome) = match &study.subject {
+        Subject::Wavefront(wavefront) => {
+            let (found, outcome) = wavefront.run(&mut observer);
+            (Findings::Wavefront(found), outcome)
+        }
+        Subject::Room(room) => {
+            let (found, outcome) = room.run(&mut observer);
+            (Findings::Room(found), outcome)
+        }
+        Subject::KeplerArcs(arcs) => {
+            let (found, outcome) = arcs.run(&mut observer);
+            (Findings::KeplerArcs(found), outcome)
+        }
+        Subject::HenonHeiles(sections) => {
+            let (found, outcome) = sections.run(&mut observer);
+            (Findings::HenonHeiles(found), outcome)
+        }
+    };
+    StudyRun { outcome, wall_time: begun.elapsed().as_secs_f64(), findings }
+}
+
+impl StudyRun {
+    fn results(&self) -> Map<String, Value> {
+        let results = match &self.findings {
+            Findings::Wavefront(found) => found.results(),
+            Findings::Room(found) => found.results(),
+            Findings::KeplerArcs(found) => found.results(),
+            Findings::HenonHeiles(found) => found.results(),
+        };
+        if let Value::Object(map) = results { map } else { Map::new() }
+    }
+
+    /// `summary.json`.
+    #[must_use]
+    pub fn summary(&self, plan: &StudyPlan) -> String {
+        let (status, failure) = match &self.outcome {
+            Outcome::Completed => ("completed", None),
+            Outcome::Interrupted => ("interrupted", None),
+            Outcome::Failed(why) => ("failed", Some(why)),
+        };
+        let mut summary = json!({
+            "name": plan.name,
+            "status": status,
+            "system": plan.system,
+            "method": plan.method,
+            "method_reason": plan.reason,
+            "wall_time_s": self.wall_time,
+            "results": self.results(),
+            "skipped": plan.skipped,
+        });
+        if let Some(why) = failure {
+            summary["failure"] = why.as_str().into();
+        }
+        // Numbers that are not finite are null: nothing here can fail to serialise.
+        let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+
+    /// The short table at the end of a run.
+    #[must_use]
+    pub fn table(&self, study: &Study, plan: &StudyPlan) -> String {
+        let title = study.title.as_deref().unwrap_or(&study.name);
+        let mut text = String::new();
+        let _ = writeln!(text, "{title}: {}\n{}, {:.3} s\n{}\n", plan.system, plan.method, self.wall_time, plan.reason);
+        for (name, value) in self.results() {
+            match value {
+                // Lists are in the tables.
+                Value::Array(items) if items.iter().any(|item| item.is_object() || item.is_array()) => {
+                    let _ = writeln!(text, "{:<52}{}", name.replace('_', " "), items.len());
+                }
+                Value::Object(map) => {
+                    for (inner, value) in map {
+                        let _ = writeln!(text, "{:<52}{value}", format!("{name}: {inner}").replace('_', " "));
+                    }
+                }
+                value => {
+                    let _ = writeln!(text, "{:<52}{value}", name.replace('_', " "));
+                }
+            }
+        }
+        text.push('\n');
+        text
+    }
+
+    /// Writes everything that the plan lists.
+    #[must_use]
+    pub fn write(&self, folder: &Folder, study: &Study, plan: &StudyPlan) -> Written {
+        let title = study.title.as_deref().unwrap_or(&study.name);
+        let file = |name: &str| match (&self.findings, &study.subject) {
+            _ if name == "summary.json" => Some(self.summary(plan)),
+            (Findings::Wavefront(found), Subject::Wavefront(asked)) => found.file(asked, title, name),
+            (Findings::Room(found), Subject::Room(asked)) => found.file(asked, title, name),
+            (Findings::KeplerArcs(found), _) => found.file(title, name),
+            (Findings::HenonHeiles(found), _) => found.file(title, name),
+            _ => None,
+        };
+        Written::of(folder, plan.files.iter().filter_map(|name| Some((name.as_str(), file(name)?))))
+    }
+}

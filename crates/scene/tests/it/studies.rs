@@ -1,0 +1,252 @@
+//! Studies beside closed forms, and their mistakes.
+
+use std::ops::ControlFlow;
+
+use piola_scene::run::Outcome;
+use piola_scene::studies::{self, Findings, StudyPlan, StudyRun};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale};
+
+use crate::support::{PAIR, assert_mistake, replaced, study};
+
+const LENS: &str = r#"
+[wavefront]
+type = "plane"
+position = "[-1.5, 0] m"
+width = "1.9 m"
+length = 3.0
+fronts = 1
+rays = 41
+
+[[medium]]
+type = "luneburg"
+radius = "1 m"
+"#;
+
+const ROOM: &str = r#"
+[room]
+type = "ellipse"
+semi_axes = "[5, 3] m"
+speed = "2 m/s"
+grid = 61
+"#;
+
+const ARCS: &str = r"
+[kepler_arcs]
+gm = 4.0
+mass = 3.0
+from = [1.0, 0.0, 0.0]
+to = [-0.6, 1.3, 0.25]
+duration = 11.0
+";
+
+const SECTIONS: &str = r"
+[henon_heiles]
+energies = [0.08]
+orbits = 4
+crossings = 20
+duration = 400.0
+";
+
+fn run(text: &str) -> StudyRun {
+    let run = studies::run(&study(text), |_| ControlFlow::Continue(()));
+    assert_eq!(run.outcome, Outcome::Completed);
+    run
+}
+
+fn fronts(run: &StudyRun) -> &studies::wavefront::Fronts {
+    match &run.findings {
+        Findings::Wavefront(found) => found,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn arrivals(run: &StudyRun) -> &studies::room::Arrivals {
+    match &run.findings {
+        Findings::Room(found) => found,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn luneburgs_lens_brings_a_plane_wave_to_the_far_end_of_its_rim() {
+    // n = √(2 − r²): 1/2 to the rim, then ∫ n dx = 1 + π/2 through the middle, and the same along every ray.
+    let length = 1.5 + core::f64::consts::FRAC_PI_2;
+    let text = replaced(LENS, "length = 3.0", &format!("length = {length:?}"));
+    let run = run(&replaced(&text, "1.9 m", "1.6 m"));
+    let front = &fronts(&run).fronts[0].pieces[0];
+    assert_eq!(front.len(), 41);
+    for place in front {
+        // ∂n jumps by one on the rim: the step across it, 1/3840 of the way, is of order one.
+        let tolerance = Tol::stated(3e-3, "four times the jump of the gradient times the step over the rim");
+        assert_close("the focus", place, &[1.0, 0.0], tolerance);
+    }
+}
+
+#[test]
+fn front_of_a_lens_trimmed_to_first_arrival_has_no_ray_beyond_a_caustic() {
+    let text = LENS.replace("luneburg", "gaussian").replace("radius = \"1 m\"", "radius = 0.6\namplitude = 0.6");
+    let text = replaced(&replaced(&text, "length = 3.0", "length = 6.0"), "1.9 m", "3 m");
+    let (all, first) = (run(&text), run(&replaced(&text, "fronts = 1", "fronts = 1\nkeep = \"first\"")));
+    let (all, first) = (fronts(&all), fronts(&first));
+    assert!(0 < all.fronts[0].beyond_caustic && !all.caustic.is_empty());
+    let count = |found: &studies::wavefront::Fronts| found.fronts[0].pieces.iter().map(Vec::len).sum::<usize>();
+    assert!(count(first) + all.fronts[0].beyond_caustic <= count(all) + 2);
+    // By symmetry the two branches meet on the axis.
+    let crossing = first.fronts[0].pieces.iter().flatten().map(|place| place[1].abs()).fold(f64::INFINITY, f64::min);
+    assert!(crossing < 1e-9, "{crossing}");
+    assert!(all.residual < 1e-10);
+}
+
+#[test]
+fn first_loss_in_an_ellipse_is_its_smallest_radius_of_curvature() {
+    let run = run(ROOM);
+    let found = arrivals(&run);
+    let Some(loss) = found.first_loss else { panic!("characteristics cross") };
+    // b²/a = 9/5 at the speed 2, at a − b²/a from the centre.
+    let tolerance = Tol::stated(1e-9, "tolerance of the characteristics, 1e-13, over the flat minimum");
+    assert_close("time", &[loss.time], &[0.9], tolerance);
+    assert_close("place", &[loss.place[0].abs(), loss.place[1].abs()], &[3.2, 0.0], tolerance);
+    assert_eq!(found.closed_form_of_first_loss, Some(0.9));
+    assert!(found.uncovered <= 2);
+    assert!(found.drift < 1e-12 && found.residual < 1e-3 && found.difference < 1e-5, "{found:?}");
+}
+
+#[test]
+fn signal_from_a_circle_arrives_after_the_distance_from_it() {
+    let run = run(&replaced(ROOM, "grid = 61", "grid = 61\nsignal = \"circle\"\ncentre = [1.0, 0.5]\nradius = 0.8"));
+    let mut seen = 0;
+    for (place, time) in &arrivals(&run).arrival {
+        if let Some(time) = time {
+            let distance = ((place[0] - 1.0).hypot(place[1] - 0.5) - 0.8).abs();
+            // The resolution is 1/2000 of the shorter semi-axis.
+            assert_close_at_scale("time", &[*time], &[0.5 * distance], 1.0, Tol::stated(1e-3, "resolution over speed"));
+            seen += 1;
+        }
+    }
+    assert!(1000 < seen && arrivals(&run).uncovered <= 1, "{seen}");
+}
+
+#[test]
+fn arcs_are_as_many_as_lamberts_theorem_says_with_their_action_in_closed_form() {
+    let run = run(ARCS);
+    let Findings::KeplerArcs(found) = &run.findings else { panic!("{run:?}") };
+    assert_eq!(found.arcs.len(), found.expected);
+    assert!(4 < found.arcs.len());
+    let tolerance = Tol::stated(1e-10, "shooting at the tolerance 1e-13");
+    for (number, arc) in found.arcs.iter().enumerate() {
+        let Some(closed) = arc.closed_form else { continue };
+        assert_close("G", &[arc.distance], &[closed], tolerance);
+        assert_close("H", &[arc.final_energy], &[arc.initial_energy], tolerance);
+        let Some([l, g, h]) = arc.delaunay else { panic!("arc {number} has elements") };
+        // −m³μ²/(2L²)
+        assert_close("H(L)", &[-0.5 * 27.0 * 16.0 / (l * l)], &[arc.initial_energy], tolerance);
+        let moment = cross([1.0, 0.0, 0.0], arc.initial_momentum.into());
+        assert_close("G", &[g], &[moment.iter().map(|x| x * x).sum::<f64>().sqrt()], tolerance);
+        assert_close_at_scale("H", &[h], &[moment[2]], l, tolerance);
+        assert_close("J", &[arc.radial_action.unwrap_or(f64::NAN)], &[l - g], tolerance);
+        for other in &found.arcs[number + 1..] {
+            assert!(1e-6 < (other.initial_momentum - arc.initial_momentum).norm());
+        }
+    }
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    core::array::from_fn(|k| a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3])
+}
+
+#[test]
+fn motions_of_low_energy_are_regular_and_keep_their_energy() {
+    let run = run(SECTIONS);
+    let Findings::HenonHeiles(found) = &run.findings else { panic!("{run:?}") };
+    assert_eq!(found.sections[0].motions.len(), 4);
+    assert!(!found.sections[0].motions.iter().any(|motion| found.fewer(motion)));
+    for motion in &found.sections[0].motions {
+        assert_eq!(motion.crossings.len(), 21);
+        assert!(motion.energy_error < 1e-8 && motion.exponent < found.threshold(), "{motion:?}");
+        // p_x² ≥ 0 where x = 0.
+        let across = |[y, p]: [f64; 2]| 0.16 - p * p - y * y + 2.0 / 3.0 * y * y * y;
+        assert!(motion.crossings.iter().all(|place| -1e-9 < across(*place)));
+    }
+}
+
+#[test]
+fn interrupted_study_keeps_what_it_found() {
+    let study = study(&replaced(LENS, "fronts = 1", "fronts = 10"));
+    let run = studies::run(&study, |done| if done < 0.5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) });
+    assert_eq!(run.outcome, Outcome::Interrupted);
+    assert!((4..6).contains(&fronts(&run).fronts.len()));
+    let summary = run.summary(&StudyPlan::of(&study));
+    assert!(summary.contains("\"status\": \"interrupted\""), "{summary}");
+}
+
+#[test]
+fn ray_into_an_index_of_zero_fails_and_says_so() {
+    let text = LENS.replace("type = \"luneburg\"\nradius = \"1 m\"", "type = \"layers\"\ngradient = 1.0\nheight = 1.0");
+    let run = studies::run(&study(&text), |_| ControlFlow::Continue(()));
+    // At y = 0 the index is zero: no momentum has the length n there.
+    assert!(matches!(run.outcome, Outcome::Failed(_)), "{:?}", run.outcome);
+}
+
+#[test]
+fn summary_counts_motions_with_fewer_crossings_than_asked() {
+    let study = study(&replaced(&replaced(SECTIONS, "orbits = 4", "orbits = 1"), "crossings = 20", "crossings = 3"));
+    let mut run = studies::run(&study, |_| ControlFlow::Continue(()));
+    let Findings::HenonHeiles(found) = &mut run.findings else { panic!("{run:?}") };
+    assert!(!found.fewer(&found.sections[0].motions[0]));
+    // The start and two of three.
+    found.sections[0].motions[0].crossings.truncate(3);
+    let summary = run.summary(&StudyPlan::of(&study));
+    assert!(summary.contains("\"motions_with_fewer_crossings_than_asked\": 1"), "{summary}");
+}
+
+#[test]
+fn summary_says_how_far_neighbours_on_fronts_are_apart() {
+    let study = study(&replaced(LENS, "fronts = 1", "fronts = 1\nspacing = 0.1"));
+    let run = studies::run(&study, |_| ControlFlow::Continue(()));
+    let found = fronts(&run);
+    assert!(0.0 < found.widest && found.widest <= 0.1 && found.too_wide == 0, "{}", found.widest);
+    let summary = run.summary(&StudyPlan::of(&study));
+    assert!(summary.contains("\"fronts_on_which_it_exceeds_the_spacing\": 0"), "{summary}");
+}
+
+#[test]
+fn plan_of_a_study_lists_what_is_skipped_and_written() {
+    let plan = StudyPlan::of(&study(&format!("{ROOM}[output]\nfigures = false\n")));
+    assert_eq!(plan.files, ["summary.json", "arrival.csv", "caustic.csv"]);
+    let shown = plan.to_string();
+    assert!(shown.contains("reflection") && shown.contains("output.figures = false"), "{shown}");
+}
+
+#[test]
+fn mistakes_of_studies_are_shown_at_their_places() {
+    assert_mistake(&format!("{ROOM}[time]\nend = 1.0\n"), "[time]", &["[time] in a scene of [room]", "a study"]);
+    assert_mistake(&format!("{ROOM}[output]\nsamples = 10\n"), "10\n", &["`samples` in a scene of [room]"]);
+    let text = replaced(ROOM, "type = \"ellipse\"", "type = \"superellipse\"\nexponent = 3");
+    assert_mistake(&text, "3\nsemi", &["the exponent 3 is odd", "an even number"]);
+    let text = replaced(ROOM, "grid = 61", "signal = \"circle\"\nradius = 4.0");
+    assert_mistake(&text, "4.0", &["the circle is not within the room"]);
+    let text = replaced(ROOM, "grid = 61", "radius = 4.0");
+    assert_mistake(&text, "4.0", &["`radius` with a signal from the wall"]);
+    let text = replaced(ROOM, "grid = 61", "speed_gradient = [1.0, 0.0]");
+    assert_mistake(&text, "[1.0, 0.0]", &["the speed falls to -3 m/s"]);
+    let text = replaced(LENS, "radius = \"1 m\"", "");
+    assert_mistake(&text, "[[medium]]", &["lacks `radius`", "Radius of the lens"]);
+    let text = replaced(LENS, "width = \"1.9 m\"", "width = \"1.9 s\"");
+    assert_mistake(&text, "\"1.9 s\"", &["the dimension time instead of length"]);
+    let text = replaced(LENS, "[[medium]]\ntype = \"luneburg\"\nradius = \"1 m\"\n", "");
+    assert_mistake(&text, "[wavefront]", &["[wavefront] without a medium"]);
+    let text = replaced(ARCS, "[-0.6, 1.3, 0.25]", "[-2.0, 0.0, 0.0]");
+    assert_mistake(&text, "[-2.0, 0.0, 0.0]", &["in line with the centre", "the other place"]);
+    let text = replaced(ARCS, "duration = 11.0", "duration = 3e5");
+    assert_mistake(&text, "3e5", &["in 300000 s there are about", "arcs", "at most", "no arc has more than 49"]);
+    let text = replaced(ARCS, "duration = 11.0", "duration = 1e300");
+    assert_mistake(&text, "1e300", &["arcs", "at most"]);
+    let text = replaced(ARCS, "from = [1.0, 0.0, 0.0]", "from = [1e120, 0.0, 0.0]");
+    assert_mistake(&text, "[1e120, 0.0, 0.0]", &["√(r³/gm) = inf s", "a positive number"]);
+    let text = replaced(LENS, "fronts = 1", "fronts = 1\nspacing = \"1e-6 m\"");
+    assert_mistake(&text, "\"1e-6 m\"", &["1e-6 m makes 1.9e6 rays", "at least 4.750e-5 m", "40000 rays"]);
+    let text = replaced(SECTIONS, "[0.08]", "[0.1, 0.2]");
+    assert_mistake(&text, "[0.1, 0.2]", &["the energy 0.2 of no bound motion", "at most 1/6"]);
+    let text = format!("{PAIR}[[medium]]\ntype = \"uniform\"\n");
+    assert_mistake(&text, "[[medium]]", &["[[medium]] in a scene of [gravity]", "[[body]]"]);
+}
