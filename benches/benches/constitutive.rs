@@ -5,6 +5,8 @@
 //! | `first_piola`, `first_piola_tangent` | P; ∂P/∂F, its 45 entries in batches |
 //! | `first_piola_and_tangent` | both, from what they share |
 //! | `first_piola_derivative` | (∂P/∂F) : δF |
+//! | `incompressible_…`, `pressurised_…` | laws with a given pressure; `uniaxial`: the pressure of a bar with free sides |
+//! | `membrane`, `thin_plate` | what is conjugate to ∇u and to ∇∇u: single calls, there are no batches |
 //! | `1`, `1k`, `1M` | one call; batches in cache and in memory, in blocks of lanes |
 //! | `…_arrays`, `…_matrices` | structures of arrays, and arrays of matrices, in and out instead |
 //! | `mooney_rivlin_without_tangent` | the same law with its energy and P alone: what P costs where there is no tangent |
@@ -12,7 +14,10 @@
 //! | `nalgebra_mooney_rivlin` | the printed formula in nalgebra |
 //! | `copy/<quantity>` | as many bytes copied as the quantity reads and writes |
 //!
-//! `error` is the largest relative error of P near the identity: see [`laws::error_near_identity`].
+//! Before they are timed, formulas of nalgebra and ours must agree.
+//!
+//! `error` is the largest relative error near the identity of one call, to whose last digits batches keep: see
+//! [`laws::errors_near_identity`].
 
 use std::error::Error;
 use std::hint::black_box;
@@ -27,7 +32,8 @@ use piola_benches::continuum::methods::NALGEBRA;
 use piola_benches::continuum::ordinary_deformations;
 use piola_benches::notes::Notes;
 use piola_constitutive::batch;
-use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
+use piola_constitutive::homogeneous::{IncompressibleState, Mode};
+use piola_constitutive::solids::{Hyperelastic, Membrane, MooneyRivlin, ThinPlate};
 use piola_continuum::batch::{Components, Gradients, LaneBlocks};
 use piola_continuum::{DeformationGradient, FirstPiola};
 use piola_testkit::relative_error;
@@ -49,16 +55,24 @@ fn main() -> Result<(), Box<dyn Error>> {
     let rubber = laws::mooney_rivlin()?;
     let printed = Printed { c10: rubber.c10(), c01: rubber.c01(), c: rubber.c(), d: rubber.d() };
     group.throughput(Throughput::Elements(1));
-    laws::each(&mut Single { group: &mut group, f: ordinary_deformations(8)[7], notes: &mut notes })?;
+    let f = ordinary_deformations(8)[7];
+    laws::each(&mut Single { group: &mut group, f, notes: &mut notes })?;
+    laws::each_incompressible(&mut Single { group: &mut group, f: laws::unimodular(&f)?, notes: &mut notes })?;
+    from_a_free_face(&mut group)?;
+    thin_bodies(&mut group, &f)?;
+    agreement(&rubber, &printed, &f);
     printed_at_a_point(&mut group, &printed);
     notes_of_printed(&mut notes, &printed)?;
     for size in BATCHES {
         group.throughput(Throughput::Elements(size.1 as u64));
         group.sampling_mode(if size.1 < 10_000 { SamplingMode::Auto } else { SamplingMode::Flat });
         copies(&mut group, size);
-        let mut memory = Memory::of(size.1);
+        let mut memory = Memory::of(size.1, |f| Ok(*f))?;
         rubber_alone(&mut group, size, &rubber, &printed, &mut memory)?;
         laws::each(&mut Batch { group: &mut group, size, memory: &mut memory })?;
+        drop(memory);
+        let mut memory = Memory::of(size.1, laws::unimodular)?;
+        laws::each_incompressible(&mut Batch { group: &mut group, size, memory: &mut memory })?;
         drop(memory);
         other_layouts(&mut group, size, &rubber)?;
         matrices(&mut group, size, &rubber, &printed);
@@ -91,8 +105,11 @@ impl Visit for Single<'_, '_> {
         group.bench_function(format!("{name}/first_piola_and_tangent/1"), |b| {
             b.iter(|| black_box(law).first_piola_and_tangent(black_box(f)));
         });
-        let error = laws::error_near_identity(model, law)?;
-        for quantity in ["first_piola", "first_piola_and_tangent"] {
+        let [stress, tangent] = laws::errors_near_identity(model, law)?;
+        let both = stress.max(tangent);
+        for (quantity, error) in
+            [("first_piola", stress), ("first_piola_tangent", tangent), ("first_piola_and_tangent", both)]
+        {
             for size in ["1", "1k", "1M"] {
                 self.notes.error(&format!("{name}/{quantity}/{size}"), error);
             }
@@ -109,15 +126,18 @@ struct Memory {
 }
 
 impl Memory {
-    fn of(count: usize) -> Self {
+    fn of(
+        count: usize,
+        each: impl Fn(&DeformationGradient) -> Result<DeformationGradient, Box<dyn Error>>,
+    ) -> Result<Self, Box<dyn Error>> {
         let blocks = count.div_ceil(BLOCK);
-        let f = ordinary_deformations(blocks * BLOCK);
+        let f: Vec<_> = ordinary_deformations(blocks * BLOCK).iter().map(each).collect::<Result<_, _>>()?;
         let component = |b: usize, k: usize| core::array::from_fn(|lane| f[BLOCK * b + lane].matrix()[(k / 3, k % 3)]);
-        Self {
+        Ok(Self {
             gradients: (0..blocks).map(|b| core::array::from_fn(|k| component(b, k))).collect(),
             stresses: vec![[[0.0; BLOCK]; 9]; blocks],
             tangents: vec![[[0.0; BLOCK]; 45]; blocks],
-        }
+        })
     }
 }
 
@@ -256,6 +276,38 @@ fn copies(group: &mut Group<'_>, (batch, count): (&str, usize)) {
     }
 }
 
+/// A bar of an incompressible solid: the pressure follows from its free sides.
+fn from_a_free_face(group: &mut Group<'_>) -> Result<(), Box<dyn Error>> {
+    let rubber = laws::incompressible_mooney_rivlin()?;
+    group.bench_function("incompressible_mooney_rivlin/uniaxial/1", |b| {
+        b.iter(|| IncompressibleState::of(black_box(&rubber), Mode::Uniaxial, black_box(1.5)));
+    });
+    Ok(())
+}
+
+/// Membranes and thin plates.
+fn thin_bodies(group: &mut Group<'_>, f: &DeformationGradient) -> Result<(), Box<dyn Error>> {
+    let (membrane, gradient) = (Membrane::new(2.0)?, f.matrix() - Matrix3::identity());
+    group.bench_function("membrane/stress/1", |b| b.iter(|| black_box(&membrane).stress(black_box(&gradient))));
+    let (plate, second) = (ThinPlate::new(2.0)?, [gradient.data.0; 3]);
+    group.bench_function("thin_plate/moment/1", |b| b.iter(|| black_box(&plate).moment(black_box(&second))));
+    Ok(())
+}
+
+/// Whether the formulas that are compared are the same.
+///
+/// # Panics
+/// They are not.
+fn agreement(rubber: &MooneyRivlin, printed: &Printed, f: &DeformationGradient) {
+    let stress = relative_error(printed.first_piola(f.matrix()).as_slice(), rubber.first_piola(f).0.as_slice());
+    let tangent = rubber.first_piola_tangent(f).0.components;
+    let tangent = relative_error(printed.first_piola_tangent(f.matrix()).as_slice(), tangent.as_flattened());
+    assert!(stress < AGREEMENT && tangent < AGREEMENT, "P differs by {stress:e}, ∂P/∂F by {tangent:e}");
+}
+
+/// How far answers of the same formula at an ordinary deformation may be from each other.
+const AGREEMENT: f64 = 1e-12;
+
 /// One call of the printed formula in nalgebra.
 fn printed_at_a_point(group: &mut Group<'_>, printed: &Printed) {
     let matrix = *ordinary_deformations(8)[7].matrix();
@@ -271,11 +323,11 @@ fn printed_at_a_point(group: &mut Group<'_>, printed: &Printed) {
 fn notes_of_printed(notes: &mut Notes, printed: &Printed) -> Result<(), Box<dyn Error>> {
     let model = "mooney_rivlin_compressible";
     let mut largest = 0.0_f64;
-    for (f, expected) in laws::near_identity(model)? {
-        let stress = printed.first_piola(f.matrix()).transpose();
-        largest = largest.max(relative_error(stress.as_slice(), &expected));
+    for case in laws::near_identity(model)? {
+        let stress = printed.first_piola(case.gradient.matrix()).transpose();
+        largest = largest.max(relative_error(stress.as_slice(), &case.stress));
     }
-    let ours = laws::error_near_identity(Some(model), &laws::mooney_rivlin()?)?;
+    let [ours, tangent] = laws::errors_near_identity(Some(model), &laws::mooney_rivlin()?)?;
     for size in ["1", "1k", "1M"] {
         notes.error(&format!("nalgebra_mooney_rivlin/first_piola/{size}"), largest);
         notes.peer(&format!("nalgebra_mooney_rivlin/first_piola/{size}"), NALGEBRA);
@@ -288,6 +340,9 @@ fn notes_of_printed(notes: &mut Notes, printed: &Printed) -> Result<(), Box<dyn 
             "mooney_rivlin/first_piola_matrices",
         ] {
             notes.error(&format!("{name}/{size}"), ours);
+        }
+        for name in ["mooney_rivlin/first_piola_tangent_arrays", "mooney_rivlin/first_piola_tangent_matrices"] {
+            notes.error(&format!("{name}/{size}"), tangent);
         }
     }
     notes.peer("nalgebra_mooney_rivlin/first_piola_tangent/1", NALGEBRA);

@@ -10,6 +10,7 @@
 //! | [`work_precision`] | error against time for many methods and parameters, measured in turn |
 //! | [`constitutive`] | a law by its printed formula, in nalgebra and in lanes |
 //! | [`continuum`] | decompositions of deformations, ours and by other means |
+//! | [`viscometry`] | flows that shear a fluid: ours, plain quadrature, closed forms |
 //! | [`figure`] | such a table as a figure |
 //! | [`notes`] | what a bench knows beside its time |
 
@@ -22,4 +23,5 @@ pub mod notes;
 pub mod peers;
 pub mod problems;
 pub mod stability;
+pub mod viscometry;
 pub mod work_precision;

@@ -2,10 +2,14 @@
 
 use std::error::Error;
 
+use nalgebra::Matrix3;
+use piola_constitutive::solids::isochoric::RivlinTerm;
 use piola_constitutive::solids::{
-    BlatzKo, Compressible, ElasticConstants, Fibre, Fung, Hencky, HolzapfelGasserOgden, Hyperelastic, IsochoricOgden,
+    AnisotropicLinear, AnisotropicSaintVenantKirchhoff, BlatzKo, Compressible, ElasticConstants, EngineeringConstants,
+    Fibre, Fung, Hencky, HolzapfelGasserOgden, Hyperelastic, IncompressibleOgden, IncompressibleSolid, IsochoricOgden,
     LinearElastic, MooneyRivlin, NeoHookeanCiarlet, NeoHookeanLogarithmic, Ogden, OgdenTerm, Polynomial,
-    PolynomialTerm, ReinforcedNeoHookean, SaintVenantKirchhoff, Stiffness, isochoric, volumetric,
+    PolynomialTerm, Pressurised, ReinforcedNeoHookean, SaintVenantKirchhoff, Stiffness, TransverseConstants, isochoric,
+    volumetric,
 };
 use piola_continuum::{Deformation, DeformationGradient, FirstPiola};
 use piola_numerics::Real;
@@ -33,7 +37,7 @@ pub fn mooney_rivlin() -> Result<MooneyRivlin, Box<dyn Error>> {
     Ok(MooneyRivlin::stress_free(0.5, 0.25, 1.25)?)
 }
 
-/// Visits all laws.
+/// Visits all laws that take any change of volume.
 ///
 /// # Errors
 /// Those of the visitor.
@@ -67,44 +71,110 @@ pub fn each(visit: &mut impl Visit) -> Result<(), Box<dyn Error>> {
     visit.law("ogden", Some("ogden_log"), &Ogden::new(&[term(1.2, 1.3), term(-0.3, -2.0)], 4.0)?)?;
     let three = IsochoricOgden::new(&[term(0.63, 1.3), term(0.0012, 5.0), term(-0.01, -2.0)], 10.0)?;
     visit.law("ogden_isochoric", Some("ogden_isochoric"), &three)?;
-    visit.law("hencky", Some("hencky"), &Hencky::new(2.0, 0.9)?)
+    visit.law("hencky", Some("hencky"), &Hencky::new(2.0, 0.9)?)?;
+    let term = |first, second, coefficient| RivlinTerm { first, second, coefficient };
+    let series = isochoric::Rivlin::new(vec![term(1, 0, 0.5), term(0, 1, 0.25), term(1, 1, 0.0125), term(2, 0, 0.01)])?;
+    visit.law("rivlin", None, &Compressible::new(series, bulk))?;
+    let wood = EngineeringConstants { young: [8.0, 4.0, 2.0], poisson: [0.3, 0.25, 0.2], shear: [1.5, 1.0, 0.75] };
+    let orthotropic = Stiffness::orthotropic(&wood, &Matrix3::identity())?;
+    visit.law("orthotropic_linear", None, &AnisotropicLinear::new(orthotropic))?;
+    let ply = TransverseConstants {
+        young_along: 8.0,
+        young_across: 2.0,
+        poisson_along: 0.3,
+        poisson_across: 0.4,
+        shear_along: 1.0,
+    };
+    let transverse = Stiffness::transversely_isotropic(&ply, fibre(0.6, 0.8)?)?;
+    visit.law("transversely_isotropic_linear", None, &AnisotropicLinear::new(transverse))?;
+    visit.law("orthotropic_saint_venant_kirchhoff", None, &AnisotropicSaintVenantKirchhoff::new(orthotropic))
 }
 
-/// F and the expected P, by rows.
-type Case = (DeformationGradient, Vec<f64>);
+/// Visits incompressible laws, whose pressure is given: their deformations keep the volume.
+///
+/// # Errors
+/// Those of the visitor.
+pub fn each_incompressible(visit: &mut impl Visit) -> Result<(), Box<dyn Error>> {
+    visit.law("incompressible_mooney_rivlin", None, &incompressible_mooney_rivlin()?.at_excess_pressure(0.25)?)?;
+    let term = |mu, alpha| OgdenTerm { mu, alpha };
+    let three = IncompressibleOgden::new(&[term(0.63, 1.3), term(0.0012, 5.0), term(-0.01, -2.0)])?;
+    visit.law("incompressible_ogden", None, &three.at_excess_pressure(0.25)?)?;
+    visit.law("pressurised_hencky", None, &Pressurised::new(Hencky::new(2.0, 0.9)?).at_pressure(0.25)?)
+}
 
-/// F and the expected P of the cases of a model near the identity.
+/// The incompressible Mooney–Rivlin solid.
+///
+/// # Errors
+/// None: its parameters are within bounds.
+pub fn incompressible_mooney_rivlin() -> Result<IncompressibleSolid<isochoric::MooneyRivlin>, Box<dyn Error>> {
+    Ok(IncompressibleSolid::new(isochoric::MooneyRivlin::new(0.5, 0.25)?))
+}
+
+/// det F^(−1/3) F, within rounding.
+///
+/// # Errors
+/// None: it is a deformation as the given one is.
+pub fn unimodular(deformation: &DeformationGradient) -> Result<DeformationGradient, Box<dyn Error>> {
+    let f = deformation.matrix();
+    Ok(DeformationGradient::new(f / f.determinant().cbrt())?)
+}
+
+/// F and the expected P and ∂P/∂F, by rows.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// F.
+    pub gradient: DeformationGradient,
+    /// P, 9 entries.
+    pub stress: Vec<f64>,
+    /// ∂P/∂F, 81 entries.
+    pub tangent: Vec<f64>,
+}
+
+/// The cases of a model near the identity that have the parameters of the first of them: those of [`each`].
 ///
 /// # Errors
 /// A case is no deformation.
 pub fn near_identity(model: &str) -> Result<Vec<Case>, Box<dyn Error>> {
     let golden = golden::load("hyperelastic");
-    let near = golden
-        .cases
-        .iter()
-        .filter(|case| golden::text(&case["model"]) == model && golden::text(&case["id"]).contains("near_identity"));
+    let of_model = |case: &&serde_json::Value| {
+        golden::text(&case["model"]) == model && golden::text(&case["id"]).contains("near_identity")
+    };
+    let first = golden.cases.iter().find(of_model).map(|case| &case["params"]);
+    let near = golden.cases.iter().filter(of_model).filter(|case| Some(&case["params"]) == first);
     near.map(|case| {
         let rows = golden::matrix(&case["input"]["F"]);
-        let f = DeformationGradient::from_rows(core::array::from_fn(|i| core::array::from_fn(|j| rows[i][j])))?;
-        Ok((f, golden::matrix(&case["output"]["P"]).concat()))
+        Ok(Case {
+            gradient: DeformationGradient::from_rows(core::array::from_fn(|i| core::array::from_fn(|j| rows[i][j])))?,
+            stress: golden::matrix(&case["output"]["P"]).concat(),
+            tangent: golden::matrix(&case["output"]["dP_dF"]).concat(),
+        })
     })
     .collect()
 }
 
-/// The largest relative error of P near the identity: to the reference data, or to 31 digits of the same law.
+/// The largest relative errors of P and of ∂P/∂F near the identity: to the reference data, or to 31 digits of the same
+/// law.
 ///
 /// # Errors
 /// As [`near_identity`].
-pub fn error_near_identity<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<f64, Box<dyn Error>> {
-    let mut largest = 0.0_f64;
-    for (f, expected) in near_identity(model.unwrap_or("mooney_rivlin_compressible"))? {
-        let expected = if model.is_some() {
-            expected
+pub fn errors_near_identity<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<[f64; 2], Box<dyn Error>> {
+    let mut largest = [0.0_f64; 2];
+    for case in near_identity(model.unwrap_or("mooney_rivlin_compressible"))? {
+        let f = case.gradient;
+        let (stress, tangent) = if model.is_some() {
+            (case.stress, case.tangent)
         } else {
-            let precise = law.first_piola(&f.lifted(|_, _, x| DoubleDouble::lit(x)));
-            by_rows(&precise).iter().map(|x| x.primal(0)).collect()
+            let precise = f.lifted(|_, _, x| DoubleDouble::lit(x));
+            let tangent = law.first_piola_tangent(&precise).0.components;
+            (
+                by_rows(&law.first_piola(&precise)).iter().map(|x| x.primal(0)).collect(),
+                tangent.as_flattened().iter().map(|x| x.primal(0)).collect(),
+            )
         };
-        largest = largest.max(relative_error(&by_rows(&law.first_piola(&f)), &expected));
+        let found = law.first_piola_tangent(&f).0.components;
+        let errors =
+            [relative_error(&by_rows(&law.first_piola(&f)), &stress), relative_error(found.as_flattened(), &tangent)];
+        largest = [largest[0].max(errors[0]), largest[1].max(errors[1])];
     }
     Ok(largest)
 }

@@ -6,6 +6,7 @@
 //! ```
 //! It cancels at small strain: its `error` says so.
 
+pub mod floor;
 pub mod laws;
 
 use nalgebra::{Matrix3, SMatrix};

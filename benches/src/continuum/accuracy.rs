@@ -8,6 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::Matrix3;
+use piola_continuum::spectral::PolarHencky;
 use piola_continuum::strain::RightCauchyGreen;
 use piola_continuum::{DeformationGradient, Symmetric, batch};
 use piola_numerics::Real;
@@ -79,6 +80,7 @@ struct Points {
 struct Output {
     polar: Vec<Polar>,
     pairs: Vec<Pairs>,
+    ours: Vec<PolarHencky>,
     rotations: Vec<Matrix3<f64>>,
     stretches: Vec<Symmetric>,
     logarithms: Vec<Symmetric>,
@@ -150,6 +152,7 @@ impl Output {
         Self {
             polar: vec![Polar { rotation: m, right_stretch: m, hencky: m }; count],
             pairs: vec![Pairs { values: [0.0; 3], vectors: m }; count],
+            ours: vec![PolarHencky { rotation: m, right_stretch: s, hencky: s }; count],
             rotations: vec![m; count],
             stretches: vec![s; count],
             logarithms: vec![s; count],
@@ -262,6 +265,14 @@ fn polar_hencky() -> Vec<Candidate> {
             &polar.hencky,
         ))
     };
+    let at_points: Error = |points, output, index| {
+        let polar = &output.ours[index];
+        polar_error(points, index, &polar.rotation, &polar.right_stretch.matrix()).max(logarithm_error(
+            points,
+            index,
+            &polar.hencky.matrix(),
+        ))
+    };
     let ours: Error =
         |points, output, index| {
             polar_error(points, index, &output.rotations[index], &output.stretches[index].matrix())
@@ -271,13 +282,14 @@ fn polar_hencky() -> Vec<Candidate> {
         Candidate {
             name: "Piola, one point",
             ours: true,
-            run: |points, output| {
-                let outputs = output.rotations.iter_mut().zip(&mut output.stretches).zip(&mut output.logarithms);
-                for (f, ((r, u), l)) in points.typed.iter().zip(outputs) {
-                    (*r, *u, *l) = methods::polar(black_box(f));
-                }
-            },
-            error: ours,
+            run: |points, output| each!(points.typed, output.ours, methods::polar),
+            error: at_points,
+        },
+        Candidate {
+            name: "Piola, one point, compiled for any machine",
+            ours: true,
+            run: |points, output| each!(points.typed, output.ours, methods::polar_inlined),
+            error: at_points,
         },
         Candidate {
             name: "Piola, batch in lanes",

@@ -1,7 +1,7 @@
 //! Polar decomposition, logarithm and eigenvectors by several methods, over many points at a time.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
-use piola_continuum::spectral::{StretchAnalysis, decompose};
+use piola_continuum::spectral::{PolarHencky, StretchAnalysis, decompose, polar_hencky};
 use piola_continuum::{DeformationGradient, Symmetric, batch};
 use piola_numerics::linear::matrix3::from_rows;
 
@@ -39,9 +39,20 @@ fn composed(axes: &Matrix3<f64>, values: Vector3<f64>) -> Matrix3<f64> {
 /// Ours, point by point.
 #[inline]
 #[must_use]
-pub fn polar(f: &DeformationGradient) -> (Matrix3<f64>, Symmetric, Symmetric) {
+pub fn polar(f: &DeformationGradient) -> PolarHencky {
+    polar_hencky(f)
+}
+
+/// Ours, compiled into its caller, for any machine.
+#[inline]
+#[must_use]
+pub fn polar_inlined(f: &DeformationGradient) -> PolarHencky {
     let stretch = StretchAnalysis::of(f);
-    (from_rows(stretch.rotation()), stretch.right_stretch(), stretch.hencky_material())
+    PolarHencky {
+        rotation: from_rows(stretch.rotation()),
+        right_stretch: stretch.right_stretch(),
+        hencky: stretch.hencky_material(),
+    }
 }
 
 /// Ours, ln U alone.

@@ -1,3 +1,4 @@
 //! The benches' own tests.
 
+mod constitutive;
 mod stability;

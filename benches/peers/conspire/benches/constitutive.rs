@@ -1,6 +1,7 @@
 //! Laws of conspire, one call at one point: `conspire_<law>/<quantity>/1`, each right after ours of the same form.
 //!
 //! conspire has P and ∂P/∂F of one point only. Its Mooney–Rivlin solid is the isochoric one, whose P is made of T.
+//! Before they are timed the answers of both must agree.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -14,6 +15,7 @@ use conspire::mechanics::DeformationGradient as Gradient;
 use conspire::units::Stress;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
+use piola_constitutive::solids::isochoric::Isochoric;
 use piola_constitutive::solids::{
     Compressible, Hencky, Hyperelastic, IsochoricOgden, OgdenTerm, SaintVenantKirchhoff, isochoric, volumetric,
 };
@@ -35,29 +37,34 @@ fn main() -> Result<(), Box<dyn Error>> {
     let bulk = volumetric::SimoTaylor::new(13.0)?;
     let pascals = Stress::pascals;
     let (bulk_modulus, shear_modulus) = (pascals(13.0), pascals(3.0));
-    ours(&mut group, "mooney_rivlin_simo_taylor", &Compressible::new(isochoric::MooneyRivlin::new(1.0, 0.5)?, bulk))?;
+    let ours = Compressible::new(isochoric::MooneyRivlin::new(1.0, 0.5)?, bulk);
     let theirs = MooneyRivlin { bulk_modulus, shear_modulus, extra_modulus: pascals(1.0) };
-    peer(&mut group, &mut notes, "conspire_mooney_rivlin", &theirs);
-    ours(&mut group, "neo_hookean_simo_taylor", &Compressible::new(isochoric::NeoHookean::new(3.0)?, bulk))?;
-    peer(&mut group, &mut notes, "conspire_neo_hookean", &NeoHookean { bulk_modulus, shear_modulus });
-    ours(&mut group, "gent_simo_taylor", &Compressible::new(isochoric::Gent::new(3.0, 23.0)?, bulk))?;
-    peer(&mut group, &mut notes, "conspire_gent", &Gent { bulk_modulus, shear_modulus, extensibility: 23.0 });
-    ours(&mut group, "arruda_boyce_simo_taylor", &Compressible::new(isochoric::ArrudaBoyce::new(3.0, 8.0)?, bulk))?;
+    beside(&mut group, &mut notes, ["mooney_rivlin_simo_taylor", "conspire_mooney_rivlin"], &ours, &theirs, ROUNDING)?;
+    let ours = Compressible::new(isochoric::NeoHookean::new(3.0)?, bulk);
+    let theirs = NeoHookean { bulk_modulus, shear_modulus };
+    beside(&mut group, &mut notes, ["neo_hookean_simo_taylor", "conspire_neo_hookean"], &ours, &theirs, ROUNDING)?;
+    let ours = Compressible::new(isochoric::Gent::new(3.0, 23.0)?, bulk);
+    let theirs = Gent { bulk_modulus, shear_modulus, extensibility: 23.0 };
+    beside(&mut group, &mut notes, ["gent_simo_taylor", "conspire_gent"], &ours, &theirs, ROUNDING)?;
+    // Theirs is given the shear modulus of the reference, ours n k θ.
+    let softer = 3.0 / isochoric::ArrudaBoyce::new(3.0, 8.0)?.shear_modulus();
+    let ours = Compressible::new(isochoric::ArrudaBoyce::new(3.0 * softer, 8.0)?, bulk);
     let theirs = ArrudaBoyce { bulk_modulus, shear_modulus, number_of_links: 8.0 };
-    peer(&mut group, &mut notes, "conspire_arruda_boyce", &theirs);
-    ours(&mut group, "saint_venant_kirchhoff", &SaintVenantKirchhoff::new(11.0, 3.0)?)?;
-    peer(&mut group, &mut notes, "conspire_saint_venant_kirchhoff", &Theirs { bulk_modulus, shear_modulus });
-    ours(&mut group, "hencky", &Hencky::new(11.0, 3.0)?)?;
-    peer(&mut group, &mut notes, "conspire_hencky", &TheirHencky { bulk_modulus, shear_modulus });
+    beside(&mut group, &mut notes, ["arruda_boyce_simo_taylor", "conspire_arruda_boyce"], &ours, &theirs, ROUNDING)?;
+    let (ours, theirs) = (SaintVenantKirchhoff::new(11.0, 3.0)?, Theirs { bulk_modulus, shear_modulus });
+    let names = ["saint_venant_kirchhoff_rubber", "conspire_saint_venant_kirchhoff"];
+    beside(&mut group, &mut notes, names, &ours, &theirs, ROUNDING)?;
+    let (ours, theirs) = (Hencky::new(11.0, 3.0)?, TheirHencky { bulk_modulus, shear_modulus });
+    beside(&mut group, &mut notes, ["hencky_rubber", "conspire_hencky"], &ours, &theirs, ROUNDING)?;
     let term = |mu, alpha| OgdenTerm { mu, alpha };
     let terms = [term(0.63, 1.3), term(0.0012, 5.0), term(-0.01, -2.0)];
-    ours(&mut group, "ogden_simo_taylor", &IsochoricOgden::with_volumetric(&terms, bulk)?)?;
+    let ours = IsochoricOgden::with_volumetric(&terms, bulk)?;
     let theirs = Ogden {
         bulk_modulus,
         shear_moduli: terms.iter().map(|term| pascals(term.mu)).collect(),
         exponents: terms.iter().map(|term| term.alpha).collect(),
     };
-    peer(&mut group, &mut notes, "conspire_ogden", &theirs);
+    beside(&mut group, &mut notes, ["ogden_simo_taylor", "conspire_ogden"], &ours, &theirs, ROUNDING)?;
     group.finish();
     criterion.final_summary();
     notes.write()?;
@@ -66,13 +73,46 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
-fn ours<L: Hyperelastic>(group: &mut Group<'_>, name: &str, law: &L) -> Result<(), Box<dyn Error>> {
-    let f = DeformationGradient::from_rows(F)?;
-    group.bench_function(format!("{name}/first_piola/1"), |b| b.iter(|| black_box(law).first_piola(black_box(&f))));
-    group.bench_function(format!("{name}/first_piola_tangent/1"), |b| {
-        b.iter(|| black_box(law).first_piola_tangent(black_box(&f)));
+/// How far the answers of both may be from each other, relative to their largest entry.
+const ROUNDING: f64 = 1e-10;
+
+/// Ours and theirs, once they agree.
+fn beside<O: Hyperelastic, L: Elastic>(
+    group: &mut Group<'_>,
+    notes: &mut Notes,
+    [our_name, their_name]: [&str; 2],
+    ours: &O,
+    theirs: &L,
+    tolerance: f64,
+) -> Result<(), Box<dyn Error>> {
+    let (f, their_f) = (DeformationGradient::from_rows(F)?, Gradient::from(F));
+    let stress: [[f64; 3]; 3] = theirs.first_piola_kirchhoff_stress(&their_f).map_err(|_| "conspire has no P")?.into();
+    let tangent: Vec<f64> =
+        theirs.first_piola_kirchhoff_tangent_stiffness(&their_f).map_err(|_| "conspire has no tangent")?.into();
+    let by_rows = ours.first_piola(&f).0.transpose();
+    let differences = [
+        difference(by_rows.as_slice(), stress.as_flattened()),
+        difference(ours.first_piola_tangent(&f).0.components.as_flattened(), &tangent),
+    ];
+    if differences.iter().any(|difference| !(*difference < tolerance)) {
+        return Err(format!("{our_name} and {their_name} differ by {differences:?}").into());
+    }
+    group
+        .bench_function(format!("{our_name}/first_piola/1"), |b| b.iter(|| black_box(ours).first_piola(black_box(&f))));
+    group.bench_function(format!("{our_name}/first_piola_tangent/1"), |b| {
+        b.iter(|| black_box(ours).first_piola_tangent(black_box(&f)));
     });
+    peer(group, notes, their_name, theirs);
     Ok(())
+}
+
+/// The largest difference, relative to the largest entry.
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    let largest = b.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    if a.len() != b.len() {
+        return f64::INFINITY;
+    }
+    a.iter().zip(b).fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs())) / largest
 }
 
 fn peer<L: Elastic>(group: &mut Group<'_>, notes: &mut Notes, name: &str, law: &L) {
