@@ -13,6 +13,7 @@ mod scenes;
 mod stability;
 mod test;
 mod tidy;
+mod viscometry_accuracy;
 mod work_precision;
 
 use xshell::Shell;
@@ -47,6 +48,7 @@ const COMMANDS: &[Command] = &[
     work_precision::COMMAND,
     stability::COMMAND,
     continuum_accuracy::COMMAND,
+    viscometry_accuracy::COMMAND,
 ];
 
 pub(crate) fn find(name: &str) -> Option<&'static Command> {
@@ -60,7 +62,7 @@ pub(crate) fn names() -> Vec<&'static str> {
 pub(crate) fn help() -> String {
     let lines: Vec<_> = COMMANDS
         .iter()
-        .map(|command| format!("  {:<15} {}", command.name, command.help.lines().next().unwrap_or_default()))
+        .map(|command| format!("  {:<20} {}", command.name, command.help.lines().next().unwrap_or_default()))
         .collect();
     format!(
         "usage: cargo xtask COMMAND [OPTIONS]

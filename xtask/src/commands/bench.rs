@@ -64,7 +64,18 @@ pub(super) const COMPILE: Command = Command {
 };
 
 /// Each is a file of that name in `benches/benches`, and its group has the same name.
-const GROUPS: [&str; 6] = ["numerics", "nbody", "lagrangian", "integrators", "continuum", "constitutive"];
+const GROUPS: [&str; 10] = [
+    "numerics",
+    "nbody",
+    "lagrangian",
+    "hamiltonian",
+    "hamilton_jacobi",
+    "integrators",
+    "continuum",
+    "constitutive",
+    "floor",
+    "viscometry",
+];
 
 /// What to tell cargo: the one bench whose name begins the filter, or all of them.
 fn targets(filter: Option<&str>) -> Vec<&'static str> {
