@@ -1,4 +1,4 @@
-//! Meshes of the parameters of an initial manifold: segments, triangles, or points alone.
+//! Meshes of the parameters of an initial manifold: segments, triangles, tetrahedra and so on.
 
 use std::collections::BTreeMap;
 
@@ -81,7 +81,7 @@ impl<'i> Walk<'i> {
         self.all_before(index).next()
     }
 
-    /// Segments of a curve, triangles of a surface; nothing for more parameters.
+    /// Segments of a curve, triangles of a surface, simplices of m corners for more parameters.
     pub(super) fn simplices(&self) -> Vec<Vec<usize>> {
         match self.intervals {
             [line] => (0..line.parts).map(|i| vec![i, i + 1]).collect(),
@@ -103,8 +103,48 @@ impl<'i> Walk<'i> {
                 }
                 triangles
             }
-            _ => Vec::new(),
+            _ => self.along_diagonals(),
         }
+    }
+
+    /// Each box cut into (m − 1)! simplices, one for each order in which its edges lead from its lowest corner to its
+    /// highest. Boxes side by side cut their common side alike.
+    fn along_diagonals(&self) -> Vec<Vec<usize>> {
+        let mut strides = Vec::with_capacity(self.intervals.len());
+        let mut stride = 1;
+        for interval in self.intervals {
+            strides.push(stride);
+            stride *= interval.parts + 1;
+        }
+        let mut orders = Vec::new();
+        permute(&mut strides, 0, &mut orders);
+        let mut simplices = Vec::new();
+        for corner in 0..self.len() {
+            if self.digits(corner).iter().zip(self.intervals).all(|(&digit, interval)| digit < interval.parts) {
+                simplices.extend(orders.iter().map(|order| {
+                    let mut simplex = vec![corner];
+                    let mut last = corner;
+                    for stride in order {
+                        last += stride;
+                        simplex.push(last);
+                    }
+                    simplex
+                }));
+            }
+        }
+        simplices
+    }
+}
+
+/// All orders of the values from `first` on, the earlier ones kept.
+fn permute(values: &mut [usize], first: usize, orders: &mut Vec<Vec<usize>>) {
+    if values.len() <= first {
+        orders.push(values.to_vec());
+    }
+    for i in first..values.len() {
+        values.swap(first, i);
+        permute(values, first + 1, orders);
+        values.swap(first, i);
     }
 }
 
@@ -121,9 +161,13 @@ pub(super) fn edges(simplices: &[Vec<usize>]) -> Vec<(usize, usize)> {
     edges
 }
 
-/// Cuts simplices at the middles of edges: segments in two, triangles in two, three or four. Neighbours agree, since
-/// they share the middles.
-pub(super) fn cut(simplices: &[Vec<usize>], middles: &BTreeMap<(usize, usize), usize>) -> Vec<Vec<usize>> {
+/// Cuts simplices at the middles of edges: segments in two, triangles in two, three or four, others in two again and
+/// again. Neighbours agree, since they share the middles and the order in which edges are cut: the longest first.
+pub(super) fn cut(
+    simplices: &[Vec<usize>],
+    middles: &BTreeMap<(usize, usize), usize>,
+    length: impl Fn((usize, usize)) -> f64,
+) -> Vec<Vec<usize>> {
     let middle = |a: usize, b: usize| middles.get(&(a.min(b), a.max(b))).copied();
     let mut result = Vec::with_capacity(simplices.len() + 2 * middles.len());
     for simplex in simplices {
@@ -133,7 +177,25 @@ pub(super) fn cut(simplices: &[Vec<usize>], middles: &BTreeMap<(usize, usize), u
                 None => result.push(vec![a, b]),
             },
             [a, b, c] => cut_triangle([a, b, c], [middle(a, b), middle(b, c), middle(c, a)], &mut result),
-            _ => result.push(simplex.clone()),
+            _ => {
+                let mut order: Vec<(usize, usize)> = edges(core::slice::from_ref(simplex));
+                order.retain(|edge| middles.contains_key(edge));
+                // Stable: edges of one length stay in the order of their ends, whichever simplex they are seen from.
+                order.sort_by(|&a, &b| length(b).total_cmp(&length(a)));
+                let mut pieces = vec![simplex.clone()];
+                for (a, b) in order {
+                    let Some(middle) = middle(a, b) else { continue };
+                    for piece in core::mem::take(&mut pieces) {
+                        if piece.contains(&a) && piece.contains(&b) {
+                            let with = |end: usize| piece.iter().map(|&i| if i == end { middle } else { i }).collect();
+                            pieces.extend([with(b), with(a)]);
+                        } else {
+                            pieces.push(piece);
+                        }
+                    }
+                }
+                result.extend(pieces);
+            }
         }
     }
     result

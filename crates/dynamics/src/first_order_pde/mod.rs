@@ -12,7 +12,7 @@
 //! | complete ξ, follow one characteristic, find its caustic points | [`CauchyProblem`] |
 //! | know how many solutions there are, and why | [`CauchyProblem::classify`] |
 //! | solve, refining the initial manifold | [`CauchyProblem::solve`] |
-//! | evaluate on all sheets, at first arrival, on a grid | [`CharacteristicSolution`] |
+//! | evaluate on all sheets, at first arrival, on a grid, at many points | [`CharacteristicSolution`] |
 //! | find where the solution first breaks | [`CharacteristicSolution::first_loss_of_invertibility`] |
 //! | advance many characteristics at once | [`Front`] |
 //!

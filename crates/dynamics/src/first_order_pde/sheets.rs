@@ -3,7 +3,7 @@
 use piola_numerics::linear::lu;
 
 use super::ray::Marcher;
-use super::{CharacteristicSolution, FirstOrderPde, InitialManifold, RayPoint};
+use super::{CharacteristicSolution, FirstOrderPde, InitialManifold, Overlap, RayPoint};
 use crate::DynamicsError;
 use crate::check::{check_finite, check_length};
 
@@ -85,6 +85,61 @@ impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<
         let mut sheets = inversion.found;
         sheets.sort_by(|a, b| a.point.s.total_cmp(&b.point.s));
         Ok(sheets)
+    }
+
+    /// The solution at given points, a grid in any number of variables for one: [`sheets_at`](Self::sheets_at) for
+    /// each, in their order; `None` where no characteristic passes, or several do and `overlap` keeps nothing of them.
+    ///
+    /// The characteristic through each point is integrated, which costs more than the interpolation of
+    /// [`onto_grid`](Self::onto_grid) in the plane and gives u and ξ to the tolerance. With feature `rayon` points are
+    /// shared among all cores; the result does not depend on their number.
+    ///
+    /// # Errors
+    /// As [`sheets_at`](Self::sheets_at): the first point that is refused.
+    ///
+    /// # Example
+    /// The distance from a plane in space, on a line of points across it.
+    /// ```
+    /// use piola_dynamics::first_order_pde::*;
+    /// use piola_numerics::Real;
+    /// struct Eikonal; // |ξ|² = 1
+    /// impl FirstOrderPde for Eikonal {
+    ///     fn value<T: Real>(&self, _x: &[T], _u: T, xi: &[T]) -> T {
+    ///         xi.iter().fold(-T::one(), |sum, &xi| sum + xi * xi)
+    ///     }
+    /// }
+    /// struct Floor; // u = 0 on z = 0
+    /// impl InitialManifold for Floor {
+    ///     fn place<T: Real>(&self, tau: &[T], x: &mut [T]) -> T {
+    ///         (x[0], x[1], x[2]) = (tau[0], tau[1], T::zero());
+    ///         T::zero()
+    ///     }
+    /// }
+    /// let problem = CauchyProblem::new(&Eikonal, &Floor, 3)?.near(&[0.0, 0.0, 1.0])?;
+    /// let side = ParameterInterval { from: -1.0, to: 1.0, parts: 2 };
+    /// let solution = problem.solve(&[side; 2], (0.0, 1.0), Refinement::to(1e-2))?;
+    /// let points: Vec<Vec<f64>> = (0..4).map(|i| vec![0.3, -0.2, 0.7 * f64::from(i)]).collect();
+    /// let sheets = solution.at_points(&points, Overlap::FirstArrival)?;
+    /// assert!((sheets[1].as_ref().ok_or("covered")?.point.u - 0.7).abs() < 1e-13);
+    /// assert!(sheets[3].is_none()); // rays end at z = 2, where s = 1
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn at_points(&self, points: &[Vec<f64>], overlap: Overlap) -> Result<Vec<Option<Sheet>>, DynamicsError> {
+        let single = |x: &Vec<f64>| -> Result<Option<Sheet>, DynamicsError> {
+            let sheets = self.sheets_at(x)?;
+            if 1 < sheets.len() && overlap == Overlap::Nothing {
+                return Ok(None);
+            }
+            Ok(sheets.into_iter().min_by(|a, b| a.point.u.total_cmp(&b.point.u)))
+        };
+        #[cfg(feature = "rayon")]
+        let found: Vec<_> = {
+            use rayon::prelude::*;
+            points.par_iter().map(single).collect()
+        };
+        #[cfg(not(feature = "rayon"))]
+        let found: Vec<_> = points.iter().map(single).collect();
+        found.into_iter().collect()
     }
 
     /// The computed state nearest to x: its ray, its level, its distance.

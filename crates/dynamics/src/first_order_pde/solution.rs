@@ -19,7 +19,7 @@ use crate::DynamicsError;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Refinement {
     /// The largest error of cubic interpolation between neighbouring characteristics and levels, of x and of u/|ξ|, in
-    /// the unit of x.
+    /// the unit of x. Infinite: the characteristics of the grid given, and no others.
     pub resolution: f64,
     /// The largest number of characteristics.
     pub most_rays: usize,
@@ -39,8 +39,8 @@ impl Refinement {
 
 /// A solution of Cauchy's problem by characteristics, as far as they were asked for; folds are kept.
 ///
-/// It is made by [`CauchyProblem::solve`]. For m = 2 the manifold is a polyline of the parameter, for m = 3 a mesh of
-/// triangles, both refined adaptively; for more variables it is the bundle of characteristics of the grid given.
+/// It is made by [`CauchyProblem::solve`]. The manifold is a mesh of simplices with m corners in the parameters, refined
+/// adaptively: a polyline for m = 2, triangles for m = 3, tetrahedra for m = 4.
 ///
 /// # Source
 /// W(A.43).
@@ -65,7 +65,7 @@ impl<P, M> CharacteristicSolution<'_, P, M> {
     pub fn rays(&self) -> &[Ray] {
         &self.rays
     }
-    /// Which characteristics are neighbours: segments for m = 2, triangles for m = 3, empty for more.
+    /// Which characteristics are neighbours: simplices of m corners each.
     #[must_use]
     pub fn simplices(&self) -> &[Vec<usize>] {
         &self.simplices
@@ -94,9 +94,11 @@ impl<P, M> CharacteristicSolution<'_, P, M> {
 impl<'a, P: FirstOrderPde + Sync, M: InitialManifold + Sync> CauchyProblem<'a, P, M> {
     /// Solves the problem for τ in the intervals and `from` ≤ s ≤ `to`.
     ///
-    /// The manifold is first [classified](Self::classify): only the unique case is solved. Levels of s and, for
-    /// m ≤ 3, characteristics are added until cubic interpolation meets the resolution. With feature `rayon`
-    /// characteristics are integrated on all cores; the result does not depend on their number.
+    /// The manifold is first [classified](Self::classify): only the unique case is solved. Levels of s and
+    /// characteristics are added until cubic interpolation meets the resolution; none are where the resolution is
+    /// infinite. Every box of the grid of parameters becomes (m − 1)! simplices, each tested along its m (m − 1)/2
+    /// edges. With feature `rayon` characteristics are integrated on all cores; the result does not depend on their
+    /// number.
     ///
     /// # Errors
     /// [`DynamicsError::CharacteristicStrip`] (infinitely many solutions), [`DynamicsError::MongeStrip`] (none),
@@ -242,6 +244,9 @@ impl<'a, P: FirstOrderPde + Sync, M: InitialManifold + Sync> CauchyProblem<'a, P
 impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<'_, P, M> {
     /// Adds characteristics in the middles of edges until interpolation across them meets the resolution.
     fn refine(&mut self, refinement: Refinement) -> Result<(), DynamicsError> {
+        if refinement.resolution.is_infinite() {
+            return Ok(());
+        }
         let mut settled: BTreeSet<(usize, usize)> = BTreeSet::new();
         loop {
             let open: Vec<_> = edges(&self.simplices).into_iter().filter(|edge| !settled.contains(edge)).collect();
@@ -277,7 +282,12 @@ impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<
             if refinement.most_rays < self.rays.len() {
                 return Err(DynamicsError::TooManyCharacteristics { rays: self.rays.len(), error: worst });
             }
-            self.simplices = cut(&self.simplices, &middles);
+            let length = |(a, b): (usize, usize)| {
+                let (a, b) = (&self.rays[a].parameters, &self.rays[b].parameters);
+                let parts = a.iter().zip(b).zip(&self.intervals);
+                parts.map(|((a, b), i)| ((a - b) / (i.to - i.from)).powi(2)).sum::<f64>()
+            };
+            self.simplices = cut(&self.simplices, &middles, length);
         }
     }
 

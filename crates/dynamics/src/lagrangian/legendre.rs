@@ -27,7 +27,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// One solve with the metric when the potential does not depend on velocities, or is declared linear in
     /// them. Otherwise Newton's iteration
     /// from q̇ = 0, with steps that are halved where they leave the domain of L or overshoot: it converges when
-    /// L is convex in q̇ and p lies in the range of ∂L/∂q̇.
+    /// L is convex in q̇ and p lies in the range of ∂L/∂q̇. [`Self::legendre_certificate`] vouches for the result.
     ///
     /// # Errors
     /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::SingularMetric`],
@@ -132,7 +132,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// Overwrites b with the solution of H x = b, H being in `work.metric`, where its factors are left.
-    fn solve_with_hessian<T: Real>(
+    pub(super) fn solve_with_hessian<T: Real>(
         &self,
         work: &mut Workspace<T>,
         (q, p, t): (&[T], &[T], T),

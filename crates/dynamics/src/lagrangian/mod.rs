@@ -14,6 +14,7 @@
 //! | the inertia metric, Christoffel symbols | [`Lagrangian::inertia_metric`], [`Lagrangian::christoffel_first`], [`Lagrangian::christoffel_second`] |
 //! | covariant acceleration, raised and lowered indices, geodesics | [`Lagrangian::covariant_acceleration`], [`Lagrangian::raise`], [`Lagrangian::lower`], [`Lagrangian::geodesic`] |
 //! | energies, momenta, the Jacobi integral | [`Lagrangian::energies`], [`Lagrangian::momenta`], [`Lagrangian::jacobi_integral`] |
+//! | velocities from momenta, and what vouches for them | [`Lagrangian::velocities_into`], [`Lagrangian::legendre_certificate`] |
 //! | the motion in time | [`Lagrangian::integrate`], or a field for any integrator: [`Lagrangian::motion`], [`Lagrangian::canonical_motion`] |
 //! | the force and moment by which a constraint holds each part | [`Lagrangian::reactions`] |
 //! | whether a constraint is ideal; the virtual work of any forces | [`Lagrangian::ideal_constraint_test`], [`Lagrangian::virtual_work`] |
@@ -41,6 +42,7 @@ mod function;
 mod geodesic;
 mod hamilton_principle;
 mod legendre;
+mod legendre_certificate;
 mod metric;
 mod momentum;
 mod motion;
@@ -62,6 +64,7 @@ pub use forces::{Forces, NoForces};
 pub use function::{LagrangianFunction, Negative, NoParts};
 pub use geodesic::{GeodesicEnd, GeodesicMotion};
 pub use hamilton_principle::{SampledMotion, StationarityResidual};
+pub use legendre_certificate::LegendreCertificate;
 pub use momentum::SystemMomentum;
 pub use motion::{CanonicalMotion, Motion};
 pub use piola_kinematics::{Holonomic, Placement};

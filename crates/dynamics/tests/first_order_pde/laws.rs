@@ -1,14 +1,16 @@
 //! Identities of characteristics, for any data.
 
+use nalgebra::Vector3;
+use piola_dynamics::DynamicsError;
 use piola_dynamics::first_order_pde::{
-    CauchyProblem, FirstOrderPde, Front, InitialManifold, MongeCone, ParameterInterval, RayField, RayPoint, Refinement,
-    StripKind,
+    CauchyProblem, FirstOrderPde, Front, InitialManifold, MongeCone, Overlap, ParameterInterval, RayField, RayPoint,
+    Refinement, StripKind,
 };
 use piola_integrators::{Field, Tolerance};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, difference_quotient};
 use proptest::prelude::*;
 
-use super::systems::{Bent, Eikonal, Ellipsoid, Hill, Multiplied, Relabelled, Reparametrised, Turned, Wave};
+use super::systems::{Bent, Eikonal, Ellipsoid, Hill, Multiplied, Parabola, Relabelled, Reparametrised, Turned, Wave};
 
 fn integrated() -> Tol {
     Tol::stated(1e-11, "a few dozen steps of local error 1e-13")
@@ -185,18 +187,85 @@ fn characteristics_do_not_depend_on_each_other() {
     assert!(fine.strip(13, 0).is_none() && fine.strip(0, 99).is_none());
 }
 
-/// In four variables: a bundle of characteristics with its ray map.
+/// In four variables: tetrahedra of parameters, six a box, refined where the hill is curved.
 #[test]
-fn bundle_in_four_variables_is_inverted() {
+fn solution_in_four_variables_is_refined_and_inverted() {
     let problem = CauchyProblem::new(&Eikonal, &Hill, 4).unwrap().near(&[0.0, 0.0, 0.0, 1.0]).unwrap();
-    let box_of_three = [ParameterInterval { from: -1.0, to: 1.0, parts: 2 }; 3];
-    let solution = problem.solve(&box_of_three, (0.0, 0.5), Refinement::to(1e-2)).unwrap();
-    assert_eq!((solution.rays().len(), solution.simplices().len()), (27, 0));
+    let short = ParameterInterval { from: -1.0, to: 1.0, parts: 2 };
+    let box_of_three = [short, short, ParameterInterval { from: -0.5, to: 2.5, parts: 2 }];
+    let given = problem.solve(&box_of_three, (0.0, 0.5), Refinement::to(f64::INFINITY)).unwrap();
+    assert_eq!((given.rays().len(), given.simplices().len()), (27, 48));
+    let solution = problem.solve(&box_of_three, (0.0, 0.5), Refinement::to(1e-4)).unwrap();
+    assert!(27 < solution.rays().len() && solution.interpolation_error() <= 1e-4, "{}", solution.rays().len());
+    for solution in [&given, &solution] {
+        // The tetrahedra fill the box, and every side belongs to two of them or lies in its surface.
+        let tau = |i: usize| &solution.rays()[i].parameters;
+        let mut sides = std::collections::BTreeMap::<Vec<usize>, usize>::new();
+        let mut volume = 0.0;
+        for simplex in solution.simplices() {
+            let edge = |i: usize| Vector3::from_fn(|k, _| tau(simplex[i])[k] - tau(simplex[0])[k]);
+            volume += edge(1).cross(&edge(2)).dot(&edge(3)).abs() / 6.0;
+            for left_out in 0..4 {
+                let mut side = simplex.clone();
+                side.remove(left_out);
+                side.sort_unstable();
+                *sides.entry(side).or_default() += 1;
+            }
+        }
+        assert_close("volume", &[volume], &[12.0], Tol::ulps(200.0));
+        for (side, count) in sides {
+            let at_surface = (0..3).any(|k| {
+                let value = tau(side[0])[k];
+                (value <= box_of_three[k].from || box_of_three[k].to <= value)
+                    && side.iter().all(|&i| (tau(i)[k] - value).abs() <= 0.0)
+            });
+            assert_eq!(count, if at_surface { 1 } else { 2 }, "{side:?}");
+        }
+    }
     let point = problem.characteristic(&[0.3, -0.2, 0.6], 0.35).unwrap();
     assert!(point.gradient_residual < 1e-12 && point.equation.abs() < 1e-13);
     let found = solution.at(&point.x).unwrap();
     assert_close_at_scale("τ", &found.point.parameters, &[0.3, -0.2, 0.6], 1.0, integrated());
     assert_close_at_scale("u", &[found.point.u], &[0.35], 1.0, integrated());
+}
+
+/// Waves from a sphere inwards: within it the distance to it, at the centre of curvature no sheet of the data.
+#[test]
+fn points_in_space_are_evaluated_like_single_ones() {
+    let sphere = Ellipsoid([1.0; 3]);
+    let problem = CauchyProblem::new(&Eikonal, &sphere, 3).unwrap();
+    let patch = ParameterInterval { from: -0.8, to: 0.8, parts: 3 };
+    let solution = problem.solve(&[patch; 2], (0.0, 1.6), Refinement::to(3e-2)).unwrap();
+    let radii = [0.9, 0.7, 0.25, -0.3, 1.2];
+    let mut points: Vec<Vec<f64>> = radii.iter().map(|r| [0.8, 0.6, 0.0].map(|x| r * x).to_vec()).collect();
+    points.push(vec![0.0, 0.1, 0.9]);
+    for overlap in [Overlap::FirstArrival, Overlap::Nothing] {
+        let sheets = solution.at_points(&points, overlap).unwrap();
+        for (sheet, radius) in sheets.iter().zip(radii).take(4) {
+            let sheet = sheet.as_ref().unwrap();
+            assert_close_at_scale("u", &[sheet.point.u], &[1.0 - radius], 1.0, integrated());
+            assert_close_at_scale("ξ", &sheet.point.xi, &[-0.8, -0.6, 0.0], 1.0, integrated());
+            assert_eq!(sheet.caustics, usize::from(radius < 0.0));
+        }
+        // Outside of the sphere, and beyond the patch.
+        assert!(sheets[4].is_none() && sheets[5].is_none());
+    }
+    // On the other side of a parabola three arms of the front overlap: the first of them, or nothing.
+    let waves = CauchyProblem::new(&Eikonal, &Parabola(0.5), 2).unwrap().near(&[0.0, 1.0]).unwrap();
+    let line = [ParameterInterval { from: -3.0, to: 3.0, parts: 8 }];
+    let solution = waves.solve(&line, (0.0, 2.5), Refinement::to(1e-2)).unwrap();
+    let folded = vec![vec![0.0, 1.5], vec![0.0, 0.5]];
+    let first = solution.at_points(&folded, Overlap::FirstArrival).unwrap();
+    let single = solution.first_arrival(&folded[0]).unwrap();
+    assert_eq!(first[0].as_ref(), Some(&single));
+    // The nearest points of y = x²/2 to (0, 3/2) are (±1, 1/2).
+    assert_close("u", &[single.point.u], &[2.0_f64.sqrt()], integrated());
+    let none = solution.at_points(&folded, Overlap::Nothing).unwrap();
+    assert!(none[0].is_none());
+    assert_close("u", &[none[1].as_ref().unwrap().point.u], &[0.5], integrated());
+    let refused = solution.at_points(&[vec![0.0, 1.0], vec![0.0, f64::NAN]], Overlap::Nothing).unwrap_err();
+    assert!(matches!(refused, DynamicsError::NonFinite { quantity: "x", index: 1, .. }), "{refused}");
+    assert!(solution.at_points(&[vec![0.0; 3]], Overlap::Nothing).is_err());
 }
 
 /// In space: the normals of an ellipsoid meet its caustic at the radii of curvature; first at the smallest of them.

@@ -112,6 +112,13 @@ proptest! {
         particle.velocities_into(&mut Workspace::default(), &q, p.as_slice(), t, &mut back).unwrap();
         // ∂v/∂p is at most one.
         assert_close_at_scale("v", &back, &v, 1.0, Tol::ulps(20.0));
+        let certificate = particle.legendre_certificate(&q, &back, p.as_slice(), t).unwrap();
+        // Newton's iteration ends where its corrections are made of rounding.
+        assert!(certificate.residual < 1e-14 && certificate.correction < 1e-14, "{certificate:?}");
+        // H = γ (1 + γ² v v): the second pivot over its entry is (1 − v²)/((1 − v₁²)(1 − v₂²)), at least 0.46.
+        let squares = v.map(|v| v * v);
+        let pivot = (1.0 - squares[0] - squares[1]) / ((1.0 - squares[0]) * (1.0 - squares[1]));
+        assert_close_at_scale("pivot", &[certificate.smallest_pivot], &[pivot], 1.0, Tol::ulps(64.0));
         let hamiltonian = LegendreTransform(&particle);
         let expected = (1.0 + p.norm_squared()).sqrt() + 0.5 * (1.0 + 0.5 * t.sin()) * (q[0] * q[0] + q[1] * q[1]);
         let value = hamiltonian.value(&q, p.as_slice(), t);

@@ -27,6 +27,13 @@ fn a_singular_hessian_is_refused_with_its_null_direction() {
         Err(DynamicsError::SingularMetric { direction, .. }) => assert!((direction[0] + direction[1]).abs() < 1e-15),
         other => panic!("{other:?}"),
     }
+    // Velocities with these momenta are not the only ones: they are not vouched for.
+    let refused = system.legendre_certificate(&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], 0.0).unwrap_err();
+    assert!(matches!(refused, DynamicsError::SingularMetric { coordinate: 1, .. }), "{refused}");
+    let refused = system.legendre_certificate(&[0.0, 0.0], &[1.0], &[1.0, 1.0], 0.0).unwrap_err();
+    assert!(matches!(refused, DynamicsError::DimensionMismatch { quantity: "q̇", .. }), "{refused}");
+    let refused = system.legendre_certificate(&[0.0, 0.0], &[1.0, 0.0], &[1.0, f64::NAN], 0.0).unwrap_err();
+    assert!(matches!(refused, DynamicsError::NonFinite { quantity: "p", index: 1, .. }), "{refused}");
     // As a function on phase space it is not a number, which is refused wherever it is used.
     let refused = differential(&LegendreTransform(&system), &[0.0, 0.0], &[1.0, 2.0], 0.0).unwrap_err();
     assert!(matches!(refused, DynamicsError::NonFinite { quantity: "dK", .. }), "{refused}");
