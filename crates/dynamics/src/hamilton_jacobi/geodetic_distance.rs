@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector};
 use piola_integrators::Tolerance;
 
-use super::events::{Event, SearchRegion};
+use super::events::Event;
 use super::morse::{ConjugatePoint, Passages};
 use super::ray::{MOST_STEPS, RayEnd, follow, follow_within};
 use crate::DynamicsError;
@@ -106,8 +106,8 @@ impl Extremal {
 /// W(13.1), W(13.8).
 #[derive(Clone, Copy, Debug)]
 pub struct GeodeticDistance<'a, H> {
-    hamiltonian: &'a H,
-    tolerance: Tolerance,
+    pub(super) hamiltonian: &'a H,
+    pub(super) tolerance: Tolerance,
 }
 
 impl<'a, H: PhaseFunction> GeodeticDistance<'a, H> {
@@ -136,7 +136,7 @@ impl<'a, H: PhaseFunction> GeodeticDistance<'a, H> {
     pub fn between(&self, from: &Event, to: &Event, momenta: &[f64]) -> Result<Extremal, DynamicsError> {
         check_events(from, to, momenta.len())?;
         check_finite("p", momenta)?;
-        let problem = Problem { distance: self, from, to, most_steps: MOST_STEPS };
+        let problem = self.problem(from, to);
         let mut miss = f64::INFINITY;
         match problem.solve(momenta, &mut miss) {
             Some((momenta, end)) => problem.certify(&momenta, end.sizes),
@@ -144,92 +144,10 @@ impl<'a, H: PhaseFunction> GeodeticDistance<'a, H> {
         }
     }
 
-    /// All sheets in a search region: every extremal between the events whose initial momentum lies in a box, in the
-    /// order of the distance.
-    ///
-    /// [`between`](Self::between) is started from each point of the region's grid, and what is found twice is given
-    /// once. **Guaranteed** is that each sheet given is an extremal, that no two are the same, and that a sheet is
-    /// found when a point of the grid lies where Newton's iteration converges to it. With one degree of freedom more is
-    /// done: folds of q(t₁; p₀) and changes of sign of its miss are bracketed between neighbouring points of the
-    /// grid, so that all sheets are found when no two folds lie between the same two points. With more, that no further
-    /// sheet exists is not proven: compare with a finer grid. There rays are sought at 1e-9 first, given up after a
-    /// thousand steps (they head for a singularity), and what is found is refined to the tolerance.
-    ///
-    /// # Errors
-    /// As [`between`](Self::between); [`DynamicsError::ConjugateEvents`] also when only one of the sheets found ends
-    /// in a conjugate point, since its number of neighbours is then not defined.
-    ///
-    /// # Example
-    /// A pendulum that is to be back after a time: it may be pushed either way.
-    /// ```
-    /// use piola_dynamics::hamilton_jacobi::{Event, GeodeticDistance, SearchRegion};
-    /// use piola_dynamics::hamiltonian::PhaseFunction;
-    /// use piola_numerics::Real;
-    /// struct Pendulum; // H = p²/2 − 4 cos q
-    /// impl PhaseFunction for Pendulum {
-    ///     fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
-    ///         T::lit(0.5) * p[0] * p[0] - T::lit(4.0) * q[0].cos()
-    ///     }
-    /// }
-    /// let region = SearchRegion::new(&[-6.0], &[6.0], 16)?;
-    /// let (from, to) = (Event::new(&[0.5], 0.0), Event::new(&[0.5], 4.0));
-    /// let sheets = GeodeticDistance::new(&Pendulum).all_between(&from, &to, &region)?;
-    /// assert_eq!(sheets.len(), 5); // from a push one way, over swings to and fro, to a push the other way
-    /// # Ok::<(), piola_dynamics::DynamicsError>(())
-    /// ```
-    pub fn all_between(&self, from: &Event, to: &Event, region: &SearchRegion) -> Result<Vec<Extremal>, DynamicsError> {
-        check_events(from, to, region.lower.len())?;
-        let problem = Problem { distance: self, from, to, most_steps: MOST_STEPS };
-        // With one degree of freedom the brackets need every digit and every step; with more, the search does not.
-        let (tolerance, most_steps) =
-            if from.coordinates.len() == 1 { (self.tolerance, MOST_STEPS) } else { (self.coarser(), SEARCH_STEPS) };
-        let coarse = Self { hamiltonian: self.hamiltonian, tolerance };
-        let search = Problem { distance: &coarse, from, to, most_steps };
-        let (mut miss, mut found) = (f64::INFINITY, Vec::<(Vec<f64>, RayEnd)>::new());
-        let mut seen = Vec::<Vec<f64>>::new();
-        let mut bracketed: Vec<Vec<f64>> = Vec::new();
-        if let ([lower], [upper]) = (&region.lower[..], &region.upper[..]) {
-            bracketed = problem.bracketed((*lower, *upper), region.resolution);
-        }
-        for start in bracketed.into_iter().chain((0..region.starts()).map(|number| region.start(number))) {
-            let Some((momenta, _)) = search.solve(&start, &mut miss) else { continue };
-            if seen.iter().any(|other| region.same(other, &momenta)) {
-                continue;
-            }
-            let refined =
-                problem.shoot(&momenta).and_then(|end| problem.newton(&momenta, end, &to.coordinates, &mut miss));
-            seen.push(momenta);
-            if let Some((momenta, end)) = refined
-                && region.contains(&momenta)
-                && !found.iter().any(|(other, _)| region.same(other, &momenta))
-            {
-                found.push((momenta, end));
-            }
-        }
-        if found.is_empty() {
-            return Err(DynamicsError::NoExtremal { miss, starts: region.starts() });
-        }
-        let mut sheets = Vec::with_capacity(found.len());
-        for (momenta, end) in found {
-            sheets.push(problem.certify(&momenta, end.sizes)?);
-        }
-        sheets.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-        Ok(sheets)
-    }
-
-    /// The tolerance of a search.
-    fn coarser(&self) -> Tolerance {
-        if self.tolerance.relative_part() < COARSE.relative_part() { COARSE } else { self.tolerance }
+    pub(super) const fn problem<'p>(&'p self, from: &'p Event, to: &'p Event) -> Problem<'p, 'a, H> {
+        Problem { distance: self, from, to, most_steps: MOST_STEPS }
     }
 }
-
-/// The relative tolerance of a search, whose finds are refined afterwards.
-const COARSE: Tolerance = match Tolerance::relative(1e-9) {
-    Ok(tolerance) => tolerance,
-    Err(_) => unreachable!(),
-};
-/// Steps after which a ray of a search is given up: it heads for a singularity.
-const SEARCH_STEPS: u64 = 1000;
 
 /// The relative tolerance 1e-13.
 pub(super) const FINE: Tolerance = match Tolerance::relative(1e-13) {
@@ -237,7 +155,7 @@ pub(super) const FINE: Tolerance = match Tolerance::relative(1e-13) {
     Err(_) => unreachable!(),
 };
 
-fn check_events(from: &Event, to: &Event, momenta: usize) -> Result<(), DynamicsError> {
+pub(super) fn check_events(from: &Event, to: &Event, momenta: usize) -> Result<(), DynamicsError> {
     check_length("q₁", from.coordinates.len(), to.coordinates.len())?;
     check_length("p₀", from.coordinates.len(), momenta)?;
     from.check()?;
@@ -246,16 +164,16 @@ fn check_events(from: &Event, to: &Event, momenta: usize) -> Result<(), Dynamics
 }
 
 /// Two events and what is needed to join them.
-struct Problem<'p, 'a, H> {
-    distance: &'p GeodeticDistance<'a, H>,
-    from: &'p Event,
-    to: &'p Event,
+pub(super) struct Problem<'p, 'a, H> {
+    pub(super) distance: &'p GeodeticDistance<'a, H>,
+    pub(super) from: &'p Event,
+    pub(super) to: &'p Event,
     /// Steps after which a ray is given up.
-    most_steps: u64,
+    pub(super) most_steps: u64,
 }
 
 impl<H: PhaseFunction> Problem<'_, '_, H> {
-    fn freedom(&self) -> usize {
+    pub(super) fn freedom(&self) -> usize {
         self.from.coordinates.len()
     }
 
@@ -272,7 +190,11 @@ impl<H: PhaseFunction> Problem<'_, '_, H> {
         y
     }
 
-    fn shoot(&self, momenta: &[f64]) -> Option<RayEnd> {
+    pub(super) fn target(&self) -> &[f64] {
+        &self.to.coordinates
+    }
+
+    pub(super) fn shoot(&self, momenta: &[f64]) -> Option<RayEnd> {
         let GeodeticDistance { hamiltonian, tolerance } = *self.distance;
         let times = (self.from.time, self.to.time);
         let ray = (hamiltonian, self.freedom(), tolerance);
@@ -280,7 +202,7 @@ impl<H: PhaseFunction> Problem<'_, '_, H> {
     }
 
     /// p₀ from a guess, directly or by continuation; `miss` becomes the least distance met from the event.
-    fn solve(&self, guess: &[f64], miss: &mut f64) -> Option<(Vec<f64>, RayEnd)> {
+    pub(super) fn solve(&self, guess: &[f64], miss: &mut f64) -> Option<(Vec<f64>, RayEnd)> {
         let start = self.shoot(guess)?;
         let target = &self.to.coordinates;
         if let Some(found) = self.newton(guess, start.clone(), target, miss) {
@@ -308,7 +230,13 @@ impl<H: PhaseFunction> Problem<'_, '_, H> {
     }
 
     /// Newton's iteration for q(t₁; p₀) = target.
-    fn newton(&self, guess: &[f64], mut end: RayEnd, target: &[f64], miss: &mut f64) -> Option<(Vec<f64>, RayEnd)> {
+    pub(super) fn newton(
+        &self,
+        guess: &[f64],
+        mut end: RayEnd,
+        target: &[f64],
+        miss: &mut f64,
+    ) -> Option<(Vec<f64>, RayEnd)> {
         let mut momenta = guess.to_vec();
         let mut left = distance(end.coordinates(), target);
         let resolution = 10.0 * self.distance.tolerance.relative_part().max(f64::EPSILON);
@@ -346,57 +274,6 @@ impl<H: PhaseFunction> Problem<'_, '_, H> {
         None
     }
 
-    /// With one degree of freedom: momenta at which the miss changes sign, between points of a grid and the folds
-    /// between them.
-    fn bracketed(&self, (lower, upper): (f64, f64), cells: usize) -> Vec<Vec<f64>> {
-        /// Halvings of a bracket: enough for one that shrinks to rounding.
-        const MOST: usize = 60;
-        // (p₀, miss, ∂q₁/∂p₀)
-        let look = |p: f64| {
-            let end = self.shoot(&[p])?;
-            Some((p, end.values[0] - self.to.coordinates[0], end.variation(0, 0)))
-        };
-        let places = (0..=cells).map(|i| lower + (upper - lower) * i as f64 / cells as f64);
-        let mut points = Vec::new();
-        for next in places.filter_map(look) {
-            if let Some(&before) = points.last() {
-                let (mut a, mut b): ((f64, f64, f64), _) = (before, next);
-                if a.2 * b.2 < 0.0 {
-                    for _ in 0..MOST {
-                        let Some(middle) = look(0.5 * (a.0 + b.0)) else { break };
-                        if (middle.2 < 0.0) == (a.2 < 0.0) {
-                            a = middle;
-                        } else {
-                            b = middle;
-                        }
-                        // Once the fold itself has crossed the target there is nothing more to be learnt of it.
-                        if middle.1 * before.1 < 0.0 && middle.1 * next.1 < 0.0 {
-                            break;
-                        }
-                    }
-                    points.extend([a, b]);
-                }
-            }
-            points.push(next);
-        }
-        let mut found = Vec::new();
-        for pair in points.windows(2) {
-            let (mut a, mut b) = (pair[0], pair[1]);
-            if b.1 * a.1 < 0.0 {
-                // Near enough for Newton's iteration when the slopes at both ends are alike.
-                for _ in 0..MOST {
-                    if (a.2 - b.2).abs() <= 0.1 * a.2.abs() {
-                        break;
-                    }
-                    let Some(middle) = look(0.5 * (a.0 + b.0)) else { break };
-                    if (middle.1 < 0.0) == (a.1 < 0.0) { a = middle } else { b = middle }
-                }
-                found.push(vec![a.0 - a.1 * ((b.0 - a.0) / (b.1 - a.1))]);
-            }
-        }
-        found
-    }
-
     /// The change of p₀ that should bring the end to the target; least where ∂q₁/∂p₀ is singular.
     fn correction(&self, end: &RayEnd, target: &[f64]) -> Option<DVector<f64>> {
         let n = self.freedom();
@@ -408,7 +285,7 @@ impl<H: PhaseFunction> Problem<'_, '_, H> {
     /// The extremal with all that is known of it, once its initial momentum has been found.
     ///
     /// The sizes are those of its ray with the variations by momenta alone: those by coordinates have other units.
-    fn certify(&self, momenta: &[f64], sizes: [f64; 5]) -> Result<Extremal, DynamicsError> {
+    pub(super) fn certify(&self, momenta: &[f64], sizes: [f64; 5]) -> Result<Extremal, DynamicsError> {
         let n = self.freedom();
         let GeodeticDistance { hamiltonian, tolerance } = *self.distance;
         let (t0, t1) = (self.from.time, self.to.time);

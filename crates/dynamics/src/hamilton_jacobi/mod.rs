@@ -13,7 +13,7 @@
 //! | Monge and characteristic strips | [`StripResidual`], [`CharacteristicStrip`] |
 //! | the motion from a complete integral | [`Constants`] |
 //! | the motion of a system that separates, by quadratures | [`SeparableMotion`] |
-//! | all extremals between two events, with their actions | [`GeodeticDistance`] |
+//! | all extremals between two events, with their actions; whether any is missing | [`GeodeticDistance`] |
 //! | all extremals that leave one event | [`IntegralConoid`] |
 //! | the solution with given initial values, its caustics | [`Transversals`] |
 //! | wave fronts in the plane and in space | [`WaveFront`] |
@@ -21,6 +21,7 @@
 mod candidate;
 mod complete_integral;
 mod conoid;
+mod degree;
 mod events;
 mod extremal_field;
 mod fronts;
@@ -29,6 +30,7 @@ mod morse;
 mod ray;
 mod scale;
 mod separable;
+mod sheets;
 mod slopes;
 mod strips;
 mod transversals;

@@ -1,10 +1,12 @@
 //! Identities that hold for any solution and any pair of events.
 
+use piola_dynamics::DynamicsError;
 use piola_dynamics::hamilton_jacobi::{
-    Candidate, CharacteristicStrip, Constants, Event, ExtremalField, GeodeticDistance, RayField, SearchRegion,
+    Candidate, CharacteristicStrip, Constants, Event, Extremal, ExtremalField, GeodeticDistance, RayField, SearchRegion,
 };
 use piola_dynamics::hamiltonian::PhaseFunction;
 use piola_integrators::{DormandPrince853, State, Tolerance};
+use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -85,6 +87,68 @@ fn sheets_of_a_pendulum_are_those_of_a_dense_scan() {
     // Some of them swing to and fro, and have passed conjugate points.
     assert!(sheets.iter().any(|sheet| sheet.morse_index() == 0));
     assert!(sheets.iter().any(|sheet| 2 <= sheet.morse_index()));
+    // Their orientations alternate, and add up to the degree that the ends of the region give.
+    assert_eq!(distance.degree(&Event::new(&[q0], 0.0), &Event::new(&[q1], t1), &region).unwrap(), Some(1));
+    assert_eq!(sheets.iter().map(Extremal::orientation).sum::<i32>(), 1);
+}
+
+/// Two pendulums that do not know of each other, in coordinates that mix them: every sheet of the one with every sheet
+/// of the other. A grid that is too coarse is found out by the degree.
+#[test]
+fn sheets_of_two_pendulums_are_all_pairs_of_sheets() {
+    struct Mixed; // q = R y, p = R π, each pendulum with H = π²/2 − 4 cos y
+    const TURN: [[f64; 2]; 2] = [[0.8, -0.6], [0.6, 0.8]];
+    impl PhaseFunction for Mixed {
+        fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
+            let back = |x: &[T], i: usize| T::lit(TURN[0][i]) * x[0] + T::lit(TURN[1][i]) * x[1];
+            let one = |i: usize| T::lit(0.5) * back(p, i) * back(p, i) - T::lit(4.0) * back(q, i).cos();
+            one(0) + one(1)
+        }
+    }
+    let turned = |y: [f64; 2]| TURN.map(|row| row[0] * y[0] + row[1] * y[1]);
+    let pendulum = ShakenPendulum { amplitude: 0.0 };
+    let (y0, y1, t1) = ([0.5, -0.3], [-0.25, 0.4], 3.0);
+    let single: Vec<Vec<Extremal>> = (0..2)
+        .map(|i| {
+            let region = SearchRegion::new(&[-9.0], &[9.0], 96).unwrap();
+            let (from, to) = (Event::new(&[y0[i]], 0.0), Event::new(&[y1[i]], t1));
+            GeodeticDistance::new(&pendulum).all_between(&from, &to, &region).unwrap()
+        })
+        .collect();
+    let (from, to) = (Event::new(&turned(y0), 0.0), Event::new(&turned(y1), t1));
+    let distance = GeodeticDistance::new(&Mixed);
+    let mut expected: Vec<([f64; 2], f64, i32)> = Vec::new();
+    for a in &single[0] {
+        for b in &single[1] {
+            let momenta = turned([a.initial_momenta[0], b.initial_momenta[0]]);
+            expected.push((momenta, a.distance + b.distance, a.orientation() * b.orientation()));
+        }
+    }
+    let mut doubled = 0;
+    for (bound, resolution) in [(2.0, 1), (3.0, 1), (4.0, 2), (5.0, 2), (6.0, 3), (6.0, 16)] {
+        let region = SearchRegion::new(&[-bound; 2], &[bound; 2], resolution).unwrap();
+        let inside: Vec<_> = expected.iter().filter(|(p, ..)| p.iter().all(|p| p.abs() < bound)).collect();
+        let degree = distance.degree(&from, &to, &region).unwrap();
+        assert_eq!(degree, Some(inside.iter().map(|(.., orientation)| orientation).sum()));
+        let sheets = match distance.all_between(&from, &to, &region) {
+            Err(DynamicsError::NoExtremal { .. }) => Vec::new(),
+            other => other.unwrap(),
+        };
+        assert_eq!(sheets.iter().map(Extremal::orientation).sum::<i32>(), degree.unwrap(), "{bound} {resolution}");
+        doubled += usize::from(resolution * resolution < sheets.len());
+        for sheet in &sheets {
+            let near =
+                |(p, ..): &&&([f64; 2], f64, i32)| (0..2).all(|i| (p[i] - sheet.initial_momenta[i]).abs() < 1e-8);
+            let known = inside.iter().find(near).expect("a pair of sheets");
+            let tolerance = Tol::stated(1e-10, "integration with the relative tolerance 1e-13");
+            assert_close_at_scale("G", &[sheet.distance], &[known.1], 10.0, tolerance);
+            assert_eq!(sheet.orientation(), known.2);
+        }
+        if resolution == 16 {
+            assert_eq!(sheets.len(), inside.len());
+        }
+    }
+    assert!(0 < doubled, "some grid was doubled");
 }
 
 proptest! {
