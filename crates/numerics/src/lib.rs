@@ -7,6 +7,7 @@
 //! | a derivative of a formula, exact to rounding | [`derivatives`], or [`Dual`], [`Gradient`], [`Jet`] directly |
 //! | several points at once, in the lanes of one scalar | [`Lanes`], run by [`dispatch`] |
 //! | a linear system solved over any scalar, with the reason when it cannot be | [`linear`] |
+//! | nodes and weights for adaptive integration | [`gauss_kronrod`] |
 //! | a sum, dot product or state update without rounding loss | [`sums`] |
 
 #![expect(
@@ -20,6 +21,7 @@ mod dispatch;
 mod dual;
 mod elementary;
 mod error;
+pub mod gauss_kronrod;
 mod gradient;
 mod jet;
 mod lanes;

@@ -21,11 +21,7 @@ impl SceneFile {
     /// # Errors
     /// [`SceneError::Invalid`] with all mistakes; other variants when there is no text to check.
     pub fn load(path: &Path, settings: &[String]) -> Result<Self, SceneError> {
-        let mut document = Document::read(path)?;
-        for setting in settings {
-            document.set(setting);
-        }
-        Self::from_document(&document)
+        Self::from_document(&Document::read_with(path, settings)?)
     }
 
     /// Checks a document and builds what it holds.

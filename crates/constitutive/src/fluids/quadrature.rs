@@ -1,5 +1,7 @@
 //! Integrals over a history with an error bound.
 
+use piola_numerics::gauss_kronrod::{GAUSS, KRONROD, NODES};
+
 /// An integral and what is known of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -18,30 +20,6 @@ impl<T> Integral<T> {
         Integral { value, bound: self.bound + 16.0 * f64::EPSILON * size, evaluations: self.evaluations }
     }
 }
-
-/// Nodes of Kronrod's rule of 15 points on (−1, 1), their weights, and those of Gauss' rule of 7 at every second one.
-const NODES: [f64; 8] = [
-    0.991_455_371_120_812_6,
-    0.949_107_912_342_758_5,
-    0.864_864_423_359_769_1,
-    0.741_531_185_599_394_4,
-    0.586_087_235_467_691_1,
-    0.405_845_151_377_397_2,
-    0.207_784_955_007_898_47,
-    0.0,
-];
-const KRONROD: [f64; 8] = [
-    0.022_935_322_010_529_224,
-    0.063_092_092_629_978_56,
-    0.104_790_010_322_250_18,
-    0.140_653_259_715_525_92,
-    0.169_004_726_639_267_9,
-    0.190_350_578_064_785_4,
-    0.204_432_940_075_298_9,
-    0.209_482_141_084_727_83,
-];
-const GAUSS: [f64; 4] =
-    [0.129_484_966_168_869_7, 0.279_705_391_489_276_64, 0.381_830_050_505_118_9, 0.417_959_183_673_469_4];
 
 /// ln s below the end from where a history is integrated: what is older counts e⁻⁴⁰ times, as the integrand vanishes at least
 /// like s ds at s → 0.

@@ -8,6 +8,21 @@
 //! any scalar; stresses and tangents are then its exact derivatives. The laws of this module give closed forms
 //! for speed, and keep their digits near the reference configuration.
 
+/// Calls a macro for each row of 9 × 9 entries with the columns from its diagonal on.
+macro_rules! rows_of_upper_triangle {
+    ($row:ident) => {
+        $row!(0: 0 1 2 3 4 5 6 7 8);
+        $row!(1: 1 2 3 4 5 6 7 8);
+        $row!(2: 2 3 4 5 6 7 8);
+        $row!(3: 3 4 5 6 7 8);
+        $row!(4: 4 5 6 7 8);
+        $row!(5: 5 6 7 8);
+        $row!(6: 6 7 8);
+        $row!(7: 7 8);
+        $row!(8: 8);
+    };
+}
+
 mod anisotropic;
 mod any;
 mod blatz_ko;

@@ -79,15 +79,7 @@ impl SaintVenantKirchhoff {
                 entries[$c][$r] = entry;
             )+ };
         }
-        row!(0: 0 1 2 3 4 5 6 7 8);
-        row!(1: 1 2 3 4 5 6 7 8);
-        row!(2: 2 3 4 5 6 7 8);
-        row!(3: 3 4 5 6 7 8);
-        row!(4: 4 5 6 7 8);
-        row!(5: 5 6 7 8);
-        row!(6: 6 7 8);
-        row!(7: 7 8);
-        row!(8: 8);
+        rows_of_upper_triangle!(row);
         entries
     }
 }

@@ -7,35 +7,10 @@
 //! The rule of Gauss and Kronrod with 7 and 15 nodes, exact for polynomials of degree 13 and 22; the interval with
 //! the largest error is halved until the sum of the errors is small enough. The error stated is that of the Gaussian
 //! rule, many times that of the value returned.
-//!
-//! Nodes and weights: A. S. Kronrod, *Nodes and Weights of Quadrature Formulas* (1965).
+
+use piola_numerics::gauss_kronrod::{GAUSS, KRONROD, NODES};
 
 use crate::DynamicsError;
-
-/// Positive nodes from the outside inwards; odd indices belong to both rules.
-const NODES: [f64; 7] = [
-    0.991_455_371_120_812_6,
-    0.949_107_912_342_758_5,
-    0.864_864_423_359_769_1,
-    0.741_531_185_599_394_4,
-    0.586_087_235_467_691_1,
-    0.405_845_151_377_397_2,
-    0.207_784_955_007_898_47,
-];
-/// Weights of the fifteen-point rule, the centre last.
-const KRONROD: [f64; 8] = [
-    0.022_935_322_010_529_224,
-    0.063_092_092_629_978_56,
-    0.104_790_010_322_250_18,
-    0.140_653_259_715_525_92,
-    0.169_004_726_639_267_9,
-    0.190_350_578_064_785_4,
-    0.204_432_940_075_298_9,
-    0.209_482_141_084_727_82,
-];
-/// Weights of the seven-point rule, the centre last.
-const GAUSS: [f64; 4] =
-    [0.129_484_966_168_869_7, 0.279_705_391_489_276_64, 0.381_830_050_505_118_9, 0.417_959_183_673_469_4];
 
 /// After so many intervals an integral is given up.
 const MOST_INTERVALS: usize = 2000;
@@ -108,7 +83,7 @@ fn rule<const K: usize>(
         }
     };
     add(functions(centre)?, KRONROD[7], GAUSS[3]);
-    for (i, node) in NODES.into_iter().enumerate() {
+    for (i, &node) in NODES[..7].iter().enumerate() {
         let gauss_weight = if i % 2 == 1 { GAUSS[i / 2] } else { 0.0 };
         for time in [centre - half * node, centre + half * node] {
             add(functions(time)?, KRONROD[i], gauss_weight);

@@ -47,6 +47,18 @@ impl Document {
         Ok(document)
     }
 
+    /// Reads a file and applies settings to it, as [`set`](Self::set) does each.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_with(path: &Path, settings: &[String]) -> Result<Self, SceneError> {
+        let mut document = Self::read(path)?;
+        for setting in settings {
+            document.set(setting);
+        }
+        Ok(document)
+    }
+
     /// Parses a text. `name` is shown in mistakes; paths inside the scene are relative to the current folder.
     #[must_use]
     pub fn parse(name: &str, text: &str) -> Self {

@@ -3,8 +3,11 @@
 //! Colours are told apart by the colour-blind (Okabe & Ito 2008, then Tol's muted scheme). Text is SVG text in the reader's
 //! sans-serif font, so that no font is needed to draw.
 
+use core::ops::Range;
+
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{AsRangedCoord, ValueFormatter};
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -138,6 +141,39 @@ pub(super) fn trajectory(title: &str, history: &History, gravity: Option<[f64; 3
     })
 }
 
+/// A chart of a plane.
+pub(crate) type Plane<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// A chart over ranges of the plane, with its axes drawn and named.
+pub(crate) fn plane_chart<'a>(
+    area: &Area<'a>,
+    (across, up): (Range<f64>, Range<f64>),
+    (across_name, up_name): (String, String),
+) -> Result<Plane<'a>, Box<dyn core::error::Error>> {
+    let mut chart = ChartBuilder::on(area)
+        .margin(pixels(10))
+        .x_label_area_size(pixels(50))
+        .y_label_area_size(pixels(70))
+        .build_cartesian_2d(across, up)?;
+    let short = |x: &f64| format_short(*x);
+    chart
+        .configure_mesh()
+        .set_all_tick_mark_size(pixels(5))
+        .x_labels(7)
+        .y_labels(7)
+        .light_line_style(WHITE)
+        .bold_line_style(GRID.stroke_width(FINE))
+        .axis_style(INK.stroke_width(FINE))
+        .label_style((FONT, pixels(14)).into_font().color(&INK))
+        .axis_desc_style((FONT, pixels(16)).into_font().color(&INK))
+        .x_desc(across_name)
+        .y_desc(up_name)
+        .x_label_formatter(&short)
+        .y_label_formatter(&short)
+        .draw()?;
+    Ok(chart)
+}
+
 /// One panel with the bodies that stay within a radius, true to scale.
 fn panel(
     area: &Area<'_>,
@@ -174,28 +210,9 @@ fn panel(
         let middle = 0.5 * (low[k] + high[k]);
         middle - 0.5 * scale * pixels..middle + 0.5 * scale * pixels
     };
-    let mut chart = ChartBuilder::on(area)
-        .margin(pixels(10))
-        .x_label_area_size(pixels(50))
-        .y_label_area_size(pixels(70))
-        .build_cartesian_2d(range(0, wide), range(1, tall))?;
-    let names = ["x", "y", "z"];
-    let short = |x: &f64| format_short(*x);
-    chart
-        .configure_mesh()
-        .set_all_tick_mark_size(pixels(5))
-        .x_labels(7)
-        .y_labels(7)
-        .light_line_style(WHITE)
-        .bold_line_style(GRID.stroke_width(FINE))
-        .axis_style(INK.stroke_width(FINE))
-        .label_style((FONT, pixels(14)).into_font().color(&INK))
-        .axis_desc_style((FONT, pixels(16)).into_font().color(&INK))
-        .x_desc(format!("{} ({unit})", names[across]))
-        .y_desc(format!("{} ({unit})", names[up]))
-        .x_label_formatter(&short)
-        .y_label_formatter(&short)
-        .draw()?;
+    let names = ["x", "y", "z"].map(|name| format!("{name} ({unit})"));
+    let ranges = (range(0, wide), range(1, tall));
+    let mut chart = plane_chart(area, ranges, (names[across].clone(), names[up].clone()))?;
     for &body in &shown {
         let at = |positions: &Vec<[f64; 3]>| (positions[body][across] / metre, positions[body][up] / metre);
         let points: Vec<(f64, f64)> = history.positions.iter().map(at).collect();
@@ -360,7 +377,7 @@ fn log_figure(title: &str, ordinate: &str, mut curves: Vec<Curve>, few: bool) ->
 fn log_chart<X>(
     area: &Area<'_>,
     abscissa: X,
-    ordinate: core::ops::Range<f64>,
+    ordinate: Range<f64>,
     (x_name, y_name): (&str, &str),
     curves: &[Curve],
     second: f64,

@@ -2,12 +2,13 @@
 
 use core::fmt::Write as _;
 
-use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::contour::{Lattice, area};
-use crate::output::figures::{Area, Drawn, FINE, FONT, GRID, INK, format_short, length_unit, pixels, thinned};
+use crate::output::figures::{
+    Area, Drawn, FINE, FONT, INK, Plane, format_short, length_unit, pixels, plane_chart, thinned,
+};
 
 /// A rectangle of the plane.
 #[derive(Debug, Clone, Copy)]
@@ -41,8 +42,6 @@ impl Window {
         (width, height)
     }
 }
-
-pub(super) type Plane<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 /// Curves and areas over a window, one scale for both axes.
 pub(super) struct Canvas<'a> {
@@ -80,28 +79,8 @@ impl<'a> Canvas<'a> {
             let middle = 0.5 * (low[k] + high[k]) / unit;
             middle - 0.5 * grain * pixels..middle + 0.5 * grain * pixels
         };
-        let mut chart = ChartBuilder::on(area)
-            .margin(pixels(10))
-            .x_label_area_size(pixels(50))
-            .y_label_area_size(pixels(70))
-            .build_cartesian_2d(range(0, wide), range(1, tall))?;
-        let short = |x: &f64| format_short(*x);
         let named = |axis: &str| if name.is_empty() { axis.to_string() } else { format!("{axis} ({name})") };
-        chart
-            .configure_mesh()
-            .set_all_tick_mark_size(pixels(5))
-            .x_labels(7)
-            .y_labels(7)
-            .light_line_style(WHITE)
-            .bold_line_style(GRID.stroke_width(FINE))
-            .axis_style(INK.stroke_width(FINE))
-            .label_style((FONT, pixels(14)).into_font().color(&INK))
-            .axis_desc_style((FONT, pixels(16)).into_font().color(&INK))
-            .x_desc(named(across))
-            .y_desc(named(up))
-            .x_label_formatter(&short)
-            .y_label_formatter(&short)
-            .draw()?;
+        let chart = plane_chart(area, (range(0, wide), range(1, tall)), (named(across), named(up)))?;
         Ok(Self { chart, unit, grain })
     }
 
