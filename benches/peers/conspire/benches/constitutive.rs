@@ -1,4 +1,5 @@
-//! Laws of conspire, one call at one point: `conspire_<law>/<quantity>/1`, each right after ours of the same form.
+//! Laws of conspire, one call at one point: `conspire_<law>/<quantity>/1`, each right after ours of the same form, one call
+//! and 10³ points in blocks of lanes (`/1k`; the tangent together with P, as lanes share what both need).
 //!
 //! conspire has P and ∂P/∂F of one point only. Its Mooney–Rivlin solid is the isochoric one, whose P is made of T.
 //! Before they are timed the answers of both must agree.
@@ -15,11 +16,13 @@ use conspire::mechanics::DeformationGradient as Gradient;
 use conspire::units::Stress;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
+use piola_constitutive::batch;
 use piola_constitutive::solids::isochoric::Isochoric;
 use piola_constitutive::solids::{
     Compressible, Hencky, Hyperelastic, IsochoricOgden, OgdenTerm, SaintVenantKirchhoff, isochoric, volumetric,
 };
 use piola_continuum::DeformationGradient;
+use piola_continuum::batch::{Gradients, LaneBlocks};
 use piola_peer_conspire::notes::Notes;
 
 const CONSPIRE: &str = "conspire 0.8";
@@ -77,7 +80,7 @@ type Group<'a> = BenchmarkGroup<'a, WallTime>;
 const ROUNDING: f64 = 1e-10;
 
 /// Ours and theirs, once they agree.
-fn beside<O: Hyperelastic, L: Elastic>(
+fn beside<O: Hyperelastic + Sync, L: Elastic>(
     group: &mut Group<'_>,
     notes: &mut Notes,
     [our_name, their_name]: [&str; 2],
@@ -103,6 +106,43 @@ fn beside<O: Hyperelastic, L: Elastic>(
         b.iter(|| black_box(ours).first_piola_tangent(black_box(&f)));
     });
     peer(group, notes, their_name, theirs);
+    in_lanes(group, our_name, ours)
+}
+
+/// Points of a batch, and of a block of it.
+const POINTS: usize = 1000;
+const BLOCK: usize = 8;
+
+/// Ours at many deformations around that of the single calls.
+fn in_lanes<O: Hyperelastic + Sync>(group: &mut Group<'_>, name: &str, law: &O) -> Result<(), Box<dyn Error>> {
+    // Entries move by up to 0.05, by multiples of the golden section: all different, none repeated.
+    let moved = |k: usize, point: usize| {
+        let share = (0.618_033_988_749_894_9 * (9 * point + k) as f64).fract();
+        F[k / 3][k % 3] + 0.1 * (share - 0.5)
+    };
+    let blocks = POINTS / BLOCK;
+    let gradients: Vec<[[f64; BLOCK]; 9]> = (0..blocks)
+        .map(|b| std::array::from_fn(|k| std::array::from_fn(|lane| moved(k, BLOCK * b + lane))))
+        .collect();
+    let (mut stresses, mut tangents) = (vec![[[0.0; BLOCK]; 9]; blocks], vec![[[0.0; BLOCK]; 45]; blocks]);
+    let input = Gradients(LaneBlocks::new(&gradients, POINTS)?);
+    batch::evaluate(input, batch::first_piola(law, LaneBlocks::new_mut(&mut stresses, POINTS)?))?;
+    group.throughput(Throughput::Elements(POINTS as u64));
+    group.bench_function(format!("{name}/first_piola/1k"), |b| {
+        b.iter(|| -> Result<(), Box<dyn Error>> {
+            let to = LaneBlocks::new_mut(&mut stresses, POINTS)?;
+            batch::evaluate(black_box(input), batch::first_piola(black_box(law), to))?;
+            Ok(())
+        });
+    });
+    group.bench_function(format!("{name}/first_piola_and_tangent/1k"), |b| {
+        b.iter(|| -> Result<(), Box<dyn Error>> {
+            let (p, a) = (LaneBlocks::new_mut(&mut stresses, POINTS)?, LaneBlocks::new_mut(&mut tangents, POINTS)?);
+            batch::evaluate(black_box(input), batch::first_piola_and_tangent(black_box(law), p, a))?;
+            Ok(())
+        });
+    });
+    group.throughput(Throughput::Elements(1));
     Ok(())
 }
 

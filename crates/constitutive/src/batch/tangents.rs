@@ -36,23 +36,6 @@ fn square<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 81] {
     entries
 }
 
-/// P and the upper triangle one after the other.
-#[inline(always)]
-fn both<T: Real>((stress, tangent): (FirstPiola<T>, FirstPiolaTangent<T>)) -> [T; 54] {
-    let mut entries = [T::zero(); 54];
-    let (first, second) = (flat(&stress), upper(&tangent));
-    let mut k = 0;
-    while k < 9 {
-        entries[k] = first[k];
-        k += 1;
-    }
-    while k < 54 {
-        entries[k] = second[k - 9];
-        k += 1;
-    }
-    entries
-}
-
 quantities! {
     /// The 45 entries of ∂P/∂F that major symmetry leaves: those of row r and column s with r ≤ s, by rows, where the
     /// pair iA has the number r = 3 i + A.
@@ -107,7 +90,7 @@ quantities! {
         |law, point| law.truesdell_tangent(point).0.components;
     /// P to the first destination and the 45 entries of [`first_piola_tangent`] to the second: see
     /// [`Hyperelastic::first_piola_and_tangent`].
-    shared FirstPiolaAndTangentOf [54 knows] FirstPiolaAndTangentOf<'static, ()>, |law, point| both(law.first_piola_and_tangent(point));
+    shared FirstPiolaAndTangentOf [54 knows] FirstPiolaAndTangentOf<'static, ()>, |law, point| law.first_piola_and_upper_triangle(point);
 }
 
 /// P and the 45 entries of [`first_piola_tangent`], what they share computed once: see
@@ -162,10 +145,11 @@ where
         self.1.put(index, tangent);
     }
     #[inline(always)]
-    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; 54]) {
-        let (stress, tangent) = parts(&values);
-        self.0.store(first, count, stress);
-        self.1.store(first, count, tangent);
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; 54]) {
+        if let (Some(stress), Some(tangent)) = (values.first_chunk(), values.last_chunk()) {
+            self.0.store(first, count, stress);
+            self.1.store(first, count, tangent);
+        }
     }
     #[inline(always)]
     fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; 54]) {

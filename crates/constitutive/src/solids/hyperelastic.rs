@@ -7,7 +7,7 @@ use piola_continuum::{
 };
 use piola_numerics::{Dual, Real};
 
-use super::derived;
+use super::{derived, numbers};
 use crate::ConstitutiveError;
 
 /// A solid whose stress has a potential: the stored energy W per reference volume.
@@ -133,6 +133,14 @@ pub trait Hyperelastic {
         deformation: &impl Deformation<T>,
     ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
         (self.first_piola(deformation), self.first_piola_tangent(deformation))
+    }
+
+    /// P by rows, then the 45 entries of ∂P/∂F on and above the diagonal of its 9×9 array, by rows: what batches write. A law
+    /// that has these numbers before it has made tensors of them gives them here.
+    #[inline(always)]
+    #[must_use]
+    fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
+        numbers::of_pair(&self.first_piola_and_tangent(deformation))
     }
 
     /// (∂P/∂F) : δF, by the stress over dual numbers: the product with a direction without the tangent's 81 entries.

@@ -5,7 +5,7 @@ use piola_continuum::tensor::FourthOrder;
 use piola_continuum::tensor::rows::Rows;
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3::from_rows;
+use piola_numerics::linear::matrix3::{from_rows, rows_of};
 
 // Written out: loops within the loop over lanes would keep that from becoming vectors.
 
@@ -63,28 +63,33 @@ pub(super) fn of_both<T: Real>(p: Rows<T>, a: &[[T; 9]; 9]) -> [T; 54] {
     ]
 }
 
+/// P and the upper triangle of ∂P/∂F.
+#[inline(always)]
+pub(super) fn of_pair<T: Real>((stress, tangent): &(FirstPiola<T>, FirstPiolaTangent<T>)) -> [T; 54] {
+    of_both(rows_of(&stress.0), &tangent.0.components)
+}
+
 /// One number more at the end.
 #[inline(always)]
-pub(super) fn with_one_more<T: Real>(numbers: [T; 54], last: T) -> [T; 55] {
-    let mut all = [last; 55];
-    let mut k = 0;
-    while k < 54 {
-        all[k] = numbers[k];
-        k += 1;
-    }
-    all
+pub(super) fn with_one_more<T: Real>(n: [T; 54], last: T) -> [T; 55] {
+    [
+        n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13], n[14], n[15], n[16],
+        n[17], n[18], n[19], n[20], n[21], n[22], n[23], n[24], n[25], n[26], n[27], n[28], n[29], n[30], n[31], n[32],
+        n[33], n[34], n[35], n[36], n[37], n[38], n[39], n[40], n[41], n[42], n[43], n[44], n[45], n[46], n[47], n[48],
+        n[49], n[50], n[51], n[52], n[53], last,
+    ]
 }
 
 /// The last number apart.
 #[inline(always)]
-pub(super) fn without_last<T: Real>(all: [T; 55]) -> ([T; 54], T) {
-    let mut numbers = [all[54]; 54];
-    let mut k = 0;
-    while k < 54 {
-        numbers[k] = all[k];
-        k += 1;
-    }
-    (numbers, all[54])
+pub(super) fn without_last<T: Real>(n: [T; 55]) -> ([T; 54], T) {
+    let numbers = [
+        n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13], n[14], n[15], n[16],
+        n[17], n[18], n[19], n[20], n[21], n[22], n[23], n[24], n[25], n[26], n[27], n[28], n[29], n[30], n[31], n[32],
+        n[33], n[34], n[35], n[36], n[37], n[38], n[39], n[40], n[41], n[42], n[43], n[44], n[45], n[46], n[47], n[48],
+        n[49], n[50], n[51], n[52], n[53],
+    ];
+    (numbers, n[54])
 }
 
 /// P and ∂P/∂F of their numbers.

@@ -85,9 +85,9 @@ impl SaintVenantKirchhoff {
 }
 
 /// P and ∂P/∂F of F and ∇u.
-struct Both<'a>(&'a SaintVenantKirchhoff);
+struct Both(SaintVenantKirchhoff);
 
-impl Lanewise<18, 54> for Both<'_> {
+impl Lanewise<18, 54> for Both {
     #[inline(always)]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
         let [f, h] = numbers::gradients(inputs);
@@ -124,7 +124,12 @@ impl Hyperelastic for SaintVenantKirchhoff {
         &self,
         deformation: &impl Deformation<T>,
     ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
-        numbers::both(T::lanewise(&Both(self), numbers::of_deformation(deformation)))
+        numbers::both(self.first_piola_and_upper_triangle(deformation))
+    }
+
+    #[inline(always)]
+    fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
+        T::lanewise(&Both(*self), numbers::of_deformation(deformation))
     }
 
     #[inline(always)]

@@ -46,7 +46,7 @@ use crate::parameters::parameters;
 /// }
 /// assert_eq!(Mine(3.0).bulk_modulus(), 3.0);
 /// ```
-pub trait Volumetric {
+pub trait Volumetric: Clone {
     /// See [`InvariantEnergy::STRAIGHT`](super::invariant::InvariantEnergy::STRAIGHT).
     const STRAIGHT: bool = false;
 

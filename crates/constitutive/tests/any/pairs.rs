@@ -45,6 +45,7 @@ proptest! {
 }
 
 /// Counts how often its slopes and curvatures are asked for.
+#[derive(Clone)]
 struct Counted {
     law: Gent,
     slopes: Cell<usize>,

@@ -42,8 +42,8 @@ pub trait Destination<Q, T: Element, const K: usize>: Send + Sized {
 
     /// Writes the first `count` ≤ N lanes to the points from `first` on.
     #[inline(always)]
-    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; K]) {
-        self.scatter(first, count, &values);
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; K]) {
+        self.scatter(first, count, values);
     }
 
     /// As [`store`](Self::store), straight from memory.
@@ -208,9 +208,9 @@ impl<Q, T: Element, const K: usize, const B: usize> Destination<Q, T, K> for Lan
         }
     }
     #[inline(always)]
-    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; K]) {
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; K]) {
         if count < N {
-            scatter::<_, Q, T, K, N>(self, first, count, &values);
+            scatter::<_, Q, T, K, N>(self, first, count, values);
         } else if N <= B {
             let block = &mut self.blocks[first / B];
             let mut k = 0;
@@ -253,7 +253,7 @@ impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Components<&mut [T]
         }
     }
     #[inline(always)]
-    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; K]) {
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; K]) {
         for (array, lanes) in self.0.iter_mut().zip(values) {
             lanes.store(&mut array[first..first + count]);
         }

@@ -278,14 +278,15 @@ where
     ) -> <Lanes<T, N> as Real>::Mask {
         let input = self.source.load::<N>(first, N);
         let value = self.quantity.of(point, input);
-        self.to.store(at, N, value);
-        self.good(point, &input, &value)
+        let good = self.good(point, &input, &value);
+        self.to.store(at, N, &value);
+        good
     }
 
     #[inline(always)]
     fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>, in_registers: bool) {
         if V::IN_LANES {
-            self.to.store(at, count, buffers.1);
+            self.to.store(at, count, &buffers.1);
         } else if in_registers {
             self.to.scatter(at, count, &buffers.1);
         } else {

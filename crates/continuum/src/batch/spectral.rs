@@ -71,10 +71,10 @@ where
         self.1.put(index, [a, b, c, d, e, f, g, h, i]);
     }
     #[inline(always)]
-    fn store<const N: usize>(&mut self, first: usize, count: usize, values: [Lanes<T, N>; 12]) {
-        let [x, y, z, a, b, c, d, e, f, g, h, i] = values;
-        self.0.store(first, count, [x, y, z]);
-        self.1.store(first, count, [a, b, c, d, e, f, g, h, i]);
+    fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; 12]) {
+        let [x, y, z, a, b, c, d, e, f, g, h, i] = *values;
+        self.0.store(first, count, &[x, y, z]);
+        self.1.store(first, count, &[a, b, c, d, e, f, g, h, i]);
     }
 }
 

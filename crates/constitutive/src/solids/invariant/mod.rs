@@ -18,6 +18,7 @@ use piola_numerics::linear::matrix3::{determinant, from_rows};
 
 use crate::ConstitutiveError;
 use crate::elementary::excess_over_given;
+use crate::solids::numbers;
 
 mod kinematics;
 mod measures;
@@ -86,7 +87,7 @@ impl<T: Real> Curvatures<T> {
 }
 
 /// An isotropic energy W(I₁, I₂, J) with its derivatives in closed form.
-pub trait InvariantEnergy {
+pub trait InvariantEnergy: Clone {
     /// Whether W depends on I₂; what that needs is compiled out otherwise.
     const SECOND: bool;
     /// Whether another second derivative than ∂²W/∂J² is not zero.
@@ -94,7 +95,8 @@ pub trait InvariantEnergy {
     /// See [`Hyperelastic::REFUSED_IS_NOT_FINITE`](super::Hyperelastic::REFUSED_IS_NOT_FINITE).
     const REFUSED_IS_NOT_FINITE: bool = false;
     /// Whether slopes and curvatures are straight code, without a loop of a length that is known at run time only: lanes
-    /// are then computed by [`Real::lanewise`] while the strain is moderate. A law with such loops is slower by that.
+    /// are then computed by [`Real::lanewise`] while the strain is moderate, with a copy of the law. A law with such loops, or
+    /// that is not copied at once, is slower by that.
     const STRAIGHT: bool = false;
 
     /// W less W of the reference, J/m³, without cancellation: see [`first_excess`] and [`second_excess`].
@@ -221,7 +223,7 @@ pub fn first_piola_tangent<T: Real, L: InvariantEnergy>(
     deformation: &impl Deformation<T>,
 ) -> FirstPiolaTangent<T> {
     if L::STRAIGHT {
-        return straight::first_piola_and_tangent(law, deformation).1;
+        return numbers::both(straight::first_piola_and_upper_triangle(law, deformation)).1;
     }
     let kinematics = Kinematics::of_deformation::<L>(deformation);
     let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
@@ -236,12 +238,27 @@ pub fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
     deformation: &impl Deformation<T>,
 ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
     if L::STRAIGHT {
-        return straight::first_piola_and_tangent(law, deformation);
+        return numbers::both(straight::first_piola_and_upper_triangle(law, deformation));
     }
     let kinematics = Kinematics::of_deformation::<L>(deformation);
     let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
     let stress = FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes)));
     (stress, tangent::<T, L>(&slopes, &curvatures, &kinematics))
+}
+
+/// P and the 45 entries of ∂P/∂F on and above its diagonal:
+/// [`Hyperelastic::first_piola_and_upper_triangle`](super::Hyperelastic::first_piola_and_upper_triangle).
+#[inline(always)]
+#[must_use]
+pub fn first_piola_and_upper_triangle<T: Real, L: InvariantEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> [T; 54] {
+    if L::STRAIGHT {
+        straight::first_piola_and_upper_triangle(law, deformation)
+    } else {
+        numbers::of_pair(&first_piola_and_tangent(law, deformation))
+    }
 }
 
 /// (S, ∂S/∂E), from P and ∂P/∂F.
@@ -315,6 +332,13 @@ macro_rules! hyperelastic_of_invariants {
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
                 $crate::solids::invariant::first_piola_and_tangent(self, deformation)
+            }
+            #[inline(always)]
+            fn first_piola_and_upper_triangle<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> [T; 54] {
+                $crate::solids::invariant::first_piola_and_upper_triangle(self, deformation)
             }
             #[inline(always)]
             fn second_piola_and_tangent<T: piola_numerics::Real>(

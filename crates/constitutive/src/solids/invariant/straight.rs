@@ -1,7 +1,10 @@
 //! Stress and tangent of laws of straight code: a loop over the lanes.
+//!
+//! The law is copied: its parameters are then in registers. Behind a reference the loop would read them from memory, and the
+//! compiler makes vectors of so short a loop only where it knows that nothing read is written, which it gives up to find out
+//! where many numbers are written.
 
 use piola_continuum::strain::kernels;
-use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::{Lanewise, Mask, Real};
 
@@ -11,10 +14,10 @@ use super::tangent::tangent;
 use crate::solids::numbers;
 
 /// P of F and ∇u, which are moderate.
-struct Near<'a, L>(&'a L);
+struct Near<L>(L);
 
 /// P of F, ∇u and J.
-struct Any<'a, L>(&'a L);
+struct Any<L>(L);
 
 #[inline(always)]
 fn stress<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T; 9] {
@@ -29,36 +32,36 @@ fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T;
     numbers::of_both(kinematics.first_piola::<L>(&slopes), &entries)
 }
 
-impl<L: InvariantEnergy> Lanewise<18, 10> for Near<'_, L> {
+impl<L: InvariantEnergy> Lanewise<18, 10> for Near<L> {
     #[inline(always)]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 10] {
         let [f, h] = numbers::gradients(inputs);
-        let [a, b, c, d, e, g, i, j, k] = stress(self.0, &Kinematics::near::<L>(f, h));
+        let [a, b, c, d, e, g, i, j, k] = stress(&self.0, &Kinematics::near::<L>(f, h));
         [a, b, c, d, e, g, i, j, k, kernels::square(h)]
     }
 }
 
-impl<L: InvariantEnergy> Lanewise<18, 55> for Near<'_, L> {
+impl<L: InvariantEnergy> Lanewise<18, 55> for Near<L> {
     #[inline(always)]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 55] {
         let [f, h] = numbers::gradients(inputs);
-        numbers::with_one_more(both(self.0, &Kinematics::near::<L>(f, h)), kernels::square(h))
+        numbers::with_one_more(both(&self.0, &Kinematics::near::<L>(f, h)), kernels::square(h))
     }
 }
 
-impl<L: InvariantEnergy> Lanewise<19, 9> for Any<'_, L> {
+impl<L: InvariantEnergy> Lanewise<19, 9> for Any<L> {
     #[inline(always)]
     fn run<T: Real>(&self, inputs: [T; 19]) -> [T; 9] {
         let ([f, h], jacobian) = numbers::gradients_and_jacobian(inputs);
-        stress(self.0, &Kinematics::of::<L>(f, h, jacobian))
+        stress(&self.0, &Kinematics::of::<L>(f, h, jacobian))
     }
 }
 
-impl<L: InvariantEnergy> Lanewise<19, 54> for Any<'_, L> {
+impl<L: InvariantEnergy> Lanewise<19, 54> for Any<L> {
     #[inline(always)]
     fn run<T: Real>(&self, inputs: [T; 19]) -> [T; 54] {
         let ([f, h], jacobian) = numbers::gradients_and_jacobian(inputs);
-        both(self.0, &Kinematics::of::<L>(f, h, jacobian))
+        both(&self.0, &Kinematics::of::<L>(f, h, jacobian))
     }
 }
 
@@ -66,32 +69,32 @@ impl<L: InvariantEnergy> Lanewise<19, 54> for Any<'_, L> {
 #[inline(always)]
 pub(super) fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
     let inputs = numbers::of_deformation(deformation);
-    let [a, b, c, d, e, f, g, h, i, square] = T::lanewise(&Near(law), inputs);
+    let [a, b, c, d, e, f, g, h, i, square] = T::lanewise(&Near(law.clone()), inputs);
     if square.at_most(T::lit(kernels::MODERATE)).all() {
         return numbers::stress([a, b, c, d, e, f, g, h, i]);
     }
     let jacobian = deformation.jacobian();
-    let mut any = T::lanewise(&Any(law), numbers::with_jacobian(inputs, jacobian));
+    let mut any = T::lanewise(&Any(law.clone()), numbers::with_jacobian(inputs, jacobian));
     any[0] = existing(jacobian, any[0]);
     numbers::stress(any)
 }
 
-/// P and ∂P/∂F; neither is finite in its first component where F is no deformation.
+/// P and the upper triangle of ∂P/∂F; neither is finite in its first component where F is no deformation.
 #[inline(always)]
-pub(super) fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
+pub(super) fn first_piola_and_upper_triangle<T: Real, L: InvariantEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
-) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
+) -> [T; 54] {
     let inputs = numbers::of_deformation(deformation);
-    let (near, square) = numbers::without_last(T::lanewise(&Near(law), inputs));
+    let (near, square) = numbers::without_last(T::lanewise(&Near(law.clone()), inputs));
     if square.at_most(T::lit(kernels::MODERATE)).all() {
-        return numbers::both(near);
+        return near;
     }
     let jacobian = deformation.jacobian();
-    let mut any = T::lanewise(&Any(law), numbers::with_jacobian(inputs, jacobian));
+    let mut any = T::lanewise(&Any(law.clone()), numbers::with_jacobian(inputs, jacobian));
     any[0] = existing(jacobian, any[0]);
     any[9] = existing(jacobian, any[9]);
-    numbers::both(any)
+    any
 }
 
 /// The value where 0 < det F < ∞, NaN elsewhere.

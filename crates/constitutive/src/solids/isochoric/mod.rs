@@ -78,7 +78,7 @@ pub(crate) use yeoh::yeoh;
 /// assert!((shear - 2.0 * 1.0_f64.exp()).abs() < 1e-14); // μ k exp(k²)
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub trait Isochoric {
+pub trait Isochoric: Clone {
     /// Whether W̄ depends on Ī₂.
     const SECOND: bool;
     /// Whether energy, slopes and curvatures are not finite wherever [`check`](Self::check) refuses, if it refuses
