@@ -5,6 +5,7 @@
 //! where many numbers are written.
 
 use piola_continuum::strain::kernels;
+use piola_continuum::tensor::rows::Rows;
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::{Lanewise, Mask, Real};
 
@@ -32,12 +33,19 @@ fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T;
     numbers::of_both(kinematics.first_piola::<L>(&slopes), &entries)
 }
 
+/// |∇u|² = tr (C − 1) − 2 tr ∇u, as it tells what is moderate.
+#[inline(always)]
+fn square<T: Real>(kinematics: &Kinematics<T>, h: Rows<T>) -> T {
+    kinematics.invariants.first - T::lit(2.0) * (h[0][0] + h[1][1] + h[2][2])
+}
+
 impl<L: InvariantEnergy> Lanewise<18, 10> for Near<L> {
     #[inline(always)]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 10] {
         let [f, h] = numbers::gradients(inputs);
-        let [a, b, c, d, e, g, i, j, k] = stress(&self.0, &Kinematics::near::<L>(f, h));
-        [a, b, c, d, e, g, i, j, k, kernels::square(h)]
+        let kinematics = Kinematics::near::<L>(f, h);
+        let [a, b, c, d, e, g, i, j, k] = stress(&self.0, &kinematics);
+        [a, b, c, d, e, g, i, j, k, square(&kinematics, h)]
     }
 }
 
@@ -45,7 +53,8 @@ impl<L: InvariantEnergy> Lanewise<18, 55> for Near<L> {
     #[inline(always)]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 55] {
         let [f, h] = numbers::gradients(inputs);
-        numbers::with_one_more(both(&self.0, &Kinematics::near::<L>(f, h)), kernels::square(h))
+        let kinematics = Kinematics::near::<L>(f, h);
+        numbers::with_one_more(both(&self.0, &kinematics), square(&kinematics, h))
     }
 }
 
