@@ -100,6 +100,24 @@ impl Hyperelastic for AnisotropicLinear {
     fn truesdell_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
         TruesdellTangent(self.tensor())
     }
+    #[inline(always)]
+    fn first_piola_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
+        (self.first_piola(deformation), self.first_piola_tangent(deformation))
+    }
+    #[inline(always)]
+    fn second_piola_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (SecondPiola<T>, MaterialTangent<T>) {
+        (self.second_piola(deformation), self.material_tangent(deformation))
+    }
+    #[inline(always)]
+    fn cauchy_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (CauchyStress<T>, TruesdellTangent<T>) {
+        (self.cauchy(deformation), self.truesdell_tangent(deformation))
+    }
 }
 
 /// St. Venant and Kirchhoff's law of any symmetry: Hooke's law between E and S.

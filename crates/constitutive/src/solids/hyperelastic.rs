@@ -125,14 +125,14 @@ pub trait Hyperelastic {
         derived::first_piola_tangent(self, deformation)
     }
 
-    /// (P, ∂P/∂F), with what they share computed once.
+    /// (P, ∂P/∂F), with what they share computed once. A law that gives ∂P/∂F gives this, too.
     #[inline(always)]
     #[must_use]
     fn first_piola_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
     ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
-        (self.first_piola(deformation), self.first_piola_tangent(deformation))
+        derived::first_piola_and_tangent(self, deformation)
     }
 
     /// P by rows, then the 45 entries of ∂P/∂F on and above the diagonal of its 9×9 array, by rows: what batches write. A law
@@ -140,7 +140,7 @@ pub trait Hyperelastic {
     #[inline(always)]
     #[must_use]
     fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
-        numbers::of_pair(&self.first_piola_and_tangent(deformation))
+        numbers::of_pair(self.first_piola_and_tangent(deformation))
     }
 
     /// (∂P/∂F) : δF, by the stress over dual numbers: the product with a direction without the tangent's 81 entries.
@@ -159,8 +159,7 @@ pub trait Hyperelastic {
     #[inline(always)]
     #[must_use]
     fn material_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MaterialTangent<T> {
-        let (stress, tangent) = self.first_piola_and_tangent(deformation);
-        MaterialTangent(tangent.material(&stress.second_piola(deformation), deformation).0.major_part())
+        self.second_piola_and_tangent(deformation).1
     }
 
     /// (S, ∂S/∂E), with what they share computed once.
@@ -170,7 +169,9 @@ pub trait Hyperelastic {
         &self,
         deformation: &impl Deformation<T>,
     ) -> (SecondPiola<T>, MaterialTangent<T>) {
-        (self.second_piola(deformation), self.material_tangent(deformation))
+        let (nominal, tangent) = self.first_piola_and_tangent(deformation);
+        let stress = nominal.second_piola(deformation);
+        (stress, MaterialTangent(tangent.material(&stress, deformation).0.major_part()))
     }
 
     /// c/J: D ↦ the Truesdell rate of T.
@@ -184,7 +185,8 @@ pub trait Hyperelastic {
     #[inline(always)]
     #[must_use]
     fn cauchy_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (CauchyStress<T>, TruesdellTangent<T>) {
-        (self.cauchy(deformation), self.truesdell_tangent(deformation))
+        let (stress, tangent) = self.second_piola_and_tangent(deformation);
+        (stress.kirchhoff(deformation).cauchy(deformation), tangent.truesdell(deformation))
     }
 
     /// The stress of the reference configuration, S at F = 1: zero for a law that is stress-free there.

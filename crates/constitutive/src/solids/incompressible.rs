@@ -275,6 +275,9 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
     #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
         check_volume(LAW, deformation)?;
+        if !I::LIMITED {
+            return Ok(());
+        }
         let second = if I::SECOND { invariants::second_minus_three(deformation) } else { T::zero() };
         isochoric::check_lanes(&self.isochoric, invariants::first_minus_three(deformation), second)
     }
@@ -289,19 +292,19 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
         let [a, b] = self.isochoric.slopes(at.first, at.second);
         let (two, change) = (T::lit(2.0), invariants.change);
         let second = b * at.square;
-        let residual = match self.pressure {
-            // 2 W₁ − 2 W₂ (I₂ − 2)/J² − p J.
-            Pressure::Whole(p) => {
-                let beyond = if I::SECOND { two * second * (invariants.second + T::one()) } else { T::zero() };
-                (two * a - T::lit(p)) - T::lit(p) * change - beyond
-            }
-            // 2 W₂ (J² − 1 − (I₂ − 3))/J² − q J.
-            Pressure::Excess(q) => {
-                let beyond =
-                    if I::SECOND { two * second * (change * (change + two) - invariants.second) } else { T::zero() };
-                beyond - T::lit(q) * invariants.jacobian
-            }
+        // Both are computed, so that there is no branch in a loop over lanes.
+        let (whole, pressure) = match self.pressure {
+            Pressure::Whole(p) => (true, T::lit(p)),
+            Pressure::Excess(q) => (false, T::lit(q)),
         };
+        let mut of_whole = (two * a - pressure) - pressure * change;
+        let mut of_excess = -(pressure * invariants.jacobian);
+        if I::SECOND {
+            of_whole -= two * second * (invariants.second + T::one());
+            of_excess += two * second * (change * (change + two) - invariants.second);
+        }
+        // 2 W₁ − 2 W₂ (I₂ − 2)/J² − p J, or 2 W₂ (J² − 1 − (I₂ − 3))/J² − q J.
+        let residual = T::select(T::Mask::splat(whole), of_whole, of_excess);
         let second = if I::SECOND { second } else { T::zero() };
         // J is 1: no digits are lost.
         let volume = residual - (two * a + T::lit(4.0) * second);

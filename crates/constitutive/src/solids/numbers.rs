@@ -65,7 +65,7 @@ pub(super) fn of_both<T: Real>(p: Rows<T>, a: &[[T; 9]; 9]) -> [T; 54] {
 
 /// P and the upper triangle of ∂P/∂F.
 #[inline(always)]
-pub(super) fn of_pair<T: Real>((stress, tangent): &(FirstPiola<T>, FirstPiolaTangent<T>)) -> [T; 54] {
+pub(super) fn of_pair<T: Real>((stress, tangent): (FirstPiola<T>, FirstPiolaTangent<T>)) -> [T; 54] {
     of_both(rows_of(&stress.0), &tangent.0.components)
 }
 

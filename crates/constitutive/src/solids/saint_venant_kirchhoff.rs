@@ -136,4 +136,12 @@ impl Hyperelastic for SaintVenantKirchhoff {
     fn material_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MaterialTangent<T> {
         MaterialTangent(MajorSymmetric::isotropic(T::lit(self.lambda), T::lit(self.mu)))
     }
+
+    #[inline(always)]
+    fn second_piola_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (SecondPiola<T>, MaterialTangent<T>) {
+        (self.second_piola(deformation), self.material_tangent(deformation))
+    }
 }

@@ -88,3 +88,40 @@ fn slopes_and_curvatures_are_evaluated_once_and_curvatures_only_for_a_tangent() 
     assert_eq!(counts(&|| _ = law.cauchy_and_tangent(&f)), (1, 1));
     Ok(())
 }
+
+/// A law of its energy alone that counts how often it is asked.
+#[derive(Clone)]
+struct EnergyAlone {
+    asked: Cell<usize>,
+}
+
+impl Hyperelastic for EnergyAlone {
+    fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
+        self.asked.set(self.asked.get() + 1);
+        let (f, jacobian) = (deformation.gradient_rows(), deformation.jacobian());
+        let square = f.as_flattened().iter().fold(T::zero(), |sum, &x| sum + x * x);
+        T::lit(0.5) * (square - T::lit(3.0)) - jacobian.ln() + T::lit(2.0) * jacobian.ln() * jacobian.ln()
+    }
+}
+
+#[test]
+fn an_energy_alone_is_asked_no_more_for_stress_and_tangent_than_for_the_tangent() {
+    let law = EnergyAlone { asked: Cell::new(0) };
+    let f = DeformationGradient::from_rows([[1.1, 0.2, 0.0], [-0.1, 0.9, 0.3], [0.05, 0.1, 1.02]]).expect("0 < det F");
+    let count = |ask: &dyn Fn()| {
+        law.asked.set(0);
+        ask();
+        law.asked.get()
+    };
+    assert_eq!(count(&|| _ = law.first_piola(&f)), 1);
+    assert_eq!(count(&|| _ = law.first_piola_tangent(&f)), 9);
+    assert_eq!(count(&|| _ = law.first_piola_and_tangent(&f)), 9);
+    assert_eq!(count(&|| _ = law.material_tangent(&f)), 9);
+    assert_eq!(count(&|| _ = law.second_piola_and_tangent(&f)), 9);
+    assert_eq!(count(&|| _ = law.truesdell_tangent(&f)), 9);
+    assert_eq!(count(&|| _ = law.cauchy_and_tangent(&f)), 9);
+    let (stress, tangent) = law.first_piola_and_tangent(&f);
+    // The same evaluation over dual numbers: a rounding or none.
+    assert_close_at_scale("P", stress.0.as_slice(), law.first_piola(&f).0.as_slice(), 1.0, TOGETHER);
+    assert_eq!(tangent, law.first_piola_tangent(&f));
+}

@@ -1,7 +1,10 @@
 //! The linear strain and the engineering strain vector.
 
+use nalgebra::Matrix3;
 use piola_numerics::Real;
+use piola_numerics::linear::matrix3::rows_of;
 
+use super::lines::derivatives_of_measure;
 use crate::tensor::measures::{linear_measure, symmetric_measure};
 use crate::tensor::voigt::{BroNielsen, Piola, StrainVector};
 use crate::{Deformation, Symmetric};
@@ -27,6 +30,8 @@ symmetric_measure! {
 
 linear_measure!(LinearStrain);
 
+derivatives_of_measure!(LinearStrain, whole);
+
 impl<T: Real> LinearStrain<T> {
     /// ε = ½ (∇u + ∇uᵀ).
     ///
@@ -44,6 +49,26 @@ impl<T: Real> LinearStrain<T> {
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self(Symmetric::symmetric_part(deformation.displacement_rows()))
+    }
+
+    /// dε = sym dF along the direction dF, the same at every deformation; with Ḟ for dF the rate of ε, 1/s. The
+    /// [engineering](Self::engineering) vector of it is the derivative of the vector. Second derivatives are zero.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::Matrix3;
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_continuum::strain::LinearStrain;
+    /// let mut shearing = Matrix3::zeros();
+    /// shearing[(0, 1)] = 2.0;
+    /// let rate = LinearStrain(LinearStrain::derivative(&DeformationGradient::identity(), &shearing));
+    /// assert_eq!(rate.0.components[3], 1.0);
+    /// assert_eq!(rate.engineering()[3], 2.0); // γ̇ = u̇₁,₂ + u̇₂,₁
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    pub fn derivative(_deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Symmetric<T> {
+        Symmetric::symmetric_part(rows_of(direction))
     }
 
     /// The engineering strain vector in Voigt's order, [ε₁₁, ε₂₂, ε₃₃, γ₁₂, γ₂₃, γ₁₃] with γᵢⱼ = 2 εᵢⱼ = uᵢ,ⱼ + uⱼ,ᵢ.

@@ -3,8 +3,8 @@
 use nalgebra::Matrix3;
 use num_dual::Dual64;
 use piola_continuum::strain::{
-    AlmansiStrain, BiotStrain, GreenStrain, HenckyStrain, LeftCauchyGreen, LeftStretch, RightCauchyGreen, RightStretch,
-    Rotation, SethHill, SethHillStrain, SpatialHenckyStrain, SpatialSethHillStrain, invariants,
+    AlmansiStrain, BiotStrain, GreenStrain, HenckyStrain, LeftCauchyGreen, LeftStretch, LinearStrain, RightCauchyGreen,
+    RightStretch, Rotation, SethHill, SethHillStrain, SpatialHenckyStrain, SpatialSethHillStrain, invariants,
 };
 use piola_continuum::tensor::PAIR;
 use piola_continuum::{Deformation, DeformationGradient, Symmetric};
@@ -198,6 +198,7 @@ proptest! {
         check("C", RightCauchyGreen::derivative_matrix(&f), RightCauchyGreen::derivative(&f, &d));
         check("B", LeftCauchyGreen::derivative_matrix(&f), LeftCauchyGreen::derivative(&f, &d));
         check("E", GreenStrain::derivative_matrix(&f), GreenStrain::derivative(&f, &d));
+        check("ε", LinearStrain::derivative_matrix(&f), LinearStrain::derivative(&f, &d));
         check("e", AlmansiStrain::derivative_matrix(&f), AlmansiStrain::derivative(&f, &d));
         check("U", RightStretch::derivative_matrix(&f), RightStretch::derivative(&f, &d));
         check("V", LeftStretch::derivative_matrix(&f), LeftStretch::derivative(&f, &d));

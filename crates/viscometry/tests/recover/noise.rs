@@ -49,23 +49,28 @@ fn held(case: &Value, flow: &str, trials: u32) -> u32 {
     held
 }
 
-#[test]
-fn bands_of_tables_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
-    let case = cases().into_iter().find(|case| text(&case["id"]).starts_with("carreau_yasuda_5")).expect("there");
-    for flow in ["pipe", "channel", "couette"] {
+/// A thousand trials of every fluid: the test of each flow is apart, so that they run beside one another.
+fn every_fluid(flow: &str) {
+    for case in cases() {
         let held = held(&case, flow, 1000);
-        assert!(900 <= held, "{flow}: {held}");
+        println!("{} {flow}: {held}", text(&case["id"]));
+        assert!(900 <= held, "{} {flow}: {held}", text(&case["id"]));
     }
 }
 
 #[test]
-fn bands_of_every_fluid_and_flow_hold_the_truth_in_nine_of_ten_trials() {
-    for case in cases() {
-        for flow in ["pipe", "channel", "couette"] {
-            let held = held(&case, flow, 100);
-            assert!(90 <= held, "{} {flow}: {held}", text(&case["id"]));
-        }
-    }
+fn bands_of_pipes_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
+    every_fluid("pipe");
+}
+
+#[test]
+fn bands_of_channels_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
+    every_fluid("channel");
+}
+
+#[test]
+fn bands_of_coaxial_cylinders_with_a_percent_of_noise_hold_the_truth_in_nine_of_ten_of_a_thousand_trials() {
+    every_fluid("couette");
 }
 
 fn noisy_rows(level: f64, slope: f64) -> Vec<[f64; 2]> {

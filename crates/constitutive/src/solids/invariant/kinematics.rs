@@ -49,7 +49,7 @@ impl<T: Real> Kinematics<T> {
     pub(super) fn near<L: InvariantEnergy>(gradient: Rows<T>, h: Rows<T>) -> Self {
         let (one, two) = (T::one(), T::lit(2.0));
         let change = kernels::right_cauchy_green_minus_one(h);
-        let [a, b, c, ..] = change.components;
+        let [a, b, c, x_12, x_23, x_13] = change.components;
         let first = a + b + c;
         let trace = h[0][0] + h[1][1] + h[2][2];
 
@@ -68,8 +68,12 @@ impl<T: Real> Kinematics<T> {
         let d = |i: usize| (h[i][i] + h[i][i]) - trace - m[i][i];
         let beyond =
             [[d(0), x - m[0][1], z - m[0][2]], [x - m[1][0], d(1), y - m[1][2]], [z - m[2][0], y - m[2][1], d(2)]];
-        let second =
-            if L::SECOND { two * (two * trace + second_trace) + double_contraction(minors, minors) } else { T::zero() };
+        // I₂ − 3 = 2 tr (C − 1) + i₂(C − 1).
+        let second = if L::SECOND {
+            (two * first + (a * b + b * c + a * c)) - (x_12 * x_12 + x_23 * x_23 + x_13 * x_13)
+        } else {
+            T::zero()
+        };
         Self {
             gradient,
             change,

@@ -257,7 +257,7 @@ pub fn first_piola_and_upper_triangle<T: Real, L: InvariantEnergy>(
     if L::STRAIGHT {
         straight::first_piola_and_upper_triangle(law, deformation)
     } else {
-        numbers::of_pair(&first_piola_and_tangent(law, deformation))
+        numbers::of_pair(first_piola_and_tangent(law, deformation))
     }
 }
 

@@ -84,6 +84,8 @@ pub trait Isochoric: Clone {
     /// Whether energy, slopes and curvatures are not finite wherever [`check`](Self::check) refuses, if it refuses
     /// anything: batches then ask it only where an answer is not finite.
     const REFUSED_IS_NOT_FINITE: bool = false;
+    /// Whether [`check`](Self::check) can refuse anything: where not, it is not prepared for.
+    const LIMITED: bool = true;
     /// See [`InvariantEnergy::STRAIGHT`](super::invariant::InvariantEnergy::STRAIGHT).
     const STRAIGHT: bool = false;
 
@@ -125,6 +127,7 @@ pub trait Isochoric: Clone {
 impl<I: Isochoric> Isochoric for &I {
     const SECOND: bool = I::SECOND;
     const REFUSED_IS_NOT_FINITE: bool = I::REFUSED_IS_NOT_FINITE;
+    const LIMITED: bool = I::LIMITED;
     const STRAIGHT: bool = I::STRAIGHT;
 
     #[inline(always)]

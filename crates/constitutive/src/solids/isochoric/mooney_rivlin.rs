@@ -42,6 +42,7 @@ pub(crate) fn mooney_rivlin<T: Real>([c10, c01]: [T; 2], first: T, second: T) ->
 impl Isochoric for MooneyRivlin {
     const SECOND: bool = true;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const LIMITED: bool = false;
     const STRAIGHT: bool = true;
 
     #[inline(always)]

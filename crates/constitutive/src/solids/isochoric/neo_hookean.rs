@@ -38,6 +38,7 @@ pub(crate) fn neo_hookean<T: Real>(mu: T, first: T) -> T {
 impl Isochoric for NeoHookean {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const LIMITED: bool = false;
     const STRAIGHT: bool = true;
 
     #[inline(always)]

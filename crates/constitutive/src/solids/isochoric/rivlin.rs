@@ -102,6 +102,7 @@ pub(crate) fn rivlin_term<T: Real>(coefficient: T, [i, j]: [u8; 2], first: T, se
 impl Isochoric for Rivlin {
     const SECOND: bool = true;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const LIMITED: bool = false;
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, second: T) -> T {

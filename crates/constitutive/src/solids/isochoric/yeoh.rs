@@ -44,6 +44,7 @@ pub(crate) fn yeoh<T: Real>([c1, c2, c3]: [T; 3], first: T) -> T {
 impl Isochoric for Yeoh {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
+    const LIMITED: bool = false;
     const STRAIGHT: bool = true;
 
     #[inline(always)]
