@@ -14,7 +14,7 @@
 //! | {K, H}, nested; dK/dt along the motion | [`poisson_bracket`], [`Bracket`], [`rate_along`] |
 //! | velocities and momenta in other coordinates | [`TangentVector`], [`CotangentVector`] |
 //! | θ, ω, θ̃, ω̃ as forms; d; ω as a map | [`CanonicalOneForm`], [`CanonicalTwoForm`], [`ExtendedOneForm`], [`ExtendedTwoForm`], [`exterior_derivative`] |
-//! | Lie derivatives; whether a field is locally Hamiltonian | [`lie_derivative_of_one_form`], [`lie_derivative_of_two_form`], [`locally_hamiltonian_test`] |
+//! | Lie derivatives; whether a field is locally Hamiltonian | [`lie_derivative_of_function`], [`lie_derivative_of_one_form`], [`lie_derivative_of_two_form`], [`locally_hamiltonian_test`] |
 //! | whether a map is canonical, or a contact transformation | [`canonical_test`], [`contact_test`], [`require_canonical`] |
 //! | a map from a generating function, under identities too | [`Generated`], [`DegenerateGenerated`] |
 //! | maps ready made, composed, inverted | [`PointTransformation`], [`PolarCoordinates`], [`SphericalCoordinates`], [`OscillatorActionAngle`], [`Delaunay`], [`RotatingFrame`], [`Composed`], [`Inverse`] |
@@ -64,7 +64,8 @@ pub use generating::{Generated, GeneratingFunction, GeneratingKind};
 pub use integrals::{IntegralTest, Involution, PhaseFunctions, PhasePoint, integral_test, involution_test};
 pub use legendre::LegendreTransform;
 pub use lie_derivative::{
-    LocallyHamiltonianTest, lie_derivative_of_one_form, lie_derivative_of_two_form, locally_hamiltonian_test,
+    LocallyHamiltonianTest, lie_derivative_of_function, lie_derivative_of_one_form, lie_derivative_of_two_form,
+    locally_hamiltonian_test,
 };
 pub use lyapunov::{LyapunovExponents, lyapunov_exponents};
 pub use noether::{Generator, OneParameterGroup, SymmetryFlow, integral_of_symmetry, symmetry_flow};

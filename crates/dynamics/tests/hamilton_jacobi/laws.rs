@@ -2,15 +2,16 @@
 
 use piola_dynamics::DynamicsError;
 use piola_dynamics::hamilton_jacobi::{
-    Candidate, CharacteristicStrip, Constants, Event, Extremal, ExtremalField, GeodeticDistance, RayField, SearchRegion,
+    Candidate, CharacteristicStrip, ConjugatePoint, Constants, Event, Extremal, ExtremalField, GeodeticDistance,
+    InitialFront, IntegralConoid, PrincipalFunction, RayField, Residual, SearchRegion, Transversals, WaveFront,
 };
-use piola_dynamics::hamiltonian::PhaseFunction;
+use piola_dynamics::hamiltonian::{InvertiblePhaseMap, PhaseFunction, PhaseMap, PolarCoordinates};
 use piola_integrators::{DormandPrince853, State, Tolerance};
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
-use super::systems::{Bowl, FromPlace, OscillatorAction, Particle, PolarBowl, ShakenPendulum};
+use super::systems::{Bowl, ByPolar, FromPlace, OscillatorAction, Particle, PolarBowl, ShakenPendulum, Swaying};
 
 fn fine() -> Tolerance {
     Tolerance::relative(1e-13).unwrap()
@@ -151,8 +152,214 @@ fn sheets_of_two_pendulums_are_all_pairs_of_sheets() {
     assert!(0 < doubled, "some grid was doubled");
 }
 
+/// Three pendulums that do not know of each other, in coordinates that mix them: all triples of sheets. There is no
+/// balance of orientations with three degrees of freedom; the grid must be fine enough by itself.
+#[test]
+fn sheets_of_three_pendulums_are_all_triples_of_sheets() {
+    /// q = R y, p = R π, each pendulum with H = π²/2 − 4 cos y.
+    struct Mixed;
+    const TURN: [[f64; 3]; 3] = [[0.96, -0.28, 0.0], [0.28, 0.96, 0.0], [0.0, 0.0, 1.0]];
+    impl PhaseFunction for Mixed {
+        fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
+            let back = |x: &[T], i: usize| (0..3).fold(T::zero(), |sum, j| sum + T::lit(TURN[j][i]) * x[j]);
+            (0..3)
+                .fold(T::zero(), |sum, i| sum + T::lit(0.5) * back(p, i) * back(p, i) - T::lit(4.0) * back(q, i).cos())
+        }
+    }
+    let turned = |y: [f64; 3]| TURN.map(|row| (0..3).map(|i| row[i] * y[i]).sum::<f64>());
+    let pendulum = ShakenPendulum { amplitude: 0.0 };
+    let (y0, y1, t1, bound) = ([0.5, -0.3, 0.2], [-0.25, 0.4, 0.1], 2.0, 5.0);
+    let single: Vec<Vec<Extremal>> = (0..3)
+        .map(|i| {
+            let region = SearchRegion::new(&[-9.0], &[9.0], 96).unwrap();
+            let (from, to) = (Event::new(&[y0[i]], 0.0), Event::new(&[y1[i]], t1));
+            GeodeticDistance::new(&pendulum).all_between(&from, &to, &region).unwrap()
+        })
+        .collect();
+    let mut expected = Vec::new();
+    for a in &single[0] {
+        for b in &single[1] {
+            for c in &single[2] {
+                let momenta = turned([a.initial_momenta[0], b.initial_momenta[0], c.initial_momenta[0]]);
+                if momenta.iter().all(|p| p.abs() < bound) {
+                    expected.push((momenta, [a, b, c]));
+                }
+            }
+        }
+    }
+    assert!(8 <= expected.len(), "more than one sheet of each: {}", expected.len());
+    let region = SearchRegion::new(&[-bound; 3], &[bound; 3], 6).unwrap();
+    let (from, to) = (Event::new(&turned(y0), 0.0), Event::new(&turned(y1), t1));
+    let sheets = GeodeticDistance::new(&Mixed).all_between(&from, &to, &region).unwrap();
+    assert_eq!(sheets.len(), expected.len());
+    for sheet in &sheets {
+        let near =
+            |(p, _): &&([f64; 3], [&Extremal; 3])| (0..3).all(|i| (p[i] - sheet.initial_momenta[i]).abs() < 1e-8);
+        let (_, parts) = expected.iter().find(near).expect("a triple of sheets");
+        let distance: f64 = parts.iter().map(|part| part.distance).sum();
+        let tolerance = Tol::stated(1e-10, "integration with the relative tolerance 1e-13");
+        assert_close_at_scale("G", &[sheet.distance], &[distance], 10.0, tolerance);
+        assert_eq!(sheet.morse_index(), parts.iter().map(|part| part.morse_index()).sum::<usize>());
+        assert_eq!(sheet.orientation(), parts.iter().map(|part| part.orientation()).product::<i32>());
+    }
+    // They are given in the order of the distance, each once.
+    assert!(sheets.windows(2).all(|pair| pair[0].distance <= pair[1].distance));
+}
+
+/// A function of events that solves nothing.
+#[derive(Clone, Copy, Debug)]
+struct Anything([f64; 4]);
+
+impl PrincipalFunction for Anything {
+    fn value<T: Real>(&self, q: &[T], t: T) -> T {
+        let c = self.0.map(T::lit);
+        c[0] * q[0] + T::lit(0.5) * (q[0] + c[1] * q[1] + t).sin() + c[2] * q[1] * t + c[3] * q[0] * q[1]
+    }
+}
+
+/// Rays that run about the centre at a distance of about 3/2 and come together, sooner in one direction than in the
+/// other.
+#[derive(Clone, Copy, Debug)]
+struct Gathering(f64, f64);
+
+impl PrincipalFunction for Gathering {
+    fn value<T: Real>(&self, q: &[T], _t: T) -> T {
+        let (x, y) = (q[0] - T::lit(1.2), q[1] - T::lit(0.9));
+        T::lit(-1.62) * x + T::lit(2.16) * y - T::lit(0.5 * self.0) * x * x - T::lit(0.5 * self.1) * y * y
+    }
+}
+
+/// x = 1 + y²/5 and a little more.
+#[derive(Clone, Copy, Debug)]
+struct Wall;
+
+impl InitialFront<2, 1> for Wall {
+    fn at<T: Real>(&self, [a]: [T; 1]) -> [T; 2] {
+        [T::one() + T::lit(0.2) * a * a + T::lit(0.1) * a, a]
+    }
+}
+
+/// (r, φ, p_r, p_φ) of Cartesian coordinates and momenta.
+fn to_polar(q: &[f64], p: &[f64]) -> [f64; 4] {
+    let mut polar = [0.0; 4];
+    PolarCoordinates.map(q, p, 0.0, &mut polar).unwrap();
+    polar
+}
+
+/// (x, y, p_x, p_y) of polar coordinates and momenta, whichever turn φ has come to.
+fn from_polar(q: &[f64], p: &[f64]) -> [f64; 4] {
+    let mut cartesian = [0.0; 4];
+    PolarCoordinates.invert(q, p, 0.0, &mut cartesian).unwrap();
+    cartesian
+}
+
+/// Where rays meet their neighbours does not depend on coordinates, nor does how many of them they meet.
+fn same_caustics(there: &[ConjugatePoint], here: &[ConjugatePoint]) {
+    let parts = |points: &[ConjugatePoint]| -> (Vec<f64>, Vec<usize>) {
+        points.iter().map(|point| (point.time, point.multiplicity)).unzip()
+    };
+    let ((there, theirs), (here, ours)) = (parts(there), parts(here));
+    assert_eq!(theirs, ours, "{there:?} {here:?}");
+    assert_close("caustics", &there, &here, Tol::stated(1e-9, "dense output of order seven"));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn polar_and_cartesian_coordinates_give_one_residual(
+        c in prop::array::uniform4(-1.0..1.0_f64), r in 0.3..1.5_f64, phi in -3.0..3.0_f64, t in -1.0..1.0_f64,
+    ) {
+        let q = [r * phi.cos(), r * phi.sin()];
+        let mut cartesian = Candidate::new(Bowl, Anything(c));
+        let mut polar = Candidate::new(PolarBowl, ByPolar(Anything(c)));
+        let (here, there) = (cartesian.residual(&q, t).unwrap(), polar.residual(&[r, phi], t).unwrap());
+        let parts = |r: Residual| [r.value, r.time_derivative, r.energy];
+        // p_φ/r is a difference of terms of p.
+        assert_close_at_scale("residual", &parts(there), &parts(here), 10.0, Tol::ulps(16.0));
+        let momenta = &to_polar(&q, cartesian.momenta())[2..];
+        assert_close_at_scale("p", polar.momenta(), momenta, 5.0, Tol::ulps(8.0));
+        assert_close_at_scale("U", &[polar.value()], &[cartesian.value()], 5.0, Tol::ulps(8.0));
+    }
+
+    /// The field q̇ = H_p(q, ∂U/∂q) belongs to any U, and so do both sides of what is equal for a solution.
+    #[test]
+    fn polar_and_cartesian_coordinates_give_one_field_of_extremals(
+        c in prop::array::uniform4(-0.5..0.5_f64), r in 0.8..1.5_f64, phi in -3.0..3.0_f64, t in -1.0..1.0_f64,
+        span in -0.35..0.35_f64,
+    ) {
+        let (solution, by_polar) = (Anything(c), ByPolar(Anything(c)));
+        let q = [r * phi.cos(), r * phi.sin()];
+        let here = ExtremalField::new(&Bowl, &solution, 2).follow(&q, t, t + span, fine()).unwrap();
+        let there = ExtremalField::new(&PolarBowl, &by_polar, 2).follow(&[r, phi], t, t + span, fine()).unwrap();
+        let tolerance = Tol::stated(1e-11, "two integrations with the relative tolerance 1e-13");
+        let end = from_polar(&there.coordinates, &there.momenta);
+        assert_close_at_scale("(q, p)", &end, &[&here.coordinates[..], &here.momenta].concat(), 1.0, tolerance);
+        assert_close_at_scale("action", &[there.action], &[here.action], 1.0, tolerance);
+        assert_close_at_scale("increment", &[there.increment], &[here.increment], 1.0, tolerance);
+    }
+
+    #[test]
+    fn polar_and_cartesian_coordinates_give_one_transversal_with_its_caustics(
+        a in 0.5..0.9_f64, b in 1.3..2.0_f64, x in 1.0..1.4_f64, y in 0.7..1.1_f64, time in 0.2..1.6_f64,
+    ) {
+        let (values, by_polar) = (Gathering(a, b), ByPolar(Gathering(a, b)));
+        let (cartesian, polar) =
+            (Transversals::of_values(&Bowl, &values, 0.0), Transversals::of_values(&PolarBowl, &by_polar, 0.0));
+        let foot = [x.hypot(y), y.atan2(x)];
+        let (start, other) = (cartesian.start(&[x, y], 0.0).unwrap(), polar.start(&foot, 0.0).unwrap());
+        let (here, there) = (cartesian.follow(&start, time).unwrap(), polar.follow(&other, time).unwrap());
+        let tolerance = Tol::stated(1e-10, "two integrations with the relative tolerance 1e-13");
+        assert_close_at_scale("U, H", &[there.value, there.energy], &[here.value, here.energy], 10.0, tolerance);
+        let end = from_polar(&there.coordinates, &there.momenta);
+        assert_close_at_scale("(q, p)", &end, &[&here.coordinates[..], &here.momenta].concat(), 5.0, tolerance);
+        // The Jacobian of the places is a density: dx dy = r dr dφ at both ends.
+        let jacobian = there.jacobian * there.coordinates[0] / foot[0];
+        assert_close_at_scale("Jacobian", &[jacobian], &[here.jacobian], 10.0, tolerance);
+        same_caustics(&there.caustics, &here.caustics);
+    }
+
+    #[test]
+    fn polar_and_cartesian_coordinates_give_one_wave_front(
+        reach in 0.1..0.9_f64, outwards in prop::bool::ANY, energy in 3.5..5.0_f64,
+    ) {
+        let side = if outwards { 1.0 } else { -1.0 };
+        let by_polar = ByPolar(Wall);
+        let mut cartesian = WaveFront::open(&Bowl, &Wall, side, energy, (-0.5, 0.5), 7).unwrap();
+        let mut polar = WaveFront::open(&PolarBowl, &by_polar, side, energy, (-0.5, 0.5), 7).unwrap();
+        let (here, there) = (cartesian.advance(reach, 48).unwrap(), polar.advance(reach, 48).unwrap());
+        prop_assert_eq!(there.caustics, here.caustics);
+        let tolerance = Tol::stated(1e-10, "steps of order six and of the length 0.02");
+        for (ray, other) in cartesian.rays().iter().zip(polar.rays()) {
+            let end = from_polar(&other.coordinates(), &other.momenta());
+            assert_close_at_scale("(q, p)", &end, &[ray.coordinates(), ray.momenta()].concat(), 3.0, tolerance);
+            let jacobian = other.jacobian() * other.coordinates()[0];
+            assert_close_at_scale("det(∂q/∂σ, dq/dS)", &[jacobian], &[ray.jacobian()], 1.0, tolerance);
+            prop_assert_eq!(other.caustics(), ray.caustics());
+        }
+    }
+
+    #[test]
+    fn polar_and_cartesian_coordinates_give_one_conoid(
+        r in 1.0..1.5_f64, phi in -3.0..3.0_f64, speed in 1.5..3.0_f64, slant in -0.5..0.5_f64, left in prop::bool::ANY,
+    ) {
+        // More or less across the radius, so that rays keep away from the centre.
+        let direction = phi + slant + if left { 0.5 } else { -0.5 } * core::f64::consts::PI;
+        let (q, p) = ([r * phi.cos(), r * phi.sin()], [speed * direction.cos(), speed * direction.sin()]);
+        let times = [0.45, 0.9, 2.1];
+        let momenta = to_polar(&q, &p)[2..].to_vec();
+        let cartesian = IntegralConoid::new(&Bowl, &Event::new(&q, 0.2), &[p.to_vec()], &times).unwrap();
+        let polar = IntegralConoid::new(&PolarBowl, &Event::new(&[r, phi], 0.2), &[momenta], &times).unwrap();
+        let (ray, other) = (&cartesian.rays[0], &polar.rays[0]);
+        let tolerance = Tol::stated(1e-10, "two integrations with the relative tolerance 1e-13");
+        for (here, there) in ray.points.iter().zip(&other.points) {
+            let end = from_polar(&there.coordinates, &there.momenta);
+            assert_close_at_scale("(q, p)", &end, &[&here.coordinates[..], &here.momenta].concat(), 5.0, tolerance);
+            assert_close_at_scale("V, H", &[there.value, there.energy], &[here.value, here.energy], 10.0, tolerance);
+            prop_assert_eq!(there.folds, here.folds);
+        }
+        same_caustics(&other.conjugate_points, &ray.conjugate_points);
+    }
 
     #[test]
     fn action_along_the_extremal_field_is_the_increment_of_its_solution(
@@ -237,5 +444,38 @@ proptest! {
         let tolerance = Tol::stated(1e-12, "formulas and Newton's iteration in double precision").times(10.0);
         assert_close_at_scale("q", &q1, &expected, 1.0, tolerance);
         assert_close_at_scale("p", &p1, &momenta, 1.0, tolerance);
+    }
+}
+
+proptest! {
+    // Forty pairs of events a case.
+    #![proptest_config(ProptestConfig::with_cases(12))]
+
+    #[test]
+    fn every_gradient_of_the_distance_in_the_plane_is_a_momentum_or_an_energy(
+        place in prop::array::uniform4(-0.7..0.7_f64), t0 in -1.0..1.0_f64, span in 0.8..1.2_f64,
+    ) {
+        let distance = GeodeticDistance::new(&Swaying);
+        let ends = [place[0], place[1], t0, place[2], place[3], t0 + span];
+        let joined = |ends: &[f64; 6], guess: &[f64]| {
+            let (from, to) = (Event::new(&ends[..2], ends[2]), Event::new(&ends[3..5], ends[5]));
+            distance.between(&from, &to, guess).unwrap()
+        };
+        let straight = [(place[2] - place[0]) / span, (place[3] - place[1]) / span];
+        let found = joined(&ends, &straight);
+        let slopes: Vec<f64> = (0..6)
+            .map(|i| {
+                slope(|x| {
+                    let mut ends = ends;
+                    ends[i] += x;
+                    joined(&ends, &found.initial_momenta).distance
+                })
+            })
+            .collect();
+        let (before, after) = (&found.initial_momenta, &found.final_momenta);
+        let (h0, h1) = (found.initial_energy, found.final_energy);
+        let expected = [-before[0], -before[1], h0, after[0], after[1], -h1];
+        let differences = Tol::stated(2e-9, "differences of order six with the step 0.01");
+        assert_close_at_scale("dG", &slopes, &expected, 1.0, differences);
     }
 }

@@ -1,6 +1,6 @@
 //! Hamiltonians that the tests share.
 
-use piola_dynamics::hamilton_jacobi::{CompleteIntegral, PrincipalFunction};
+use piola_dynamics::hamilton_jacobi::{CompleteIntegral, InitialFront, PrincipalFunction};
 use piola_dynamics::hamiltonian::PhaseFunction;
 use piola_numerics::Real;
 
@@ -124,5 +124,37 @@ impl CompleteIntegral for OscillatorByEnergy {
         let p = (T::lit(2.0) * m * c[0] - m * m * w * w * q[0] * q[0]).sqrt();
         let angle = (m * w * q[0]).atan2(p);
         T::lit(0.5) * q[0] * p + c[0] / w * angle - c[0] * t
+    }
+}
+
+/// A particle in a frame that turns, in a hollow that breathes: momenta are no velocities, and the energy is not kept.
+#[derive(Debug)]
+pub(crate) struct Swaying;
+
+impl PhaseFunction for Swaying {
+    fn value<T: Real>(&self, q: &[T], p: &[T], t: T) -> T {
+        let stiffness = T::one() + T::lit(0.4) * (t + t).cos();
+        T::lit(0.5) * (p[0] * p[0] + p[1] * p[1])
+            + T::lit(0.3) * (q[0] * p[1] - q[1] * p[0])
+            + T::lit(0.5) * stiffness * (q[0] * q[0] + T::lit(0.5) * q[1] * q[1])
+            + T::lit(0.2) * q[0] * q[0] * q[1]
+    }
+}
+
+/// A function of Cartesian coordinates, by polar ones q = (r, φ).
+#[derive(Debug)]
+pub(crate) struct ByPolar<U>(pub(crate) U);
+
+impl<U: PrincipalFunction> PrincipalFunction for ByPolar<U> {
+    fn value<T: Real>(&self, q: &[T], t: T) -> T {
+        let (s, c) = q[1].sin_cos();
+        self.0.value(&[q[0] * c, q[0] * s], t)
+    }
+}
+
+impl<C: InitialFront<2, 1>> InitialFront<2, 1> for ByPolar<C> {
+    fn at<T: Real>(&self, parameters: [T; 1]) -> [T; 2] {
+        let [x, y] = self.0.at(parameters);
+        [(x * x + y * y).sqrt(), y.atan2(x)]
     }
 }

@@ -12,17 +12,7 @@ use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
-use super::systems::{any_function, any_point};
-
-/// Any field of vectors: two functions make its components, which are no gradient.
-struct AnyField<A, B>(A, B);
-
-impl<A: PhaseFunction, B: PhaseFunction> VectorField for AnyField<A, B> {
-    fn components<T: Real>(&self, x: &[T], out: &mut [T]) {
-        let (a, b) = (self.0.value(&x[..2], &x[2..], T::zero()), self.1.value(&x[..2], &x[2..], T::zero()));
-        out.copy_from_slice(&[a, b * x[0], a + b, x[1] * a]);
-    }
-}
+use super::systems::{AnyField, any_function, any_point};
 
 /// θ(k) as a function is the form of degree zero; its differential by the chain rule through a form.
 struct ThetaOf<'a, K>(&'a K);

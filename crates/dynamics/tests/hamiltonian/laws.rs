@@ -1,16 +1,18 @@
 //! Identities of brackets and of the Legendre map, and their invariance under random canonical maps.
 
 use piola_dynamics::hamiltonian::{
-    Bracket, Composed, HamiltonianField, Inverse, LegendreTransform, PhaseFunction, PhaseMap, PulledBack,
-    TransformedHamiltonian, canonical_test, poisson_bracket, rate_along, time_derivative,
+    Bracket, Composed, Differential, HamiltonianField, Inverse, InvertiblePhaseMap, LegendreTransform, OneForm,
+    PhaseFunction, PhaseMap, PointTransformation, PulledBack, SymplecticGradient, TransformedHamiltonian, TwoForm,
+    VectorField, canonical_test, image_and_jacobian, lie_derivative_of_function, lie_derivative_of_one_form,
+    lie_derivative_of_two_form, poisson_bracket, rate_along, time_derivative,
 };
-use piola_dynamics::lagrangian::{Lagrangian, Workspace};
+use piola_dynamics::lagrangian::{ChangeOfCoordinates, Lagrangian, Workspace};
 use piola_integrators::{DormandPrince853, State, Tolerance};
 use piola_numerics::{Lanes, Real};
 use piola_testkit::{Tol, assert_close_at_scale, difference_quotient};
 use proptest::prelude::*;
 
-use super::systems::{AnyFunction, Relativistic, any_function, any_map, any_point};
+use super::systems::{AnyField, AnyFunction, Relativistic, any_function, any_map, any_point};
 
 /// The terms of the brackets below are sums of some tens of products of numbers up to a few units.
 const SCALE: f64 = 30.0;
@@ -23,8 +25,148 @@ impl PhaseFunction for Product<'_> {
     }
 }
 
+/// The Lie derivative of a function as a function on phase space.
+struct LieOf<'a, K, F>(&'a K, &'a F);
+
+impl<K: VectorField, F: PhaseFunction> PhaseFunction for LieOf<'_, K, F> {
+    fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
+        lie_derivative_of_function(self.0, self.1, &[q, p].concat()).expect("a regular point")
+    }
+}
+
+/// Forms of both degrees that are neither closed nor canonical.
+struct AnyForm<A, B>(A, B);
+
+impl<A: PhaseFunction, B: PhaseFunction> OneForm for AnyForm<A, B> {
+    fn components<T: Real>(&self, x: &[T], out: &mut [T]) {
+        let (a, b) = (self.0.value(&x[..2], &x[2..], T::zero()), self.1.value(&x[..2], &x[2..], T::zero()));
+        out.copy_from_slice(&[b, a * x[3], x[0] * b, a - b]);
+    }
+}
+
+impl<A: PhaseFunction, B: PhaseFunction> TwoForm for AnyForm<A, B> {
+    fn entries<T: Real>(&self, x: &[T], out: &mut [T]) {
+        let (a, b) = (self.0.value(&x[..2], &x[2..], T::zero()), self.1.value(&x[..2], &x[2..], T::zero()));
+        out.fill(T::zero());
+        for (i, j, entry) in [(0, 1, a), (0, 2, b), (0, 3, a * x[1]), (1, 2, b * x[0]), (1, 3, a + b), (2, 3, x[2])] {
+            (out[i + 4 * j], out[j + 4 * i]) = (entry, -entry);
+        }
+    }
+}
+
+/// A field or a form on the new phase space of a map as it is seen in the old coordinates.
+struct Seen<'a, A, M>(&'a A, M);
+
+impl<A: VectorField, M: InvertiblePhaseMap> VectorField for Seen<'_, A, M> {
+    fn components<T: Real>(&self, x: &[T], out: &mut [T]) {
+        let (mut image, mut k) = ([T::zero(); 4], [T::zero(); 4]);
+        self.1.map(&x[..2], &x[2..], T::zero(), &mut image).expect("a regular point");
+        self.0.components(&image, &mut k);
+        // Vectors are carried back by the Jacobian of the inverse map.
+        let inverse = Inverse(&self.1);
+        let (_, back) = image_and_jacobian(&inverse, &image[..2], &image[2..], T::zero()).expect("a regular point");
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = (0..4).fold(T::zero(), |sum, j| sum + back[(i, j)] * k[j]);
+        }
+    }
+}
+
+impl<A: OneForm, M: PhaseMap> OneForm for Seen<'_, A, M> {
+    fn components<T: Real>(&self, x: &[T], out: &mut [T]) {
+        let (image, slopes) = image_and_jacobian(&self.1, &x[..2], &x[2..], T::zero()).expect("a regular point");
+        let mut alpha = [T::zero(); 4];
+        self.0.components(image.as_slice(), &mut alpha);
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = (0..4).fold(T::zero(), |sum, j| sum + slopes[(j, i)] * alpha[j]);
+        }
+    }
+}
+
+impl<A: TwoForm, M: PhaseMap> TwoForm for Seen<'_, A, M> {
+    fn entries<T: Real>(&self, x: &[T], out: &mut [T]) {
+        let (image, slopes) = image_and_jacobian(&self.1, &x[..2], &x[2..], T::zero()).expect("a regular point");
+        let mut beta = [T::zero(); 16];
+        self.0.entries(image.as_slice(), &mut beta);
+        for (number, out) in out.iter_mut().enumerate() {
+            let (i, j) = (number % 4, number / 4);
+            *out = T::zero();
+            for (entry, &beta) in beta.iter().enumerate() {
+                *out += slopes[(entry % 4, i)] * beta * slopes[(entry / 4, j)];
+            }
+        }
+    }
+}
+
+/// Lie derivatives of a function and of forms are tensors: what is derived along a field in the new coordinates and
+/// carried back is what is derived along the field seen in the old ones.
+fn lie_derivatives_are_carried_by(
+    map: &impl InvertiblePhaseMap,
+    field: &AnyField<&AnyFunction, &AnyFunction>,
+    form: &AnyForm<&AnyFunction, &AnyFunction>,
+    (q, p): ([f64; 2], [f64; 2]),
+) {
+    let x = [q, p].concat();
+    let (image, slopes) = image_and_jacobian(map, &q, &p, 0.0).unwrap();
+    let seen = Seen(field, map);
+    // What the sums are made of: forms grow with the fifth power of the place, and each place of a tensor brings a Jacobian.
+    let size = 1.0 + image.amax();
+    let (_, back) = image_and_jacobian(&Inverse(map), &image.as_slice()[..2], &image.as_slice()[2..], 0.0).unwrap();
+    let bend = (1.0 + slopes.amax()) * (1.0 + back.amax());
+    let scale = SCALE * size.powi(6) * (0.5 * size * size).exp() * bend.powi(3);
+    let rounding = Tol::ulps(40.0);
+    let there = lie_derivative_of_function(field, form.0, image.as_slice()).unwrap();
+    let here = lie_derivative_of_function(&seen, &PulledBack { function: form.0, map }, &x).unwrap();
+    assert_close_at_scale("L_k f", &[here], &[there], scale, rounding);
+    let there = slopes.transpose() * lie_derivative_of_one_form(field, form, image.as_slice()).unwrap();
+    let here = lie_derivative_of_one_form(&seen, &Seen(form, map), &x).unwrap();
+    assert_close_at_scale("L_k α", here.as_slice(), there.as_slice(), scale, rounding);
+    let there = slopes.transpose() * lie_derivative_of_two_form(field, form, image.as_slice()).unwrap() * &slopes;
+    let here = lie_derivative_of_two_form(&seen, &Seen(form, map), &x).unwrap();
+    assert_close_at_scale("L_k β", here.as_slice(), there.as_slice(), scale, rounding);
+}
+
+/// New coordinates that bend, and that move with the time.
+#[derive(Clone, Copy, Debug)]
+struct Sheared([f64; 4]);
+
+impl ChangeOfCoordinates<2> for Sheared {
+    const TIME_DEPENDENT: bool = true;
+    fn old_coordinates<T: Real>(&self, new: &[T], t: T) -> [T; 2] {
+        let c = self.0.map(T::lit);
+        [
+            new[0] + c[0] * (new[1] + t).sin() + c[1] * t,
+            T::lit(1.25) * new[1] + c[2] * new[0] * new[0] + c[3] * t * new[0],
+        ]
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn the_lie_derivative_of_a_function_goes_with_its_differential(
+        a in any_function(), b in any_function(), f in any_function(), (q, p) in any_point(),
+    ) {
+        let (x, field) = ([q, p].concat(), AnyField(a, b));
+        let of_differential = lie_derivative_of_one_form(&field, &Differential(&f), &x).unwrap();
+        let mut differential = [0.0; 4];
+        Differential(LieOf(&field, &f)).components(&x, &mut differential);
+        assert_close_at_scale("L_k df = d L_k f", of_differential.as_slice(), &differential, 4.0 * SCALE, Tol::ulps(20.0));
+    }
+
+    #[test]
+    fn the_lie_derivative_of_a_function_along_hamiltons_field_is_its_poisson_bracket(
+        k in any_function(), h in any_function(), (q, p) in any_point(), t in -2.0..2.0_f64,
+    ) {
+        let motion = SymplecticGradient(&h);
+        let along = lie_derivative_of_function(&motion, &k, &[q, p].concat()).unwrap();
+        let bracket = poisson_bracket(&k, &h, &q, &p, 0.0).unwrap();
+        assert_close_at_scale("L_h K = {K, H}", &[along], &[bracket], SCALE, Tol::ulps(20.0));
+        // On the extended space the field has the component one along the time.
+        let along = lie_derivative_of_function(&motion, &k, &[&q[..], &p, &[t]].concat()).unwrap();
+        let rate = rate_along(&k, &h, &q, &p, t).unwrap();
+        assert_close_at_scale("L_h K = ∂K/∂t + {K, H}", &[along], &[rate], SCALE, Tol::ulps(20.0));
+    }
 
     #[test]
     fn the_bracket_is_skew_to_the_last_bit(k in any_function(), h in any_function(), (q, p) in any_point()) {
@@ -91,6 +233,26 @@ proptest! {
     }
 
     #[test]
+    fn the_hamiltonian_is_one_function_in_all_coordinates_but_for_their_own_motion(
+        new in prop::array::uniform2(-0.8..0.8_f64),
+        v in prop::array::uniform2(-0.5..0.5_f64),
+        bends in prop::array::uniform4(-0.2..0.2_f64),
+        t in -0.5..0.5_f64,
+    ) {
+        let (old, change) = (Lagrangian::from_function(Relativistic { wobble: 0.5 }), Sheared(bends));
+        let q = change.old_coordinates(&new, t);
+        let p = old.momenta(&q, &v, t).unwrap();
+        // The momenta in the new coordinates, and F = −p·∂c/∂t.
+        let map = PointTransformation::new(change, new);
+        let mut image = [0.0; 4];
+        map.map(&q, p.as_slice(), t, &mut image).unwrap();
+        let excess = map.excess(&q, p.as_slice(), t).unwrap();
+        let seen = Lagrangian::from_function(Relativistic { wobble: 0.5 }).in_coordinates(change);
+        let (here, there) = (old.hamiltonian(&q, p.as_slice(), t).unwrap(), seen.hamiltonian(&image[..2], &image[2..], t).unwrap());
+        assert_close_at_scale("H̄ = H + F", &[there], &[here + excess], 5.0, Tol::ulps(40.0));
+    }
+
+    #[test]
     fn lanes_give_the_brackets_of_each_lane(k in any_function(), h in any_function(), (q, p) in any_point()) {
         let spread = |x: f64| Lanes::<f64, 4>::load(&[x, x + 0.125, x + 0.25, x + 0.375], x);
         let t = Lanes::lit(0.3);
@@ -146,6 +308,26 @@ proptest! {
         };
         let quotient = difference_quotient(|x| vec![along(x[0])], &[0.0], &[1.0]);
         assert_close_at_scale("dK/dt", &quotient, &[rate], SCALE, Tol::stated(1e-7, "a quotient of differences"));
+    }
+}
+
+proptest! {
+    // Four maps a case, through derivatives of derivatives.
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn lie_derivatives_seen_through_maps_are_lie_derivatives_at_the_image(
+        a in any_function(),
+        b in any_function(),
+        f in any_function(),
+        q in prop::array::uniform2(-0.8..0.8_f64),
+        p in prop::array::uniform2(-0.8..0.8_f64),
+        map in any_map(),
+        bends in prop::array::uniform4(-0.2..0.2_f64),
+    ) {
+        let (field, form) = (AnyField(&a, &b), AnyForm(&f, &a));
+        lie_derivatives_are_carried_by(&map, &field, &form, (q, p));
+        lie_derivatives_are_carried_by(&PointTransformation::new(Sheared(bends), q), &field, &form, (q, p));
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use piola_dynamics::DynamicsError;
-use piola_dynamics::hamiltonian::{InvertiblePhaseMap, PhaseFunction, PhaseMap};
+use piola_dynamics::hamiltonian::{InvertiblePhaseMap, PhaseFunction, PhaseMap, VectorField};
 use piola_dynamics::lagrangian::{Holonomic, LagrangianFunction, Placement};
 use piola_numerics::Real;
 use proptest::prelude::*;
@@ -20,6 +20,16 @@ impl PhaseFunction for AnyFunction {
             + c[4] * (T::lit(0.25) * q[0] * q[1]).exp() * p[0]
             + c[5] * p[0] * p[0] * q[1]
             + c[6] * q[0] * (t + p[1]).cos()
+    }
+}
+
+/// Any field of vectors: two functions make its components, which are no gradient.
+pub(crate) struct AnyField<A, B>(pub(crate) A, pub(crate) B);
+
+impl<A: PhaseFunction, B: PhaseFunction> VectorField for AnyField<A, B> {
+    fn components<T: Real>(&self, x: &[T], out: &mut [T]) {
+        let (a, b) = (self.0.value(&x[..2], &x[2..], T::zero()), self.1.value(&x[..2], &x[2..], T::zero()));
+        out.copy_from_slice(&[a, b * x[0], a + b, x[1] * a]);
     }
 }
 
