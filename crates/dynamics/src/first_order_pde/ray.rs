@@ -221,7 +221,8 @@ impl<'a, P: FirstOrderPde> Marcher<'a, P> {
     pub(super) fn polish(&mut self, start: &[f64], point: &mut CausticPoint) -> Result<(), DynamicsError> {
         const STEPS: usize = 3;
         let m = self.variables;
-        for _ in 0..STEPS {
+        // The state is that of the last s.
+        for left in (0..=STEPS).rev() {
             let y = self.state_at(start, point.s)?;
             point.x.copy_from_slice(&y[..m]);
             point.u = y[m];
@@ -230,7 +231,7 @@ impl<'a, P: FirstOrderPde> Marcher<'a, P> {
             }
             let determinant = self.field.determinant_and_slope(&y);
             let step = -determinant.value / determinant.tangent;
-            if point.touching || !step.is_finite() || step.abs() <= 4.0 * f64::EPSILON * point.s.abs() {
+            if left == 0 || point.touching || !step.is_finite() || step.abs() <= 4.0 * f64::EPSILON * point.s.abs() {
                 break;
             }
             point.s += step;

@@ -3,14 +3,18 @@
 use nalgebra::Vector3;
 use piola_dynamics::DynamicsError;
 use piola_dynamics::first_order_pde::{
-    CauchyProblem, FirstOrderPde, Front, InitialManifold, MongeCone, Overlap, ParameterInterval, RayField, RayPoint,
-    Refinement, StripKind,
+    CauchyProblem, Classification, Covector, DegeneratePoint, FirstOrderPde, Front, InitialManifold, MongeCone,
+    Overlap, ParameterInterval, RayField, RayPoint, Refinement, StripKind,
 };
 use piola_integrators::{Field, Tolerance};
+use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, difference_quotient};
 use proptest::prelude::*;
 
-use super::systems::{Bent, Eikonal, Ellipsoid, Hill, Multiplied, Parabola, Relabelled, Reparametrised, Turned, Wave};
+use super::systems::{
+    Bent, ByPolar, Eikonal, Ellipsoid, Hill, Multiplied, Parabola, PolarEikonal, Relabelled, Reparametrised, Turned,
+    Wave,
+};
 
 fn integrated() -> Tol {
     Tol::stated(1e-11, "a few dozen steps of local error 1e-13")
@@ -18,6 +22,42 @@ fn integrated() -> Tol {
 
 fn ray<P: FirstOrderPde, M: InitialManifold>(equation: &P, manifold: &M, tau: f64, s: f64) -> RayPoint {
     CauchyProblem::new(equation, manifold, 2).unwrap().characteristic(&[tau], s).unwrap()
+}
+
+/// A manifold about the axis x² = 0 turned, and moved away from the place where polar coordinates end.
+fn away<M>(inner: M, angle: f64) -> Turned<M> {
+    Turned { inner, angle, shift: [0.0, -1.2] }
+}
+
+/// Data of the eikonal equation on curves that its rays may touch, with ξ along the curve as a guess.
+#[derive(Clone, Copy, Debug)]
+enum Touched {
+    /// u = a τ on the line x² = 0.
+    Straight(f64),
+    /// u = sin τ on the line x² = 0.
+    Sine,
+    /// u = τ on a circle of the radius one.
+    Arc,
+}
+
+impl InitialManifold for Touched {
+    const COVECTOR: Covector = Covector::Guessed;
+    fn place<T: Real>(&self, tau: &[T], x: &mut [T]) -> T {
+        (x[0], x[1]) = (tau[0], T::zero());
+        match *self {
+            Self::Straight(a) => T::lit(a) * tau[0],
+            Self::Sine => tau[0].sin(),
+            Self::Arc => {
+                (x[0], x[1]) = (tau[0].sin(), T::one() - tau[0].cos());
+                tau[0]
+            }
+        }
+    }
+    fn covector<T: Real>(&self, tau: &[T], xi: &mut [T]) {
+        let (s, c) = if matches!(self, Self::Arc) { tau[0].sin_cos() } else { (T::zero(), T::one()) };
+        // A little to the left of the curve.
+        (xi[0], xi[1]) = (c - T::lit(0.3) * s, s + T::lit(0.3) * c);
+    }
 }
 
 proptest! {
@@ -54,6 +94,20 @@ proptest! {
         assert_close_at_scale("u", &[there.u], &[here.u], 1.0, integrated());
         assert_close_at_scale("x", &[there.x[1], there.x[0]], &here.x, 1.0, integrated());
         assert_close_at_scale("D", &[-there.determinant], &[here.determinant], 1.0, integrated());
+    }
+
+    #[test]
+    fn polar_coordinates_leave_the_solution(tau in -2.0..2.0_f64, s in -0.4..1.5_f64, angle in -3.0..3.0_f64) {
+        let wave = || away(Wave, angle);
+        let (here, there) = (ray(&Eikonal, &wave(), tau, s), ray(&PolarEikonal, &ByPolar(wave()), tau, s));
+        assert_close_at_scale("u, s", &[there.u, there.s], &[here.u, s], 1.0, integrated());
+        let (radius, (sin, cos)) = (there.x[0], there.x[1].sin_cos());
+        assert_close_at_scale("x", &[radius * cos, radius * sin], &here.x, 3.0, integrated());
+        let across = there.xi[1] / radius;
+        let xi = [there.xi[0] * cos - across * sin, there.xi[0] * sin + across * cos];
+        assert_close_at_scale("ξ", &xi, &here.xi, 1.0, integrated());
+        // dx¹ dx² = r dr dφ.
+        assert_close_at_scale("D", &[there.determinant * radius], &[here.determinant], 2.0, integrated());
     }
 
     /// W(A.40): the completed ξ is that of a strip, and its derivatives are those of the completion.
@@ -122,6 +176,58 @@ fn solution_does_not_depend_on_parameters() {
         for sheet in [renamed.at(&point.x).unwrap(), multiplied.at(&point.x).unwrap()] {
             assert_close_at_scale("u", &[sheet.point.u], &[point.u], 1.0, integrated());
             assert_close_at_scale("ξ", &sheet.point.xi, &point.xi, 1.0, integrated());
+        }
+    }
+}
+
+/// Where waves first meet their neighbours is a place, whatever coordinates it has.
+#[test]
+fn polar_coordinates_leave_the_first_loss_of_invertibility() {
+    // Away from the cut of the angle.
+    for angle in [0.0, 0.7] {
+        let (wave, by_polar) = (away(Wave, angle), ByPolar(away(Wave, angle)));
+        let cartesian = CauchyProblem::new(&Eikonal, &wave, 2).unwrap();
+        let polar = CauchyProblem::new(&PolarEikonal, &by_polar, 2).unwrap();
+        let here = cartesian.solve(&WAVE, (0.0, 6.0), Refinement::to(3e-2)).unwrap();
+        let there = polar.solve(&WAVE, (0.0, 6.0), Refinement::to(3e-2)).unwrap();
+        let here = here.first_loss_of_invertibility().unwrap().unwrap();
+        let there = there.first_loss_of_invertibility().unwrap().unwrap();
+        assert_close("s", &[there.point.s], &[here.point.s], integrated());
+        assert_eq!((there.at_edge, there.point.touching), (here.at_edge, here.point.touching));
+        // s* is flat where it is least, and τ, u and x are known to the root of the tolerance.
+        let found = Tol::stated(1e-6, "the root of the tolerance");
+        assert_close_at_scale("τ", &there.point.parameters, &here.point.parameters, 1.0, found);
+        assert_close_at_scale("u", &[there.point.u], &[here.point.u], 1.0, found);
+        let (sin, cos) = there.point.x[1].sin_cos();
+        let place = [there.point.x[0] * cos, there.point.x[0] * sin];
+        assert_close_at_scale("x", &place, &here.point.x, 1.0, found);
+    }
+}
+
+/// Whether there is one solution, none or infinitely many does not depend on coordinates; angles between directions do.
+#[test]
+fn polar_coordinates_leave_the_classification() {
+    let interval = [ParameterInterval { from: -0.7, to: 1.1, parts: 9 }];
+    let cases = [
+        (Touched::Straight(0.5), "Unique"),
+        (Touched::Straight(1.0), "InfinitelyMany"),
+        (Touched::Arc, "None"),
+        (Touched::Straight(1.5), "NoCovector"),
+        (Touched::Sine, "Partial"),
+    ];
+    for ((data, name), angle) in cases.into_iter().flat_map(|case| [(case, 0.0), (case, 0.7), (case, -2.0)]) {
+        let (manifold, by_polar) = (away(data, angle), ByPolar(away(data, angle)));
+        let here = CauchyProblem::new(&Eikonal, &manifold, 2).unwrap().classify(&interval).unwrap();
+        let there = CauchyProblem::new(&PolarEikonal, &by_polar, 2).unwrap().classify(&interval).unwrap();
+        for class in [&here, &there] {
+            assert!(format!("{class:?}").starts_with(name), "{data:?} turned by {angle}: {class:?}");
+        }
+        if let (Classification::Partial { points: here }, Classification::Partial { points: there }) = (&here, &there) {
+            // There ξ has no derivative, so that what the strip is at this very point is not told.
+            let places =
+                |points: &[DegeneratePoint]| -> Vec<f64> { points.iter().map(|point| point.parameters[0]).collect() };
+            let (here, there) = (places(here), places(there));
+            assert_close_at_scale("τ", &there, &here, 1.0, Tol::stated(1e-5, "a ray that grazes: a double root of Φ"));
         }
     }
 }

@@ -11,6 +11,33 @@ impl FirstOrderPde for Eikonal {
     }
 }
 
+/// (ξ₁² + ξ₂²/r² − 1)/2 = 0: the same in polar coordinates x = (r, φ).
+pub(crate) struct PolarEikonal;
+impl FirstOrderPde for PolarEikonal {
+    fn value<T: Real>(&self, x: &[T], _u: T, xi: &[T]) -> T {
+        let across = xi[1] / x[0];
+        T::lit(0.5) * (xi[0] * xi[0] + across * across - T::one())
+    }
+}
+
+/// A manifold in polar coordinates, with ξ along r and across it: (x·ξ)/r and x¹ξ₂ − x²ξ₁.
+pub(crate) struct ByPolar<M>(pub(crate) M);
+impl<M: InitialManifold> InitialManifold for ByPolar<M> {
+    const COVECTOR: Covector = M::COVECTOR;
+    fn place<T: Real>(&self, tau: &[T], x: &mut [T]) -> T {
+        let u = self.0.place(tau, x);
+        (x[0], x[1]) = ((x[0] * x[0] + x[1] * x[1]).sqrt(), x[1].atan2(x[0]));
+        u
+    }
+    fn covector<T: Real>(&self, tau: &[T], xi: &mut [T]) {
+        let mut x = [T::zero(); 2];
+        self.0.place(tau, &mut x);
+        self.0.covector(tau, xi);
+        let radius = (x[0] * x[0] + x[1] * x[1]).sqrt();
+        (xi[0], xi[1]) = ((x[0] * xi[0] + x[1] * xi[1]) / radius, x[0] * xi[1] - x[1] * xi[0]);
+    }
+}
+
 /// ξ₁ ξ₂ − u = 0.
 pub(crate) struct Product;
 impl FirstOrderPde for Product {
