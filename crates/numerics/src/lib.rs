@@ -29,6 +29,7 @@ mod lanewise;
 pub mod linear;
 #[cfg(feature = "num-dual")]
 mod num_dual;
+mod prefetch;
 mod real;
 pub mod sums;
 
@@ -39,6 +40,7 @@ pub use gradient::Gradient;
 pub use jet::Jet;
 pub use lanes::{Element, LaneMask, Lanes};
 pub use lanewise::Lanewise;
+pub use prefetch::prefetch;
 pub use real::{Mask, Real};
 
 #[cfg(doctest)]

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::sums::unit_in_last_place;
-use piola_numerics::{Element, Lanes, Real};
+use piola_numerics::{Element, Lanes, Real, prefetch};
 
 use super::records::gather;
 use super::{AllEntries, BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
@@ -212,6 +212,9 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for Strided<&[T], K> {
     }
 }
 
+/// So many blocks ahead memory is asked for.
+const AHEAD: usize = 4;
+
 impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBlocks<&[[[T; B]; K]]> {
     const IN_LANES: bool = true;
     #[inline(always)]
@@ -237,6 +240,7 @@ impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBloc
             return lanes;
         }
         if N <= B {
+            prefetch(self.blocks, first / B + AHEAD);
             let block = &self.blocks[first / B];
             let mut k = 0;
             while k < K {

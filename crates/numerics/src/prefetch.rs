@@ -1,0 +1,40 @@
+//! Asking for memory before it is needed.
+
+/// Bytes of a line of the cache.
+#[cfg(target_arch = "x86_64")]
+const LINE: usize = 64;
+
+/// Asks for the element of an index to be brought near the processor, all lines of it; nothing where there is none, or
+/// where the machine has no such instruction.
+///
+/// Processors guess what will be read next. A long computation that reads the lines of an element in an order of its
+/// own leaves them guessing wrong.
+///
+/// # Example
+/// ```
+/// let blocks = [[1.0_f64; 72]; 3];
+/// let mut sum = 0.0;
+/// for i in 0..blocks.len() {
+///     piola_numerics::prefetch(&blocks, i + 1);
+///     sum += blocks[i].iter().sum::<f64>();
+/// }
+/// assert_eq!(sum, 216.0);
+/// ```
+#[inline(always)]
+pub fn prefetch<T>(elements: &[T], index: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(element) = elements.get(index) {
+        let address = core::ptr::from_ref(element).cast::<i8>();
+        let mut offset = 0;
+        while offset < size_of::<T>() {
+            #[expect(unsafe_code, reason = "the address lies in the element; every x86-64 has the instruction")]
+            // SAFETY: the offset is less than the size of the element that is borrowed.
+            unsafe {
+                core::arch::x86_64::_mm_prefetch::<{ core::arch::x86_64::_MM_HINT_T0 }>(address.add(offset));
+            }
+            offset += LINE;
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (elements, index);
+}
