@@ -239,14 +239,14 @@ impl InitialFront<2, 1> for Wall {
     }
 }
 
-/// (r, φ, p_r, p_φ) of Cartesian coordinates and momenta.
+/// `(r, φ, p_r, p_φ)` of Cartesian coordinates and momenta.
 fn to_polar(q: &[f64], p: &[f64]) -> [f64; 4] {
     let mut polar = [0.0; 4];
     PolarCoordinates.map(q, p, 0.0, &mut polar).unwrap();
     polar
 }
 
-/// (x, y, p_x, p_y) of polar coordinates and momenta, whichever turn φ has come to.
+/// `(x, y, p_x, p_y)` of polar coordinates and momenta, whichever turn φ has come to.
 fn from_polar(q: &[f64], p: &[f64]) -> [f64; 4] {
     let mut cartesian = [0.0; 4];
     PolarCoordinates.invert(q, p, 0.0, &mut cartesian).unwrap();
