@@ -31,6 +31,7 @@ use crate::parameters::parameters;
 /// ```
 /// use piola_constitutive::solids::volumetric::Volumetric;
 /// use piola_numerics::Real;
+/// #[derive(Clone)]
 /// struct Mine(f64);
 /// impl Volumetric for Mine {
 ///     fn energy<T: Real>(&self, change: T, _jacobian: T) -> T {

@@ -60,6 +60,7 @@ pub(crate) use yeoh::yeoh;
 /// use piola_constitutive::solids::{Compressible, Hyperelastic, volumetric::Quadratic};
 /// use piola_continuum::DeformationGradient;
 /// use piola_numerics::Real;
+/// #[derive(Clone)]
 /// struct Mine(f64);
 /// impl Isochoric for Mine {
 ///     const SECOND: bool = false;
