@@ -64,6 +64,19 @@ fn single(group: &mut Group<'_>) -> Result<(), Box<dyn Error>> {
     group.bench_function("cauchy_to_first_piola/1", |b| b.iter(|| black_box(&stress).first_piola(black_box(&f))));
     group.bench_function("first_piola_to_cauchy/1", |b| b.iter(|| black_box(&first_piola).cauchy(black_box(&f))));
     group.bench_function("push_forward_tangent/1", |b| b.iter(|| black_box(&tangent).lie(black_box(&f))));
+    for (name, bytes) in [
+        ("right_cauchy_green", 120),
+        ("green_strain", 120),
+        ("right_stretch", 120),
+        ("rotation", 144),
+        ("hencky", 120),
+        ("polar_hencky", 240),
+        ("cauchy_to_first_piola", 192),
+        ("first_piola_to_cauchy", 192),
+        ("push_forward_tangent", 408),
+    ] {
+        copy(group, name, ("1", 1), bytes);
+    }
     Ok(())
 }
 
