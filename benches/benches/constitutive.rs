@@ -11,10 +11,10 @@
 //! | `…_arrays`, `…_matrices` | structures of arrays, and arrays of matrices, in and out instead |
 //! | `mooney_rivlin_without_tangent` | the same law with its energy and P alone: what P costs where there is no tangent |
 //! | `printed_mooney_rivlin` | the printed formula in the same lanes, which loses the digits that cancel |
-//! | `nalgebra_mooney_rivlin` | the printed formula in nalgebra |
+//! | `nalgebra_<law>` | the same law from a textbook, in nalgebra: see [`naive`]; batches keep ∂P/∂F of the last 1000 points |
 //! | `copy/<quantity>` | as many bytes copied as the quantity reads and writes |
 //!
-//! Before they are timed, formulas of nalgebra and ours must agree.
+//! Before they are timed, formulas of nalgebra and ours must agree, see [`naive::AGREEMENT`]. Each stands right after ours.
 //!
 //! `error` is the largest relative error near the identity of one call, to whose last digits batches keep: see
 //! [`laws::errors_near_identity`].
@@ -27,6 +27,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput};
 use nalgebra::Matrix3;
 use piola_benches::constitutive::laws::{self, Visit};
+use piola_benches::constitutive::naive::{self, Naive, Tangent, Textbook};
 use piola_benches::constitutive::{Printed, WithoutTangent};
 use piola_benches::continuum::methods::NALGEBRA;
 use piola_benches::continuum::ordinary_deformations;
@@ -60,8 +61,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     laws::each_incompressible(&mut Single { group: &mut group, f: laws::unimodular(&f)?, notes: &mut notes })?;
     from_a_free_face(&mut group)?;
     thin_bodies(&mut group, &f)?;
-    agreement(&rubber, &printed, &f);
-    printed_at_a_point(&mut group, &printed);
     notes_of_printed(&mut notes, &printed)?;
     for size in BATCHES {
         group.throughput(Throughput::Elements(size.1 as u64));
@@ -75,7 +74,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         laws::each_incompressible(&mut Batch { group: &mut group, size, memory: &mut memory })?;
         drop(memory);
         other_layouts(&mut group, size, &rubber)?;
-        matrices(&mut group, size, &rubber, &printed);
+        matrices(&mut group, size, &rubber);
     }
     group.finish();
     criterion.final_summary();
@@ -91,7 +90,7 @@ struct Single<'a, 'b> {
 }
 
 impl Visit for Single<'_, '_> {
-    fn law<L: Hyperelastic + Sync>(
+    fn law<L: Hyperelastic + Textbook + Sync>(
         &mut self,
         name: &'static str,
         model: Option<&'static str>,
@@ -114,16 +113,60 @@ impl Visit for Single<'_, '_> {
                 self.notes.error(&format!("{name}/{quantity}/{size}"), error);
             }
         }
+        self.textbook(name, model, law)
+    }
+}
+
+impl Single<'_, '_> {
+    /// The same law from a textbook.
+    fn textbook<L: Hyperelastic + Textbook>(
+        &mut self,
+        name: &str,
+        model: Option<&str>,
+        law: &L,
+    ) -> Result<(), Box<dyn Error>> {
+        let (theirs, f) = (law.textbook(), self.f.matrix());
+        naive::agree(name, law, &theirs, &self.f)?;
+        let name = format!("nalgebra_{name}");
+        self.group.bench_function(format!("{name}/first_piola/1"), |b| {
+            b.iter(|| black_box(&theirs).first_piola(black_box(f)));
+        });
+        self.group.bench_function(format!("{name}/first_piola_tangent/1"), |b| {
+            b.iter(|| black_box(&theirs).first_piola_tangent(black_box(f)));
+        });
+        self.group.bench_function(format!("{name}/first_piola_and_tangent/1"), |b| {
+            b.iter(|| black_box(&theirs).first_piola_and_tangent(black_box(f)));
+        });
+        let [stress, tangent] = laws::textbook_errors_near_identity(model, law, &theirs)?;
+        let both = stress.max(tangent);
+        let all: [(&str, f64, &[&str]); 3] = [
+            ("first_piola", stress, &["1", "1k", "1M"]),
+            ("first_piola_tangent", tangent, &["1"]),
+            ("first_piola_and_tangent", both, &["1", "1k", "1M"]),
+        ];
+        for (quantity, error, sizes) in all {
+            for size in sizes {
+                self.notes.error(&format!("{name}/{quantity}/{size}"), error);
+                self.notes.peer(&format!("{name}/{quantity}/{size}"), NALGEBRA);
+            }
+        }
         Ok(())
     }
 }
 
-/// So many deformations in blocks, and room for P and ∂P/∂F.
+/// So many deformations in blocks and one by one, and room for P and ∂P/∂F.
 struct Memory {
     gradients: Blocks<9>,
     stresses: Blocks<9>,
     tangents: Blocks<45>,
+    matrices: Vec<Matrix3<f64>>,
+    answers: Vec<Matrix3<f64>>,
+    /// 81 entries a point: room for [`KEPT`] of them, used in turn.
+    whole: Vec<Tangent>,
 }
+
+/// Points whose ∂P/∂F from a textbook is kept.
+const KEPT: usize = 1000;
 
 impl Memory {
     fn of(
@@ -137,6 +180,9 @@ impl Memory {
             gradients: (0..blocks).map(|b| core::array::from_fn(|k| component(b, k))).collect(),
             stresses: vec![[[0.0; BLOCK]; 9]; blocks],
             tangents: vec![[[0.0; BLOCK]; 45]; blocks],
+            matrices: f.iter().take(count).map(|f| *f.matrix()).collect(),
+            answers: vec![Matrix3::zeros(); count],
+            whole: vec![Tangent::zeros(); KEPT],
         })
     }
 }
@@ -149,14 +195,14 @@ struct Batch<'a, 'b> {
 }
 
 impl Visit for Batch<'_, '_> {
-    fn law<L: Hyperelastic + Sync>(
+    fn law<L: Hyperelastic + Textbook + Sync>(
         &mut self,
         name: &'static str,
         _model: Option<&'static str>,
         law: &L,
     ) -> Result<(), Box<dyn Error>> {
         first_piola(self.group, name, self.size, law, self.memory)?;
-        let Self { group, size: (batch, count), memory: Memory { gradients, stresses, tangents } } = self;
+        let Self { group, size: (batch, count), memory: Memory { gradients, stresses, tangents, .. } } = self;
         let input = Gradients(LaneBlocks::new(gradients, *count)?);
         group.bench_function(format!("{name}/first_piola_and_tangent/{batch}"), |b| {
             b.iter(|| {
@@ -164,7 +210,31 @@ impl Visit for Batch<'_, '_> {
                 batch::evaluate(black_box(input), batch::first_piola_and_tangent(law, p, a)).map(|report| report.points)
             });
         });
+        self.textbook(name, &law.textbook());
         Ok(())
+    }
+}
+
+impl Batch<'_, '_> {
+    /// The same law from a textbook, point by point.
+    fn textbook(&mut self, name: &str, law: &impl Naive) {
+        let Self { group, size: (batch, _), memory: Memory { matrices, answers, whole, .. } } = self;
+        group.bench_function(format!("nalgebra_{name}/first_piola/{batch}"), |b| {
+            b.iter(|| {
+                for (f, p) in black_box(&matrices[..]).iter().zip(answers.iter_mut()) {
+                    *p = law.first_piola(f);
+                }
+            });
+        });
+        group.bench_function(format!("nalgebra_{name}/first_piola_and_tangent/{batch}"), |b| {
+            b.iter(|| {
+                for (f, p) in black_box(&matrices[..]).chunks(KEPT).zip(answers.chunks_mut(KEPT)) {
+                    for ((f, p), a) in f.iter().zip(p).zip(black_box(&mut whole[..])) {
+                        (*p, *a) = law.first_piola_and_tangent(f);
+                    }
+                }
+            });
+        });
     }
 }
 
@@ -196,7 +266,7 @@ fn rubber_alone(
     first_piola(group, "mooney_rivlin_without_tangent", size, &WithoutTangent(*rubber), memory)?;
     first_piola(group, "printed_mooney_rivlin", size, printed, memory)?;
     let (batch, count) = size;
-    let Memory { gradients, stresses, tangents } = memory;
+    let Memory { gradients, stresses, tangents, .. } = memory;
     let directions = vec![core::array::from_fn(|k| [0.1 + 0.1 * k as f64; BLOCK]); gradients.len()];
     let input = Gradients(LaneBlocks::new(gradients, count)?);
     group.bench_function(format!("mooney_rivlin/first_piola_tangent/{batch}"), |b| {
@@ -244,20 +314,11 @@ fn other_layouts(
 }
 
 /// Arrays of matrices.
-fn matrices(group: &mut Group<'_>, (batch, count): (&str, usize), rubber: &MooneyRivlin, printed: &Printed) {
+fn matrices(group: &mut Group<'_>, (batch, count): (&str, usize), rubber: &MooneyRivlin) {
     let f = ordinary_deformations(count);
     let mut p = vec![FirstPiola(Matrix3::zeros()); count];
     group.bench_function(format!("mooney_rivlin/first_piola_matrices/{batch}"), |b| {
         b.iter(|| batch::evaluate(black_box(&f[..]), batch::first_piola(rubber, &mut p[..])).map(|r| r.points));
-    });
-    drop(p);
-    let mut p = vec![Matrix3::zeros(); count];
-    group.bench_function(format!("nalgebra_mooney_rivlin/first_piola/{batch}"), |b| {
-        b.iter(|| {
-            for (f, p) in black_box(&f[..]).iter().zip(&mut p) {
-                *p = printed.first_piola(f.matrix());
-            }
-        });
     });
     drop(p);
     let mut a = vec![[0.0; 45]; count];
@@ -294,44 +355,15 @@ fn thin_bodies(group: &mut Group<'_>, f: &DeformationGradient) -> Result<(), Box
     Ok(())
 }
 
-/// Whether the formulas that are compared are the same.
-///
-/// # Panics
-/// They are not.
-fn agreement(rubber: &MooneyRivlin, printed: &Printed, f: &DeformationGradient) {
-    let stress = relative_error(printed.first_piola(f.matrix()).as_slice(), rubber.first_piola(f).0.as_slice());
-    let tangent = rubber.first_piola_tangent(f).0.components;
-    let tangent = relative_error(printed.first_piola_tangent(f.matrix()).as_slice(), tangent.as_flattened());
-    assert!(stress < AGREEMENT && tangent < AGREEMENT, "P differs by {stress:e}, ∂P/∂F by {tangent:e}");
-}
-
-/// How far answers of the same formula at an ordinary deformation may be from each other.
-const AGREEMENT: f64 = 1e-12;
-
-/// One call of the printed formula in nalgebra.
-fn printed_at_a_point(group: &mut Group<'_>, printed: &Printed) {
-    let matrix = *ordinary_deformations(8)[7].matrix();
-    group.bench_function("nalgebra_mooney_rivlin/first_piola/1", |b| {
-        b.iter(|| black_box(printed).first_piola(black_box(&matrix)));
-    });
-    group.bench_function("nalgebra_mooney_rivlin/first_piola_tangent/1", |b| {
-        b.iter(|| black_box(printed).first_piola_tangent(black_box(&matrix)));
-    });
-}
-
 /// The errors of the printed formula near the identity, and of the law that has no tangent.
 fn notes_of_printed(notes: &mut Notes, printed: &Printed) -> Result<(), Box<dyn Error>> {
     let model = "mooney_rivlin_compressible";
     let mut largest = 0.0_f64;
     for case in laws::near_identity(model)? {
-        let stress = printed.first_piola(case.gradient.matrix()).transpose();
+        let stress = printed.first_piola(&case.gradient).0.transpose();
         largest = largest.max(relative_error(stress.as_slice(), &case.stress));
     }
     let [ours, tangent] = laws::errors_near_identity(Some(model), &laws::mooney_rivlin()?)?;
-    for size in ["1", "1k", "1M"] {
-        notes.error(&format!("nalgebra_mooney_rivlin/first_piola/{size}"), largest);
-        notes.peer(&format!("nalgebra_mooney_rivlin/first_piola/{size}"), NALGEBRA);
-    }
     for size in ["1k", "1M"] {
         notes.error(&format!("printed_mooney_rivlin/first_piola/{size}"), largest);
         for name in [
@@ -345,6 +377,5 @@ fn notes_of_printed(notes: &mut Notes, printed: &Printed) -> Result<(), Box<dyn 
             notes.error(&format!("{name}/{size}"), tangent);
         }
     }
-    notes.peer("nalgebra_mooney_rivlin/first_piola_tangent/1", NALGEBRA);
     Ok(())
 }

@@ -8,7 +8,7 @@
 //! | [`golden_systems`] | the systems of the reference data, hand-coded |
 //! | [`stability`] | rounding at inputs made to spoil the result |
 //! | [`work_precision`] | error against time for many methods and parameters, measured in turn |
-//! | [`constitutive`] | a law by its printed formula, in nalgebra and in lanes |
+//! | [`constitutive`] | laws by the formulas of textbooks, in nalgebra and in lanes |
 //! | [`continuum`] | decompositions of deformations, ours and by other means |
 //! | [`viscometry`] | flows that shear a fluid: ours, plain quadrature, closed forms |
 //! | [`figure`] | such a table as a figure |

@@ -15,13 +15,15 @@ use piola_continuum::{Deformation, DeformationGradient, FirstPiola};
 use piola_numerics::Real;
 use piola_testkit::{DoubleDouble, golden, relative_error};
 
+use super::naive::{Naive, Textbook};
+
 /// Something done with every law.
 pub trait Visit {
     /// Called with each law, its name, and its name in the reference data where it is there.
     ///
     /// # Errors
     /// Its own.
-    fn law<L: Hyperelastic + Sync>(
+    fn law<L: Hyperelastic + Textbook + Sync>(
         &mut self,
         name: &'static str,
         model: Option<&'static str>,
@@ -152,6 +154,20 @@ pub fn near_identity(model: &str) -> Result<Vec<Case>, Box<dyn Error>> {
     .collect()
 }
 
+/// The cases near the identity with P and ∂P/∂F of the reference data, or of 31 digits of the same law.
+fn truths<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<Vec<Case>, Box<dyn Error>> {
+    let mut cases = near_identity(model.unwrap_or("mooney_rivlin_compressible"))?;
+    if model.is_none() {
+        for case in &mut cases {
+            let precise = case.gradient.lifted(|_, _, x| DoubleDouble::lit(x));
+            let tangent = law.first_piola_tangent(&precise).0.components;
+            case.stress = by_rows(&law.first_piola(&precise)).iter().map(|x| x.primal(0)).collect();
+            case.tangent = tangent.as_flattened().iter().map(|x| x.primal(0)).collect();
+        }
+    }
+    Ok(cases)
+}
+
 /// The largest relative errors of P and of ∂P/∂F near the identity: to the reference data, or to 31 digits of the same
 /// law.
 ///
@@ -159,21 +175,31 @@ pub fn near_identity(model: &str) -> Result<Vec<Case>, Box<dyn Error>> {
 /// As [`near_identity`].
 pub fn errors_near_identity<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<[f64; 2], Box<dyn Error>> {
     let mut largest = [0.0_f64; 2];
-    for case in near_identity(model.unwrap_or("mooney_rivlin_compressible"))? {
-        let f = case.gradient;
-        let (stress, tangent) = if model.is_some() {
-            (case.stress, case.tangent)
-        } else {
-            let precise = f.lifted(|_, _, x| DoubleDouble::lit(x));
-            let tangent = law.first_piola_tangent(&precise).0.components;
-            (
-                by_rows(&law.first_piola(&precise)).iter().map(|x| x.primal(0)).collect(),
-                tangent.as_flattened().iter().map(|x| x.primal(0)).collect(),
-            )
-        };
+    for Case { gradient: f, stress, tangent } in truths(model, law)? {
         let found = law.first_piola_tangent(&f).0.components;
         let errors =
             [relative_error(&by_rows(&law.first_piola(&f)), &stress), relative_error(found.as_flattened(), &tangent)];
+        largest = [largest[0].max(errors[0]), largest[1].max(errors[1])];
+    }
+    Ok(largest)
+}
+
+/// The same of the law's formula from a textbook.
+///
+/// # Errors
+/// As [`near_identity`].
+pub fn textbook_errors_near_identity<L: Hyperelastic>(
+    model: Option<&str>,
+    law: &L,
+    naive: &impl Naive,
+) -> Result<[f64; 2], Box<dyn Error>> {
+    let mut largest = [0.0_f64; 2];
+    for Case { gradient, stress, tangent } in truths(model, law)? {
+        let f = gradient.matrix();
+        let errors = [
+            relative_error(naive.first_piola(f).transpose().as_slice(), &stress),
+            relative_error(naive.first_piola_tangent(f).transpose().as_slice(), &tangent),
+        ];
         largest = [largest[0].max(errors[0]), largest[1].max(errors[1])];
     }
     Ok(largest)

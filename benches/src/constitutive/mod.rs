@@ -1,5 +1,5 @@
-//! The laws that are measured, and the Mooney–Rivlin solid by other means: its printed formula in nalgebra's matrices and
-//! in lanes, and without a tangent.
+//! The laws that are measured, each with its textbook's formula in [`naive`]; and the Mooney–Rivlin solid by other means: its
+//! printed formula in lanes, and without a tangent.
 //!
 //! ```text
 //! P = 2 C₁₀ F + 2 C₀₁ F (I₁ 1 − C) + (2 c J² − d) F⁻ᵀ
@@ -8,8 +8,8 @@
 
 pub mod floor;
 pub mod laws;
+pub mod naive;
 
-use nalgebra::{Matrix3, SMatrix};
 use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
 use piola_continuum::tensor::rows::{Rows, cofactor, product, scaled, sum, transposed_product};
 use piola_continuum::{Deformation, FirstPiola};
@@ -27,42 +27,6 @@ pub struct Printed {
     pub c: f64,
     /// d.
     pub d: f64,
-}
-
-impl Printed {
-    /// P as one writes it in nalgebra.
-    #[inline]
-    #[must_use]
-    pub fn first_piola(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
-        let right = f.transpose() * f;
-        let j = f.determinant();
-        let inverse = f.try_inverse().unwrap_or_else(|| Matrix3::repeat(f64::NAN));
-        f * (2.0 * self.c10)
-            + f * (Matrix3::identity() * right.trace() - right) * (2.0 * self.c01)
-            + inverse.transpose() * (2.0 * self.c * j * j - self.d)
-    }
-
-    /// ∂P/∂F as one writes it in nalgebra, entry by entry.
-    #[inline]
-    #[must_use]
-    pub fn first_piola_tangent(&self, f: &Matrix3<f64>) -> SMatrix<f64, 9, 9> {
-        let (right, left) = (f.transpose() * f, f * f.transpose());
-        let j = f.determinant();
-        let inverse = f.try_inverse().unwrap_or_else(|| Matrix3::repeat(f64::NAN));
-        let (trace, one) = (right.trace(), Matrix3::<f64>::identity());
-        SMatrix::from_fn(|r, s| {
-            let (i, p, k, q) = (r / 3, r % 3, s / 3, s % 3);
-            2.0 * self.c10 * one[(i, k)] * one[(p, q)]
-                + 2.0
-                    * self.c01
-                    * (trace * one[(i, k)] * one[(p, q)] + 2.0 * f[(i, p)] * f[(k, q)]
-                        - one[(i, k)] * right[(p, q)]
-                        - f[(i, q)] * f[(k, p)]
-                        - left[(i, k)] * one[(p, q)])
-                + 4.0 * self.c * j * j * inverse[(p, i)] * inverse[(q, k)]
-                - (2.0 * self.c * j * j - self.d) * inverse[(p, k)] * inverse[(q, i)]
-        })
-    }
 }
 
 /// The printed formula in lanes.
