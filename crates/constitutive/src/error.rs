@@ -40,6 +40,12 @@ pub enum ConstitutiveError {
         /// What it must be below.
         limit: f64,
     },
+    /// The law has no limit here, but its answer is beyond the range of the scalar.
+    #[error("the answer `{answer}` is beyond the range of the scalar; valid are deformations at which it is finite")]
+    Overflow {
+        /// What was asked for.
+        answer: &'static str,
+    },
     /// No state was found in which everything prescribed holds.
     #[error(
         "equilibrium not reached after {iterations} iterations: at {share} of the load, F = {gradient:?}, \
@@ -166,6 +172,17 @@ pub enum ConstitutiveError {
         /// The number of terms.
         value: usize,
     },
+    /// Nothing is deformed in any test, where every law has the same stress.
+    #[error(
+        "test `{test}`: all its stretches are {value}, at which nothing is deformed, and no other test has one that is not: \
+         the data say nothing of the parameters"
+    )]
+    NothingDeformed {
+        /// The first test.
+        test: String,
+        /// Its first stretch: 1, or 0 for an amount of shear.
+        value: f64,
+    },
     /// A model has more parameters than there are points.
     #[error("{model}: {points} measured points cannot determine {parameters} parameters")]
     TooFewPoints {
@@ -259,6 +276,19 @@ pub enum ConstitutiveError {
         index: usize,
         /// Its value less the one that follows from the others.
         residual: f64,
+    },
+    /// Displacements that are prescribed violate a constraint, whatever the free components do.
+    #[error(
+        "what is prescribed contradicts constraint {index}: it is {value:e} at F = {gradient:?}, where no free component \
+         changes it; valid: 0"
+    )]
+    ContradictedConstraint {
+        /// The constraint, from 0.
+        index: usize,
+        /// Its value, or what of it no free component can change.
+        value: f64,
+        /// F with what is prescribed, by rows.
+        gradient: [[f64; 3]; 3],
     },
     /// The deformation violates a constraint.
     #[error("the deformation violates constraint {index}: {value:e} is not zero to {tolerance:e}")]

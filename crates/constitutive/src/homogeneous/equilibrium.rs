@@ -6,7 +6,7 @@ use super::newton::{Load, Point, Problem};
 use super::{Control, Controls};
 use crate::ConstitutiveError;
 use crate::error::check_bound;
-use crate::internal_constraints::{Combination, Constraints, Incompressibility, rank_of_columns};
+use crate::internal_constraints::{Combination, Constraints, Incompressibility, outside_of_columns, rank_of_columns};
 use crate::solids::Hyperelastic;
 
 /// A homogeneous state in which everything prescribed holds.
@@ -40,6 +40,11 @@ pub struct ConstrainedState<const N: usize> {
     pub reaction: CauchyStress,
 }
 
+/// Values of constraints beyond this share of their slopes contradict what is prescribed.
+const LARGEST_CONTRADICTION: f64 = 1e-9;
+/// Slopes below this share of the largest are rounding.
+const LEAST_SLOPE: f64 = 1e-10;
+
 /// The smallest step of the load.
 const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 
@@ -60,8 +65,10 @@ const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 ///
 /// # Errors
 /// [`ConstitutiveError::NotConverged`] with the best state; [`ConstitutiveError::Indeterminate`] when the tangent is
-/// singular at the start, as when a rotation is left free; [`ConstitutiveError::UndeterminedMultiplier`] when nothing
-/// that is prescribed sees the pressure; what the law says of `start`.
+/// singular at the start, as when a rotation is left free; of an incompressible law [`ConstitutiveError::OutOfBounds`] when
+/// the displacements that are prescribed change the volume (det F beyond 10⁻⁹ of 1) and no free component makes up for it,
+/// [`ConstitutiveError::UndeterminedMultiplier`] when they keep it and nothing that is prescribed sees the pressure; what the
+/// law says of `start`.
 ///
 /// # Accuracy
 /// The free components of ∇u within a relative 1e-12 × the condition number of the tangent, at small strain too if the law
@@ -91,7 +98,13 @@ pub fn equilibrium(
     start: &DisplacementGradient,
 ) -> Result<HomogeneousState, ConstitutiveError> {
     if law.is_incompressible() {
-        let found = constrained_equilibrium(law, &Incompressibility, controls, start)?;
+        let found = constrained_equilibrium(law, &Incompressibility, controls, start).map_err(|error| match error {
+            ConstitutiveError::ContradictedConstraint { value, .. } => {
+                let (law, parameter, bound) = ("incompressible body", "det F", "det F = 1");
+                ConstitutiveError::OutOfBounds { law, parameter, value: 1.0 + value, bound }
+            }
+            other => other,
+        })?;
         let pressure = Incompressibility::pressure(found.multipliers[0], &found.state.deformation);
         return Ok(HomogeneousState { pressure, ..found.state });
     }
@@ -110,7 +123,9 @@ pub fn equilibrium(
 ///
 /// # Errors
 /// As [`equilibrium`]; [`ConstitutiveError::RedundantConstraint`] and [`ConstitutiveError::InconsistentConstraints`] at
-/// the start; [`ConstitutiveError::UndeterminedMultiplier`] when nothing that is prescribed sees a reaction.
+/// the start; [`ConstitutiveError::ContradictedConstraint`] when the displacements that are prescribed violate a constraint
+/// by more than 10⁻⁹ of its slopes and no free component changes it there, for an incompressible law's own constraint too;
+/// [`ConstitutiveError::UndeterminedMultiplier`] when they keep it and nothing that is prescribed sees its reaction.
 ///
 /// # Example
 /// A bar with a cord along it, its sides free: it is stretched by no force, which the cord takes whole.
@@ -204,22 +219,65 @@ pub fn constrained_equilibrium<const N: usize>(
     })
 }
 
-/// Why the matrix is singular: a multiplier that the free components do not see, or a motion that is left free.
-fn undetermined<const N: usize>(
+/// The gradients of constraints in the free components: a column for each constraint.
+fn free_slopes<const N: usize>(
     constraints: &impl Constraints<N>,
     controls: &Controls,
     state: &DisplacementGradient,
-) -> ConstitutiveError {
+) -> [[f64; 9]; N] {
     let (places, n) = controls.free();
-    let columns: [[f64; 9]; N] = constraints.gradients(state).map(|gradient| {
+    constraints.gradients(state).map(|gradient| {
         let mut column = [0.0; 9];
         for (entry, &place) in column.iter_mut().zip(&places[..n]) {
             *entry = gradient[place];
         }
         column
-    });
-    match rank_of_columns(&columns) {
-        (rank, Some(index)) => ConstitutiveError::UndeterminedMultiplier { index, rank, count: N },
+    })
+}
+
+/// The constraint that what is prescribed violates, whatever the free components do nearby.
+///
+/// ```text
+/// μ + (∂μ/∂F) δF = 0 for no δF of the free components:   what of μ is no sum of the columns of ∂μ/∂F
+/// ```
+fn contradiction<const N: usize>(
+    constraints: &impl Constraints<N>,
+    controls: &Controls,
+    state: &DisplacementGradient,
+) -> Option<ConstitutiveError> {
+    let mut rows = state.displacement_rows();
+    for (row, prescribed) in rows.iter_mut().zip(controls.components()) {
+        for (entry, control) in row.iter_mut().zip(prescribed) {
+            if let Control::Displacement(value) = *control {
+                *entry = value;
+            }
+        }
+    }
+    let target = DisplacementGradient::from_rows(rows).ok()?;
+    let values = constraints.values(&target);
+    let gradients = constraints.gradients(&target);
+    let slope = gradients.iter().flat_map(|gradient| gradient.iter()).fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    let slopes = free_slopes(constraints, controls, &target);
+    let told = |x: f64| if LEAST_SLOPE * slope < x.abs() { x } else { 0.0 };
+    let columns: [[f64; N]; 9] = core::array::from_fn(|place| core::array::from_fn(|k| told(slopes[k][place])));
+    let rest = outside_of_columns(&columns, values);
+    let scale = values.iter().fold(slope, |largest, x| largest.max(x.abs()));
+    let (index, &value) = rest.iter().enumerate().max_by(|(_, a), (_, b)| a.abs().total_cmp(&b.abs()))?;
+    let gradient = target.gradient_rows();
+    let contradicts = LARGEST_CONTRADICTION * scale < value.abs();
+    contradicts.then_some(ConstitutiveError::ContradictedConstraint { index, value, gradient })
+}
+
+/// Why the matrix is singular: a constraint that what is prescribed contradicts, a multiplier that the free components do not
+/// see, or a motion that is left free.
+fn undetermined<const N: usize>(
+    constraints: &impl Constraints<N>,
+    controls: &Controls,
+    state: &DisplacementGradient,
+) -> ConstitutiveError {
+    match rank_of_columns(&free_slopes(constraints, controls, state)) {
+        (rank, Some(index)) => contradiction(constraints, controls, state)
+            .unwrap_or(ConstitutiveError::UndeterminedMultiplier { index, rank, count: N }),
         _ => ConstitutiveError::Indeterminate { gradient: state.gradient_rows() },
     }
 }

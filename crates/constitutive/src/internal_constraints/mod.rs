@@ -47,6 +47,6 @@ mod standard;
 pub use combination::Combination;
 pub use conditions::StressCondition;
 pub use constraint::{InternalConstraint, MetricConstraint, OfMetric, Restriction};
-pub(crate) use orthogonal::rank_of_columns;
+pub(crate) use orthogonal::{outside_of_columns, rank_of_columns};
 pub use several::Constraints;
 pub use standard::{Incompressibility, Inextensibility, Rigidity};

@@ -84,6 +84,21 @@ impl<const ROWS: usize, const COLUMNS: usize> Orthogonal<ROWS, COLUMNS> {
     }
 }
 
+/// What of a vector is no sum of the columns.
+pub(crate) fn outside_of_columns<const ROWS: usize, const COLUMNS: usize>(
+    columns: &[[f64; ROWS]; COLUMNS],
+    mut vector: [f64; ROWS],
+) -> [f64; ROWS] {
+    let orthogonal = orthogonalise(columns);
+    for q in &orthogonal.basis[..orthogonal.rank] {
+        let along = dot(q, &vector);
+        for (entry, q) in vector.iter_mut().zip(q) {
+            *entry -= along * q;
+        }
+    }
+    vector
+}
+
 /// How many columns are independent, and the first that is not.
 pub(crate) fn rank_of_columns<const ROWS: usize, const COLUMNS: usize>(
     columns: &[[f64; ROWS]; COLUMNS],
