@@ -27,9 +27,18 @@ pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> Str
         let (aicc, above) = (number(fit.criteria.aicc), number(above));
         let _ = writeln!(text, "{aicc:>10}{above:>10}  {stable:<8}{}", fit.outcome.reason());
     }
-    text.push_str("\nRMS residuals are parts of the largest stress of each test. The least AICc is the best law for these data.\n\n");
+    let judged = if least.is_some() {
+        "The least AICc is the best law for these data."
+    } else {
+        "No law has an AICc: that takes at least three stresses more than parameters."
+    };
+    let _ = writeln!(text, "\nRMS residuals are parts of the largest stress of each test. {judged}\n");
     for (law, fit) in comparison.fits() {
         let _ = writeln!(text, "{law}");
+        if fit.degrees_of_freedom == 0 {
+            let _ =
+                writeln!(text, "  no degrees of freedom: {count} stresses, as many parameters; errors cannot be told");
+        }
         for estimate in &fit.parameters {
             let _ = writeln!(text, "{}", parameter(estimate, measurements.unit.as_deref()));
         }
@@ -49,6 +58,9 @@ fn parameter(estimate: &Estimate, unit: Option<&str>) -> String {
         }
         (_, _, State::AtBound) => {
             let _ = write!(line, "{unit}  at its bound");
+        }
+        (_, _, State::NoDegreesOfFreedom) => {
+            let _ = write!(line, "{unit}  no error: no degrees of freedom");
         }
         _ => {
             let _ = write!(line, "{unit}  not determined by these data");

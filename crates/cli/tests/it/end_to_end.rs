@@ -241,6 +241,32 @@ fn fit_of_bad_tables_laws_or_bounds_exits_with_2_and_writes_nothing() {
     assert_eq!((&report["valid"], &report["mistakes"][0]["line"]), (&false.into(), &4.into()), "{report}");
 }
 
+#[test]
+fn fit_says_what_few_or_strange_data_do_not_tell() {
+    let folder = Folder::new("few-fit");
+    let run = |name: &str, rows: &str, laws: &[&str]| {
+        let table = format!("mode,stretch,stress\n{rows}");
+        std::fs::write(folder.0.join(name), table).unwrap_or_else(|error| panic!("{error}"));
+        let output = folder.piola(&[&["fit", name], laws].concat());
+        (output.status.code(), out(&output), err(&output))
+    };
+    let two = "uniaxial,1.5,0.4\nuniaxial,2,0.6\n";
+    let (code, shown, _) = run("two.csv", two, &["--law", "mooney-rivlin"]);
+    assert_eq!(code, Some(0));
+    for expected in ["no degrees of freedom: 2 stresses", "no error: no degrees of freedom", "No law has an AICc"] {
+        assert!(shown.contains(expected), "{shown}");
+    }
+    assert!(!shown.contains("not determined"), "{shown}");
+    let opposed = "uniaxial,1.1,-0.1\nuniaxial,1.5,-0.2\nuniaxial,2,-0.3\nuniaxial,3,-0.2\n";
+    let (code, shown, _) = run("opposed.csv", opposed, &["--law", "neo-hookean", "--law", "gent"]);
+    assert_eq!(code, Some(1));
+    assert!(shown.contains("stopped: no stiffness, all factors at their bound 0"), "{shown}");
+    assert!(shown.contains("at its bound") && !shown.contains("not finite"), "{shown}");
+    let (code, _, told) = run("rest.csv", "uniaxial,1,0\nuniaxial,1,0.1\nuniaxial,1,0\n", &[]);
+    assert_eq!(code, Some(2));
+    assert!(told.contains("all its stretches are 1") && told.contains("the data say nothing"), "{told}");
+}
+
 /// Discharges of a fluid of viscosity 2 in a pipe of radius 1, π c/16.
 fn discharges() -> String {
     let row = |c: i32| format!("{c},{}\n", core::f64::consts::PI * f64::from(c) / 16.0);

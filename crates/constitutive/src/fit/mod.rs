@@ -117,13 +117,15 @@ pub enum Outcome {
     OutOfPatience,
     /// Not converged: stresses were not finite on the way.
     NotFinite,
+    /// Not converged to a stable law: the data ask for less than no stiffness. Every factor is zero, at its bound.
+    NoStiffness,
 }
 
 impl Outcome {
-    /// Whether the parameters are at a minimum.
+    /// Whether the parameters are at a minimum, and the law has some stiffness if the data ask for any.
     #[must_use]
     pub const fn is_converged(self) -> bool {
-        !matches!(self, Self::OutOfPatience | Self::NotFinite)
+        !matches!(self, Self::OutOfPatience | Self::NotFinite | Self::NoStiffness)
     }
 
     /// It in words.
@@ -136,6 +138,7 @@ impl Outcome {
             Self::NoFurtherDecrease => "no further decrease",
             Self::OutOfPatience => "stopped: evaluations used up",
             Self::NotFinite => "stopped: stresses not finite",
+            Self::NoStiffness => "stopped: no stiffness, all factors at their bound 0",
         }
     }
 }
@@ -151,6 +154,9 @@ pub enum State {
     AtBound,
     /// The data say nothing of it, or not of it alone.
     Undetermined,
+    /// Yes, but there are as many parameters as numbers: the law passes through all of them, and what error its
+    /// parameters have cannot be told.
+    NoDegreesOfFreedom,
 }
 
 /// A fitted parameter.
@@ -197,13 +203,15 @@ pub struct Fit {
     pub model: String,
     /// Its parameters, in its order.
     pub parameters: Vec<Estimate>,
-    /// The covariance of those that are determined.
-    pub covariance: Covariance,
+    /// The covariance of those that are determined; none without degrees of freedom, as the residuals then say nothing of
+    /// the errors.
+    pub covariance: Option<Covariance>,
     /// What is left of each test.
     pub tests: Vec<Residuals>,
     /// S, the weighted sum of squares.
     pub weighted_squares: f64,
-    /// Numbers measured less parameters that could be moved.
+    /// Numbers measured less parameters that could be moved. At 0 there are no errors, intervals or covariance, and
+    /// parameters that the data fix are [`State::NoDegreesOfFreedom`].
     pub degrees_of_freedom: usize,
     /// Criteria for choosing between laws.
     pub criteria: Criteria,
@@ -269,10 +277,13 @@ impl Fit {
 
 /// Fits a model to all tests at once.
 ///
-/// What cannot converge still returns the best parameters that were found, with an [`Outcome`] that says so.
+/// What cannot converge still returns the best parameters that were found, with an [`Outcome`] that says so. As many
+/// numbers as parameters are fitted without errors: see [`Fit::degrees_of_freedom`].
 ///
 /// # Errors
-/// [`ConstitutiveError::TooFewPoints`], [`ConstitutiveError::UnknownParameter`], [`ConstitutiveError::ImpossibleBounds`],
+/// [`ConstitutiveError::NothingDeformed`] if nothing is deformed in any test, so that the stresses say nothing of any
+/// parameter; [`ConstitutiveError::TooFewPoints`] for fewer numbers than parameters;
+/// [`ConstitutiveError::UnknownParameter`], [`ConstitutiveError::ImpossibleBounds`],
 /// [`ConstitutiveError::Confidence`], [`ConstitutiveError::NoSuchSign`]; [`ConstitutiveError::NoStart`] if the model has finite stresses at no start.
 ///
 /// # Accuracy
@@ -284,6 +295,10 @@ impl Fit {
 pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, ConstitutiveError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(ConstitutiveError::Confidence { value: options.confidence });
+    }
+    if let Some(first) = data.tests().first().filter(|_| data.tests().iter().all(Test::is_at_rest)) {
+        let (test, value) = (first.name().to_owned(), first.abscissas().next().unwrap_or(1.0));
+        return Err(ConstitutiveError::NothingDeformed { test, value });
     }
     let reach = data.largest_first_invariant();
     let parameters = bounded(model, reach, &options.bounds)?;
@@ -304,7 +319,10 @@ pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, C
     let mut stability = stability::report(model, &best.parameters, reach);
     // A law without any stress is what such data ask for, and cannot be made stable.
     let loaded = data.tests().iter().flat_map(Test::stresses).any(|stress| 0.0 < stress.abs());
-    if signs && loaded && stability.drucker.is_some() {
+    if signs && loaded && problem.has_no_stiffness(&best) {
+        // At their bounds the factors are at the minimum; beyond it no law is stable.
+        best.outcome = Outcome::NoStiffness;
+    } else if signs && loaded && stability.drucker.is_some() {
         if let Some(found) = problem.stabilise(&best, &stability::fan(reach)) {
             best = found;
         }
@@ -386,7 +404,8 @@ fn result<M: Model>(
     };
     let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound(k)).collect();
     let degrees_of_freedom = problem.data.len() - free.len();
-    let variance = if 0 < degrees_of_freedom { best.squares / degrees_of_freedom as f64 } else { 0.0 };
+    let has_errors = 0 < degrees_of_freedom;
+    let variance = if has_errors { best.squares / degrees_of_freedom as f64 } else { 0.0 };
     let all = Covariance::new(&slopes, &free, variance);
     // A limit that has gone off to where it does nothing is not told by the data, and takes no part.
     let lost = |k: usize, error: f64| match problem.parameters[k].bounds {
@@ -401,12 +420,12 @@ fn result<M: Model>(
     let estimate = |(k, parameter): (usize, &Parameter)| {
         let place = covariance.parameters.iter().position(|&place| place == k);
         let state = match place {
-            Some(_) => State::Determined,
+            Some(_) if has_errors => State::Determined,
+            Some(_) => State::NoDegreesOfFreedom,
             None if free.contains(&k) => State::Undetermined,
             None => State::AtBound,
         };
-        let standard_error =
-            place.filter(|_| 0 < degrees_of_freedom).map(|place| covariance.matrix[place][place].sqrt());
+        let standard_error = place.filter(|_| has_errors).map(|place| covariance.matrix[place][place].sqrt());
         let interval = standard_error.zip(quantile).map(|(error, t)| [theta[k] - t * error, theta[k] + t * error]);
         let (name, is_stress) = (parameter.name.clone(), parameter.is_stress);
         Estimate { name, is_stress, value: theta[k], standard_error, interval, state }
@@ -437,6 +456,6 @@ fn result<M: Model>(
         evaluations: problem.evaluations(),
         starts,
         starts_that_agree,
-        covariance,
+        covariance: has_errors.then_some(covariance),
     }
 }

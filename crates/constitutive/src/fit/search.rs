@@ -166,6 +166,12 @@ impl<'a, M: Model> Problem<'a, M> {
         Some((best, agree))
     }
 
+    /// Whether every factor is zero, and the law with them.
+    pub(super) fn has_no_stiffness(&self, best: &Best) -> bool {
+        let places = self.places(Role::Linear);
+        !places.is_empty() && places.into_iter().all(|k| best.parameters[k].abs() <= 0.0)
+    }
+
     /// A search over all parameters at once, with what Drucker's condition lacks added to the residuals.
     pub(super) fn stabilise(&self, best: &Best, fan: &[[f64; 3]]) -> Option<Best> {
         let observed = self.observed();

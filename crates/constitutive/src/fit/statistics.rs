@@ -7,7 +7,8 @@
 //! m numbers were measured with errors that are independent and normal, of standard deviation σ/w each; σ is the
 //! parameter that K counts beyond those of the law. Criteria compare laws on the same data with the same weights: the
 //! least is the best, and differences below 2 say nothing (H. Akaike, 1974; C. M. Hurvich, C.-L. Tsai, 1989; G. Schwarz,
-//! 1978).
+//! 1978). With m ≤ k the law can pass through all that was measured, ln S is that of rounding, and there are no criteria;
+//! `AICc` needs k + 2 < m.
 
 use nalgebra::DMatrix;
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
@@ -16,23 +17,26 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Criteria {
-    /// Akaike's.
-    pub aic: f64,
-    /// Akaike's for small samples; none where the law has too many parameters for the data.
+    /// Akaike's; none unless there are more numbers than parameters.
+    pub aic: Option<f64>,
+    /// Akaike's for small samples; none unless there are at least three numbers more than parameters.
     pub aicc: Option<f64>,
-    /// Schwarz's.
-    pub bic: f64,
+    /// Schwarz's; none unless there are more numbers than parameters.
+    pub bic: Option<f64>,
 }
 
 impl Criteria {
-    /// Of a fit of so many parameters to so many numbers that leaves a sum of squares.
+    /// Of a fit of so many parameters to so many numbers that leaves a sum of squares. Zero counts as the smallest positive
+    /// number.
     ///
     /// # Example
     /// ```
     /// use piola_constitutive::fit::Criteria;
     /// // One parameter, six numbers, S = 6: only the count is left, 2 K = 4; AICc adds 2·2·3/3.
     /// let criteria = Criteria::new(6, 1, 6.0);
-    /// assert_eq!((criteria.aic, criteria.aicc), (4.0, Some(8.0)));
+    /// assert_eq!((criteria.aic, criteria.aicc), (Some(4.0), Some(8.0)));
+    /// // Two parameters pass through two numbers: nothing is left to judge by.
+    /// assert_eq!(Criteria::new(2, 2, 1e-32).aic, None);
     /// ```
     #[must_use]
     pub fn new(points: usize, parameters: usize, squares: f64) -> Self {
@@ -41,7 +45,8 @@ impl Criteria {
         let aic = misfit + 2.0 * counted;
         let left = m - counted - 1.0;
         let aicc = (0.0 < left).then(|| aic + 2.0 * counted * (counted + 1.0) / left);
-        Self { aic, aicc, bic: misfit + counted * m.ln() }
+        let told = parameters < points;
+        Self { aic: told.then_some(aic), aicc, bic: told.then(|| misfit + counted * m.ln()) }
     }
 }
 
@@ -53,16 +58,16 @@ pub struct Covariance {
     pub parameters: Vec<usize>,
     /// The matrix by rows.
     pub matrix: Vec<Vec<f64>>,
+    /// (JᵀJ)⁻¹ over the roots of its diagonal, by rows.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    correlation: Vec<Vec<f64>>,
 }
 
 impl Covariance {
-    /// The correlation matrix by rows.
+    /// The correlation matrix by rows: that of (JᵀJ)⁻¹, of residuals that are all zero too.
     #[must_use]
-    pub fn correlation(&self) -> Vec<Vec<f64>> {
-        let deviation = |i: usize| self.matrix[i][i].sqrt();
-        let entry = |i: usize, j: usize| self.matrix[i][j] / (deviation(i) * deviation(j));
-        let count = self.parameters.len();
-        (0..count).map(|i| (0..count).map(|j| if i == j { 1.0 } else { entry(i, j) }).collect()).collect()
+    pub fn correlation(&self) -> &[Vec<f64>] {
+        &self.correlation
     }
 
     /// Of J for the parameters `free`, less those that no measurement depends on or that cannot be told apart.
@@ -77,7 +82,7 @@ impl Covariance {
         const SHARE: f64 = 1e-4;
         let sizes: Vec<f64> = free.iter().map(|&k| slopes.column(k).norm()).collect();
         let kept: Vec<usize> = (0..free.len()).filter(|&k| 0.0 < sizes[k] && sizes[k].is_finite()).collect();
-        let none = Self { parameters: Vec::new(), matrix: Vec::new() };
+        let none = Self { parameters: Vec::new(), matrix: Vec::new(), correlation: Vec::new() };
         if kept.is_empty() {
             return none;
         }
@@ -98,9 +103,12 @@ impl Covariance {
         }
         let shown: Vec<usize> = (0..kept.len()).filter(|&k| determined[k]).collect();
         let entry = |&i: &usize, &j: &usize| variance * inverse[(i, j)] / (sizes[kept[i]] * sizes[kept[j]]);
+        let root = |k: usize| inverse[(k, k)].sqrt();
+        let correlation = |&i: &usize, &j: &usize| if i == j { 1.0 } else { inverse[(i, j)] / (root(i) * root(j)) };
         Self {
             parameters: shown.iter().map(|&k| free[kept[k]]).collect(),
             matrix: shown.iter().map(|i| shown.iter().map(|j| entry(i, j)).collect()).collect(),
+            correlation: shown.iter().map(|i| shown.iter().map(|j| correlation(i, j)).collect()).collect(),
         }
     }
 }

@@ -218,6 +218,16 @@ impl Test {
         })
     }
 
+    /// Whether nothing is deformed at any point: there every isotropic law has the same stress, none.
+    pub(super) fn is_at_rest(&self) -> bool {
+        /// Principal stretches of a rotation are 1 to rounding.
+        const ROUNDING: f64 = 16.0 * f64::EPSILON;
+        self.points.iter().all(|point| match point.at {
+            At::Mode(mode, stretch, _) => (stretch - mode.rest()).abs() <= 0.0,
+            At::General(stretches, _) => stretches.iter().all(|stretch| (stretch - 1.0).abs() <= ROUNDING),
+        })
+    }
+
     /// What a law answers at a point.
     pub(super) fn answer<T: Real>(&self, point: usize, law: &impl Incompressible<T>) -> T {
         match self.points[point].at {

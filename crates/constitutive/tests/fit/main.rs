@@ -1,6 +1,7 @@
 //! The tests of `piola_constitutive::fit`.
 #![cfg(feature = "fit")]
 
+mod freedom;
 mod recovery;
 mod refusals;
 mod rubber;

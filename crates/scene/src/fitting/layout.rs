@@ -169,7 +169,7 @@ fn push<K: PartialEq, V>(groups: &mut Vec<(K, Vec<V>)>, key: K, value: V) {
 
 fn short(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
     let mut mistakes = Vec::new();
-    let mut groups: Vec<(Mode, Vec<[f64; 2]>)> = Vec::new();
+    let mut groups: Vec<(Mode, Vec<(u64, [f64; 2])>)> = Vec::new();
     for row in rows {
         if !complete(row, 3, &mut mistakes) {
             continue;
@@ -184,20 +184,63 @@ fn short(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
         if mode != Mode::SimpleShear && stretch <= 0.0 {
             mistakes.push(TableMistake::new(row.line, format!("the stretch is {stretch}"), "0 < stretch"));
         }
-        push(&mut groups, mode, [stretch, stress]);
+        push(&mut groups, mode, (row.line, [stretch, stress]));
     }
     if !mistakes.is_empty() {
         return Err(mistakes);
     }
-    let line = rows.first().map_or(1, |row| row.line);
-    let test = |(mode, points): (Mode, Vec<[f64; 2]>)| {
-        Test::new(mode.name(), Table::of_mode(mode, points), Measure::Nominal).map_err(|error| refused(line, &error))
-    };
-    groups.into_iter().map(test).collect()
+    let mut tests = Vec::new();
+    for (mode, points) in groups {
+        let (lines, points): (Vec<u64>, Vec<[f64; 2]>) = points.into_iter().unzip();
+        tests.extend(test(mode.name(), Table::of_mode(mode, points), Measure::Nominal, &lines, &mut mistakes));
+    }
+    if mistakes.is_empty() { Ok(tests) } else { Err(mistakes) }
 }
 
-fn refused(line: u64, error: &ConstitutiveError) -> Vec<TableMistake> {
-    vec![TableMistake::new(line, error.to_string(), "a test of a material")]
+/// The test of a table whose points stand on these lines, or the mistakes of all its points.
+fn test(name: &str, table: Table, measure: Measure, lines: &[u64], mistakes: &mut Vec<TableMistake>) -> Option<Test> {
+    let error = match Test::new(name, table.clone(), measure) {
+        Ok(test) => return Some(test),
+        Err(error) => error,
+    };
+    let before = mistakes.len();
+    for (index, &line) in lines.iter().enumerate() {
+        let Err(error) = Test::new(name, point(&table, index), measure) else { continue };
+        // The components of one row may all say the same.
+        let mistake = refused(line, &error);
+        if mistakes[before..].last() != Some(&mistake) {
+            mistakes.push(mistake);
+        }
+    }
+    if mistakes.len() == before {
+        mistakes.push(refused(lines.first().copied().unwrap_or(1), &error));
+    }
+    None
+}
+
+/// The table of one point.
+fn point(table: &Table, index: usize) -> Table {
+    match (table.mode(), table) {
+        (Some((mode, points)), _) => Table::of_mode(mode, points.get(index).copied().into_iter().collect()),
+        (None, Table::General(points)) => Table::General(points.get(index).copied().into_iter().collect()),
+        (None, other) => other.clone(),
+    }
+}
+
+/// What is wrong with the point of a line, and what would be valid.
+fn refused(line: u64, error: &ConstitutiveError) -> TableMistake {
+    match error {
+        ConstitutiveError::StretchOutOfRange { value, .. } => {
+            let what = format!("at the stretch {value:e} no law has a stress");
+            TableMistake::new(line, what, "a stretch or amount of shear of 1e-30 to 1e30")
+        }
+        ConstitutiveError::NotIsochoric { determinant, .. } => TableMistake::new(
+            line,
+            format!("det F is {determinant}, or F has no inverse"),
+            "det F = 1, the material is incompressible",
+        ),
+        other => TableMistake::new(line, other.to_string(), "a test of a material"),
+    }
 }
 
 /// F and stress of a row.
@@ -234,19 +277,24 @@ fn long(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
     }
     let mut tests = Vec::new();
     for ((label, measure), rows) in groups {
-        let line = rows.first().map_or(1, |row| row.line);
+        let first = rows.first().map_or(1, |row| row.line);
         // A label of a mode that none of its rows has is but a name.
         let known = mode(&label).filter(|mode| rows.iter().any(|row| is_of(*mode, &row.deformation)));
         // Where the stress that keeps the width is measured too, both are fitted.
         let known = known.filter(|mode| *mode != Mode::Planar || rows.iter().all(|row| is_zero(row.stress[1][1])));
-        let (name, table) = match known {
+        let before = mistakes.len();
+        let (name, (lines, table)) = match known {
             Some(mode) => (mode.name().to_owned(), of_mode(mode, &label, &rows, &mut mistakes)),
             None => (label, of_components(&rows, &mut mistakes)),
         };
-        match Test::new(name, table, measure) {
-            Ok(test) => tests.push(test),
-            Err(error) if mistakes.is_empty() => mistakes.extend(refused(line, &error)),
-            Err(_) => {}
+        if tests.iter().any(|other: &Test| other.name() == name) {
+            let valid = "one stress_type and one label for each test";
+            mistakes.push(TableMistake::new(first, format!("there is a test `{name}` already"), valid));
+        }
+        if mistakes.len() == before {
+            // Without any stress no component was measured.
+            let lines = if lines.is_empty() { vec![first] } else { lines };
+            tests.extend(test(&name, table, measure, &lines, &mut mistakes));
         }
     }
     if mistakes.is_empty() { Ok(tests) } else { Err(mistakes) }
@@ -263,9 +311,9 @@ fn is_of(mode: Mode, deformation: &[[f64; 3]; 3]) -> bool {
     mode != Mode::SimpleShear && 0.0 < stretch && (0..3).all(|i| (0..3).all(|j| is_same(i, j)))
 }
 
-/// Stretch and stress along the first axis.
-fn of_mode(mode: Mode, label: &str, rows: &[Tensors], mistakes: &mut Vec<TableMistake>) -> Table {
-    let mut points = Vec::new();
+/// Stretch and stress along the first axis, with the line of each.
+fn of_mode(mode: Mode, label: &str, rows: &[Tensors], mistakes: &mut Vec<TableMistake>) -> (Vec<u64>, Table) {
+    let (mut lines, mut points) = (Vec::new(), Vec::new());
     for Tensors { line, deformation, stress } in rows {
         let stretch = deformation[0][0];
         if stretch <= 0.0 {
@@ -278,9 +326,10 @@ fn of_mode(mode: Mode, label: &str, rows: &[Tensors], mistakes: &mut Vec<TableMi
             mistakes.push(TableMistake::new(*line, what, format!("the diagonal {expected:?}")));
         }
         check_sides(mode, label, *line, stress, mistakes);
+        lines.push(*line);
         points.push([stretch, stress[0][0]]);
     }
-    Table::of_mode(mode, points)
+    (lines, Table::of_mode(mode, points))
 }
 
 fn is_zero(stress: f64) -> bool {
@@ -303,10 +352,10 @@ fn check_sides(mode: Mode, label: &str, line: u64, stress: &[[f64; 3]; 3], mista
     }
 }
 
-/// Every component that is not zero throughout; the third axis carries no stress.
-fn of_components(rows: &[Tensors], mistakes: &mut Vec<TableMistake>) -> Table {
+/// Every component that is not zero throughout, with the line of each; the third axis carries no stress.
+fn of_components(rows: &[Tensors], mistakes: &mut Vec<TableMistake>) -> (Vec<u64>, Table) {
     let measured = |i: usize, j: usize| rows.iter().any(|row| 0.0 < row.stress[i][j].abs());
-    let mut points = Vec::new();
+    let (mut lines, mut points) = (Vec::new(), Vec::new());
     for row in rows {
         let out_of_plane = row.stress[TRACTION_FREE][TRACTION_FREE];
         if 0.0 < out_of_plane.abs() {
@@ -322,6 +371,7 @@ fn of_components(rows: &[Tensors], mistakes: &mut Vec<TableMistake>) -> Table {
             mistakes.push(TableMistake::new(row.line, format!("det F is {determinant}"), valid));
         }
         for (i, j) in (0..9).map(|k| (k / 3, k % 3)).filter(|&(i, j)| measured(i, j)) {
+            lines.push(row.line);
             points.push(Component {
                 deformation: row.deformation,
                 component: [i, j],
@@ -330,7 +380,7 @@ fn of_components(rows: &[Tensors], mistakes: &mut Vec<TableMistake>) -> Table {
             });
         }
     }
-    Table::General(points)
+    (lines, Table::General(points))
 }
 
 fn determinant(f: &[[f64; 3]; 3]) -> f64 {

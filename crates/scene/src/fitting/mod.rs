@@ -108,11 +108,11 @@ impl Comparison {
         self.candidates.iter().filter_map(|candidate| candidate.fit.as_ref().err())
     }
 
-    /// The fit with the least `AICc`.
+    /// The fit with the least `AICc`; none where no law has one, as of less than three stresses more than parameters.
     #[must_use]
     pub fn best(&self) -> Option<&Fit> {
-        let criterion = |fit: &Fit| fit.criteria.aicc.unwrap_or(f64::INFINITY);
-        self.fits().map(|(_, fit)| fit).min_by(|a, b| criterion(a).total_cmp(&criterion(b)))
+        let judged = self.fits().filter_map(|(_, fit)| Some((fit.criteria.aicc?, fit)));
+        judged.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, fit)| fit)
     }
 
     /// Whether every law was fitted, and every search converged.

@@ -2,7 +2,7 @@
 
 use core::fmt::Write as _;
 
-use piola_constitutive::fit::{AnyModel, Fit, Fitted, Test};
+use piola_constitutive::fit::{AnyModel, Covariance, Fit, Fitted, Test};
 use serde_json::{Value, json};
 
 use super::{Comparison, Measurements};
@@ -22,7 +22,7 @@ pub(super) fn summary(measurements: &Measurements, comparison: &Comparison) -> S
                 let mut value = serde_json::to_value(fit).unwrap_or_default();
                 value["stable"] = json!(fit.stability.is_stable());
                 value["converged"] = json!(fit.outcome.is_converged());
-                value["correlation"] = json!(fit.covariance.correlation());
+                value["correlation"] = json!(fit.covariance.as_ref().map(Covariance::correlation));
                 value["aicc_above_the_best"] = json!(fit.criteria.aicc.zip(least).map(|(own, least)| own - least));
                 value
             }

@@ -78,6 +78,66 @@ fn stresses_on_sides_that_a_mode_leaves_free_are_refused_with_their_line() {
 }
 
 #[test]
+fn stretches_out_of_range_are_named_with_their_line() {
+    let short =
+        "# a comment\nmode,stretch,stress\nuniaxial,1.1,0.1\n\nuniaxial,1e-40,0.3\nplanar,1.2,0.1\nuniaxial,1e40,0.3\n";
+    let expected = [
+        "rubber.csv:5: at the stretch 1e-40 no law has a stress; valid: a stretch or amount of shear of 1e-30 to 1e30",
+        "rubber.csv:7: at the stretch 1e40 no law has a stress; valid: a stretch or amount of shear of 1e-30 to 1e30",
+    ];
+    assert_eq!(sentence(short).lines().collect::<Vec<_>>(), expected);
+    let row = |label: &str, x: f64, measure: &str| {
+        format!("{label},{measure},{x},0,0,0,{0},0,0,0,{0},0.5,0,0,0,0,0,0,0,0", 1.0 / x.sqrt())
+    };
+    let long = components(&[&row("UT", 2.0, "PK1"), &row("UT", 1e-40, "PK1"), &row("UT", 3.0, "PK1")]);
+    let report = sentence(&long);
+    assert!(report.starts_with("rubber.csv:5: at the stretch 1e-40 no law has a stress; valid: "), "{report}");
+    assert_eq!((report.lines().count(), report.matches("valid:").count()), (1, 1), "{report}");
+    let twice = sentence(&components(&[&row("UT", 2.0, "PK1"), &row("UT", 2.0, "cauchy")]));
+    assert_eq!(
+        twice,
+        "rubber.csv:5: there is a test `uniaxial` already; valid: one stress_type and one label for each test"
+    );
+}
+
+#[test]
+fn deformations_without_an_inverse_and_tables_without_stress_are_named_with_their_line() {
+    // det F overflows to no number.
+    let wide = "BT,PK1,1e200,1e200,0,1e200,1e200,0,0,0,1e200,0.5,0,0,0,0,0,0,0,0";
+    let good = "BT,PK1,2,0,0,0,1,0,0,0,0.5,0.5,0,0,0,0,0,0,0,0";
+    let report = sentence(&components(&[good, wide]));
+    assert!(report.starts_with("rubber.csv:5: det F is NaN"), "{report}");
+    assert_eq!(report.lines().count(), 1, "{report}");
+    let unloaded = sentence(&components(&["BT,PK1,2,0,0,0,1,0,0,0,0.5,0,0,0,0,0,0,0,0,0"]));
+    assert!(unloaded.starts_with("rubber.csv:4: test `BT` has no points; valid: "), "{unloaded}");
+}
+
+#[test]
+fn summary_of_as_many_stresses_as_parameters_has_no_errors_and_no_best() {
+    let text = "mode,stretch,stress\nuniaxial,1.5,0.4\nuniaxial,2,0.6\n";
+    let measurements = Measurements::parse("two.csv", text).unwrap_or_else(|error| panic!("{error}"));
+    let laws = ["mooney-rivlin", "neo-hookean"].map(|name| name.parse().unwrap_or_else(|error| panic!("{error}")));
+    let comparison =
+        fitting::compare(&measurements, &Request::of(laws.into())).unwrap_or_else(|error| panic!("{error}"));
+    assert!(comparison.best().is_none());
+    let text = fitting::summary(&measurements, &comparison);
+    let summary: serde_json::Value = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}"));
+    let law = &summary["laws"][0];
+    assert_eq!(law["degrees_of_freedom"], 0);
+    for missing in ["covariance", "correlation", "aicc_above_the_best"] {
+        assert!(law[missing].is_null(), "{missing}: {text}");
+    }
+    for estimate in law["parameters"].as_array().into_iter().flatten() {
+        assert_eq!(estimate["state"], "no_degrees_of_freedom");
+    }
+    assert!(summary["best_by_aicc"].is_null() && law["criteria"]["aic"].is_null());
+    // One parameter has one degree of freedom, and an error with it.
+    let other = &summary["laws"][1];
+    assert_eq!((&other["degrees_of_freedom"], &other["parameters"][0]["state"]), (&1.into(), &"determined".into()));
+    assert!(other["covariance"]["matrix"][0][0].is_f64() && other["correlation"][0][0].is_f64());
+}
+
+#[test]
 fn two_units_of_a_table_are_refused() {
     let both = sentence("# unit: kPa\nmode,stretch,stress_MPa\nplanar,1.1,0.1\n");
     assert_eq!(both, "rubber.csv:2: the header says MPa and a comment kPa; valid: one unit");
