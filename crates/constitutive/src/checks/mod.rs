@@ -8,34 +8,39 @@
 //! | T symmetric ⇔ response indifferent ⇔ energy indifferent | [`noll`] | W(20.18) |
 //! | plane waves have real speeds | [`ellipticity`], [`ellipticity_scan`], [`first_loss`] | |
 //! | the greater stress is along the greater stretch | [`baker_ericksen`] | |
-//! | more strain takes more stress | [`drucker`], [`drucker_path`] | |
+//! | more strain takes more stress | [`drucker_scan`], [`second_order_work`], [`drucker`], [`drucker_path`] | |
 //!
 //! Laws are anything that answers F with T ([`Elastic`], closures too) or with an energy
 //! ([`Hyperelastic`](crate::solids::Hyperelastic), as [`Stored`] where a response is asked for). Samples are drawn by a fixed
 //! sequence from a seed: the same search gives the same report. A check that passes is no proof; one that
 //! fails is, and its report holds the deformation to see it with. Samples at which the law has no answer are left out and
-//! counted as `refused`; a search that compared nothing does not pass ([`Verdict::NothingTested`]). Samples of
-//! incompressible laws keep their volume.
+//! counted as `refused`; a search that compared nothing does not pass ([`Verdict::NothingTested`]), nor one whose integrals are
+//! not exact enough to tell ([`Verdict::Unresolved`]). Samples of incompressible laws keep their volume.
 
 mod circuits;
+mod drucker;
 mod ellipticity;
 mod groups;
 mod indifference;
 mod inequalities;
 mod law;
 mod noll;
+mod quadrature;
 mod reference;
 mod report;
 mod sampler;
 mod symmetry;
 
 pub use circuits::{Circuit, Potential, hyperelasticity, potential};
+pub use drucker::{
+    Drucker, DruckerPath, DruckerScan, SecondOrderWork, drucker, drucker_path, drucker_scan, second_order_work,
+};
 pub use ellipticity::{
     Ellipticity, EllipticityScan, Kinematics, Loss, acoustic_tensor, ellipticity, ellipticity_scan, first_loss,
 };
 pub use groups::{CrystalClass, SymmetryGroup};
 pub use indifference::{Observers, frame_indifference};
-pub use inequalities::{BakerEricksen, Drucker, DruckerPath, baker_ericksen, drucker, drucker_path};
+pub use inequalities::{BakerEricksen, baker_ericksen};
 pub use law::{Elastic, Stored};
 pub use noll::{EnergyOfObservers, NollReport, Skewness, noll};
 pub use reference::ChangedReference;

@@ -52,7 +52,7 @@ impl Visitor for OneDerivation {
             let f = DeformationGradient::new(sampler.gradient(0.35)).expect("0 < det F");
             let p = derived::first_piola(law, &f).0;
             let (gradient, jacobian) = (*f.matrix(), f.jacobian());
-            let tolerance = Tol::stated(1e-12, "stresses against exact derivatives of the energy");
+            let tolerance = Tol::stated(1e-13, "stresses against exact derivatives of the energy");
             let close = |what: &str, actual: &[f64], expected: Matrix3<f64>| {
                 let scale = 1.0 + p.norm();
                 assert_close_at_scale(&format!("{name}: {what}"), actual, expected.as_slice(), scale, tolerance);

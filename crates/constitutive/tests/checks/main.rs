@@ -1,5 +1,7 @@
 //! Homogeneous tests, checks of laws and memory.
 
+mod circuits;
+mod drucker;
 mod homogeneous;
 mod laws;
 mod memory;

@@ -12,7 +12,7 @@ use piola_constitutive::solids::{
 use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
-const NEWTON: Tol = Tol::stated(1e-12, "end of the iteration");
+const NEWTON: Tol = Tol::stated(1e-13, "corrections below 1e-11 of ∇u, with convergence of second order");
 
 fn rubber() -> IncompressibleSolid<MooneyRivlin> {
     IncompressibleSolid::new(MooneyRivlin::new(0.37, 0.11).expect("parameters"))
@@ -120,7 +120,7 @@ fn stress_and_tangent_at_a_pressure_equal_derivatives_of_the_energy() {
         [Pressurised::new(wall()).at_pressure(0.7).expect("p"), Pressurised::new(wall()).at_pressure(-3.0).expect("p")];
     let f = DeformationGradient::from_rows([[1.3, 0.2, 0.1], [-0.1, 0.9, 0.3], [0.0, 0.2, 1.0]]).expect("F");
     for law in &laws {
-        let tolerance = Tol::stated(1e-12, "closed forms against exact derivatives");
+        let tolerance = Tol::stated(1e-13, "closed forms against exact derivatives");
         let (stress, tangent) = law.first_piola_and_tangent(&f);
         assert_close("P", stress.0.as_slice(), derived::first_piola(law, &f).0.as_slice(), tolerance);
         let expected = derived::first_piola_tangent(law, &f).0.components;
@@ -135,17 +135,21 @@ fn stress_and_tangent_at_a_pressure_equal_derivatives_of_the_energy() {
 
 #[test]
 fn sides_of_an_anisotropic_bar_are_free() {
+    // The last corrections are below 1e-11 of ∇u: what convergence of second order leaves is rounding.
+    const ROUNDING: Tol = Tol::ulps(32.0);
     let law = wall();
     for x in [0.8, 1.0 + 1e-8, 1.1, 1.3, 1.6] {
         let state = IncompressibleState::of(&law, Mode::Uniaxial, x).unwrap_or_else(|error| panic!("{x}: {error}"));
         let stress = state.cauchy.0.components;
-        assert_close_at_scale("T₂₂, T₃₃", &stress[1..3], &[0.0; 2], stress[0].abs(), Tol::stated(1e-9, "free sides"));
+        assert_close_at_scale("T₂₂, T₃₃", &stress[1..3], &[0.0; 2], stress[0].abs(), ROUNDING);
         // The same by Newton's method for all of F and the pressure.
         let bar = uniaxial(&Pressurised::new(law), x).unwrap_or_else(|error| panic!("{x}: {error}"));
         let (found, expected) = (bar.deformation.matrix(), state.deformation.matrix());
-        assert_close("∇u", found.as_slice(), expected.as_slice(), Tol::stated(1e-10, "two iterations").times(100.0));
-        assert_close("T₁₁", &[bar.cauchy.0.components[0]], &stress[..1], Tol::stated(1e-9, "two iterations"));
-        assert_close("P", &[nominal_stress(Mode::Uniaxial, x, &law)], &[state.first_piola.0[(0, 0)]], NEWTON);
+        assert_close("∇u", found.as_slice(), expected.as_slice(), ROUNDING);
+        let cauchy = bar.cauchy.0.components;
+        assert_close("T₁₁", &cauchy[..1], &stress[..1], ROUNDING);
+        assert_close_at_scale("T₂₂, T₃₃ of the bar", &cauchy[1..3], &[0.0; 2], stress[0].abs(), ROUNDING);
+        assert_close("P", &[nominal_stress(Mode::Uniaxial, x, &law)], &[state.first_piola.0[(0, 0)]], ROUNDING);
         if 1.0 + 1e-3 < x {
             let f = state.deformation.gradient_rows();
             assert!(1e-3 < (f[1][1] - f[2][2]).abs(), "fibres hold one side: {f:?}");
