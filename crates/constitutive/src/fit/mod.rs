@@ -154,8 +154,7 @@ pub enum State {
     AtBound,
     /// The data say nothing of it, or not of it alone.
     Undetermined,
-    /// Yes, but there are as many parameters as numbers: the law passes through all of them, and what error its
-    /// parameters have cannot be told.
+    /// Yes, but there are as many parameters as numbers: what remains says nothing of the error of any.
     NoDegreesOfFreedom,
 }
 

@@ -40,7 +40,7 @@ fn what_as_many_numbers_do_not_fix_is_undetermined() {
     assert!(found.parameters.iter().all(|parameter| parameter.state == State::Undetermined), "{:?}", found.parameters);
 }
 
-/// AICc takes 0 < m − K − 1 with K = k + 1, the others k < m.
+/// `AICc` takes 0 < m − K − 1 with K = k + 1, the others k < m.
 #[test]
 fn criteria_are_there_from_as_many_numbers_as_they_take() {
     for parameters in 1..5 {

@@ -167,9 +167,12 @@ fn push<K: PartialEq, V>(groups: &mut Vec<(K, Vec<V>)>, key: K, value: V) {
     }
 }
 
+/// The line, the stretch and the stress of a row.
+type Point = (u64, [f64; 2]);
+
 fn short(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
     let mut mistakes = Vec::new();
-    let mut groups: Vec<(Mode, Vec<(u64, [f64; 2])>)> = Vec::new();
+    let mut groups: Vec<(Mode, Vec<Point>)> = Vec::new();
     for row in rows {
         if !complete(row, 3, &mut mistakes) {
             continue;
@@ -192,20 +195,20 @@ fn short(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
     let mut tests = Vec::new();
     for (mode, points) in groups {
         let (lines, points): (Vec<u64>, Vec<[f64; 2]>) = points.into_iter().unzip();
-        tests.extend(test(mode.name(), Table::of_mode(mode, points), Measure::Nominal, &lines, &mut mistakes));
+        tests.extend(test(mode.name(), &Table::of_mode(mode, points), Measure::Nominal, &lines, &mut mistakes));
     }
     if mistakes.is_empty() { Ok(tests) } else { Err(mistakes) }
 }
 
 /// The test of a table whose points stand on these lines, or the mistakes of all its points.
-fn test(name: &str, table: Table, measure: Measure, lines: &[u64], mistakes: &mut Vec<TableMistake>) -> Option<Test> {
+fn test(name: &str, table: &Table, measure: Measure, lines: &[u64], mistakes: &mut Vec<TableMistake>) -> Option<Test> {
     let error = match Test::new(name, table.clone(), measure) {
         Ok(test) => return Some(test),
         Err(error) => error,
     };
     let before = mistakes.len();
     for (index, &line) in lines.iter().enumerate() {
-        let Err(error) = Test::new(name, point(&table, index), measure) else { continue };
+        let Err(error) = Test::new(name, point(table, index), measure) else { continue };
         // The components of one row may all say the same.
         let mistake = refused(line, &error);
         if mistakes[before..].last() != Some(&mistake) {
@@ -294,7 +297,7 @@ fn long(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
         if mistakes.len() == before {
             // Without any stress no component was measured.
             let lines = if lines.is_empty() { vec![first] } else { lines };
-            tests.extend(test(&name, table, measure, &lines, &mut mistakes));
+            tests.extend(test(&name, &table, measure, &lines, &mut mistakes));
         }
     }
     if mistakes.is_empty() { Ok(tests) } else { Err(mistakes) }
