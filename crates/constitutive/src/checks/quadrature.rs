@@ -3,7 +3,7 @@
 use piola_numerics::gauss_kronrod::{GAUSS, KRONROD, NODES};
 
 /// The most panels of one integral.
-pub(super) const MOST: usize = 1024;
+const MOST: usize = 1024;
 
 /// Errors below this share of ∫ |P| |F′| of a panel are rounding: halving it helps no more.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
