@@ -13,13 +13,18 @@ pub(super) const COMMAND: Command = Command {
     usage: "",
     help: "package every published crate in dependency order and build each from its package",
     prepare: |shell, workspace, _| {
+        let target = Workspace::target(shell)?;
         // cargo sorts the crates by their dependencies and lets each see the packages of those before it.
         let mut command = cmd!(shell, "cargo package --allow-dirty --quiet");
         for member in workspace.crates.iter().filter(|member| member.is_published()) {
             command = command.args(["--package", &member.name]);
         }
         Ok(vec![
-            Step::check("package: forget", || forget(workspace), "an unpacked package could not be removed"),
+            Step::check(
+                "package: forget",
+                move || forget(workspace, &target),
+                "what is left of an earlier run could not be removed",
+            ),
             Step::program(
                 "package",
                 command,
@@ -29,26 +34,47 @@ pub(super) const COMMAND: Command = Command {
     },
 };
 
-/// Removes our crates from what cargo has unpacked of local registries: it keeps them by version, and would build
-/// against those of an earlier run, as long as the version is the same.
-fn forget(workspace: &Workspace) -> Outcome {
+/// Removes our crates from what cargo has unpacked of local registries, and has compiled of them: it keeps both by version, and
+/// would build against those of an earlier run as long as the version is the same.
+fn forget(workspace: &Workspace, target: &Path) -> Outcome {
+    let removed = remove(&unpacked(workspace))? + remove(&compiled(workspace, &target.join("debug/.fingerprint")))?;
+    Ok(format!("{removed} folders of an earlier run removed"))
+}
+
+/// Our crates in registries without a host, which are folders of this machine.
+fn unpacked(workspace: &Workspace) -> Vec<PathBuf> {
     let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = home.or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
-    let Some(home) = home else { return Ok("no folder of cargo's".to_owned()) };
-    let folders = |path: &Path| -> Vec<PathBuf> {
-        std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path()).collect()
+    let Some(home) = home.or_else(|| std::env::home_dir().map(|home| home.join(".cargo"))) else { return Vec::new() };
+    let registries = folders(&home.join("registry/src"));
+    let local = registries.iter().filter(|path| name_of(path).starts_with('-'));
+    local.flat_map(|registry| folders(registry)).filter(|package| is_ours(workspace, package)).collect()
+}
+
+/// What says that our crates are compiled, of those that came from a registry: cargo calls their state precalculated.
+fn compiled(workspace: &Workspace, fingerprints: &Path) -> Vec<PathBuf> {
+    let precalculated = |unit: &PathBuf| {
+        let files = folders(unit);
+        let mut texts = files.iter().filter_map(|file| std::fs::read_to_string(file).ok());
+        texts.any(|text| text.contains("\"Precalculated\""))
     };
-    let name_of = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let mut removed = 0;
-    // Registries without a host are folders of this machine.
-    for registry in folders(&home.join("registry/src")).iter().filter(|path| name_of(path).starts_with('-')) {
-        for package in folders(registry) {
-            let name = name_of(&package);
-            if workspace.crates.iter().any(|member| member.is_published() && name.starts_with(&member.name)) {
-                std::fs::remove_dir_all(&package).map_err(|error| vec![format!("{}: {error}", package.display())])?;
-                removed += 1;
-            }
-        }
+    folders(fingerprints).into_iter().filter(|unit| is_ours(workspace, unit)).filter(precalculated).collect()
+}
+
+fn is_ours(workspace: &Workspace, path: &Path) -> bool {
+    workspace.crates.iter().any(|member| member.is_published() && name_of(path).starts_with(&member.name))
+}
+
+fn folders(path: &Path) -> Vec<PathBuf> {
+    std::fs::read_dir(path).into_iter().flatten().flatten().map(|entry| entry.path()).collect()
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn remove(folders: &[PathBuf]) -> Result<usize, Vec<String>> {
+    for folder in folders {
+        std::fs::remove_dir_all(folder).map_err(|error| vec![format!("{}: {error}", folder.display())])?;
     }
-    Ok(format!("{removed} unpacked packages of an earlier run removed"))
+    Ok(folders.len())
 }

@@ -25,7 +25,9 @@
 //! | [`first_piola_tangent`] | the upper triangle of ∂P/∂F | 45 | |
 //! | [`first_piola_tangent_square`] | ∂P/∂F | 81 | `&mut [FirstPiolaTangent<T>]` |
 //! | [`first_piola_and_tangent`] | P and the upper triangle, from what they share | 9 + 45 | |
+//! | [`energy_and_first_piola`], [`energy_first_piola_and_tangent`] | W with P, and with both, from what they share | 1 + 9, 1 + 9 + 45 | |
 //! | [`material_tangent`], [`truesdell_tangent`] | ∂S/∂E; c/J | 21 | |
+//! | [`second_piola_and_tangent`], [`cauchy_and_tangent`] | S and ∂S/∂E, T and c/J, from what they share | 6 + 21 | |
 //! | [`first_piola_derivative`] | (∂P/∂F) : δF of a given δF | 9 | `&mut [FirstPiola<T>]` |
 //!
 //! Deformations and destinations are the views of [`piola_continuum::batch`]: arrays of structures, structures of

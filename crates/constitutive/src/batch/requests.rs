@@ -32,17 +32,21 @@ fn refused<M: Mask>(error: ConstitutiveError) -> M {
     M::splat(false)
 }
 
-/// Lanes that the law accepts, by the answer itself where that tells.
+/// Lanes that the law accepts, by the answer itself where that tells; an answer beyond the range of the scalar is none.
 #[inline(always)]
 pub(super) fn answered<T: Real, L: Hyperelastic, const K: usize>(
     law: &L,
     deformation: &impl Deformation<T>,
     answer: &[T; K],
 ) -> T::Mask {
-    // Where it refuses, and where F is no deformation, the first component is not finite if these say so.
-    let finite =
-        if L::REFUSED_IS_NOT_FINITE || L::KNOWS_DEFORMATIONS { answer[0].is_finite() } else { Mask::splat(true) };
+    // Where it refuses the first component is not finite if this says so.
+    let finite = answer[0].is_finite();
     if L::REFUSED_IS_NOT_FINITE { finite } else { finite & accepted(law, deformation) }
+}
+
+/// Refuses an answer whose first component is not finite.
+pub(super) fn within_range<T: Real, const K: usize>(answer: &[T; K], name: &'static str) -> Result<(), Refusal> {
+    if answer[0].is_finite().all() { Ok(()) } else { Err(Refusal::new(ConstitutiveError::Overflow { answer: name })) }
 }
 
 macro_rules! quantities {
@@ -79,9 +83,8 @@ macro_rules! quantities {
             const INPUT: &'static str = "";
 
             #[inline(always)]
-            fn of<T: Real, D: Deformation<T>>(&self, $point: &Point<T, D>, _input: [T; 0]) -> [T; $k] {
-                let $law = self.0;
-                $value
+            fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, _input: [T; 0]) -> [T; $k] {
+                Self::answer(self.0, point)
             }
 
             #[inline(always)]
@@ -90,7 +93,15 @@ macro_rules! quantities {
             }
 
             fn check<T: Real, D: Deformation<T>>(&self, deformation: &D) -> Result<(), Refusal> {
-                self.0.check(deformation).map_err(Refusal::new)
+                self.0.check(deformation).map_err(Refusal::new)?;
+                $crate::batch::requests::within_range(&Self::answer(self.0, deformation), stringify!($function))
+            }
+        }
+
+        impl<L: Hyperelastic> $name<'_, L> {
+            #[inline(always)]
+            fn answer<T: Real>($law: &L, $point: &impl Deformation<T>) -> [T; $k] {
+                $value
             }
         }
     )* };

@@ -143,7 +143,7 @@ impl AnyModel {
     ) -> Result<AnySolid, ConstitutiveError> {
         let volumetric = volumetric.into();
         Ok(match self.shape(parameters)? {
-            Shape::Invariants(isochoric) => Compressible::new(isochoric, volumetric).into(),
+            Shape::Invariants(isochoric) => Compressible::checked(isochoric, volumetric)?.into(),
             Shape::Stretches(terms) => IsochoricOgden::with_volumetric(&terms, volumetric)?.into(),
         })
     }

@@ -77,6 +77,23 @@ impl<L: Hyperelastic> Hyperelastic for Scaled<L> {
     }
 
     #[inline(always)]
+    fn energy_and_first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> (T, FirstPiola<T>) {
+        let factor = T::lit(self.factor);
+        let (energy, stress) = self.law.energy_and_first_piola(deformation);
+        (energy * factor, FirstPiola(stress.0.map(|x| x * factor)))
+    }
+
+    #[inline(always)]
+    fn energy_first_piola_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, FirstPiola<T>, FirstPiolaTangent<T>) {
+        let factor = T::lit(self.factor);
+        let (energy, stress, tangent) = self.law.energy_first_piola_and_tangent(deformation);
+        (energy * factor, FirstPiola(stress.0.map(|x| x * factor)), scaled(tangent, self.factor))
+    }
+
+    #[inline(always)]
     fn first_piola_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         scaled(self.law.first_piola_tangent(deformation), self.factor)
     }

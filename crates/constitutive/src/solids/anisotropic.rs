@@ -100,24 +100,7 @@ impl Hyperelastic for AnisotropicLinear {
     fn truesdell_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
         TruesdellTangent(self.tensor())
     }
-    #[inline(always)]
-    fn first_piola_and_tangent<T: Real>(
-        &self,
-        deformation: &impl Deformation<T>,
-    ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
-        (self.first_piola(deformation), self.first_piola_tangent(deformation))
-    }
-    #[inline(always)]
-    fn second_piola_and_tangent<T: Real>(
-        &self,
-        deformation: &impl Deformation<T>,
-    ) -> (SecondPiola<T>, MaterialTangent<T>) {
-        (self.second_piola(deformation), self.material_tangent(deformation))
-    }
-    #[inline(always)]
-    fn cauchy_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (CauchyStress<T>, TruesdellTangent<T>) {
-        (self.cauchy(deformation), self.truesdell_tangent(deformation))
-    }
+    crate::solids::strain_energy::linear_pairs!();
 }
 
 /// St. Venant and Kirchhoff's law of any symmetry: Hooke's law between E and S.
@@ -177,6 +160,16 @@ impl StrainEnergy for AnisotropicSaintVenantKirchhoff {
     #[inline(always)]
     fn tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MajorSymmetric<T> {
         constant_tangent(self.stiffness.tensor())
+    }
+    /// W = ½ S : E.
+    #[inline(always)]
+    fn energy_stress_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, Symmetric<T>, MajorSymmetric<T>) {
+        let (strain, tangent) = (GreenStrain::of(deformation).0, self.tangent(deformation));
+        let stress = tangent.contract(&strain);
+        (T::lit(0.5) * stress.double_contraction(&strain), stress, tangent)
     }
 }
 

@@ -9,6 +9,7 @@ use super::isochoric::{self, Isochoric};
 use super::unimodular::Unimodular;
 use super::volumetric::{Quadratic, Volumetric};
 use crate::ConstitutiveError;
+use crate::error::check_bound;
 
 /// An isotropic solid W = W̄(Ī₁, Ī₂) + U(J) of any [`Isochoric`] and any [`Volumetric`] energy.
 ///
@@ -40,12 +41,16 @@ use crate::ConstitutiveError;
 /// B(4.63), W(24.12) by the chain rule; Flory 1961.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(
+    feature = "serde",
+    serde(
+        try_from = "Written<I, U>",
+        bound(deserialize = "I: Isochoric + serde::Deserialize<'de>, U: Volumetric + serde::Deserialize<'de>")
+    )
+)]
 pub struct Compressible<I, U> {
-    /// W̄.
-    pub isochoric: I,
-    /// U.
-    pub volumetric: U,
+    pub(super) isochoric: I,
+    pub(super) volumetric: U,
 }
 
 /// W = ½ μ (Ī₁ − 3) + ½ κ (J − 1)².
@@ -56,9 +61,44 @@ pub type MooneyRivlinIsochoric = Compressible<isochoric::MooneyRivlin, Quadratic
 
 impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
     /// W̄ + U.
+    ///
+    /// A part whose bulk modulus may be negative, [`Lame`](super::volumetric::Lame) or one that was read from a file, is refused by
+    /// the compiler: see [`checked`](Self::checked).
     #[must_use]
     pub const fn new(isochoric: I, volumetric: U) -> Self {
+        const { assert!(!U::EITHER_SIGN, "this bulk modulus may be negative: use `Compressible::checked`") };
         Self { isochoric, volumetric }
+    }
+
+    /// W̄ + U, of any part U.
+    ///
+    /// # Errors
+    /// [`ConstitutiveError::OutOfBounds`] where U″(1), the bulk modulus, is negative: W̄ does not resist a change of volume.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_constitutive::solids::{Compressible, isochoric::NeoHookean, volumetric::Lame};
+    /// assert!(Compressible::checked(NeoHookean::new(2.0)?, Lame::new(5.0)?).is_ok());
+    /// let error = Compressible::checked(NeoHookean::new(2.0)?, Lame::new(-5.0)?).unwrap_err();
+    /// assert_eq!(error.to_string(), "compressible: U″(1) = -5e0 violates 0 ≤ U″(1)");
+    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// ```
+    pub fn checked(isochoric: I, volumetric: U) -> Result<Self, ConstitutiveError> {
+        let bulk = volumetric.bulk_modulus();
+        check_bound("compressible", "U″(1)", bulk, "0 ≤ U″(1)", 0.0 <= bulk)?;
+        Ok(Self { isochoric, volumetric })
+    }
+
+    /// W̄.
+    #[must_use]
+    pub const fn isochoric(&self) -> &I {
+        &self.isochoric
+    }
+
+    /// U.
+    #[must_use]
+    pub const fn volumetric(&self) -> &U {
+        &self.volumetric
     }
 
     /// The shear modulus of the reference, Pa.
@@ -71,6 +111,16 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
     #[must_use]
     pub fn bulk_modulus(&self) -> f64 {
         self.volumetric.bulk_modulus()
+    }
+}
+
+/// Ī₁ − 3 and Ī₂ − 3 within a few ulp of themselves.
+#[inline(always)]
+fn shape_of<T: Real, I: Isochoric>(deformation: &impl Deformation<T>) -> [T; 2] {
+    if I::SECOND {
+        invariants::isochoric_minus_three(deformation)
+    } else {
+        [invariants::isochoric_first_minus_three(deformation), T::zero()]
     }
 }
 
@@ -104,16 +154,14 @@ impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
 
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        let first = invariants::isochoric_first_minus_three(deformation);
-        let second = if I::SECOND { invariants::isochoric_second_minus_three(deformation) } else { T::zero() };
+        let [first, second] = shape_of::<T, I>(deformation);
         self.isochoric.energy(first, second)
             + self.volumetric.energy(deformation.volume_change(), deformation.jacobian())
     }
 
     #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
-        let first = invariants::isochoric_first_minus_three(deformation);
-        let second = if I::SECOND { invariants::isochoric_second_minus_three(deformation) } else { T::zero() };
+        let [first, second] = shape_of::<T, I>(deformation);
         isochoric::check_lanes(&self.isochoric, first, second)
     }
 
@@ -179,3 +227,21 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
 }
 
 hyperelastic_of_invariants!([I: Isochoric, U: Volumetric] Compressible<I, U>);
+
+/// The parts as they are written.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written<I, U> {
+    isochoric: I,
+    volumetric: U,
+}
+
+#[cfg(feature = "serde")]
+impl<I: Isochoric, U: Volumetric> TryFrom<Written<I, U>> for Compressible<I, U> {
+    type Error = ConstitutiveError;
+
+    fn try_from(Written { isochoric, volumetric }: Written<I, U>) -> Result<Self, ConstitutiveError> {
+        Self::checked(isochoric, volumetric)
+    }
+}

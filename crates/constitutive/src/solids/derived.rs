@@ -12,9 +12,19 @@ use super::Hyperelastic;
 #[inline]
 #[must_use]
 pub fn first_piola<T: Real, L: Hyperelastic + ?Sized>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+    energy_and_first_piola(law, deformation).1
+}
+
+/// (W, P): the evaluation for P has W beside it.
+#[inline]
+#[must_use]
+pub fn energy_and_first_piola<T: Real, L: Hyperelastic + ?Sized>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (T, FirstPiola<T>) {
     let varied = deformation.lifted(|i, j, x| Gradient::<T, 9>::variable(x, 3 * i + j));
-    let slopes = law.energy(&varied).partials;
-    FirstPiola(Matrix3::from_fn(|i, j| slopes[3 * i + j]))
+    let Gradient { value, partials } = law.energy(&varied);
+    (value, FirstPiola(Matrix3::from_fn(|i, j| partials[3 * i + j])))
 }
 
 /// ∂P/∂F = ∂²W/∂F∂F, a column at a time.
@@ -34,23 +44,36 @@ pub fn first_piola_and_tangent<T: Real, L: Hyperelastic + ?Sized>(
     law: &L,
     deformation: &impl Deformation<T>,
 ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
-    let columns: [[Dual<T>; 9]; 9] = core::array::from_fn(|column| second_derivatives(law, deformation, column));
-    let components = core::array::from_fn(|row| core::array::from_fn(|column| columns[column][row].tangent));
-    let stress = Matrix3::from_fn(|i, j| columns[0][3 * i + j].value);
-    (FirstPiola(stress), FirstPiolaTangent(FourthOrder { components }))
+    let (_, stress, tangent) = energy_first_piola_and_tangent(law, deformation);
+    (stress, tangent)
 }
 
-/// P and ∂P/∂F of one entry of F: compiled once for each law and scalar.
+/// (W, P, ∂P/∂F): the evaluations for ∂P/∂F have W and P beside it.
+#[inline]
+#[must_use]
+pub fn energy_first_piola_and_tangent<T: Real, L: Hyperelastic + ?Sized>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (T, FirstPiola<T>, FirstPiolaTangent<T>) {
+    let columns: [Gradient<Dual<T>, 9>; 9] =
+        core::array::from_fn(|column| second_derivatives(law, deformation, column));
+    let components = core::array::from_fn(|row| core::array::from_fn(|column| columns[column].partials[row].tangent));
+    let first = &columns[0];
+    let stress = Matrix3::from_fn(|i, j| first.partials[3 * i + j].value);
+    (first.value.value, FirstPiola(stress), FirstPiolaTangent(FourthOrder { components }))
+}
+
+/// W, P and ∂P/∂F of one entry of F: compiled once for each law and scalar.
 #[inline(never)]
 fn second_derivatives<T: Real, L: Hyperelastic + ?Sized>(
     law: &L,
     deformation: &impl Deformation<T>,
     column: usize,
-) -> [Dual<T>; 9] {
+) -> Gradient<Dual<T>, 9> {
     let varied = deformation.lifted(|i, j, x| {
         let place = 3 * i + j;
         let inner = if place == column { Dual::variable(x) } else { Dual::constant(x) };
         Gradient::<Dual<T>, 9>::variable(inner, place)
     });
-    law.energy(&varied).partials
+    law.energy(&varied)
 }

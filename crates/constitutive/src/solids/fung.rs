@@ -80,6 +80,14 @@ impl Fung {
         let image = constant_tangent(self.exponents.tensor()).contract(&strain);
         (image, strain.double_contraction(&image))
     }
+
+    /// S and ∂S/∂E of A : E and e^Q.
+    #[inline(always)]
+    fn scaled<T: Real>(&self, image: &Symmetric<T>, power: T) -> (Symmetric<T>, MajorSymmetric<T>) {
+        let scale = T::lit(self.c) * power;
+        let whole = constant_tangent(self.exponents.tensor()) + MajorSymmetric::dyad(image) * T::lit(2.0);
+        (*image * scale, whole * scale)
+    }
 }
 
 impl StrainEnergy for Fung {
@@ -98,9 +106,17 @@ impl StrainEnergy for Fung {
     #[inline(always)]
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         let (image, q) = self.exponent(deformation);
-        let scale = T::lit(self.c) * q.exp();
-        let whole = constant_tangent(self.exponents.tensor()) + MajorSymmetric::dyad(&image) * T::lit(2.0);
-        (image * scale, whole * scale)
+        self.scaled(&image, q.exp())
+    }
+    #[inline(always)]
+    fn energy_stress_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, Symmetric<T>, MajorSymmetric<T>) {
+        let (image, q) = self.exponent(deformation);
+        let growth = q.exp_m1();
+        let (stress, tangent) = self.scaled(&image, T::one() + growth);
+        (T::lit(0.5 * self.c) * growth, stress, tangent)
     }
     #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {

@@ -133,13 +133,57 @@ impl HolzapfelGasserOgden {
         Symmetric::new(along(x), along(y), along(z), rest * (x * y), rest * (y * z), rest * (x * z))
     }
 
-    /// ⟨E⟩, 1 where it answers, and e^(k₂ ⟨E⟩²).
+    /// ⟨E⟩, 1 where it answers, and k₂ ⟨E⟩².
     #[inline(always)]
     fn tension<T: Real>(&self, strain: T) -> (T, T, T) {
         let taut = T::zero().less_than(strain);
         let tension = T::select(taut, strain, T::zero());
         let answers = T::select(taut, T::one(), T::zero());
-        (tension, answers, (T::lit(self.k2) * (tension * tension)).exp())
+        (tension, answers, T::lit(self.k2) * (tension * tension))
+    }
+
+    /// S and ∂S/∂E; e^x of each family's exponent is given.
+    #[inline(always)]
+    fn of_metric<T: Real>(
+        &self,
+        metric: &Metric<T>,
+        volume: [T; 2],
+        powers: [T; 2],
+    ) -> (Symmetric<T>, MajorSymmetric<T>) {
+        let [jacobian, change] = volume;
+        let kappa = T::lit(self.kappa);
+        let mean = kappa * (jacobian * change);
+        let matrix = metric.invariant(&Symmetric::identity(), WHOLE);
+        let mut stress = matrix.slope * T::lit(self.mu) + metric.inverse * mean;
+        let mut tangent = metric.curvature(&matrix, WHOLE) * T::lit(2.0 * self.mu)
+            + MajorSymmetric::dyad(&metric.inverse) * (kappa * (jacobian * (jacobian + change)))
+            - MajorSymmetric::square_dyad(&metric.inverse) * (T::lit(2.0) * mean);
+        for family in 0..2 {
+            let fibres = metric.invariant(&self.structure(family), 1.0);
+            let (tension, answers, exponent) = self.tension(fibres.excess);
+            let slope = T::lit(2.0 * self.k1) * (tension * powers[family]);
+            let rate = T::one() + T::lit(2.0) * exponent;
+            let curvature = T::lit(4.0 * self.k1) * (answers * powers[family] * rate);
+            stress += fibres.slope * slope;
+            tangent = tangent
+                + MajorSymmetric::dyad(&fibres.slope) * curvature
+                + metric.curvature(&fibres, 1.0) * (T::lit(2.0) * slope);
+        }
+        (stress, tangent)
+    }
+
+    /// k₂ ⟨E⟩² of each family.
+    #[inline(always)]
+    fn exponents<T: Real>(&self, metric: &Metric<T>) -> [T; 2] {
+        [self.tension(metric.excess(&self.structure(0), 1.0)).2, self.tension(metric.excess(&self.structure(1), 1.0)).2]
+    }
+
+    /// W of e^x − 1 of each family's exponent.
+    #[inline(always)]
+    fn parts<T: Real>(&self, deformation: &impl Deformation<T>, change: T, growth: [T; 2]) -> T {
+        T::lit(0.5 * self.mu) * invariants::isochoric_first_minus_three(deformation)
+            + T::lit(0.5 * self.kappa) * (change * change)
+            + T::lit(0.5 * self.k1 / self.k2) * (growth[0] + growth[1])
     }
 }
 
@@ -235,15 +279,8 @@ const WHOLE: f64 = 3.0;
 impl StrainEnergy for HolzapfelGasserOgden {
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        let metric = Metric::of(deformation);
-        let change = deformation.volume_change();
-        let mut energy = T::lit(0.5 * self.mu) * invariants::isochoric_first_minus_three(deformation)
-            + T::lit(0.5 * self.kappa) * (change * change);
-        for family in 0..2 {
-            let (tension, _, _) = self.tension(metric.excess(&self.structure(family), 1.0));
-            energy += T::lit(0.5 * self.k1 / self.k2) * (T::lit(self.k2) * (tension * tension)).exp_m1();
-        }
-        energy
+        let [first, second] = self.exponents(&Metric::of(deformation));
+        self.parts(deformation, deformation.volume_change(), [first.exp_m1(), second.exp_m1()])
     }
 
     #[inline(always)]
@@ -259,26 +296,21 @@ impl StrainEnergy for HolzapfelGasserOgden {
     #[inline(always)]
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         let metric = Metric::of(deformation);
-        let (jacobian, change) = (deformation.jacobian(), deformation.volume_change());
-        let kappa = T::lit(self.kappa);
-        let mean = kappa * (jacobian * change);
-        let matrix = metric.invariant(&Symmetric::identity(), WHOLE);
-        let mut stress = matrix.slope * T::lit(self.mu) + metric.inverse * mean;
-        let mut tangent = metric.curvature(&matrix, WHOLE) * T::lit(2.0 * self.mu)
-            + MajorSymmetric::dyad(&metric.inverse) * (kappa * (jacobian * (jacobian + change)))
-            - MajorSymmetric::square_dyad(&metric.inverse) * (T::lit(2.0) * mean);
-        for family in 0..2 {
-            let fibres = metric.invariant(&self.structure(family), 1.0);
-            let (tension, answers, growth) = self.tension(fibres.excess);
-            let slope = T::lit(2.0 * self.k1) * (tension * growth);
-            let rate = T::one() + T::lit(2.0 * self.k2) * (tension * tension);
-            let curvature = T::lit(4.0 * self.k1) * (answers * growth * rate);
-            stress += fibres.slope * slope;
-            tangent = tangent
-                + MajorSymmetric::dyad(&fibres.slope) * curvature
-                + metric.curvature(&fibres, 1.0) * (T::lit(2.0) * slope);
-        }
-        (stress, tangent)
+        let [first, second] = self.exponents(&metric);
+        self.of_metric(&metric, [deformation.jacobian(), deformation.volume_change()], [first.exp(), second.exp()])
+    }
+
+    #[inline(always)]
+    fn energy_stress_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, Symmetric<T>, MajorSymmetric<T>) {
+        let (metric, change) = (Metric::of(deformation), deformation.volume_change());
+        let [first, second] = self.exponents(&metric);
+        let [first, second] = [first.exp_m1(), second.exp_m1()];
+        let powers = [T::one() + first, T::one() + second];
+        let (stress, tangent) = self.of_metric(&metric, [deformation.jacobian(), change], powers);
+        (self.parts(deformation, change, [first, second]), stress, tangent)
     }
 
     #[inline(always)]
@@ -289,8 +321,7 @@ impl StrainEnergy for HolzapfelGasserOgden {
         let slope = metric.scale * (T::one() + square * metric.inverse.trace());
         let size = slope * slope * (T::one() + square);
         for family in 0..2 {
-            let (tension, _, _) = self.tension(metric.excess(&self.structure(family), 1.0));
-            let exponent = T::lit(self.k2) * (tension * tension);
+            let (_, _, exponent) = self.tension(metric.excess(&self.structure(family), 1.0));
             let growth = T::one() + T::lit(2.0) * exponent;
             check_exponent(LAW, "k2 E²", exponent, T::lit(4.0 * self.k1 + self.k1 / self.k2) * (growth * size))?;
         }

@@ -97,6 +97,13 @@ pub trait Hyperelastic {
         derived::first_piola(self, deformation)
     }
 
+    /// (W(F) − W(1), P), with what they share computed once. A law that gives P gives this, too.
+    #[inline(always)]
+    #[must_use]
+    fn energy_and_first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> (T, FirstPiola<T>) {
+        derived::energy_and_first_piola(self, deformation)
+    }
+
     /// S = ∂W/∂E = F⁻¹ P, B(4.60).
     #[inline(always)]
     #[must_use]
@@ -133,6 +140,16 @@ pub trait Hyperelastic {
         deformation: &impl Deformation<T>,
     ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
         derived::first_piola_and_tangent(self, deformation)
+    }
+
+    /// (W(F) − W(1), P, ∂P/∂F), with what they share computed once. A law that gives ∂P/∂F gives this, too.
+    #[inline(always)]
+    #[must_use]
+    fn energy_first_piola_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, FirstPiola<T>, FirstPiolaTangent<T>) {
+        derived::energy_first_piola_and_tangent(self, deformation)
     }
 
     /// P by rows, then the 45 entries of ∂P/∂F on and above the diagonal of its 9×9 array, by rows: what batches write. A law

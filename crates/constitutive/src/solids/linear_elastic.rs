@@ -214,26 +214,7 @@ impl Hyperelastic for LinearElastic {
         FirstPiolaTangent(FourthOrder { components })
     }
 
-    #[inline(always)]
-    fn first_piola_and_tangent<T: Real>(
-        &self,
-        deformation: &impl Deformation<T>,
-    ) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
-        (self.first_piola(deformation), self.first_piola_tangent(deformation))
-    }
-
-    #[inline(always)]
-    fn second_piola_and_tangent<T: Real>(
-        &self,
-        deformation: &impl Deformation<T>,
-    ) -> (SecondPiola<T>, MaterialTangent<T>) {
-        (self.second_piola(deformation), self.material_tangent(deformation))
-    }
-
-    #[inline(always)]
-    fn cauchy_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (CauchyStress<T>, TruesdellTangent<T>) {
-        (self.cauchy(deformation), self.truesdell_tangent(deformation))
-    }
+    crate::solids::strain_energy::linear_pairs!();
 }
 
 /// Linear elasticity with the pressure as an unknown of its own: one form for all ν ≤ ½.

@@ -38,6 +38,7 @@ mod hyperelastic;
 mod incompressible;
 pub mod invariant;
 pub mod isochoric;
+mod known;
 mod linear_elastic;
 pub mod membrane;
 mod mooney_rivlin;

@@ -4,10 +4,10 @@ use piola_continuum::Deformation;
 use piola_numerics::Real;
 
 use super::invariant::{
-    Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants, second_excess,
+    Curvatures, InvariantEnergy, Invariants, Slopes, first_excess_beside, hyperelastic_of_invariants,
+    second_excess_beside, volume_excess,
 };
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_given;
 use crate::error::{check_bound, check_finite};
 
 const LAW: &str = "Mooney–Rivlin";
@@ -127,15 +127,14 @@ impl InvariantEnergy for MooneyRivlin {
     const STRAIGHT: bool = true;
     const CURVED: bool = false;
 
-    /// C₁₀ (I₁ − 3 − 2 ln J) + C₀₁ (I₂ − 3 − 4 ln J) + c (J² − 1 − 2 ln J) + r ln J, r the stress of the reference.
+    /// C₁₀ (I₁ − 3 − 2 ln J) + C₀₁ (I₂ − 3 − 4 ln J) + c ((J − 1)² + 2 (J − 1 − ln J)) + r ln J, r the stress of the reference.
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        let (two, change, logarithm) = (T::lit(2.0), deformation.volume_change(), deformation.ln_jacobian());
-        let square = change * (change + two);
-        T::lit(self.c10) * first_excess(deformation)
-            + T::lit(self.c01) * second_excess(deformation)
-            + T::lit(self.c) * excess_over_given(square, two * logarithm)
-            + T::lit(self.residual) * logarithm
+        let (change, excess) = (deformation.volume_change(), volume_excess(deformation));
+        let energy = T::lit(self.c10) * first_excess_beside(deformation, excess)
+            + T::lit(self.c01) * second_excess_beside(deformation, excess)
+            + T::lit(self.c) * (change * change + T::lit(2.0) * excess);
+        if self.residual == 0.0 { energy } else { energy + T::lit(self.residual) * deformation.ln_jacobian() }
     }
 
     fn reference_energy(&self) -> f64 {

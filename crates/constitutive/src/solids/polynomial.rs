@@ -5,11 +5,11 @@ use piola_continuum::strain::invariants;
 use piola_numerics::Real;
 
 use super::invariant::{
-    Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants, second_excess,
+    Curvatures, InvariantEnergy, Invariants, Slopes, first_excess_beside, hyperelastic_of_invariants,
+    second_excess_beside, volume_excess,
 };
 use super::series::{power, power_curvature, power_slope};
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_given;
 use crate::error::{check_bound, check_finite};
 
 const LAW: &str = "polynomial";
@@ -40,7 +40,8 @@ pub struct PolynomialTerm {
 /// | `C_rst` | `coefficient` of a term | Pa | finite |
 ///
 /// The reference is free of stress if C₁₀₀ + 2 C₀₁₀ + C₀₀₁ = 0, which [`stress_free`](Self::stress_free) asks for; the
-/// shear modulus is 2 (C₁₀₀ + C₀₁₀) then. Whether the law is stable is not checked here.
+/// shear modulus is 2 (C₁₀₀ + C₀₁₀) then, which is positive, and the bulk modulus is not negative. Whether the law is stable
+/// elsewhere is for the [checkers](crate::checks).
 ///
 /// # Accuracy
 /// P, S, τ relative 1e-13 down to ∇u = 1e-16 where the reference is free of stress; tangents a few ulp of their
@@ -77,8 +78,10 @@ impl Polynomial {
     /// From its terms; the reference carries the stress 2 (C₁₀₀ + 2 C₀₁₀ + C₀₀₁) 1.
     ///
     /// # Errors
-    /// [`ConstitutiveError::NotFinite`], [`ConstitutiveError::OutOfBounds`].
+    /// [`ConstitutiveError::NotFinite`]; [`ConstitutiveError::OutOfBounds`] where there are no terms or one is constant, or where a
+    /// reference without stress has a modulus of shear 2 (C₁₀₀ + C₀₁₀) that is not positive, or a negative one of volume.
     pub fn new(terms: Vec<PolynomialTerm>) -> Result<Self, ConstitutiveError> {
+        check_bound(LAW, "terms", terms.len() as f64, "0 < number of terms", !terms.is_empty())?;
         let mut linear = [0.0; 3];
         for term in &terms {
             check_finite(LAW, "coefficient", term.coefficient)?;
@@ -93,7 +96,11 @@ impl Polynomial {
         }
         let mut curved = terms;
         curved.retain(|term| 1 < u32::from(term.first) + u32::from(term.second) + u32::from(term.third));
-        Ok(Self { curved, linear, residual: 2.0 * (linear[0] + 2.0 * linear[1] + linear[2]) })
+        let law = Self { curved, linear, residual: 2.0 * (linear[0] + 2.0 * linear[1] + linear[2]) };
+        if law.is_stress_free() {
+            law.check_reference()?;
+        }
+        Ok(law)
     }
 
     /// From terms with C₁₀₀ + 2 C₀₁₀ + C₀₀₁ = 0, up to 4 ulp of the largest of them.
@@ -102,10 +109,38 @@ impl Polynomial {
     /// As [`new`](Self::new), and [`ConstitutiveError::OutOfBounds`] where the reference has stress.
     pub fn stress_free(terms: Vec<PolynomialTerm>) -> Result<Self, ConstitutiveError> {
         let law = Self::new(terms)?;
-        let largest = law.linear.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        let holds = law.residual.abs() <= 16.0 * f64::EPSILON * largest;
-        check_bound(LAW, "C100 + 2 C010 + C001", 0.5 * law.residual, "C100 + 2 C010 + C001 = 0", holds)?;
+        check_bound(LAW, "C100 + 2 C010 + C001", 0.5 * law.residual, "C100 + 2 C010 + C001 = 0", law.is_stress_free())?;
         Ok(Self { residual: 0.0, ..law })
+    }
+
+    /// Whether the reference has no stress, within rounding of the terms of degree 1.
+    fn is_stress_free(&self) -> bool {
+        let largest = self.linear.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        self.residual.abs() <= 16.0 * f64::EPSILON * largest
+    }
+
+    /// Refuses a reference without stress that is not stable.
+    fn check_reference(&self) -> Result<(), ConstitutiveError> {
+        let shear = self.linear[0] + self.linear[1];
+        check_bound(LAW, "C100 + C010", shear, "0 < C100 + C010 (half the shear modulus)", 0.0 < shear)?;
+        let bulk = self.bulk_modulus();
+        // Of terms that cancel something is left.
+        let size = self.linear.iter().chain(self.curved.iter().map(|term| &term.coefficient));
+        let rounding = 64.0 * f64::EPSILON * size.fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        check_bound(LAW, "∂²W/∂J²", bulk, "0 ≤ ∂²W/∂J² of a dilatation", -rounding <= bulk)
+    }
+
+    /// ∂²W/∂J² of a dilatation of the reference, Pa: I₁ − 3 = 2 c − ⅓ c², I₂ − 3 = 4 c + ⅔ c², I₃ − 1 = 2 c + c² with c = J − 1, to
+    /// the second order.
+    fn bulk_modulus(&self) -> f64 {
+        let [a, b, c] = self.linear;
+        let linear = -2.0 / 3.0 * a + 4.0 / 3.0 * b + 2.0 * c;
+        let quadratic = self
+            .curved
+            .iter()
+            .filter(|term| u32::from(term.first) + u32::from(term.second) + u32::from(term.third) == 2);
+        // Each factor grows with 2 c, that of I₂ with 4 c.
+        linear + quadratic.map(|term| 8.0 * term.coefficient * f64::from(1_u32 << term.second)).sum::<f64>()
     }
 
     /// The solid of St. Venant and Kirchhoff: C₁₀₀ = μ, C₂₀₀ = (λ + 2 μ)/8, C₀₁₀ = −μ/2.
@@ -141,9 +176,7 @@ impl TryFrom<Vec<PolynomialTerm>> for Polynomial {
     /// Free of stress in the reference where the coefficients say so.
     fn try_from(terms: Vec<PolynomialTerm>) -> Result<Self, ConstitutiveError> {
         let law = Self::new(terms)?;
-        let largest = law.linear.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        let free = law.residual.abs() <= 16.0 * f64::EPSILON * largest;
-        Ok(if free { Self { residual: 0.0, ..law } } else { law })
+        Ok(if law.is_stress_free() { Self { residual: 0.0, ..law } } else { law })
     }
 }
 
@@ -161,13 +194,15 @@ impl InvariantEnergy for Polynomial {
     /// Linear terms by I₁ − 3 − 2 ln J, I₂ − 3 − 4 ln J and I₃ − 1 − 2 ln J, the rest as it stands.
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        let (two, change, logarithm) = (T::lit(2.0), deformation.volume_change(), deformation.ln_jacobian());
+        let (two, change, excess) = (T::lit(2.0), deformation.volume_change(), volume_excess(deformation));
         let z = change * (change + two);
         let (x, y) = (invariants::first_minus_three(deformation), invariants::second_minus_three(deformation));
-        let mut sum = T::lit(self.linear[0]) * first_excess(deformation)
-            + T::lit(self.linear[1]) * second_excess(deformation)
-            + T::lit(self.linear[2]) * excess_over_given(z, two * logarithm)
-            + T::lit(self.residual) * logarithm;
+        let mut sum = T::lit(self.linear[0]) * first_excess_beside(deformation, excess)
+            + T::lit(self.linear[1]) * second_excess_beside(deformation, excess)
+            + T::lit(self.linear[2]) * (change * change + two * excess);
+        if self.residual != 0.0 {
+            sum += T::lit(self.residual) * deformation.ln_jacobian();
+        }
         for term in &self.curved {
             sum += T::lit(term.coefficient) * power(x, term.first) * power(y, term.second) * power(z, term.third);
         }

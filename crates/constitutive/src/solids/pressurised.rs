@@ -95,6 +95,12 @@ impl<L: Hyperelastic> Pressurised<L> {
         FirstPiola(stress.0 - from_rows(deformation.cofactor_rows()).map(|x| x * p))
     }
 
+    /// W_law − p (J − 1).
+    #[inline(always)]
+    fn worked<T: Real>(&self, energy: T, deformation: &impl Deformation<T>) -> T {
+        energy - T::lit(self.pressure) * deformation.volume_change()
+    }
+
     /// `A_law` − p ∂ Cof F/∂F, ∂ Cofᵢⱼ/∂Fₖₗ = εᵢₖₘ εⱼₗₙ Fₘₙ.
     #[inline(always)]
     fn stiffened<T: Real>(
@@ -123,7 +129,7 @@ impl<L: Hyperelastic> Pressurised<L> {
 impl<L: Hyperelastic> Hyperelastic for Pressurised<L> {
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        self.law.energy(deformation) - T::lit(self.pressure) * deformation.volume_change()
+        self.worked(self.law.energy(deformation), deformation)
     }
 
     fn reference_energy(&self) -> f64 {
@@ -143,6 +149,22 @@ impl<L: Hyperelastic> Hyperelastic for Pressurised<L> {
     #[inline(always)]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         self.pressed(self.law.first_piola(deformation), deformation)
+    }
+
+    #[inline(always)]
+    fn energy_and_first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> (T, FirstPiola<T>) {
+        let (energy, stress) = self.law.energy_and_first_piola(deformation);
+        (self.worked(energy, deformation), self.pressed(stress, deformation))
+    }
+
+    #[inline(always)]
+    fn energy_first_piola_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, FirstPiola<T>, FirstPiolaTangent<T>) {
+        let (energy, stress, tangent) = self.law.energy_first_piola_and_tangent(deformation);
+        let (stress, tangent) = (self.pressed(stress, deformation), self.stiffened(tangent, deformation));
+        (self.worked(energy, deformation), stress, tangent)
     }
 
     #[inline(always)]

@@ -97,16 +97,20 @@ impl ReinforcedNeoHookean {
         let change = kernels::right_cauchy_green_minus_one(deformation.displacement_rows());
         (structure, change.double_contraction(&structure))
     }
+
+    /// W of I₄ − 1 and ln J.
+    #[inline(always)]
+    fn parts<T: Real>(&self, stretch: T, volume: T, deformation: &impl Deformation<T>) -> T {
+        T::lit(0.5 * self.mu) * first_excess(deformation)
+            + T::lit(0.5 * self.lambda) * (volume * volume)
+            + T::lit(0.5 * self.k) * (stretch * stretch)
+    }
 }
 
 impl StrainEnergy for ReinforcedNeoHookean {
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        let (_, stretch) = self.stretch(deformation);
-        let volume = deformation.ln_jacobian();
-        T::lit(0.5 * self.mu) * first_excess(deformation)
-            + T::lit(0.5 * self.lambda) * (volume * volume)
-            + T::lit(0.5 * self.k) * (stretch * stretch)
+        self.parts(self.stretch(deformation).1, deformation.ln_jacobian(), deformation)
     }
     #[inline(always)]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
@@ -118,14 +122,23 @@ impl StrainEnergy for ReinforcedNeoHookean {
     }
     #[inline(always)]
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
+        let (_, stress, tangent) = self.energy_stress_and_tangent(deformation);
+        (stress, tangent)
+    }
+    #[inline(always)]
+    fn energy_stress_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, Symmetric<T>, MajorSymmetric<T>) {
         let (structure, stretch) = self.stretch(deformation);
         let (inverse, less_inverse) = inverse_metric(deformation);
-        let (lambda, volume) = (T::lit(self.lambda), T::lit(self.lambda) * deformation.ln_jacobian());
+        let (lambda, logarithm) = (T::lit(self.lambda), deformation.ln_jacobian());
+        let volume = lambda * logarithm;
         let stress = less_inverse * T::lit(self.mu) + inverse * volume + structure * (T::lit(2.0 * self.k) * stretch);
         let tangent = MajorSymmetric::dyad(&inverse) * lambda
             + MajorSymmetric::square_dyad(&inverse) * (T::lit(2.0) * (T::lit(self.mu) - volume))
             + MajorSymmetric::dyad(&structure) * T::lit(4.0 * self.k);
-        (stress, tangent)
+        (self.parts(stretch, logarithm, deformation), stress, tangent)
     }
 }
 

@@ -109,6 +109,24 @@ impl Hyperelastic for SaintVenantKirchhoff {
         FirstPiola(from_rows(product(deformation.gradient_rows(), self.stress(deformation.displacement_rows()).rows())))
     }
 
+    /// W = ½ S : E.
+    #[inline(always)]
+    fn energy_and_first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> (T, FirstPiola<T>) {
+        let h = deformation.displacement_rows();
+        let stress = self.stress(h);
+        let energy = T::lit(0.5) * stress.double_contraction(&kernels::green(h));
+        (energy, FirstPiola(from_rows(product(deformation.gradient_rows(), stress.rows()))))
+    }
+
+    #[inline(always)]
+    fn energy_first_piola_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, FirstPiola<T>, FirstPiolaTangent<T>) {
+        let (stress, tangent) = self.first_piola_and_tangent(deformation);
+        (self.energy(deformation), stress, tangent)
+    }
+
     #[inline(always)]
     fn second_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
         SecondPiola(self.stress(deformation.displacement_rows()))

@@ -22,6 +22,15 @@ pub(super) trait StrainEnergy {
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         (self.stress(deformation), self.tangent(deformation))
     }
+    /// W, S and ∂S/∂E, with what they share computed once.
+    #[inline(always)]
+    fn energy_stress_and_tangent<T: Real>(
+        &self,
+        deformation: &impl Deformation<T>,
+    ) -> (T, Symmetric<T>, MajorSymmetric<T>) {
+        let (stress, tangent) = self.stress_and_tangent(deformation);
+        (self.energy(deformation), stress, tangent)
+    }
     /// Where the law has no answer.
     #[inline(always)]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
@@ -87,6 +96,51 @@ pub(super) fn constant_tangent<T: Real>(tensor: &MajorSymmetric) -> MajorSymmetr
     MajorSymmetric { components }
 }
 
+/// Pairs of answers of a law in which stress and strain are linear: tangents share nothing with stresses, and W = ½ σ : ε.
+macro_rules! linear_pairs {
+    () => {
+        #[inline(always)]
+        fn energy_and_first_piola<T: piola_numerics::Real>(
+            &self,
+            deformation: &impl piola_continuum::Deformation<T>,
+        ) -> (T, piola_continuum::FirstPiola<T>) {
+            let stress = self.second_piola(deformation).0;
+            let strain = piola_continuum::strain::LinearStrain::of(deformation).0;
+            (T::lit(0.5) * stress.double_contraction(&strain), piola_continuum::FirstPiola(stress.matrix()))
+        }
+        #[inline(always)]
+        fn energy_first_piola_and_tangent<T: piola_numerics::Real>(
+            &self,
+            deformation: &impl piola_continuum::Deformation<T>,
+        ) -> (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+            let (energy, stress) = self.energy_and_first_piola(deformation);
+            (energy, stress, self.first_piola_tangent(deformation))
+        }
+        #[inline(always)]
+        fn first_piola_and_tangent<T: piola_numerics::Real>(
+            &self,
+            deformation: &impl piola_continuum::Deformation<T>,
+        ) -> (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+            (self.first_piola(deformation), self.first_piola_tangent(deformation))
+        }
+        #[inline(always)]
+        fn second_piola_and_tangent<T: piola_numerics::Real>(
+            &self,
+            deformation: &impl piola_continuum::Deformation<T>,
+        ) -> (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
+            (self.second_piola(deformation), self.material_tangent(deformation))
+        }
+        #[inline(always)]
+        fn cauchy_and_tangent<T: piola_numerics::Real>(
+            &self,
+            deformation: &impl piola_continuum::Deformation<T>,
+        ) -> (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
+            (self.cauchy(deformation), self.truesdell_tangent(deformation))
+        }
+    };
+}
+pub(super) use linear_pairs;
+
 /// Writes [`Hyperelastic`](super::Hyperelastic) for a law of Green's strain.
 macro_rules! hyperelastic_of_strain {
     ($law:ty) => {
@@ -108,6 +162,26 @@ macro_rules! hyperelastic_of_strain {
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> piola_continuum::FirstPiola<T> {
                 $crate::solids::strain_energy::nominal(&self.stress(deformation), deformation)
+            }
+            #[inline(always)]
+            fn energy_and_first_piola<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> (T, piola_continuum::FirstPiola<T>) {
+                let (energy, stress, _) = self.energy_stress_and_tangent(deformation);
+                (energy, $crate::solids::strain_energy::nominal(&stress, deformation))
+            }
+            #[inline(always)]
+            fn energy_first_piola_and_tangent<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+                let (energy, stress, tangent) = self.energy_stress_and_tangent(deformation);
+                (
+                    energy,
+                    $crate::solids::strain_energy::nominal(&stress, deformation),
+                    $crate::solids::strain_energy::nominal_tangent(&stress, &tangent, deformation),
+                )
             }
             #[inline(always)]
             fn second_piola<T: piola_numerics::Real>(

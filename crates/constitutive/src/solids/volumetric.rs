@@ -21,7 +21,7 @@
 
 use piola_numerics::{Mask, Real};
 
-use crate::elementary::excess_over_given as excess;
+use crate::elementary::{excess_over_given as excess, volume_excess};
 use crate::parameters::parameters;
 
 /// An energy of the change of volume, zero with its first derivative at J = 1.
@@ -50,6 +50,8 @@ use crate::parameters::parameters;
 pub trait Volumetric: Clone {
     /// See [`InvariantEnergy::STRAIGHT`](super::invariant::InvariantEnergy::STRAIGHT).
     const STRAIGHT: bool = false;
+    /// Whether the bulk modulus may be negative, beside a change of shape that resists a change of volume too.
+    const EITHER_SIGN: bool = false;
 
     /// U of J − 1 and J, J/m³, without cancellation.
     #[must_use]
@@ -79,6 +81,7 @@ pub trait Volumetric: Clone {
 
 impl<U: Volumetric> Volumetric for &U {
     const STRAIGHT: bool = U::STRAIGHT;
+    const EITHER_SIGN: bool = U::EITHER_SIGN;
 
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
@@ -207,6 +210,8 @@ parameters! {
 }
 
 impl Volumetric for Lame {
+    const EITHER_SIGN: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let logarithm = logarithm(change, jacobian);
@@ -289,8 +294,8 @@ impl Volumetric for SimoTaylor {
 
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        let (two, logarithm) = (T::lit(2.0), logarithm(change, jacobian));
-        T::lit(0.25 * self.kappa) * excess(change * (change + two), two * logarithm)
+        // J² − 1 − 2 ln J = (J − 1)² + 2 (J − 1 − ln J).
+        T::lit(0.25 * self.kappa) * (change * change + T::lit(2.0) * volume_excess(change, jacobian))
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {
@@ -364,7 +369,7 @@ parameters! {
 impl Volumetric for Miehe {
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * excess(change, logarithm(change, jacobian))
+        T::lit(self.kappa) * volume_excess(change, jacobian)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {

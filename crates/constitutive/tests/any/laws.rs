@@ -22,7 +22,7 @@ fn compressible(
     isochoric: impl Isochoric + Into<AnyIsochoric>,
     volumetric: impl Volumetric + Into<AnyVolumetric>,
 ) -> AnySolid {
-    Compressible::new(isochoric, volumetric).into()
+    Compressible::checked(isochoric, volumetric).expect("0 ≤ κ").into()
 }
 
 fn terms() -> [OgdenTerm; 3] {

@@ -6,6 +6,7 @@ use piola_constitutive::ConstitutiveError;
 use piola_constitutive::solids::isochoric::{Gent, Isochoric};
 use piola_constitutive::solids::volumetric::Quadratic;
 use piola_constitutive::solids::{Compressible, Hyperelastic};
+use piola_continuum::strain::kernels;
 use piola_continuum::tensor::PairSymmetric;
 use piola_continuum::{Deformation, DeformationGradient};
 use piola_numerics::Real;
@@ -30,6 +31,18 @@ proptest! {
                 assert_close_at_scale(&format!("{law:?}: {what} at {f:?}"), actual, expected, scale, TOGETHER);
             };
             close("P", nominal.0.as_slice(), law.first_piola(&f).0.as_slice(), moduli);
+            let energy = law.energy(&f);
+            let (with_stress, stress) = law.energy_and_first_piola(&f);
+            let (with_both, again, whole) = law.energy_first_piola_and_tangent(&f);
+            // An energy is of second order in the strain, or of that of its reference with stress.
+            let strain = largest(&kernels::green(f.displacement_rows()).components);
+            let work = moduli * strain * (strain + largest(&law.reference_stress().components) / moduli);
+            close("W with P", &[with_stress], &[energy], work);
+            close("W with both", &[with_both], &[energy], work);
+            close("P with W", stress.0.as_slice(), nominal.0.as_slice(), moduli);
+            close("P with W and ∂P/∂F", again.0.as_slice(), nominal.0.as_slice(), moduli);
+            let (whole, together) = (whole.0.components, tangent.0.components);
+            close("∂P/∂F with W", whole.as_flattened(), together.as_flattened(), moduli);
             let apart = law.first_piola_tangent(&f).0.components;
             close("∂P/∂F", tangent.0.components.as_flattened(), apart.as_flattened(), moduli);
             let (stress, tangent) = law.second_piola_and_tangent(&f);
@@ -73,7 +86,7 @@ fn slopes_and_curvatures_are_evaluated_once_and_curvatures_only_for_a_tangent() 
     let law = Compressible::new(counted, Quadratic::new(5.0)?);
     let f = DeformationGradient::from_rows([[1.1, 0.2, 0.0], [-0.1, 0.9, 0.3], [0.05, 0.1, 1.02]]).expect("0 < det F");
     let counts = |ask: &dyn Fn()| {
-        let part = &law.isochoric;
+        let part = law.isochoric();
         part.slopes.set(0);
         part.curvatures.set(0);
         ask();
@@ -84,6 +97,8 @@ fn slopes_and_curvatures_are_evaluated_once_and_curvatures_only_for_a_tangent() 
     assert_eq!(counts(&|| _ = law.cauchy(&f)), (1, 0));
     assert_eq!(counts(&|| _ = law.first_piola_tangent(&f)), (1, 1));
     assert_eq!(counts(&|| _ = law.first_piola_and_tangent(&f)), (1, 1));
+    assert_eq!(counts(&|| _ = law.energy_and_first_piola(&f)), (1, 0));
+    assert_eq!(counts(&|| _ = law.energy_first_piola_and_tangent(&f)), (1, 1));
     assert_eq!(counts(&|| _ = law.second_piola_and_tangent(&f)), (1, 1));
     assert_eq!(counts(&|| _ = law.cauchy_and_tangent(&f)), (1, 1));
     Ok(())
@@ -116,6 +131,10 @@ fn an_energy_alone_is_asked_no_more_for_stress_and_tangent_than_for_the_tangent(
     assert_eq!(count(&|| _ = law.first_piola(&f)), 1);
     assert_eq!(count(&|| _ = law.first_piola_tangent(&f)), 9);
     assert_eq!(count(&|| _ = law.first_piola_and_tangent(&f)), 9);
+    assert_eq!(count(&|| _ = law.energy_and_first_piola(&f)), 1);
+    assert_eq!(count(&|| _ = law.energy_first_piola_and_tangent(&f)), 9);
+    let energy: f64 = law.energy(&f);
+    assert_eq!(law.energy_and_first_piola(&f).0.to_bits(), energy.to_bits());
     assert_eq!(count(&|| _ = law.material_tangent(&f)), 9);
     assert_eq!(count(&|| _ = law.second_piola_and_tangent(&f)), 9);
     assert_eq!(count(&|| _ = law.truesdell_tangent(&f)), 9);

@@ -8,10 +8,10 @@ use piola_constitutive::solids::volumetric::{
     HartmannNeff, Lame, Liu, Logarithmic, Miehe, OgdenVolumetric, Quadratic, QuadraticLogarithmic, SimoTaylor,
 };
 use piola_constitutive::solids::{
-    BlatzKo, ElasticConstants, EngineeringConstants, Fibre, Fung, Hencky, HolzapfelGasserOgden, IncompressibleOgden,
-    IncompressibleSolid, IsochoricOgden, LinearElastic, Membrane, MooneyRivlin, NeoHookean, NeoHookeanCiarlet,
-    NeoHookeanLogarithmic, Ogden, OgdenTerm, Polynomial, PolynomialTerm, ReinforcedNeoHookean, SaintVenantKirchhoff,
-    Stiffness, ThinPlate, TransverseConstants,
+    BlatzKo, Compressible, ElasticConstants, EngineeringConstants, Fibre, Fung, Hencky, HolzapfelGasserOgden,
+    IncompressibleOgden, IncompressibleSolid, IsochoricOgden, LinearElastic, Membrane, MooneyRivlin, NeoHookean,
+    NeoHookeanCiarlet, NeoHookeanLogarithmic, Ogden, OgdenTerm, Polynomial, PolynomialTerm, ReinforcedNeoHookean,
+    SaintVenantKirchhoff, Stiffness, ThinPlate, TransverseConstants,
 };
 
 /// (law, parameter, bound) of a refusal.
@@ -80,6 +80,8 @@ fn bounds_of_laws_of_invariants_are_named() {
     let negative = ("Simo–Taylor volumetric energy", "kappa", "0 ≤ κ");
     assert_eq!(refused(NeoHookeanCiarlet::with_constants(1.0, -1.0)), negative);
     let soft = Lame::new(-1.0).expect("finite");
+    let shape = isochoric::NeoHookean::new(1.0).expect("μ");
+    assert_eq!(refused(Compressible::checked(shape, soft)), ("compressible", "U″(1)", "0 ≤ U″(1)"));
     assert_eq!(refused(NeoHookean::new(1.0, soft)), ("neo-Hookean", "U″(1)", "0 < U″(1) + ⅔ μ"));
     for nu in [-0.1, 0.5] {
         assert_eq!(refused(BlatzKo::new(1.0, nu, 0.5)), ("Blatz–Ko", "nu", "0 ≤ ν < ½"));
@@ -91,6 +93,12 @@ fn bounds_of_laws_of_invariants_are_named() {
     let term = |first, coefficient| PolynomialTerm { first, second: 0, third: 0, coefficient };
     assert_eq!(refused(Polynomial::new(vec![term(0, 1.0)])), ("polynomial", "degree", "0 < r + s + t"));
     assert_eq!(infinite(Polynomial::new(vec![term(1, f64::NAN)])), "coefficient");
+    assert_eq!(refused(Polynomial::new(vec![])), ("polynomial", "terms", "0 < number of terms"));
+    let soft = ("polynomial", "C100 + C010", "0 < C100 + C010 (half the shear modulus)");
+    assert_eq!(refused(Polynomial::saint_venant_kirchhoff(5.0, -1.0)), soft);
+    let hollow = ("polynomial", "∂²W/∂J²", "0 ≤ ∂²W/∂J² of a dilatation");
+    assert_eq!(refused(Polynomial::saint_venant_kirchhoff(-0.7, 1.0)), hollow); // λ + ⅔ μ < 0
+    assert!(Polynomial::saint_venant_kirchhoff(-2.0 / 3.0, 1.0).is_ok());
     let bound = "C100 + 2 C010 + C001 = 0";
     assert_eq!(refused(Polynomial::stress_free(vec![term(1, 1.0)])), ("polynomial", "C100 + 2 C010 + C001", bound));
     assert_eq!(refused(SaintVenantKirchhoff::new(0.0, 0.0)).1, "lambda");

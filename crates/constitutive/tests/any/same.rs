@@ -15,6 +15,7 @@ fn check<L: Hyperelastic + Clone + Into<AnySolid>>(law: &L) {
         let u = DisplacementGradient::<f64>::from_rows(h).expect("0 < det F");
         assert_eq!(any.energy(&u).to_bits(), law.energy(&u).to_bits());
         assert_eq!(any.first_piola_and_tangent(&u), law.first_piola_and_tangent(&u));
+        assert_eq!(any.energy_first_piola_and_tangent(&u), law.energy_first_piola_and_tangent(&u));
         assert_eq!(any.cauchy(&u), law.cauchy(&u));
         assert_eq!(any.check(&u), law.check(&u));
     }

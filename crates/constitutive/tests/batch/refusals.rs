@@ -3,9 +3,11 @@
 use nalgebra::Matrix3;
 use piola_constitutive::ConstitutiveError;
 use piola_constitutive::batch::{self, BadPoint};
-use piola_constitutive::solids::{Compressible, Hyperelastic, MooneyRivlin, isochoric::Gent, volumetric::Quadratic};
+use piola_constitutive::solids::isochoric::{Gent, Yeoh};
+use piola_constitutive::solids::volumetric::Quadratic;
+use piola_constitutive::solids::{Compressible, Hyperelastic, MooneyRivlin, SaintVenantKirchhoff};
 use piola_continuum::batch::Gradients;
-use piola_continuum::{ContinuumError, DeformationGradient, FirstPiola};
+use piola_continuum::{ContinuumError, DeformationGradient, FirstPiola, SecondPiola};
 
 #[test]
 fn points_beyond_a_limit_and_inverted_ones_are_named_and_void() {
@@ -62,4 +64,27 @@ fn gradients_of_no_deformation_are_named_whatever_is_asked_of_a_law_without_a_li
     for tangents in [a, b] {
         assert!((0..f.len()).all(|index| tangents[index].iter().all(|x| x.is_nan() == expected.contains(&index))));
     }
+}
+
+#[test]
+fn points_whose_answer_leaves_the_range_of_numbers_are_named() {
+    let f = [1.0, 1e70].map(|x: f64| Matrix3::from_diagonal(&nalgebra::Vector3::new(x, x.powf(-0.5), x.powf(-0.5))));
+    let yeoh = Yeoh::new(0.5, 0.1, 0.01).expect("parameters");
+    let law = Compressible::new(yeoh, Quadratic::new(10.0).expect("κ"));
+    let (mut w, mut p, mut s) = ([0.0_f64; 2], [FirstPiola::<f64>::zero(); 2], [SecondPiola::<f64>::zero(); 2]);
+    let named = |result, answer: &str| {
+        let Err(ConstitutiveError::BadPoints { points, .. }) = result else { panic!("a bad point is expected") };
+        assert_eq!(points.len(), 1, "{points:?}");
+        assert_eq!(points[0].index, 1);
+        assert!(
+            matches!(points[0].error, ConstitutiveError::Overflow { answer: found } if found == answer),
+            "{points:?}"
+        );
+    };
+    named(batch::evaluate(Gradients(&f[..]), batch::energy(&law, &mut w[..])), "energy");
+    named(batch::evaluate(Gradients(&f[..]), batch::first_piola(&law, &mut p[..])), "first_piola");
+    assert!(p[0].0.iter().all(|x| x.is_finite()) && p[1].0.iter().all(|x| x.is_nan()));
+    let stiff = SaintVenantKirchhoff::new(1.0, 1.0).expect("parameters");
+    let far = [1.0, 1e160].map(|x: f64| Matrix3::from_diagonal(&nalgebra::Vector3::new(x, x.powf(-0.5), x.powf(-0.5))));
+    named(batch::evaluate(Gradients(&far[..]), batch::second_piola(&stiff, &mut s[..])), "second_piola");
 }

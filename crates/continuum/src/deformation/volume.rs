@@ -10,7 +10,7 @@
 
 use piola_numerics::linear::matrix3::{cross, dot};
 use piola_numerics::sums::{two_product, two_sum};
-use piola_numerics::{Mask, Real};
+use piola_numerics::{Lanewise, Mask, Real};
 
 use crate::tensor::rows::{Rows, difference, identity};
 
@@ -102,19 +102,31 @@ fn precise_determinant<T: Real>(f: &Rows<T>) -> T {
     determinant_pair(*f).value()
 }
 
-/// tr H + i₂(H) + det H with the trace's rounding kept, and where that is not enough.
+/// tr H + i₂(H) + det H with the trace's rounding kept, and the bound of its terms less what they may amount to.
+struct PlainVolumeChange;
+
+impl Lanewise<9, 2> for PlainVolumeChange {
+    #[inline(always)]
+    fn run<T: Real>(&self, [a, b, c, d, e, f, g, k, l]: [T; 9]) -> [T; 2] {
+        let h = [[a, b, c], [d, e, f], [g, k, l]];
+        let second = (h[0][0] * h[1][1] - h[0][1] * h[1][0])
+            + (h[1][1] * h[2][2] - h[1][2] * h[2][1])
+            + (h[0][0] * h[2][2] - h[0][2] * h[2][0]);
+        let (first, error) = trace_pair(h);
+        let change = first + ((second + dot(h[0], cross(h[1], h[2]))) + error);
+        let one = T::one();
+        let terms = (one + one_norm(h[0])) * (one + one_norm(h[1])) * (one + one_norm(h[2]));
+        // J + |J − 1|: what relative errors of F and of the result may amount to.
+        let determined = one + change + change.abs();
+        [change, terms - T::lit(CANCELLATION) * determined]
+    }
+}
+
+/// tr H + i₂(H) + det H, and where that is not enough.
 #[inline(always)]
-fn plain_volume_change<T: Real>(h: Rows<T>) -> (T, T::Mask) {
-    let second = (h[0][0] * h[1][1] - h[0][1] * h[1][0])
-        + (h[1][1] * h[2][2] - h[1][2] * h[2][1])
-        + (h[0][0] * h[2][2] - h[0][2] * h[2][0]);
-    let (first, error) = trace_pair(h);
-    let change = first + ((second + dot(h[0], cross(h[1], h[2]))) + error);
-    let one = T::one();
-    let terms = (one + one_norm(h[0])) * (one + one_norm(h[1])) * (one + one_norm(h[2]));
-    // J + |J − 1|: what relative errors of F and of the result may amount to.
-    let determined = one + change + change.abs();
-    (change, (T::lit(CANCELLATION) * determined).less_than(terms))
+fn plain_volume_change<T: Real>([[a, b, c], [d, e, f], [g, k, l]]: Rows<T>) -> (T, T::Mask) {
+    let [change, excess] = T::lanewise(&PlainVolumeChange, [a, b, c, d, e, f, g, k, l]);
+    (change, T::zero().less_than(excess))
 }
 
 /// tr H, rounded, and the rounding error.

@@ -164,9 +164,11 @@ pub(crate) fn recip_cbrt(x: f64) -> f64 {
     let y = start_of_recip_cbrt(u);
     // h is exact up to the roundings of x y³.
     let h = 1.0 - (u * y) * (y * y);
-    let improved = (y + (y * h) * (1.0 / 3.0 + (2.0 / 9.0) * h)) * choose(small, 262_144.0, 1.0);
-    let defined = choose(magnitude == 0.0, f64::INFINITY, choose(magnitude == f64::INFINITY, 0.0, improved));
-    defined.copysign(x)
+    // Scale, sign and edges wait for nothing that h waits for: behind it is one step and one choice.
+    let scaled = (y * choose(small, 262_144.0, 1.0)).copysign(x);
+    let edge = choose(magnitude == 0.0, f64::INFINITY, 0.0).copysign(x);
+    let improved = scaled + (scaled * h) * (1.0 / 3.0 + (2.0 / 9.0) * h);
+    choose(either(magnitude == 0.0, magnitude == f64::INFINITY), edge, improved)
 }
 
 /// The largest |n| for which xⁿ is made of products; beyond, xʸ is faster.

@@ -252,7 +252,7 @@ pub(crate) fn recip_cbrt(x: f64) -> f64 {
     let magnitude = x.abs();
     let y = start_of_recip_cbrt(magnitude);
     let h = 1.0 - (magnitude * y) * (y * y);
-    let improved = y + y * (h * (1.0 / 3.0));
-    let defined = choose(magnitude == 0.0, f64::INFINITY, choose(magnitude == f64::INFINITY, 0.0, improved));
-    defined.copysign(x)
+    let signed = y.copysign(x);
+    let edge = choose(magnitude == 0.0, f64::INFINITY, 0.0).copysign(x);
+    choose(either(magnitude == 0.0, magnitude == f64::INFINITY), edge, signed + signed * (h * (1.0 / 3.0)))
 }

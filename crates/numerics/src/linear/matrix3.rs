@@ -7,7 +7,7 @@
 //! A⁻¹ = adj A / det A        det A = a₁ · (a₂ × a₃),   adj A = [a₂×a₃  a₃×a₁  a₁×a₂]  for rows aᵢ
 //! ```
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
 use crate::error::check_finite;
 use crate::sums::unit_in_last_place;
@@ -117,14 +117,17 @@ pub fn solve_rows<T: Real>(rows: [[T; 3]; 3], right: [T; 3]) -> [T; 3] {
 #[inline(always)]
 #[must_use]
 pub fn rows_of<T: Real>(matrix: &Matrix3<T>) -> [[T; 3]; 3] {
-    core::array::from_fn(|i| core::array::from_fn(|j| matrix[(i, j)]))
+    // Written out: closures are not always inlined, and lanes then are copied through memory.
+    let [x, y, z] = matrix.data.0;
+    [[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]
 }
 
 /// The nalgebra matrix of an array of rows.
 #[inline(always)]
 #[must_use]
 pub fn from_rows<T: Real>(rows: [[T; 3]; 3]) -> Matrix3<T> {
-    Matrix3::from_fn(|i, j| rows[i][j])
+    let [x, y, z] = rows;
+    Matrix3::from_array_storage(ArrayStorage([[x[0], y[0], z[0]], [x[1], y[1], z[1]], [x[2], y[2], z[2]]]))
 }
 
 /// A⁻¹.

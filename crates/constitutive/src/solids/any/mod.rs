@@ -147,7 +147,7 @@ macro_rules! of_law {
             AnySolid::MooneyRivlin($law) => $answer,
             AnySolid::NeoHookean($law) => $answer,
             AnySolid::Compressible(Compressible { isochoric, volumetric }) => of_shape!(isochoric, shape => {
-                let $law = &Compressible::new(shape, volumetric);
+                let $law = &Compressible { isochoric: shape, volumetric };
                 $answer
             }),
             AnySolid::Incompressible(solid) => of_shape!(&solid.isochoric, shape => {
@@ -248,6 +248,8 @@ dispatched! {
     energy -> T,
     check -> Result<(), ConstitutiveError>,
     first_piola -> FirstPiola<T>,
+    energy_and_first_piola -> (T, FirstPiola<T>),
+    energy_first_piola_and_tangent -> (T, FirstPiola<T>, FirstPiolaTangent<T>),
     second_piola -> SecondPiola<T>,
     kirchhoff -> KirchhoffStress<T>,
     cauchy -> CauchyStress<T>,

@@ -34,6 +34,8 @@ macro_rules! any_volumetric {
         })+
 
         impl Volumetric for AnyVolumetric {
+            const EITHER_SIGN: bool = true;
+
             #[inline(always)]
             fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
                 match self { $(Self::$name(part) => part.energy(change, jacobian)),+ }

@@ -162,8 +162,9 @@ impl<T: Real> Kinematics<T> {
         if !L::SECOND {
             return stress;
         }
-        let inner = (Symmetric::identity() * self.trace() - self.change) * (two * slopes.second);
-        sum(stress, product(self.gradient, inner.rows()))
+        // The slope comes last: it waits for a root of J, and what is multiplied by it does not.
+        let inner = Symmetric::identity() * self.trace() - self.change;
+        sum(stress, scaled(product(self.gradient, inner.rows()), two * slopes.second))
     }
 }
 

@@ -9,16 +9,17 @@
 //! At large strain the order is the printed one, with J ∂W/∂J from I₁, I₂ and J: where a body is compressed to nearly nothing
 //! the differences from the reference would hide what is left.
 
+use nalgebra::Matrix3;
 use piola_continuum::strain::{invariants, kernels};
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
 use piola_continuum::tensor::rows::{Rows, double_contraction};
 use piola_continuum::{Deformation, FirstPiola, SecondPiola};
-use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{determinant, from_rows};
+use piola_numerics::{Dual, Real};
 
-use crate::ConstitutiveError;
-use crate::elementary::excess_over_given;
+use crate::solids::known::Known;
 use crate::solids::numbers;
+use crate::{ConstitutiveError, elementary};
 
 mod kinematics;
 mod measures;
@@ -157,6 +158,22 @@ pub fn invariants_of<T: Real, L: InvariantEnergy>(_law: &L, deformation: &impl D
     }
 }
 
+/// J − 1 − ln J, never negative and of second order in the change of volume, without cancellation.
+///
+/// # Example
+/// ```
+/// use piola_constitutive::solids::invariant::volume_excess;
+/// use piola_continuum::DisplacementGradient;
+/// let excess: f64 = volume_excess(&DisplacementGradient::from_rows([[1e-9, 0.0, 0.0], [0.0; 3], [0.0; 3]])?);
+/// assert!((excess / 5e-19 - 1.0).abs() < 1e-8); // ½ (J − 1)²
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn volume_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
+    elementary::volume_excess(deformation.volume_change(), deformation.jacobian())
+}
+
 /// I₁ − 3 − 2 ln J, never negative and of second order in the strain, without cancellation.
 ///
 /// ```text
@@ -165,10 +182,16 @@ pub fn invariants_of<T: Real, L: InvariantEnergy>(_law: &L, deformation: &impl D
 #[inline(always)]
 #[must_use]
 pub fn first_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
+    first_excess_beside(deformation, volume_excess(deformation))
+}
+
+/// [`first_excess`], J − 1 − ln J given: what several terms of an energy share.
+#[inline(always)]
+#[must_use]
+pub fn first_excess_beside<T: Real>(deformation: &impl Deformation<T>, volume_excess: T) -> T {
     let h = deformation.displacement_rows();
     let two = T::lit(2.0);
-    double_contraction(h, h) - two * beyond_trace(h)
-        + two * excess_over_given(deformation.volume_change(), deformation.ln_jacobian())
+    double_contraction(h, h) - two * beyond_trace(h) + two * volume_excess
 }
 
 /// I₂ − 3 − 4 ln J, never negative and of second order in the strain, without cancellation.
@@ -179,12 +202,18 @@ pub fn first_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn second_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
+    second_excess_beside(deformation, volume_excess(deformation))
+}
+
+/// [`second_excess`], J − 1 − ln J given.
+#[inline(always)]
+#[must_use]
+pub fn second_excess_beside<T: Real>(deformation: &impl Deformation<T>, volume_excess: T) -> T {
     let h = deformation.displacement_rows();
     let (two, four) = (T::lit(2.0), T::lit(4.0));
     let [a, b, c, d, e, f] = kernels::right_cauchy_green_minus_one(h).components;
     let second = (a * b - d * d) + (b * c - e * e) + (a * c - f * f);
-    two * double_contraction(h, h) + second - four * beyond_trace(h)
-        + four * excess_over_given(deformation.volume_change(), deformation.ln_jacobian())
+    two * double_contraction(h, h) + second - four * beyond_trace(h) + four * volume_excess
 }
 
 /// i₂(H) + det H = det(1 + H) − 1 − tr H.
@@ -207,6 +236,44 @@ pub fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Defo
     let kinematics = Kinematics::of_deformation::<L>(deformation);
     let slopes = law.slopes(&kinematics.invariants);
     FirstPiola(from_rows(kinematics.first_piola::<L>(&slopes)))
+}
+
+/// (∂P/∂F) : δF.
+#[inline(always)]
+#[must_use]
+pub fn first_piola_derivative<T: Real, L: InvariantEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+    direction: &Matrix3<T>,
+) -> FirstPiola<T> {
+    if L::STRAIGHT {
+        return straight::first_piola_derivative(law, deformation, direction);
+    }
+    let varied = deformation.lifted(|i, j, x| Dual::new(x, direction[(i, j)]));
+    FirstPiola(first_piola(law, &varied).0.map(|x| x.tangent))
+}
+
+/// (W, P), the change of volume computed once.
+#[inline(always)]
+#[must_use]
+pub fn energy_and_first_piola<T: Real, L: InvariantEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (T, FirstPiola<T>) {
+    let known = Known::of(deformation);
+    (law.energy(&known), first_piola(law, &known))
+}
+
+/// (W, P, ∂P/∂F), the change of volume computed once, and as [`first_piola_and_tangent`].
+#[inline(always)]
+#[must_use]
+pub fn energy_first_piola_and_tangent<T: Real, L: InvariantEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (T, FirstPiola<T>, FirstPiolaTangent<T>) {
+    let known = Known::of(deformation);
+    let (stress, tangent) = first_piola_and_tangent(law, &known);
+    (law.energy(&known), stress, tangent)
 }
 
 /// ∂P/∂F, 45 entries and their mirror images.
@@ -304,6 +371,28 @@ macro_rules! hyperelastic_of_invariants {
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> piola_continuum::FirstPiola<T> {
                 $crate::solids::invariant::first_piola(self, deformation)
+            }
+            #[inline(always)]
+            fn first_piola_derivative<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+                direction: &nalgebra::Matrix3<T>,
+            ) -> piola_continuum::FirstPiola<T> {
+                $crate::solids::invariant::first_piola_derivative(self, deformation, direction)
+            }
+            #[inline(always)]
+            fn energy_and_first_piola<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> (T, piola_continuum::FirstPiola<T>) {
+                $crate::solids::invariant::energy_and_first_piola(self, deformation)
+            }
+            #[inline(always)]
+            fn energy_first_piola_and_tangent<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+                $crate::solids::invariant::energy_first_piola_and_tangent(self, deformation)
             }
             #[inline(always)]
             fn second_piola<T: piola_numerics::Real>(

@@ -4,10 +4,12 @@
 //! compiler makes vectors of so short a loop only where it knows that nothing read is written, which it gives up to find out
 //! where many numbers are written.
 
+use nalgebra::Matrix3;
 use piola_continuum::strain::kernels;
 use piola_continuum::tensor::rows::Rows;
 use piola_continuum::{Deformation, FirstPiola};
-use piola_numerics::{Lanewise, Mask, Real};
+use piola_numerics::linear::matrix3::rows_of;
+use piola_numerics::{Dual, Lanewise, Mask, Real};
 
 use super::InvariantEnergy;
 use super::kinematics::Kinematics;
@@ -19,6 +21,9 @@ struct Near<L>(L);
 
 /// P of F, ∇u and J.
 struct Any<L>(L);
+
+/// (∂P/∂F) : δF of F and ∇u, which are moderate, and δF.
+struct NearAlong<L>(L);
 
 #[inline(always)]
 fn stress<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T; 9] {
@@ -72,6 +77,48 @@ impl<L: InvariantEnergy> Lanewise<19, 54> for Any<L> {
         let ([f, h], jacobian) = numbers::gradients_and_jacobian(inputs);
         both(&self.0, &Kinematics::of::<L>(f, h, jacobian))
     }
+}
+
+impl<L: InvariantEnergy> Lanewise<27, 10> for NearAlong<L> {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 27]) -> [T; 10] {
+        let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, last] = inputs;
+        let gradient = along([[a, b, c], [d, e, f], [g, h, i]], [[s, t, u], [v, w, x], [y, z, last]]);
+        let displacement = [[j, k, l], [m, n, o], [p, q, r]];
+        let varied = along(displacement, [[s, t, u], [v, w, x], [y, z, last]]);
+        let kinematics = Kinematics::near::<L>(gradient, varied);
+        let [a, b, c, d, e, f, g, h, i] = stress(&self.0, &kinematics);
+        let square = square(&kinematics, varied).value;
+        [a.tangent, b.tangent, c.tangent, d.tangent, e.tangent, f.tangent, g.tangent, h.tangent, i.tangent, square]
+    }
+}
+
+/// Entries that grow in a direction.
+#[inline(always)]
+fn along<T: Real>([x, y, z]: Rows<T>, [u, v, w]: Rows<T>) -> Rows<Dual<T>> {
+    [
+        [Dual::new(x[0], u[0]), Dual::new(x[1], u[1]), Dual::new(x[2], u[2])],
+        [Dual::new(y[0], v[0]), Dual::new(y[1], v[1]), Dual::new(y[2], v[2])],
+        [Dual::new(z[0], w[0]), Dual::new(z[1], w[1]), Dual::new(z[2], w[2])],
+    ]
+}
+
+/// (∂P/∂F) : δF, the stress over dual numbers.
+#[inline(always)]
+pub(super) fn first_piola_derivative<T: Real, L: InvariantEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+    direction: &Matrix3<T>,
+) -> FirstPiola<T> {
+    let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = numbers::of_deformation(deformation);
+    let [[s, t, u], [v, w, x], [y, z, last]] = rows_of(direction);
+    let inputs = [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, last];
+    let [a, b, c, d, e, f, g, h, i, square] = T::lanewise(&NearAlong(law.clone()), inputs);
+    if square.at_most(T::lit(kernels::MODERATE)).all() {
+        return numbers::stress([a, b, c, d, e, f, g, h, i]);
+    }
+    let varied = deformation.lifted(|i, j, x| Dual::new(x, direction[(i, j)]));
+    FirstPiola(first_piola(law, &varied).0.map(|x| x.tangent))
 }
 
 /// P; not finite in its first component where F is no deformation.

@@ -23,6 +23,7 @@ use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, Se
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Gradient, Real};
 
+use super::known::Known;
 use crate::ConstitutiveError;
 
 mod isochoric;
@@ -126,10 +127,15 @@ fn analysis<T: Real, L: StretchEnergy>(deformation: &impl Deformation<T>) -> Str
 #[inline(always)]
 #[must_use]
 pub fn energy<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> T {
-    let stretches = analysis::<T, L>(deformation);
-    let volume = law.volume_energy(&Volume::of(deformation));
+    let known = Known::of(deformation);
+    energy_of(law, &analysis::<T, L>(&known), &Volume::of(&known))
+}
+
+#[inline(always)]
+fn energy_of<T: Real, L: StretchEnergy>(law: &L, stretches: &StretchAnalysis<T>, volume: &Volume<T>) -> T {
+    let volume = law.volume_energy(volume);
     if T::ORDER == 0 {
-        let [x, y, z] = stretches.log_principal_stretches();
+        let (_, [x, y, z]) = stretches.stretches_in_frame();
         return (law.part(x) + law.part(y) + law.part(z)) + volume;
     }
     stretches.material_function(&Part(law)).trace() + volume
@@ -177,8 +183,9 @@ fn isochoric_scale<T: Real, L: StretchEnergy>(volume: &Volume<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn kirchhoff<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
-    let volume = Volume::of(deformation);
-    let (stress, _) = stress_function::<T, L, 0, true>(law, &analysis::<T, L>(deformation));
+    let known = Known::of(deformation);
+    let volume = Volume::of(&known);
+    let (stress, _) = stress_function::<T, L, 0, true>(law, &analysis::<T, L>(&known));
     let stress = if L::ISOCHORIC { stress.deviator() } else { stress };
     KirchhoffStress(stress + Symmetric::identity() * law.volume_slope(&volume))
 }
@@ -187,8 +194,21 @@ pub fn kirchhoff<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformat
 #[inline(always)]
 #[must_use]
 pub fn first_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-    let volume = Volume::of(deformation);
-    FirstPiola(from_rows(first_piola_rows(law, &analysis::<T, L>(deformation), &volume, deformation)))
+    let known = Known::of(deformation);
+    FirstPiola(from_rows(first_piola_rows(law, &analysis::<T, L>(&known), &Volume::of(&known), &known)))
+}
+
+/// (W, P), the stretches analysed once.
+#[inline(always)]
+#[must_use]
+pub fn energy_and_first_piola<T: Real, L: StretchEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (T, FirstPiola<T>) {
+    let known = Known::of(deformation);
+    let (analysis, volume) = (analysis::<T, L>(&known), Volume::of(&known));
+    let stress = first_piola_rows(law, &analysis, &volume, &known);
+    (energy_of(law, &analysis, &volume), FirstPiola(from_rows(stress)))
 }
 
 #[inline(always)]
@@ -209,8 +229,9 @@ fn first_piola_rows<T: Real, L: StretchEnergy>(
 #[inline(always)]
 #[must_use]
 pub fn second_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> SecondPiola<T> {
-    let volume = Volume::of(deformation);
-    let stretches = analysis::<T, L>(deformation);
+    let known = Known::of(deformation);
+    let volume = Volume::of(&known);
+    let stretches = analysis::<T, L>(&known);
     let scale = isochoric_scale::<T, L>(&volume);
     let (stress, sum_of_slopes) = stress_function::<T, L, 2, false>(law, &stretches);
     let stress = stress * (scale * scale);
@@ -229,8 +250,9 @@ pub fn material_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl D
     if T::ORDER != 0 {
         return derived_material_tangent(law, deformation);
     }
-    let analysis = analysis::<T, L>(deformation);
-    Principal::of(law, &analysis, &Volume::of(deformation)).material_tangent(&analysis)
+    let known = Known::of(deformation);
+    let analysis = analysis::<T, L>(&known);
+    Principal::of(law, &analysis, &Volume::of(&known)).material_tangent(&analysis)
 }
 
 /// (S, ∂S/∂E), the stretches analysed once.
@@ -243,8 +265,9 @@ pub fn second_piola_and_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return (second_piola(law, deformation), derived_material_tangent(law, deformation));
     }
-    let analysis = analysis::<T, L>(deformation);
-    let principal = Principal::of(law, &analysis, &Volume::of(deformation));
+    let known = Known::of(deformation);
+    let analysis = analysis::<T, L>(&known);
+    let principal = Principal::of(law, &analysis, &Volume::of(&known));
     (principal.second_piola(&analysis), principal.material_tangent(&analysis))
 }
 
@@ -258,8 +281,9 @@ pub fn cauchy_and_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return (kirchhoff(law, deformation).cauchy(deformation), truesdell_tangent(law, deformation));
     }
-    let volume = Volume::of(deformation);
-    let analysis = analysis::<T, L>(deformation);
+    let known = Known::of(deformation);
+    let volume = Volume::of(&known);
+    let analysis = analysis::<T, L>(&known);
     let principal = Principal::of(law, &analysis, &volume);
     let values = principal.stress.map(|stress| stress / volume.jacobian);
     let stress = CauchyStress(Principal::about(values, &analysis.spatial_axes()));
@@ -273,8 +297,9 @@ pub fn truesdell_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl 
     if T::ORDER != 0 {
         return derived_material_tangent(law, deformation).truesdell(deformation);
     }
-    let volume = Volume::of(deformation);
-    let analysis = analysis::<T, L>(deformation);
+    let known = Known::of(deformation);
+    let volume = Volume::of(&known);
+    let analysis = analysis::<T, L>(&known);
     Principal::of(law, &analysis, &volume).truesdell_tangent(&analysis, &volume)
 }
 
@@ -288,8 +313,9 @@ pub fn first_piola_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return derived_tangent(law, deformation);
     }
-    let analysis = analysis::<T, L>(deformation);
-    tangent(&Principal::of(law, &analysis, &Volume::of(deformation)), &analysis)
+    let known = Known::of(deformation);
+    let analysis = analysis::<T, L>(&known);
+    tangent(&Principal::of(law, &analysis, &Volume::of(&known)), &analysis)
 }
 
 /// (P, ∂P/∂F), the stretches analysed once.
@@ -302,9 +328,27 @@ pub fn first_piola_and_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return (first_piola(law, deformation), derived_tangent(law, deformation));
     }
-    let analysis = analysis::<T, L>(deformation);
-    let principal = Principal::of(law, &analysis, &Volume::of(deformation));
+    let known = Known::of(deformation);
+    let analysis = analysis::<T, L>(&known);
+    let principal = Principal::of(law, &analysis, &Volume::of(&known));
     (principal.first_piola(&analysis), tangent(&principal, &analysis))
+}
+
+/// (W, P, ∂P/∂F), the stretches analysed once.
+#[inline(always)]
+#[must_use]
+pub fn energy_first_piola_and_tangent<T: Real, L: StretchEnergy>(
+    law: &L,
+    deformation: &impl Deformation<T>,
+) -> (T, FirstPiola<T>, FirstPiolaTangent<T>) {
+    if T::ORDER != 0 {
+        let (energy, stress) = energy_and_first_piola(law, deformation);
+        return (energy, stress, derived_tangent(law, deformation));
+    }
+    let known = Known::of(deformation);
+    let (analysis, volume) = (analysis::<T, L>(&known), Volume::of(&known));
+    let principal = Principal::of(law, &analysis, &volume);
+    (energy_of(law, &analysis, &volume), principal.first_piola(&analysis), tangent(&principal, &analysis))
 }
 
 /// Over scalars with derivatives axes have none where stretches coalesce, but the stress has.
@@ -335,6 +379,9 @@ macro_rules! hyperelastic_of_stretches {
         $crate::solids::stretch::hyperelastic_of_stretches! { [$($generics)*] $law,
             energy -> T,
             first_piola -> piola_continuum::FirstPiola<T>,
+            energy_and_first_piola -> (T, piola_continuum::FirstPiola<T>),
+            energy_first_piola_and_tangent ->
+                (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>),
             second_piola -> piola_continuum::SecondPiola<T>,
             kirchhoff -> piola_continuum::KirchhoffStress<T>,
             first_piola_tangent -> piola_continuum::stress::tangents::FirstPiolaTangent<T>,

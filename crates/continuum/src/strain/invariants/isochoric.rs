@@ -4,7 +4,7 @@
 //! Ī₁ = J^(−2/3) I₁      Ī₂ = J^(−4/3) I₂      of C or B, unchanged by a dilatation
 //! ```
 
-use piola_numerics::{Mask, Real};
+use piola_numerics::{Lanewise, Mask, Real};
 
 use super::{derivatives, first, second};
 use crate::strain::kernels::{green, left_cauchy_green, right_cauchy_green, right_cauchy_green_minus_one};
@@ -32,11 +32,12 @@ fn power_of_jacobian<T: Real>(deformation: &impl Deformation<T>, exponent: f64) 
 #[inline(always)]
 #[must_use]
 pub fn isochoric_first<T: Real>(deformation: &impl Deformation<T>) -> T {
-    let deviation = Deviation::of(deformation);
-    deviation.choose(
-        |small| T::lit(3.0) + small.first_minus_three(),
-        || power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation),
-    )
+    let [excess, volume] = T::lanewise(&First, of_deformation(deformation));
+    let (near, beside) = (is_near(volume), T::lit(3.0) + excess);
+    if near.all() {
+        return beside;
+    }
+    T::select(near, beside, power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation))
 }
 
 /// Ī₂ = J^(−4/3) I₂, unchanged by a dilatation.
@@ -54,11 +55,12 @@ pub fn isochoric_first<T: Real>(deformation: &impl Deformation<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn isochoric_second<T: Real>(deformation: &impl Deformation<T>) -> T {
-    let deviation = Deviation::of(deformation);
-    deviation.choose(
-        |small| T::lit(3.0) + small.second_minus_three(),
-        || power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation),
-    )
+    let [excess, volume] = T::lanewise(&Second, of_deformation(deformation));
+    let (near, beside) = (is_near(volume), T::lit(3.0) + excess);
+    if near.all() {
+        return beside;
+    }
+    T::select(near, beside, power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation))
 }
 
 /// Ī₁ − 3, without cancellation: it is of second order in the strain's deviator.
@@ -80,10 +82,12 @@ pub fn isochoric_second<T: Real>(deformation: &impl Deformation<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
-    let deviation = Deviation::of(deformation);
-    deviation.choose(Deviation::first_minus_three, || {
-        power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation) - T::lit(3.0)
-    })
+    let [excess, volume] = T::lanewise(&First, of_deformation(deformation));
+    let near = is_near(volume);
+    if near.all() {
+        return excess;
+    }
+    T::select(near, excess, power_of_jacobian(deformation, -2.0 / 3.0) * first(deformation) - T::lit(3.0))
 }
 
 /// Ī₂ − 3, without cancellation: it is of second order in the strain's deviator.
@@ -105,58 +109,139 @@ pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -
 #[inline(always)]
 #[must_use]
 pub fn isochoric_second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
-    let deviation = Deviation::of(deformation);
-    deviation.choose(Deviation::second_minus_three, || {
-        power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation) - T::lit(3.0)
-    })
+    let [excess, volume] = T::lanewise(&Second, of_deformation(deformation));
+    let near = is_near(volume);
+    if near.all() {
+        return excess;
+    }
+    T::select(near, excess, power_of_jacobian(deformation, -4.0 / 3.0) * second(deformation) - T::lit(3.0))
 }
 
-/// C = c (1 + D) with c = ⅓ tr C and tr D = 0.
+/// Ī₁ − 3 and Ī₂ − 3, what they share computed once.
+///
+/// # Accuracy
+/// As [`isochoric_first_minus_three`].
+///
+/// # Example
+/// ```
+/// use piola_continuum::{DisplacementGradient, strain::invariants};
+/// let [first, second] = invariants::isochoric_minus_three(&DisplacementGradient::simple_shear(1e-9)?);
+/// assert!((first / 1e-18 - 1.0_f64).abs() < 1e-15 && (second / 1e-18 - 1.0_f64).abs() < 1e-15); // k²
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
+#[inline(always)]
+#[must_use]
+pub fn isochoric_minus_three<T: Real>(deformation: &impl Deformation<T>) -> [T; 2] {
+    let [x, y, volume] = T::lanewise(&Both, of_deformation(deformation));
+    let near = is_near(volume);
+    if near.all() {
+        return [x, y];
+    }
+    let three = T::lit(3.0);
+    let power = power_of_jacobian(deformation, -2.0 / 3.0);
+    [
+        T::select(near, x, power * first(deformation) - three),
+        T::select(near, y, power * power * second(deformation) - three),
+    ]
+}
+
+/// F and ∇u, nine numbers each.
+#[inline(always)]
+fn of_deformation<T: Real>(deformation: &impl Deformation<T>) -> [T; 18] {
+    let [[a, b, c], [d, e, f], [g, h, i]] = deformation.gradient_rows();
+    let [[j, k, l], [m, n, o], [p, q, r]] = deformation.displacement_rows();
+    [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]
+}
+
+/// Where the strain is not so large that 1 + D has lost its smallest eigenvalue, of det(1 + D) − 1.
+#[inline(always)]
+fn is_near<T: Real>(volume: T) -> T::Mask {
+    T::lit(-0.75).less_than(volume)
+}
+
+/// Ī₁ − 3 of F and ∇u, and det(1 + D) − 1.
+struct First;
+
+/// Ī₂ − 3 of F and ∇u, and det(1 + D) − 1.
+struct Second;
+
+/// Both, and det(1 + D) − 1.
+struct Both;
+
+impl Lanewise<18, 2> for First {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 2] {
+        let deviation = Deviation::of(inputs);
+        [deviation.first_minus_three(), deviation.volume]
+    }
+}
+
+impl Lanewise<18, 2> for Second {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 2] {
+        let deviation = Deviation::of(inputs);
+        [deviation.second_minus_three(), deviation.volume]
+    }
+}
+
+impl Lanewise<18, 3> for Both {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 3] {
+        let deviation = Deviation::of(inputs);
+        [deviation.first_minus_three(), deviation.second_minus_three(), deviation.volume]
+    }
+}
+
+/// C = c (1 + D) with c = ⅓ tr C and tr D = 0, and (1 + v)^(−1/3) with v = det(1 + D) − 1.
 struct Deviation<T> {
     /// −½ D : D, the second invariant of D.
     second: T,
-    /// det(1 + D) − 1.
+    /// v.
     volume: T,
+    /// r = (1 + v)^(−1/3).
+    root: T,
+    /// r − 1 = −v r³/(1 + r + r²).
+    root_change: T,
 }
 
 impl<T: Real> Deviation<T> {
     #[inline(always)]
-    fn of(deformation: &impl Deformation<T>) -> Self {
+    fn of([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]: [T; 18]) -> Self {
         // From 2E where C is near 1, from C itself where a dilatation has moved it away.
-        let twice_green = right_cauchy_green_minus_one(deformation.displacement_rows());
-        let metric = right_cauchy_green(deformation.gradient_rows());
+        let twice_green = right_cauchy_green_minus_one([[j, k, l], [m, n, o], [p, q, r]]);
+        let metric = right_cauchy_green([[a, b, c], [d, e, f], [g, h, i]]);
         let excess = twice_green.trace() / T::lit(3.0);
         let near = excess.abs().less_than(T::lit(0.5));
         let mean = T::select(near, T::one() + excess, metric.trace() / T::lit(3.0));
-        let (small, large) = (twice_green.deviator().components, metric.deviator().components);
-        let chosen: [T; 6] = core::array::from_fn(|k| T::select(near, small[k], large[k]));
+        let ([a, b, c, d, e, f], [u, v, w, x, y, z]) =
+            (twice_green.deviator().components, metric.deviator().components);
+        let chosen = [
+            T::select(near, a, u),
+            T::select(near, b, v),
+            T::select(near, c, w),
+            T::select(near, d, x),
+            T::select(near, e, y),
+            T::select(near, f, z),
+        ];
         let d = Symmetric { components: chosen } * mean.recip();
         let second = T::lit(-0.5) * d.double_contraction(&d);
-        Self { second, volume: second + d.determinant() }
+        let volume = second + d.determinant();
+        let root = (T::one() + volume).recip_cbrt();
+        let square = root * root;
+        let root_change = -(volume * (root * square) / ((T::one() + root) + square));
+        Self { second, volume, root, root_change }
     }
 
-    /// `near` unless the strain is so large that 1 + D has lost its smallest eigenvalue.
-    #[inline(always)]
-    fn choose(&self, near: impl Fn(&Self) -> T, far: impl Fn() -> T) -> T {
-        let is_near = T::lit(-0.75).less_than(self.volume);
-        if is_near.all() { near(self) } else { T::select(is_near, near(self), far()) }
-    }
-
-    /// (1 + v)^p − 1.
-    #[inline(always)]
-    fn power_minus_one(&self, exponent: f64) -> T {
-        (T::lit(exponent) * self.volume.ln_1p()).exp_m1()
-    }
-
+    /// 3 (r − 1).
     #[inline(always)]
     fn first_minus_three(&self) -> T {
-        T::lit(3.0) * self.power_minus_one(-1.0 / 3.0)
+        T::lit(3.0) * self.root_change
     }
 
+    /// 3 (r² − 1) − ½ r² D : D.
     #[inline(always)]
     fn second_minus_three(&self) -> T {
-        let power = self.power_minus_one(-2.0 / 3.0);
-        T::lit(3.0) * power + self.second * (T::one() + power)
+        T::lit(3.0) * (self.root_change * (T::one() + self.root)) + self.second * (self.root * self.root)
     }
 }
 

@@ -10,7 +10,7 @@
 //! |---|---|---|---|
 //! | any symmetric tensor | [`principal_invariants`], [`derivatives`], [`second_derivatives`] | | |
 //! | a deformation: C and B | [`first`], [`second`], [`third`] | I | [`first_minus_three`], [`second_minus_three`], [`third_minus_one`] |
-//! | its part without change of volume | [`isochoric_first`], [`isochoric_second`] | Ī | [`isochoric_first_minus_three`], [`isochoric_second_minus_three`] |
+//! | its part without change of volume | [`isochoric_first`], [`isochoric_second`] | Ī | [`isochoric_first_minus_three`], [`isochoric_second_minus_three`], [`isochoric_minus_three`] |
 //!
 //! J and J − 1 are asked of the [`Deformation`] itself. Derivatives of Ī with respect to C are those functions that
 //! begin with `isochoric` and end with `derivative`.
@@ -28,7 +28,8 @@ mod near_rotation;
 
 pub use isochoric::{
     isochoric_first, isochoric_first_derivative, isochoric_first_minus_three, isochoric_first_second_derivative,
-    isochoric_second, isochoric_second_derivative, isochoric_second_minus_three, isochoric_second_second_derivative,
+    isochoric_minus_three, isochoric_second, isochoric_second_derivative, isochoric_second_minus_three,
+    isochoric_second_second_derivative,
 };
 
 pub use crate::stress::invariants::principal_invariants;
