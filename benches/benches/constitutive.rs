@@ -16,8 +16,9 @@
 //!
 //! Before they are timed, formulas of nalgebra and ours must agree, see [`naive::AGREEMENT`]. Each stands right after ours.
 //!
-//! `error` is the largest relative error near the identity of one call, to whose last digits batches keep: see
-//! [`laws::errors_near_identity`].
+//! `error` is the largest relative error near the identity, see [`laws::errors_near_identity`]; of ours in batches it is that of
+//! a batch with the same layout and request, see [`laws::batch_errors_near_identity`]. A textbook's formula answers point by
+//! point, a batch as one call.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -37,7 +38,6 @@ use piola_constitutive::homogeneous::{IncompressibleState, Mode};
 use piola_constitutive::solids::{Hyperelastic, Membrane, MooneyRivlin, ThinPlate};
 use piola_continuum::batch::{Components, Gradients, LaneBlocks};
 use piola_continuum::{DeformationGradient, FirstPiola};
-use piola_testkit::relative_error;
 
 const BATCHES: [(&str, usize); 2] = [("1k", 1000), ("1M", 1_000_000)];
 
@@ -61,7 +61,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     laws::each_incompressible(&mut Single { group: &mut group, f: laws::unimodular(&f)?, notes: &mut notes })?;
     from_a_free_face(&mut group)?;
     thin_bodies(&mut group, &f)?;
-    notes_of_printed(&mut notes, &printed)?;
+    laws::each(&mut InBatches(&mut notes))?;
+    laws::each_incompressible(&mut InBatches(&mut notes))?;
+    notes_of_rubber(&mut notes, &rubber, &printed)?;
     for size in BATCHES {
         group.throughput(Throughput::Elements(size.1 as u64));
         group.sampling_mode(if size.1 < 10_000 { SamplingMode::Auto } else { SamplingMode::Flat });
@@ -109,9 +111,7 @@ impl Visit for Single<'_, '_> {
         for (quantity, error) in
             [("first_piola", stress), ("first_piola_tangent", tangent), ("first_piola_and_tangent", both)]
         {
-            for size in ["1", "1k", "1M"] {
-                self.notes.error(&format!("{name}/{quantity}/{size}"), error);
-            }
+            self.notes.error(&format!("{name}/{quantity}/1"), error);
         }
         self.textbook(name, model, law)
     }
@@ -149,6 +149,25 @@ impl Single<'_, '_> {
                 self.notes.error(&format!("{name}/{quantity}/{size}"), error);
                 self.notes.peer(&format!("{name}/{quantity}/{size}"), NALGEBRA);
             }
+        }
+        Ok(())
+    }
+}
+
+/// The errors of batches of each law.
+struct InBatches<'a>(&'a mut Notes);
+
+impl Visit for InBatches<'_> {
+    fn law<L: Hyperelastic + Textbook + Sync>(
+        &mut self,
+        name: &'static str,
+        model: Option<&'static str>,
+        law: &L,
+    ) -> Result<(), Box<dyn Error>> {
+        let [stress, both] = laws::batch_errors_near_identity(model, law)?;
+        for (batch, _) in BATCHES {
+            self.0.error(&format!("{name}/first_piola/{batch}"), stress);
+            self.0.error(&format!("{name}/first_piola_and_tangent/{batch}"), both);
         }
         Ok(())
     }
@@ -355,26 +374,26 @@ fn thin_bodies(group: &mut Group<'_>, f: &DeformationGradient) -> Result<(), Box
     Ok(())
 }
 
-/// The errors of the printed formula near the identity, and of the law that has no tangent.
-fn notes_of_printed(notes: &mut Notes, printed: &Printed) -> Result<(), Box<dyn Error>> {
-    let model = "mooney_rivlin_compressible";
-    let mut largest = 0.0_f64;
-    for case in laws::near_identity(model)? {
-        let stress = printed.first_piola(&case.gradient).0.transpose();
-        largest = largest.max(relative_error(stress.as_slice(), &case.stress));
-    }
-    let [ours, tangent] = laws::errors_near_identity(Some(model), &laws::mooney_rivlin()?)?;
-    for size in ["1k", "1M"] {
-        notes.error(&format!("printed_mooney_rivlin/first_piola/{size}"), largest);
-        for name in [
+/// The errors of batches of [`rubber_alone`], [`other_layouts`] and [`matrices`].
+fn notes_of_rubber(notes: &mut Notes, rubber: &MooneyRivlin, printed: &Printed) -> Result<(), Box<dyn Error>> {
+    let model = Some("mooney_rivlin_compressible");
+    let arrays = laws::array_errors_near_identity(model, rubber)?;
+    let matrices = laws::matrix_errors_near_identity(model, rubber)?;
+    let errors = [
+        ("printed_mooney_rivlin/first_piola", laws::batch_stress_error_near_identity(model, printed)?),
+        (
             "mooney_rivlin_without_tangent/first_piola",
-            "mooney_rivlin/first_piola_arrays",
-            "mooney_rivlin/first_piola_matrices",
-        ] {
-            notes.error(&format!("{name}/{size}"), ours);
-        }
-        for name in ["mooney_rivlin/first_piola_tangent_arrays", "mooney_rivlin/first_piola_tangent_matrices"] {
-            notes.error(&format!("{name}/{size}"), tangent);
+            laws::batch_stress_error_near_identity(model, &WithoutTangent(*rubber))?,
+        ),
+        ("mooney_rivlin/first_piola_tangent", laws::batch_tangent_error_near_identity(model, rubber)?),
+        ("mooney_rivlin/first_piola_arrays", arrays[0]),
+        ("mooney_rivlin/first_piola_tangent_arrays", arrays[1]),
+        ("mooney_rivlin/first_piola_matrices", matrices[0]),
+        ("mooney_rivlin/first_piola_tangent_matrices", matrices[1]),
+    ];
+    for (name, error) in errors {
+        for (batch, _) in BATCHES {
+            notes.error(&format!("{name}/{batch}"), error);
         }
     }
     Ok(())

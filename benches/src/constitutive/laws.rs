@@ -3,6 +3,7 @@
 use std::error::Error;
 
 use nalgebra::Matrix3;
+use piola_constitutive::batch;
 use piola_constitutive::solids::isochoric::RivlinTerm;
 use piola_constitutive::solids::{
     AnisotropicLinear, AnisotropicSaintVenantKirchhoff, BlatzKo, Compressible, ElasticConstants, EngineeringConstants,
@@ -11,6 +12,7 @@ use piola_constitutive::solids::{
     PolynomialTerm, Pressurised, ReinforcedNeoHookean, SaintVenantKirchhoff, Stiffness, TransverseConstants, isochoric,
     volumetric,
 };
+use piola_continuum::batch::{Components, Gradients, LaneBlocks};
 use piola_continuum::{Deformation, DeformationGradient, FirstPiola};
 use piola_numerics::Real;
 use piola_testkit::{DoubleDouble, golden, relative_error};
@@ -154,11 +156,15 @@ pub fn near_identity(model: &str) -> Result<Vec<Case>, Box<dyn Error>> {
     .collect()
 }
 
-/// The cases near the identity with P and ∂P/∂F of the reference data, or of 31 digits of the same law.
+/// The cases near the identity with P and ∂P/∂F of the reference data, or of 31 digits of the same law; of an incompressible law
+/// they keep the volume.
 fn truths<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<Vec<Case>, Box<dyn Error>> {
     let mut cases = near_identity(model.unwrap_or("mooney_rivlin_compressible"))?;
     if model.is_none() {
         for case in &mut cases {
+            if law.is_incompressible() {
+                case.gradient = unimodular(&case.gradient)?;
+            }
             let precise = case.gradient.lifted(|_, _, x| DoubleDouble::lit(x));
             let tangent = law.first_piola_tangent(&precise).0.components;
             case.stress = by_rows(&law.first_piola(&precise)).iter().map(|x| x.primal(0)).collect();
@@ -174,14 +180,9 @@ fn truths<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<Vec<Case>, Bo
 /// # Errors
 /// As [`near_identity`].
 pub fn errors_near_identity<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<[f64; 2], Box<dyn Error>> {
-    let mut largest = [0.0_f64; 2];
-    for Case { gradient: f, stress, tangent } in truths(model, law)? {
-        let found = law.first_piola_tangent(&f).0.components;
-        let errors =
-            [relative_error(&by_rows(&law.first_piola(&f)), &stress), relative_error(found.as_flattened(), &tangent)];
-        largest = [largest[0].max(errors[0]), largest[1].max(errors[1])];
-    }
-    Ok(largest)
+    answered_errors_near_identity(model, law, |f| {
+        Ok([by_rows(&law.first_piola(f)), law.first_piola_tangent(f).0.components.concat()])
+    })
 }
 
 /// The same of the law's formula from a textbook.
@@ -193,13 +194,25 @@ pub fn textbook_errors_near_identity<L: Hyperelastic>(
     law: &L,
     naive: &impl Naive,
 ) -> Result<[f64; 2], Box<dyn Error>> {
+    answered_errors_near_identity(model, law, |f| {
+        let (stress, tangent) = (naive.first_piola(f.matrix()), naive.first_piola_tangent(f.matrix()));
+        Ok([stress.transpose().as_slice().to_vec(), tangent.transpose().as_slice().to_vec()])
+    })
+}
+
+/// The same of P and ∂P/∂F, by rows, from anywhere.
+///
+/// # Errors
+/// As [`near_identity`], and those of the answers.
+pub fn answered_errors_near_identity<L: Hyperelastic>(
+    model: Option<&str>,
+    law: &L,
+    answers: impl Fn(&DeformationGradient) -> Result<[Vec<f64>; 2], Box<dyn Error>>,
+) -> Result<[f64; 2], Box<dyn Error>> {
     let mut largest = [0.0_f64; 2];
-    for Case { gradient, stress, tangent } in truths(model, law)? {
-        let f = gradient.matrix();
-        let errors = [
-            relative_error(naive.first_piola(f).transpose().as_slice(), &stress),
-            relative_error(naive.first_piola_tangent(f).transpose().as_slice(), &tangent),
-        ];
+    for case in truths(model, law)? {
+        let [stress, tangent] = answers(&case.gradient)?;
+        let errors = [relative_error(&stress, &case.stress), relative_error(&tangent, &case.tangent)];
         largest = [largest[0].max(errors[0]), largest[1].max(errors[1])];
     }
     Ok(largest)
@@ -207,4 +220,134 @@ pub fn textbook_errors_near_identity<L: Hyperelastic>(
 
 fn by_rows<T: Real>(stress: &FirstPiola<T>) -> Vec<T> {
     stress.0.transpose().as_slice().to_vec()
+}
+
+/// Points of a block of lanes.
+const BLOCK: usize = 8;
+
+/// The cases near the identity as a batch: each in all lanes of a block, then all beside one another.
+fn batch_near_identity<L: Hyperelastic>(model: Option<&str>, law: &L) -> Result<Vec<Case>, Box<dyn Error>> {
+    let cases = truths(model, law)?;
+    let alike = cases.iter().flat_map(|case| std::iter::repeat_n(case, BLOCK));
+    let mixed = cases.iter().cycle().take(BLOCK * cases.len());
+    Ok(alike.chain(mixed).cloned().collect())
+}
+
+/// The largest relative errors near the identity in blocks of lanes, see [`errors_near_identity`]: of P alone, and the larger one
+/// of P and ∂P/∂F from what they share.
+///
+/// # Errors
+/// As [`near_identity`], and those of batches.
+pub fn batch_errors_near_identity<L: Hyperelastic + Sync>(
+    model: Option<&str>,
+    law: &L,
+) -> Result<[f64; 2], Box<dyn Error>> {
+    let cases = batch_near_identity(model, law)?;
+    let (gradients, points) = (blocks_of(&cases), cases.len());
+    let (mut p, mut a) = (vec![[[0.0; BLOCK]; 9]; gradients.len()], vec![[[0.0; BLOCK]; 45]; gradients.len()]);
+    let input = Gradients(LaneBlocks::new(&gradients, points)?);
+    let to = (LaneBlocks::new_mut(&mut p, points)?, LaneBlocks::new_mut(&mut a, points)?);
+    batch::evaluate(input, batch::first_piola_and_tangent(law, to.0, to.1))?;
+    let both = [
+        stress_error(&cases, |point, k| p[point / BLOCK][k][point % BLOCK]),
+        tangent_error(&cases, |point, k| a[point / BLOCK][k][point % BLOCK]),
+    ];
+    Ok([batch_stress_error_near_identity(model, law)?, both[0].max(both[1])])
+}
+
+/// The error of P alone in blocks of lanes.
+///
+/// # Errors
+/// As [`batch_errors_near_identity`].
+pub fn batch_stress_error_near_identity<L: Hyperelastic + Sync>(
+    model: Option<&str>,
+    law: &L,
+) -> Result<f64, Box<dyn Error>> {
+    let cases = batch_near_identity(model, law)?;
+    let (gradients, points) = (blocks_of(&cases), cases.len());
+    let mut p = vec![[[0.0; BLOCK]; 9]; gradients.len()];
+    let input = Gradients(LaneBlocks::new(&gradients, points)?);
+    batch::evaluate(input, batch::first_piola(law, LaneBlocks::new_mut(&mut p, points)?))?;
+    Ok(stress_error(&cases, |point, k| p[point / BLOCK][k][point % BLOCK]))
+}
+
+/// The error of ∂P/∂F alone in blocks of lanes.
+///
+/// # Errors
+/// As [`batch_errors_near_identity`].
+pub fn batch_tangent_error_near_identity<L: Hyperelastic + Sync>(
+    model: Option<&str>,
+    law: &L,
+) -> Result<f64, Box<dyn Error>> {
+    let cases = batch_near_identity(model, law)?;
+    let (gradients, points) = (blocks_of(&cases), cases.len());
+    let mut a = vec![[[0.0; BLOCK]; 45]; gradients.len()];
+    let input = Gradients(LaneBlocks::new(&gradients, points)?);
+    batch::evaluate(input, batch::first_piola_tangent(law, LaneBlocks::new_mut(&mut a, points)?))?;
+    Ok(tangent_error(&cases, |point, k| a[point / BLOCK][k][point % BLOCK]))
+}
+
+/// The largest relative errors of P and of ∂P/∂F near the identity in structures of arrays.
+///
+/// # Errors
+/// As [`batch_errors_near_identity`].
+pub fn array_errors_near_identity<L: Hyperelastic + Sync>(
+    model: Option<&str>,
+    law: &L,
+) -> Result<[f64; 2], Box<dyn Error>> {
+    let cases = batch_near_identity(model, law)?;
+    let component = |k: usize| cases.iter().map(|case| case.gradient.matrix()[(k / 3, k % 3)]).collect();
+    let gradients: [Vec<f64>; 9] = core::array::from_fn(component);
+    let input = Gradients(Components::new(gradients.each_ref().map(Vec::as_slice))?);
+    let mut p: [Vec<f64>; 9] = core::array::from_fn(|_| vec![0.0; cases.len()]);
+    let to = Components::new_mut(p.each_mut().map(Vec::as_mut_slice))?;
+    batch::evaluate(input, batch::first_piola(law, to))?;
+    let mut a: [Vec<f64>; 45] = core::array::from_fn(|_| vec![0.0; cases.len()]);
+    let to = Components::new_mut(a.each_mut().map(Vec::as_mut_slice))?;
+    batch::evaluate(input, batch::first_piola_tangent(law, to))?;
+    Ok([stress_error(&cases, |point, k| p[k][point]), tangent_error(&cases, |point, k| a[k][point])])
+}
+
+/// The same in arrays of matrices.
+///
+/// # Errors
+/// As [`batch_errors_near_identity`].
+pub fn matrix_errors_near_identity<L: Hyperelastic + Sync>(
+    model: Option<&str>,
+    law: &L,
+) -> Result<[f64; 2], Box<dyn Error>> {
+    let cases = batch_near_identity(model, law)?;
+    let gradients: Vec<_> = cases.iter().map(|case| case.gradient).collect();
+    let (mut p, mut a) = (vec![FirstPiola(Matrix3::zeros()); cases.len()], vec![[0.0; 45]; cases.len()]);
+    batch::evaluate(&gradients[..], batch::first_piola(law, &mut p[..]))?;
+    batch::evaluate(&gradients[..], batch::first_piola_tangent(law, &mut a[..]))?;
+    let entry = |point: usize, k: usize| p[point].0[(k / 3, k % 3)];
+    Ok([stress_error(&cases, entry), tangent_error(&cases, |point, k| a[point][k])])
+}
+
+fn blocks_of(cases: &[Case]) -> Vec<[[f64; BLOCK]; 9]> {
+    let component = |block: &[Case], k: usize, lane: usize| block[lane].gradient.matrix()[(k / 3, k % 3)];
+    let (blocks, _) = cases.as_chunks::<BLOCK>();
+    let of = |block| core::array::from_fn(|k| core::array::from_fn(|lane| component(block, k, lane)));
+    blocks.iter().map(|block| of(block)).collect()
+}
+
+/// The largest relative error of what is found at each point: entry k of P by rows.
+fn stress_error(cases: &[Case], found: impl Fn(usize, usize) -> f64) -> f64 {
+    largest_error(cases, |case| case.stress.clone(), found)
+}
+
+/// The same of the upper triangle of ∂P/∂F by rows.
+fn tangent_error(cases: &[Case], found: impl Fn(usize, usize) -> f64) -> f64 {
+    let upper = |tangent: &[f64]| tangent.chunks(9).enumerate().flat_map(|(r, row)| &row[r..]).copied().collect();
+    largest_error(cases, |case| upper(&case.tangent), found)
+}
+
+fn largest_error(cases: &[Case], expected: impl Fn(&Case) -> Vec<f64>, found: impl Fn(usize, usize) -> f64) -> f64 {
+    let of_point = |(point, case): (usize, &Case)| {
+        let expected = expected(case);
+        let found: Vec<f64> = (0..expected.len()).map(|k| found(point, k)).collect();
+        relative_error(&found, &expected)
+    };
+    cases.iter().enumerate().map(of_point).fold(0.0, f64::max)
 }

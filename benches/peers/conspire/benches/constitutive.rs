@@ -1,8 +1,12 @@
 //! Laws of conspire, one call at one point: `conspire_<law>/<quantity>/1`, each right after ours of the same form, one call
 //! and 10³ points in blocks of lanes (`/1k`; the tangent together with P, as lanes share what both need).
 //!
-//! conspire has P and ∂P/∂F of one point only. Its Mooney–Rivlin solid is the isochoric one, whose P is made of T.
+//! conspire has P and ∂P/∂F of one point only. Its Mooney–Rivlin solid is the isochoric one, whose P is made of T; its Fung is an
+//! exponential of Ī₁, not that of the strain, and stands beside an energy of a change of shape of our own, as its Carroll does.
 //! Before they are timed the answers of both must agree.
+//!
+//! `error` is the largest relative error near the identity to 31 digits of our law: see [`laws::errors_near_identity`], and for
+//! `/1k` [`laws::batch_errors_near_identity`]. Where conspire refuses one of these deformations it has none.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -10,24 +14,27 @@ use std::time::Duration;
 
 use conspire::constitutive::solid::elastic::Elastic;
 use conspire::constitutive::solid::hyperelastic::{
-    ArrudaBoyce, Gent, Hencky as TheirHencky, MooneyRivlin, NeoHookean, Ogden, SaintVenantKirchhoff as Theirs,
+    ArrudaBoyce, BlatzKo as TheirBlatzKo, Carroll, Fung, Gent, Hencky as TheirHencky, Isihara, MooneyRivlin,
+    NeoHookean, Ogden, SaintVenantKirchhoff as Theirs, Yeoh,
 };
 use conspire::mechanics::DeformationGradient as Gradient;
 use conspire::units::Stress;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
+use piola_benches::constitutive::laws;
+use piola_benches::notes::Notes;
 use piola_constitutive::batch;
-use piola_constitutive::solids::isochoric::Isochoric;
+use piola_constitutive::solids::isochoric::{Isochoric, RivlinTerm};
 use piola_constitutive::solids::{
-    Compressible, Hencky, Hyperelastic, IsochoricOgden, OgdenTerm, SaintVenantKirchhoff, isochoric, volumetric,
+    BlatzKo, Compressible, Hencky, Hyperelastic, IsochoricOgden, OgdenTerm, SaintVenantKirchhoff, isochoric, volumetric,
 };
 use piola_continuum::DeformationGradient;
 use piola_continuum::batch::{Gradients, LaneBlocks};
-use piola_peer_conspire::notes::Notes;
+use piola_peer_conspire::Exponential;
 
 const CONSPIRE: &str = "conspire 0.8";
 
-/// One of the deformations of our own benches.
+/// One of the deformations of our own benches, by rows.
 const F: [[f64; 3]; 3] = [[1.19, 0.16, -0.28], [-0.15, 0.93, 0.2], [0.21, -0.07, 0.88]];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -37,9 +44,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     group.warm_up_time(Duration::from_millis(50)).measurement_time(Duration::from_millis(150));
     group.throughput(Throughput::Elements(1));
     let mut notes = Notes::of("constitutive-peers");
-    let bulk = volumetric::SimoTaylor::new(13.0)?;
+    let bulk = volumetric::SimoTaylor::new(BULK)?;
     let pascals = Stress::pascals;
-    let (bulk_modulus, shear_modulus) = (pascals(13.0), pascals(3.0));
+    let (bulk_modulus, shear_modulus) = (pascals(BULK), pascals(SHEAR));
     let ours = Compressible::new(isochoric::MooneyRivlin::new(1.0, 0.5)?, bulk);
     let theirs = MooneyRivlin { bulk_modulus, shear_modulus, extra_modulus: pascals(1.0) };
     beside(&mut group, &mut notes, ["mooney_rivlin_simo_taylor", "conspire_mooney_rivlin"], &ours, &theirs, ROUNDING)?;
@@ -68,10 +75,56 @@ fn main() -> Result<(), Box<dyn Error>> {
         exponents: terms.iter().map(|term| term.alpha).collect(),
     };
     beside(&mut group, &mut notes, ["ogden_simo_taylor", "conspire_ogden"], &ours, &theirs, ROUNDING)?;
+    series(&mut group, &mut notes)?;
+    not_of_series(&mut group, &mut notes)?;
     group.finish();
     criterion.final_summary();
     notes.write()?;
     Ok(())
+}
+
+/// κ, Pa, of all of them.
+const BULK: f64 = 13.0;
+/// μ, Pa.
+const SHEAR: f64 = 3.0;
+
+/// Polynomials of Ī₁ and Ī₂.
+fn series(group: &mut Group<'_>, notes: &mut Notes) -> Result<(), Box<dyn Error>> {
+    let (pascals, bulk) = (Stress::pascals, volumetric::SimoTaylor::new(BULK)?);
+    let (bulk_modulus, shear_modulus) = (pascals(BULK), pascals(SHEAR));
+    // Their energy is half of a sum.
+    let ours = Compressible::new(isochoric::Yeoh::new(0.5 * SHEAR, -0.02, 0.001)?, bulk);
+    let theirs = Yeoh { bulk_modulus, shear_moduli: [SHEAR, -0.04, 0.002].map(pascals).to_vec() };
+    beside(group, notes, ["yeoh_simo_taylor", "conspire_yeoh"], &ours, &theirs, ROUNDING)?;
+    let term = |first, second, coefficient| RivlinTerm { first, second, coefficient };
+    let ours =
+        Compressible::new(isochoric::Rivlin::new(vec![term(1, 0, 1.0), term(0, 1, 0.5), term(2, 0, 0.01)])?, bulk);
+    let (extra_modulus, quadratic_modulus) = (pascals(1.0), pascals(0.02));
+    let theirs = Isihara { bulk_modulus, shear_modulus, extra_modulus, quadratic_modulus };
+    beside(group, notes, ["rivlin_simo_taylor", "conspire_isihara"], &ours, &theirs, ROUNDING)
+}
+
+/// Powers of J, an exponential and a root.
+fn not_of_series(group: &mut Group<'_>, notes: &mut Notes) -> Result<(), Box<dyn Error>> {
+    let (pascals, bulk) = (Stress::pascals, volumetric::SimoTaylor::new(BULK)?);
+    let (bulk_modulus, shear_modulus) = (pascals(BULK), pascals(SHEAR));
+    // Their exponent is β = κ/(2 μ) − 1/3, ours ν/(1 − 2 ν).
+    let beta = BULK / (2.0 * SHEAR) - 1.0 / 3.0;
+    let ours = BlatzKo::new(SHEAR, beta / (1.0 + 2.0 * beta), 0.5)?;
+    let theirs = TheirBlatzKo { bulk_modulus, shear_modulus, mixing_parameter: 0.5 };
+    beside(group, notes, ["blatz_ko_rubber", "conspire_blatz_ko"], &ours, &theirs, ROUNDING)?;
+    let ours = Compressible::new(Exponential { mu: SHEAR, extra: 1.0, exponent: 0.5 }, bulk);
+    let theirs = Fung { bulk_modulus, shear_modulus, extra_modulus: pascals(1.0), exponent: 0.5 };
+    beside(group, notes, ["own_exponential_simo_taylor", "conspire_fung"], &ours, &theirs, ROUNDING)?;
+    let ours = piola_peer_conspire::Carroll { linear: 1.0, quartic: 0.001, root: 0.5 };
+    let theirs = Carroll {
+        bulk_modulus,
+        linear_modulus: pascals(ours.linear),
+        quartic_modulus: pascals(ours.quartic),
+        second_invariant_modulus: pascals(ours.root),
+    };
+    let names = ["own_carroll_simo_taylor", "conspire_carroll"];
+    beside(group, notes, names, &Compressible::new(ours, bulk), &theirs, ROUNDING)
 }
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
@@ -88,13 +141,11 @@ fn beside<O: Hyperelastic + Sync, L: Elastic>(
     theirs: &L,
     tolerance: f64,
 ) -> Result<(), Box<dyn Error>> {
-    let (f, their_f) = (DeformationGradient::from_rows(F)?, Gradient::from(F));
-    let stress: [[f64; 3]; 3] = theirs.first_piola_kirchhoff_stress(&their_f).map_err(|_| "conspire has no P")?.into();
-    let tangent: Vec<f64> =
-        theirs.first_piola_kirchhoff_tangent_stiffness(&their_f).map_err(|_| "conspire has no tangent")?.into();
+    let f = DeformationGradient::from_rows(F)?;
+    let (stress, tangent) = (stress_of(theirs, &f)?, tangent_of(theirs, &f)?);
     let by_rows = ours.first_piola(&f).0.transpose();
     let differences = [
-        difference(by_rows.as_slice(), stress.as_flattened()),
+        difference(by_rows.as_slice(), &stress),
         difference(ours.first_piola_tangent(&f).0.components.as_flattened(), &tangent),
     ];
     if differences.iter().any(|difference| !(*difference < tolerance)) {
@@ -106,7 +157,51 @@ fn beside<O: Hyperelastic + Sync, L: Elastic>(
         b.iter(|| black_box(ours).first_piola_tangent(black_box(&f)));
     });
     peer(group, notes, their_name, theirs);
-    in_lanes(group, our_name, ours)
+    in_lanes(group, our_name, ours)?;
+    errors(notes, [our_name, their_name], ours, theirs)
+}
+
+/// P of theirs, by rows.
+fn stress_of<L: Elastic>(theirs: &L, f: &DeformationGradient) -> Result<Vec<f64>, &'static str> {
+    let stress: [[f64; 3]; 3] = theirs.first_piola_kirchhoff_stress(&given(f)).map_err(|_| "conspire has no P")?.into();
+    Ok(stress.concat())
+}
+
+/// ∂P/∂F of theirs, by rows.
+fn tangent_of<L: Elastic>(theirs: &L, f: &DeformationGradient) -> Result<Vec<f64>, &'static str> {
+    let tangent = theirs.first_piola_kirchhoff_tangent_stiffness(&given(f));
+    Ok(tangent.map_err(|_| "conspire has no tangent")?.into())
+}
+
+fn given(f: &DeformationGradient) -> Gradient {
+    let rows: [[f64; 3]; 3] = f.matrix().transpose().into();
+    Gradient::from(rows)
+}
+
+/// Notes the errors of both. Theirs has none where it refuses one of the deformations or has no finite answer: no number stands
+/// for that.
+fn errors<O: Hyperelastic + Sync, L: Elastic>(
+    notes: &mut Notes,
+    [our_name, their_name]: [&str; 2],
+    ours: &O,
+    theirs: &L,
+) -> Result<(), Box<dyn Error>> {
+    let [stress, tangent] = laws::errors_near_identity(None, ours)?;
+    notes.error(&format!("{our_name}/first_piola/1"), stress);
+    notes.error(&format!("{our_name}/first_piola_tangent/1"), tangent);
+    let [stress, both] = laws::batch_errors_near_identity(None, ours)?;
+    notes.error(&format!("{our_name}/first_piola/1k"), stress);
+    notes.error(&format!("{our_name}/first_piola_and_tangent/1k"), both);
+    let answered = |answer: Result<Vec<f64>, _>, entries| answer.unwrap_or_else(|_| vec![f64::NAN; entries]);
+    let [stress, tangent] = laws::answered_errors_near_identity(None, ours, |f| {
+        Ok([answered(stress_of(theirs, f), 9), answered(tangent_of(theirs, f), 81)])
+    })?;
+    for (quantity, error) in [("first_piola", stress), ("first_piola_tangent", tangent)] {
+        if error.is_finite() {
+            notes.error(&format!("{their_name}/{quantity}/1"), error);
+        }
+    }
+    Ok(())
 }
 
 /// Points of a batch, and of a block of it.
@@ -121,9 +216,8 @@ fn in_lanes<O: Hyperelastic + Sync>(group: &mut Group<'_>, name: &str, law: &O) 
         F[k / 3][k % 3] + 0.1 * (share - 0.5)
     };
     let blocks = POINTS / BLOCK;
-    let gradients: Vec<[[f64; BLOCK]; 9]> = (0..blocks)
-        .map(|b| std::array::from_fn(|k| std::array::from_fn(|lane| moved(k, BLOCK * b + lane))))
-        .collect();
+    let gradients: Vec<[[f64; BLOCK]; 9]> =
+        (0..blocks).map(|b| std::array::from_fn(|k| std::array::from_fn(|lane| moved(k, BLOCK * b + lane)))).collect();
     let (mut stresses, mut tangents) = (vec![[[0.0; BLOCK]; 9]; blocks], vec![[[0.0; BLOCK]; 45]; blocks]);
     let input = Gradients(LaneBlocks::new(&gradients, POINTS)?);
     batch::evaluate(input, batch::first_piola(law, LaneBlocks::new_mut(&mut stresses, POINTS)?))?;
