@@ -4,6 +4,7 @@
 use std::error::Error;
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
+use piola_benches::constitutive::Printed;
 use piola_benches::constitutive::laws::{self, Visit};
 use piola_benches::constitutive::naive::{self, Naive, Textbook};
 use piola_benches::continuum::ordinary_deformations;
@@ -33,6 +34,51 @@ fn laws_that_are_measured_are_accurate_near_the_identity() -> Result<(), Box<dyn
     laws::each(&mut visited)?;
     laws::each_incompressible(&mut visited)?;
     assert_eq!(visited.0, 25);
+    Ok(())
+}
+
+struct AccurateInBatches(usize);
+
+impl Visit for AccurateInBatches {
+    fn law<L: Hyperelastic + Textbook + Sync>(
+        &mut self,
+        name: &'static str,
+        model: Option<&'static str>,
+        law: &L,
+    ) -> Result<(), Box<dyn Error>> {
+        let [stress, both] = laws::batch_errors_near_identity(model, law)?;
+        assert!(stress <= 1e-13, "{name}: P within {stress:e} near the identity");
+        assert!(both <= 1e-12, "{name}: P and ∂P/∂F within {both:e} near the identity");
+        self.0 += 1;
+        Ok(())
+    }
+}
+
+#[test]
+fn batches_that_are_measured_are_accurate_near_the_identity() -> Result<(), Box<dyn Error>> {
+    let mut visited = AccurateInBatches(0);
+    laws::each(&mut visited)?;
+    laws::each_incompressible(&mut visited)?;
+    assert_eq!(visited.0, 25);
+    Ok(())
+}
+
+#[test]
+fn batches_of_a_formula_that_cancels_are_not() -> Result<(), Box<dyn Error>> {
+    let rubber = laws::mooney_rivlin()?;
+    let printed = Printed { c10: rubber.c10(), c01: rubber.c01(), c: rubber.c(), d: rubber.d() };
+    let error = laws::batch_stress_error_near_identity(Some("mooney_rivlin_compressible"), &printed)?;
+    assert!(1e-12 < error, "{error:e}");
+    Ok(())
+}
+
+#[test]
+fn errors_of_batches_do_not_depend_on_the_layout() -> Result<(), Box<dyn Error>> {
+    let (model, rubber) = (Some("mooney_rivlin_compressible"), laws::mooney_rivlin()?);
+    let stress = laws::batch_stress_error_near_identity(model, &rubber)?;
+    let expected = [stress, laws::batch_tangent_error_near_identity(model, &rubber)?].map(f64::to_bits);
+    assert_eq!(laws::array_errors_near_identity(model, &rubber)?.map(f64::to_bits), expected);
+    assert_eq!(laws::matrix_errors_near_identity(model, &rubber)?.map(f64::to_bits), expected);
     Ok(())
 }
 
