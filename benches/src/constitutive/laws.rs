@@ -8,9 +8,9 @@ use piola_constitutive::solids::isochoric::RivlinTerm;
 use piola_constitutive::solids::{
     AnisotropicLinear, AnisotropicSaintVenantKirchhoff, BlatzKo, Compressible, ElasticConstants, EngineeringConstants,
     Fibre, Fung, Hencky, HolzapfelGasserOgden, Hyperelastic, IncompressibleOgden, IncompressibleSolid, IsochoricOgden,
-    LinearElastic, MooneyRivlin, NeoHookeanCiarlet, NeoHookeanLogarithmic, Ogden, OgdenTerm, Polynomial,
-    PolynomialTerm, Pressurised, ReinforcedNeoHookean, SaintVenantKirchhoff, Stiffness, TransverseConstants, isochoric,
-    volumetric,
+    LinearElastic, MooneyRivlin, MooneyRivlinIsochoric, NeoHookeanCiarlet, NeoHookeanLogarithmic, Ogden, OgdenTerm,
+    Polynomial, PolynomialTerm, Pressurised, ReinforcedNeoHookean, SaintVenantKirchhoff, Stiffness,
+    TransverseConstants, isochoric, volumetric,
 };
 use piola_continuum::batch::{Components, Gradients, LaneBlocks};
 use piola_continuum::{Deformation, DeformationGradient, FirstPiola};
@@ -41,6 +41,23 @@ pub fn mooney_rivlin() -> Result<MooneyRivlin, Box<dyn Error>> {
     Ok(MooneyRivlin::stress_free(0.5, 0.25, 1.25)?)
 }
 
+/// The Mooney–Rivlin solid of a change of shape.
+///
+/// # Errors
+/// None: its parameters are within bounds.
+pub fn mooney_rivlin_isochoric() -> Result<MooneyRivlinIsochoric, Box<dyn Error>> {
+    Ok(Compressible::new(isochoric::MooneyRivlin::new(0.5, 0.25)?, volumetric::Quadratic::new(20.0)?))
+}
+
+/// Three terms of Ogden's for a change of shape.
+///
+/// # Errors
+/// None: its parameters are within bounds.
+pub fn ogden_isochoric() -> Result<IsochoricOgden, Box<dyn Error>> {
+    let term = |mu, alpha| OgdenTerm { mu, alpha };
+    Ok(IsochoricOgden::new(&[term(0.63, 1.3), term(0.0012, 5.0), term(-0.01, -2.0)], 10.0)?)
+}
+
 /// Visits all laws that take any change of volume.
 ///
 /// # Errors
@@ -55,8 +72,7 @@ pub fn each(visit: &mut impl Visit) -> Result<(), Box<dyn Error>> {
     let bulk = volumetric::Quadratic::new(20.0)?;
     let isochoric = Compressible::new(isochoric::NeoHookean::new(0.8)?, bulk);
     visit.law("neo_hookean_isochoric", Some("neo_hookean_isochoric"), &isochoric)?;
-    let rubber = Compressible::new(isochoric::MooneyRivlin::new(0.5, 0.25)?, bulk);
-    visit.law("mooney_rivlin_isochoric", None, &rubber)?;
+    visit.law("mooney_rivlin_isochoric", None, &mooney_rivlin_isochoric()?)?;
     visit.law("yeoh", None, &Compressible::new(isochoric::Yeoh::new(0.5, -0.02, 0.001)?, bulk))?;
     visit.law("gent", None, &Compressible::new(isochoric::Gent::new(1.0, 50.0)?, bulk))?;
     visit.law("arruda_boyce", None, &Compressible::new(isochoric::ArrudaBoyce::new(1.0, 8.0)?, bulk))?;
@@ -73,8 +89,7 @@ pub fn each(visit: &mut impl Visit) -> Result<(), Box<dyn Error>> {
     visit.law("holzapfel_gasser_ogden", None, &artery)?;
     let term = |mu, alpha| OgdenTerm { mu, alpha };
     visit.law("ogden", Some("ogden_log"), &Ogden::new(&[term(1.2, 1.3), term(-0.3, -2.0)], 4.0)?)?;
-    let three = IsochoricOgden::new(&[term(0.63, 1.3), term(0.0012, 5.0), term(-0.01, -2.0)], 10.0)?;
-    visit.law("ogden_isochoric", Some("ogden_isochoric"), &three)?;
+    visit.law("ogden_isochoric", Some("ogden_isochoric"), &ogden_isochoric()?)?;
     visit.law("hencky", Some("hencky"), &Hencky::new(2.0, 0.9)?)?;
     let term = |first, second, coefficient| RivlinTerm { first, second, coefficient };
     let series = isochoric::Rivlin::new(vec![term(1, 0, 0.5), term(0, 1, 0.25), term(1, 1, 0.0125), term(2, 0, 0.01)])?;

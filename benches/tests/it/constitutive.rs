@@ -37,32 +37,6 @@ fn laws_that_are_measured_are_accurate_near_the_identity() -> Result<(), Box<dyn
     Ok(())
 }
 
-struct AccurateInBatches(usize);
-
-impl Visit for AccurateInBatches {
-    fn law<L: Hyperelastic + Textbook + Sync>(
-        &mut self,
-        name: &'static str,
-        model: Option<&'static str>,
-        law: &L,
-    ) -> Result<(), Box<dyn Error>> {
-        let [stress, both] = laws::batch_errors_near_identity(model, law)?;
-        assert!(stress <= 1e-13, "{name}: P within {stress:e} near the identity");
-        assert!(both <= 1e-12, "{name}: P and ∂P/∂F within {both:e} near the identity");
-        self.0 += 1;
-        Ok(())
-    }
-}
-
-#[test]
-fn batches_that_are_measured_are_accurate_near_the_identity() -> Result<(), Box<dyn Error>> {
-    let mut visited = AccurateInBatches(0);
-    laws::each(&mut visited)?;
-    laws::each_incompressible(&mut visited)?;
-    assert_eq!(visited.0, 25);
-    Ok(())
-}
-
 #[test]
 fn batches_of_a_formula_that_cancels_are_not() -> Result<(), Box<dyn Error>> {
     let rubber = laws::mooney_rivlin()?;
@@ -73,10 +47,12 @@ fn batches_of_a_formula_that_cancels_are_not() -> Result<(), Box<dyn Error>> {
 }
 
 #[test]
-fn errors_of_batches_do_not_depend_on_the_layout() -> Result<(), Box<dyn Error>> {
+fn batches_keep_their_digits_near_the_identity_whatever_the_layout() -> Result<(), Box<dyn Error>> {
     let (model, rubber) = (Some("mooney_rivlin_compressible"), laws::mooney_rivlin()?);
     let stress = laws::batch_stress_error_near_identity(model, &rubber)?;
-    let expected = [stress, laws::batch_tangent_error_near_identity(model, &rubber)?].map(f64::to_bits);
+    let tangent = laws::batch_tangent_error_near_identity(model, &rubber)?;
+    assert!(stress <= 1e-13 && tangent <= 1e-12, "P within {stress:e}, ∂P/∂F within {tangent:e}");
+    let expected = [stress, tangent].map(f64::to_bits);
     assert_eq!(laws::array_errors_near_identity(model, &rubber)?.map(f64::to_bits), expected);
     assert_eq!(laws::matrix_errors_near_identity(model, &rubber)?.map(f64::to_bits), expected);
     Ok(())

@@ -17,12 +17,22 @@ pub(crate) fn excess_over_logarithm<T: Real>(x: T) -> T {
 }
 
 /// x − ln(1 + x) of |x| ≤ ½.
-///
+#[inline(always)]
+fn small_excess<T: Real>(x: T) -> T {
+    if T::ORDER == 0 { series(x) } else { series_apart(x) }
+}
+
+/// Of numbers with derivatives the series is long: it is compiled once for each.
+#[inline(never)]
+fn series_apart<T: Real>(x: T) -> T {
+    series(x)
+}
+
 /// ```text
 /// s = x/(2 + x):   x − ln(1 + x) = x s − 2 (s³/3 + s⁵/5 + …)
 /// ```
 #[inline(always)]
-fn small_excess<T: Real>(x: T) -> T {
+fn series<T: Real>(x: T) -> T {
     let s = x / (T::lit(2.0) + x);
     let q = s * s;
     let q2 = q * q;

@@ -33,8 +33,8 @@ impl<I: Shape> Energy for Compressible<I, Quadratic> {
     fn slopes(&self, first: f64, second: f64, jacobian: f64) -> [f64; 3] {
         let g = jacobian.powf(-2.0 / 3.0);
         let (x, y) = (g * first, g * g * second);
-        let [a, b] = self.isochoric.slopes(x, y);
-        let volume = self.volumetric.kappa() * (jacobian - 1.0);
+        let [a, b] = self.isochoric().slopes(x, y);
+        let volume = self.volumetric().kappa() * (jacobian - 1.0);
         [a * g, b * g * g, volume - (2.0 * a * x + 4.0 * b * y) / (3.0 * jacobian)]
     }
 
@@ -42,8 +42,8 @@ impl<I: Shape> Energy for Compressible<I, Quadratic> {
     fn curvatures(&self, first: f64, second: f64, jacobian: f64) -> [f64; 6] {
         let g = jacobian.powf(-2.0 / 3.0);
         let (x, y) = (g * first, g * g * second);
-        let [a, b] = self.isochoric.slopes(x, y);
-        let [aa, ab, bb] = self.isochoric.curvatures(x, y);
+        let [a, b] = self.isochoric().slopes(x, y);
+        let [aa, ab, bb] = self.isochoric().curvatures(x, y);
         // ∂Ī₁/∂J and ∂Ī₂/∂J.
         let (xj, yj) = (-2.0 * x / (3.0 * jacobian), -4.0 * y / (3.0 * jacobian));
         [
@@ -56,7 +56,7 @@ impl<I: Shape> Energy for Compressible<I, Quadratic> {
                 + 2.0 * ab * xj * yj
                 + bb * yj * yj
                 + (10.0 * a * x + 28.0 * b * y) / (9.0 * jacobian * jacobian)
-                + self.volumetric.kappa(),
+                + self.volumetric().kappa(),
         ]
     }
 }

@@ -59,6 +59,20 @@ pub type NeoHookeanIsochoric = Compressible<isochoric::NeoHookean, Quadratic>;
 /// W = C₁₀ (Ī₁ − 3) + C₀₁ (Ī₂ − 3) + ½ κ (J − 1)².
 pub type MooneyRivlinIsochoric = Compressible<isochoric::MooneyRivlin, Quadratic>;
 
+impl<I, U> Compressible<I, U> {
+    /// W̄.
+    #[must_use]
+    pub const fn isochoric(&self) -> &I {
+        &self.isochoric
+    }
+
+    /// U.
+    #[must_use]
+    pub const fn volumetric(&self) -> &U {
+        &self.volumetric
+    }
+}
+
 impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
     /// W̄ + U.
     ///
@@ -87,18 +101,6 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
         let bulk = volumetric.bulk_modulus();
         check_bound("compressible", "U″(1)", bulk, "0 ≤ U″(1)", 0.0 <= bulk)?;
         Ok(Self { isochoric, volumetric })
-    }
-
-    /// W̄.
-    #[must_use]
-    pub const fn isochoric(&self) -> &I {
-        &self.isochoric
-    }
-
-    /// U.
-    #[must_use]
-    pub const fn volumetric(&self) -> &U {
-        &self.volumetric
     }
 
     /// The shear modulus of the reference, Pa.

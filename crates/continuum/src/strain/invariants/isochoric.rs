@@ -206,7 +206,18 @@ struct Deviation<T> {
 
 impl<T: Real> Deviation<T> {
     #[inline(always)]
-    fn of([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]: [T; 18]) -> Self {
+    fn of(inputs: [T; 18]) -> Self {
+        if T::ORDER == 0 { Self::inlined(inputs) } else { Self::apart(inputs) }
+    }
+
+    /// Of numbers with derivatives it is long: it is compiled once for each.
+    #[inline(never)]
+    fn apart(inputs: [T; 18]) -> Self {
+        Self::inlined(inputs)
+    }
+
+    #[inline(always)]
+    fn inlined([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]: [T; 18]) -> Self {
         // From 2E where C is near 1, from C itself where a dilatation has moved it away.
         let twice_green = right_cauchy_green_minus_one([[j, k, l], [m, n, o], [p, q, r]]);
         let metric = right_cauchy_green([[a, b, c], [d, e, f], [g, h, i]]);
