@@ -5,10 +5,12 @@ use piola_constitutive::solids::isochoric::{ArrudaBoyce, Gent, MooneyRivlin};
 use piola_constitutive::solids::volumetric::{Miehe, SimoTaylor};
 use piola_constitutive::solids::{
     Compressible, EngineeringConstants, Fibre, Fung, Hencky, HolzapfelGasserOgden, Hyperelastic, IsochoricOgden,
-    OgdenTerm, Stiffness,
+    OgdenTerm, SaintVenantKirchhoff, Stiffness,
 };
 use piola_constitutive::{ConstitutiveError, batch};
 use piola_continuum::batch::BatchScalar;
+use piola_continuum::stress::tangents::{MaterialTangent, TruesdellTangent};
+use piola_continuum::tensor::MajorSymmetric;
 use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola, SecondPiola};
 use piola_numerics::Real;
 use piola_testkit::spectral::Random;
@@ -56,21 +58,16 @@ fn compare_all<T: BatchScalar, L: Hyperelastic + Sync>(
     let (mut w, mut energy) = (vec![zero; n], vec![zero; n]);
     let (mut p, mut nominal, mut along) =
         (vec![FirstPiola::zero(); n], vec![FirstPiola::zero(); n], vec![FirstPiola::zero(); n]);
-    let (mut s, mut t) = (vec![SecondPiola::zero(); n], vec![CauchyStress::zero(); n]);
-    let (mut a, mut material, mut spatial) = (vec![[zero; 45]; n], vec![[zero; 21]; n], vec![[zero; 21]; n]);
+    let mut a = vec![[zero; 45]; n];
     let direction = vec![Matrix3::from_fn(|i, j| T::lit(0.3 - 0.2 * i as f64 + 0.1 * j as f64)); n];
-    let requests = (
-        batch::energy(law, &mut energy[..]),
-        batch::energy_first_piola_and_tangent(law, &mut w[..], &mut nominal[..], &mut a[..]),
-        batch::second_piola_and_tangent(law, &mut s[..], &mut material[..]),
-        batch::cauchy_and_tangent(law, &mut t[..], &mut spatial[..]),
-        batch::first_piola_derivative(law, &direction[..], &mut along[..]),
-    );
-    batch::evaluate(f, requests).expect("deformations of the law");
+    let good = "deformations of the law";
+    batch::evaluate(f, batch::energy(law, &mut energy[..])).expect(good);
+    batch::evaluate(f, batch::first_piola(law, &mut p[..])).expect(good);
+    let all = batch::energy_first_piola_and_tangent(law, &mut w[..], &mut nominal[..], &mut a[..]);
+    batch::evaluate(f, all).expect(good);
+    batch::evaluate(f, batch::first_piola_derivative(law, &direction[..], &mut along[..])).expect(good);
     let (mut work, mut stress) = (vec![zero; n], vec![FirstPiola::zero(); n]);
-    let requests =
-        (batch::first_piola(law, &mut p[..]), batch::energy_and_first_piola(law, &mut work[..], &mut stress[..]));
-    batch::evaluate(f, requests).expect("deformations of the law");
+    batch::evaluate(f, batch::energy_and_first_piola(law, &mut work[..], &mut stress[..])).expect(good);
     for (i, f) in f.iter().enumerate() {
         let numbers = |values: &[T]| values.iter().map(|x| x.primal(0)).collect::<Vec<_>>();
         let close = |what: &str, actual: &[T], expected: &[T], moduli: f64| {
@@ -96,12 +93,6 @@ fn compare_all<T: BatchScalar, L: Hyperelastic + Sync>(
         close("∂P/∂F", &a[i], &upper, 10.0);
         let derivative = law.first_piola_derivative(f, &direction[i]);
         close("(∂P/∂F) : δF", along[i].0.as_slice(), derivative.0.as_slice(), 10.0);
-        let (second, stiffness) = law.second_piola_and_tangent(f);
-        close("S", &s[i].0.components, &second.0.components, 10.0);
-        close("∂S/∂E", &material[i], &stiffness.0.components, 10.0);
-        let (cauchy, stiffness) = law.cauchy_and_tangent(f);
-        close("T", &t[i].0.components, &cauchy.0.components, 10.0);
-        close("c/J", &spatial[i], &stiffness.0.components, 10.0);
     }
 }
 
@@ -115,7 +106,7 @@ fn laws_of_each_kind_on_all_cores_equal_themselves_at_their_points() -> Result<(
     compare("Gent", &Compressible::new(Gent::new(0.8, 30.0)?, SimoTaylor::new(5.0)?), &f, ulps);
     compare_all("Mooney–Rivlin", &Compressible::new(MooneyRivlin::new(0.8, 0.4)?, Miehe::new(5.0)?), &f, ulps);
     compare("Arruda–Boyce", &Compressible::new(ArrudaBoyce::new(0.8, 9.0)?, Miehe::new(5.0)?), &f, ulps);
-    compare_all("Ogden", &IsochoricOgden::new(&terms, 10.0)?, &f, ulps);
+    compare("Ogden", &IsochoricOgden::new(&terms, 10.0)?, &f, ulps);
     compare("Hencky", &Hencky::new(2.0, 0.9)?, &f, ulps);
     compare("Fung", &Fung::new(1.7, Stiffness::orthotropic(&tissue, &Matrix3::identity())?)?, &f, ulps);
     compare("wall", &HolzapfelGasserOgden::new(1.5, 20.0, 2.4, 0.8, 0.2, fibres)?, &f, ulps);
@@ -133,5 +124,23 @@ fn laws_of_single_precision_in_lanes_equal_themselves_at_their_points() -> Resul
         &f,
         Tol::ulps32(8.0),
     );
+    Ok(())
+}
+
+#[test]
+fn stresses_and_tangents_of_two_frames_equal_those_at_their_points() -> Result<(), ConstitutiveError> {
+    let (f, law) = (deformations::<f64>(203), SaintVenantKirchhoff::new(5.0, 2.0)?);
+    let (mut s, mut t) = (vec![SecondPiola::zero(); f.len()], vec![CauchyStress::zero(); f.len()]);
+    let (mut material, mut spatial) = (vec![[0.0; 21]; f.len()], vec![[0.0; 21]; f.len()]);
+    batch::evaluate(&f[..], batch::second_piola_and_tangent(&law, &mut s[..], &mut material[..]))?;
+    batch::evaluate(&f[..], batch::cauchy_and_tangent(&law, &mut t[..], &mut spatial[..]))?;
+    for (i, f) in f.iter().enumerate() {
+        // Products and sums alone: the same bits.
+        assert_eq!(
+            (s[i], MaterialTangent(MajorSymmetric { components: material[i] })),
+            law.second_piola_and_tangent(f)
+        );
+        assert_eq!((t[i], TruesdellTangent(MajorSymmetric { components: spatial[i] })), law.cauchy_and_tangent(f));
+    }
     Ok(())
 }
