@@ -40,7 +40,7 @@ pub use gradient::Gradient;
 pub use jet::Jet;
 pub use lanes::{Element, LaneMask, Lanes};
 pub use lanewise::Lanewise;
-pub use prefetch::prefetch;
+pub use prefetch::{prefetch, prefetch_for_writing};
 pub use real::{Mask, Real};
 
 #[cfg(doctest)]

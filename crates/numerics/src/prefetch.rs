@@ -23,6 +23,33 @@ const LINE: usize = 64;
 #[inline(always)]
 pub fn prefetch<T>(elements: &[T], index: usize) {
     #[cfg(target_arch = "x86_64")]
+    ask::<T, { core::arch::x86_64::_MM_HINT_T0 }>(elements, index);
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (elements, index);
+}
+
+/// As [`prefetch`], of an element that will be written: a line that is only read must be asked for again to be written.
+///
+/// # Example
+/// ```
+/// let mut blocks = [[0.0_f64; 72]; 3];
+/// for i in 0..blocks.len() {
+///     piola_numerics::prefetch_for_writing(&blocks, i + 1);
+///     blocks[i].fill(1.0);
+/// }
+/// assert_eq!(blocks[2][71], 1.0);
+/// ```
+#[inline(always)]
+pub fn prefetch_for_writing<T>(elements: &[T], index: usize) {
+    #[cfg(target_arch = "x86_64")]
+    ask::<T, { core::arch::x86_64::_MM_HINT_ET0 }>(elements, index);
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (elements, index);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[inline(always)]
+fn ask<T, const HINT: i32>(elements: &[T], index: usize) {
     if let Some(element) = elements.get(index) {
         let address = core::ptr::from_ref(element).cast::<i8>();
         let mut offset = 0;
@@ -30,11 +57,9 @@ pub fn prefetch<T>(elements: &[T], index: usize) {
             #[expect(unsafe_code, reason = "the address lies in the element; every x86-64 has the instruction")]
             // SAFETY: the offset is less than the size of the element that is borrowed.
             unsafe {
-                core::arch::x86_64::_mm_prefetch::<{ core::arch::x86_64::_MM_HINT_T0 }>(address.add(offset));
+                core::arch::x86_64::_mm_prefetch::<HINT>(address.add(offset));
             }
             offset += LINE;
         }
     }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = (elements, index);
 }

@@ -213,7 +213,7 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for Strided<&[T], K> {
 }
 
 /// So many blocks ahead memory is asked for.
-const AHEAD: usize = 4;
+pub(super) const AHEAD: usize = 4;
 
 impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBlocks<&[[[T; B]; K]]> {
     const IN_LANES: bool = true;
