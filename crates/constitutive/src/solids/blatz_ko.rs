@@ -72,14 +72,11 @@ impl BlatzKo {
         (self.mu * self.share, self.mu * (1.0 - self.share))
     }
 
-    /// J^(−2β) − 1 and J^(2β) − 1: of the two one exponential is enough, as 1/(1 + p) − 1 = −p/(1 + p), if p is the positive one.
+    /// J^(−2β) − 1 and J^(2β) − 1.
     #[inline(always)]
     fn powers<T: Real>(&self, logarithm: T) -> (T, T) {
         let exponent = T::lit(2.0 * self.beta()) * logarithm;
-        let falls = exponent.less_than(T::zero());
-        let positive = T::select(falls, -exponent, exponent).exp_m1();
-        let negative = -(positive / (T::one() + positive));
-        (T::select(falls, positive, negative), T::select(falls, negative, positive))
+        ((-exponent).exp_m1(), exponent.exp_m1())
     }
 }
 
