@@ -39,7 +39,9 @@
 mod evaluation;
 mod requests;
 mod tangents;
+mod together;
 
 pub use evaluation::{BadPoint, evaluate};
 pub use requests::*;
 pub use tangents::*;
+pub use together::*;
