@@ -158,12 +158,12 @@ impl HolzapfelGasserOgden {
         let mut tangent = metric.curvature(&matrix, WHOLE) * T::lit(2.0 * self.mu)
             + MajorSymmetric::dyad(&metric.inverse) * (kappa * (jacobian * (jacobian + change)))
             - MajorSymmetric::square_dyad(&metric.inverse) * (T::lit(2.0) * mean);
-        for family in 0..2 {
+        for (family, power) in powers.into_iter().enumerate() {
             let fibres = metric.invariant(&self.structure(family), 1.0);
             let (tension, answers, exponent) = self.tension(fibres.excess);
-            let slope = T::lit(2.0 * self.k1) * (tension * powers[family]);
+            let slope = T::lit(2.0 * self.k1) * (tension * power);
             let rate = T::one() + T::lit(2.0) * exponent;
-            let curvature = T::lit(4.0 * self.k1) * (answers * powers[family] * rate);
+            let curvature = T::lit(4.0 * self.k1) * (answers * power * rate);
             stress += fibres.slope * slope;
             tangent = tangent
                 + MajorSymmetric::dyad(&fibres.slope) * curvature

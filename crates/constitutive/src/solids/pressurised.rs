@@ -95,7 +95,7 @@ impl<L: Hyperelastic> Pressurised<L> {
         FirstPiola(stress.0 - from_rows(deformation.cofactor_rows()).map(|x| x * p))
     }
 
-    /// W_law − p (J − 1).
+    /// `W_law` − p (J − 1).
     #[inline(always)]
     fn worked<T: Real>(&self, energy: T, deformation: &impl Deformation<T>) -> T {
         energy - T::lit(self.pressure) * deformation.volume_change()

@@ -58,6 +58,11 @@ fn names_and_parameters_are_written_as_the_documentation_says() {
     }
     for (text, sentence) in [
         ("law = 'neo_hook'\nmu = 1.0", "unknown variant `neo_hook`"),
+        (
+            "law = 'compressible'\nisochoric = { law = 'neo_hookean', mu = 1.0 }\nvolumetric = { law = 'lame', lambda = -50.0 }",
+            "compressible: U″(1) = -5e1 violates 0 ≤ U″(1)",
+        ),
+        ("law = 'polynomial'\nterms = []", "0 < number of terms"),
         ("mu = 1.0", "missing field `law`"),
         ("law = 'blatz_ko'\nmu = 1.0\nnu = 0.2\nshare = 0.5\nextra = 1.0", "unknown field `extra`"),
         ("law = 'fung'\nc = 1.0", "missing field `exponents`"),
