@@ -216,6 +216,12 @@ macro_rules! implement_real {
                 self.chain(self.value.ln_1p(), || r, || -(r * r))
             }
             #[inline(always)]
+            fn ln_1p_given(self, sum: Self) -> Self {
+                let r = sum.value.recip();
+                let near = self.value.abs().at_most(T::lit(0.5));
+                Self::select(near, self, sum).chain(self.value.ln_1p_given(sum.value), || r, || -(r * r))
+            }
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 let (s, c) = self.value.sin_cos();
                 (self.chain(s, || c, || -s), self.chain(c, || -s, || -c))

@@ -29,6 +29,8 @@
 //! | exp | `exp_m1` | ln | `ln_1p` | sin | cos | tan | asin | acos | atan | atan2 | sinh | cosh | tanh | cbrt | `recip_cbrt` | powf | powi |
 //! |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|
 //! | 0.9 | 1.0 | 0.7 | 0.8 | 0.7 | 0.8 | 1.3 | 0.8 | 0.8 | 0.8 | 1.2 | 1.5 | 0.7 | 1.3 | 0.7 | 1.1 | 1.5 | 1.7 |
+//!
+//! `ln_1p_given` is `ln_1p` near zero and ln elsewhere, digit for digit.
 
 mod records;
 
@@ -117,6 +119,7 @@ mod sealed {
         fn recip_cbrt(x: f64) -> f64;
         fn sin_cos(x: f64) -> (f64, f64);
         fn atan2(y: f64, x: f64) -> f64;
+        fn ln_1p_given(x: f64, sum: f64) -> f64;
         fn powf(x: f64, y: f64) -> f64;
         fn far_sin_cos(self) -> (Self, Self);
         fn far_tan(self) -> Self;
@@ -262,6 +265,10 @@ macro_rules! element {
             #[inline(always)]
             fn atan2(y: f64, x: f64) -> f64 {
                 $functions::atan2(y, x)
+            }
+            #[inline(always)]
+            fn ln_1p_given(x: f64, sum: f64) -> f64 {
+                $functions::ln_1p_given(x, sum)
             }
             #[inline(always)]
             fn powf(x: f64, y: f64) -> f64 {
@@ -547,6 +554,10 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
         Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::atan2(self.0[i].widen(), x.0[i].widen()))))
+    }
+    #[inline(always)]
+    fn ln_1p_given(self, sum: Self) -> Self {
+        Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::ln_1p_given(self.0[i].widen(), sum.0[i].widen()))))
     }
     #[inline(always)]
     fn lanewise<const I: usize, const O: usize>(computation: &impl Lanewise<I, O>, inputs: [Self; I]) -> [Self; O] {

@@ -198,6 +198,24 @@ pub trait Real:
     fn recip_cbrt(self) -> Self {
         self.cbrt().recip()
     }
+    /// ln(1 + x) of which `sum`, 1 + x rounded, is given too: as [`ln_1p`](Self::ln_1p) where |x| ≤ ½, as the
+    /// [`ln`](Self::ln) of the sum elsewhere, where a sum near zero has digits that x has lost. In lanes without a branch.
+    ///
+    /// ```
+    /// use piola_numerics::Real;
+    /// assert_eq!(1e-20_f64.ln_1p_given(1.0), 1e-20);
+    /// assert_eq!((-1.0_f64).ln_1p_given(1e-20), 1e-20_f64.ln());
+    /// ```
+    #[inline(always)]
+    #[must_use]
+    fn ln_1p_given(self, sum: Self) -> Self {
+        let near = self.abs().at_most(Self::lit(0.5));
+        if near.all() {
+            return self.ln_1p();
+        }
+        let plain = sum.ln();
+        if near.any() { Self::select(near, self.ln_1p(), plain) } else { plain }
+    }
     /// sin x.
     #[inline(always)]
     #[must_use]

@@ -92,6 +92,8 @@ quantities! {
 
 /// (∂P/∂F) : δF of a direction δF at each point: see [`Hyperelastic::first_piola_derivative`].
 ///
+/// A direction so large that the answer is beyond the range of numbers is not refused: the answer is then not finite.
+///
 /// # Example
 /// ```
 /// use nalgebra::Matrix3;

@@ -4,10 +4,10 @@ use piola_continuum::strain::{GreenStrain, LinearStrain};
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
-use piola_numerics::Real;
+use piola_numerics::{Lanewise, Real};
 
-use super::strain_energy::{StrainEnergy, constant_tangent, hyperelastic_of_strain};
-use super::{Hyperelastic, Stiffness};
+use super::strain_energy::{GreenEnergy, StrainEnergy, constant_tangent, hyperelastic_of_strain, linear_numbers};
+use super::{Hyperelastic, Stiffness, numbers};
 
 /// Linear elasticity of any symmetry.
 ///
@@ -62,7 +62,27 @@ impl AnisotropicLinear {
 
     #[inline(always)]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
-        self.tensor().contract(&LinearStrain::of(deformation).0)
+        let [[a, b, c], [d, e, f], [g, h, i]] = deformation.displacement_rows();
+        Symmetric { components: T::lanewise(&Linear(*self), [a, b, c, d, e, f, g, h, i]) }
+    }
+}
+
+/// P and ∂P/∂F of F and ∇u.
+struct Linear(AnisotropicLinear);
+
+impl Lanewise<18, 54> for Linear {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
+        let [_, h] = numbers::gradients(inputs);
+        let tensor = self.0.tensor();
+        linear_numbers(&tensor.contract(&Symmetric::symmetric_part(h)), &tensor)
+    }
+}
+
+impl Lanewise<9, 6> for Linear {
+    #[inline(always)]
+    fn run<T: Real>(&self, [a, b, c, d, e, f, g, h, i]: [T; 9]) -> [T; 6] {
+        self.0.tensor().contract(&Symmetric::symmetric_part([[a, b, c], [d, e, f], [g, h, i]])).components
     }
 }
 
@@ -101,6 +121,10 @@ impl Hyperelastic for AnisotropicLinear {
         TruesdellTangent(self.tensor())
     }
     crate::solids::strain_energy::linear_pairs!();
+    #[inline(always)]
+    fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
+        T::lanewise(&Linear(*self), numbers::of_deformation(deformation))
+    }
 }
 
 /// St. Venant and Kirchhoff's law of any symmetry: Hooke's law between E and S.
@@ -147,6 +171,18 @@ impl AnisotropicSaintVenantKirchhoff {
     }
 }
 
+impl GreenEnergy for AnisotropicSaintVenantKirchhoff {
+    #[inline(always)]
+    fn green_stress<T: Real>(&self, strain: &Symmetric<T>) -> Symmetric<T> {
+        constant_tangent(self.stiffness.tensor()).contract(strain)
+    }
+    #[inline(always)]
+    fn green_stress_and_tangent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
+        let tangent = constant_tangent(self.stiffness.tensor());
+        (tangent.contract(strain), tangent)
+    }
+}
+
 impl StrainEnergy for AnisotropicSaintVenantKirchhoff {
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
@@ -155,11 +191,19 @@ impl StrainEnergy for AnisotropicSaintVenantKirchhoff {
     }
     #[inline(always)]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
-        constant_tangent(self.stiffness.tensor()).contract(&GreenStrain::of(deformation).0)
+        self.green_stress(&GreenStrain::of(deformation).0)
     }
     #[inline(always)]
     fn tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MajorSymmetric<T> {
         constant_tangent(self.stiffness.tensor())
+    }
+    #[inline(always)]
+    fn upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
+        self.both_in_lanes(deformation)
+    }
+    #[inline(always)]
+    fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        self.in_lanes(deformation)
     }
     /// W = ½ S : E.
     #[inline(always)]

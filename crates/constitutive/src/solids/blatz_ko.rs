@@ -5,7 +5,7 @@ use piola_numerics::{Mask, Real};
 
 use super::incompressible::inverse_excess;
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants};
-use super::range::check_exponent;
+use super::range::{check_below, largest_exponent, within};
 use crate::ConstitutiveError;
 use crate::elementary::excess_over_given;
 use crate::parameters::parameters;
@@ -22,7 +22,8 @@ parameters! {
     /// | ν | `nu` | 1 | 0 ≤ ν < ½ (Poisson's ratio) |
     /// | f | `share` | 1 | 0 ≤ f ≤ 1: 0 foam, 1 solid |
     ///
-    /// `check` refuses changes of volume whose power J^(±2β) leaves the range of the scalar, as it soon does near ν = ½.
+    /// `check` refuses changes of volume whose power J^(±2β) leaves the range of the scalar, as it soon does near ν = ½;
+    /// without it energy, stresses and tangents are NaN there.
     ///
     /// [`foam`](Self::foam) is f = 0, ν = ¼: W = ½ μ (I₂/I₃ + 2 √I₃ − 5).
     ///
@@ -76,23 +77,33 @@ impl BlatzKo {
     #[inline(always)]
     fn powers<T: Real>(&self, logarithm: T) -> (T, T) {
         let exponent = T::lit(2.0 * self.beta()) * logarithm;
+        let exponent = within(exponent.abs(), T::lit(self.limit::<T>()), exponent);
         ((-exponent).exp_m1(), exponent.exp_m1())
+    }
+
+    /// What |2 β ln J| is below, so that the tangent is within the range of the scalar.
+    #[inline(always)]
+    fn limit<T: Real>(&self) -> f64 {
+        largest_exponent::<T>(4.0 * self.mu * (1.0 + self.beta()))
     }
 }
 
 impl InvariantEnergy for BlatzKo {
     const SECOND: bool = true;
     const CURVED: bool = true;
+    const STRAIGHT: bool = true;
+    const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
-        let jacobian = deformation.jacobian();
+        let (jacobian, limit) = (deformation.jacobian(), self.limit::<T>());
         // |2 β ln J| < 60.
-        if self.beta() <= 10.0 && (T::lit(0.05).less_than(jacobian) & jacobian.less_than(T::lit(20.0))).all() {
+        let small = self.beta() <= 10.0 && 60.0 <= limit;
+        if small && (T::lit(0.05).less_than(jacobian) & jacobian.less_than(T::lit(20.0))).all() {
             return Ok(());
         }
         let exponent = (T::lit(2.0 * self.beta()) * deformation.ln_jacobian()).abs();
-        check_exponent(Self::NAME, "2 β |ln J|", exponent, T::lit(4.0 * self.mu * (1.0 + self.beta())))
+        check_below(Self::NAME, "2 β |ln J|", exponent, limit)
     }
 
     /// With z = J^(∓2β) − 1 the brackets are I₁ − 3 − 2 ln J and I₂/J² − 3 + 2 ln J, each with (z − ln(1 + z))/β.
@@ -111,7 +122,7 @@ impl InvariantEnergy for BlatzKo {
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let (solid, foam) = self.moduli();
         let change = invariants.change;
-        let (down, up) = self.powers(super::volumetric::logarithm(change, invariants.jacobian));
+        let (down, up) = self.powers(change.ln_1p_given(invariants.jacobian));
         let reciprocal = invariants.jacobian.recip();
         let square = reciprocal * reciprocal;
         // (J² − 1 − (I₂ − 3))/J².
@@ -129,7 +140,7 @@ impl InvariantEnergy for BlatzKo {
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let (solid, foam) = self.moduli();
         let (one, beta) = (T::one(), self.beta());
-        let (down, up) = self.powers(super::volumetric::logarithm(invariants.change, invariants.jacobian));
+        let (down, up) = self.powers(invariants.change.ln_1p_given(invariants.jacobian));
         let reciprocal = invariants.jacobian.recip();
         let square = reciprocal * reciprocal;
         let inverse = invariants.second_whole * square;

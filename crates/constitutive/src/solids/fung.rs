@@ -1,14 +1,13 @@
 //! Fung's exponential law of soft tissue.
 
 use piola_continuum::strain::GreenStrain;
-use piola_continuum::tensor::rows::double_contraction;
 use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
-use piola_continuum::{Deformation, Symmetric};
+use piola_continuum::{Deformation, FirstPiola, Symmetric};
 use piola_numerics::Real;
 
 use super::Stiffness;
-use super::range::check_exponent;
-use super::strain_energy::{StrainEnergy, constant_tangent, hyperelastic_of_strain};
+use super::range::check_range;
+use super::strain_energy::{GreenEnergy, StrainEnergy, constant_tangent, hyperelastic_of_strain};
 use crate::ConstitutiveError;
 use crate::error::check_bound;
 
@@ -49,6 +48,8 @@ const LAW: &str = "Fung";
 pub struct Fung {
     c: f64,
     exponents: Stiffness,
+    /// 9 c |A|, the largest component.
+    size: f64,
 }
 
 impl Fung {
@@ -58,7 +59,8 @@ impl Fung {
     /// [`ConstitutiveError::NotFinite`], [`ConstitutiveError::OutOfBounds`].
     pub fn new(c: f64, exponents: Stiffness) -> Result<Self, ConstitutiveError> {
         check_bound(LAW, "c", c, "0 < c", 0.0 < c)?;
-        Ok(Self { c, exponents })
+        let largest = exponents.tensor().components.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        Ok(Self { c, exponents, size: 9.0 * c * largest })
     }
 
     /// c, Pa.
@@ -75,10 +77,22 @@ impl Fung {
 
     /// A : E and Q.
     #[inline(always)]
-    fn exponent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, T) {
-        let strain = GreenStrain::of(deformation).0;
-        let image = constant_tangent(self.exponents.tensor()).contract(&strain);
+    fn exponent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, T) {
+        let image = constant_tangent(self.exponents.tensor()).contract(strain);
         (image, strain.double_contraction(&image))
+    }
+
+    /// What multiplies e^Q in ∂P/∂F is below this: (A : E)² ≤ |A| Q, and |F|² = tr C.
+    #[inline(always)]
+    fn factor<T: Real>(&self, strain: &Symmetric<T>, q: T) -> T {
+        let two = T::lit(2.0);
+        T::lit(self.size) * ((T::one() + two * q) * (T::lit(4.0) + two * strain.trace()))
+    }
+
+    /// The power of e^Q where the tangent is within the range of the scalar, NaN elsewhere.
+    #[inline(always)]
+    fn within<T: Real>(&self, strain: &Symmetric<T>, q: T, power: T) -> T {
+        power * T::select((self.factor(strain, q) * power).is_finite(), T::one(), T::lit(f64::NAN))
     }
 
     /// S and ∂S/∂E of A : E and e^Q.
@@ -90,14 +104,30 @@ impl Fung {
     }
 }
 
+impl GreenEnergy for Fung {
+    #[inline(always)]
+    fn green_stress<T: Real>(&self, strain: &Symmetric<T>) -> Symmetric<T> {
+        self.green_stress_and_tangent(strain).0
+    }
+    #[inline(always)]
+    fn green_stress_and_tangent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
+        let (image, q) = self.exponent(strain);
+        self.scaled(&image, self.within(strain, q, q.exp()))
+    }
+}
+
 impl StrainEnergy for Fung {
+    const REFUSED_IS_NOT_FINITE: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        T::lit(0.5 * self.c) * self.exponent(deformation).1.exp_m1()
+        let strain = GreenStrain::of(deformation).0;
+        let q = self.exponent(&strain).1;
+        T::lit(0.5 * self.c) * self.within(&strain, q, q.exp_m1())
     }
     #[inline(always)]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
-        self.stress_and_tangent(deformation).0
+        self.green_stress(&GreenStrain::of(deformation).0)
     }
     #[inline(always)]
     fn tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MajorSymmetric<T> {
@@ -105,28 +135,32 @@ impl StrainEnergy for Fung {
     }
     #[inline(always)]
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
-        let (image, q) = self.exponent(deformation);
-        self.scaled(&image, q.exp())
+        self.green_stress_and_tangent(&GreenStrain::of(deformation).0)
+    }
+    #[inline(always)]
+    fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        self.in_lanes(deformation)
+    }
+    #[inline(always)]
+    fn upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
+        self.both_in_lanes(deformation)
     }
     #[inline(always)]
     fn energy_stress_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
     ) -> (T, Symmetric<T>, MajorSymmetric<T>) {
-        let (image, q) = self.exponent(deformation);
-        let growth = q.exp_m1();
+        let strain = GreenStrain::of(deformation).0;
+        let (image, q) = self.exponent(&strain);
+        let growth = self.within(&strain, q, q.exp_m1());
         let (stress, tangent) = self.scaled(&image, T::one() + growth);
         (T::lit(0.5 * self.c) * growth, stress, tangent)
     }
     #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
-        let q = self.exponent(deformation).1;
-        // (A : E)² ≤ |A| Q.
-        let stiffest = self.exponents.tensor().components.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        let f = deformation.gradient_rows();
-        let square = double_contraction(f, f);
-        let factor = T::lit(9.0 * self.c * stiffest) * (T::one() + T::lit(2.0) * q) * (T::one() + square);
-        check_exponent(LAW, "Q", q, factor)
+        let strain = GreenStrain::of(deformation).0;
+        let q = self.exponent(&strain).1;
+        check_range(LAW, "Q", q, self.factor(&strain, q))
     }
 }
 
@@ -152,7 +186,7 @@ impl TryFrom<Written> for Fung {
 
 #[cfg(feature = "serde")]
 impl From<Fung> for Written {
-    fn from(Fung { c, exponents }: Fung) -> Self {
+    fn from(Fung { c, exponents, .. }: Fung) -> Self {
         Self { c, exponents }
     }
 }

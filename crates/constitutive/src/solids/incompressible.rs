@@ -203,7 +203,7 @@ impl<I: Isochoric> IncompressibleSolid<I> {
         let (first, second, first_rate, second_rate) = match self.pressure {
             Pressure::Whole(_) => (invariants.first, less_three, T::zero(), -two_j * ratio),
             Pressure::Excess(_) => {
-                let logarithm = two * super::volumetric::logarithm(change, invariants.jacobian);
+                let logarithm = two * change.ln_1p_given(invariants.jacobian);
                 (invariants.first - logarithm, less_three + logarithm, -two_j, two_j * (one - ratio))
             }
         };

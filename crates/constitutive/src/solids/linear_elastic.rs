@@ -5,9 +5,10 @@ use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, True
 use piola_continuum::tensor::voigt::{ComplianceMatrix, StiffnessMatrix, VoigtOrder};
 use piola_continuum::tensor::{FourthOrder, MajorSymmetric};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
-use piola_numerics::Real;
+use piola_numerics::{Lanewise, Real};
 
-use super::{ElasticConstants, Hyperelastic};
+use super::strain_energy::linear_numbers;
+use super::{ElasticConstants, Hyperelastic, numbers};
 use crate::ConstitutiveError;
 
 const LAW: &str = "linear elastic";
@@ -164,6 +165,17 @@ fn compliance_matrix<O: VoigtOrder>(constants: &ElasticConstants) -> ComplianceM
     ComplianceMatrix::of(&MajorSymmetric::isotropic(-nu / young, 0.25 / constants.shear_modulus()))
 }
 
+/// P and ∂P/∂F of F and ∇u.
+struct Both(LinearElastic);
+
+impl Lanewise<18, 54> for Both {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
+        let [_, h] = numbers::gradients(inputs);
+        linear_numbers(&self.0.hooke(&Symmetric::symmetric_part(h)), &self.0.stiffness())
+    }
+}
+
 impl Hyperelastic for LinearElastic {
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
@@ -198,6 +210,11 @@ impl Hyperelastic for LinearElastic {
     #[inline(always)]
     fn truesdell_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
         TruesdellTangent(self.stiffness())
+    }
+
+    #[inline(always)]
+    fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
+        T::lanewise(&Both(*self), numbers::of_deformation(deformation))
     }
 
     #[inline(always)]

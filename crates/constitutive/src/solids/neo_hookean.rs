@@ -118,6 +118,7 @@ impl NeoHookeanCiarlet {
 impl<U: Volumetric> InvariantEnergy for NeoHookean<U> {
     const SECOND: bool = false;
     const CURVED: bool = false;
+    const STRAIGHT: bool = U::STRAIGHT;
 
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {

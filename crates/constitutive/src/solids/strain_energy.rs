@@ -1,16 +1,21 @@
 //! Laws W(E) with S and ∂S/∂E in closed form: P = F S and ∂P/∂F follow.
 
+use piola_continuum::strain::kernels::green;
 use piola_continuum::stress::tangents::{FirstPiolaTangent, kernels};
-use piola_continuum::tensor::rows::{product, transpose};
-use piola_continuum::tensor::{FourthOrder, MajorSymmetric, PairSymmetric};
+use piola_continuum::tensor::rows::{Rows, product, transpose};
+use piola_continuum::tensor::{FourthOrder, MajorSymmetric, PairSymmetric, SLOT};
 use piola_continuum::{Deformation, FirstPiola, Symmetric};
-use piola_numerics::Real;
-use piola_numerics::linear::matrix3::from_rows;
+use piola_numerics::linear::matrix3::{dot, from_rows};
+use piola_numerics::{Lanewise, Real};
 
+use super::numbers;
 use crate::ConstitutiveError;
 
 /// An energy of Green's strain with its derivatives in closed form.
 pub(super) trait StrainEnergy {
+    /// See [`Hyperelastic::REFUSED_IS_NOT_FINITE`](super::Hyperelastic::REFUSED_IS_NOT_FINITE).
+    const REFUSED_IS_NOT_FINITE: bool = false;
+
     /// W less W of the reference, J/m³.
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T;
     /// S = ∂W/∂E, Pa, without cancellation.
@@ -31,10 +36,60 @@ pub(super) trait StrainEnergy {
         let (stress, tangent) = self.stress_and_tangent(deformation);
         (self.energy(deformation), stress, tangent)
     }
+    /// P = F S.
+    #[inline(always)]
+    fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        nominal(&self.stress(deformation), deformation)
+    }
+    /// P and the 45 entries of ∂P/∂F on and above its diagonal: what batches write.
+    #[inline(always)]
+    fn upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
+        let (stress, tangent) = self.stress_and_tangent(deformation);
+        nominal_numbers(deformation.gradient_rows(), &stress, &tangent)
+    }
     /// Where the law has no answer.
     #[inline(always)]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), ConstitutiveError> {
         Ok(())
+    }
+}
+
+/// A law of straight code that asks for nothing but Green's strain: P and ∂P/∂F in one loop over lanes.
+pub(super) trait GreenEnergy: Copy {
+    /// S of E.
+    fn green_stress<T: Real>(&self, strain: &Symmetric<T>) -> Symmetric<T>;
+    /// S and ∂S/∂E of E.
+    fn green_stress_and_tangent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, MajorSymmetric<T>);
+
+    /// P.
+    #[inline(always)]
+    fn in_lanes<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+        numbers::stress(T::lanewise(&OfGreen(*self), numbers::of_deformation(deformation)))
+    }
+    /// P and the upper triangle of ∂P/∂F.
+    #[inline(always)]
+    fn both_in_lanes<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
+        T::lanewise(&OfGreen(*self), numbers::of_deformation(deformation))
+    }
+}
+
+/// Answers of F and ∇u.
+struct OfGreen<L>(L);
+
+impl<L: GreenEnergy> Lanewise<18, 9> for OfGreen<L> {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 9] {
+        let [f, h] = numbers::gradients(inputs);
+        numbers::of_stress(product(f, self.0.green_stress(&green(h)).rows()))
+    }
+}
+
+impl<L: GreenEnergy> Lanewise<18, 54> for OfGreen<L> {
+    #[inline(always)]
+    fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
+        let [f, h] = numbers::gradients(inputs);
+        let (stress, tangent) = self.0.green_stress_and_tangent(&green(h));
+        nominal_numbers(f, &stress, &tangent)
     }
 }
 
@@ -60,6 +115,32 @@ pub(super) fn nominal_tangent<T: Real>(
         }
     }
     FirstPiolaTangent(FourthOrder { components })
+}
+
+/// P and the upper triangle of ∂P/∂F, `δ_ij S_AB + F_iC C_CADB F_jD`. Written out, so that a loop over lanes around it becomes
+/// vectors.
+#[inline(always)]
+pub(super) fn nominal_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
+    let (s, slots) = (stress.rows(), tangent.slots());
+    let mut entries = [[T::zero(); 9]; 9];
+    macro_rules! row {
+        ($r:literal: $($c:literal)+) => {{
+            let [x, y, z] = [&slots[SLOT[0][$r % 3]], &slots[SLOT[1][$r % 3]], &slots[SLOT[2][$r % 3]]];
+            let [p, q, r] = f[$r / 3];
+            macro_rules! half {
+                ($k:literal) => {
+                    p * x[$k] + q * y[$k] + r * z[$k]
+                };
+            }
+            let half = [half!(0), half!(1), half!(2), half!(3), half!(4), half!(5)];
+            $(
+                let entry = dot(f[$c / 3], [half[SLOT[0][$c % 3]], half[SLOT[1][$c % 3]], half[SLOT[2][$c % 3]]]);
+                entries[$r][$c] = if $r / 3 == $c / 3 { entry + s[$r % 3][$c % 3] } else { entry };
+            )+
+        }};
+    }
+    rows_of_upper_triangle!(row);
+    numbers::of_both(product(f, s), &entries)
 }
 
 /// C⁻¹ and 1 − C⁻¹, the latter without cancellation.
@@ -94,6 +175,20 @@ pub(super) fn constant_tangent<T: Real>(tensor: &MajorSymmetric) -> MajorSymmetr
         k += 1;
     }
     MajorSymmetric { components }
+}
+
+/// Stress and the upper triangle of a tangent that is that of strain. Written out as [`nominal_numbers`].
+#[inline(always)]
+pub(super) fn linear_numbers<T: Real>(stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
+    let slots = tangent.slots();
+    let mut entries = [[T::zero(); 9]; 9];
+    macro_rules! row {
+        ($r:literal: $($c:literal)+) => { $(
+            entries[$r][$c] = slots[SLOT[$r / 3][$r % 3]][SLOT[$c / 3][$c % 3]];
+        )+ };
+    }
+    rows_of_upper_triangle!(row);
+    numbers::of_both(stress.rows(), &entries)
 }
 
 /// Pairs of answers of a law in which stress and strain are linear: tangents share nothing with stresses, and W = ½ σ : ε.
@@ -145,6 +240,9 @@ pub(super) use linear_pairs;
 macro_rules! hyperelastic_of_strain {
     ($law:ty) => {
         impl $crate::solids::Hyperelastic for $law {
+            const REFUSED_IS_NOT_FINITE: bool =
+                <$law as $crate::solids::strain_energy::StrainEnergy>::REFUSED_IS_NOT_FINITE;
+
             #[inline(always)]
             fn energy<T: piola_numerics::Real>(&self, deformation: &impl piola_continuum::Deformation<T>) -> T {
                 $crate::solids::strain_energy::StrainEnergy::energy(self, deformation)
@@ -161,7 +259,7 @@ macro_rules! hyperelastic_of_strain {
                 &self,
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> piola_continuum::FirstPiola<T> {
-                $crate::solids::strain_energy::nominal(&self.stress(deformation), deformation)
+                $crate::solids::strain_energy::StrainEnergy::first_piola(self, deformation)
             }
             #[inline(always)]
             fn energy_and_first_piola<T: piola_numerics::Real>(
@@ -215,6 +313,13 @@ macro_rules! hyperelastic_of_strain {
                     $crate::solids::strain_energy::nominal(&stress, deformation),
                     $crate::solids::strain_energy::nominal_tangent(&stress, &tangent, deformation),
                 )
+            }
+            #[inline(always)]
+            fn first_piola_and_upper_triangle<T: piola_numerics::Real>(
+                &self,
+                deformation: &impl piola_continuum::Deformation<T>,
+            ) -> [T; 54] {
+                self.upper_triangle(deformation)
             }
             #[inline(always)]
             fn material_tangent<T: piola_numerics::Real>(

@@ -19,7 +19,7 @@
 //! All are computed from J − 1, so that no digits cancel near the reference. Where which one is to be read from a file:
 //! [`AnyVolumetric`](super::AnyVolumetric).
 
-use piola_numerics::{Mask, Real};
+use piola_numerics::Real;
 
 use crate::elementary::{excess_over_given as excess, volume_excess};
 use crate::parameters::parameters;
@@ -104,17 +104,6 @@ impl<U: Volumetric> Volumetric for &U {
     }
 }
 
-/// ln J of J − 1 and J.
-#[inline(always)]
-pub(super) fn logarithm<T: Real>(change: T, jacobian: T) -> T {
-    let near = change.abs().at_most(T::lit(0.5));
-    if near.all() {
-        return change.ln_1p();
-    }
-    let plain = jacobian.ln();
-    if near.any() { T::select(near, change.ln_1p(), plain) } else { plain }
-}
-
 parameters! {
     /// U = ½ κ (J − 1)².
     ///
@@ -171,19 +160,21 @@ parameters! {
 }
 
 impl Volumetric for Logarithmic {
+    const STRAIGHT: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        let logarithm = logarithm(change, jacobian);
+        let logarithm = change.ln_1p_given(jacobian);
         T::lit(0.5 * self.kappa) * (logarithm * logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * logarithm(change, jacobian)
+        T::lit(self.kappa) * change.ln_1p_given(jacobian)
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
-        T::lit(self.kappa) * (T::one() - logarithm(change, jacobian)) * (reciprocal * reciprocal)
+        T::lit(self.kappa) * (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, _change: T, _jacobian: T) -> T {
@@ -210,21 +201,22 @@ parameters! {
 }
 
 impl Volumetric for Lame {
+    const STRAIGHT: bool = true;
     const EITHER_SIGN: bool = true;
 
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        let logarithm = logarithm(change, jacobian);
+        let logarithm = change.ln_1p_given(jacobian);
         T::lit(0.5 * self.lambda) * (logarithm * logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.lambda) * logarithm(change, jacobian)
+        T::lit(self.lambda) * change.ln_1p_given(jacobian)
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
-        T::lit(self.lambda) * (T::one() - logarithm(change, jacobian)) * (reciprocal * reciprocal)
+        T::lit(self.lambda) * (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, _change: T, _jacobian: T) -> T {
@@ -251,19 +243,21 @@ parameters! {
 }
 
 impl Volumetric for QuadraticLogarithmic {
+    const STRAIGHT: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        let logarithm = logarithm(change, jacobian);
+        let logarithm = change.ln_1p_given(jacobian);
         T::lit(0.25 * self.kappa) * (change * change + logarithm * logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(0.5 * self.kappa) * (jacobian * change + logarithm(change, jacobian))
+        T::lit(0.5 * self.kappa) * (jacobian * change + change.ln_1p_given(jacobian))
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
-        let beyond = (T::one() - logarithm(change, jacobian)) * (reciprocal * reciprocal);
+        let beyond = (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal);
         T::lit(0.5 * self.kappa) * (T::one() + beyond)
     }
     #[inline(always)]
@@ -330,14 +324,16 @@ parameters! {
 }
 
 impl Volumetric for Liu {
+    const STRAIGHT: bool = true;
+
     /// With z = 1/J − 1 it is κ J (z − ln(1 + z)).
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * excess(-change / jacobian, -logarithm(change, jacobian)))
+        T::lit(self.kappa) * (jacobian * excess(-change / jacobian, -change.ln_1p_given(jacobian)))
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * logarithm(change, jacobian))
+        T::lit(self.kappa) * (jacobian * change.ln_1p_given(jacobian))
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
@@ -345,7 +341,7 @@ impl Volumetric for Liu {
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * (T::one() + logarithm(change, jacobian)))
+        T::lit(self.kappa) * (jacobian * (T::one() + change.ln_1p_given(jacobian)))
     }
 }
 
@@ -367,6 +363,8 @@ parameters! {
 }
 
 impl Volumetric for Miehe {
+    const STRAIGHT: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.kappa) * volume_excess(change, jacobian)
@@ -410,14 +408,16 @@ impl OgdenVolumetric {
     /// J^(−β) − 1.
     #[inline(always)]
     fn power<T: Real>(&self, change: T, jacobian: T) -> T {
-        (T::lit(-self.beta) * logarithm(change, jacobian)).exp_m1()
+        (T::lit(-self.beta) * change.ln_1p_given(jacobian)).exp_m1()
     }
 }
 
 impl Volumetric for OgdenVolumetric {
+    const STRAIGHT: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        let logarithm = T::lit(-self.beta) * logarithm(change, jacobian);
+        let logarithm = T::lit(-self.beta) * change.ln_1p_given(jacobian);
         T::lit(self.kappa / (self.beta * self.beta)) * excess(logarithm.exp_m1(), logarithm)
     }
     #[inline(always)]
@@ -432,7 +432,7 @@ impl Volumetric for OgdenVolumetric {
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (T::lit(-self.beta) * logarithm(change, jacobian)).exp()
+        T::lit(self.kappa) * (T::lit(-self.beta) * change.ln_1p_given(jacobian)).exp()
     }
 }
 
@@ -465,6 +465,8 @@ impl HartmannNeff {
 }
 
 impl Volumetric for HartmannNeff {
+    const STRAIGHT: bool = true;
+
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let (less_one, fifth) = Self::powers(change, jacobian);

@@ -86,6 +86,7 @@ fn exponentials_are_refused_before_they_leave_the_range_of_the_scalar() {
     // Q = E : E; Q = 600 at λ = 7.06, 70 at 4.2.
     range_ends("Fung", &Fung::new(2.0, exponents).expect("c"), [6.5, 3.0], 9.0);
     range_ends("Fung, stiff", &Fung::new(1e9, exponents).expect("c"), [6.5, 3.0], 9.0);
+    nowhere_a_number("Fung", &Fung::new(2.0, exponents).expect("c"), &shear(9.0));
     let fibres = [Fibre::new([1.0, 0.0, 0.0]).expect("fibre"), Fibre::new([0.0, 1.0, 0.0]).expect("fibre")];
     let wall = HolzapfelGasserOgden::new(1e4, 1e5, 1e5, 1.0, 0.0, fibres).expect("parameters");
     range_ends("wall", &wall, [4.5, 2.5], 6.0);
@@ -106,6 +107,13 @@ fn nearly_incompressible_foam_is_refused_beyond_the_range() {
     let swollen = DeformationGradient::dilatation(1.1_f64).expect("positive");
     let refused = law.check(&swollen);
     assert!(matches!(refused, Err(ConstitutiveError::BeyondLimit { quantity: "2 β |ln J|", .. })), "{refused:?}");
+    for j in [1.1_f64, 0.9] {
+        nowhere_a_number("Blatz–Ko", &law, &DeformationGradient::dilatation(j).expect("positive"));
+    }
+    // A modulus of the range's size leaves less room for the power.
+    let rigid = BlatzKo::new(1e300, 0.25, 0.5).expect("bounds");
+    nowhere_a_number("rigid", &rigid, &DeformationGradient::dilatation(1e7).expect("positive"));
+    assert!(finite_where_admitted::<f64>("rigid", &rigid, 2.0));
     assert_eq!(law.check(&shear(0.5)), Ok(()));
     assert!(law.first_piola(&shear(0.5)).0.iter().all(|x| x.is_finite()));
     assert_eq!(BlatzKo::foam(2.0).expect("μ").check(&swollen), Ok(()));

@@ -89,7 +89,7 @@ pub trait Deformation<T: Real>: Copy {
     #[inline(always)]
     #[must_use]
     fn ln_jacobian(&self) -> T {
-        volume::logarithm(self.volume_change(), self.jacobian())
+        self.volume_change().ln_1p_given(self.jacobian())
     }
 
     /// Where strain and rotation are moderate, see [`is_moderate`](crate::strain::kernels::is_moderate).

@@ -171,10 +171,3 @@ pub(crate) fn volume_change_of_gradient<T: Real>(f: Rows<T>) -> T {
 fn precise_volume_change_of_gradient<T: Real>(f: &Rows<T>) -> T {
     determinant_pair(*f).minus(Pair::of(T::one())).value()
 }
-
-/// ln J of J − 1 and J: by ln(1 + (J − 1)) near J = 1, and by ln J where J − 1 has lost the digits of J.
-#[inline(always)]
-pub(crate) fn logarithm<T: Real>(change: T, jacobian: T) -> T {
-    let near = change.abs().less_than(T::lit(0.5));
-    if near.all() { change.ln_1p() } else { T::select(near, change.ln_1p(), jacobian.ln()) }
-}

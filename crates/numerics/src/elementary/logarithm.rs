@@ -61,6 +61,18 @@ pub(crate) fn ln(x: f64) -> f64 {
     choose(0.0 < x, finite, choose(x == 0.0, f64::NEG_INFINITY, f64::NAN))
 }
 
+/// ln(1 + x) of x and 1 + x.
+#[inline(always)]
+pub(crate) fn ln_1p_given(x: f64, sum: f64) -> f64 {
+    // As below where |x| ≤ ½; ln of the sum elsewhere.
+    let near = x.abs() <= 0.5;
+    let u = choose(near, 1.0 + x, sum);
+    let part = u - 1.0;
+    let e = choose(near, (1.0 - (u - part)) + (x - part), 0.0);
+    let finite = choose(u < f64::INFINITY, ln_of_positive(u, e / u), u);
+    choose(x == 0.0, x, choose(0.0 < u, finite, choose(u == 0.0, f64::NEG_INFINITY, f64::NAN)))
+}
+
 /// ln(1 + x).
 #[inline(always)]
 pub(crate) fn ln_1p(x: f64) -> f64 {

@@ -23,7 +23,7 @@ pub(crate) mod trigonometric;
 pub(crate) mod double {
     pub(crate) use super::exponential::{cosh, exp, exp_m1, sinh, tanh};
     pub(crate) use super::inverse_trigonometric::{acos, asin, atan, atan2};
-    pub(crate) use super::logarithm::{ln, ln_1p};
+    pub(crate) use super::logarithm::{ln, ln_1p, ln_1p_given};
     pub(crate) use super::power::{cbrt, powf, recip_cbrt};
     pub(crate) use super::trigonometric::{sin_cos, tan};
 }

@@ -134,6 +134,15 @@ pub(crate) fn ln(x: f64) -> f64 {
 }
 
 #[inline(always)]
+pub(crate) fn ln_1p_given(x: f64, sum: f64) -> f64 {
+    let near = x.abs() <= 0.5;
+    let u = choose(near, 1.0 + x, sum);
+    let lost = choose(near, x - (u - 1.0), 0.0);
+    let finite = choose(u < f64::INFINITY, ln_of_positive(u) + lost, u);
+    choose(x == 0.0, x, choose(0.0 < u, finite, choose(u == 0.0, f64::NEG_INFINITY, f64::NAN)))
+}
+
+#[inline(always)]
 pub(crate) fn ln_1p(x: f64) -> f64 {
     // What the sum loses of a small x is added as it is: where that matters, the sum is nearly 1.
     let u = 1.0 + x;

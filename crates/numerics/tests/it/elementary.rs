@@ -27,7 +27,7 @@ const UNARY: [&str; 15] = [
     "cbrt",
     "recip_cbrt",
 ];
-const BINARY: [&str; 2] = ["powf", "atan2"];
+const BINARY: [&str; 3] = ["powf", "atan2", "ln_1p_given"];
 
 /// The function `name` of x, or of x and y.
 #[inline(always)]
@@ -50,6 +50,7 @@ fn apply<T: Real>(name: &str, x: T, y: T) -> T {
         "recip_cbrt" => x.recip_cbrt(),
         "powf" => x.powf(y),
         "atan2" => x.atan2(y),
+        "ln_1p_given" => x.ln_1p_given(y),
         _ => unreachable!("no function {name}"),
     }
 }
@@ -77,6 +78,10 @@ fn golden_points() -> Vec<(String, f64, f64, f64, f64)> {
         for point in golden::matrix(&case["points"]) {
             let n = point.len();
             points.push((name.to_owned(), point[0], if n == 4 { point[1] } else { 0.0 }, point[n - 2], point[n - 1]));
+            // Of the sum only where it has all digits.
+            if name == "ln_1p" && (point[0].abs() <= 0.5 || (1.0 + point[0]) - 1.0 == point[0]) {
+                points.push(("ln_1p_given".to_owned(), point[0], 1.0 + point[0], point[n - 2], point[n - 1]));
+            }
         }
     }
     points
@@ -147,6 +152,15 @@ fn sweep(name: &str, sequence: &mut Sequence) -> (f64, f64) {
         "atan" | "cbrt" | "recip_cbrt" => (sequence.spread(-100.0, 100.0), 0.0),
         "powf" if near => (sequence.between(0.0, 4.0), sequence.between(-100.0, 100.0)),
         "powf" => (sequence.spread(-200.0, 200.0).abs(), sequence.between(-4.0, 4.0)),
+        "ln_1p_given" if near => {
+            let x = sequence.between(-0.999, 2.0);
+            (x, 1.0 + x)
+        }
+        "ln_1p_given" => {
+            // A sum of which x has lost all digits.
+            let sum = sequence.spread(-1000.0, -60.0).abs();
+            (sum - 1.0, sum)
+        }
         "atan2" if near => (sequence.between(-1.0, 1.0), sequence.between(-1.0, 1.0)),
         "atan2" => (sequence.spread(-100.0, 100.0), sequence.spread(-100.0, 100.0)),
         _ => unreachable!("no function {name}"),

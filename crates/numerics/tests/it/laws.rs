@@ -56,9 +56,11 @@ proptest! {
 
     #[test]
     fn derivatives_of_inverse_functions_are_reciprocal(x in finite(0.05..0.95)) {
-        let pairs: [(Function, Function); 9] = [
+        let pairs: [(Function, Function); 11] = [
             (Real::exp, Real::ln),
             (Real::exp_m1, Real::ln_1p),
+            (Real::exp_m1, |x| x.ln_1p_given(x + Dual::lit(1.0))),
+            (|x| (-x).exp_m1(), |x| -x.ln_1p_given(x + Dual::lit(1.0))),
             (Real::sin, Real::asin),
             (Real::cos, Real::acos),
             (Real::tan, Real::atan),

@@ -190,7 +190,7 @@ fn nan_is_neither_smaller_nor_larger_and_not_lost() {
 #[test]
 fn nan_comes_out_of_every_function_as_nan() {
     type Function = fn(Dual<f64>) -> Dual<f64>;
-    let functions: [(&str, Function); 21] = [
+    let functions: [(&str, Function); 22] = [
         ("sqrt", Real::sqrt),
         ("cbrt", Real::cbrt),
         ("recip_cbrt", Real::recip_cbrt),
@@ -198,6 +198,7 @@ fn nan_comes_out_of_every_function_as_nan() {
         ("exp_m1", Real::exp_m1),
         ("ln", Real::ln),
         ("ln_1p", Real::ln_1p),
+        ("ln_1p_given", |x| x.ln_1p_given(x + Dual::lit(1.0))),
         ("sin", Real::sin),
         ("cos", Real::cos),
         ("tan", Real::tan),

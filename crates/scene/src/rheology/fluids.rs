@@ -250,11 +250,11 @@ impl Comparison {
         self.candidates.iter().filter_map(|candidate| Some((candidate.fluid, candidate.fit.as_ref().err()?)))
     }
 
-    /// The fit with the least `AICc`.
+    /// The fit with the least `AICc`; none where the points are too few for one.
     #[must_use]
     pub fn best(&self) -> Option<(FluidName, &FittedFluid)> {
-        let criterion = |fit: &FittedFluid| fit.criteria.aicc.unwrap_or(f64::INFINITY);
-        self.fits().min_by(|(_, a), (_, b)| criterion(a).total_cmp(&criterion(b)))
+        let judged = self.fits().filter_map(|(name, fit)| Some((fit.criteria.aicc?, (name, fit))));
+        judged.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, best)| best)
     }
 
     /// Whether every fluid was fitted, and every search converged.

@@ -2,10 +2,11 @@
 
 use piola_numerics::{Mask, Real};
 
+use super::Isochoric;
 use super::langevin::{inverse_langevin, langevin, ratio_and_slope};
-use super::{Isochoric, check_below, within};
 use crate::ConstitutiveError;
 use crate::parameters::parameters;
+use crate::solids::range::{check_below, within};
 
 parameters! {
     /// The network of Arruda and Boyce: eight chains of N freely jointed links, exactly.

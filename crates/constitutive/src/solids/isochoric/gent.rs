@@ -2,9 +2,10 @@
 
 use piola_numerics::Real;
 
-use super::{Isochoric, check_below, within};
+use super::Isochoric;
 use crate::ConstitutiveError;
 use crate::parameters::parameters;
+use crate::solids::range::{check_below, within};
 
 parameters! {
     /// W̄ = −½ μ Jₘ ln(1 − (Ī₁ − 3)/Jₘ): a network whose chains can be stretched so far and no further.

@@ -160,16 +160,3 @@ impl<I: Isochoric> Isochoric for &I {
 pub(super) fn check_lanes<T: Real>(law: &impl Isochoric, first: T, second: T) -> Result<(), ConstitutiveError> {
     (0..T::LANES).try_for_each(|lane| law.check(first.primal(lane), second.primal(lane)))
 }
-
-/// Refuses what is not below a limit; NaN is not.
-fn check_below(law: &'static str, quantity: &'static str, value: f64, limit: f64) -> Result<(), ConstitutiveError> {
-    if value < limit { Ok(()) } else { Err(ConstitutiveError::BeyondLimit { law, quantity, value, limit }) }
-}
-
-/// `value` where `x` is below its limit, NaN beyond.
-///
-/// A product, so that every derivative that the scalar carries is NaN too: those of a constant NaN would be zero.
-#[inline(always)]
-fn within<T: Real>(x: T, limit: T, value: T) -> T {
-    value * T::select(x.less_than(limit), T::one(), T::lit(f64::NAN))
-}
