@@ -79,7 +79,7 @@ fn golden_points() -> Vec<(String, f64, f64, f64, f64)> {
             let n = point.len();
             points.push((name.to_owned(), point[0], if n == 4 { point[1] } else { 0.0 }, point[n - 2], point[n - 1]));
             // Of the sum only where it has all digits.
-            if name == "ln_1p" && (point[0].abs() <= 0.5 || (1.0 + point[0]) - 1.0 == point[0]) {
+            if name == "ln_1p" && (point[0].abs() <= 0.5 || ((1.0 + point[0]) - 1.0).to_bits() == point[0].to_bits()) {
                 points.push(("ln_1p_given".to_owned(), point[0], 1.0 + point[0], point[n - 2], point[n - 1]));
             }
         }
