@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use piola_numerics::{Element, Lanes, prefetch_for_writing};
 
 use super::records;
-use super::sources::{AHEAD, transposed};
+use super::sources::{ahead, transposed};
 use super::{BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
 use crate::{
     BiotStress, CauchyStress, ContinuumError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
@@ -212,7 +212,7 @@ impl<Q, T: Element, const K: usize, const B: usize> Destination<Q, T, K> for Lan
         if count < N {
             scatter::<_, Q, T, K, N>(self, first, count, values);
         } else if N <= B {
-            prefetch_for_writing(self.blocks, first / B + AHEAD);
+            prefetch_for_writing(self.blocks, first / B + ahead::<[[T; B]; K]>());
             let block = &mut self.blocks[first / B];
             let mut k = 0;
             while k < K {

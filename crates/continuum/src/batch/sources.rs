@@ -212,8 +212,12 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for Strided<&[T], K> {
     }
 }
 
-/// So many blocks ahead memory is asked for.
-pub(super) const AHEAD: usize = 4;
+/// So many blocks ahead memory is asked for: eight of nine components in double precision, one of large tangents, of which more
+/// would drive out of the cache what is read beside them.
+pub(super) const fn ahead<Block>() -> usize {
+    let size = size_of::<Block>();
+    if 0 < size && size < 4608 { 4608 / size } else { 1 }
+}
 
 impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBlocks<&[[[T; B]; K]]> {
     const IN_LANES: bool = true;
@@ -240,7 +244,7 @@ impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBloc
             return lanes;
         }
         if N <= B {
-            prefetch(self.blocks, first / B + AHEAD);
+            prefetch(self.blocks, first / B + ahead::<[[T; B]; K]>());
             let block = &self.blocks[first / B];
             let mut k = 0;
             while k < K {
