@@ -1,9 +1,8 @@
 //! Laws W(E) with S and ∂S/∂E in closed form: P = F S and ∂P/∂F follow.
 
 use piola_continuum::strain::kernels::green;
-use piola_continuum::stress::tangents::{FirstPiolaTangent, kernels};
 use piola_continuum::tensor::rows::{Rows, product, transpose};
-use piola_continuum::tensor::{FourthOrder, MajorSymmetric, PairSymmetric, SLOT};
+use piola_continuum::tensor::{MajorSymmetric, PairSymmetric, SLOT};
 use piola_continuum::{Deformation, FirstPiola, Symmetric};
 use piola_numerics::linear::matrix3::{dot, from_rows};
 use piola_numerics::{Lanewise, Real};
@@ -97,24 +96,6 @@ impl<L: GreenEnergy> Lanewise<18, 54> for OfGreen<L> {
 #[inline(always)]
 pub(super) fn nominal<T: Real>(stress: &Symmetric<T>, deformation: &impl Deformation<T>) -> FirstPiola<T> {
     FirstPiola(from_rows(product(deformation.gradient_rows(), stress.rows())))
-}
-
-/// ∂P/∂F.
-#[inline(always)]
-pub(super) fn nominal_tangent<T: Real>(
-    stress: &Symmetric<T>,
-    tangent: &MajorSymmetric<T>,
-    deformation: &impl Deformation<T>,
-) -> FirstPiolaTangent<T> {
-    let mut components = kernels::first_piola_tangent(deformation.gradient_rows(), stress, &tangent.slots());
-    // Symmetric to the last bit.
-    for place in 1..9 {
-        let (above, below) = components.split_at_mut(place);
-        for (entry, mirror) in below[0].iter_mut().zip(above) {
-            *entry = mirror[place];
-        }
-    }
-    FirstPiolaTangent(FourthOrder { components })
 }
 
 /// P and the upper triangle of ∂P/∂F, `δ_ij S_AB + F_iC C_CADB F_jD`. Written out, so that a loop over lanes around it becomes
@@ -275,11 +256,10 @@ macro_rules! hyperelastic_of_strain {
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
                 let (energy, stress, tangent) = self.energy_stress_and_tangent(deformation);
-                (
-                    energy,
-                    $crate::solids::strain_energy::nominal(&stress, deformation),
-                    $crate::solids::strain_energy::nominal_tangent(&stress, &tangent, deformation),
-                )
+                let f = deformation.gradient_rows();
+                let numbers = $crate::solids::strain_energy::nominal_numbers(f, &stress, &tangent);
+                let (stress, tangent) = $crate::solids::numbers::both(numbers);
+                (energy, stress, tangent)
             }
             #[inline(always)]
             fn second_piola<T: piola_numerics::Real>(
@@ -300,19 +280,14 @@ macro_rules! hyperelastic_of_strain {
                 &self,
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> piola_continuum::stress::tangents::FirstPiolaTangent<T> {
-                let (stress, tangent) = self.stress_and_tangent(deformation);
-                $crate::solids::strain_energy::nominal_tangent(&stress, &tangent, deformation)
+                self.first_piola_and_tangent(deformation).1
             }
             #[inline(always)]
             fn first_piola_and_tangent<T: piola_numerics::Real>(
                 &self,
                 deformation: &impl piola_continuum::Deformation<T>,
             ) -> (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
-                let (stress, tangent) = self.stress_and_tangent(deformation);
-                (
-                    $crate::solids::strain_energy::nominal(&stress, deformation),
-                    $crate::solids::strain_energy::nominal_tangent(&stress, &tangent, deformation),
-                )
+                $crate::solids::numbers::both(self.upper_triangle(deformation))
             }
             #[inline(always)]
             fn first_piola_and_upper_triangle<T: piola_numerics::Real>(
