@@ -3,11 +3,10 @@
 use piola_continuum::{CauchyStress, Deformation, DisplacementGradient, FirstPiola, Symmetric};
 
 use super::newton::{Load, Point, Problem};
-use super::{Control, Controls};
+use super::{Control, Controls, Response};
 use crate::ConstitutiveError;
 use crate::error::check_bound;
 use crate::internal_constraints::{Combination, Constraints, Incompressibility, outside_of_columns, rank_of_columns};
-use crate::solids::Hyperelastic;
 
 /// A homogeneous state in which everything prescribed holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,7 +54,7 @@ const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 /// ```
 /// α is halved until 0 < det F, the law has an answer and |r| falls. If that fails the load is applied in steps, each
 /// the interpolation between what `start` has and what is prescribed. Of an incompressible law
-/// ([`is_incompressible`](Hyperelastic::is_incompressible)) the pressure is an unknown too, as in
+/// ([`keeps_volume`](Response::keeps_volume)) the pressure is an unknown too, as in
 /// [`constrained_equilibrium`] with [`Incompressibility`].
 ///
 /// | argument | what |
@@ -93,11 +92,11 @@ const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
 pub fn equilibrium(
-    law: &impl Hyperelastic,
+    law: &impl Response,
     controls: &Controls,
     start: &DisplacementGradient,
 ) -> Result<HomogeneousState, ConstitutiveError> {
-    if law.is_incompressible() {
+    if law.keeps_volume() {
         let found = constrained_equilibrium(law, &Incompressibility, controls, start).map_err(|error| match error {
             ConstitutiveError::ContradictedConstraint { value, .. } => {
                 let (law, parameter, bound) = ("incompressible body", "det F", "det F = 1");
@@ -146,12 +145,12 @@ pub fn equilibrium(
 /// # Source
 /// W(21.18), W(21.20), W(21.22).
 pub fn constrained_equilibrium<const N: usize>(
-    law: &impl Hyperelastic,
+    law: &impl Response,
     constraints: &impl Constraints<N>,
     controls: &Controls,
     start: &DisplacementGradient,
 ) -> Result<ConstrainedState<N>, ConstitutiveError> {
-    law.check(start)?;
+    law.admits(start)?;
     if 0 < N {
         Combination::new(constraints.restrictions(start)?)?;
     }
@@ -197,7 +196,7 @@ pub fn constrained_equilibrium<const N: usize>(
         }
     }
     let Point { state, multipliers } = point;
-    law.check(&state)?;
+    law.admits(&state)?;
     let (_, residual) = problem.residual(&target, &point);
     let first_piola = problem.stress(&point);
     let mut reaction = Symmetric::zero();
@@ -295,7 +294,7 @@ fn undetermined<const N: usize>(
 /// assert!(bar.cauchy.0.components[1].abs() < 1e-14);
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
-pub fn uniaxial(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
+pub fn uniaxial(law: &impl Response, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
     check_stretch(stretch)?;
     equilibrium(law, &Controls::uniaxial(stretch)?, &DisplacementGradient::zero())
 }
@@ -304,7 +303,7 @@ pub fn uniaxial(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousStat
 ///
 /// # Errors
 /// As [`equilibrium`]; [`ConstitutiveError::OutOfBounds`] unless 0 < λ.
-pub fn equibiaxial(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
+pub fn equibiaxial(law: &impl Response, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
     check_stretch(stretch)?;
     equilibrium(law, &Controls::equibiaxial(stretch)?, &DisplacementGradient::zero())
 }
@@ -313,7 +312,7 @@ pub fn equibiaxial(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousS
 ///
 /// # Errors
 /// As [`equilibrium`]; [`ConstitutiveError::OutOfBounds`] unless 0 < λ.
-pub fn planar(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
+pub fn planar(law: &impl Response, stretch: f64) -> Result<HomogeneousState, ConstitutiveError> {
     check_stretch(stretch)?;
     equilibrium(law, &Controls::planar(stretch)?, &DisplacementGradient::zero())
 }
@@ -322,7 +321,7 @@ pub fn planar(law: &impl Hyperelastic, stretch: f64) -> Result<HomogeneousState,
 ///
 /// # Errors
 /// As [`equilibrium`].
-pub fn simple_shear(law: &impl Hyperelastic, amount: f64, free: bool) -> Result<HomogeneousState, ConstitutiveError> {
+pub fn simple_shear(law: &impl Response, amount: f64, free: bool) -> Result<HomogeneousState, ConstitutiveError> {
     equilibrium(law, &Controls::simple_shear(amount, free)?, &DisplacementGradient::zero())
 }
 
@@ -340,7 +339,7 @@ pub fn simple_shear(law: &impl Hyperelastic, amount: f64, free: bool) -> Result<
 /// assert!((stress - (3.0 + 126.0) / 8.0).abs() < 1e-13);
 /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
 /// ```
-pub fn volumetric(law: &impl Hyperelastic, jacobian: f64) -> Result<HomogeneousState, ConstitutiveError> {
+pub fn volumetric(law: &impl Response, jacobian: f64) -> Result<HomogeneousState, ConstitutiveError> {
     equilibrium(law, &Controls::volumetric(jacobian)?, &DisplacementGradient::zero())
 }
 

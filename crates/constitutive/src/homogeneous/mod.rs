@@ -13,6 +13,7 @@
 //! | a law, compressible or not, and a mode | [`uniaxial`], [`equibiaxial`], [`planar`], [`simple_shear`], [`volumetric`] |
 //! | some components of F and the others of P or T | [`equilibrium`] with [`Controls`] |
 //! | the same, and the body has internal constraints | [`constrained_equilibrium`] |
+//! | a step of a viscoelastic solid, or a law of your own without an energy | the same, of a [`Response`] |
 //!
 //! The third face is free of traction in every mode; the pressure of an incompressible law follows from that in
 //! closed form by [`nominal_stress`] and [`IncompressibleState`], as an unknown beside F by [`equilibrium`].
@@ -22,6 +23,7 @@ mod equilibrium;
 mod incompressible;
 mod mode;
 mod newton;
+mod response;
 
 pub use controls::{Control, Controls};
 pub use equilibrium::{
@@ -30,6 +32,7 @@ pub use equilibrium::{
 };
 pub use incompressible::{Incompressible, IncompressibleState, nominal_stress, nominal_stress_and_slope};
 pub use mode::Mode;
+pub use response::Response;
 
 use piola_continuum::tensor::rows::Rows;
 use piola_numerics::Real;

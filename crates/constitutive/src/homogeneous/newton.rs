@@ -12,9 +12,8 @@ use piola_continuum::tensor::rows::Rows;
 use piola_continuum::{CauchyStress, Deformation, DisplacementGradient, FirstPiola};
 use piola_numerics::linear::lu;
 
-use super::{Control, Controls};
+use super::{Control, Controls, Response};
 use crate::internal_constraints::Constraints;
-use crate::solids::Hyperelastic;
 
 /// Corrections below this share of ∇u end the iteration: with quadratic convergence the next one is its square.
 const ENOUGH: f64 = 1e-11;
@@ -59,10 +58,10 @@ pub(super) fn largest_entry(rows: &Rows<f64>) -> f64 {
     rows.as_flattened().iter().fold(0.0, |largest: f64, x| largest.max(x.abs()))
 }
 
-impl<L: Hyperelastic, C> Problem<'_, L, C> {
+impl<L: Response, C> Problem<'_, L, C> {
     /// The unit of stresses: the largest entry of the tangent.
     pub(super) fn unit_at(law: &L, state: &DisplacementGradient) -> f64 {
-        let tangent = law.first_piola_tangent(state).0.components;
+        let tangent = law.stress_and_tangent(state).1.0.components;
         let largest = tangent.as_flattened().iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         if 0.0 < largest && largest.is_finite() { largest } else { 1.0 }
     }
@@ -72,7 +71,7 @@ impl<L: Hyperelastic, C> Problem<'_, L, C> {
     where
         C: Constraints<N>,
     {
-        let stress = self.law.first_piola(&point.state).0;
+        let stress = self.law.stress(&point.state).0;
         FirstPiola(stress + self.reaction(point))
     }
 
@@ -135,10 +134,10 @@ impl<L: Hyperelastic, C> Problem<'_, L, C> {
     /// its volume: then the change of shape is asked about.
     fn admitted(&self, rows: Rows<f64>) -> Option<DisplacementGradient> {
         let state = DisplacementGradient::from_rows(rows).ok()?;
-        if self.law.is_incompressible() {
-            self.law.check(&isochoric_part(&state)?).ok()?;
+        if self.law.keeps_volume() {
+            self.law.admits(&isochoric_part(&state)?).ok()?;
         } else {
-            self.law.check(&state).ok()?;
+            self.law.admits(&state).ok()?;
         }
         Some(state)
     }
@@ -222,7 +221,7 @@ impl<L: Hyperelastic, C> Problem<'_, L, C> {
         if MOST < n {
             return None;
         }
-        let (stress, mut tangent) = self.law.first_piola_and_tangent(state);
+        let (stress, mut tangent) = self.law.stress_and_tangent(state);
         let stress = FirstPiola(stress.0 + self.reaction(point));
         if 0 < N {
             let bent = self.constraints.curvature(state, point.multipliers).components;

@@ -8,14 +8,17 @@
 //! |---|---|
 //! | a law of the solid at rest, one of the overstress, and a Prony series | [`Viscoelastic::new`] |
 //! | a law of fast loading that relaxes by a Prony series | [`Viscoelastic::relaxing`] |
+//! | a specimen of it with free sides or held forces | [`Viscoelastic::response`] with [`equilibrium`](crate::homogeneous::equilibrium) |
 //! | any functional of histories | [`SimpleMaterial`]; of U-histories: [`Reduced`] |
 
 mod history;
 mod prony;
+mod response;
 mod scaled;
 mod viscoelastic;
 
 pub use history::{History, Reduced, Remembered, SimpleMaterial, StretchHistory, history_indifference};
 pub use prony::{Prony, PronyStep, PronyTerm};
+pub use response::ViscoelasticResponse;
 pub use scaled::Scaled;
 pub use viscoelastic::{Viscoelastic, ViscoelasticState};

@@ -56,7 +56,7 @@ fn beyond<T: Real>(law: &'static str, quantity: &'static str, exponent: T, facto
     let reach = factor * exponent.exp();
     for lane in 0..T::LANES {
         if !reach.primal(lane).is_finite() {
-            let limit = largest_logarithm::<T>() - factor.primal(lane).ln();
+            let limit = largest_logarithm::<T>() - factor.primal(lane).max(1.0).ln();
             return Err(ConstitutiveError::BeyondLimit { law, quantity, value: exponent.primal(lane), limit });
         }
     }

@@ -1,6 +1,7 @@
-//! Homogeneous tests of bodies with internal constraints.
+//! Homogeneous tests of bodies with internal constraints and of bodies with memory.
 
 mod contradictions;
 mod incompressible;
 mod reactions;
 mod refusals;
+mod viscoelastic;
