@@ -98,7 +98,7 @@ fn small_strain_relaxes_with_the_modulus_of_the_series() {
     }
 }
 
-/// ε(t) = σ/E₀ (1 − g e^(−t/τ_c))/(1 − g), τ_c = τ/(1 − g).
+/// `ε(t) = σ/E₀ (1 − g e^(−t/τ_c))/(1 − g)`, `τ_c = τ/(1 − g)`.
 #[test]
 fn creep_converges_to_the_closed_form_by_the_square_of_the_step() {
     let solid = relaxing(SaintVenantKirchhoff::new(2.0, 1.0).expect("constants"));
