@@ -114,7 +114,7 @@ pub fn equilibrium(
 /// constraints.
 ///
 /// ```text
-/// P = ∂W/∂F + Σ λₖ ∂μₖ/∂F        stress(F, λ) = prescribed,   μₖ(F) = 0
+/// stress of P(F) + Σ λₖ ∂μₖ/∂F = prescribed,   μₖ(F) = 0
 /// ```
 /// The unknowns are the free components of F and all λₖ; the reactions follow from the faces whose tractions are
 /// prescribed. A start that violates the constraints is brought back to them with the steps of the load. What the law says

@@ -1,7 +1,7 @@
 //! Newton's method of homogeneous tests: free components of F and the multipliers of constraints together.
 //!
 //! ```text
-//! P = ∂W/∂F + Σ λₖ ∂μₖ/∂F        r = stress − prescribed        μₖ(F) = 0
+//! stress: P of the body + Σ λₖ ∂μₖ/∂F        r = stress − prescribed        μₖ(F) = 0
 //! ⎡ ∂r/∂F    ∂r/∂λ ⎤ ⎡ δF ⎤     ⎡ r ⎤
 //! ⎣ ∂μ/∂F      0   ⎦ ⎣ δλ ⎦ = − ⎣ μ ⎦        stresses and λ in units of the tangent of the start
 //! ```

@@ -46,6 +46,9 @@ pub trait Response {
     fn admits(&self, deformation: &DisplacementGradient) -> Result<(), ConstitutiveError>;
 
     /// Whether the body keeps its volume: its pressure is then sought beside the deformation.
+    ///
+    /// On the way the volume may change. [`admits`](Self::admits) is then asked about the change of shape, J^(−⅓) F, while stress
+    /// and tangent are asked for at F itself.
     fn keeps_volume(&self) -> bool {
         false
     }

@@ -92,6 +92,7 @@ impl InvariantEnergy for BlatzKo {
     const SECOND: bool = true;
     const CURVED: bool = true;
     const STRAIGHT: bool = true;
+    /// To the rounding of ln J.
     const REFUSED_IS_NOT_FINITE: bool = true;
 
     #[inline(always)]

@@ -48,7 +48,7 @@ const LAW: &str = "Fung";
 pub struct Fung {
     c: f64,
     exponents: Stiffness,
-    /// 9 c |A|, the largest component.
+    /// c · max(9 |A|, 1), |A| the largest component.
     size: f64,
 }
 
@@ -60,7 +60,7 @@ impl Fung {
     pub fn new(c: f64, exponents: Stiffness) -> Result<Self, ConstitutiveError> {
         check_bound(LAW, "c", c, "0 < c", 0.0 < c)?;
         let largest = exponents.tensor().components.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        Ok(Self { c, exponents, size: 9.0 * c * largest })
+        Ok(Self { c, exponents, size: c * (9.0 * largest).max(1.0) })
     }
 
     /// c, Pa.
@@ -89,10 +89,16 @@ impl Fung {
         T::lit(self.size) * ((T::one() + two * q) * (T::lit(4.0) + two * strain.trace()))
     }
 
-    /// The power of e^Q where the tangent is within the range of the scalar, NaN elsewhere.
+    /// 1 where the tangent is within the range of the scalar, NaN elsewhere; e^Q is given.
     #[inline(always)]
     fn within<T: Real>(&self, strain: &Symmetric<T>, q: T, power: T) -> T {
-        power * T::select((self.factor(strain, q) * power).is_finite(), T::one(), T::lit(f64::NAN))
+        T::select((self.factor(strain, q) * power).is_finite(), T::one(), T::lit(f64::NAN))
+    }
+
+    /// e^Q − 1, NaN where e^Q is refused.
+    #[inline(always)]
+    fn growth<T: Real>(&self, strain: &Symmetric<T>, q: T) -> T {
+        q.exp_m1() * self.within(strain, q, q.exp())
     }
 
     /// S and ∂S/∂E of A : E and e^Q.
@@ -112,7 +118,8 @@ impl GreenEnergy for Fung {
     #[inline(always)]
     fn green_stress_and_tangent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         let (image, q) = self.exponent(strain);
-        self.scaled(&image, self.within(strain, q, q.exp()))
+        let power = q.exp();
+        self.scaled(&image, power * self.within(strain, q, power))
     }
 }
 
@@ -123,7 +130,7 @@ impl StrainEnergy for Fung {
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let strain = GreenStrain::of(deformation).0;
         let q = self.exponent(&strain).1;
-        T::lit(0.5 * self.c) * self.within(&strain, q, q.exp_m1())
+        T::lit(0.5 * self.c) * self.growth(&strain, q)
     }
     #[inline(always)]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
@@ -152,7 +159,7 @@ impl StrainEnergy for Fung {
     ) -> (T, Symmetric<T>, MajorSymmetric<T>) {
         let strain = GreenStrain::of(deformation).0;
         let (image, q) = self.exponent(&strain);
-        let growth = self.within(&strain, q, q.exp_m1());
+        let growth = self.growth(&strain, q);
         let (stress, tangent) = self.scaled(&image, T::one() + growth);
         (T::lit(0.5 * self.c) * growth, stress, tangent)
     }

@@ -86,7 +86,9 @@ pub(super) fn check_below<T: Real>(
     exponent: T,
     limit: f64,
 ) -> Result<(), ConstitutiveError> {
-    if exponent.less_than(T::lit(limit)).all() { Ok(()) } else { closely(law, quantity, exponent, |_| limit) }
+    // As the scalar rounds it.
+    let limit = T::lit(limit);
+    if exponent.less_than(limit).all() { Ok(()) } else { closely(law, quantity, exponent, |lane| limit.primal(lane)) }
 }
 
 /// `value` where `x` is below its limit, NaN beyond.

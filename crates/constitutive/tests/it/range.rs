@@ -87,6 +87,9 @@ fn exponentials_are_refused_before_they_leave_the_range_of_the_scalar() {
     range_ends("Fung", &Fung::new(2.0, exponents).expect("c"), [6.5, 3.0], 9.0);
     range_ends("Fung, stiff", &Fung::new(1e9, exponents).expect("c"), [6.5, 3.0], 9.0);
     nowhere_a_number("Fung", &Fung::new(2.0, exponents).expect("c"), &shear(9.0));
+    // Q = 1: the factor beside e^Q, not Q, leaves the range.
+    let bar = DeformationGradient::diagonal([3.0_f64.sqrt(), 1.0, 1.0]).expect("positive");
+    nowhere_a_number("Fung, rigid", &Fung::new(5e305, exponents).expect("c"), &bar);
     let fibres = [Fibre::new([1.0, 0.0, 0.0]).expect("fibre"), Fibre::new([0.0, 1.0, 0.0]).expect("fibre")];
     let wall = HolzapfelGasserOgden::new(1e4, 1e5, 1e5, 1.0, 0.0, fibres).expect("parameters");
     range_ends("wall", &wall, [4.5, 2.5], 6.0);
