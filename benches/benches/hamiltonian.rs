@@ -36,7 +36,7 @@ impl PhaseFunction for Kepler {
     }
 }
 
-/// A component of the moment of momentum.
+/// A component of the angular momentum.
 struct Moment(usize);
 
 impl PhaseFunction for Moment {

@@ -72,7 +72,7 @@ impl Links {
         q: &[f64],
         v: &[f64],
         out: &mut [f64],
-    ) -> Result<(), piola_numerics::Error> {
+    ) -> Result<(), piola_numerics::NumericsError> {
         let n = q.len();
         let LinksWork { sin_cos, below, metric } = work;
         sin_cos.clear();

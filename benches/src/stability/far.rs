@@ -31,7 +31,7 @@ fn doubled_vectors(vectors: &[Vector3<f64>]) -> Vec<Vector3<DoubleDouble>> {
     vectors.iter().map(|v| Vector3::new(v.x, v.y, v.z).map(DoubleDouble::lit)).collect()
 }
 
-/// Errors of the moment of momentum, kinetic energy and inertia about the centre of mass, over their own size.
+/// Errors of the angular momentum, kinetic energy and inertia about the centre of mass, over their own size.
 fn about_the_centre_of_mass(distance: f64, numbers: &mut Numbers) -> Result<[f64; 3], Box<dyn Error>> {
     let mut vectors = |scale: f64, offset: f64| -> Vec<Vector3<f64>> {
         (0..20).map(|_| Vector3::from_fn(|_, _| scale * numbers.next() + offset)).collect()
@@ -44,8 +44,8 @@ fn about_the_centre_of_mass(distance: f64, numbers: &mut Numbers) -> Result<[f64
     let exact = ParticleSystem::new(&masses, &positions, &velocities)?;
     let origin = Vector3::zeros();
     let spin = rounding(
-        computed.moment_of_momentum(&origin).relative.as_slice(),
-        exact.moment_of_momentum(&origin.map(DoubleDouble::lit)).relative.as_slice(),
+        computed.angular_momentum(&origin).relative.as_slice(),
+        exact.angular_momentum(&origin.map(DoubleDouble::lit)).relative.as_slice(),
     );
     let energy = rounding(&[computed.kinetic_energy().relative], &[exact.kinetic_energy().relative]);
     let inertia =
@@ -77,7 +77,7 @@ pub(super) fn from_origin() -> Result<Table, Box<dyn Error>> {
         text: "20 particles within a metre of each other, flying at 50 km/s with relative velocities of 1 m/s: the parts of moment of \
                momentum and kinetic energy about the centre of mass, and the inertia tensor there, each relative to itself; \
                and the accelerations of a double pendulum. 32 states each.",
-        columns: vec!["distance", "moment of momentum", "kinetic energy", "inertia tensor", "q̈"],
+        columns: vec!["distance", "angular momentum", "kinetic energy", "inertia tensor", "q̈"],
         rows,
     })
 }

@@ -35,7 +35,7 @@ fn jacobi<T: Real>(u: T, parameter: T) -> [T; 3] {
     [sn, cn, (T::one() - parameter * sn * sn).sqrt()]
 }
 
-/// ω(t) of the body that starts with ω = (ω₁, 0, ω₃), where I₁ < I₂ < I₃ and the moment of momentum circles the third
+/// ω(t) of the body that starts with ω = (ω₁, 0, ω₃), where I₁ < I₂ < I₃ and the angular momentum circles the third
 /// axis: (ω₁ cn, b sn, ω₃ dn).
 fn closed_form(start: [f64; 2], time: DoubleDouble) -> [DoubleDouble; 3] {
     let lit = DoubleDouble::lit;
@@ -87,7 +87,7 @@ pub(super) fn free_top(steps: u32) -> Result<Table, Box<dyn Error>> {
         title: "The free top",
         text: "A body with the moments 1, 2, 2.5, started with ω = (0.5, 0, 1) rad/s, by Gauss–Legendre of order 8 in steps of 1/16 s, \
                about a hundred a turn: ω beside the closed form in Jacobi's elliptic functions, and what should not change.",
-        columns: vec!["run", "ω", "kinetic energy", "moment of momentum in space", "attitude's squared length"],
+        columns: vec!["run", "ω", "kinetic energy", "angular momentum in space", "attitude's squared length"],
         rows,
     })
 }

@@ -30,10 +30,10 @@ pub(crate) fn table(scene: &Scene, plan: &Plan, run: &Run) -> String {
     line("energy", run.drifts.energy);
     line("post-Newtonian energy", run.drifts.post_newtonian_energy);
     line("momentum", run.drifts.momentum);
-    line("moment of momentum", run.drifts.angular_momentum);
+    line("angular momentum", run.drifts.angular_momentum);
     if run.drifts.post_newtonian_energy.is_some() {
         text.push_str(
-            "The post-Newtonian force depends on velocity: Newton's energy and moment of momentum vary with the orbits. The\n\
+            "The post-Newtonian force depends on velocity: Newton's energy and angular momentum vary with the orbits. The\n\
              post-Newtonian energy is kept but for terms of order m/(M c^2), which a term for one central body leaves out.\n",
         );
     }

@@ -352,7 +352,7 @@ pub enum ConstitutiveError {
     },
     /// A motion could not be followed.
     #[error("the motion could not be followed: {0}")]
-    Integration(#[from] piola_integrators::IntegrationError),
+    Integration(#[from] piola_integrators::IntegratorsError),
     /// The deformation or stress itself is refused.
     #[error(transparent)]
     Continuum(#[from] ContinuumError),

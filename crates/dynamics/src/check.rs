@@ -5,14 +5,14 @@ use piola_numerics::{Mask, Real};
 use crate::DynamicsError;
 
 pub(crate) fn check_length(quantity: &'static str, expected: usize, found: usize) -> Result<(), DynamicsError> {
-    if expected == found { Ok(()) } else { Err(DynamicsError::DimensionMismatch { quantity, expected, found }) }
+    if expected == found { Ok(()) } else { Err(DynamicsError::WrongLength { quantity, expected, found }) }
 }
 
 pub(crate) fn check_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), DynamicsError> {
     for (index, value) in values.iter().enumerate() {
         if !value.is_finite().all() {
             let lane = (0..T::LANES).find(|&lane| !f64::is_finite(value.primal(lane))).unwrap_or(0);
-            return Err(DynamicsError::NonFinite { quantity, index, value: value.primal(lane) });
+            return Err(DynamicsError::NotFinite { quantity, index, value: value.primal(lane) });
         }
     }
     Ok(())

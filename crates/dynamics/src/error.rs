@@ -6,7 +6,7 @@
 pub enum DynamicsError {
     /// A slice of the wrong length.
     #[error("`{quantity}` has {found} components where {expected} are needed")]
-    DimensionMismatch {
+    WrongLength {
         /// The name of the argument.
         quantity: &'static str,
         /// The length needed.
@@ -16,7 +16,7 @@ pub enum DynamicsError {
     },
     /// An infinite or NaN component.
     #[error("component {index} of `{quantity}` is {value}; it must be finite")]
-    NonFinite {
+    NotFinite {
         /// The name of the argument.
         quantity: &'static str,
         /// The component.
@@ -121,7 +121,7 @@ pub enum DynamicsError {
         /// The time reached.
         time: f64,
         /// Why.
-        source: Box<piola_integrators::IntegrationError<DynamicsError>>,
+        source: Box<piola_integrators::IntegratorsError<DynamicsError>>,
     },
     /// A run whose steps are kept failed before its end.
     #[error("the run stopped at time {time} s after {} steps, which are kept: {source}", run.steps())]
@@ -129,7 +129,7 @@ pub enum DynamicsError {
         /// The time reached.
         time: f64,
         /// Why.
-        source: Box<piola_integrators::IntegrationError<DynamicsError>>,
+        source: Box<piola_integrators::IntegratorsError<DynamicsError>>,
         /// The motion up to there.
         run: Box<crate::Run>,
     },
@@ -170,7 +170,7 @@ pub enum DynamicsError {
     Kinematics(#[from] piola_kinematics::KinematicsError),
     /// A linear system that cannot be solved.
     #[error(transparent)]
-    Numerics(#[from] piola_numerics::Error),
+    Numerics(#[from] piola_numerics::NumericsError),
     /// The momenta could not be inverted for velocities.
     #[error(
         "no velocities were found for the momenta in {iterations} iterations (last correction {correction:e}): \

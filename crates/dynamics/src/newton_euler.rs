@@ -31,7 +31,7 @@ use crate::check::check_finite;
 /// ```
 ///
 /// # Errors
-/// [`DynamicsError::InvalidMass`] unless 0 < m < ∞; [`DynamicsError::NonFinite`].
+/// [`DynamicsError::InvalidMass`] unless 0 < m < ∞; [`DynamicsError::NotFinite`].
 ///
 /// # Example
 /// ```
@@ -67,7 +67,7 @@ pub fn particle_acceleration<T: Real>(mass: f64, force: &Vector3<T>) -> Result<V
 /// component of ω to the last bit.
 ///
 /// # Errors
-/// [`DynamicsError::Kinematics`] unless 0 < I₁, I₂, I₃; [`DynamicsError::NonFinite`].
+/// [`DynamicsError::Kinematics`] unless 0 < I₁, I₂, I₃; [`DynamicsError::NotFinite`].
 ///
 /// # Accuracy
 /// A few ulp of the larger of the two terms.
@@ -268,7 +268,7 @@ impl<'a> NewtonEuler<'a> {
 }
 
 /// The moment about a fixed origin of a force at the centre of mass and a moment about it, N m, space components:
-/// r^c×F + G, the rate of the moment of momentum about that origin.
+/// r^c×F + G, the rate of the angular momentum about that origin.
 ///
 /// # Example
 /// ```

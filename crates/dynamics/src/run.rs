@@ -2,7 +2,7 @@
 
 use core::ops::{ControlFlow, Range};
 
-use piola_integrators::{DormandPrince853, Ending, Field, IntegrationError, Report, State, Tolerance};
+use piola_integrators::{DormandPrince853, Ending, Field, IntegratorsError, Report, State, Tolerance};
 
 use crate::DynamicsError;
 
@@ -125,7 +125,7 @@ pub(crate) fn record<F: Field<Error = DynamicsError>>(
         rate_residual: 0.0,
     };
     let stopped =
-        |error: IntegrationError| DynamicsError::Run { time: times.start, source: Box::new(error.with_field_error()) };
+        |error: IntegratorsError| DynamicsError::Run { time: times.start, source: Box::new(error.with_field_error()) };
     let mut state = State::new(times.start, start.to_vec()).map_err(stopped)?;
     let followed = DormandPrince853::new(tolerance).integrate(&mut field(), &mut state, times.end, |step| {
         run.times.push(step.time());

@@ -25,7 +25,7 @@ use core::ops::ControlFlow;
 use piola_numerics::Real;
 
 use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
-use crate::{Ending, IntegrationError, Report, Separable, State, Step, unobserved};
+use crate::{Ending, IntegratorsError, Report, Separable, State, Step, unobserved};
 
 /// The order of a fixed-step method: the error of a run falls as hᵒʳᵈᵉʳ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -95,7 +95,7 @@ const MOST_STAGES: usize = 17;
 /// let report = method.integrate_to(&mut kepler, &mut state, period)?;
 /// assert_eq!((report.steps, report.evaluations), (100, 1700));
 /// assert!((state.values[0] - 1.0).abs() < 1e-12);
-/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Composition<T = f64> {
@@ -113,8 +113,8 @@ impl<T: Real> Composition<T> {
     /// A composition of the given order whose steps are no longer than `step` (s).
     ///
     /// # Errors
-    /// [`IntegrationError::InvalidStep`] unless 0 < step < ∞.
-    pub fn new(order: Order, step: f64) -> Result<Self, IntegrationError> {
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+    pub fn new(order: Order, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
         let half: &[f64] = match order {
             Order::Two => &[],
@@ -153,7 +153,7 @@ impl<T: Real> Composition<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         self.integrate(field, state, end, unobserved)
     }
 
@@ -169,7 +169,7 @@ impl<T: Real> Composition<T> {
         state: &mut State<T>,
         end: f64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         let n = field.freedom();
         check_run(2 * n, state, end)?;
         let start = state.time;
@@ -199,7 +199,7 @@ impl<T: Real> Composition<T> {
         field: &mut F,
         state: &State<T>,
         h: f64,
-    ) -> Result<(), IntegrationError<F::Error>> {
+    ) -> Result<(), IntegratorsError<F::Error>> {
         let n = self.rate.len();
         let start = state.time;
         let rate = &mut self.rate[..];
@@ -212,7 +212,7 @@ impl<T: Real> Composition<T> {
         for (stage, &gamma) in self.kicks[..self.stages].iter().enumerate() {
             let time = start + reached * h;
             let momentum = if stage == 0 { p_start } else { &*p };
-            field.velocity(time, momentum, rate).map_err(|source| IntegrationError::Field { time, source })?;
+            field.velocity(time, momentum, rate).map_err(|source| IntegratorsError::Field { time, source })?;
             let drift = 0.5 * (previous + gamma) * h;
             if stage == 0 {
                 update_from((q_start, q_carry_start), q, q_carry, rate, drift);
@@ -220,7 +220,7 @@ impl<T: Real> Composition<T> {
                 update(q, q_carry, rate, drift);
             }
             let time = start + (reached + 0.5 * gamma) * h;
-            field.force(time, q, rate).map_err(|source| IntegrationError::Field { time, source })?;
+            field.force(time, q, rate).map_err(|source| IntegratorsError::Field { time, source })?;
             check_finite(start, rate)?;
             if stage == 0 {
                 update_from((p_start, p_carry_start), p, p_carry, rate, gamma * h);
@@ -231,7 +231,7 @@ impl<T: Real> Composition<T> {
             previous = gamma;
         }
         let time = start + h;
-        field.velocity(time, p, rate).map_err(|source| IntegrationError::Field { time, source })?;
+        field.velocity(time, p, rate).map_err(|source| IntegratorsError::Field { time, source })?;
         update(q, q_carry, rate, 0.5 * previous * h);
         // A velocity that was infinite or NaN at any stage has left its mark on the position for good.
         check_finite(start, q)

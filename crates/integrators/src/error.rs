@@ -8,7 +8,7 @@ use core::convert::Infallible;
 /// step, and the observer has seen every step before it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum IntegrationError<E = Infallible> {
+pub enum IntegratorsError<E = Infallible> {
     /// The state does not fit the field.
     #[error("the field has dimension {expected}, but the state has {found} components")]
     DimensionMismatch {
@@ -113,25 +113,25 @@ pub enum IntegrationError<E = Infallible> {
     },
 }
 
-impl IntegrationError<Infallible> {
+impl IntegratorsError<Infallible> {
     /// The same error where the field can fail.
     #[must_use]
-    pub fn with_field_error<E>(self) -> IntegrationError<E> {
+    pub fn with_field_error<E>(self) -> IntegratorsError<E> {
         match self {
-            Self::DimensionMismatch { expected, found } => IntegrationError::DimensionMismatch { expected, found },
-            Self::NonFiniteTime { time } => IntegrationError::NonFiniteTime { time },
-            Self::NonFiniteState { index, value } => IntegrationError::NonFiniteState { index, value },
-            Self::InvalidStep { step } => IntegrationError::InvalidStep { step },
-            Self::InvalidTolerance { relative, absolute } => IntegrationError::InvalidTolerance { relative, absolute },
+            Self::DimensionMismatch { expected, found } => IntegratorsError::DimensionMismatch { expected, found },
+            Self::NonFiniteTime { time } => IntegratorsError::NonFiniteTime { time },
+            Self::NonFiniteState { index, value } => IntegratorsError::NonFiniteState { index, value },
+            Self::InvalidStep { step } => IntegratorsError::InvalidStep { step },
+            Self::InvalidTolerance { relative, absolute } => IntegratorsError::InvalidTolerance { relative, absolute },
             Self::Field { source, .. } => match source {},
-            Self::NonFiniteRate { time, index } => IntegrationError::NonFiniteRate { time, index },
-            Self::StepTooSmall { time, step } => IntegrationError::StepTooSmall { time, step },
-            Self::TooManySteps { time, steps } => IntegrationError::TooManySteps { time, steps },
+            Self::NonFiniteRate { time, index } => IntegratorsError::NonFiniteRate { time, index },
+            Self::StepTooSmall { time, step } => IntegratorsError::StepTooSmall { time, step },
+            Self::TooManySteps { time, steps } => IntegratorsError::TooManySteps { time, steps },
             Self::StagesDiverged { time, step, iterations, change } => {
-                IntegrationError::StagesDiverged { time, step, iterations, change }
+                IntegratorsError::StagesDiverged { time, step, iterations, change }
             }
-            Self::InvalidEvent { event, time } => IntegrationError::InvalidEvent { event, time },
-            Self::OutsideStep { time, start, end } => IntegrationError::OutsideStep { time, start, end },
+            Self::InvalidEvent { event, time } => IntegratorsError::InvalidEvent { event, time },
+            Self::OutsideStep { time, start, end } => IntegratorsError::OutsideStep { time, start, end },
         }
     }
 }

@@ -53,7 +53,7 @@ pub trait Field<T: Real = f64> {
     /// let mut state = State::new(0.0, vec![1.0, 0.0])?;
     /// DormandPrince853::new(Tolerance::relative(1e-3)?).integrate_to(&mut Turning, &mut state, 100.0)?;
     /// assert!((state.values[0].hypot(state.values[1]) - 1.0).abs() < 1e-15);
-    /// # Ok::<(), piola_integrators::IntegrationError>(())
+    /// # Ok::<(), piola_integrators::IntegratorsError>(())
     /// ```
     fn project(&mut self, _t: f64, _y: &mut [T]) -> Result<(), Self::Error> {
         Ok(())
@@ -148,7 +148,7 @@ impl<F> FunctionField<F> {
 /// let mut state = State::new(0.0, vec![1.0])?;
 /// DormandPrince853::new(Tolerance::relative(1e-12)?).integrate_to(&mut decay, &mut state, 1.0)?;
 /// assert!((state.values[0] - (-1.0_f64).exp()).abs() < 1e-12);
-/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
 pub fn field<F: FnMut(f64, &[T], &mut [T]), T: Real>(dimension: usize, function: F) -> FunctionField<F> {
     FunctionField { dimension, second_order: false, function }
@@ -180,7 +180,7 @@ impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Field<T> for FunctionField<F> {
 /// let period = 2.0 * std::f64::consts::PI;
 /// Composition::new(Order::Eight, period / 16.0)?.integrate_to(&mut oscillator, &mut state, period)?;
 /// assert!((state.values[0] - 1.0).abs() < 1e-7);
-/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
 pub fn separable<F: FnMut(f64, &[T], &mut [T]), T: Real>(freedom: usize, force: F) -> FunctionField<F> {
     FunctionField { dimension: freedom, second_order: false, function: force }

@@ -27,7 +27,7 @@
 //! let mut state = State::new(0.0, vec![0.0, 1.0])?;
 //! DormandPrince853::new(Tolerance::relative(1e-13)?).integrate_to(&mut oscillator, &mut state, 1.0)?;
 //! assert!((state.values[0] - 1.0_f64.sin()).abs() < 1e-13);
-//! # Ok::<(), piola_integrators::IntegrationError>(())
+//! # Ok::<(), piola_integrators::IntegratorsError>(())
 //! ```
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -42,7 +42,7 @@ mod tolerance;
 
 pub use composition::{Composition, Order};
 pub use dormand_prince::{Crossing, DenseStep, DormandPrince853, Event, EventAction, Occurrence};
-pub use error::IntegrationError;
+pub use error::IntegratorsError;
 pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
 pub use state::{Ending, Report, State, Step, unobserved};

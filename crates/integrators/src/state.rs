@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use piola_numerics::Real;
 use piola_numerics::sums::two_sum;
 
-use crate::IntegrationError;
+use crate::IntegratorsError;
 use crate::field::largest_lane;
 
 /// A time and a state, each with the rounding error that the last updates left behind.
@@ -21,7 +21,7 @@ use crate::field::largest_lane;
 /// use piola_integrators::State;
 /// let state = State::new(0.0, vec![1.0, 0.0])?;
 /// assert_eq!(state.values, [1.0, 0.0]);
-/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -44,21 +44,21 @@ impl<T: Real> State<T> {
     /// A state at a time.
     ///
     /// # Errors
-    /// [`IntegrationError::NonFiniteTime`], [`IntegrationError::NonFiniteState`].
-    pub fn new(time: f64, values: Vec<T>) -> Result<Self, IntegrationError> {
+    /// [`IntegratorsError::NonFiniteTime`], [`IntegratorsError::NonFiniteState`].
+    pub fn new(time: f64, values: Vec<T>) -> Result<Self, IntegratorsError> {
         let carry = vec![T::zero(); values.len()];
         let state = Self { time, values, carry, time_carry: 0.0 };
         state.check()?;
         Ok(state)
     }
 
-    fn check<E>(&self) -> Result<(), IntegrationError<E>> {
+    fn check<E>(&self) -> Result<(), IntegratorsError<E>> {
         if !self.time.is_finite() {
-            return Err(IntegrationError::NonFiniteTime { time: self.time });
+            return Err(IntegratorsError::NonFiniteTime { time: self.time });
         }
         match first_non_finite(&self.values) {
             None => Ok(()),
-            Some((index, value)) => Err(IntegrationError::NonFiniteState { index, value }),
+            Some((index, value)) => Err(IntegratorsError::NonFiniteState { index, value }),
         }
     }
 
@@ -85,17 +85,17 @@ struct Unchecked<T> {
 
 #[cfg(feature = "serde")]
 impl<T: Real> TryFrom<Unchecked<T>> for State<T> {
-    type Error = IntegrationError;
-    fn try_from(unchecked: Unchecked<T>) -> Result<Self, IntegrationError> {
+    type Error = IntegratorsError;
+    fn try_from(unchecked: Unchecked<T>) -> Result<Self, IntegratorsError> {
         let Unchecked { time, values, carry, time_carry } = unchecked;
         if carry.len() != values.len() {
-            return Err(IntegrationError::DimensionMismatch { expected: values.len(), found: carry.len() });
+            return Err(IntegratorsError::DimensionMismatch { expected: values.len(), found: carry.len() });
         }
         if let Some((index, value)) = first_non_finite(&carry) {
-            return Err(IntegrationError::NonFiniteState { index, value });
+            return Err(IntegratorsError::NonFiniteState { index, value });
         }
         if !time_carry.is_finite() {
-            return Err(IntegrationError::NonFiniteTime { time: time_carry });
+            return Err(IntegratorsError::NonFiniteTime { time: time_carry });
         }
         Ok(Self { carry, time_carry, ..Self::new(time, values)? })
     }
@@ -177,7 +177,7 @@ pub fn unobserved<T>(_step: Step<'_, T>) -> ControlFlow<()> {
 }
 
 /// Splits [start, end] into the fewest equal steps no longer than `step`; backwards in time if end < start.
-pub(crate) fn equal_steps<E>(start: f64, end: f64, step: f64) -> Result<(u64, f64), IntegrationError<E>> {
+pub(crate) fn equal_steps<E>(start: f64, end: f64, step: f64) -> Result<(u64, f64), IntegratorsError<E>> {
     /// 2⁵³: beyond it steps can neither be counted nor told from one another.
     const MOST_STEPS: f64 = 9_007_199_254_740_992.0;
     let span = end - start;
@@ -188,15 +188,15 @@ pub(crate) fn equal_steps<E>(start: f64, end: f64, step: f64) -> Result<(u64, f6
     let count = (span.abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
     let h = span / count;
     if MOST_STEPS < count || h.abs() < 0.5 * f64::EPSILON * start.abs().max(end.abs()) {
-        return Err(IntegrationError::StepTooSmall { time: start, step });
+        return Err(IntegratorsError::StepTooSmall { time: start, step });
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count between 1 and 2⁵³")]
     let steps = count as u64;
     Ok((steps, h))
 }
 
-pub(crate) fn check_step<E>(step: f64) -> Result<(), IntegrationError<E>> {
-    if 0.0 < step && step < f64::INFINITY { Ok(()) } else { Err(IntegrationError::InvalidStep { step }) }
+pub(crate) fn check_step<E>(step: f64) -> Result<(), IntegratorsError<E>> {
+    if 0.0 < step && step < f64::INFINITY { Ok(()) } else { Err(IntegratorsError::InvalidStep { step }) }
 }
 
 /// Checks what a run starts from; the caller may have changed the state since it was made.
@@ -204,24 +204,24 @@ pub(crate) fn check_run<T: Real, E>(
     expected: usize,
     state: &mut State<T>,
     end: f64,
-) -> Result<(), IntegrationError<E>> {
+) -> Result<(), IntegratorsError<E>> {
     if state.values.len() != expected {
-        return Err(IntegrationError::DimensionMismatch { expected, found: state.values.len() });
+        return Err(IntegratorsError::DimensionMismatch { expected, found: state.values.len() });
     }
     state.check()?;
     for time in [end, end - state.time] {
         if !time.is_finite() {
-            return Err(IntegrationError::NonFiniteTime { time });
+            return Err(IntegratorsError::NonFiniteTime { time });
         }
     }
     state.carry.resize(expected, T::zero());
     Ok(())
 }
 
-pub(crate) fn check_finite<T: Real, E>(time: f64, rate: &[T]) -> Result<(), IntegrationError<E>> {
+pub(crate) fn check_finite<T: Real, E>(time: f64, rate: &[T]) -> Result<(), IntegratorsError<E>> {
     match first_non_finite(rate) {
         None => Ok(()),
-        Some((index, _)) => Err(IntegrationError::NonFiniteRate { time, index }),
+        Some((index, _)) => Err(IntegratorsError::NonFiniteRate { time, index }),
     }
 }
 

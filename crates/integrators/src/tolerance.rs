@@ -1,6 +1,6 @@
 //! The accuracy asked of an adaptive method.
 
-use crate::IntegrationError;
+use crate::IntegratorsError;
 
 /// Local error allowed in one step: `absolute + relative · magnitude` for each component.
 ///
@@ -14,7 +14,7 @@ use crate::IntegrationError;
 /// let tolerance = Tolerance::relative(1e-10)?;
 /// assert_eq!(tolerance.relative_part(), 1e-10);
 /// assert!(Tolerance::relative(-1.0).is_err());
-/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -28,21 +28,21 @@ impl Tolerance {
     /// Relative to the magnitude of each component's group.
     ///
     /// # Errors
-    /// [`IntegrationError::InvalidTolerance`] unless 0 < relative < 1.
-    pub const fn relative(relative: f64) -> Result<Self, IntegrationError> {
+    /// [`IntegratorsError::InvalidTolerance`] unless 0 < relative < 1.
+    pub const fn relative(relative: f64) -> Result<Self, IntegratorsError> {
         Self::new(relative, 0.0)
     }
 
     /// Relative plus absolute; the absolute part has the unit of each component.
     ///
     /// # Errors
-    /// [`IntegrationError::InvalidTolerance`] unless 0 ≤ relative < 1, 0 ≤ absolute < ∞ and one is positive.
-    pub const fn new(relative: f64, absolute: f64) -> Result<Self, IntegrationError> {
+    /// [`IntegratorsError::InvalidTolerance`] unless 0 ≤ relative < 1, 0 ≤ absolute < ∞ and one is positive.
+    pub const fn new(relative: f64, absolute: f64) -> Result<Self, IntegratorsError> {
         let in_range = 0.0 <= relative && relative < 1.0 && 0.0 <= absolute && absolute < f64::INFINITY;
         if in_range && 0.0 < relative + absolute {
             Ok(Self { relative, absolute })
         } else {
-            Err(IntegrationError::InvalidTolerance { relative, absolute })
+            Err(IntegratorsError::InvalidTolerance { relative, absolute })
         }
     }
 
@@ -70,8 +70,8 @@ struct Unchecked {
 
 #[cfg(feature = "serde")]
 impl TryFrom<Unchecked> for Tolerance {
-    type Error = IntegrationError;
-    fn try_from(unchecked: Unchecked) -> Result<Self, IntegrationError> {
+    type Error = IntegratorsError;
+    fn try_from(unchecked: Unchecked) -> Result<Self, IntegratorsError> {
         Self::new(unchecked.relative, unchecked.absolute)
     }
 }

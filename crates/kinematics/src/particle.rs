@@ -1,4 +1,4 @@
-//! Particles: motion in a moving frame, momentum, moment of momentum, kinetic energy and their rates.
+//! Particles: motion in a moving frame, momentum, angular momentum, kinetic energy and their rates.
 //!
 //! ```text
 //! x = o + xⁱ e_i
@@ -269,20 +269,20 @@ pub fn momentum<T: Real>(mass: f64, velocity: &Vector3<T>) -> Vector3<T> {
     scaled(velocity, T::lit(mass))
 }
 
-/// Moment of momentum h = r × m v about the point from which r is drawn (kg m²/s).
+/// Angular momentum h = r × m v about the point from which r is drawn (kg m²/s).
 ///
 /// # Example
 /// ```
 /// use nalgebra::Vector3;
 /// use piola_kinematics::particle;
-/// assert_eq!(particle::moment_of_momentum(2.0, &Vector3::x(), &Vector3::new(0.0, 3.0, 0.0)).z, 6.0);
+/// assert_eq!(particle::angular_momentum(2.0, &Vector3::x(), &Vector3::new(0.0, 3.0, 0.0)).z, 6.0);
 /// ```
 ///
 /// # Source
 /// W(1.13).
 #[inline]
 #[must_use]
-pub fn moment_of_momentum<T: Real>(mass: f64, r: &Vector3<T>, velocity: &Vector3<T>) -> Vector3<T> {
+pub fn angular_momentum<T: Real>(mass: f64, r: &Vector3<T>, velocity: &Vector3<T>) -> Vector3<T> {
     cross(r, &momentum(mass, velocity))
 }
 
@@ -320,20 +320,20 @@ pub fn momentum_rate<T: Real>(mass: f64, acceleration: &Vector3<T>) -> Vector3<T
     scaled(acceleration, T::lit(mass))
 }
 
-/// Rate of moment of momentum about a fixed point, dh/dt = r × m a (N m).
+/// Rate of angular momentum about a fixed point, dh/dt = r × m a (N m).
 ///
 /// # Example
 /// ```
 /// use nalgebra::Vector3;
 /// use piola_kinematics::particle;
-/// assert_eq!(particle::moment_of_momentum_rate(2.0, &Vector3::<f64>::x(), &Vector3::y()).z, 2.0);
+/// assert_eq!(particle::angular_momentum_rate(2.0, &Vector3::<f64>::x(), &Vector3::y()).z, 2.0);
 /// ```
 ///
 /// # Source
 /// W(1.14).
 #[inline]
 #[must_use]
-pub fn moment_of_momentum_rate<T: Real>(mass: f64, r: &Vector3<T>, acceleration: &Vector3<T>) -> Vector3<T> {
+pub fn angular_momentum_rate<T: Real>(mass: f64, r: &Vector3<T>, acceleration: &Vector3<T>) -> Vector3<T> {
     cross(r, &momentum_rate(mass, acceleration))
 }
 

@@ -1,4 +1,4 @@
-//! Rigid bodies: momentum, moment of momentum, energy and their rates.
+//! Rigid bodies: momentum, angular momentum, energy and their rates.
 //!
 //! ```text
 //! x^p = x^c + yⁱ f_i                                   W(2.10)
@@ -163,7 +163,7 @@ impl RigidBody {
         scaled(velocity, T::lit(self.mass))
     }
 
-    /// Moment of momentum about the centre of mass in body components, I ω (kg m²/s).
+    /// Angular momentum about the centre of mass in body components, I ω (kg m²/s).
     ///
     /// # Example
     /// ```
@@ -182,7 +182,7 @@ impl RigidBody {
         self.inertia.times(angular_velocity_in_body)
     }
 
-    /// Body components of the rate of moment of momentum about the centre of mass, I ω̇ + ω×I ω (N m):
+    /// Body components of the rate of angular momentum about the centre of mass, I ω̇ + ω×I ω (N m):
     /// the torque of Euler's equations.
     ///
     /// # Example
@@ -209,7 +209,7 @@ impl RigidBody {
         self.inertia.times(angular_acceleration_in_body) + cross(omega, &self.inertia.times(omega))
     }
 
-    /// Moment of momentum about a fixed point o, in space components (kg m²/s).
+    /// Angular momentum about a fixed point o, in space components (kg m²/s).
     ///
     /// ```text
     /// H = M (x^c − o)×v^c + I ω
@@ -224,20 +224,20 @@ impl RigidBody {
     /// motion.position.x = 1.0;
     /// motion.velocity.y = 3.0;
     /// motion.angular_velocity.z = 4.0;
-    /// assert_eq!(body.moment_of_momentum(&motion, &Vector3::zeros()).z, 6.0 + 2.0);
+    /// assert_eq!(body.angular_momentum(&motion, &Vector3::zeros()).z, 6.0 + 2.0);
     /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
     ///
     /// # Source
     /// W(2.35).
     #[must_use]
-    pub fn moment_of_momentum<T: Real>(&self, motion: &BodyMotion<T>, about: &Vector3<T>) -> Vector3<T> {
+    pub fn angular_momentum<T: Real>(&self, motion: &BodyMotion<T>, about: &Vector3<T>) -> Vector3<T> {
         let arm = motion.position - about;
         cross(&arm, &self.momentum(&motion.velocity))
             + motion.attitude.to_space(&self.spin_in_body(&motion.angular_velocity))
     }
 
-    /// Rate of moment of momentum about a fixed point o, in space components (N m).
+    /// Rate of angular momentum about a fixed point o, in space components (N m).
     ///
     /// ```text
     /// dH/dt = M (x^c − o)×a^c + I ω̇ + ω×I ω
@@ -251,14 +251,14 @@ impl RigidBody {
     /// let mut motion = BodyMotion::at_rest();
     /// motion.position.x = 1.0;
     /// motion.acceleration.y = 3.0;
-    /// assert_eq!(body.moment_of_momentum_rate(&motion, &Vector3::zeros()).z, 6.0);
+    /// assert_eq!(body.angular_momentum_rate(&motion, &Vector3::zeros()).z, 6.0);
     /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
     ///
     /// # Source
     /// W(2.39).
     #[must_use]
-    pub fn moment_of_momentum_rate<T: Real>(&self, motion: &BodyMotion<T>, about: &Vector3<T>) -> Vector3<T> {
+    pub fn angular_momentum_rate<T: Real>(&self, motion: &BodyMotion<T>, about: &Vector3<T>) -> Vector3<T> {
         let arm = motion.position - about;
         let spin_rate = self.spin_rate_in_body(&motion.angular_velocity, &motion.angular_acceleration);
         cross(&arm, &scaled(&motion.acceleration, T::lit(self.mass))) + motion.attitude.to_space(&spin_rate)

@@ -1,4 +1,4 @@
-//! Systems of particles: centre of mass, momentum, moment of momentum, energy, and König's splits.
+//! Systems of particles: centre of mass, momentum, angular momentum, energy, and König's splits.
 //!
 //! ```text
 //! M = Σm      r^c = Σ m x / M     r^{αc} = x^α − r^c     v^{αc} = v^α − v^c
@@ -84,7 +84,7 @@ impl<Q: core::ops::Add<Output = Q>> Split<Q> {
     }
 }
 
-/// Rates of momentum, moment of momentum about the origin, and kinetic energy.
+/// Rates of momentum, angular momentum about the origin, and kinetic energy.
 ///
 /// # Example
 /// See [`ParticleSystem::rates`].
@@ -95,7 +95,7 @@ pub struct SystemRates<T: Real> {
     /// dL/dt (N).
     pub momentum: Vector3<T>,
     /// dH/dt (N m).
-    pub moment_of_momentum: Split<Vector3<T>>,
+    pub angular_momentum: Split<Vector3<T>>,
     /// dE/dt (W).
     pub kinetic_energy: Split<T>,
 }
@@ -232,7 +232,7 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
         scaled(&self.velocity.rounded(), T::lit(self.mass))
     }
 
-    /// Moment of momentum about a fixed point (kg m²/s): the relative part is that about the centre of mass.
+    /// Angular momentum about a fixed point (kg m²/s): the relative part is that about the centre of mass.
     ///
     /// ```text
     /// H = M (r^c − o)×v^c + Σ m r^{αc}×v^{αc}
@@ -246,14 +246,14 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// let positions = [Vector3::<f64>::x(), -Vector3::x()];
     /// let velocities = [Vector3::y(), -Vector3::y()];
     /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &velocities)?;
-    /// assert_eq!(system.moment_of_momentum(&Vector3::zeros()).relative.z, 4.0);
+    /// assert_eq!(system.angular_momentum(&Vector3::zeros()).relative.z, 4.0);
     /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
     ///
     /// # Source
     /// W(1.22).
     #[must_use]
-    pub fn moment_of_momentum(&self, about: &Vector3<T>) -> Split<Vector3<T>> {
+    pub fn angular_momentum(&self, about: &Vector3<T>) -> Split<Vector3<T>> {
         let relative = self.sum_vector(|index, m| {
             let r = self.position.to(&self.positions[index]);
             scaled(&cross(&r, &self.velocity.to(&self.velocities[index])), m)
@@ -315,7 +315,7 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
         Matrix3::new(d.x, b.z, b.y, b.z, d.y, b.x, b.y, b.x, d.z)
     }
 
-    /// Rates of momentum, moment of momentum about the fixed point `about`, and energy at given
+    /// Rates of momentum, angular momentum about the fixed point `about`, and energy at given
     /// accelerations (m/s²).
     ///
     /// ```text
@@ -333,7 +333,7 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// let at_rest = [Vector3::zeros(); 2];
     /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &at_rest)?;
     /// let rates = system.rates(&[Vector3::y(), -Vector3::y()], &Vector3::zeros())?;
-    /// assert_eq!(rates.moment_of_momentum.relative.z, 4.0);
+    /// assert_eq!(rates.angular_momentum.relative.z, 4.0);
     /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
     ///
@@ -355,7 +355,7 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
         Ok(SystemRates {
             acceleration_of_centre_of_mass: a,
             momentum: scaled(&a, mass),
-            moment_of_momentum: Split {
+            angular_momentum: Split {
                 of_centre_of_mass: scaled(&cross(&a, &self.position.to(about)), mass),
                 relative: turning,
             },

@@ -7,27 +7,27 @@
 ///
 /// # Example
 /// ```
-/// use piola_numerics::{Error, linear::ldlt};
+/// use piola_numerics::{NumericsError, linear::ldlt};
 /// let mut matrix = [1.0, 2.0, 2.0, 4.0]; // the second row is twice the first
 /// let error = ldlt::factor_in_place(&mut matrix, 2).unwrap_err();
-/// assert_eq!(error, Error::NotPositiveDefinite { pivot: 1, value: 0.0, diagonal: 4.0 });
+/// assert_eq!(error, NumericsError::NotPositiveDefinite { pivot: 1, value: 0.0, diagonal: 4.0 });
 /// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Error {
+pub enum NumericsError {
     /// A vector or matrix has the wrong number of entries.
-    #[error("`{quantity}` has {actual} entries where {expected} are needed")]
-    Dimension {
+    #[error("`{quantity}` has {found} entries where {expected} are needed")]
+    WrongLength {
         /// The name of the argument.
         quantity: &'static str,
         /// The number of entries it must have.
         expected: usize,
         /// The number of entries it has.
-        actual: usize,
+        found: usize,
     },
     /// An entry is infinite or NaN.
     #[error("entry {index} of `{quantity}` is {value}, which is not a finite number")]
-    NonFinite {
+    NotFinite {
         /// The name of the argument or of the result.
         quantity: &'static str,
         /// The index of the first such entry, counted from 0 (in matrices down the columns).
@@ -62,18 +62,18 @@ pub enum Error {
 }
 
 /// Refuses entries that are infinite or NaN in any lane.
-pub(crate) fn check_finite<T: crate::Real>(quantity: &'static str, values: &[T]) -> Result<(), Error> {
+pub(crate) fn check_finite<T: crate::Real>(quantity: &'static str, values: &[T]) -> Result<(), NumericsError> {
     for (index, &entry) in values.iter().enumerate() {
         if !crate::Mask::all(entry.is_finite()) {
-            return Err(Error::NonFinite { quantity, index, value: first_lane(entry, |x| !x.is_finite()) });
+            return Err(NumericsError::NotFinite { quantity, index, value: first_lane(entry, |x| !x.is_finite()) });
         }
     }
     Ok(())
 }
 
 /// Refuses a slice of the wrong length.
-pub(crate) fn check_dimension(quantity: &'static str, actual: usize, expected: usize) -> Result<(), Error> {
-    if actual == expected { Ok(()) } else { Err(Error::Dimension { quantity, expected, actual }) }
+pub(crate) fn check_dimension(quantity: &'static str, found: usize, expected: usize) -> Result<(), NumericsError> {
+    if found == expected { Ok(()) } else { Err(NumericsError::WrongLength { quantity, expected, found }) }
 }
 
 /// The value of the first lane with a property; of lane 0 when none has it.

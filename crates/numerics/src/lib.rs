@@ -35,7 +35,7 @@ pub mod sums;
 
 pub use dispatch::{Kernel, LaneKernel, Level, dispatch, dispatch_at, dispatch_lanes};
 pub use dual::Dual;
-pub use error::Error;
+pub use error::NumericsError;
 pub use gradient::Gradient;
 pub use jet::Jet;
 pub use lanes::{Element, LaneMask, Lanes};

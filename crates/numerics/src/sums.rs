@@ -21,7 +21,7 @@
 //! S. M. Rump, S. Oishi, *Accurate sum and dot product*, SIAM J. Sci. Comput. 26 (2005).
 
 use crate::error::check_dimension;
-use crate::{Error, Real};
+use crate::{NumericsError, Real};
 
 /// The rounded sum of two numbers and its rounding error: `a + b = sum + error` exactly.
 ///
@@ -190,7 +190,7 @@ pub fn compensated_sum<T: Real>(terms: &[T]) -> T {
 /// use piola_numerics::sums::compensated_dot;
 /// assert_eq!(compensated_dot(&[1e8, 1.0, -1e8], &[1e8, 1.0, 1e8]), Ok(1.0)); // the plain sum is 0
 /// ```
-pub fn compensated_dot<T: Real>(a: &[T], b: &[T]) -> Result<T, Error> {
+pub fn compensated_dot<T: Real>(a: &[T], b: &[T]) -> Result<T, NumericsError> {
     check_dimension("b", b.len(), a.len())?;
     let mut sum = CompensatedSum::new();
     for (&a, &b) in a.iter().zip(b) {
@@ -218,10 +218,10 @@ pub fn compensated_dot<T: Real>(a: &[T], b: &[T]) -> Result<T, Error> {
 ///     compensated_add(&mut y, &mut carry, &[2.0_f64.powi(-60)])?; // less than half an ulp of y
 /// }
 /// assert_eq!(y, [1.0 + 2.0_f64.powi(-50)]);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline]
-pub fn compensated_add<T: Real>(y: &mut [T], carry: &mut [T], increment: &[T]) -> Result<(), Error> {
+pub fn compensated_add<T: Real>(y: &mut [T], carry: &mut [T], increment: &[T]) -> Result<(), NumericsError> {
     check_dimension("carry", carry.len(), y.len())?;
     check_dimension("increment", increment.len(), y.len())?;
     for ((y, carry), &increment) in y.iter_mut().zip(carry).zip(increment) {

@@ -23,7 +23,7 @@
 //! Biot          Rᵀ T Cof F      Rᵀ τ F⁻ᵀ        Rᵀ P            U S             U⁻¹ M           ·
 //! ```
 //! A general P, M or Q becomes a symmetric measure by its symmetric part. What is left out is zero for a stress that
-//! obeys the balance of moment of momentum W(17.34–17.35): [`FirstPiola::moment_residual`] tells how large it is, and
+//! obeys the balance of angular momentum W(17.34–17.35): [`FirstPiola::moment_residual`] tells how large it is, and
 //! [`FirstPiola::check_moment`] refuses it. Biot's stress needs R, which is computed from F; with a
 //! [`StretchAnalysis`](crate::spectral::StretchAnalysis) or R at hand the methods `…_of_analysis` and
 //! `…_of_rotation` do not compute it again.

@@ -1,4 +1,4 @@
-//! Balance of moment of momentum: what is left of it when a stress is not symmetric.
+//! Balance of angular momentum: what is left of it when a stress is not symmetric.
 //!
 //! ```text
 //! T = Tᵀ   W(17.34)        P Fᵀ = F Pᵀ   W(17.35)        residual = 2 · axial vector of the skew part
@@ -43,7 +43,7 @@ pub fn moment_residual<T: Real>(stress: &Matrix3<T>) -> Vector3<T> {
 
 impl<T: Real> FirstPiola<T> {
     /// P Fᵀ − F Pᵀ as the vector of its entries 32, 13, 21, N m per reference volume: zero by the balance of
-    /// moment of momentum.
+    /// angular momentum.
     ///
     /// # Accuracy
     /// A few ulp of |P| |F|.
@@ -66,7 +66,7 @@ impl<T: Real> FirstPiola<T> {
         Vector3::from(moment_of_first_piola(deformation.gradient_rows(), self.rows()))
     }
 
-    /// Refuses a stress that does not obey the balance of moment of momentum W(17.35) to rounding.
+    /// Refuses a stress that does not obey the balance of angular momentum W(17.35) to rounding.
     ///
     /// # Errors
     /// [`ContinuumError::NotSymmetric`] when, in any lane, two opposite entries of P Fᵀ differ by more than

@@ -279,10 +279,10 @@ fn rates_by_duals_equal_difference_quotients() {
     let rates = Resultants::in_reference(&rules, &unit_ball(), &body, &pole, Dual::variable(0.4)).expect("regular");
     let at = |t: &[f64]| {
         let of = Resultants::in_reference(&rules, &unit_ball(), &body, &pole, t[0]).expect("regular");
-        let (p, h, s) = (of.momentum, of.moment_of_momentum, of.first_moment);
+        let (p, h, s) = (of.momentum, of.angular_momentum, of.first_moment);
         vec![of.mass, p.x, p.y, p.z, h.x, h.y, h.z, s.x, s.y, s.z, of.kinetic_energy]
     };
-    let (p, h, s) = (rates.momentum, rates.moment_of_momentum, rates.first_moment);
+    let (p, h, s) = (rates.momentum, rates.angular_momentum, rates.first_moment);
     let found =
         [rates.mass, p.x, p.y, p.z, h.x, h.y, h.z, s.x, s.y, s.z, rates.kinetic_energy].map(|rate| rate.tangent);
     let expected = difference_quotient(at, &[0.4], &[1.0]);
@@ -316,7 +316,7 @@ fn resultants_of_a_rigid_ball_equal_those_of_a_particle_and_a_spin() {
     assert_close_at_scale("c", centre.as_slice(), &[1.0, 0.0, 1.2], 0.0, ROUNDING);
     // c × m v + I ω, with c = (1, 0, 1.2) and v = (0, 0, 3).
     let moment = [0.0, -3.0 * mass, inertia * spin];
-    assert_close_at_scale("h", of.moment_of_momentum.as_slice(), &moment, 0.0, ROUNDING);
+    assert_close_at_scale("h", of.angular_momentum.as_slice(), &moment, 0.0, ROUNDING);
     let energy = 0.5 * (mass * 9.0 + inertia * spin * spin);
     assert_close_at_scale("K", &[of.kinetic_energy], &[energy], 0.0, ROUNDING);
 }

@@ -54,7 +54,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// cost.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::SingularFrame`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::SingularFrame`].
     ///
     /// # Accuracy
     /// A few ulp of the terms, times the condition number of the frame.

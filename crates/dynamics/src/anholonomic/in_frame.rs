@@ -104,7 +104,7 @@ impl<S, P, F, W> InFrame<S, P, F, W> {
 /// where, and only where, the quasi-velocities are rates of coordinates.
 ///
 /// # Errors
-/// [`DynamicsError::SingularFrame`], [`DynamicsError::NonFinite`].
+/// [`DynamicsError::SingularFrame`], [`DynamicsError::NotFinite`].
 ///
 /// # Accuracy
 /// A few ulp of the terms of the bracket times the condition number of the frame.
@@ -182,7 +182,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// The velocities q̇ = k_A u^A + d.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::SingularFrame`] where
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`]; [`DynamicsError::SingularFrame`] where
     /// a coframe has no inverse.
     ///
     /// # Example
@@ -221,7 +221,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// The quasi-velocities u of the velocities q̇.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::SingularFrame`] where
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`]; [`DynamicsError::SingularFrame`] where
     /// the frame does not span the velocities.
     ///
     /// # Example
@@ -242,7 +242,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// k_A^C, entry `(A, C)`.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::SingularFrame`] where a coframe has no inverse.
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::SingularFrame`] where a coframe has no inverse.
     ///
     /// # Example
     /// See [`InFrame`].
@@ -258,7 +258,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// A^A_C of u^A = A^A_C q̇^C, entry `(A, C)`: the inverse of the transposed [`frame_matrix`](Self::frame_matrix).
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`], [`DynamicsError::SingularFrame`].
+    /// [`DynamicsError::NotFinite`], [`DynamicsError::SingularFrame`].
     ///
     /// # Example
     /// See [`InFrame`].
@@ -350,7 +350,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// | u̇ | returned | n | those of u / s |
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::SingularMetric`],
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::SingularMetric`],
     /// [`DynamicsError::SingularFrame`].
     ///
     /// # Accuracy

@@ -4,7 +4,7 @@
 //! columns: hence `solve_transposed_in_place` for a coframe.
 
 use piola_numerics::linear::lu;
-use piola_numerics::{Dual, Error, Real};
+use piola_numerics::{Dual, NumericsError, Real};
 
 use super::QuasiVelocities;
 use crate::DynamicsError;
@@ -94,11 +94,11 @@ impl<T: Real> Map<T> {
 
     /// Names the combination of rows that vanishes.
     #[cold]
-    fn explain(&self, error: Error, n: usize) -> DynamicsError {
+    fn explain(&self, error: NumericsError, n: usize) -> DynamicsError {
         if let Err(not_finite) = check_finite("frame", &self.given) {
             return not_finite;
         }
-        let Error::Singular { pivot: index, value: pivot, scale } = error else { return error.into() };
+        let NumericsError::Singular { pivot: index, value: pivot, scale } = error else { return error.into() };
         // Row `index` is Σ c_i of those before it, U c = its column of U.
         let lane = (0..T::LANES)
             .find(|&lane| self.factors[index * (n + 1)].primal(lane).to_bits() == pivot.to_bits())

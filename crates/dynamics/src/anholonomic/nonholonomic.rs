@@ -86,7 +86,7 @@ impl<S, P, F, W> InFrame<S, P, F, W> {
     /// Holds quasi-velocities at constant values: a motor that keeps its speed.
     ///
     /// # Errors
-    /// [`DynamicsError::HeldTwice`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::HeldTwice`], [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// ```
@@ -174,7 +174,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// All quasi-velocities u: the free ones and those held, each in its place.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NoSuchQuasiVelocity`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NoSuchQuasiVelocity`].
     ///
     /// # Example
     /// See [`Nonholonomic`].
@@ -350,7 +350,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// used.
     ///
     /// # Errors
-    /// As [`part_reactions`](Self::part_reactions); [`DynamicsError::DimensionMismatch`] when `out` does not have
+    /// As [`part_reactions`](Self::part_reactions); [`DynamicsError::WrongLength`] when `out` does not have
     /// one place for each part.
     ///
     /// # Example

@@ -2,7 +2,7 @@
 
 use piola_kinematics::Holonomic;
 use piola_numerics::linear::ldlt;
-use piola_numerics::{Error, Mask, Real};
+use piola_numerics::{NumericsError, Mask, Real};
 
 use super::map::{Map, dot, zeros};
 use super::{InFrame, QuasiVelocities};
@@ -164,7 +164,7 @@ impl<T: Real> Workspace<T> {
     /// A motion without inertia, or quasi-velocities without motion.
     #[cold]
     fn explain(&self, error: Error) -> DynamicsError {
-        let Error::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
+        let NumericsError::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
         let (n, m) = (self.velocity.len(), self.free.len());
         let mut direction = vec![T::zero(); m];
         if ldlt::null_direction_into(&self.metric, m, pivot, &mut direction).is_err() {

@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 use piola_kinematics::Holonomic;
 use piola_numerics::linear::ldlt;
-use piola_numerics::{Error, Mask, Real};
+use piola_numerics::{NumericsError, Mask, Real};
 
 use super::workspace::{Workspace, size, zeros};
 use super::{Constrained, Constraints, Redundancy};
@@ -28,7 +28,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     /// the constraints leave is without inertia.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::SingularMetric`],
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`]; [`DynamicsError::SingularMetric`],
     /// which names a motion without inertia that the constraints leave; [`DynamicsError::RedundantConstraint`]
     /// if so [asked](Redundancy::Refused).
     ///
@@ -249,8 +249,8 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
 
     /// A motion that the constraints leave and that has no inertia.
     #[cold]
-    fn explain<T: Real>(error: Error, work: &Workspace<T>) -> DynamicsError {
-        let Error::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
+    fn explain<T: Real>(error: NumericsError, work: &Workspace<T>) -> DynamicsError {
+        let NumericsError::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
         let n = work.forcing.len();
         let mut direction = vec![T::zero(); n];
         if ldlt::null_direction_into(&work.independence.factors, n, pivot, &mut direction).is_err() {

@@ -73,7 +73,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     /// The rates of the residuals, φ̇ = G q̇ + ∂φ/∂t.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::WrongLength`].
     pub fn residual_rates<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, DynamicsError> {
         check_length("q̇", q.len(), v.len())?;
         let mut work = Workspace::default();

@@ -9,7 +9,7 @@
 //! the others depend on those taken.
 
 use piola_numerics::linear::ldlt;
-use piola_numerics::{Error, Real};
+use piola_numerics::{NumericsError, Real};
 
 use super::workspace::{dot, size, zeros};
 

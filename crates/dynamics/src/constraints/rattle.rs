@@ -12,7 +12,7 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::{Ending, Field, IntegrationError, Report, State, Step};
+use piola_integrators::{Ending, Field, IntegratorsError, Report, State, Step};
 use piola_kinematics::Holonomic;
 
 use super::workspace::{Workspace, dot, zeros};
@@ -82,10 +82,10 @@ impl Rattle {
     /// RATTLE whose steps are no longer than `step` (s): of order two.
     ///
     /// # Errors
-    /// [`IntegrationError::InvalidStep`] unless 0 < step < ∞.
-    pub fn new(step: f64) -> Result<Self, IntegrationError> {
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+    pub fn new(step: f64) -> Result<Self, IntegratorsError> {
         if !(0.0 < step && step < f64::INFINITY) {
-            return Err(IntegrationError::InvalidStep { step });
+            return Err(IntegratorsError::InvalidStep { step });
         }
         let buffer = Vec::new;
         Ok(Self {
@@ -149,14 +149,14 @@ impl Rattle {
         let n = state.values.len() / 2;
         let mut report = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
         let failed =
-            |time: f64, error: IntegrationError<DynamicsError>| DynamicsError::Run { time, source: Box::new(error) };
+            |time: f64, error: IntegratorsError<DynamicsError>| DynamicsError::Run { time, source: Box::new(error) };
         let start = state.time;
         if state.values.len() != 2 * n {
             let found = state.values.len();
-            return Err(failed(start, IntegrationError::DimensionMismatch { expected: 2 * n, found }));
+            return Err(failed(start, IntegratorsError::DimensionMismatch { expected: 2 * n, found }));
         }
         if !(end - start).is_finite() {
-            return Err(failed(start, IntegrationError::NonFiniteTime { time: end }));
+            return Err(failed(start, IntegratorsError::NonFiniteTime { time: end }));
         }
         if (end - start).abs() <= 0.0 {
             return Ok(report);
@@ -164,7 +164,7 @@ impl Rattle {
         let count = ((end - start).abs() / self.step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
         let h = (end - start) / count;
         if h.abs() < f64::EPSILON * start.abs().max(end.abs()) {
-            return Err(failed(start, IntegrationError::StepTooSmall { time: start, step: h }));
+            return Err(failed(start, IntegratorsError::StepTooSmall { time: start, step: h }));
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
         let steps = count as u64;
@@ -172,7 +172,7 @@ impl Rattle {
         self.prepare(2 * n);
         let mut field = system.lagrangian.canonical_motion(n);
         hold(system, &mut self.work, &state.values[..n], &mut self.velocity, start)
-            .map_err(|source| failed(start, IntegrationError::Field { time: start, source }))?;
+            .map_err(|source| failed(start, IntegratorsError::Field { time: start, source }))?;
         for number in 1..=steps {
             let time = state.time;
             let next = if number == steps { end } else { start + h * number as f64 };
@@ -215,9 +215,9 @@ impl Rattle {
         (from, to): (f64, f64),
         h: f64,
         report: &mut Report,
-    ) -> Result<(), IntegrationError<DynamicsError>> {
+    ) -> Result<(), IntegratorsError<DynamicsError>> {
         let n = y.len() / 2;
-        let at = |time: f64| move |source: DynamicsError| IntegrationError::Field { time, source };
+        let at = |time: f64| move |source: DynamicsError| IntegratorsError::Field { time, source };
         let count = system.constraints.count();
         let half = 0.5 * h;
         // The impulse of the last step, along the gradients of this one, is the first guess.
@@ -269,7 +269,7 @@ impl Rattle {
             }
             change = change.max(relative(largest(&self.change), scale_q));
             if !change.is_finite() || sweep == MOST_SWEEPS {
-                return Err(IntegrationError::StagesDiverged { time: from, step: h, iterations: sweep, change });
+                return Err(IntegratorsError::StagesDiverged { time: from, step: h, iterations: sweep, change });
             }
             // Converged when the next change would be below rounding, or when rounding has stopped the fall.
             let predicted = if previous.is_finite() { change * (change / previous).min(1.0) } else { change };
@@ -301,7 +301,7 @@ impl Rattle {
             }
         }
         if let Some(index) = self.end.iter().position(|x| !x.is_finite()) {
-            return Err(IntegrationError::NonFiniteRate { time: from, index });
+            return Err(IntegratorsError::NonFiniteRate { time: from, index });
         }
         y.copy_from_slice(&self.end);
         Ok(())

@@ -68,7 +68,7 @@ impl Front {
     /// A front at s = 0 of rows (x, u, ξ) in m variables.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless the rows are full; [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`] unless the rows are full; [`DynamicsError::NotFinite`].
     pub fn new(variables: usize, rows: Vec<f64>) -> Result<Self, DynamicsError> {
         let n = 2 * variables + 1;
         check_length("rows of the front", rows.len().next_multiple_of(n), rows.len())?;
@@ -108,7 +108,7 @@ impl Front {
     /// every four rows; the steps and evaluations in between need none.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::Run`] of the first group that fails, in the order of the rows. The
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::Run`] of the first group that fails, in the order of the rows. The
     /// front then stands where it stood.
     ///
     /// # Accuracy

@@ -101,7 +101,7 @@ impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<
     /// and derivatives at the corners of the cells.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless m = 2; [`DynamicsError::NonFinite`];
+    /// [`DynamicsError::WrongLength`] unless m = 2; [`DynamicsError::NotFinite`];
     /// [`DynamicsError::InvalidInterval`] unless 0 < spacing.
     ///
     /// # Accuracy

@@ -83,7 +83,7 @@ impl<'a, P: FirstOrderPde> MongeCone<'a, P> {
     /// The cone at (x, u).
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::NotFinite`].
     pub fn new(equation: &'a P, x: &[f64], u: f64) -> Result<Self, DynamicsError> {
         check_finite("x", x)?;
         check_finite("u", &[u])?;
@@ -106,8 +106,8 @@ impl<'a, P: FirstOrderPde> MongeCone<'a, P> {
     /// ```
     ///
     /// # Errors
-    /// [`DynamicsError::NoGenerator`] unless Φ(x, u, ξ) = 0; [`DynamicsError::DimensionMismatch`],
-    /// [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::NoGenerator`] unless Φ(x, u, ξ) = 0; [`DynamicsError::WrongLength`],
+    /// [`DynamicsError::NotFinite`].
     pub fn generator(&self, xi: &[f64]) -> Result<Generator, DynamicsError> {
         self.check_covector("ξ", xi)?;
         let m = self.x.len();
@@ -188,8 +188,8 @@ impl<'a, P: FirstOrderPde> MongeCone<'a, P> {
     /// covector nearest to the guess is taken. The direction of the generator may be −x′.
     ///
     /// # Errors
-    /// [`DynamicsError::NoGenerator`] with the residual where the iteration ends; [`DynamicsError::DimensionMismatch`],
-    /// [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::NoGenerator`] with the residual where the iteration ends; [`DynamicsError::WrongLength`],
+    /// [`DynamicsError::NotFinite`].
     pub fn generator_over(&self, direction: &[f64], guess: &[f64]) -> Result<Generator, DynamicsError> {
         const STEPS: usize = 60;
         self.check_covector("direction", direction)?;
@@ -261,7 +261,7 @@ impl<'a, P: FirstOrderPde> MongeCone<'a, P> {
     /// ```
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     pub fn monge_residual(&self, x_rate: &[f64], u_rate: f64, xi: &[f64]) -> Result<MongeResidual, DynamicsError> {
         self.check_covector("x′", x_rate)?;
         self.check_covector("ξ", xi)?;

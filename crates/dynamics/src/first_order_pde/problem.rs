@@ -92,10 +92,10 @@ impl<'a, P: FirstOrderPde, M: InitialManifold> CauchyProblem<'a, P, M> {
     /// otherwise see [`near`](Self::near).
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] when m < 2; tolerances are those of rounding.
+    /// [`DynamicsError::WrongLength`] when m < 2; tolerances are those of rounding.
     pub fn new(equation: &'a P, manifold: &'a M, variables: usize) -> Result<Self, DynamicsError> {
         if variables < 2 {
-            return Err(DynamicsError::DimensionMismatch { quantity: "x", expected: 2, found: variables });
+            return Err(DynamicsError::WrongLength { quantity: "x", expected: 2, found: variables });
         }
         let tolerance = Tolerance::relative(TOLERANCE)
             .map_err(|source| DynamicsError::Run { time: 0.0, source: Box::new(source.with_field_error()) })?;
@@ -106,7 +106,7 @@ impl<'a, P: FirstOrderPde, M: InitialManifold> CauchyProblem<'a, P, M> {
     /// point.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     pub fn near(mut self, guess: &[f64]) -> Result<Self, DynamicsError> {
         check_length("guess of ξ", self.data.variables, guess.len())?;
         check_finite("guess of ξ", guess)?;
@@ -144,7 +144,7 @@ impl<'a, P: FirstOrderPde, M: InitialManifold> CauchyProblem<'a, P, M> {
     /// to rounding as the zero of its derivative.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::DependentParameters`],
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::DependentParameters`],
     /// [`DynamicsError::NoInitialCovector`]; [`DynamicsError::NotAStrip`] for a given ξ.
     ///
     /// # Example

@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::{Crossing, DormandPrince853, Event, EventAction, Field, IntegrationError, State, Tolerance};
+use piola_integrators::{Crossing, DormandPrince853, Event, EventAction, Field, IntegratorsError, State, Tolerance};
 use piola_numerics::Real;
 
 use super::{FirstOrderPde, RayField};
@@ -73,7 +73,7 @@ pub(super) fn march<P: FirstOrderPde, T: Real>(
     Ok(state.values)
 }
 
-fn failed(time: f64, source: IntegrationError<DynamicsError>) -> DynamicsError {
+fn failed(time: f64, source: IntegratorsError<DynamicsError>) -> DynamicsError {
     DynamicsError::Run { time, source: Box::new(source) }
 }
 

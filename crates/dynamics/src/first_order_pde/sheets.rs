@@ -25,7 +25,7 @@ impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<
     ///
     /// # Errors
     /// [`DynamicsError::OutsideOfCharacteristics`], [`DynamicsError::SeveralSheets`] with all values,
-    /// [`DynamicsError::BeyondCaustic`]; [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::BeyondCaustic`]; [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     ///
     /// # Accuracy
     /// That of the tolerance over the smallest singular value of the ray map: the characteristic through x is
@@ -68,7 +68,7 @@ impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<
     /// interpolated cell. Two sheets closer than the resolution can be missed.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     pub fn sheets_at(&self, x: &[f64]) -> Result<Vec<Sheet>, DynamicsError> {
         check_length("x", self.problem.data.variables, x.len())?;
         check_finite("x", x)?;

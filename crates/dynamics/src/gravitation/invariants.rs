@@ -1,4 +1,4 @@
-//! Energy, momentum and moment of momentum of gravitating bodies, in compensated sums.
+//! Energy, momentum and angular momentum of gravitating bodies, in compensated sums.
 
 use piola_numerics::sums::CompensatedSum;
 
@@ -18,9 +18,9 @@ pub struct GravitationInvariants {
     /// G Σ m |v|: what the momentum is compared with.
     pub momentum_scale: f64,
     /// G Σ m r × v about the origin, m⁵/s³.
-    pub moment_of_momentum: [f64; 3],
-    /// G Σ m |r × v|: what the moment of momentum is compared with.
-    pub moment_of_momentum_scale: f64,
+    pub angular_momentum: [f64; 3],
+    /// G Σ m |r × v|: what the angular momentum is compared with.
+    pub angular_momentum_scale: f64,
 }
 
 impl Gravitation {
@@ -36,7 +36,7 @@ impl Gravitation {
     /// let state = pair.state(&[[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]], &[[0.0, 0.5, 0.0], [0.0, -0.5, 0.0]])?;
     /// let invariants = pair.invariants(&state);
     /// assert_eq!(invariants.energy, -0.25); // 2·½·¼ − ½
-    /// assert_eq!(invariants.moment_of_momentum, [0.0, 0.0, 1.0]);
+    /// assert_eq!(invariants.angular_momentum, [0.0, 0.0, 1.0]);
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     ///
@@ -91,8 +91,8 @@ impl Gravitation {
             post_newtonian_energy: energy.value() + correction.value(),
             momentum: momentum.map(CompensatedSum::value),
             momentum_scale: momentum_scale.value(),
-            moment_of_momentum: moment.map(CompensatedSum::value),
-            moment_of_momentum_scale: moment_scale.value(),
+            angular_momentum: moment.map(CompensatedSum::value),
+            angular_momentum_scale: moment_scale.value(),
         }
     }
 }

@@ -141,7 +141,7 @@ impl Gravitation {
     /// glam's `DVec3`.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], and
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], and
     /// [`DynamicsError::CoincidentBodies`] when two bodies are in one place where their attraction is
     /// infinite: see [`with_softening`](Self::with_softening).
     ///
@@ -167,7 +167,7 @@ impl Gravitation {
             for (body, &triple) in triples.iter().enumerate() {
                 for (component, value) in triple.into().into_iter().enumerate() {
                     if !value.is_finite() {
-                        return Err(DynamicsError::NonFinite { quantity, index: 3 * body + component, value });
+                        return Err(DynamicsError::NotFinite { quantity, index: 3 * body + component, value });
                     }
                     state[(3 * block + component) * n + body] = value;
                 }
@@ -242,8 +242,8 @@ impl Gravitation {
     /// Writes the Newtonian accelerations (m/s²) at the positions: both in the order of the state.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`]; when an acceleration is infinite or NaN, why:
-    /// [`DynamicsError::NonFinite`] for a position, [`DynamicsError::CoincidentBodies`] for bodies whose
+    /// [`DynamicsError::WrongLength`]; when an acceleration is infinite or NaN, why:
+    /// [`DynamicsError::NotFinite`] for a position, [`DynamicsError::CoincidentBodies`] for bodies whose
     /// distance is zero or so small that its cube is. Nothing is looked for while all is well.
     ///
     /// # Accuracy
@@ -307,7 +307,7 @@ impl Gravitation {
         }
         match check_finite("accelerations", accelerations) {
             Err(error) => error,
-            Ok(()) => DynamicsError::NonFinite { quantity: "accelerations", index: 0, value: f64::NAN },
+            Ok(()) => DynamicsError::NotFinite { quantity: "accelerations", index: 0, value: f64::NAN },
         }
     }
 

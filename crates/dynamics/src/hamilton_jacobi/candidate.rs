@@ -99,7 +99,7 @@ impl<H: PhaseFunction, U: PrincipalFunction, T: Real> Candidate<H, U, T> {
     /// What is left of the equation at an event.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`] where q, t, or a derivative of U is not finite, or H.
+    /// [`DynamicsError::NotFinite`] where q, t, or a derivative of U is not finite, or H.
     ///
     /// # Accuracy
     /// A few ulp of the terms of U and H.
@@ -174,7 +174,7 @@ impl<H: PhaseFunction, U: PrincipalFunction, T: Real> StationaryCandidate<H, U, 
     /// H(q, ∂S/∂q) − E.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::NotFinite`].
     pub fn residual(&mut self, q: &[T]) -> Result<Residual<T>, DynamicsError> {
         let found = self.candidate.residual(q, T::zero())?;
         Ok(Residual { value: found.energy - self.energy, time_derivative: -self.energy, energy: found.energy })

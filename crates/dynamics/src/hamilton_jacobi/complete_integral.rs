@@ -179,7 +179,7 @@ impl<'a, H: PhaseFunction, U: CompleteIntegral> Constants<'a, H, U> {
     /// from a guess, then P = −∂U/∂Q.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::IncompleteIntegral`]
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`]; [`DynamicsError::IncompleteIntegral`]
     /// where det ∂²U/∂q∂Q = 0; [`DynamicsError::NotFound`] when the iteration does not converge;
     /// [`DynamicsError::NoSolution`] when U does not solve the Hamilton–Jacobi equation there.
     pub fn through(
@@ -231,7 +231,7 @@ impl<'a, H: PhaseFunction, U: CompleteIntegral> Constants<'a, H, U> {
     /// for −∂U/∂Q = P, continued in time as far as is needed.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::IncompleteIntegral`] and
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`]; [`DynamicsError::IncompleteIntegral`] and
     /// [`DynamicsError::NotFound`] where U ends, as at a turning point of one of its branches.
     pub fn at(&self, t: f64, (q, known): (&[f64], f64)) -> Result<(Vec<f64>, Vec<f64>), DynamicsError> {
         let n = self.values.len();

@@ -94,7 +94,7 @@ impl IntegralConoid {
     /// The rays that leave a vertex with given momenta, at given times (in order, all after the vertex or all before).
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::TimesNotIncreasing`],
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::TimesNotIncreasing`],
     /// [`DynamicsError::Run`].
     pub fn new<H: PhaseFunction>(
         hamiltonian: &H,
@@ -122,7 +122,7 @@ impl IntegralConoid {
     /// them an energy: H(q₀, p, t₀) = E.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::NotFound`] where H does
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`]; [`DynamicsError::NotFound`] where H does
     /// not reach the energy in some direction.
     pub fn fan<H: PhaseFunction>(
         hamiltonian: &H,

@@ -41,7 +41,7 @@ impl<H: PhaseFunction> GeodeticDistance<'_, H> {
     /// boundary, where a ray of the boundary ends in a singularity.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::EventsAtOneTime`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::EventsAtOneTime`].
     ///
     /// # Accuracy
     /// The boundary is followed in steps in which the miss changes by at most half of itself.

@@ -91,7 +91,7 @@ impl<H: PhaseFunction, U: PrincipalFunction> ExtremalField<'_, H, U> {
     /// Follows the extremal through (q₀, t₀) to t₁.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::Run`] where the field ends, as at a caustic of U.
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::Run`] where the field ends, as at a caustic of U.
     ///
     /// # Accuracy
     /// That of the tolerance, times what neighbouring extremals spread.

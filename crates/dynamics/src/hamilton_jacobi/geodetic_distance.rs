@@ -131,7 +131,7 @@ impl<'a, H: PhaseFunction> GeodeticDistance<'a, H> {
     /// [`all_between`](Self::all_between).
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::EventsAtOneTime`];
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::EventsAtOneTime`];
     /// [`DynamicsError::NoExtremal`] with the best miss; [`DynamicsError::ConjugateEvents`].
     pub fn between(&self, from: &Event, to: &Event, momenta: &[f64]) -> Result<Extremal, DynamicsError> {
         check_events(from, to, momenta.len())?;

@@ -86,7 +86,7 @@ impl StripResidual {
     /// The residuals of a strip at τ.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`] where τ, the strip or H is not finite.
+    /// [`DynamicsError::NotFinite`] where τ, the strip or H is not finite.
     pub fn of<H: PhaseFunction>(hamiltonian: &H, strip: &impl Strip, tau: f64) -> Result<Self, DynamicsError> {
         check_finite("τ", &[tau])?;
         let n = strip.freedom();
@@ -183,7 +183,7 @@ impl<'a, H: PhaseFunction, T: Real> CharacteristicStrip<'a, H, T> {
     /// The element (q, t, U, p, p_t) with p_t = −H(q, p, t) from which a strip starts.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     pub fn start(hamiltonian: &'a H, q: &[T], p: &[T], t: T, u: T) -> Result<Vec<T>, DynamicsError> {
         check_length("p", q.len(), p.len())?;
         let element: Vec<T> =

@@ -163,7 +163,7 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
     /// The transversal that starts at an event; where values are given, at their time whatever `t` is.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::NotFound`] when there is no λ near the guess;
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::NotFound`] when there is no λ near the guess;
     /// [`DynamicsError::NotTransversal`] where the extremal touches the manifold.
     pub fn start(&self, q: &[f64], t: f64) -> Result<Transversal, DynamicsError> {
         check_finite("q", q)?;
@@ -240,7 +240,7 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
     /// Follows a transversal to a time.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::Run`].
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::Run`].
     pub fn follow(&self, start: &Transversal, time: f64) -> Result<TransversalPoint, DynamicsError> {
         check_finite("t", &[time])?;
         let (n, from) = (start.foot.coordinates.len(), start.foot.time);

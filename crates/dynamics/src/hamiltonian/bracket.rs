@@ -65,13 +65,13 @@ fn bracket_at_once<T: Real, const D: usize>(
 /// ```
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`]; [`DynamicsError::NonFinite`], of the point or of the bracket.
+/// [`DynamicsError::WrongLength`]; [`DynamicsError::NotFinite`], of the point or of the bracket.
 ///
 /// # Accuracy
 /// A few ulp of Σ |K_q H_p| + |K_p H_q| beside what K and H lose themselves; {K, H} = −{H, K} to the last bit.
 ///
 /// # Example
-/// The components of the moment of momentum: {L₁, L₂} = L₃.
+/// The components of the angular momentum: {L₁, L₂} = L₃.
 /// ```
 /// use piola_dynamics::hamiltonian::{PhaseFunction, poisson_bracket};
 /// use piola_numerics::Real;

@@ -34,7 +34,7 @@ pub struct IntegralsFound {
 /// position, and more than the candidates; what they do not tell apart is not told apart.
 ///
 /// # Errors
-/// [`DynamicsError::TooFewSamples`] for fewer points than candidates; [`DynamicsError::NonFinite`];
+/// [`DynamicsError::TooFewSamples`] for fewer points than candidates; [`DynamicsError::NotFinite`];
 /// [`DynamicsError::NoEigenvalues`] should the decomposition not converge.
 ///
 /// # Example

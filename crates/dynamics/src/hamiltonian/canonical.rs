@@ -93,7 +93,7 @@ impl<M: InvertiblePhaseMap> InvertiblePhaseMap for &M {
 /// The Jacobian carries vectors tangent to phase space: (δQ, δP) = J (δq, δp).
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], and what the map refuses.
+/// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], and what the map refuses.
 ///
 /// # Example
 /// ```
@@ -255,7 +255,7 @@ pub fn require_canonical(
 /// As [`image_and_jacobian`].
 ///
 /// # Example
-/// A frame that turns takes Ω times the moment of momentum off the Hamiltonian:
+/// A frame that turns takes Ω times the angular momentum off the Hamiltonian:
 /// ```
 /// use piola_dynamics::hamiltonian::{PhaseMap, RotatingFrame, contact_test};
 /// let frame = RotatingFrame::new(0.5)?;

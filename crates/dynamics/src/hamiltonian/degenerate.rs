@@ -70,7 +70,7 @@ impl<W: GeneratingFunction, C: Identities, S: Real> WithMultipliers<'_, W, C, S>
 /// New coordinates and multipliers are found together by Newton's iteration from a guess of both.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] for guesses of other lengths; [`DynamicsError::Numerics`] where the equations
+/// [`DynamicsError::WrongLength`] for guesses of other lengths; [`DynamicsError::Numerics`] where the equations
 /// are singular, so where the identities depend on each other; [`DynamicsError::NotSolved`].
 ///
 /// # Example

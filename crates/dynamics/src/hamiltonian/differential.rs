@@ -107,7 +107,7 @@ pub(crate) fn check_result<T: Real>(
 /// The differential dK = (∂K/∂q, ∂K/∂p).
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`]; [`DynamicsError::NonFinite`], of the point or of dK where K has no
+/// [`DynamicsError::WrongLength`]; [`DynamicsError::NotFinite`], of the point or of dK where K has no
 /// derivative.
 ///
 /// # Accuracy

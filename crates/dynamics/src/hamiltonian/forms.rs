@@ -339,14 +339,14 @@ pub(super) fn check_dimension(accepts: bool, dimension: usize) -> Result<(), Dyn
         Ok(())
     } else {
         // One more or less: the other parity.
-        Err(DynamicsError::DimensionMismatch { quantity: "x", expected: dimension + 1, found: dimension })
+        Err(DynamicsError::WrongLength { quantity: "x", expected: dimension + 1, found: dimension })
     }
 }
 
 /// The exterior derivative of a form of degree one: (dα)_ij = ∂_i α_j − ∂_j α_i.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] where the form does not live; [`DynamicsError::NonFinite`].
+/// [`DynamicsError::WrongLength`] where the form does not live; [`DynamicsError::NotFinite`].
 ///
 /// # Accuracy
 /// Derivatives are exact to rounding.
@@ -378,7 +378,7 @@ pub fn exterior_derivative<T: Real>(form: &impl OneForm, x: &[T]) -> Result<DMat
 /// where the form is closed.
 ///
 /// # Errors
-/// [`DynamicsError::NonFinite`].
+/// [`DynamicsError::NotFinite`].
 ///
 /// # Example
 /// β = q₁ dq₂ ∧ dp₁ is not closed, ω is:
@@ -422,7 +422,7 @@ pub fn closedness_residual(form: &impl TwoForm, x: &[f64]) -> Result<f64, Dynami
 /// The velocity that follows from a covector by ω, checked for length: ω⁻¹ of any covector on phase space.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] where the covector has no even number of components.
+/// [`DynamicsError::WrongLength`] where the covector has no even number of components.
 ///
 /// # Example
 /// ```

@@ -133,7 +133,7 @@ pub(super) fn time_partial<T: Real>(function: &impl GeneratingFunction, old: &[T
 /// back: for the old argument); it needs det ∂²W/∂old ∂new ≠ 0.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] for a guess of another length; [`DynamicsError::Numerics`] where ∂²W/∂old ∂new
+/// [`DynamicsError::WrongLength`] for a guess of another length; [`DynamicsError::Numerics`] where ∂²W/∂old ∂new
 /// is singular; [`DynamicsError::NotSolved`] where the iteration does not converge.
 ///
 /// # Accuracy

@@ -58,7 +58,7 @@ impl PhasePoint {
     /// The point (q, p) at the time t.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`PhasePoint`].
@@ -185,7 +185,7 @@ impl IntegralTest {
 /// the points given.
 ///
 /// # Errors
-/// [`DynamicsError::TooFewSamples`] without points; [`DynamicsError::NonFinite`] where a function has no derivatives.
+/// [`DynamicsError::TooFewSamples`] without points; [`DynamicsError::NotFinite`] where a function has no derivatives.
 ///
 /// # Example
 /// The energy of an oscillator is kept, its momentum is not:
@@ -304,10 +304,10 @@ impl Involution {
 /// n independent integrals in involution make a system of n degrees of freedom integrable.
 ///
 /// # Errors
-/// [`DynamicsError::NonFinite`] where a function has no derivatives.
+/// [`DynamicsError::NotFinite`] where a function has no derivatives.
 ///
 /// # Example
-/// Two components of the moment of momentum are not in involution; a component and L² are, and are independent.
+/// Two components of the angular momentum are not in involution; a component and L² are, and are independent.
 /// ```
 /// use piola_dynamics::hamiltonian::{PhaseFunctions, PhasePoint, involution_test};
 /// use piola_numerics::Real;

@@ -93,7 +93,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 /// [`Lagrangian::canonical_motion`], which does not.
 ///
 /// # Example
-/// The moment of momentum of a planar oscillator is kept:
+/// The angular momentum of a planar oscillator is kept:
 /// ```
 /// use nalgebra::Vector3;
 /// use piola_dynamics::hamiltonian::{LegendreTransform, PhaseFunction, poisson_bracket};

@@ -49,7 +49,7 @@ fn moving<T: Real>(x: &[T], k: &[T]) -> Vec<Dual<T>> {
 /// {f, H}, and along the extended one ∂f/∂t + {f, H}; the differential of f goes with it, L_k df = d(L_k f).
 ///
 /// # Errors
-/// [`DynamicsError::NonFinite`], of the point, of the field or of the result.
+/// [`DynamicsError::NotFinite`], of the point, of the field or of the result.
 ///
 /// # Accuracy
 /// The derivative is exact to rounding: a few ulp of Σ |f_{,i} k^i| beside what f and k lose themselves.
@@ -99,7 +99,7 @@ pub fn lie_derivative_of_function<T: Real>(
 /// The Lie derivative of a form of degree one along a field.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] where the form does not live; [`DynamicsError::NonFinite`].
+/// [`DynamicsError::WrongLength`] where the form does not live; [`DynamicsError::NotFinite`].
 ///
 /// # Accuracy
 /// Derivatives are exact to rounding.
@@ -140,7 +140,7 @@ pub fn lie_derivative_of_one_form<T: Real>(
 /// The Lie derivative of a form of degree two along a field.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] where the form does not live; [`DynamicsError::NonFinite`].
+/// [`DynamicsError::WrongLength`] where the form does not live; [`DynamicsError::NotFinite`].
 ///
 /// # Accuracy
 /// Derivatives are exact to rounding.
@@ -200,7 +200,7 @@ pub struct LocallyHamiltonianTest {
 /// Tests whether a field is locally Hamiltonian at a point x = (q, p): whether L_k ω = 0.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] where x has no even number of components; [`DynamicsError::NonFinite`].
+/// [`DynamicsError::WrongLength`] where x has no even number of components; [`DynamicsError::NotFinite`].
 ///
 /// # Example
 /// Friction shrinks areas of phase space, a rotation keeps them:

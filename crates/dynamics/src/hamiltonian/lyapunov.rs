@@ -45,7 +45,7 @@ pub struct LyapunovExponents {
 /// error leaves undone is lost; choose the span so that the motion stays regular.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] for more exponents than 2n; [`DynamicsError::NotPositive`] for the interval,
+/// [`DynamicsError::WrongLength`] for more exponents than 2n; [`DynamicsError::NotPositive`] for the interval,
 /// [`DynamicsError::TooFewSamples`] for none;
 /// [`DynamicsError::Run`].
 ///
@@ -90,7 +90,7 @@ pub fn lyapunov_exponents(
     let n = start.q().len();
     let dimension = 2 * n;
     if dimension < count {
-        return Err(DynamicsError::DimensionMismatch { quantity: "exponents", expected: dimension, found: count });
+        return Err(DynamicsError::WrongLength { quantity: "exponents", expected: dimension, found: count });
     }
     // (q, p), the action, and the variations.
     let mut values = [start.q(), start.p(), &[0.0]].concat();

@@ -50,13 +50,13 @@ pub struct SymmetryFlow {
 /// Follows the flow of K, dq/dτ = ∂K/∂p, dp/dτ = −∂K/∂q, at a fixed time, and watches H.
 ///
 /// Where K is an integral of H and neither depends on time, H stays what it is: the flow is a symmetry. The unit of τ is
-/// that of J s over the unit of K: an angle for a moment of momentum, a length for a momentum.
+/// that of J s over the unit of K: an angle for a angular momentum, a length for a momentum.
 ///
 /// # Errors
-/// [`DynamicsError::NonFinite`]; [`DynamicsError::Run`] when the flow cannot be followed that far.
+/// [`DynamicsError::NotFinite`]; [`DynamicsError::Run`] when the flow cannot be followed that far.
 ///
 /// # Example
-/// The moment of momentum turns the plane, here by a right angle:
+/// The angular momentum turns the plane, here by a right angle:
 /// ```
 /// use piola_dynamics::hamiltonian::{PhaseFunction, PhasePoint, symmetry_flow};
 /// use piola_integrators::Tolerance;
@@ -97,7 +97,7 @@ pub fn symmetry_flow(
     let frozen = AtTime { function, time: t };
     let mut field = HamiltonianField::new(&frozen, n);
     let refused = |source| DynamicsError::Run { time: t, source: Box::new(source) };
-    let mut state = State::new(0.0, [start.q(), start.p()].concat()).map_err(|_| DynamicsError::NonFinite {
+    let mut state = State::new(0.0, [start.q(), start.p()].concat()).map_err(|_| DynamicsError::NotFinite {
         quantity: "start",
         index: 0,
         value: f64::NAN,
@@ -183,8 +183,8 @@ const LOCALLY_HAMILTONIAN: f64 = 1e-10;
 /// middle.
 ///
 /// # Errors
-/// [`DynamicsError::NotLocallyHamiltonian`] with the worst entry of L_k ω; [`DynamicsError::DimensionMismatch`];
-/// [`DynamicsError::NonFinite`]; [`DynamicsError::QuadratureNotConverged`].
+/// [`DynamicsError::NotLocallyHamiltonian`] with the worst entry of L_k ω; [`DynamicsError::WrongLength`];
+/// [`DynamicsError::NotFinite`]; [`DynamicsError::QuadratureNotConverged`].
 ///
 /// # Example
 /// See [`Generator`].

@@ -72,7 +72,7 @@ impl<'a, H: PhaseFunction, S: PhaseFunction> PoincareSection<'a, H, S> {
     /// extension of each step, of order seven.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::Run`] when the motion cannot be followed.
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::Run`] when the motion cannot be followed.
     ///
     /// # Example
     /// See [`PoincareSection`].

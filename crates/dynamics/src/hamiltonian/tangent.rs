@@ -74,7 +74,7 @@ impl<T: Real, const N: usize> TangentVector<T, N> {
     /// v̄ = (∂q/∂q̄)⁻¹ v: from the old coordinates to the new ones, at the point of new coordinates q̄.
     ///
     /// # Errors
-    /// [`DynamicsError::Numerics`] where the change of coordinates is singular; [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::Numerics`] where the change of coordinates is singular; [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`TangentVector`].
@@ -88,7 +88,7 @@ impl<T: Real, const N: usize> TangentVector<T, N> {
 /// A cotangent vector of the configuration space: a momentum, covariant.
 ///
 /// # Example
-/// In polar coordinates the momentum along φ is the moment of momentum:
+/// In polar coordinates the momentum along φ is the angular momentum:
 /// ```
 /// use piola_dynamics::hamiltonian::{CotangentVector, TangentVector};
 /// use piola_dynamics::lagrangian::ChangeOfCoordinates;
@@ -129,7 +129,7 @@ impl<T: Real, const N: usize> CotangentVector<T, N> {
     /// p = (∂q/∂q̄)⁻ᵀ p̄: from the new coordinates to the old ones.
     ///
     /// # Errors
-    /// [`DynamicsError::Numerics`] where the change of coordinates is singular; [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::Numerics`] where the change of coordinates is singular; [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`CotangentVector`].

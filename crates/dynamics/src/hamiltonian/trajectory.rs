@@ -100,7 +100,7 @@ impl<K: PhaseFunctions, H: PhaseFunction> Chart<'_, K, H> {
                     self.find_velocity()?;
                     target = towards(self.found.1);
                 }
-                Err(error @ DynamicsError::NonFinite { .. }) => return Err(error),
+                Err(error @ DynamicsError::NotFinite { .. }) => return Err(error),
                 Err(_) => target = self.found.1 + 0.5 * (target - self.found.1),
             }
         }
@@ -192,7 +192,7 @@ fn length(vector: &[f64]) -> f64 {
 /// first order says. `times` increase from that of the start.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] for another number of integrals; [`DynamicsError::NotAnIntegral`] with the index
+/// [`DynamicsError::WrongLength`] for another number of integrals; [`DynamicsError::NotAnIntegral`] with the index
 /// of one that is none; [`DynamicsError::Numerics`] where they depend on each other; [`DynamicsError::TimesNotIncreasing`];
 /// [`DynamicsError::Run`].
 ///
@@ -277,7 +277,7 @@ pub fn trajectory_from_integrals(
         // A state at rest stays where it is.
         while reached < wanted && 0.0 < length(&chart.velocity) {
             let refused = |source| DynamicsError::Run { time: reached, source: Box::new(source) };
-            let mut state = State::new(reached, vec![0.0]).map_err(|_| DynamicsError::NonFinite {
+            let mut state = State::new(reached, vec![0.0]).map_err(|_| DynamicsError::NotFinite {
                 quantity: "times",
                 index,
                 value: reached,

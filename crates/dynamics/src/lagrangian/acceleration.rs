@@ -4,7 +4,7 @@ use nalgebra::DVector;
 use piola_kinematics::Holonomic;
 use piola_numerics::linear::ldlt;
 use piola_numerics::linear::least_squares::LeastSquares;
-use piola_numerics::{Dual, Error, Gradient, Jet, Mask, Real};
+use piola_numerics::{Dual, NumericsError, Gradient, Jet, Mask, Real};
 
 use super::collect::{Equations, Pass, Rows};
 use super::conditioning::trusted_pivot;
@@ -86,7 +86,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// symbols are not formed.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`] and
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`] and
     /// [`DynamicsError::SingularMetric`], which names a motion without inertia; then also what
     /// [`check`](Self::check) finds wrong with the parts. A negative mass that leaves the metric positive is
     /// not noticed here, but by `check`.
@@ -146,14 +146,14 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         (quantity, result): (&'static str, &[T]),
     ) -> DynamicsError {
         let reason = self.check_given(state, t).and_then(|()| check_finite(quantity, result));
-        reason.err().unwrap_or(DynamicsError::NonFinite { quantity, index: 0, value: f64::NAN })
+        reason.err().unwrap_or(DynamicsError::NotFinite { quantity, index: 0, value: f64::NAN })
     }
 
     /// The reason for a failed factorisation, in the terms of mechanics. `work.metric` holds the factors made.
     #[cold]
     pub(super) fn explain<T: Real>(
         &self,
-        error: Error,
+        error: NumericsError,
         state: [(&'static str, &[T]); 2],
         t: T,
         work: &Workspace<T>,
@@ -163,7 +163,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
         let n = state[0].1.len();
         match error {
-            Error::NotPositiveDefinite { pivot, value, diagonal } => {
+            NumericsError::NotPositiveDefinite { pivot, value, diagonal } => {
                 let mut direction = vec![T::zero(); n];
                 if ldlt::null_direction_into(&work.metric, n, pivot, &mut direction).is_err() {
                     direction.clear();
@@ -175,7 +175,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 DynamicsError::SingularMetric { coordinate: pivot, pivot: value, diagonal, direction }
             }
             // Only the rows of a metric are solved that way: pivots are the squares of what is left of them.
-            Error::Singular { pivot, value, scale } => {
+            NumericsError::Singular { pivot, value, scale } => {
                 let mut direction = vec![T::zero(); n];
                 if work.least_squares.null_direction_into(pivot, &mut direction).is_err() {
                     direction.clear();
@@ -200,7 +200,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// `work` has been used, and no Christoffel symbols are formed.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`]; [`DynamicsError::NonFinite`] and what [`check`](Self::check) finds
+    /// [`DynamicsError::WrongLength`]; [`DynamicsError::NotFinite`] and what [`check`](Self::check) finds
     /// wrong with the parts. A singular matrix is no error here.
     ///
     /// # Accuracy
@@ -333,7 +333,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         &self,
         work: &mut Workspace<T>,
         (q, v, t): (&[T], &[T], T),
-        error: Error,
+        error: NumericsError,
         out: &mut [T],
     ) -> Result<(), Error> {
         match self.accelerate_by_rows(work, (q, v, t), T::Mask::splat(false), out) {

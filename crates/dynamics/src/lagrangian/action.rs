@@ -140,7 +140,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// 7 and 15 nodes. The tolerance is relative to ∫|L| dt.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::QuadratureNotConverged`].
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::QuadratureNotConverged`].
     ///
     /// # Accuracy
     /// The error returned is at most the tolerance asked for and mostly far above the true one.
@@ -204,7 +204,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// agree is a check of both. Applied forces are no part of the action.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`],
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`],
     /// [`DynamicsError::QuadratureNotConverged`].
     ///
     /// # Example

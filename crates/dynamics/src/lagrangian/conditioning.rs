@@ -7,7 +7,7 @@
 //! A metric of condition number κ, once formed, has lost κ ulp; its rows √m ∂x/∂q have the condition √κ.
 
 use piola_kinematics::Holonomic;
-use piola_numerics::{Error, Real};
+use piola_numerics::{NumericsError, Real};
 
 use super::acceleration::Workspace;
 use super::{Forces, Lagrangian, Potential};

@@ -29,7 +29,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// It is zero along a motion. No linear system is solved: a singular metric is no hindrance.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     ///
     /// # Accuracy
     /// A few ulp of the terms summed.

@@ -10,7 +10,7 @@
 //! Where the placement depends on time, the metric is that of the constraint surface held still at the time t.
 
 use nalgebra::DVector;
-use piola_integrators::{DormandPrince853, Field, IntegrationError, State, Tolerance};
+use piola_integrators::{DormandPrince853, Field, IntegratorsError, State, Tolerance};
 use piola_kinematics::{Holonomic, Placement};
 use piola_numerics::Real;
 
@@ -97,7 +97,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// index [raised](Self::raise). It is a vector: in other coordinates it transforms with ∂q̄/∂q alone.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::SingularMetric`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::SingularMetric`].
     ///
     /// # Accuracy
     /// A few ulp of the larger of q̈ and Γ q̇ q̇, times the condition number of the metric scaled to unit diagonal.
@@ -166,7 +166,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// covariant acceleration.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::SingularMetric`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::SingularMetric`].
     ///
     /// # Accuracy
     /// A few ulp times the condition number of the metric scaled to unit diagonal.
@@ -225,7 +225,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// Lowers the index of a vector: x_Δ = g_ΔΓ x^Γ.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`raise`](Self::raise).
@@ -328,7 +328,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             return Err(DynamicsError::NoDirection { squared_length });
         }
         let unit = direction.iter().map(|v| v / squared_length.sqrt());
-        let stopped = |arc: f64, error: IntegrationError| DynamicsError::Run {
+        let stopped = |arc: f64, error: IntegratorsError| DynamicsError::Run {
             time: arc,
             source: Box::new(error.with_field_error()),
         };

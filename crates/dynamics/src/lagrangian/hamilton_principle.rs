@@ -40,7 +40,7 @@ impl SampledMotion {
     /// those of the second, …
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::TimesNotIncreasing`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`]; [`DynamicsError::TimesNotIncreasing`].
     ///
     /// # Example
     /// See [`SampledMotion`].
@@ -169,7 +169,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The action of samples, by Hermite's cubic between them and Gauss's rule with four points.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`]; [`DynamicsError::TooFewSamples`] below three, which give no error
+    /// [`DynamicsError::WrongLength`]; [`DynamicsError::TooFewSamples`] below three, which give no error
     /// estimate.
     ///
     /// # Accuracy
@@ -236,7 +236,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// Applied forces enter at the midpoints, as in d'Alembert's principle.
     ///
     /// # Errors
-    /// [`DynamicsError::TooFewSamples`] below three; [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::TooFewSamples`] below three; [`DynamicsError::WrongLength`].
     ///
     /// # Accuracy
     /// The residual of an exact motion at an even spacing h is O(h²).

@@ -3,7 +3,7 @@
 use piola_kinematics::Holonomic;
 use piola_numerics::linear::ldlt;
 use piola_numerics::sums::unit_in_last_place;
-use piola_numerics::{Error, Mask, Real};
+use piola_numerics::{NumericsError, Mask, Real};
 
 use super::acceleration::Workspace;
 use super::conditioning::trusted_pivot;
@@ -30,7 +30,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// L is convex in q̇ and p lies in the range of ∂L/∂q̇. [`Self::legendre_certificate`] vouches for the result.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::SingularMetric`],
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::SingularMetric`],
     /// [`DynamicsError::LegendreNotConverged`].
     ///
     /// # Accuracy

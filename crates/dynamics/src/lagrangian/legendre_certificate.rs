@@ -34,7 +34,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// Shapes: q, q̇ and p have n entries; the units are those of the coordinates, t in s.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`] also where L is not defined;
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`] also where L is not defined;
     /// [`DynamicsError::SingularMetric`] with the direction in which H is not positive.
     ///
     /// # Accuracy

@@ -53,7 +53,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// allocation once `work` has been used.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::WrongLength`].
     pub fn inertia_metric_into<T: Real>(
         &self,
         work: &mut Workspace<T>,

@@ -20,7 +20,7 @@
 //! | whether a constraint is ideal; the virtual work of any forces | [`Lagrangian::ideal_constraint_test`], [`Lagrangian::virtual_work`] |
 //! | where power and energy come from, of drives and actuators too | [`Lagrangian::power_balance`], [`Lagrangian::actuator_powers_into`], [`Lagrangian::work_account`] |
 //! | the forces that a prescribed motion needs | [`Lagrangian::driving_forces`] |
-//! | momentum and moment of momentum in space | [`Lagrangian::system_momentum`] |
+//! | momentum and angular momentum in space | [`Lagrangian::system_momentum`] |
 //! | the action and its variation; Hamilton's principle on samples | [`Lagrangian::action`], [`Lagrangian::first_variation`], [`Lagrangian::stationarity_of_samples`] |
 //! | the same system in other coordinates | [`Lagrangian::in_coordinates`] |
 //!
@@ -175,7 +175,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// [`integrate`](Self::integrate) calls it; call it once yourself before many evaluations.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`], [`DynamicsError::InvalidMass`],
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`], [`DynamicsError::InvalidMass`],
     /// [`DynamicsError::AttitudeNotUnit`], [`DynamicsError::UndeclaredTimeDependence`],
     /// [`DynamicsError::NonlinearPotential`].
     ///

@@ -1,4 +1,4 @@
-//! Momentum and moment of momentum of all parts, in space.
+//! Momentum and angular momentum of all parts, in space.
 //!
 //! ```text
 //! L = Σ m v + Σ M v^c        H = Σ (x − o)×m v + Σ ((x^c − o)×M v^c + Iω)                      W(1.18), W(2.35), W(4.6)
@@ -16,7 +16,7 @@ use super::{Forces, Lagrangian, Potential};
 use crate::DynamicsError;
 use crate::check::{check_finite, check_length};
 
-/// Momentum and moment of momentum, space components.
+/// Momentum and angular momentum, space components.
 ///
 /// # Example
 /// See [`Lagrangian::system_momentum`].
@@ -38,7 +38,7 @@ pub struct SystemMomentum<T: Real = f64> {
     pub momentum: Vector3<T>,
     /// Σ (x − o)×m v + Iω, kg m²/s.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
-    pub moment_of_momentum: Vector3<T>,
+    pub angular_momentum: Vector3<T>,
 }
 
 struct Sums<T> {
@@ -72,7 +72,7 @@ impl<T: Real> Placement<Dual<T>> for Sums<T> {
 }
 
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
-    /// The momentum of all parts, and their moment of momentum about a fixed point.
+    /// The momentum of all parts, and their angular momentum about a fixed point.
     ///
     /// | symbol | argument | shape | unit |
     /// |---|---|---|---|
@@ -85,7 +85,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// reactions.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// ```
@@ -100,7 +100,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///     }
     /// }
     /// let sums = Lagrangian::of(Circle).system_momentum(&[0.0], &[2.0], 0.0, &Vector3::zeros())?;
-    /// assert_eq!((sums.momentum.y, sums.moment_of_momentum.z), (24.0, 72.0)); // m r q̇, m r² q̇
+    /// assert_eq!((sums.momentum.y, sums.angular_momentum.z), (24.0, 72.0)); // m r q̇, m r² q̇
     /// # Ok::<(), piola_dynamics::DynamicsError>(())
     /// ```
     ///
@@ -119,7 +119,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// [`system_momentum`](Self::system_momentum) without allocation once `work` has been used.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`system_momentum`](Self::system_momentum).
@@ -142,7 +142,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         self.system.place(&work.duals, time, &mut sums);
         check_finite("about", &sums.about)?;
         self.finite([("q", q), ("q̇", v)], t, ("momentum", &sums.momentum))?;
-        self.finite([("q", q), ("q̇", v)], t, ("moment of momentum", &sums.moment))?;
-        Ok(SystemMomentum { momentum: sums.momentum.into(), moment_of_momentum: sums.moment.into() })
+        self.finite([("q", q), ("q̇", v)], t, ("angular momentum", &sums.moment))?;
+        Ok(SystemMomentum { momentum: sums.momentum.into(), angular_momentum: sums.moment.into() })
     }
 }

@@ -183,7 +183,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// is missing.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// ```
@@ -357,7 +357,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// `work` has been used.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// ```

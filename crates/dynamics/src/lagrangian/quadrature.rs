@@ -91,7 +91,7 @@ fn rule<const K: usize>(
     }
     for value in kronrod {
         if !value.is_finite() {
-            return Err(DynamicsError::NonFinite { quantity: "integrand of the action", index: 0, value });
+            return Err(DynamicsError::NotFinite { quantity: "integrand of the action", index: 0, value });
         }
     }
     Ok(Interval {

@@ -268,7 +268,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// [`reactions`](Self::reactions) to the caller's memory, without allocation once `work` has been used.
     ///
     /// # Errors
-    /// As [`acceleration`](Self::acceleration); [`DynamicsError::DimensionMismatch`] when `out` does not have one
+    /// As [`acceleration`](Self::acceleration); [`DynamicsError::WrongLength`] when `out` does not have one
     /// place for each [part](Self::parts).
     ///
     /// # Example
@@ -291,7 +291,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// happens.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`]; [`DynamicsError::NonFinite`], which names the part where an applied
+    /// [`DynamicsError::WrongLength`]; [`DynamicsError::NotFinite`], which names the part where an applied
     /// force is not finite.
     ///
     /// # Example
@@ -342,6 +342,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let Some((index, value)) = first_bad else { return Ok(()) };
         self.check_given([("q", q), ("q̇", v)], t)?;
         check_finite("q̈", a)?;
-        Err(DynamicsError::NonFinite { quantity: "reactions", index, value })
+        Err(DynamicsError::NotFinite { quantity: "reactions", index, value })
     }
 }

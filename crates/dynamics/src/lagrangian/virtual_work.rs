@@ -176,8 +176,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// They are the components of a covector: in other coordinates Q̄_Δ = Q_Γ ∂q^Γ/∂q̄^Δ.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless there is one force for each [part](Self::parts);
-    /// [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`] unless there is one force for each [part](Self::parts);
+    /// [`DynamicsError::NotFinite`].
     ///
     /// # Accuracy
     /// A few ulp of the sum of the terms' magnitudes.

@@ -6,7 +6,7 @@
 
 use core::ops::Range;
 
-use piola_integrators::{DormandPrince853, Field, IntegrationError, State, Tolerance};
+use piola_integrators::{DormandPrince853, Field, IntegratorsError, State, Tolerance};
 use piola_kinematics::Holonomic;
 use piola_numerics::Real;
 
@@ -59,7 +59,7 @@ impl<S: Holonomic, P: Potential, F: Forces, T: Real> MotionWithWork<'_, S, P, F,
     /// The works of a state of this field.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`].
+    /// [`DynamicsError::WrongLength`].
     ///
     /// # Example
     /// See [`Lagrangian::motion_with_work`].
@@ -142,7 +142,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// kinetic energy expected, say.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`] when the scale is not a number.
+    /// [`DynamicsError::NotFinite`] when the scale is not a number.
     ///
     /// # Example
     /// A block of 2 kg is pushed with 6 N for two seconds from rest: 36 J.
@@ -223,7 +223,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         self.check(q, v, times.start)?;
         let n = q.len();
         let (start, scale) = self.energy_and_scale(q, v, times.start)?;
-        let stopped = |error: IntegrationError| DynamicsError::Run {
+        let stopped = |error: IntegratorsError| DynamicsError::Run {
             time: times.start,
             source: Box::new(error.with_field_error()),
         };

@@ -216,8 +216,8 @@ impl Linearisation {
     /// λ² + λD + K by singular values, and one or two Newton steps for λ with them.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless all matrices are n×n; [`DynamicsError::SingularMetric`],
-    /// [`DynamicsError::NonFinite`], [`DynamicsError::NoEigenvalues`].
+    /// [`DynamicsError::WrongLength`] unless all matrices are n×n; [`DynamicsError::SingularMetric`],
+    /// [`DynamicsError::NotFinite`], [`DynamicsError::NoEigenvalues`].
     ///
     /// # Accuracy
     /// Each λ to its `uncertainty`: 8n ulp of |λ|² + |λ||D| + |K| over the rate at which the pencil changes

@@ -49,7 +49,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`DynamicsError::SingularStiffness`] when the equilibrium is not isolated, or no force answers a
     /// displacement that the search needs; it names the direction. [`DynamicsError::NoEquilibrium`] when the
-    /// forces do not get smaller any more. [`DynamicsError::NonFinite`] and what [`check`](Self::check) finds
+    /// forces do not get smaller any more. [`DynamicsError::NotFinite`] and what [`check`](Self::check) finds
     /// wrong at the guess.
     ///
     /// # Accuracy

@@ -240,7 +240,7 @@ impl<T: Real> Linearisation<T> {
     /// ```
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless all matrices are n×n; [`DynamicsError::NonFinite`];
+    /// [`DynamicsError::WrongLength`] unless all matrices are n×n; [`DynamicsError::NotFinite`];
     /// [`DynamicsError::SingularMetric`].
     ///
     /// # Accuracy
@@ -297,7 +297,7 @@ impl<T: Real> Linearisation<T> {
     /// vector of Δ; for a force on a particle the derivatives of its place.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless W has n rows and all matrices are n×n; [`DynamicsError::NonFinite`];
+    /// [`DynamicsError::WrongLength`] unless W has n rows and all matrices are n×n; [`DynamicsError::NotFinite`];
     /// [`DynamicsError::SingularMetric`].
     ///
     /// # Example

@@ -117,8 +117,8 @@ impl Linearisation {
     /// order in that of the shape.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`] unless all matrices are n×n; [`DynamicsError::SingularMetric`],
-    /// [`DynamicsError::NonFinite`], [`DynamicsError::NoEigenvalues`].
+    /// [`DynamicsError::WrongLength`] unless all matrices are n×n; [`DynamicsError::SingularMetric`],
+    /// [`DynamicsError::NotFinite`], [`DynamicsError::NoEigenvalues`].
     ///
     /// # Accuracy
     /// Each ω² to a few n ulp of Σ|φ_i||K_ij||φ_j|, which `uncertainties` holds; shapes to some n ulp ×

@@ -4,7 +4,7 @@ use core::cmp::Ordering;
 
 use nalgebra::{ComplexField, DMatrix, DVector};
 use piola_numerics::linear::ldlt;
-use piola_numerics::{Error, Real};
+use piola_numerics::{NumericsError, Real};
 
 use crate::DynamicsError;
 
@@ -79,7 +79,7 @@ impl Reduction {
 /// A mass matrix that is not positive definite, with the direction that has no inertia.
 #[cold]
 pub(super) fn singular<T: Real>(mass_matrix: &DMatrix<T>, error: Error) -> DynamicsError {
-    let Error::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
+    let NumericsError::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
     let n = mass_matrix.nrows();
     let mut factors = mass_matrix.clone();
     let mut direction = vec![T::zero(); n];

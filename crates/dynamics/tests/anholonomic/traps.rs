@@ -55,7 +55,7 @@ fn disc_flat_on_the_plane_is_refused() {
     let error = disc.integrate(&[0.0; 5], &[1.0, 0.0, 0.0], 0.0..1.0, tolerance).unwrap_err();
     assert!(error.to_string().contains("the motion along"), "{error}");
     let error = disc.integrate(&[f64::NAN; 5], &[1.0, 0.0, 0.0], 0.0..1.0, tolerance).unwrap_err();
-    assert!(matches!(error, DynamicsError::NonFinite { quantity: "q", index: 0, .. }), "{error}");
+    assert!(matches!(error, DynamicsError::NotFinite { quantity: "q", index: 0, .. }), "{error}");
 }
 
 #[test]
@@ -68,22 +68,22 @@ fn held_quasi_velocities_are_checked() {
     assert!(top().in_frame(Frame::Blade).holding_at(&[(0, f64::NAN)]).is_err());
     let held = top().in_frame(Frame::Blade).holding(&[2]).unwrap();
     let error = held.acceleration(&[0.5, 1.0, 0.0], &[1.0, 0.0, 0.0], 0.0).unwrap_err();
-    assert!(matches!(error, DynamicsError::DimensionMismatch { expected: 2, found: 3, .. }), "{error}");
+    assert!(matches!(error, DynamicsError::WrongLength { expected: 2, found: 3, .. }), "{error}");
 }
 
 #[test]
 fn values_that_are_not_finite_are_refused_by_name() {
     let spin = top().in_coframe(Forms::Body(BodyAngularVelocity::default()));
     let named = |q: [f64; 3], u: [f64; 3]| match spin.acceleration(&q, &u, 0.0).unwrap_err() {
-        DynamicsError::NonFinite { quantity, index, .. } => (quantity, index),
+        DynamicsError::NotFinite { quantity, index, .. } => (quantity, index),
         error => panic!("{error}"),
     };
     assert_eq!(named([0.5, f64::NAN, 0.0], [0.0; 3]), ("q", 1));
     assert_eq!(named([0.5, 1.0, 0.0], [0.0, 0.0, f64::INFINITY]), ("u", 2));
     let error = spin.velocities(&[0.5, 1.0, 0.0], &[0.0; 3], f64::NAN).unwrap_err();
-    assert!(matches!(error, DynamicsError::NonFinite { quantity: "t", index: 0, .. }));
+    assert!(matches!(error, DynamicsError::NotFinite { quantity: "t", index: 0, .. }));
     let error = spin.quasi_velocities(&[0.5, 1.0, 0.0], &[f64::NAN, 0.0, 0.0], 0.0).unwrap_err();
-    assert!(matches!(error, DynamicsError::NonFinite { quantity: "q̇", index: 0, .. }));
+    assert!(matches!(error, DynamicsError::NotFinite { quantity: "q̇", index: 0, .. }));
     // A quaternion of no length is no attitude.
     let sphere = RollingSphere::homogeneous(1.0, 0.5).unwrap().on_plane([0.0, 0.0, -9.8]);
     assert!(sphere.acceleration(&[0.0; 6], &[1.0, 0.0, 0.0], 0.0).is_err());

@@ -105,7 +105,7 @@ fn values_that_are_not_finite_are_refused_by_name() {
     let rows = vec![vec![0.0, 0.0, 1.0, 0.0, 0.0]];
     let system = particles(Ties::Linear(rows));
     let named = |q: [f64; 3], v: [f64; 3]| match system.acceleration(&q, &v, 0.0).unwrap_err() {
-        DynamicsError::NonFinite { quantity, index, .. } => (quantity, index),
+        DynamicsError::NotFinite { quantity, index, .. } => (quantity, index),
         error => panic!("{error}"),
     };
     assert_eq!(named([0.0, f64::NAN, 0.0], [0.0; 3]), ("q", 1));

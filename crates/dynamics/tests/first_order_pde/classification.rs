@@ -288,7 +288,7 @@ fn change_of_sign_without_a_zero_is_named_for_what_it_is() {
 
     // Other errors between two points are errors.
     let problem = CauchyProblem::new(&Eikonal, &Broken::Hole, 2).unwrap();
-    assert!(matches!(problem.classify(&LINE).err(), Some(DynamicsError::NonFinite { quantity: "u(τ)", .. })));
+    assert!(matches!(problem.classify(&LINE).err(), Some(DynamicsError::NotFinite { quantity: "u(τ)", .. })));
 
     // Φ_ξ = (0, τ − 1/20) vanishes with a sine that does not.
     let problem = CauchyProblem::new(&Still::Valley, &Given(1.0, -0.05), 2).unwrap();

@@ -370,7 +370,7 @@ fn points_in_space_are_evaluated_like_single_ones() {
     assert!(none[0].is_none());
     assert_close("u", &[none[1].as_ref().unwrap().point.u], &[0.5], integrated());
     let refused = solution.at_points(&[vec![0.0, 1.0], vec![0.0, f64::NAN]], Overlap::Nothing).unwrap_err();
-    assert!(matches!(refused, DynamicsError::NonFinite { quantity: "x", index: 1, .. }), "{refused}");
+    assert!(matches!(refused, DynamicsError::NotFinite { quantity: "x", index: 1, .. }), "{refused}");
     assert!(solution.at_points(&[vec![0.0; 3]], Overlap::Nothing).is_err());
 }
 

@@ -31,20 +31,20 @@ impl FirstOrderPde for Root {
 fn bad_data_are_refused_by_name() {
     assert!(matches!(
         CauchyProblem::new(&Eikonal, &Wave, 1).err(),
-        Some(DynamicsError::DimensionMismatch { expected: 2, found: 1, .. })
+        Some(DynamicsError::WrongLength { expected: 2, found: 1, .. })
     ));
     let problem = CauchyProblem::new(&Bent, &Wave, 2).unwrap();
-    assert!(matches!(problem.clone().near(&[0.0]).err(), Some(DynamicsError::DimensionMismatch { .. })));
+    assert!(matches!(problem.clone().near(&[0.0]).err(), Some(DynamicsError::WrongLength { .. })));
     assert!(matches!(
         problem.clone().near(&[0.0, f64::NAN]).err(),
-        Some(DynamicsError::NonFinite { quantity: "guess of ξ", index: 1, .. })
+        Some(DynamicsError::NotFinite { quantity: "guess of ξ", index: 1, .. })
     ));
-    assert!(matches!(problem.initial_point(&[0.0, 1.0]).err(), Some(DynamicsError::DimensionMismatch { .. })));
+    assert!(matches!(problem.initial_point(&[0.0, 1.0]).err(), Some(DynamicsError::WrongLength { .. })));
     assert!(matches!(
         problem.initial_point(&[f64::INFINITY]).err(),
-        Some(DynamicsError::NonFinite { quantity: "τ", .. })
+        Some(DynamicsError::NotFinite { quantity: "τ", .. })
     ));
-    assert!(matches!(problem.characteristic(&[0.0], f64::NAN).err(), Some(DynamicsError::NonFinite { .. })));
+    assert!(matches!(problem.characteristic(&[0.0], f64::NAN).err(), Some(DynamicsError::NotFinite { .. })));
     assert!(matches!(
         problem.caustic_points(&[0.0], 0.5, 1.0).err(),
         Some(DynamicsError::InvalidSpan { from, .. }) if (from - 0.5).abs() <= 0.0
@@ -58,7 +58,7 @@ fn bad_data_are_refused_by_name() {
     let solution = problem.solve(&interval, (0.0, 0.1), Refinement::to(1e-2)).unwrap();
     let grid = Grid { origin: [0.0; 2], spacing: [0.1, 0.0], points: [2, 2] };
     assert!(matches!(solution.onto_grid(grid, Overlap::Nothing).err(), Some(DynamicsError::InvalidInterval { .. })));
-    assert!(matches!(solution.at(&[f64::NAN, 0.0]).err(), Some(DynamicsError::NonFinite { quantity: "x", .. })));
+    assert!(matches!(solution.at(&[f64::NAN, 0.0]).err(), Some(DynamicsError::NotFinite { quantity: "x", .. })));
 }
 
 #[test]
@@ -68,13 +68,13 @@ fn manifold_that_stands_still_is_refused_with_its_place() {
         problem.initial_point(&[0.0]).err(),
         Some(DynamicsError::DependentParameters { index: 0, parameters, .. }) if parameters == [0.0]
     ));
-    assert!(matches!(problem.initial_point(&[1.5]).err(), Some(DynamicsError::NonFinite { quantity: "x(τ)", .. })));
+    assert!(matches!(problem.initial_point(&[1.5]).err(), Some(DynamicsError::NotFinite { quantity: "x(τ)", .. })));
 }
 
 #[test]
 fn equation_without_value_at_the_guess_is_refused() {
     let problem = CauchyProblem::new(&Root, &Line::Square, 2).unwrap().near(&[-1.0, 0.0]).unwrap();
-    assert!(matches!(problem.initial_point(&[1.0]).err(), Some(DynamicsError::NonFinite { quantity: "Φ", .. })));
+    assert!(matches!(problem.initial_point(&[1.0]).err(), Some(DynamicsError::NotFinite { quantity: "Φ", .. })));
 }
 
 /// ξ₁ + ξ₂² = 0, declared linear.
@@ -133,7 +133,7 @@ fn cone_of_a_linear_equation_is_one_line() {
     assert!(matches!(cone.generator_over(&[0.0, 0.0], &[0.0, 1.0]).err(), Some(DynamicsError::NoGenerator { .. })));
     let search = Search { from: -1.0, to: f64::NAN, parts: 3 };
     let refused = cone.generators_along(&[0.0, 0.0], &[1.0, 0.0], search).err();
-    assert!(matches!(refused, Some(DynamicsError::NonFinite { quantity: "search", index: 1, .. })));
+    assert!(matches!(refused, Some(DynamicsError::NotFinite { quantity: "search", index: 1, .. })));
     let search = Search { from: -1.0, to: 1.0, parts: 0 };
     let refused = cone.generators_along(&[0.0, 0.0], &[1.0, 0.0], search).err();
     assert!(matches!(refused, Some(DynamicsError::TooFewSamples { found: 0, needed: 1 })));
@@ -143,7 +143,7 @@ fn cone_of_a_linear_equation_is_one_line() {
 
 #[test]
 fn front_keeps_its_rows_when_a_step_fails() {
-    assert!(matches!(Front::new(2, vec![0.0; 7]).err(), Some(DynamicsError::DimensionMismatch { .. })));
+    assert!(matches!(Front::new(2, vec![0.0; 7]).err(), Some(DynamicsError::WrongLength { .. })));
     let tolerance = Tolerance::relative(1e-9).unwrap();
     // ξ₂′ = −ξ₂²: four rows for which 3/2 is no distance, and a fifth with ξ₂ = −1/(1 − s).
     let mut rows = [0.0, 0.5, 0.0, 0.0, 1.0].repeat(4);
@@ -154,7 +154,7 @@ fn front_keeps_its_rows_when_a_step_fails() {
     assert!(matches!(error, Some(DynamicsError::Run { time, .. }) if (time - 1.0).abs() < 1e-6), "{error:?}");
     assert_eq!(front, before);
     let error = front.advance(&Undeclared, f64::INFINITY, tolerance).err();
-    assert!(matches!(error, Some(DynamicsError::NonFinite { quantity: "step", .. })), "{error:?}");
+    assert!(matches!(error, Some(DynamicsError::NotFinite { quantity: "step", .. })), "{error:?}");
     assert_eq!(front, before);
     // A step that all rows allow.
     front.advance(&Undeclared, 0.5, tolerance).unwrap();

@@ -289,9 +289,9 @@ fn fronts_that_cannot_start_or_go_on_say_so() {
     assert!(matches!(too_little, Err(DynamicsError::NotFound { .. })));
     let even = Graded(false);
     let mut front = WaveFront::open(&even, &curve, 1.0, 1.0, (-1.0, 1.0), 5).unwrap();
-    assert!(matches!(front.advance(f64::NAN, 1), Err(DynamicsError::NonFinite { quantity: "ΔS", .. })));
+    assert!(matches!(front.advance(f64::NAN, 1), Err(DynamicsError::NotFinite { quantity: "ΔS", .. })));
     assert!(matches!(front.refine(0.0), Err(DynamicsError::InvalidLength { .. })));
-    assert!(matches!(front.envelope_point(9, 0.1, 1), Err(DynamicsError::DimensionMismatch { .. })));
+    assert!(matches!(front.envelope_point(9, 0.1, 1), Err(DynamicsError::WrongLength { .. })));
 }
 
 #[test]

@@ -150,7 +150,7 @@ fn circular_orbits_and_forbidden_places() {
         other => panic!("{other:?}"),
     }
     let bad = SeparableMotion::through(&kepler, (&[0.0, 0.0], &[0.5, 0.75], 0.0));
-    assert!(matches!(bad, Err(DynamicsError::NonFinite { .. })));
+    assert!(matches!(bad, Err(DynamicsError::NotFinite { .. })));
 }
 
 proptest! {

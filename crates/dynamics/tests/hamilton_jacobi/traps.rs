@@ -60,9 +60,9 @@ fn events_and_regions_that_cannot_be_used() {
     let (a, b) = (Event::new(&[1.0], 2.0), Event::new(&[2.0], 2.0));
     assert_eq!(distance.between(&a, &b, &[0.0]), Err(DynamicsError::EventsAtOneTime { time: 2.0 }));
     let bad = distance.between(&Event::new(&[f64::NAN], 0.0), &b, &[0.0]);
-    assert!(matches!(bad, Err(DynamicsError::NonFinite { quantity: "q", index: 0, .. })), "{bad:?}");
+    assert!(matches!(bad, Err(DynamicsError::NotFinite { quantity: "q", index: 0, .. })), "{bad:?}");
     let short = distance.between(&Event::new(&[1.0, 2.0], 0.0), &b, &[0.0]);
-    assert!(matches!(short, Err(DynamicsError::DimensionMismatch { expected: 2, found: 1, .. })), "{short:?}");
+    assert!(matches!(short, Err(DynamicsError::WrongLength { expected: 2, found: 1, .. })), "{short:?}");
     let region = SearchRegion::new(&[1.0], &[-1.0], 4);
     assert_eq!(region, Err(DynamicsError::InvalidRegion { index: 0, lower: 1.0, upper: -1.0 }));
 }

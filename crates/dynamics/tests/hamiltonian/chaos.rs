@@ -90,7 +90,7 @@ fn more_exponents_than_dimensions_and_intervals_of_no_length_are_refused() {
     let tolerance = Tolerance::relative(1e-8).unwrap();
     assert_eq!(
         lyapunov_exponents(&system, &point, 5, 1.0, 1, tolerance).unwrap_err(),
-        DynamicsError::DimensionMismatch { quantity: "exponents", expected: 4, found: 5 }
+        DynamicsError::WrongLength { quantity: "exponents", expected: 4, found: 5 }
     );
     assert_eq!(
         lyapunov_exponents(&system, &point, 1, 0.0, 1, tolerance).unwrap_err(),

@@ -92,7 +92,7 @@ proptest! {
     }
 
     #[test]
-    fn the_rotations_of_the_plane_have_the_moment_of_momentum_for_integral(from in bound(), to in bound()) {
+    fn the_rotations_of_the_plane_have_the_angular_momentum_for_integral(from in bound(), to in bound()) {
         struct Rotation;
         impl OneParameterGroup for Rotation {
             fn act<T: Real>(&self, angle: T, q: &[T], p: &[T], new: &mut [T]) {

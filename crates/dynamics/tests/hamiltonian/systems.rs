@@ -104,7 +104,7 @@ impl PhaseFunction for Kepler {
     }
 }
 
-/// The moment of momentum in a plane.
+/// The angular momentum in a plane.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlaneMoment;
 

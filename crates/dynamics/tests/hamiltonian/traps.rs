@@ -31,12 +31,12 @@ fn a_singular_hessian_is_refused_with_its_null_direction() {
     let refused = system.legendre_certificate(&[0.0, 0.0], &[1.0, 0.0], &[1.0, 1.0], 0.0).unwrap_err();
     assert!(matches!(refused, DynamicsError::SingularMetric { coordinate: 1, .. }), "{refused}");
     let refused = system.legendre_certificate(&[0.0, 0.0], &[1.0], &[1.0, 1.0], 0.0).unwrap_err();
-    assert!(matches!(refused, DynamicsError::DimensionMismatch { quantity: "q̇", .. }), "{refused}");
+    assert!(matches!(refused, DynamicsError::WrongLength { quantity: "q̇", .. }), "{refused}");
     let refused = system.legendre_certificate(&[0.0, 0.0], &[1.0, 0.0], &[1.0, f64::NAN], 0.0).unwrap_err();
-    assert!(matches!(refused, DynamicsError::NonFinite { quantity: "p", index: 1, .. }), "{refused}");
+    assert!(matches!(refused, DynamicsError::NotFinite { quantity: "p", index: 1, .. }), "{refused}");
     // As a function on phase space it is not a number, which is refused wherever it is used.
     let refused = differential(&LegendreTransform(&system), &[0.0, 0.0], &[1.0, 2.0], 0.0).unwrap_err();
-    assert!(matches!(refused, DynamicsError::NonFinite { quantity: "dK", .. }), "{refused}");
+    assert!(matches!(refused, DynamicsError::NotFinite { quantity: "dK", .. }), "{refused}");
 }
 
 #[test]
@@ -56,9 +56,9 @@ fn a_map_that_is_not_canonical_is_refused_with_its_worst_entry() {
 #[test]
 fn charts_are_refused_where_they_end() {
     let origin = image_and_jacobian(&PolarCoordinates, &[0.0, 0.0], &[1.0, 1.0], 0.0).unwrap_err();
-    assert!(matches!(origin, DynamicsError::NonFinite { quantity: "(Q, P)", index: 2, .. }), "{origin}");
+    assert!(matches!(origin, DynamicsError::NotFinite { quantity: "(Q, P)", index: 2, .. }), "{origin}");
     let axis = canonical_test(&SphericalCoordinates, &[0.0, 0.0, 1.0], &[1.0, 1.0, 0.0], 0.0).unwrap_err();
-    assert!(matches!(axis, DynamicsError::NonFinite { .. }), "{axis}");
+    assert!(matches!(axis, DynamicsError::NotFinite { .. }), "{axis}");
     let kepler = Delaunay::new(1.0, 1.0).unwrap();
     let mut new = [0.0; 6];
     let escape = kepler.map(&[1.0, 0.0, 0.0], &[0.0, 0.0, 2.0], 0.0, &mut new).unwrap_err();
@@ -75,15 +75,15 @@ fn charts_are_refused_where_they_end() {
 fn numbers_that_are_none_are_refused_by_name() {
     let kepler = Kepler { mass: 1.0, strength: 1.0 };
     let refused = poisson_bracket(&PlaneMoment, &kepler, &[1.0, f64::NAN], &[1.0, 2.0], 0.0).unwrap_err();
-    assert!(matches!(refused, DynamicsError::NonFinite { quantity: "q", index: 1, .. }), "{refused}");
+    assert!(matches!(refused, DynamicsError::NotFinite { quantity: "q", index: 1, .. }), "{refused}");
     let refused = poisson_bracket(&PlaneMoment, &kepler, &[0.0, 0.0], &[1.0, 2.0], 0.0).unwrap_err();
-    assert!(matches!(refused, DynamicsError::NonFinite { quantity: "{K, H}", .. }), "{refused}");
+    assert!(matches!(refused, DynamicsError::NotFinite { quantity: "{K, H}", .. }), "{refused}");
     let mut rate = [0.0; 4];
     let refused = HamiltonianField::new(&kepler, 2).rate(0.0, &[0.0, 0.0, 1.0, 2.0], &mut rate).unwrap_err();
-    assert!(matches!(refused, DynamicsError::NonFinite { quantity: "dH", .. }), "{refused}");
+    assert!(matches!(refused, DynamicsError::NotFinite { quantity: "dH", .. }), "{refused}");
     assert_eq!(
         differential(&kepler, &[1.0, 0.0], &[1.0], 0.0).unwrap_err(),
-        DynamicsError::DimensionMismatch { quantity: "p", expected: 2, found: 1 }
+        DynamicsError::WrongLength { quantity: "p", expected: 2, found: 1 }
     );
     assert_eq!(
         OscillatorActionAngle::new(1.0, -2.0).unwrap_err(),
@@ -116,7 +116,7 @@ fn a_generating_function_without_mixed_derivative_or_solution_is_refused() {
     assert!(matches!(refused, DynamicsError::NotSolved { .. } | DynamicsError::Numerics(_)), "{refused}");
     assert_eq!(
         Generated::new(Short, GeneratingKind::First, &[0.0; 2]).map(&[1.0], &[0.5], 0.0, &mut [0.0; 2]),
-        Err(DynamicsError::DimensionMismatch { quantity: "guess", expected: 1, found: 2 })
+        Err(DynamicsError::WrongLength { quantity: "guess", expected: 1, found: 2 })
     );
 }
 
@@ -156,7 +156,7 @@ fn points_of_the_wrong_size_and_actions_that_no_motion_has_are_refused() {
     let kepler = Kepler { mass: 1.0, strength: 1.0 };
     assert_eq!(
         exterior_derivative(&CanonicalOneForm, &[1.0, 2.0, 3.0]).unwrap_err(),
-        DynamicsError::DimensionMismatch { quantity: "x", expected: 4, found: 3 }
+        DynamicsError::WrongLength { quantity: "x", expected: 4, found: 3 }
     );
     assert!(closedness_residual(&ExtendedTwoForm(&kepler), &[1.0, 2.0, 3.0, 4.0]).is_err());
     let oscillator = OscillatorActionAngle::new(1.0, 1.0).unwrap();
@@ -174,7 +174,7 @@ fn points_of_the_wrong_size_and_actions_that_no_motion_has_are_refused() {
     let map = Generated::new(Product, GeneratingKind::First, &[0.0; 2]);
     assert_eq!(
         map.map(&[1.0, 2.0], &[3.0], 0.0, &mut [0.0; 4]).unwrap_err(),
-        DynamicsError::DimensionMismatch { quantity: "p", expected: 2, found: 1 }
+        DynamicsError::WrongLength { quantity: "p", expected: 2, found: 1 }
     );
     assert!(map.map(&[1.0, 2.0], &[3.0, 4.0], 0.0, &mut [0.0; 3]).is_err());
     assert!(map.map(&[1.0, 2.0], &[3.0, f64::NAN], 0.0, &mut [0.0; 4]).is_err());

@@ -50,7 +50,7 @@ impl Drift {
         self.days.push(time / DAY);
         self.energy.push((now.energy - start.energy) / start.energy.abs());
         self.momentum.push(distance(now.momentum, start.momentum) / start.momentum_scale);
-        self.moment.push(distance(now.moment_of_momentum, start.moment_of_momentum) / start.moment_of_momentum_scale);
+        self.moment.push(distance(now.angular_momentum, start.angular_momentum) / start.angular_momentum_scale);
     }
 }
 

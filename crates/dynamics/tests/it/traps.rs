@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use piola_dynamics::DynamicsError;
 use piola_dynamics::gravitation::{Gravitation, PostNewtonian};
 use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, LagrangianFunction, Placement, Workspace};
-use piola_integrators::{Composition, DormandPrince853, GaussLegendre, IntegrationError, Order, State, Tolerance};
+use piola_integrators::{Composition, DormandPrince853, GaussLegendre, IntegratorsError, Order, State, Tolerance};
 use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
@@ -93,7 +93,7 @@ impl Forces for Bad {
 fn non_finite_input_is_refused_by_name() {
     let pendulum = Lagrangian::of(DoublePendulum { mass: [1.0; 2], length: [1.0; 2] }).with_gravity(9.8);
     let named = |error: DynamicsError| {
-        let DynamicsError::NonFinite { quantity, index, .. } = error else { panic!("{error}") };
+        let DynamicsError::NotFinite { quantity, index, .. } = error else { panic!("{error}") };
         (quantity, index)
     };
     let nan = f64::NAN;
@@ -127,7 +127,7 @@ impl WithGravity for Lagrangian<DoublePendulum> {
 fn lengths_that_differ_are_refused_by_name() {
     let pendulum = Lagrangian::of(DoublePendulum { mass: [1.0; 2], length: [1.0; 2] });
     let named = |error: DynamicsError| {
-        let DynamicsError::DimensionMismatch { quantity, expected, found } = error else { panic!("{error}") };
+        let DynamicsError::WrongLength { quantity, expected, found } = error else { panic!("{error}") };
         (quantity, expected, found)
     };
     assert_eq!(named(refusal(pendulum.acceleration(&[0.0; 2], &[0.0; 3], 0.0))), ("q̇", 2, 3));
@@ -256,14 +256,14 @@ fn bodies_that_collide_during_a_run_are_named() {
     let mut bodies = Gravitation::new(vec![0.0, 1e-30, 1e-30]).unwrap();
     let mut state = start(&bodies);
     let outcome = Composition::new(Order::Two, 2.0).unwrap().integrate_to(&mut bodies, &mut state, 4.0);
-    let Err(IntegrationError::Field { time, source }) = outcome else { panic!("{outcome:?}") };
+    let Err(IntegratorsError::Field { time, source }) = outcome else { panic!("{outcome:?}") };
     assert_eq!(source, DynamicsError::CoincidentBodies { first: 1, second: 2 });
     assert!((time - 1.0).abs() < f64::EPSILON);
     assert!(state.time <= 0.0, "the last good state is kept");
 
     let mut state = start(&bodies);
     let outcome = GaussLegendre::new(Order::Two, 2.0).unwrap().integrate_to(&mut bodies, &mut state, 4.0);
-    assert!(matches!(outcome, Err(IntegrationError::Field { .. })), "{outcome:?}");
+    assert!(matches!(outcome, Err(IntegratorsError::Field { .. })), "{outcome:?}");
 
     // An adaptive method steps around what is as narrow as that, or says so.
     let mut heavy = Gravitation::new(vec![0.0, 1.0, 1.0]).unwrap();
@@ -288,7 +288,7 @@ fn impossible_parameters_of_attraction_are_refused() {
     assert_eq!(refusal(term(0, 0.0)), DynamicsError::InvalidSpeedOfLight { value: 0.0 });
     assert!(term(0, f64::NAN).is_err());
     let nan = new(1.0).unwrap().state(&[[0.0; 3], [1.0, f64::NAN, 0.0]], &[[0.0; 3]; 2]);
-    assert!(matches!(refusal(nan), DynamicsError::NonFinite { quantity: "positions", index: 4, .. }));
+    assert!(matches!(refusal(nan), DynamicsError::NotFinite { quantity: "positions", index: 4, .. }));
 }
 
 #[test]

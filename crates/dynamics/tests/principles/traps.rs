@@ -24,7 +24,7 @@ fn buffers_of_the_wrong_length_are_refused_by_name() {
     let (q, v) = ([0.0; 3], [0.0; 3]);
     let mut work = Workspace::default();
     let mut two = [Reaction::none(); 2];
-    let wrong = |quantity, expected, found| DynamicsError::DimensionMismatch { quantity, expected, found };
+    let wrong = |quantity, expected, found| DynamicsError::WrongLength { quantity, expected, found };
     let refused = refusal(system.reactions_into(&mut work, &q, &v, 0.0, &mut two));
     assert_eq!(refused, wrong("reactions", 3, 2));
     let refused = refusal(system.virtual_work(&[PartForce::force([0.0; 3]); 4], &q, 0.0));
@@ -42,25 +42,25 @@ fn non_finite_input_is_refused_by_name() {
     let system = driven();
     let q = [0.0; 3];
     let found = refusal(system.reactions(&q, &[0.0, f64::NAN, 0.0], 0.0));
-    assert!(matches!(found, DynamicsError::NonFinite { quantity: "q̇", index: 1, .. }), "{found}");
+    assert!(matches!(found, DynamicsError::NotFinite { quantity: "q̇", index: 1, .. }), "{found}");
     let found = refusal(system.power_balance(&q, &q, f64::INFINITY));
-    assert!(matches!(found, DynamicsError::NonFinite { quantity: "t", index: 0, .. }), "{found}");
+    assert!(matches!(found, DynamicsError::NotFinite { quantity: "t", index: 0, .. }), "{found}");
     let mut out = [Reaction::none(); 3];
     let given = (&q[..], &q[..], &[0.0, 0.0, f64::NAN][..]);
     let found = refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), given, 0.0, &mut out));
-    assert!(matches!(found, DynamicsError::NonFinite { quantity: "q̈", index: 2, .. }), "{found}");
+    assert!(matches!(found, DynamicsError::NotFinite { quantity: "q̈", index: 2, .. }), "{found}");
     let found = refusal(system.covariant_acceleration(&q, &q, given.2, 0.0));
-    assert!(matches!(found, DynamicsError::NonFinite { quantity: "q̈", index: 2, .. }), "{found}");
+    assert!(matches!(found, DynamicsError::NotFinite { quantity: "q̈", index: 2, .. }), "{found}");
     let forces = [PartForce::force([0.0, f64::NAN, 0.0]); 3];
     let found = refusal(system.ideal_constraint_test(&forces, &q, 0.0));
-    assert!(matches!(found, DynamicsError::NonFinite { .. }), "{found}");
+    assert!(matches!(found, DynamicsError::NotFinite { .. }), "{found}");
 }
 
 #[test]
 fn results_that_are_not_finite_are_refused_by_the_name_of_their_cause() {
     let system = driven();
     let named = |error: DynamicsError, name: &str, at: usize| {
-        let DynamicsError::NonFinite { quantity, index, .. } = error else { panic!("{error}") };
+        let DynamicsError::NotFinite { quantity, index, .. } = error else { panic!("{error}") };
         assert_eq!((quantity, index), (name, at));
     };
     let (good, bad) = ([0.25; 3], [0.25, f64::NAN, 0.25]);
@@ -102,7 +102,7 @@ impl Holonomic for Fixed {
 fn forces_on_a_system_without_coordinates_are_counted() {
     let fixed = Lagrangian::of(Fixed).with_gravity(10.0);
     let two = [PartForce::<f64>::force([1.0; 3]); 2];
-    let wrong = DynamicsError::DimensionMismatch { quantity: "forces", expected: 1, found: 2 };
+    let wrong = DynamicsError::WrongLength { quantity: "forces", expected: 1, found: 2 };
     assert_eq!(refusal(fixed.virtual_work(&two, &[], 0.0)), wrong);
     assert_eq!(refusal(fixed.ideal_constraint_test(&two, &[], 0.0)), wrong);
     assert_eq!(fixed.virtual_work(&two[..1], &[], 0.0).unwrap().len(), 0);
@@ -121,7 +121,7 @@ fn tolerance_that_is_no_number_tolerates_nothing() {
 fn samples_beyond_the_last_are_none() {
     let refused = refusal(SampledMotion::new(usize::MAX, vec![0.0, 1.0], vec![], vec![]));
     let expected = usize::MAX;
-    assert_eq!(refused, DynamicsError::DimensionMismatch { quantity: "coordinates", expected, found: 0 });
+    assert_eq!(refused, DynamicsError::WrongLength { quantity: "coordinates", expected, found: 0 });
     let samples = SampledMotion::new(1, vec![0.0, 1.0], vec![2.0, 3.0], vec![0.0; 2]).unwrap();
     assert_eq!(
         (samples.coordinates(1), samples.velocities(2), samples.coordinates(usize::MAX)),
@@ -140,7 +140,7 @@ fn impossible_moments_of_inertia_are_refused() {
         refusal(principal_angular_acceleration([1.0; 3], &zero, &nan)),
         refusal(particle_acceleration(1.0, &nan)),
     ] {
-        assert!(matches!(found, DynamicsError::NonFinite { index: 1, .. }), "{found}");
+        assert!(matches!(found, DynamicsError::NotFinite { index: 1, .. }), "{found}");
     }
 }
 
@@ -160,7 +160,7 @@ fn part_with_an_infinite_force_is_named() {
     let mut out = [Reaction::none(); 3];
     let found =
         refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), (zero, zero, zero), 0.0, &mut out));
-    assert!(matches!(found, DynamicsError::NonFinite { quantity: "reactions", index: 1, .. }), "{found}");
+    assert!(matches!(found, DynamicsError::NotFinite { quantity: "reactions", index: 1, .. }), "{found}");
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn action_of_a_path_that_jumps_is_given_with_its_error_or_refused() {
         Err(found) => assert!(matches!(found, DynamicsError::QuadratureNotConverged { .. }), "{found}"),
     }
     let found = refusal(system.action(&Jump, 0.0..f64::NAN, Tolerance::relative(1e-10).unwrap()));
-    assert!(matches!(found, DynamicsError::NonFinite { quantity: "times", index: 1, .. }), "{found}");
+    assert!(matches!(found, DynamicsError::NotFinite { quantity: "times", index: 1, .. }), "{found}");
 }
 
 #[test]

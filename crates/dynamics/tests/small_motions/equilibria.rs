@@ -130,7 +130,7 @@ fn forces_that_nothing_balances_are_refused() {
     let error = free(Acts::Exponential).equilibrium(&[0.5], 0.0).unwrap_err();
     assert!(matches!(error, DynamicsError::NoEquilibrium { .. }), "{error}");
     let error = free(Acts::Exponential).equilibrium(&[f64::NAN], 0.0).unwrap_err();
-    assert!(matches!(error, DynamicsError::NonFinite { quantity: "q", index: 0, .. }), "{error}");
+    assert!(matches!(error, DynamicsError::NotFinite { quantity: "q", index: 0, .. }), "{error}");
     // Horizontal, a pendulum answers no turn: the direction is named.
     let pendulum = standing(Still::Pendulums(vec![1.0], vec![1.0]));
     let error = pendulum.equilibrium(&[0.5 * PI], 0.0).unwrap_err();

@@ -124,7 +124,7 @@ fn input_matrix_equals_acceleration_by_unit_inputs() {
     let b = upright.input_matrix(&dmatrix![1.0; 0.0]).unwrap();
     assert_close("B", b.as_slice(), &[0.0, 0.0, 1.0 / 3.0, -1.0 / 3.0], Tol::ulps(8.0));
     let error = upright.input_matrix(&dmatrix![1.0]).unwrap_err();
-    assert!(matches!(error, DynamicsError::DimensionMismatch { quantity: "inputs", expected: 2, found: 1 }), "{error}");
+    assert!(matches!(error, DynamicsError::WrongLength { quantity: "inputs", expected: 2, found: 1 }), "{error}");
 }
 
 #[test]

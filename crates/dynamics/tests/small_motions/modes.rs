@@ -196,13 +196,13 @@ fn matrix_without_inertia_or_number_is_refused() {
         assert_close("direction", direction, &[-1.0, 1.0], Tol::ulps(2.0));
     }
     let strange = linear(DMatrix::identity(1, 1), &DMatrix::zeros(1, 1), &dmatrix![f64::NAN]);
-    assert!(matches!(strange.normal_modes(), Err(DynamicsError::NonFinite { quantity: "stiffness", .. })));
-    assert!(matches!(strange.complex_modes(), Err(DynamicsError::NonFinite { .. })));
-    assert!(matches!(strange.state_matrix(), Err(DynamicsError::NonFinite { quantity: "stiffness", .. })));
-    assert!(matches!(strange.input_matrix(&dmatrix![1.0]), Err(DynamicsError::NonFinite { .. })));
+    assert!(matches!(strange.normal_modes(), Err(DynamicsError::NotFinite { quantity: "stiffness", .. })));
+    assert!(matches!(strange.complex_modes(), Err(DynamicsError::NotFinite { .. })));
+    assert!(matches!(strange.state_matrix(), Err(DynamicsError::NotFinite { quantity: "stiffness", .. })));
+    assert!(matches!(strange.input_matrix(&dmatrix![1.0]), Err(DynamicsError::NotFinite { .. })));
     let whole = linear(DMatrix::identity(1, 1), &DMatrix::zeros(1, 1), &DMatrix::identity(1, 1));
     let found = whole.input_matrix(&dmatrix![f64::NAN]).unwrap_err();
-    assert!(matches!(found, DynamicsError::NonFinite { quantity: "inputs", .. }), "{found}");
+    assert!(matches!(found, DynamicsError::NotFinite { quantity: "inputs", .. }), "{found}");
     let negative = linear(dmatrix![1.0, 0.0; 0.0, -2.0], &DMatrix::zeros(2, 2), &DMatrix::identity(2, 2));
     let found = negative.normal_modes().unwrap_err();
     let direction = vec![0.0, 1.0];
@@ -212,7 +212,7 @@ fn matrix_without_inertia_or_number_is_refused() {
 #[test]
 fn matrices_of_different_orders_are_refused_by_name() {
     let fits = linear(DMatrix::identity(2, 2), &DMatrix::zeros(2, 2), &DMatrix::identity(2, 2));
-    let wrong = |quantity, expected, found| DynamicsError::DimensionMismatch { quantity, expected, found };
+    let wrong = |quantity, expected, found| DynamicsError::WrongLength { quantity, expected, found };
     for (strange, refusal) in [
         (Linearisation { stiffness: DMatrix::zeros(1, 1), ..fits.clone() }, wrong("stiffness", 2, 1)),
         (Linearisation { damping: DMatrix::zeros(2, 3), ..fits.clone() }, wrong("damping", 2, 3)),

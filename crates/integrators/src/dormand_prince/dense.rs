@@ -5,7 +5,7 @@ use piola_numerics::Real;
 use super::coefficients as c;
 use super::stages::{combine, weighted_sums};
 use super::{DormandPrince853, evaluate};
-use crate::{Field, IntegrationError};
+use crate::{Field, IntegratorsError};
 
 /// An accepted step, with the state at any time within it.
 ///
@@ -76,14 +76,14 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
     /// ```
     ///
     /// # Errors
-    /// [`IntegrationError::OutsideStep`]: dense output never extrapolates. [`IntegrationError::Field`] when
-    /// one of the three additional evaluations fails. [`IntegrationError::DimensionMismatch`].
-    pub fn at(&mut self, time: f64, out: &mut [T]) -> Result<(), IntegrationError<F::Error>> {
+    /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::Field`] when
+    /// one of the three additional evaluations fails. [`IntegratorsError::DimensionMismatch`].
+    pub fn at(&mut self, time: f64, out: &mut [T]) -> Result<(), IntegratorsError<F::Error>> {
         if out.len() != self.method.start.len() {
-            return Err(IntegrationError::DimensionMismatch { expected: self.method.start.len(), found: out.len() });
+            return Err(IntegratorsError::DimensionMismatch { expected: self.method.start.len(), found: out.len() });
         }
         if !self.contains(time) {
-            return Err(IntegrationError::OutsideStep { time, start: self.start, end: self.end });
+            return Err(IntegratorsError::OutsideStep { time, start: self.start, end: self.end });
         }
         // At its ends the step is known, to the last bit and without evaluations.
         if time.to_bits() == self.end.to_bits() {
@@ -110,7 +110,7 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
         Ok(())
     }
 
-    fn prepare(&mut self) -> Result<(), IntegrationError<F::Error>> {
+    fn prepare(&mut self) -> Result<(), IntegratorsError<F::Error>> {
         let (method, t, h) = (&mut *self.method, self.start, self.step);
         let start = (&method.start[..], &method.start_carry[..]);
         // The step's end stands in `trial`; the arguments of the stages go to the last interpolant.

@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 
 use super::{DenseStep, DormandPrince853, Stop};
 use crate::state::check_run;
-use crate::{Ending, Field, IntegrationError, Report, State};
+use crate::{Ending, Field, IntegratorsError, Report, State};
 
 /// Which crossings of zero count; in the direction of the run, also where it runs backwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,9 +57,9 @@ impl<'e> Event<'e> {
         Self { function: Box::new(function), crossing, action, last: None, pending: None }
     }
 
-    fn value<E>(&mut self, index: usize, time: f64, values: &[f64]) -> Result<f64, IntegrationError<E>> {
+    fn value<E>(&mut self, index: usize, time: f64, values: &[f64]) -> Result<f64, IntegratorsError<E>> {
         let g = (self.function)(time, values);
-        if g.is_nan() { Err(IntegrationError::InvalidEvent { event: index, time }) } else { Ok(g) }
+        if g.is_nan() { Err(IntegratorsError::InvalidEvent { event: index, time }) } else { Ok(g) }
     }
 
     fn counts(&self, before: f64) -> bool {
@@ -91,7 +91,7 @@ impl DormandPrince853<f64> {
     /// breaks. The observer sees a step after its events; a step cut short by a stop it does not see.
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate), and [`IntegrationError::InvalidEvent`] where a function is NaN.
+    /// As [`integrate`](Self::integrate), and [`IntegratorsError::InvalidEvent`] where a function is NaN.
     ///
     /// # Example
     /// ```
@@ -110,7 +110,7 @@ impl DormandPrince853<f64> {
     /// )?;
     /// assert_eq!(report.ending, Ending::Event(0));
     /// assert!((state.time - 2.0).abs() < 1e-13);
-    /// # Ok::<(), IntegrationError>(())
+    /// # Ok::<(), IntegratorsError>(())
     /// ```
     pub fn integrate_with_events<F: Field>(
         &mut self,
@@ -120,7 +120,7 @@ impl DormandPrince853<f64> {
         events: &mut [Event<'_>],
         mut on_event: impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
         mut observer: impl FnMut(&mut DenseStep<'_, f64, F>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         check_run(field.dimension(), state, end)?;
         let mut values = state.values.clone();
         for (index, event) in events.iter_mut().enumerate() {
@@ -149,7 +149,7 @@ fn locate<F: Field>(
     events: &mut [Event<'_>],
     values: &mut [f64],
     on_event: &mut impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
-) -> Result<Option<Stop>, IntegrationError<F::Error>> {
+) -> Result<Option<Stop>, IntegratorsError<F::Error>> {
     let (start, end) = (step.start(), step.time());
     for place in 1..=PLACES {
         let time = if place == PLACES { end } else { start + (end - start) * (f64::from(place) / f64::from(PLACES)) };
@@ -212,7 +212,7 @@ fn root<F: Field>(
     values: &mut [f64],
     (mut a, mut ga): (f64, f64),
     (mut b, mut gb): (f64, f64),
-) -> Result<f64, IntegrationError<F::Error>> {
+) -> Result<f64, IntegratorsError<F::Error>> {
     if gb.abs() <= 0.0 {
         return Ok(b);
     }

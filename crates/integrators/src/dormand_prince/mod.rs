@@ -27,7 +27,7 @@ pub use dense::DenseStep;
 pub use events::{Crossing, Event, EventAction, Occurrence};
 
 use crate::state::{check_finite, check_run};
-use crate::{Ending, Field, IntegrationError, Report, State, Tolerance};
+use crate::{Ending, Field, IntegratorsError, Report, State, Tolerance};
 
 /// The adaptive method of order 8(5,3).
 ///
@@ -56,7 +56,7 @@ use crate::{Ending, Field, IntegrationError, Report, State, Tolerance};
 /// })?;
 /// assert!((state.values[0] - 10.0_f64.cos()).abs() < 1e-12);
 /// assert!(largest < 1e-11);
-/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct DormandPrince853<T = f64> {
@@ -100,8 +100,8 @@ impl<T: Real> DormandPrince853<T> {
     /// Sets the first step tried, s; by default it is estimated.
     ///
     /// # Errors
-    /// [`IntegrationError::InvalidStep`] unless 0 < step < ∞.
-    pub fn with_first_step(mut self, step: f64) -> Result<Self, IntegrationError> {
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+    pub fn with_first_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
         crate::state::check_step(step)?;
         self.first_step = Some(step);
         Ok(self)
@@ -110,13 +110,13 @@ impl<T: Real> DormandPrince853<T> {
     /// Bounds every step, s; by default steps are not bounded.
     ///
     /// # Errors
-    /// [`IntegrationError::InvalidStep`] unless 0 < step; ∞ is no bound.
-    pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegrationError> {
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step; ∞ is no bound.
+    pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
         if 0.0 < step {
             self.longest_step = step;
             Ok(self)
         } else {
-            Err(IntegrationError::InvalidStep { step })
+            Err(IntegratorsError::InvalidStep { step })
         }
     }
 
@@ -142,7 +142,7 @@ impl<T: Real> DormandPrince853<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         self.integrate(field, state, end, |_| ControlFlow::Continue(()))
     }
 
@@ -159,7 +159,7 @@ impl<T: Real> DormandPrince853<T> {
         state: &mut State<T>,
         end: f64,
         mut observer: impl FnMut(&mut DenseStep<'_, T, F>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         self.run(field, state, end, &mut |step| {
             Ok(if observer(step).is_break() {
                 ControlFlow::Break((None, Ending::Stopped))
@@ -187,8 +187,8 @@ impl<T: Real> DormandPrince853<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-        inspect: &mut impl FnMut(&mut DenseStep<'_, T, F>) -> Result<ControlFlow<Stop>, IntegrationError<F::Error>>,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+        inspect: &mut impl FnMut(&mut DenseStep<'_, T, F>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         check_run(field.dimension(), state, end)?;
         self.prepare(state.values.len());
         let mut report = Report::begin();
@@ -211,7 +211,7 @@ impl<T: Real> DormandPrince853<T> {
         let mut obstacle = None;
         loop {
             if self.most_steps <= report.steps {
-                return Err(IntegrationError::TooManySteps { time: state.time, steps: report.steps });
+                return Err(IntegratorsError::TooManySteps { time: state.time, steps: report.steps });
             }
             let remaining = (end - state.time) - state.time_carry;
             step = step.min(self.longest_step);
@@ -220,7 +220,7 @@ impl<T: Real> DormandPrince853<T> {
             let h = if last { remaining } else { direction * step };
             let stuck = h.abs() <= 2.0 * f64::EPSILON * state.time.abs();
             if stuck && !last || h.abs() <= 0.0 {
-                return Err(obstacle.unwrap_or(IntegrationError::StepTooSmall { time: state.time, step: h }));
+                return Err(obstacle.unwrap_or(IntegratorsError::StepTooSmall { time: state.time, step: h }));
             }
 
             let error = match self.try_step(field, state, h, &mut report) {
@@ -300,6 +300,6 @@ fn evaluate<T: Real, F: Field<T>>(
     time: f64,
     y: &[T],
     rate: &mut [T],
-) -> Result<(), IntegrationError<F::Error>> {
-    field.rate(time, y, rate).map_err(|source| IntegrationError::Field { time, source })
+) -> Result<(), IntegratorsError<F::Error>> {
+    field.rate(time, y, rate).map_err(|source| IntegratorsError::Field { time, source })
 }

@@ -6,7 +6,7 @@ use super::coefficients as c;
 use super::{DormandPrince853, evaluate};
 use crate::field::largest_lane;
 use crate::state::{check_finite, compensated_add};
-use crate::{Field, IntegrationError, Report, State};
+use crate::{Field, IntegratorsError, Report, State};
 
 impl<T: Real> DormandPrince853<T> {
     /// Makes the stages of one step and its end in `trial`; returns the error over the tolerance.
@@ -16,7 +16,7 @@ impl<T: Real> DormandPrince853<T> {
         state: &State<T>,
         h: f64,
         report: &mut Report,
-    ) -> Result<f64, IntegrationError<F::Error>> {
+    ) -> Result<f64, IntegratorsError<F::Error>> {
         let t = state.time;
         let y = (&state.values[..], &state.carry[..]);
         let k = &mut self.stages;
@@ -41,7 +41,7 @@ impl<T: Real> DormandPrince853<T> {
         stage!(11, c::A12);
         let error = self.finish(field, state, h);
         if error <= 1.0 {
-            field.project(t + h, &mut self.trial).map_err(|source| IntegrationError::Field { time: t + h, source })?;
+            field.project(t + h, &mut self.trial).map_err(|source| IntegratorsError::Field { time: t + h, source })?;
             report.evaluations += 1;
             evaluate(field, t + h, &self.trial, &mut self.stages[12])?;
             check_finite(t, &self.stages[12])?;

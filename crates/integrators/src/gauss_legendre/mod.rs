@@ -27,7 +27,7 @@ use piola_numerics::Real;
 use self::tableaux::{STAGES_1, STAGES_2, STAGES_3, STAGES_4, Tableau};
 use crate::field::largest_lane;
 use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
-use crate::{Ending, Field, IntegrationError, Order, Report, State, Step, unobserved};
+use crate::{Ending, Field, IntegratorsError, Order, Report, State, Step, unobserved};
 
 /// Sweeps over the stages after which a step is given up.
 const MOST_SWEEPS: usize = 100;
@@ -55,7 +55,7 @@ const UNROUNDED: f64 = 1e-4;
 /// let before = energy(&state.values);
 /// GaussLegendre::new(Order::Eight, 0.1)?.integrate_to(&mut pendulum, &mut state, 100.0)?;
 /// assert!((energy(&state.values) - before).abs() < 1e-10);
-/// # Ok::<(), piola_integrators::IntegrationError>(())
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct GaussLegendre<T = f64> {
@@ -81,8 +81,8 @@ impl<T: Real> GaussLegendre<T> {
     /// Collocation of the given order whose steps are no longer than `step` (s).
     ///
     /// # Errors
-    /// [`IntegrationError::InvalidStep`] unless 0 < step < ∞.
-    pub fn new(order: Order, step: f64) -> Result<Self, IntegrationError> {
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+    pub fn new(order: Order, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
         let workspace = Workspace {
             increments: Vec::new(),
@@ -117,7 +117,7 @@ impl<T: Real> GaussLegendre<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         self.integrate(field, state, end, unobserved)
     }
 
@@ -126,7 +126,7 @@ impl<T: Real> GaussLegendre<T> {
     ///
     /// # Errors
     /// The state does not fit, the field fails or gives a rate that is not finite, or the stages do not
-    /// converge ([`IntegrationError::StagesDiverged`]: take a smaller step). The state then stands at the
+    /// converge ([`IntegratorsError::StagesDiverged`]: take a smaller step). The state then stands at the
     /// last complete step.
     pub fn integrate<F: Field<T>>(
         &mut self,
@@ -134,7 +134,7 @@ impl<T: Real> GaussLegendre<T> {
         state: &mut State<T>,
         end: f64,
         observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         match self.order {
             Order::Two => self.run(&STAGES_1, field, state, end, observer),
             Order::Four => self.run(&STAGES_2, field, state, end, observer),
@@ -150,7 +150,7 @@ impl<T: Real> GaussLegendre<T> {
         state: &mut State<T>,
         end: f64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegrationError<F::Error>> {
+    ) -> Result<Report, IntegratorsError<F::Error>> {
         let n = field.dimension();
         check_run(n, state, end)?;
         let work = &mut self.workspace;
@@ -203,7 +203,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
     field: &mut F,
     state: &State<T>,
     work: &mut Workspace<T>,
-) -> Result<u64, IntegrationError<F::Error>> {
+) -> Result<u64, IntegratorsError<F::Error>> {
     let n = state.values.len();
     let time = state.time;
     field.magnitudes(&state.values, &mut work.magnitudes);
@@ -220,7 +220,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
         }
         work.increments.copy_from_slice(&work.guess);
     } else {
-        field.rate(time, &state.values, &mut work.rate).map_err(|source| IntegrationError::Field { time, source })?;
+        field.rate(time, &state.values, &mut work.rate).map_err(|source| IntegratorsError::Field { time, source })?;
         evaluations += 1;
         for (increments, &weight) in work.increments.chunks_mut(n.max(1)).zip(weights) {
             for (increment, &rate) in increments.iter_mut().zip(&work.rate) {
@@ -243,7 +243,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
             let stage_time = time + tableau.nodes[i] * h;
             field
                 .rate(stage_time, &work.stage[i * n..(i + 1) * n], &mut work.rate)
-                .map_err(|source| IntegrationError::Field { time: stage_time, source })?;
+                .map_err(|source| IntegratorsError::Field { time: stage_time, source })?;
             evaluations += 1;
             check_finite(time, &work.rate)?;
             if i == S - 1 {
@@ -278,7 +278,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
             return Ok(evaluations);
         }
         if sweep == MOST_SWEEPS {
-            return Err(IntegrationError::StagesDiverged { time, step: h, iterations: sweep, change });
+            return Err(IntegratorsError::StagesDiverged { time, step: h, iterations: sweep, change });
         }
         // The first change may be out of proportion: it can be relative to a velocity near rest.
         previous = change.min(1.0);

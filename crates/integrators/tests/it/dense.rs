@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use piola_integrators::{DormandPrince853, IntegrationError, State, Tolerance, field};
+use piola_integrators::{DormandPrince853, IntegratorsError, State, Tolerance, field};
 use piola_testkit::{Tol, assert_close};
 
 use crate::problems::{kepler, kepler_at};
@@ -75,9 +75,9 @@ fn dense_output_outside_the_step_is_refused() {
         .integrate(&mut decay, &mut state, 2.0, |step| {
             let mut y = [7.0];
             for time in [step.time().next_up(), step.start().next_down(), f64::NAN, f64::INFINITY] {
-                assert!(matches!(step.at(time, &mut y), Err(IntegrationError::OutsideStep { .. })));
+                assert!(matches!(step.at(time, &mut y), Err(IntegratorsError::OutsideStep { .. })));
             }
-            let expected = IntegrationError::DimensionMismatch { expected: 1, found: 2 };
+            let expected = IntegratorsError::DimensionMismatch { expected: 1, found: 2 };
             assert_eq!(step.at(step.time(), &mut [0.0; 2]), Err(expected));
             assert_eq!(y.map(f64::to_bits), [7.0_f64.to_bits()]);
             ControlFlow::Continue(())

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Crossing, DormandPrince853, Ending, Event, EventAction, Field, IntegrationError, Report, State, Tolerance, field,
+    Crossing, DormandPrince853, Ending, Event, EventAction, Field, IntegratorsError, Report, State, Tolerance, field,
 };
 use piola_testkit::{Tol, assert_close};
 
@@ -21,7 +21,7 @@ fn clock() -> (impl Field<Error = core::convert::Infallible>, DormandPrince853) 
     (field(1, |_t, _y: &[f64], rate: &mut [f64]| rate[0] = 1.0), method)
 }
 
-type Ended<E> = Result<Report, IntegrationError<E>>;
+type Ended<E> = Result<Report, IntegratorsError<E>>;
 
 /// Runs and lists (event, time).
 fn run<F: Field>(
@@ -211,7 +211,7 @@ fn event_that_is_nan_is_refused_by_its_index() {
         Event::new(Crossing::Either, EventAction::Report, |t, _y| (1.0 - t).sqrt()),
     ];
     let (report, _) = run(&mut precise(), &mut oscillator(), &mut state, 10.0, &mut events);
-    assert!(matches!(report, Err(IntegrationError::InvalidEvent { event: 1, time }) if 1.0 < time));
+    assert!(matches!(report, Err(IntegratorsError::InvalidEvent { event: 1, time }) if 1.0 < time));
 }
 
 #[test]
@@ -219,5 +219,5 @@ fn state_of_another_dimension_is_refused_before_events_see_it() {
     let mut state = State::new(0.0, vec![1.0]).unwrap();
     let mut events = [Event::new(Crossing::Either, EventAction::Report, |_t, y| y[1])];
     let (report, _) = run(&mut precise(), &mut oscillator(), &mut state, 10.0, &mut events);
-    assert_eq!(report, Err(IntegrationError::DimensionMismatch { expected: 2, found: 1 }));
+    assert_eq!(report, Err(IntegratorsError::DimensionMismatch { expected: 2, found: 1 }));
 }

@@ -3,14 +3,14 @@
 use core::convert::Infallible;
 
 use piola_integrators::{
-    Composition, DormandPrince853, Field, GaussLegendre, IntegrationError, Order, Report, Separable, State, Tolerance,
+    Composition, DormandPrince853, Field, GaussLegendre, IntegratorsError, Order, Report, Separable, State, Tolerance,
 };
 use piola_testkit::golden::{self, number, text, vector};
 use piola_testkit::{Tol, assert_close};
 
 use crate::problems::{DoublePendulum, henon_heiles, kepler, three_bodies};
 
-fn check(name: &str, mut integrate_to: impl FnMut(&mut State, f64) -> Result<Report, IntegrationError<Infallible>>) {
+fn check(name: &str, mut integrate_to: impl FnMut(&mut State, f64) -> Result<Report, IntegratorsError<Infallible>>) {
     let golden = golden::load("trajectories");
     let case = golden.cases.iter().find(|case| text(&case["name"]) == name).unwrap();
     let mut state = State::new(0.0, vector(&case["initial_state"])).unwrap();

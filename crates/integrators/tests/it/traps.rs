@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegrationError, Order, Report, Separable, State,
+    Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Order, Report, Separable, State,
     Tolerance, field, separable,
 };
 use piola_numerics::{Lanes, Real};
@@ -164,19 +164,19 @@ fn field_that_fails_leaves_the_last_good_state() {
         })
         .unwrap_err();
     // However small the step, beyond the wall there is no field; up to it the run has come.
-    assert!(matches!(error, IntegrationError::Field { source: Wall, .. }), "{error:?}");
+    assert!(matches!(error, IntegratorsError::Field { source: Wall, .. }), "{error:?}");
     assert_eq!(state.time.to_bits(), seen.to_bits());
     assert_close("wall", &[state.time, state.values[0]], &[1.0, 1.0], Tol::ulps(16.0));
 
     let mut state = start.clone();
     let error = Composition::new(Order::Six, 0.125).unwrap().integrate_to(&mut Walled, &mut state, 10.0).unwrap_err();
-    assert!(matches!(error, IntegrationError::Field { source: Wall, .. }));
+    assert!(matches!(error, IntegratorsError::Field { source: Wall, .. }));
     assert!(state.time <= 1.0);
     assert_close("composition", &state.values, &[state.time, 1.0], Tol::ulps(16.0));
 
     let mut state = start;
     let error = GaussLegendre::new(Order::Six, 0.125).unwrap().integrate_to(&mut Walled, &mut state, 10.0).unwrap_err();
-    assert!(matches!(error, IntegrationError::Field { source: Wall, .. }));
+    assert!(matches!(error, IntegratorsError::Field { source: Wall, .. }));
     assert_close("collocation", &[state.time, state.values[0]], &[1.0, 1.0], Tol::ulps(16.0));
 }
 
@@ -185,12 +185,12 @@ fn rate_that_is_nan_leaves_the_last_good_state() {
     let mut rooted = field(1, |_t, y: &[f64], rate: &mut [f64]| rate[0] = (1.0 - y[0]).sqrt() + 1.0);
     let mut state = State::new(0.0, vec![0.0]).unwrap();
     let error = adaptive(1e-9).integrate_to(&mut rooted, &mut state, 10.0).unwrap_err();
-    assert!(matches!(error, IntegrationError::NonFiniteRate { index: 0, .. }), "{error:?}");
+    assert!(matches!(error, IntegratorsError::NonFiniteRate { index: 0, .. }), "{error:?}");
     assert!(0.99 < state.values[0] && state.values[0] <= 1.0);
     let mut rooted = separable(1, |_t, q: &[f64], force: &mut [f64]| force[0] = (1.0 - q[0]).sqrt());
     let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
     let error = Composition::new(Order::Two, 0.1).unwrap().integrate_to(&mut rooted, &mut state, 10.0).unwrap_err();
-    assert!(matches!(error, IntegrationError::NonFiniteRate { index: 0, .. }));
+    assert!(matches!(error, IntegratorsError::NonFiniteRate { index: 0, .. }));
     assert!(0.0 < state.time && state.values.iter().all(|y| y.is_finite()));
 }
 
@@ -213,7 +213,7 @@ fn velocity_that_is_nan_is_refused() {
     }
     let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
     let error = Composition::new(Order::Two, 0.25).unwrap().integrate_to(&mut Broken, &mut state, 10.0).unwrap_err();
-    assert_eq!(error, IntegrationError::NonFiniteRate { time: 0.75, index: 0 });
+    assert_eq!(error, IntegratorsError::NonFiniteRate { time: 0.75, index: 0 });
     assert_eq!(state.values, [0.75, 1.0]);
 }
 
@@ -224,9 +224,9 @@ fn nan_in_one_lane_is_not_hidden_by_the_others() {
         field(1, |_t, y: &[Two], rate: &mut [Two]| rate[0] = (Two::lit(1.0) - y[0]).sqrt() + Two::lit(1.0));
     let mut state = State::new(0.0, vec![Two::from([-100.0, 0.0])]).unwrap();
     let error = adaptive(1e-9).integrate_to(&mut rooted, &mut state, 10.0).unwrap_err();
-    assert!(matches!(error, IntegrationError::NonFiniteRate { index: 0, .. }), "{error:?}");
+    assert!(matches!(error, IntegratorsError::NonFiniteRate { index: 0, .. }), "{error:?}");
     let invalid = State::new(0.0, vec![Two::from([0.0, f64::NAN])]);
-    assert!(matches!(invalid, Err(IntegrationError::NonFiniteState { index: 0, value }) if value.is_nan()));
+    assert!(matches!(invalid, Err(IntegratorsError::NonFiniteState { index: 0, value }) if value.is_nan()));
 }
 
 #[test]
@@ -235,7 +235,7 @@ fn approach_to_a_singularity_ends_with_a_step_too_small() {
     let mut explosion = field(1, |_t, y: &[f64], rate: &mut [f64]| rate[0] = y[0] * y[0]);
     let mut state = State::new(0.0, vec![1.0]).unwrap();
     let error = adaptive(1e-12).integrate_to(&mut explosion, &mut state, 2.0).unwrap_err();
-    assert!(matches!(error, IntegrationError::StepTooSmall { .. }), "{error:?}");
+    assert!(matches!(error, IntegratorsError::StepTooSmall { .. }), "{error:?}");
     assert_close("time of explosion", &[state.time], &[1.0], Tol::stated(1e-11, "tolerance 1e-12"));
     assert!(1e10 < state.values[0]);
 }
@@ -246,7 +246,7 @@ fn stages_that_diverge_are_refused() {
     let mut state = State::new(0.0, vec![1.0]).unwrap();
     let error = GaussLegendre::new(Order::Eight, 0.1).unwrap().integrate_to(&mut stiff, &mut state, 1.0).unwrap_err();
     assert!(
-        matches!(error, IntegrationError::StagesDiverged { .. } | IntegrationError::NonFiniteRate { .. }),
+        matches!(error, IntegratorsError::StagesDiverged { .. } | IntegratorsError::NonFiniteRate { .. }),
         "{error:?}"
     );
     assert_eq!((state.time.to_bits(), state.values[0].to_bits()), (0.0_f64.to_bits(), 1.0_f64.to_bits()));
@@ -256,7 +256,7 @@ fn stages_that_diverge_are_refused() {
 fn limit_on_steps_is_kept() {
     let mut state = State::new(0.0, kepler_at(0.9, 0.0).to_vec()).unwrap();
     let error = adaptive(1e-12).with_most_steps(7).integrate_to(&mut kepler(), &mut state, 100.0).unwrap_err();
-    assert_eq!(error, IntegrationError::TooManySteps { time: state.time, steps: 7 });
+    assert_eq!(error, IntegratorsError::TooManySteps { time: state.time, steps: 7 });
 }
 
 #[test]
@@ -277,7 +277,7 @@ fn bad_input_is_refused_by_name() {
         [(-1e-9, 0.0), (0.0, 0.0), (1.0, 0.0), (f64::NAN, 0.0), (1e-9, f64::NAN), (1e-9, -1.0), (1e-9, f64::INFINITY)]
     {
         let refused = Tolerance::new(relative, absolute);
-        assert!(matches!(refused, Err(IntegrationError::InvalidTolerance { .. })), "{relative} {absolute}");
+        assert!(matches!(refused, Err(IntegratorsError::InvalidTolerance { .. })), "{relative} {absolute}");
     }
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(Composition::<f64>::new(Order::Two, step).is_err());
@@ -285,25 +285,25 @@ fn bad_input_is_refused_by_name() {
         assert!(adaptive::<f64>(1e-9).with_first_step(step).is_err());
     }
     assert!(adaptive::<f64>(1e-9).with_longest_step(f64::NAN).is_err());
-    assert!(matches!(State::new(f64::NAN, vec![1.0]), Err(IntegrationError::NonFiniteTime { .. })));
+    assert!(matches!(State::new(f64::NAN, vec![1.0]), Err(IntegratorsError::NonFiniteTime { .. })));
     assert_eq!(
         State::new(0.0, vec![1.0, f64::NEG_INFINITY]),
-        Err(IntegrationError::NonFiniteState { index: 1, value: f64::NEG_INFINITY })
+        Err(IntegratorsError::NonFiniteState { index: 1, value: f64::NEG_INFINITY })
     );
     let mut state = State::new(0.0, vec![1.0]).unwrap();
-    let mismatch = IntegrationError::DimensionMismatch { expected: 4, found: 1 };
+    let mismatch = IntegratorsError::DimensionMismatch { expected: 4, found: 1 };
     assert_eq!(adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 1.0), Err(mismatch));
     let mut state = State::new(0.0, kepler_at(0.3, 0.0).to_vec()).unwrap();
     for end in [f64::NAN, f64::INFINITY] {
         let error = Composition::new(Order::Two, 0.1).unwrap().integrate_to(&mut kepler(), &mut state, end);
-        assert!(matches!(error, Err(IntegrationError::NonFiniteTime { .. })));
+        assert!(matches!(error, Err(IntegratorsError::NonFiniteTime { .. })));
     }
     // Steps that cannot advance the time, or could not be counted.
     let error = Composition::new(Order::Two, 1e-300).unwrap().integrate_to(&mut kepler(), &mut state, 1.0);
-    assert!(matches!(error, Err(IntegrationError::StepTooSmall { .. })));
+    assert!(matches!(error, Err(IntegratorsError::StepTooSmall { .. })));
     state.values[2] = f64::NAN;
     let error = adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 1.0);
-    assert!(matches!(error, Err(IntegrationError::NonFiniteState { index: 2, .. })));
+    assert!(matches!(error, Err(IntegratorsError::NonFiniteState { index: 2, .. })));
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn attitudes_inertia_systems_and_curves_allocate_nothing() {
         let _ = RotationVector(points[0]).rate_from_body(&points[1]);
         let _ = Inertia::principal([1.0, 2.0, 2.5]).expect("a body").rotated(attitude).principal_axes();
         let system = ParticleSystem::new(&[1.0, 2.0, 3.0], &points, &points).expect("a system");
-        let _ = (system.kinetic_energy(), system.moment_of_momentum(&points[0]), system.inertia_about_centre_of_mass());
+        let _ = (system.kinetic_energy(), system.angular_momentum(&points[0]), system.inertia_about_centre_of_mass());
         let _ = system.rates(&points, &points[0]).expect("rates");
         let _ = Frenet::of_curve(&Helix, 1.0).expect("a frame");
     });

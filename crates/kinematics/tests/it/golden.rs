@@ -162,7 +162,7 @@ fn koenig_splits_equal_reference() {
         check(name, "r^c", system.centre_of_mass().as_slice(), &of("centre_of_mass"));
         check(name, "v^c", system.velocity_of_centre_of_mass().as_slice(), &of("velocity_com"));
         check(name, "L", system.momentum().as_slice(), &of("momentum"));
-        let moment = system.moment_of_momentum(&Vector3::zeros());
+        let moment = system.angular_momentum(&Vector3::zeros());
         check(name, "H relative", moment.relative.as_slice(), &of("H_com"));
         check(name, "H of c", moment.of_centre_of_mass.as_slice(), &of("H_of_com_about_origin"));
         check(name, "H", moment.total().as_slice(), &of("H_origin"));
@@ -173,8 +173,8 @@ fn koenig_splits_equal_reference() {
         let rates = system.rates(&a, &Vector3::zeros()).expect("rates");
         check(name, "a^c", rates.acceleration_of_centre_of_mass.as_slice(), &of("acceleration_com"));
         check(name, "dL/dt", rates.momentum.as_slice(), &of("force_total"));
-        check(name, "dH/dt relative", rates.moment_of_momentum.relative.as_slice(), &of("dH_com_dt"));
-        check(name, "dH/dt", rates.moment_of_momentum.total().as_slice(), &of("dH_origin_dt"));
+        check(name, "dH/dt relative", rates.angular_momentum.relative.as_slice(), &of("dH_com_dt"));
+        check(name, "dH/dt", rates.angular_momentum.total().as_slice(), &of("dH_origin_dt"));
         check(name, "dE/dt", &[rates.kinetic_energy.total()], &[number(&case["power"])]);
         let inertia = system.inertia_about_centre_of_mass();
         check(name, "I", &rows(&inertia), &matrix(&case["inertia_about_com"]).concat());
@@ -241,17 +241,17 @@ fn motion_of_rigid_bodies_equals_reference() {
         let energy = body.kinetic_energy(&motion.velocity, omega);
         check(name, "E", &[energy], &[number(&case["kinetic_energy"])]);
         check(name, "Iω", body.spin_in_body(omega).as_slice(), &vector(&case["H_com_body"]));
-        let about_centre = body.moment_of_momentum(&motion, &motion.position);
+        let about_centre = body.angular_momentum(&motion, &motion.position);
         check(name, "H about c", about_centre.as_slice(), &vector(&case["H_com_space"]));
         let spin_rate = body.spin_rate_in_body(omega, omega_rate);
         check(name, "dH/dt in body", spin_rate.as_slice(), &vector(&case["dH_com_dt_body"]));
-        let in_space = body.moment_of_momentum_rate(&motion, &motion.position);
+        let in_space = body.angular_momentum_rate(&motion, &motion.position);
         check(name, "dH/dt in space", in_space.as_slice(), &vector(&case["dH_com_dt_space"]));
         let power = body.kinetic_energy_rate(&zero, &zero, omega, omega_rate);
         let scale = omega.norm() * body.spin_in_body(omega_rate).norm();
         check_at_scale(name, "dE/dt", power, number(&case["dE_rotation_dt"]), scale);
         let pivot = motion.attitude.to_space(&point(&case["offset_body"]));
-        let about_pivot = body.moment_of_momentum(&motion, &pivot);
+        let about_pivot = body.angular_momentum(&motion, &pivot);
         check(name, "H about P", about_pivot.as_slice(), &vector(&case["H_about_offset_point_space"]));
     }
 }

@@ -87,8 +87,8 @@ proptest! {
         let system = ParticleSystem::new(&m, &x, &v).expect("a system");
         let energy: f64 = m.iter().zip(&v).map(|(m, v)| particle::kinetic_energy(*m, v)).sum();
         assert_close("E", &[system.kinetic_energy().total()], &[energy], FEW);
-        let moment: Vector3<f64> = (0..m.len()).map(|i| particle::moment_of_momentum(m[i], &(x[i] - pivot), &v[i])).sum();
-        close("H", &system.moment_of_momentum(&pivot).total(), &moment, 12.0 * system.mass());
+        let moment: Vector3<f64> = (0..m.len()).map(|i| particle::angular_momentum(m[i], &(x[i] - pivot), &v[i])).sum();
+        close("H", &system.angular_momentum(&pivot).total(), &moment, 12.0 * system.mass());
     }
 
     #[test]
@@ -100,9 +100,9 @@ proptest! {
         let moving = ParticleSystem::new(&m, &moving_x, &moving_v).expect("a system");
         let scale = 50.0 * moving.mass();
         close("dL/dt", &rates.momentum, &tangent(&moving.momentum()), scale);
-        let moment = moving.moment_of_momentum(&Vector3::zeros());
-        close("dH/dt relative", &rates.moment_of_momentum.relative, &tangent(&moment.relative), scale);
-        close("dH/dt of c", &rates.moment_of_momentum.of_centre_of_mass, &tangent(&moment.of_centre_of_mass), scale);
+        let moment = moving.angular_momentum(&Vector3::zeros());
+        close("dH/dt relative", &rates.angular_momentum.relative, &tangent(&moment.relative), scale);
+        close("dH/dt of c", &rates.angular_momentum.of_centre_of_mass, &tangent(&moment.of_centre_of_mass), scale);
         let energy = moving.kinetic_energy();
         let parts = [rates.kinetic_energy.relative, rates.kinetic_energy.of_centre_of_mass];
         let expected = [energy.relative.tangent, energy.of_centre_of_mass.tangent];
@@ -120,8 +120,8 @@ proptest! {
         let (r, velocity) = (dual(&(motion.position - pivot), &motion.velocity), dual(&motion.velocity, &motion.acceleration));
         let scale = 400.0 * mass;
         close("dl/dt", &particle::momentum_rate(mass, &motion.acceleration), &tangent(&particle::momentum(mass, &velocity)), scale);
-        let moment_rate = particle::moment_of_momentum_rate(mass, &(motion.position - pivot), &motion.acceleration);
-        close("dh/dt", &moment_rate, &tangent(&particle::moment_of_momentum(mass, &r, &velocity)), 100.0 * scale);
+        let moment_rate = particle::angular_momentum_rate(mass, &(motion.position - pivot), &motion.acceleration);
+        close("dh/dt", &moment_rate, &tangent(&particle::angular_momentum(mass, &r, &velocity)), 100.0 * scale);
         let power = particle::kinetic_energy_rate(mass, &motion.velocity, &motion.acceleration);
         assert_close_at_scale("de/dt", &[power], &[particle::kinetic_energy(mass, &velocity).tangent], 100.0 * scale, FEW);
     }
@@ -349,8 +349,8 @@ proptest! {
         let energy = body.kinetic_energy(&moving_motion.velocity, &moving_motion.angular_velocity);
         let power = body.kinetic_energy_rate(&v, &a, &omega, &omega_rate);
         assert_close_at_scale("dE/dt", &[power], &[energy.tangent], scale, FEW);
-        let moment = body.moment_of_momentum(&moving_motion, &Vector3::zeros());
-        let rate = body.moment_of_momentum_rate(&motion, &Vector3::zeros());
+        let moment = body.angular_momentum(&moving_motion, &Vector3::zeros());
+        let rate = body.angular_momentum_rate(&motion, &Vector3::zeros());
         close("dH/dt", &rate, &tangent(&moment), scale);
     }
 

@@ -141,15 +141,15 @@ fn split_errors(distance: f64) -> [f64; 4] {
     let origin = Vector3::zeros();
     let exact_origin = origin.map(DoubleDouble::lit);
     let moment = ulps(
-        computed.moment_of_momentum(&origin).relative.as_slice(),
-        exact.moment_of_momentum(&exact_origin).relative.as_slice(),
+        computed.angular_momentum(&origin).relative.as_slice(),
+        exact.angular_momentum(&exact_origin).relative.as_slice(),
     );
     let energy = ulps(&[computed.kinetic_energy().relative], &[exact.kinetic_energy().relative]);
     let inertia =
         ulps(computed.inertia_about_centre_of_mass().as_slice(), exact.inertia_about_centre_of_mass().as_slice());
     let rates = ulps(
-        computed.rates(&accelerations, &origin).expect("rates").moment_of_momentum.relative.as_slice(),
-        exact.rates(&exact_a, &exact_origin).expect("rates").moment_of_momentum.relative.as_slice(),
+        computed.rates(&accelerations, &origin).expect("rates").angular_momentum.relative.as_slice(),
+        exact.rates(&exact_a, &exact_origin).expect("rates").angular_momentum.relative.as_slice(),
     );
     [moment, energy, inertia, rates]
 }

@@ -78,7 +78,7 @@ fn relative_parts_far_from_the_origin_equal_those_near_it() {
     let tol = Tol::ulps(64.0);
     assert_close("E", &[there.kinetic_energy().relative], &[here.kinetic_energy().relative], tol);
     let (moment, expected) =
-        (there.moment_of_momentum(&far).relative, here.moment_of_momentum(&Vector3::zeros()).relative);
+        (there.angular_momentum(&far).relative, here.angular_momentum(&Vector3::zeros()).relative);
     assert_close("H", moment.as_slice(), expected.as_slice(), tol);
     let (inertia, expected) = (there.inertia_about_centre_of_mass(), here.inertia_about_centre_of_mass());
     assert_close("I", inertia.as_slice(), expected.as_slice(), tol);

@@ -17,7 +17,7 @@
 //! let spring = Spring { stiffness: 3.0 };
 //! assert_eq!(derivatives::gradient(&spring, &[1.0, 2.0])?.as_slice(), [3.0, 6.0]);
 //! assert_eq!(derivatives::hessian(&spring, &[1.0, 2.0])?.as_slice(), [3.0, 0.0, 0.0, 3.0]);
-//! # Ok::<(), piola_numerics::Error>(())
+//! # Ok::<(), piola_numerics::NumericsError>(())
 //! ```
 //!
 //! | f | to get | use | passes over f |
@@ -38,9 +38,9 @@
 //! come at once.
 //!
 //! # Errors
-//! Every function refuses a vector of the wrong length ([`Error::Dimension`](crate::Error::Dimension)), an
+//! Every function refuses a vector of the wrong length ([`NumericsError::WrongLength`](crate::NumericsError::WrongLength)), an
 //! argument that is not finite, and a result that is not, because the formula has no derivative there
-//! ([`Error::NonFinite`](crate::Error::NonFinite) with the name and index).
+//! ([`NumericsError::NotFinite`](crate::NumericsError::NotFinite) with the name and index).
 //!
 //! # Accuracy
 //! That of the formula's own operations: a few ulp × the condition number. There is no step width and no

@@ -4,16 +4,16 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{ScalarFunction, VectorFunction, Workspace};
 use crate::error::{check_dimension, check_finite};
-use crate::{Dual, Error, Gradient, Jet, Real};
+use crate::{Dual, NumericsError, Gradient, Jet, Real};
 
 /// Refuses a point that does not fit the workspace or is not finite.
-fn check_point<T: Real, const D: usize>(x: &[T], workspace: &Workspace<T, D>) -> Result<(), Error> {
+fn check_point<T: Real, const D: usize>(x: &[T], workspace: &Workspace<T, D>) -> Result<(), NumericsError> {
     check_dimension("x", x.len(), workspace.variables())?;
     check_finite("x", x)
 }
 
 /// Refuses a direction that does not fit the point or is not finite.
-fn check_direction<T: Real>(quantity: &'static str, direction: &[T], x: &[T]) -> Result<(), Error> {
+fn check_direction<T: Real>(quantity: &'static str, direction: &[T], x: &[T]) -> Result<(), NumericsError> {
     check_dimension(quantity, direction.len(), x.len())?;
     check_finite(quantity, direction)
 }
@@ -39,7 +39,7 @@ pub fn gradient_into<T: Real, const D: usize>(
     x: &[T],
     workspace: &mut Workspace<T, D>,
     gradient: &mut [T],
-) -> Result<T, Error> {
+) -> Result<T, NumericsError> {
     check_point(x, workspace)?;
     check_dimension("gradient", gradient.len(), x.len())?;
     if x.is_empty() {
@@ -58,7 +58,7 @@ pub fn gradient_into<T: Real, const D: usize>(
 }
 
 /// The value of a formula of no variables.
-fn value_of_constant<T: Real>(value: T) -> Result<T, Error> {
+fn value_of_constant<T: Real>(value: T) -> Result<T, NumericsError> {
     check_finite("value", &[value])?;
     Ok(value)
 }
@@ -70,7 +70,7 @@ fn value_of_constant<T: Real>(value: T) -> Result<T, Error> {
 ///
 /// # Example
 /// See [the module](super).
-pub fn gradient<T: Real>(f: &impl ScalarFunction, x: &[T]) -> Result<DVector<T>, Error> {
+pub fn gradient<T: Real>(f: &impl ScalarFunction, x: &[T]) -> Result<DVector<T>, NumericsError> {
     let mut gradient = DVector::from_element(x.len(), T::zero());
     gradient_into(f, x, &mut Workspace::<T, 4>::new(x.len()), gradient.as_mut_slice())?;
     Ok(gradient)
@@ -99,7 +99,7 @@ pub fn directional<T: Real, const D: usize>(
     x: &[T],
     direction: &[T],
     workspace: &mut Workspace<T, D>,
-) -> Result<(T, T, T), Error> {
+) -> Result<(T, T, T), NumericsError> {
     check_point(x, workspace)?;
     check_direction("direction", direction, x)?;
     for ((jet, &x), &v) in workspace.jets.iter_mut().zip(x).zip(direction) {
@@ -133,7 +133,7 @@ pub fn mixed<T: Real, const D: usize>(
     u: &[T],
     v: &[T],
     workspace: &mut Workspace<T, D>,
-) -> Result<T, Error> {
+) -> Result<T, NumericsError> {
     check_point(x, workspace)?;
     check_direction("u", u, x)?;
     check_direction("v", v, x)?;
@@ -163,7 +163,7 @@ pub fn mixed<T: Real, const D: usize>(
 /// let mut workspace = Workspace::<f64>::new(2);
 /// derivatives::hessian_vector_product_into(&Product, &[3.0, 4.0], &[5.0, 6.0], &mut workspace, &mut product)?;
 /// assert_eq!(product, [6.0, 5.0]);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 pub fn hessian_vector_product_into<T: Real, const D: usize>(
     f: &impl ScalarFunction,
@@ -171,7 +171,7 @@ pub fn hessian_vector_product_into<T: Real, const D: usize>(
     v: &[T],
     workspace: &mut Workspace<T, D>,
     product: &mut [T],
-) -> Result<T, Error> {
+) -> Result<T, NumericsError> {
     check_point(x, workspace)?;
     check_direction("v", v, x)?;
     check_dimension("product", product.len(), x.len())?;
@@ -208,7 +208,7 @@ pub fn hessian_vector_product_into<T: Real, const D: usize>(
 /// let mut workspace = Workspace::<f64>::new(2);
 /// derivatives::hessian_into(&Product, &[3.0, 4.0], &mut workspace, &mut gradient, &mut hessian)?;
 /// assert_eq!((gradient, hessian), ([4.0, 3.0], [0.0, 1.0, 1.0, 0.0]));
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 pub fn hessian_into<T: Real, const D: usize>(
     f: &impl ScalarFunction,
@@ -216,7 +216,7 @@ pub fn hessian_into<T: Real, const D: usize>(
     workspace: &mut Workspace<T, D>,
     gradient: &mut [T],
     hessian: &mut [T],
-) -> Result<T, Error> {
+) -> Result<T, NumericsError> {
     let n = x.len();
     check_point(x, workspace)?;
     check_dimension("gradient", gradient.len(), n)?;
@@ -258,7 +258,7 @@ pub fn hessian_into<T: Real, const D: usize>(
 ///
 /// # Example
 /// See [the module](super).
-pub fn hessian<T: Real>(f: &impl ScalarFunction, x: &[T]) -> Result<DMatrix<T>, Error> {
+pub fn hessian<T: Real>(f: &impl ScalarFunction, x: &[T]) -> Result<DMatrix<T>, NumericsError> {
     let n = x.len();
     let (mut gradient, mut hessian) = (vec![T::zero(); n], DMatrix::from_element(n, n, T::zero()));
     hessian_into(f, x, &mut Workspace::<T, 4>::new(n), &mut gradient, hessian.as_mut_slice())?;
@@ -289,7 +289,7 @@ pub fn hessian<T: Real>(f: &impl ScalarFunction, x: &[T]) -> Result<DMatrix<T>, 
 /// let mut workspace = Workspace::<f64>::with_values(2, 2);
 /// derivatives::jacobian_into(&Polar, &[2.0, 0.0], &mut workspace, &mut value, &mut jacobian)?;
 /// assert_eq!((value, jacobian), ([2.0, 0.0], [1.0, 0.0, 0.0, 2.0]));
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 pub fn jacobian_into<T: Real, const D: usize>(
     f: &impl VectorFunction,
@@ -297,14 +297,14 @@ pub fn jacobian_into<T: Real, const D: usize>(
     workspace: &mut Workspace<T, D>,
     value: &mut [T],
     jacobian: &mut [T],
-) -> Result<(), Error> {
+) -> Result<(), NumericsError> {
     let (n, m) = (x.len(), f.values(x.len()));
     check_point(x, workspace)?;
     check_dimension("value", value.len(), m)?;
     check_dimension("jacobian", jacobian.len(), m * n)?;
     let available = workspace.gradient_values.len();
     let Some(results) = workspace.gradient_values.get_mut(..m) else {
-        return Err(Error::Dimension { quantity: "workspace values", expected: m, actual: available });
+        return Err(NumericsError::WrongLength { quantity: "workspace values", expected: m, found: available });
     };
     if n == 0 {
         f.call(x, value);
@@ -343,9 +343,9 @@ pub fn jacobian_into<T: Real, const D: usize>(
 ///     }
 /// }
 /// assert_eq!(derivatives::jacobian(&Swap, &[5.0, 7.0])?, nalgebra::dmatrix![0.0, 2.0; 1.0, 0.0]);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
-pub fn jacobian<T: Real>(f: &impl VectorFunction, x: &[T]) -> Result<DMatrix<T>, Error> {
+pub fn jacobian<T: Real>(f: &impl VectorFunction, x: &[T]) -> Result<DMatrix<T>, NumericsError> {
     let (n, m) = (x.len(), f.values(x.len()));
     let (mut value, mut jacobian) = (vec![T::zero(); m], DMatrix::from_element(m, n, T::zero()));
     jacobian_into(f, x, &mut Workspace::<T, 4>::with_values(n, m), &mut value, jacobian.as_mut_slice())?;
@@ -376,7 +376,7 @@ pub fn jacobian<T: Real>(f: &impl VectorFunction, x: &[T]) -> Result<DMatrix<T>,
 /// let (x, v) = ([3.0, 4.0], [1.0, 10.0]);
 /// derivatives::jacobian_vector_product_into(&Square, &x, &v, &mut workspace, &mut value, &mut product)?;
 /// assert_eq!((value, product), ([9.0, 16.0], [6.0, 80.0]));
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 pub fn jacobian_vector_product_into<T: Real, const D: usize>(
     f: &impl VectorFunction,
@@ -385,7 +385,7 @@ pub fn jacobian_vector_product_into<T: Real, const D: usize>(
     workspace: &mut Workspace<T, D>,
     value: &mut [T],
     product: &mut [T],
-) -> Result<(), Error> {
+) -> Result<(), NumericsError> {
     let m = f.values(x.len());
     check_point(x, workspace)?;
     check_direction("v", v, x)?;
@@ -393,7 +393,7 @@ pub fn jacobian_vector_product_into<T: Real, const D: usize>(
     check_dimension("product", product.len(), m)?;
     let available = workspace.dual_values.len();
     let Some(results) = workspace.dual_values.get_mut(..m) else {
-        return Err(Error::Dimension { quantity: "workspace values", expected: m, actual: available });
+        return Err(NumericsError::WrongLength { quantity: "workspace values", expected: m, found: available });
     };
     for ((dual, &x), &v) in workspace.duals.iter_mut().zip(x).zip(v) {
         *dual = Dual::new(x, v);

@@ -2,7 +2,7 @@
 
 use super::UnivariateFunction;
 use crate::error::check_finite;
-use crate::{Dual, Error, Jet, Real};
+use crate::{Dual, NumericsError, Jet, Real};
 
 /// (f, f′) at x.
 ///
@@ -21,7 +21,7 @@ use crate::{Dual, Error, Jet, Real};
 /// assert_eq!(derivatives::first_derivative(&Square, 3.0), Ok((9.0, 6.0)));
 /// ```
 #[inline]
-pub fn first_derivative<T: Real>(f: &impl UnivariateFunction, x: T) -> Result<(T, T), Error> {
+pub fn first_derivative<T: Real>(f: &impl UnivariateFunction, x: T) -> Result<(T, T), NumericsError> {
     check_finite("x", &[x])?;
     let Dual { value, tangent } = f.call(Dual::variable(x));
     check_finite("value and derivative", &[value, tangent])?;
@@ -45,7 +45,7 @@ pub fn first_derivative<T: Real>(f: &impl UnivariateFunction, x: T) -> Result<(T
 /// assert_eq!(derivatives::second_derivative(&Cube, 2.0), Ok((8.0, 12.0, 12.0)));
 /// ```
 #[inline]
-pub fn second_derivative<T: Real>(f: &impl UnivariateFunction, x: T) -> Result<(T, T, T), Error> {
+pub fn second_derivative<T: Real>(f: &impl UnivariateFunction, x: T) -> Result<(T, T, T), NumericsError> {
     check_finite("x", &[x])?;
     let Jet { value, rate, second_rate, .. } = f.call(Jet::<T, 0>::time(x));
     check_finite("value and derivatives", &[value, rate, second_rate])?;

@@ -20,7 +20,7 @@ use crate::{Dual, Gradient, Jet, Real};
 /// let mut gradient = [0.0; 3];
 /// let value = derivatives::gradient_into(&Product, &[1.0, 2.0, 3.0], &mut workspace, &mut gradient)?;
 /// assert_eq!((value, gradient), (6.0, [6.0, 3.0, 2.0]));
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Workspace<T: Real = f64, const D: usize = 4> {

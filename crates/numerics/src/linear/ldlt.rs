@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use super::{condition, one_norm};
 use crate::error::{check_dimension, check_finite};
 use crate::sums::{CompensatedSum, unit_in_last_place};
-use crate::{Error, Mask, Real};
+use crate::{NumericsError, Mask, Real};
 
 /// Up to this order the loops of a factorisation are left to be unrolled.
 const SMALL: usize = 8;
@@ -29,7 +29,7 @@ const SMALL: usize = 8;
 /// Only the lower triangle is read and written.
 ///
 /// # Errors
-/// [`Error::Dimension`] unless there are n² entries; [`Error::NotPositiveDefinite`] with the first pivot
+/// [`NumericsError::WrongLength`] unless there are n² entries; [`NumericsError::NotPositiveDefinite`] with the first pivot
 /// that is not positive in every lane (also when it is NaN). The columns before that pivot are then factored.
 ///
 /// # Accuracy
@@ -41,10 +41,10 @@ const SMALL: usize = 8;
 /// let mut a = [4.0, 2.0, 2.0, 3.0];
 /// ldlt::factor_in_place(&mut a, 2)?;
 /// assert_eq!((a[0], a[1], a[3]), (4.0, 0.5, 2.0)); // d₁ = 4, l₂₁ = 1/2, d₂ = 3 − 4/4
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline(always)]
-pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), Error> {
+pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), NumericsError> {
     factor_and_grade_in_place(a, n, 0.0).map(|_| ())
 }
 
@@ -68,10 +68,10 @@ pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), Error> {
 /// let mut a = [1.0, 0.99, 0.99, 1.0]; // d₂ = 1 − 0.99² = 0.0199
 /// assert!(ldlt::factor_and_grade_in_place(&mut a.clone(), 2, 0.01)?);
 /// assert!(!ldlt::factor_and_grade_in_place(&mut a, 2, 0.02)?);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline(always)]
-pub fn factor_and_grade_in_place<T: Real>(a: &mut [T], n: usize, share: f64) -> Result<T::Mask, Error> {
+pub fn factor_and_grade_in_place<T: Real>(a: &mut [T], n: usize, share: f64) -> Result<T::Mask, NumericsError> {
     check_dimension("matrix", a.len(), n * n)?;
     let threshold = T::lit(n as f64 * unit_in_last_place::<T>());
     let share = threshold.max(T::lit(share));
@@ -122,19 +122,19 @@ pub fn factor_and_grade_in_place<T: Real>(a: &mut [T], n: usize, share: f64) -> 
 
 /// The error for a pivot that is not positive: the numbers of the first lane that fails.
 #[cold]
-fn refused<T: Real>(pivot: usize, value: T, diagonal: T, threshold: T) -> Error {
+fn refused<T: Real>(pivot: usize, value: T, diagonal: T, threshold: T) -> NumericsError {
     let positive = |lane: usize| {
         let (value, diagonal) = (value.primal(lane), diagonal.primal(lane));
         0.0 < diagonal && threshold.primal(lane) * diagonal < value
     };
     let lane = (0..T::LANES).find(|&lane| !positive(lane)).unwrap_or(0);
-    Error::NotPositiveDefinite { pivot, value: value.primal(lane), diagonal: diagonal.primal(lane) }
+    NumericsError::NotPositiveDefinite { pivot, value: value.primal(lane), diagonal: diagonal.primal(lane) }
 }
 
 /// Overwrites b with the solution of A x = b, from the factors of [`factor_in_place`].
 ///
 /// # Errors
-/// [`Error::Dimension`].
+/// [`NumericsError::WrongLength`].
 ///
 /// # Accuracy
 /// Relative error of a few n ulp × the condition number of the matrix scaled to unit diagonal.
@@ -146,10 +146,10 @@ fn refused<T: Real>(pivot: usize, value: T, diagonal: T, threshold: T) -> Error 
 /// ldlt::factor_in_place(&mut a, 2)?;
 /// ldlt::solve_in_place(&a, 2, &mut b)?;
 /// assert_eq!(b, [1.0, 2.0]);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline(always)]
-pub fn solve_in_place<T: Real>(factors: &[T], n: usize, b: &mut [T]) -> Result<(), Error> {
+pub fn solve_in_place<T: Real>(factors: &[T], n: usize, b: &mut [T]) -> Result<(), NumericsError> {
     check_dimension("factors", factors.len(), n * n)?;
     check_dimension("right-hand side", b.len(), n)?;
     for k in 0..n {
@@ -177,7 +177,7 @@ pub fn solve_in_place<T: Real>(factors: &[T], n: usize, b: &mut [T]) -> Result<(
 /// `factors` is what [`factor_in_place`] left when it refused pivot `pivot`.
 ///
 /// # Errors
-/// [`Error::Dimension`], also for a pivot of n or more.
+/// [`NumericsError::WrongLength`], also for a pivot of n or more.
 ///
 /// # Example
 /// ```
@@ -187,13 +187,13 @@ pub fn solve_in_place<T: Real>(factors: &[T], n: usize, b: &mut [T]) -> Result<(
 /// let mut z = [0.0; 2];
 /// ldlt::null_direction_into(&a, 2, 1, &mut z)?;
 /// assert_eq!(z, [-2.0, 1.0]); // row 2 − 2 · row 1 = 0
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
-pub fn null_direction_into<T: Real>(factors: &[T], n: usize, pivot: usize, direction: &mut [T]) -> Result<(), Error> {
+pub fn null_direction_into<T: Real>(factors: &[T], n: usize, pivot: usize, direction: &mut [T]) -> Result<(), NumericsError> {
     check_dimension("factors", factors.len(), n * n)?;
     check_dimension("direction", direction.len(), n)?;
     if n <= pivot {
-        return Err(Error::Dimension { quantity: "factors", expected: (pivot + 1) * (pivot + 1), actual: n * n });
+        return Err(NumericsError::WrongLength { quantity: "factors", expected: (pivot + 1) * (pivot + 1), found: n * n });
     }
     direction.fill(T::zero());
     direction[pivot] = T::one();
@@ -218,13 +218,13 @@ pub fn null_direction_into<T: Real>(factors: &[T], n: usize, pivot: usize, direc
 /// use nalgebra::{matrix, vector};
 /// let x = piola_numerics::linear::ldlt::solve(matrix![4.0, 2.0; 2.0, 3.0], vector![8.0, 8.0])?;
 /// assert_eq!(x, vector![1.0, 2.0]);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline]
 pub fn solve<T: Real, const N: usize>(
     mut matrix: SMatrix<T, N, N>,
     mut right: SVector<T, N>,
-) -> Result<SVector<T, N>, Error> {
+) -> Result<SVector<T, N>, NumericsError> {
     check_finite("matrix", matrix.as_slice())?;
     check_finite("right-hand side", right.as_slice())?;
     factor_in_place(matrix.as_mut_slice(), N)?;
@@ -241,7 +241,7 @@ pub fn solve<T: Real, const N: usize>(
 /// let ldlt = Ldlt::new(&dmatrix![4.0, 2.0; 2.0, 3.0])?;
 /// assert_eq!(ldlt.solve(&dvector![8.0, 8.0])?, dvector![1.0, 2.0]);
 /// assert_eq!(ldlt.determinant(), 8.0);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Ldlt<T> {
@@ -253,8 +253,8 @@ impl<T: Real> Ldlt<T> {
     /// Factors the lower triangle of a square matrix.
     ///
     /// # Errors
-    /// [`Error::Dimension`], [`Error::NonFinite`], [`Error::NotPositiveDefinite`].
-    pub fn new(matrix: &DMatrix<T>) -> Result<Self, Error> {
+    /// [`NumericsError::WrongLength`], [`NumericsError::NotFinite`], [`NumericsError::NotPositiveDefinite`].
+    pub fn new(matrix: &DMatrix<T>) -> Result<Self, NumericsError> {
         let n = matrix.ncols();
         let mut ldlt = Self { n, factors: vec![T::zero(); n * n] };
         ldlt.factor(matrix.as_slice())?;
@@ -264,7 +264,7 @@ impl<T: Real> Ldlt<T> {
     ///
     /// # Errors
     /// As [`new`](Self::new). The factors are of no use after an error.
-    pub fn factor(&mut self, matrix: &[T]) -> Result<(), Error> {
+    pub fn factor(&mut self, matrix: &[T]) -> Result<(), NumericsError> {
         check_dimension("matrix", matrix.len(), self.n * self.n)?;
         check_finite("matrix", matrix)?;
         self.factors.copy_from_slice(matrix);
@@ -283,8 +283,8 @@ impl<T: Real> Ldlt<T> {
     /// The solution of A x = b.
     ///
     /// # Errors
-    /// [`Error::Dimension`], [`Error::NonFinite`].
-    pub fn solve(&self, right: &DVector<T>) -> Result<DVector<T>, Error> {
+    /// [`NumericsError::WrongLength`], [`NumericsError::NotFinite`].
+    pub fn solve(&self, right: &DVector<T>) -> Result<DVector<T>, NumericsError> {
         let mut solution = right.clone();
         check_finite("right-hand side", right.as_slice())?;
         self.solve_in_place(solution.as_mut_slice())?;
@@ -293,9 +293,9 @@ impl<T: Real> Ldlt<T> {
     /// Overwrites b with the solution of A x = b, without allocating.
     ///
     /// # Errors
-    /// [`Error::Dimension`].
+    /// [`NumericsError::WrongLength`].
     #[inline]
-    pub fn solve_in_place(&self, right: &mut [T]) -> Result<(), Error> {
+    pub fn solve_in_place(&self, right: &mut [T]) -> Result<(), NumericsError> {
         solve_in_place(&self.factors, self.n, right)
     }
     /// det A = d₁ ⋯ dₙ.
@@ -312,7 +312,7 @@ impl Ldlt<f64> {
     /// `matrix` is the matrix that was factored, both triangles, down its columns.
     ///
     /// # Errors
-    /// [`Error::Dimension`].
+    /// [`NumericsError::WrongLength`].
     ///
     /// # Example
     /// ```
@@ -321,9 +321,9 @@ impl Ldlt<f64> {
     /// let a = dmatrix![1.0, 0.0; 0.0, 1e-8];
     /// let condition = Ldlt::new(&a)?.condition_estimate(a.as_slice())?;
     /// assert!((condition - 1e8).abs() < 1.0);
-    /// # Ok::<(), piola_numerics::Error>(())
+    /// # Ok::<(), piola_numerics::NumericsError>(())
     /// ```
-    pub fn condition_estimate(&self, matrix: &[f64]) -> Result<f64, Error> {
+    pub fn condition_estimate(&self, matrix: &[f64]) -> Result<f64, NumericsError> {
         check_dimension("matrix", matrix.len(), self.n * self.n)?;
         let solve = |x: &mut [f64]| {
             // The vector has the right length, so that nothing can be refused.
@@ -341,7 +341,7 @@ impl Ldlt<f64> {
     /// the length of b. Nothing is allocated.
     ///
     /// # Errors
-    /// [`Error::Dimension`].
+    /// [`NumericsError::WrongLength`].
     ///
     /// # Example
     /// ```
@@ -351,9 +351,9 @@ impl Ldlt<f64> {
     /// let (b, mut x, mut scratch) = ([8.0, 8.0], [1.1, 1.9], [0.0; 2]);
     /// Ldlt::new(&a)?.refine(a.as_slice(), &b, &mut x, &mut scratch)?;
     /// assert_eq!(x, [1.0, 2.0]);
-    /// # Ok::<(), piola_numerics::Error>(())
+    /// # Ok::<(), piola_numerics::NumericsError>(())
     /// ```
-    pub fn refine(&self, matrix: &[f64], right: &[f64], x: &mut [f64], residual: &mut [f64]) -> Result<f64, Error> {
+    pub fn refine(&self, matrix: &[f64], right: &[f64], x: &mut [f64], residual: &mut [f64]) -> Result<f64, NumericsError> {
         let n = self.n;
         check_dimension("matrix", matrix.len(), n * n)?;
         check_dimension("right-hand side", right.len(), n)?;

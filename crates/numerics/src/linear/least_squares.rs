@@ -20,7 +20,7 @@
 
 use crate::error::check_dimension;
 use crate::sums::unit_in_last_place;
-use crate::{Error, Real};
+use crate::{NumericsError, Real};
 
 /// The rows of A with b, and what is needed to solve for x: made once, without allocation when used again.
 ///
@@ -36,7 +36,7 @@ use crate::{Error, Real};
 /// let mut x = [0.0_f64, 0.0]; // h = 0
 /// line.solve_in_place(&mut x, 0.0)?;
 /// assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 2.0).abs() < 1e-15);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct LeastSquares<T = f64> {
@@ -83,8 +83,8 @@ impl<T: Real> LeastSquares<T> {
     /// Adds a row of A with its entry of b. Multiply both by √w to give the row the weight w.
     ///
     /// # Errors
-    /// [`Error::Dimension`] unless the row has as many entries as [`begin`](Self::begin) said.
-    pub fn add_row(&mut self, row: impl IntoIterator<Item = T>, right: T) -> Result<(), Error> {
+    /// [`NumericsError::WrongLength`] unless the row has as many entries as [`begin`](Self::begin) said.
+    pub fn add_row(&mut self, row: impl IntoIterator<Item = T>, right: T) -> Result<(), NumericsError> {
         self.rows.extend(row);
         self.right.push(right);
         check_dimension("row", self.rows.len(), self.right.len() * self.columns)
@@ -96,12 +96,12 @@ impl<T: Real> LeastSquares<T> {
     /// if that is more. In a metric `g = AᵀA` the pivots are the squares of these: dₖ/gₖₖ is share².
     ///
     /// # Errors
-    /// [`Error::Dimension`]; [`Error::Singular`] with the unknown that depends on others, also when a number is
+    /// [`NumericsError::WrongLength`]; [`NumericsError::Singular`] with the unknown that depends on others, also when a number is
     /// NaN: [`null_direction_into`](Self::null_direction_into) tells how.
     ///
     /// # Accuracy
     /// See [the module](self).
-    pub fn solve_in_place(&mut self, x: &mut [T], share: f64) -> Result<(), Error> {
+    pub fn solve_in_place(&mut self, x: &mut [T], share: f64) -> Result<(), NumericsError> {
         let n = self.columns;
         check_dimension("right-hand side", x.len(), n)?;
         self.scale();
@@ -115,7 +115,7 @@ impl<T: Real> LeastSquares<T> {
                 self.order.swap(k, column);
                 self.swap_columns(k, column);
                 let unit = self.units[unknown];
-                return Err(Error::Singular { pivot: unknown, value: size * unit, scale: whole * unit });
+                return Err(NumericsError::Singular { pivot: unknown, value: size * unit, scale: whole * unit });
             }
             self.order.swap(k, column);
             self.swap_columns(k, column);
@@ -129,7 +129,7 @@ impl<T: Real> LeastSquares<T> {
     /// refused an unknown; its entry of z is one.
     ///
     /// # Errors
-    /// [`Error::Dimension`], also when nothing was refused.
+    /// [`NumericsError::WrongLength`], also when nothing was refused.
     ///
     /// # Example
     /// ```
@@ -142,9 +142,9 @@ impl<T: Real> LeastSquares<T> {
     /// let mut z = [0.0_f64; 2];
     /// equal.null_direction_into(1, &mut z)?;
     /// assert!((z[0] + z[1]).abs() < 1e-15 && z[1] == 1.0);
-    /// # Ok::<(), piola_numerics::Error>(())
+    /// # Ok::<(), piola_numerics::NumericsError>(())
     /// ```
-    pub fn null_direction_into(&self, unknown: usize, direction: &mut [T]) -> Result<(), Error> {
+    pub fn null_direction_into(&self, unknown: usize, direction: &mut [T]) -> Result<(), NumericsError> {
         let n = self.columns;
         check_dimension("direction", direction.len(), n)?;
         let rank = self.order.iter().position(|&column| column == unknown).unwrap_or(n);

@@ -17,13 +17,13 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use super::{condition, one_norm};
 use crate::error::{check_dimension, check_finite};
 use crate::sums::unit_in_last_place;
-use crate::{Error, Mask, Real};
+use crate::{NumericsError, Mask, Real};
 
 /// Factors an n×n matrix in place: L below the diagonal, U on and above it, and the row that was exchanged
 /// with row k in `exchanges[k]`.
 ///
 /// # Errors
-/// [`Error::Dimension`]; [`Error::Singular`] with the first pivot that is zero to rounding, or NaN, in any
+/// [`NumericsError::WrongLength`]; [`NumericsError::Singular`] with the first pivot that is zero to rounding, or NaN, in any
 /// lane.
 ///
 /// # Accuracy
@@ -36,10 +36,10 @@ use crate::{Error, Mask, Real};
 /// lu::factor_in_place(&mut a, &mut exchanges)?;
 /// lu::solve_in_place(&a, &exchanges, &mut b)?;
 /// assert_eq!(b, [2.0, 3.0]);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline(always)]
-pub fn factor_in_place<T: Real>(a: &mut [T], exchanges: &mut [usize]) -> Result<(), Error> {
+pub fn factor_in_place<T: Real>(a: &mut [T], exchanges: &mut [usize]) -> Result<(), NumericsError> {
     let n = exchanges.len();
     check_dimension("matrix", a.len(), n * n)?;
     let threshold = T::lit(n as f64 * unit_in_last_place::<T>());
@@ -95,21 +95,21 @@ fn pivot_row<T: Real>(column: &[T], start: usize) -> usize {
 
 /// The error for a pivot that is zero to rounding: the numbers of the first lane that fails.
 #[cold]
-fn refused<T: Real>(pivot: usize, value: T, scale: T, threshold: T) -> Error {
+fn refused<T: Real>(pivot: usize, value: T, scale: T, threshold: T) -> NumericsError {
     let regular = |lane: usize| threshold.primal(lane) * scale.primal(lane) < value.primal(lane).abs();
     let lane = (0..T::LANES).find(|&lane| !regular(lane)).unwrap_or(0);
-    Error::Singular { pivot, value: value.primal(lane), scale: scale.primal(lane) }
+    NumericsError::Singular { pivot, value: value.primal(lane), scale: scale.primal(lane) }
 }
 
 /// Overwrites b with the solution of A x = b, from the factors of [`factor_in_place`].
 ///
 /// # Errors
-/// [`Error::Dimension`].
+/// [`NumericsError::WrongLength`].
 ///
 /// # Accuracy
 /// Relative error of a few n ulp × the condition number.
 #[inline(always)]
-pub fn solve_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), Error> {
+pub fn solve_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), NumericsError> {
     let n = exchanges.len();
     check_dimension("factors", factors.len(), n * n)?;
     check_dimension("right-hand side", b.len(), n)?;
@@ -135,9 +135,9 @@ pub fn solve_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) 
 /// Overwrites b with the solution of Aᵀ x = b, from the factors of A.
 ///
 /// # Errors
-/// [`Error::Dimension`].
+/// [`NumericsError::WrongLength`].
 #[inline(always)]
-pub fn solve_transposed_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), Error> {
+pub fn solve_transposed_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), NumericsError> {
     let n = exchanges.len();
     check_dimension("factors", factors.len(), n * n)?;
     check_dimension("right-hand side", b.len(), n)?;
@@ -171,13 +171,13 @@ pub fn solve_transposed_in_place<T: Real>(factors: &[T], exchanges: &[usize], b:
 /// use nalgebra::{matrix, vector};
 /// let x = piola_numerics::linear::lu::solve(matrix![0.0, 1.0; 2.0, 0.0], vector![3.0, 4.0])?;
 /// assert_eq!(x, vector![2.0, 3.0]);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline]
 pub fn solve<T: Real, const N: usize>(
     mut matrix: SMatrix<T, N, N>,
     mut right: SVector<T, N>,
-) -> Result<SVector<T, N>, Error> {
+) -> Result<SVector<T, N>, NumericsError> {
     check_finite("matrix", matrix.as_slice())?;
     check_finite("right-hand side", right.as_slice())?;
     let mut exchanges = [0; N];
@@ -195,7 +195,7 @@ pub fn solve<T: Real, const N: usize>(
 /// let lu = Lu::new(&dmatrix![0.0, 1.0; 2.0, 0.0])?;
 /// assert_eq!(lu.solve(&dvector![3.0, 4.0])?, dvector![2.0, 3.0]);
 /// assert_eq!(lu.determinant(), -2.0);
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Lu<T> {
@@ -207,8 +207,8 @@ impl<T: Real> Lu<T> {
     /// Factors a square matrix.
     ///
     /// # Errors
-    /// [`Error::Dimension`], [`Error::NonFinite`], [`Error::Singular`].
-    pub fn new(matrix: &DMatrix<T>) -> Result<Self, Error> {
+    /// [`NumericsError::WrongLength`], [`NumericsError::NotFinite`], [`NumericsError::Singular`].
+    pub fn new(matrix: &DMatrix<T>) -> Result<Self, NumericsError> {
         let n = matrix.ncols();
         let mut lu = Self { factors: vec![T::zero(); n * n], exchanges: vec![0; n] };
         lu.factor(matrix.as_slice())?;
@@ -218,7 +218,7 @@ impl<T: Real> Lu<T> {
     ///
     /// # Errors
     /// As [`new`](Self::new). The factors are of no use after an error.
-    pub fn factor(&mut self, matrix: &[T]) -> Result<(), Error> {
+    pub fn factor(&mut self, matrix: &[T]) -> Result<(), NumericsError> {
         check_dimension("matrix", matrix.len(), self.factors.len())?;
         check_finite("matrix", matrix)?;
         self.factors.copy_from_slice(matrix);
@@ -232,8 +232,8 @@ impl<T: Real> Lu<T> {
     /// The solution of A x = b.
     ///
     /// # Errors
-    /// [`Error::Dimension`], [`Error::NonFinite`].
-    pub fn solve(&self, right: &DVector<T>) -> Result<DVector<T>, Error> {
+    /// [`NumericsError::WrongLength`], [`NumericsError::NotFinite`].
+    pub fn solve(&self, right: &DVector<T>) -> Result<DVector<T>, NumericsError> {
         let mut solution = right.clone();
         check_finite("right-hand side", right.as_slice())?;
         self.solve_in_place(solution.as_mut_slice())?;
@@ -242,17 +242,17 @@ impl<T: Real> Lu<T> {
     /// Overwrites b with the solution of A x = b, without allocating.
     ///
     /// # Errors
-    /// [`Error::Dimension`].
+    /// [`NumericsError::WrongLength`].
     #[inline]
-    pub fn solve_in_place(&self, right: &mut [T]) -> Result<(), Error> {
+    pub fn solve_in_place(&self, right: &mut [T]) -> Result<(), NumericsError> {
         solve_in_place(&self.factors, &self.exchanges, right)
     }
     /// Overwrites b with the solution of Aᵀ x = b, without allocating.
     ///
     /// # Errors
-    /// [`Error::Dimension`].
+    /// [`NumericsError::WrongLength`].
     #[inline]
-    pub fn solve_transposed_in_place(&self, right: &mut [T]) -> Result<(), Error> {
+    pub fn solve_transposed_in_place(&self, right: &mut [T]) -> Result<(), NumericsError> {
         solve_transposed_in_place(&self.factors, &self.exchanges, right)
     }
     /// det A: the product of the pivots, with a sign for each exchange of rows.
@@ -273,7 +273,7 @@ impl Lu<f64> {
     /// `matrix` is the matrix that was factored, down its columns.
     ///
     /// # Errors
-    /// [`Error::Dimension`].
+    /// [`NumericsError::WrongLength`].
     ///
     /// # Example
     /// ```
@@ -281,9 +281,9 @@ impl Lu<f64> {
     /// use piola_numerics::linear::lu::Lu;
     /// let a = dmatrix![2.0, 0.0; 0.0, 0.5];
     /// assert_eq!(Lu::new(&a)?.condition_estimate(a.as_slice())?, 4.0);
-    /// # Ok::<(), piola_numerics::Error>(())
+    /// # Ok::<(), piola_numerics::NumericsError>(())
     /// ```
-    pub fn condition_estimate(&self, matrix: &[f64]) -> Result<f64, Error> {
+    pub fn condition_estimate(&self, matrix: &[f64]) -> Result<f64, NumericsError> {
         check_dimension("matrix", matrix.len(), self.factors.len())?;
         // The vectors have the right length, so that nothing can be refused.
         let solve = |x: &mut [f64]| {

@@ -11,7 +11,7 @@ use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
 use crate::error::check_finite;
 use crate::sums::unit_in_last_place;
-use crate::{Error, Mask, Real};
+use crate::{NumericsError, Mask, Real};
 
 /// a × b.
 ///
@@ -133,7 +133,7 @@ pub fn from_rows<T: Real>(rows: [[T; 3]; 3]) -> Matrix3<T> {
 /// A⁻¹.
 ///
 /// # Errors
-/// [`Error::NonFinite`]; [`Error::Singular`] when, in any lane, |det A| is within rounding (8 ulp) of zero,
+/// [`NumericsError::NotFinite`]; [`NumericsError::Singular`] when, in any lane, |det A| is within rounding (8 ulp) of zero,
 /// compared with the product of the largest entries of the rows.
 ///
 /// # Accuracy
@@ -146,10 +146,10 @@ pub fn from_rows<T: Real>(rows: [[T; 3]; 3]) -> Matrix3<T> {
 /// let inverse = matrix3::inverse(&Matrix3::new(2.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 1.0))?;
 /// assert_eq!(inverse[(1, 1)], 0.25);
 /// assert!(matrix3::inverse(&Matrix3::repeat(1.0)).is_err());
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline]
-pub fn inverse<T: Real>(matrix: &Matrix3<T>) -> Result<Matrix3<T>, Error> {
+pub fn inverse<T: Real>(matrix: &Matrix3<T>) -> Result<Matrix3<T>, NumericsError> {
     check_finite("matrix", matrix.as_slice())?;
     let rows = rows_of(matrix);
     let (inverse, determinant) = inverse_and_determinant(rows);
@@ -172,10 +172,10 @@ pub fn inverse<T: Real>(matrix: &Matrix3<T>) -> Result<Matrix3<T>, Error> {
 /// use piola_numerics::linear::matrix3;
 /// let a = Matrix3::new(0.0, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 4.0);
 /// assert_eq!(matrix3::solve(&a, &Vector3::new(2.0, 3.0, 8.0))?, Vector3::new(3.0, 1.0, 2.0));
-/// # Ok::<(), piola_numerics::Error>(())
+/// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[inline]
-pub fn solve<T: Real>(matrix: &Matrix3<T>, right: &Vector3<T>) -> Result<Vector3<T>, Error> {
+pub fn solve<T: Real>(matrix: &Matrix3<T>, right: &Vector3<T>) -> Result<Vector3<T>, NumericsError> {
     check_finite("matrix", matrix.as_slice())?;
     check_finite("right-hand side", right.as_slice())?;
     let rows = rows_of(matrix);
@@ -185,7 +185,7 @@ pub fn solve<T: Real>(matrix: &Matrix3<T>, right: &Vector3<T>) -> Result<Vector3
 
 /// Refuses a determinant that is zero to rounding.
 #[inline]
-fn check_regular<T: Real>(rows: [[T; 3]; 3], determinant: T) -> Result<(), Error> {
+fn check_regular<T: Real>(rows: [[T; 3]; 3], determinant: T) -> Result<(), NumericsError> {
     // The volume is compared with that of the box with the same edges; largest entries stand for lengths,
     // which could overflow when squared.
     let length = |row: [T; 3]| row[0].abs().max(row[1].abs()).max(row[2].abs());
@@ -198,5 +198,5 @@ fn check_regular<T: Real>(rows: [[T; 3]; 3], determinant: T) -> Result<(), Error
     let limit = threshold.primal(0);
     let regular = |lane: usize| limit * volume.primal(lane) < determinant.primal(lane).abs();
     let lane = (0..T::LANES).find(|&lane| !regular(lane)).unwrap_or(0);
-    Err(Error::Singular { pivot: 3, value: determinant.primal(lane), scale: volume.primal(lane) })
+    Err(NumericsError::Singular { pivot: 3, value: determinant.primal(lane), scale: volume.primal(lane) })
 }

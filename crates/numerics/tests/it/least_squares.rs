@@ -3,12 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 use piola_numerics::linear::ldlt;
 use piola_numerics::linear::least_squares::LeastSquares;
-use piola_numerics::{Dual, Error, Lanes, Real};
+use piola_numerics::{Dual, NumericsError, Lanes, Real};
 use piola_testkit::strategies::vector;
 use piola_testkit::{Tol, allocations_in, assert_close};
 use proptest::prelude::*;
 
-fn solved<T: Real>(a: &DMatrix<T>, b: &[T], h: &[T]) -> Result<Vec<T>, Error> {
+fn solved<T: Real>(a: &DMatrix<T>, b: &[T], h: &[T]) -> Result<Vec<T>, NumericsError> {
     let mut problem = LeastSquares::new();
     problem.begin(a.ncols());
     for (row, &right) in a.row_iter().zip(b) {
@@ -120,7 +120,7 @@ fn dependent_columns_are_refused_with_their_direction() {
         problem.add_row(row.iter().copied(), 1.0).unwrap();
     }
     let error = problem.solve_in_place(&mut [0.0; 3], 0.0).unwrap_err();
-    let Error::Singular { pivot, value, scale } = error else { panic!("{error}") };
+    let NumericsError::Singular { pivot, value, scale } = error else { panic!("{error}") };
     assert!(value < 1e-12 * scale);
     let mut z = [0.0; 3];
     problem.null_direction_into(pivot, &mut z).unwrap();
@@ -132,15 +132,15 @@ fn dependent_columns_are_refused_with_their_direction() {
 #[test]
 fn too_few_rows_and_numbers_that_are_none_are_refused() {
     let one = solved(&DMatrix::from_element(1, 2, 1.0), &[1.0], &[0.0; 2]);
-    assert!(matches!(one, Err(Error::Singular { .. })), "{one:?}");
+    assert!(matches!(one, Err(NumericsError::Singular { .. })), "{one:?}");
     let none = solved(&DMatrix::from_element(2, 1, f64::NAN), &[1.0; 2], &[0.0]);
-    assert!(matches!(none, Err(Error::Singular { pivot: 0, .. })), "{none:?}");
+    assert!(matches!(none, Err(NumericsError::Singular { pivot: 0, .. })), "{none:?}");
     let zero = solved(&DMatrix::from_element(2, 1, 0.0), &[1.0; 2], &[0.0]);
-    assert!(matches!(zero, Err(Error::Singular { pivot: 0, .. })), "{zero:?}");
+    assert!(matches!(zero, Err(NumericsError::Singular { pivot: 0, .. })), "{zero:?}");
     let mut problem = LeastSquares::new();
     problem.begin(2);
-    assert!(matches!(problem.add_row([1.0], 0.0), Err(Error::Dimension { quantity: "row", .. })));
-    assert!(matches!(problem.solve_in_place(&mut [0.0], 0.0), Err(Error::Dimension { .. })));
+    assert!(matches!(problem.add_row([1.0], 0.0), Err(NumericsError::WrongLength { quantity: "row", .. })));
+    assert!(matches!(problem.solve_in_place(&mut [0.0], 0.0), Err(NumericsError::WrongLength { .. })));
     assert_eq!(solved::<f64>(&DMatrix::zeros(0, 0), &[], &[]), Ok(Vec::new()));
 }
 

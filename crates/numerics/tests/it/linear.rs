@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3, dmatrix, dvector};
 use piola_numerics::linear::{ldlt, lu, matrix3};
-use piola_numerics::{Dual, Error, Gradient, Lanes, Real};
+use piola_numerics::{Dual, NumericsError, Gradient, Lanes, Real};
 use piola_testkit::strategies::{positive_definite, vector};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
@@ -167,7 +167,7 @@ fn dependent_direction_is_found_and_told() {
     let a = frame.transpose() * &frame;
     let mut factors = a.as_slice().to_vec();
     let error = ldlt::factor_in_place(&mut factors, 4).unwrap_err();
-    let Error::NotPositiveDefinite { pivot, value, diagonal } = error else { panic!("{error}") };
+    let NumericsError::NotPositiveDefinite { pivot, value, diagonal } = error else { panic!("{error}") };
     assert_eq!(pivot, 2);
     assert_close("pivot", &[value], &[0.0], Tol::ulps(4.0).times(diagonal));
     let mut direction = [0.0; 4];
@@ -192,26 +192,26 @@ fn pivots_are_judged_in_the_units_of_their_coordinate() {
 #[test]
 fn indefinite_singular_and_nan_matrices_are_refused_with_the_pivot() {
     let refused = |a: [f64; 4]| ldlt::factor_in_place(&mut a.clone(), 2).unwrap_err();
-    assert_eq!(refused([1.0, 2.0, 2.0, 1.0]), Error::NotPositiveDefinite { pivot: 1, value: -3.0, diagonal: 1.0 });
-    assert_eq!(refused([-1.0, 0.0, 0.0, 1.0]), Error::NotPositiveDefinite { pivot: 0, value: -1.0, diagonal: -1.0 });
-    assert_eq!(refused([0.0; 4]), Error::NotPositiveDefinite { pivot: 0, value: 0.0, diagonal: 0.0 });
-    assert!(matches!(refused([1.0, f64::NAN, 0.0, 1.0]), Error::NotPositiveDefinite { pivot: 1, .. }));
+    assert_eq!(refused([1.0, 2.0, 2.0, 1.0]), NumericsError::NotPositiveDefinite { pivot: 1, value: -3.0, diagonal: 1.0 });
+    assert_eq!(refused([-1.0, 0.0, 0.0, 1.0]), NumericsError::NotPositiveDefinite { pivot: 0, value: -1.0, diagonal: -1.0 });
+    assert_eq!(refused([0.0; 4]), NumericsError::NotPositiveDefinite { pivot: 0, value: 0.0, diagonal: 0.0 });
+    assert!(matches!(refused([1.0, f64::NAN, 0.0, 1.0]), NumericsError::NotPositiveDefinite { pivot: 1, .. }));
     let error = lu::Lu::new(&dmatrix![1.0, 2.0; 2.0, 4.0]).unwrap_err();
-    assert_eq!(error, Error::Singular { pivot: 1, value: 0.0, scale: 4.0 });
+    assert_eq!(error, NumericsError::Singular { pivot: 1, value: 0.0, scale: 4.0 });
     let mut nan = [f64::NAN, 1.0, 1.0, 1.0];
-    assert!(matches!(lu::factor_in_place(&mut nan, &mut [0; 2]), Err(Error::Singular { pivot: 0, .. })));
+    assert!(matches!(lu::factor_in_place(&mut nan, &mut [0; 2]), Err(NumericsError::Singular { pivot: 0, .. })));
     let error = matrix3::inverse(&Matrix3::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0)).unwrap_err();
-    assert!(matches!(error, Error::Singular { pivot: 3, .. }), "{error}");
+    assert!(matches!(error, NumericsError::Singular { pivot: 3, .. }), "{error}");
 }
 
 #[test]
 fn one_bad_lane_is_refused_with_its_numbers() {
     let mut a = [Lanes::<f64, 4>::from([1.0, 2.0, -3.0, 4.0])];
     let error = ldlt::factor_in_place(&mut a, 1).unwrap_err();
-    assert_eq!(error, Error::NotPositiveDefinite { pivot: 0, value: -3.0, diagonal: -3.0 });
+    assert_eq!(error, NumericsError::NotPositiveDefinite { pivot: 0, value: -3.0, diagonal: -3.0 });
     let mut a = [Lanes::<f64, 4>::from([1.0, 0.0, -3.0, 4.0])];
     let error = lu::factor_in_place(&mut a, &mut [0]).unwrap_err();
-    assert_eq!(error, Error::Singular { pivot: 0, value: 0.0, scale: 0.0 });
+    assert_eq!(error, NumericsError::Singular { pivot: 0, value: 0.0, scale: 0.0 });
 }
 
 #[test]

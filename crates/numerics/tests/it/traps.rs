@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use nalgebra::{Matrix3, dmatrix, dvector};
 use piola_numerics::derivatives::{self, ScalarFunction, UnivariateFunction, VectorFunction, Workspace};
 use piola_numerics::linear::{ldlt, lu, matrix3};
-use piola_numerics::{Dual, Error, Gradient, Jet, Real};
+use piola_numerics::{Dual, NumericsError, Gradient, Jet, Real};
 use piola_testkit::{Tol, assert_close};
 
 /// Value, first and second derivative of a formula through a jet.
@@ -84,7 +84,7 @@ fn roots_of_nothing_are_refused_by_name() {
         }
     }
     let error = derivatives::gradient(&Length, &[0.0, 0.0]).unwrap_err();
-    assert!(matches!(error, Error::NonFinite { quantity: "gradient", index: 0, .. }), "{error}");
+    assert!(matches!(error, NumericsError::NotFinite { quantity: "gradient", index: 0, .. }), "{error}");
     assert_eq!(error.to_string(), "entry 0 of `gradient` is NaN, which is not a finite number");
 }
 
@@ -245,7 +245,7 @@ impl UnivariateFunction for Sum {
 
 #[test]
 fn input_that_is_not_finite_is_refused_by_name() {
-    let refused = |quantity, index| Error::NonFinite { quantity, index, value: f64::INFINITY };
+    let refused = |quantity, index| NumericsError::NotFinite { quantity, index, value: f64::INFINITY };
     let (good, bad) = ([1.0, 2.0], [1.0, f64::INFINITY]);
     let mut workspace = Workspace::<f64>::with_values(2, 1);
     let mut out = [0.0; 4];
@@ -268,13 +268,13 @@ fn input_that_is_not_finite_is_refused_by_name() {
 
 #[test]
 fn vectors_of_the_wrong_length_are_refused_by_name() {
-    let refused = |quantity, expected, actual| Err(Error::Dimension { quantity, expected, actual });
+    let refused = |quantity, expected, actual| Err(NumericsError::WrongLength { quantity, expected, actual });
     let x = [1.0, 2.0];
     let mut workspace = Workspace::<f64>::new(2);
     assert_eq!(derivatives::gradient_into(&Sum, &[1.0], &mut workspace, &mut [0.0]), refused("x", 2, 1));
     assert_eq!(derivatives::gradient_into(&Sum, &x, &mut workspace, &mut [0.0]), refused("gradient", 2, 1));
     let result = derivatives::jacobian_into(&Sum, &x, &mut workspace, &mut [0.0], &mut [0.0; 2]);
-    assert_eq!(result, Err(Error::Dimension { quantity: "workspace values", expected: 1, actual: 0 }));
+    assert_eq!(result, Err(NumericsError::WrongLength { quantity: "workspace values", expected: 1, actual: 0 }));
     assert!(ldlt::Ldlt::new(&dmatrix![1.0, 2.0]).is_err(), "a matrix that is not square");
 }
 

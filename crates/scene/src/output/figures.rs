@@ -302,7 +302,7 @@ pub(super) fn invariants(title: &str, history: &History) -> String {
         curve("energy", 0, |drift| Some(drift.energy)),
         curve("post-Newtonian energy", 1, |drift| drift.post_newtonian_energy),
         curve("momentum", 2, |drift| drift.momentum),
-        curve("moment of momentum", 3, |drift| drift.angular_momentum),
+        curve("angular momentum", 3, |drift| drift.angular_momentum),
     ];
     curves.retain(|curve| !curve.points.is_empty());
     log_figure(&format!("{title}: drift of invariants"), "relative change since the start", curves, false)

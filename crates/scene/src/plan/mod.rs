@@ -197,7 +197,7 @@ impl Plan {
                 self.skip("attitudes", "bodies without extent");
                 self.skip("collisions", "bodies without extent cannot touch");
                 self.compute(
-                    "energy, momentum, moment of momentum",
+                    "energy, momentum, angular momentum",
                     "conserved: compensated sums at every recorded instant",
                 );
             }
@@ -216,13 +216,13 @@ impl Plan {
                 }
                 self.skip("row of time in the metric", "the placement does not depend on time");
                 self.compute("energy", "conserved: at every recorded instant");
-                self.skip("momentum and moment of momentum", "not conserved: the ground holds the mechanism");
+                self.skip("momentum and angular momentum", "not conserved: the ground holds the mechanism");
             }
             System::Central(system) => {
                 self.compute("central attraction", format!("gm = {} m³/s²", system.gm));
                 self.skip("attraction between bodies", "[central]: the bodies do not attract");
                 self.skip("attitudes", "bodies without extent");
-                self.compute("energy and moment of momentum", "conserved: at every recorded instant");
+                self.compute("energy and angular momentum", "conserved: at every recorded instant");
                 self.skip("momentum", "not conserved: the centre is held");
             }
         }

@@ -63,7 +63,7 @@ impl Reading for Gravitation {
             energy_scale: 0.0,
             post_newtonian_energy: self.post_newtonian().map(|_| mass(sums.post_newtonian_energy)),
             momentum: Some((sums.momentum.map(mass), mass(sums.momentum_scale))),
-            angular_momentum: Some((sums.moment_of_momentum.map(mass), mass(sums.moment_of_momentum_scale))),
+            angular_momentum: Some((sums.angular_momentum.map(mass), mass(sums.angular_momentum_scale))),
         }
     }
 }

@@ -8,7 +8,7 @@
 //! | momentum | Div P + `ρ_κ` b − `ρ_κ` a | | [`Body::momentum_residual`] |
 //! | damped | `ρ_κ` ü + c u̇ − f − Div P | | [`Body::damped_residual`] |
 //! | statics | div T + f, Div P + f | [`equilibrium_residual`] | [`Body::equilibrium_residual`] |
-//! | moment of momentum | T − Tᵀ, P Fᵀ − F Pᵀ | [`symmetry_residual`] | [`Body::symmetry_residual`] |
+//! | angular momentum | T − Tᵀ, P Fᵀ − F Pᵀ | [`symmetry_residual`] | [`Body::symmetry_residual`] |
 //! | energy | ρε̇ − tr(T L) + div q − r | [`Flow::energy_residual`] | [`Body::energy_residual`] |
 //! | identities | Div P − J div T, Div(J F⁻ᵀ) | | [`piola_identity_residual`], [`cofactor_divergence`] |
 //!

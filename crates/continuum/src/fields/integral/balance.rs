@@ -1,4 +1,4 @@
-//! The balances of momentum, moment of momentum and power of a part of a body, as integrals.
+//! The balances of momentum, angular momentum and power of a part of a body, as integrals.
 //!
 //! ```text
 //! d/dt ∫ ρ_κ ẋ dV            = ∫ ρ_κ b dV + ∮ P N dA                              W(15.16)
@@ -142,7 +142,7 @@ impl IntegralBalance {
     /// ```
     #[must_use]
     pub fn moment_residual(&self) -> VectorResidual {
-        residual_of(&self.resultants.moment_of_momentum, &self.body.moment, &self.surface.moment)
+        residual_of(&self.resultants.angular_momentum, &self.body.moment, &self.surface.moment)
     }
 
     /// K̇ + ∫ P : Ḟ dV − external power, W, W(21.4).
@@ -175,7 +175,7 @@ impl IntegralBalance {
     }
 
     /// All residuals with an estimate of the error of quadrature: one that exceeds it is an error of the fields,
-    /// not of the rule. In the order momentum, moment of momentum, power.
+    /// not of the rule. In the order momentum, angular momentum, power.
     ///
     /// # Errors
     /// As [`of`](Self::of).

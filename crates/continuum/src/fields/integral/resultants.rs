@@ -1,4 +1,4 @@
-//! Mass, momentum, moment of momentum and energy of a body; forces and moments on it.
+//! Mass, momentum, angular momentum and energy of a body; forces and moments on it.
 
 use nalgebra::Vector3;
 use piola_numerics::Real;
@@ -13,7 +13,7 @@ use crate::fields::motion::kernels::velocity;
 use crate::fields::{Body, Field, Material, Motion, Spatial};
 use crate::tensor::rows::apply;
 
-/// Mass, momentum, moment of momentum and kinetic energy of a body.
+/// Mass, momentum, angular momentum and kinetic energy of a body.
 ///
 /// ```text
 /// m = ∫ ρ dv = ∫ ρ_κ dV                      p = ∫ ρ v dv = ∫ ρ_κ ẋ dV            c = ∫ ρ x dv / m
@@ -43,7 +43,7 @@ pub struct Resultants<T = f64> {
     pub momentum: Vector3<T>,
     /// h about the pole o, kg m²/s.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
-    pub moment_of_momentum: Vector3<T>,
+    pub angular_momentum: Vector3<T>,
     /// K, J.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::fields::reading::finite"))]
     pub kinetic_energy: T,
@@ -80,7 +80,7 @@ impl<T: Real> Resultants<T> {
     /// let one_kilogram = Uniform(3.0 / (4.0 * core::f64::consts::PI));
     /// let body = Body { motion: Rigid(Spin), reference_density: one_kilogram };
     /// let of = Resultants::in_reference(&Quadrature::of_degree(2)?, &ball, &body, &Vector3::zeros(), 0.5)?;
-    /// assert!((of.moment_of_momentum.z - 0.4).abs() < 1e-15); // 2/5 m R² ω
+    /// assert!((of.angular_momentum.z - 0.4).abs() < 1e-15); // 2/5 m R² ω
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     pub fn in_reference(
@@ -170,7 +170,7 @@ impl<T: Real> Resultants<T> {
             mass: a[0],
             first_moment: Vector3::new(a[1], a[2], a[3]),
             momentum: Vector3::new(a[4], a[5], a[6]),
-            moment_of_momentum: Vector3::new(a[7], a[8], a[9]),
+            angular_momentum: Vector3::new(a[7], a[8], a[9]),
             kinetic_energy: a[10],
         }
     }

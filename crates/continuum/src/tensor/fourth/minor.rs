@@ -185,7 +185,7 @@ impl<T: Real> MinorSymmetric<T> {
         }
         let mut exchanges = [0; 6];
         let singular = |error| match error {
-            piola_numerics::Error::Singular { value, .. } => {
+            piola_numerics::NumericsError::Singular { value, .. } => {
                 ContinuumError::SingularTensor { relative_determinant: value, scale: unscale.primal(0) }
             }
             _ => ContinuumError::SingularTensor { relative_determinant: 0.0, scale: unscale.primal(0) },

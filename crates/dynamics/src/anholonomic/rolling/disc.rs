@@ -132,7 +132,7 @@ impl RollingDisc {
     /// Ω → 0 there is no such motion but the upright one.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`] for Ω sin θ² = 0.
+    /// [`DynamicsError::NotFinite`] for Ω sin θ² = 0.
     ///
     /// # Example
     /// ```

@@ -45,7 +45,7 @@ impl KnifeEdge {
     /// (kg m²), which is `ahead` of the blade (m).
     ///
     /// # Errors
-    /// [`DynamicsError::Kinematics`] for mass or moment that are not positive, [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::Kinematics`] for mass or moment that are not positive, [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`KnifeEdge`].
@@ -57,7 +57,7 @@ impl KnifeEdge {
     /// A body whose third axis is vertical.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`KnifeEdge`].

@@ -72,7 +72,7 @@ impl RollingSphere {
     /// The plane turns about the z axis with Ω (rad/s).
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`RollingSphere`].

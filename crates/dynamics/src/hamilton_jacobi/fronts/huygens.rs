@@ -32,7 +32,7 @@ impl<H: PhaseFunction + Sync, C: InitialFront<2, 1> + Sync> WaveFront<'_, H, C, 
     ///
     /// # Errors
     /// [`DynamicsError::NotFound`] where the determinant has no change of sign in that range, as at a caustic;
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::DimensionMismatch`] when there is no such ray.
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::WrongLength`] when there is no such ray.
     ///
     /// # Accuracy
     /// That of [`advance`](Self::advance).
@@ -68,7 +68,7 @@ impl<H: PhaseFunction + Sync, C: InitialFront<2, 1> + Sync> WaveFront<'_, H, C, 
         let found = self.rays.get(ray);
         let Some(ray) = found else {
             let (expected, found) = (self.rays.len(), ray);
-            return Err(DynamicsError::DimensionMismatch { quantity: "rays of the front", expected, found });
+            return Err(DynamicsError::WrongLength { quantity: "rays of the front", expected, found });
         };
         let step = action / steps.max(1) as f64;
         let [q, p] = ray.state();

@@ -203,7 +203,7 @@ impl<'a, H: PhaseFunction + Sync, C: InitialFront<N, M> + Sync, const N: usize, 
     /// Advances the front by an action ΔS (backwards if negative) in so many equal steps, at least one.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`] with the number of a ray that cannot go on, as one that runs along a singularity
+    /// [`DynamicsError::NotFinite`] with the number of a ray that cannot go on, as one that runs along a singularity
     /// of H; the front then stays where it was.
     pub fn advance(&mut self, action: f64, steps: usize) -> Result<FrontReport, DynamicsError> {
         check_finite("ΔS", &[action])?;
@@ -225,7 +225,7 @@ impl<'a, H: PhaseFunction + Sync, C: InitialFront<N, M> + Sync, const N: usize, 
         let mut size = 0.0_f64;
         for (index, (next, ray)) in next.iter().zip(&*rays).enumerate() {
             if let Some(value) = next.first_non_finite() {
-                return Err(DynamicsError::NonFinite { quantity: "rays of the front", index, value });
+                return Err(DynamicsError::NotFinite { quantity: "rays of the front", index, value });
             }
             report.error = report.error.max(next.error());
             report.caustics += usize::from(ray.caustics() < next.caustics());
@@ -254,7 +254,7 @@ impl<'a, H: PhaseFunction + Sync, C: InitialFront<2, 1> + Sync> WaveFront<'a, H,
     /// `side` is positive for rays along the [normal](InitialFront::normal) and negative for rays against it.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::NotFound`] where no momentum along the normal has the energy.
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::NotFound`] where no momentum along the normal has the energy.
     pub fn open(
         hamiltonian: &'a H,
         curve: &'a C,
@@ -292,7 +292,7 @@ impl<'a, H: PhaseFunction + Sync, C: InitialFront<3, 2> + Sync> WaveFront<'a, H,
     /// `side` is positive for rays along the [normal](InitialFront::normal) and negative for rays against it.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::NotFound`] where no momentum along the normal has the energy.
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::NotFound`] where no momentum along the normal has the energy.
     pub fn surface(
         hamiltonian: &'a H,
         surface: &'a C,

@@ -65,7 +65,7 @@ impl<H: PhaseFunction + Sync, C: InitialFront<N, M> + Sync, const N: usize, cons
         let rays = chunks.concat();
         for (index, ray) in rays.iter().enumerate() {
             if let Some(value) = ray.first_non_finite() {
-                return Err(DynamicsError::NonFinite { quantity: "rays inserted into the front", index, value });
+                return Err(DynamicsError::NotFinite { quantity: "rays inserted into the front", index, value });
             }
         }
         Ok(rays)

@@ -105,7 +105,7 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
     /// The motion through a state (q₀, p₀) at t₀.
     ///
     /// # Errors
-    /// [`DynamicsError::DimensionMismatch`], [`DynamicsError::NonFinite`]; [`DynamicsError::ForbiddenCoordinate`]
+    /// [`DynamicsError::WrongLength`], [`DynamicsError::NotFinite`]; [`DynamicsError::ForbiddenCoordinate`]
     /// where a separated square is negative there.
     pub fn through(system: &'a S, (q, p, time): (&[f64], &[f64], f64)) -> Result<Self, DynamicsError> {
         let n = system.freedom();
@@ -142,7 +142,7 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
     /// The state at a time.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::QuadratureNotConverged`]; [`DynamicsError::NotFound`] when the
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::QuadratureNotConverged`]; [`DynamicsError::NotFound`] when the
     /// equations of the motion could not be solved, as behind a collision; [`DynamicsError::IncompleteIntegral`].
     pub fn at(&self, time: f64) -> Result<(Vec<f64>, Vec<f64>), DynamicsError> {
         check_finite("t", &[time])?;
@@ -217,8 +217,8 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
     ///
     /// # Errors
     /// [`DynamicsError::ForbiddenCoordinate`] when an end lies beyond the turning points of the motion;
-    /// [`DynamicsError::DimensionMismatch`] when there is no such coordinate;
-    /// [`DynamicsError::QuadratureNotConverged`]; [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::WrongLength`] when there is no such coordinate;
+    /// [`DynamicsError::QuadratureNotConverged`]; [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// ```
@@ -237,7 +237,7 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
         check_finite("q", &[from, to])?;
         let Some(chart) = self.charts.get(coordinate) else {
             let (expected, found) = (self.charts.len(), coordinate);
-            return Err(DynamicsError::DimensionMismatch { quantity: "coordinates", expected, found });
+            return Err(DynamicsError::WrongLength { quantity: "coordinates", expected, found });
         };
         let rising = chart.rising();
         for value in [from, to] {

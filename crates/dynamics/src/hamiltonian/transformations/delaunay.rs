@@ -27,7 +27,7 @@ use crate::hamiltonian::{InvertiblePhaseMap, PhaseFunction, PhaseMap};
 /// # Errors
 /// [`DynamicsError::NotBound`] for an energy that is not negative; [`DynamicsError::DegenerateElements`] on circles and
 /// in the plane z = 0, where an angle has no meaning; back, [`DynamicsError::InvalidAction`] unless 0 < G ≤ L and |H| ≤ G;
-/// [`DynamicsError::DimensionMismatch`].
+/// [`DynamicsError::WrongLength`].
 ///
 /// # Accuracy
 /// Some ulp over e and over sin i.
@@ -76,7 +76,7 @@ impl Delaunay {
     /// For a mass m, kg, and a gravitational parameter μ, m³/s².
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::NotPositive`].
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::NotPositive`].
     ///
     /// # Example
     /// See [`Delaunay`].

@@ -14,7 +14,7 @@ use crate::hamiltonian::{InvertiblePhaseMap, PhaseMap};
 /// ```
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`]; back, [`DynamicsError::InvalidAction`] for a negative action. At rest at the centre the angle has no derivatives.
+/// [`DynamicsError::WrongLength`]; back, [`DynamicsError::InvalidAction`] for a negative action. At rest at the centre the angle has no derivatives.
 ///
 /// # Example
 /// ```
@@ -54,7 +54,7 @@ impl OscillatorActionAngle {
     /// For a mass m, kg, and an angular frequency ω, rad/s.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`]; [`DynamicsError::NotPositive`].
+    /// [`DynamicsError::NotFinite`]; [`DynamicsError::NotPositive`].
     ///
     /// # Example
     /// See [`OscillatorActionAngle`].

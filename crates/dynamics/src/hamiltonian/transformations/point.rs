@@ -18,7 +18,7 @@ use crate::lagrangian::ChangeOfCoordinates;
 /// New coordinates are found by Newton's iteration from a guess; the way back, to old ones, needs none.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`]; [`DynamicsError::Numerics`] where ∂c/∂Q is singular;
+/// [`DynamicsError::WrongLength`]; [`DynamicsError::Numerics`] where ∂c/∂Q is singular;
 /// [`DynamicsError::NotSolved`] where no new coordinates are found.
 ///
 /// # Example

@@ -15,7 +15,7 @@ use crate::hamiltonian::{InvertiblePhaseMap, PhaseMap};
 /// Momenta stay those of the frame at rest, in turned components: P is not m Q̇.
 ///
 /// # Errors
-/// [`DynamicsError::DimensionMismatch`] for other than 2 or 3 coordinates.
+/// [`DynamicsError::WrongLength`] for other than 2 or 3 coordinates.
 ///
 /// # Example
 /// ```
@@ -40,7 +40,7 @@ impl RotatingFrame {
     /// A frame that turns with Ω, rad/s.
     ///
     /// # Errors
-    /// [`DynamicsError::NonFinite`].
+    /// [`DynamicsError::NotFinite`].
     ///
     /// # Example
     /// See [`RotatingFrame`].

@@ -68,7 +68,7 @@ proptest! {
     }
 
     #[test]
-    fn rate_of_momentum_equals_forces_and_rate_of_moment_of_momentum_equals_moments((q, v, t) in states()) {
+    fn rate_of_momentum_equals_forces_and_rate_of_angular_momentum_equals_moments((q, v, t) in states()) {
         let system = driven();
         let a = system.acceleration(&q, &v, t).unwrap();
         let along = |x: &[f64], rate: &[f64]| -> Vec<Dual<f64>> {
@@ -92,7 +92,7 @@ proptest! {
         let tol = Tol::ulps(128.0).times(condition(&system, (&q, &v, t)));
         let rates = moving.momentum.map(|x| x.tangent);
         assert_close_at_scale("force", rates.as_slice(), force.as_slice(), 50.0, tol);
-        let rates = moving.moment_of_momentum.map(|x| x.tangent);
+        let rates = moving.angular_momentum.map(|x| x.tangent);
         assert_close_at_scale("moment", rates.as_slice(), moment.as_slice(), 50.0, tol);
     }
 
