@@ -6,7 +6,8 @@
 //! It is the formula as it is printed: it loses the digits that cancel near the reference, tests no point and refuses
 //! nothing.
 
-use piola_numerics::{Kernel, Lanes, Lanewise, Real, dispatch};
+use piola_numerics::internal::Lanewise;
+use piola_numerics::{Kernel, Lanes, Real, dispatch};
 
 /// Points of a block.
 pub const BLOCK: usize = 8;

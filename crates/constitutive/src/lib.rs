@@ -4,7 +4,6 @@
 
 pub mod batch;
 pub mod checks;
-mod elementary;
 mod error;
 #[cfg(feature = "fit")]
 pub mod fit;
@@ -12,7 +11,6 @@ pub mod fluids;
 pub mod homogeneous;
 pub mod internal_constraints;
 pub mod memory;
-mod parameters;
 pub mod solids;
 
 pub use error::ConstitutiveError;

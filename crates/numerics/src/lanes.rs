@@ -39,7 +39,8 @@ use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, N
 use num_traits::{One, Zero};
 
 use crate::elementary::{double, power, single, trigonometric};
-use crate::{Lanewise, Mask, Real};
+use crate::lanewise::Lanewise;
+use crate::{Mask, Real};
 
 /// N independent values of type `T` (`f32` or `f64`).
 ///

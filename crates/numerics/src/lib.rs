@@ -21,6 +21,7 @@ mod dispatch;
 mod dual;
 mod elementary;
 mod error;
+mod excess;
 pub mod gauss_kronrod;
 mod gradient;
 mod jet;
@@ -29,6 +30,7 @@ mod lanewise;
 pub mod linear;
 #[cfg(feature = "num-dual")]
 mod num_dual;
+mod parameters;
 mod prefetch;
 mod real;
 pub mod sums;
@@ -39,9 +41,15 @@ pub use error::NumericsError;
 pub use gradient::Gradient;
 pub use jet::Jet;
 pub use lanes::{Element, LaneMask, Lanes};
-pub use lanewise::Lanewise;
-pub use prefetch::{prefetch, prefetch_for_writing};
 pub use real::{Mask, Real};
+
+/// For the other crates of Piola alone: no part of the interface.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::excess::{excess_of_exponential, excess_over_given, excess_over_logarithm, volume_excess};
+    pub use crate::lanewise::Lanewise;
+    pub use crate::prefetch::{prefetch, prefetch_for_writing};
+}
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

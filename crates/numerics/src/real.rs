@@ -22,7 +22,7 @@ use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, N
 
 use num_traits::{One, Zero};
 
-use crate::Lanewise;
+use crate::lanewise::Lanewise;
 
 /// The result of a comparison: one truth value for each lane.
 pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
@@ -250,7 +250,8 @@ pub trait Real:
     /// The computation at these numbers, in lanes one lane after the other in a loop: see [`Lanewise`].
     ///
     /// ```
-    /// use piola_numerics::{Lanes, Lanewise, Real};
+    /// use piola_numerics::internal::Lanewise;
+    /// use piola_numerics::{Lanes, Real};
     /// struct Hypotenuse;
     /// impl Lanewise<2, 1> for Hypotenuse {
     ///     #[inline(always)]

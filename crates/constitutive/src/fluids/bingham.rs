@@ -6,10 +6,11 @@ use super::answers::{beyond, finite_rate, moment_of_power, shifted_power, signed
 use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_logarithm;
-use crate::parameters::parameters;
+use piola_numerics::internal::excess_over_logarithm;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// Bingham's plastic: at rest up to a yield stress, linear beyond.
     ///
     /// ```text

@@ -6,9 +6,10 @@ use super::answers::moving;
 use super::parameters::Parameters;
 use super::viscometric::ViscometricFluid;
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The fluid of Carreau and Yasuda: two plateaus of the viscosity and a power law between them.
     ///
     /// ```text

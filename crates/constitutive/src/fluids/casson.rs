@@ -6,10 +6,11 @@ use super::answers::{beyond, finite_rate, moving, signed, viscosity_with_limit};
 use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_logarithm;
-use crate::parameters::parameters;
+use piola_numerics::internal::excess_over_logarithm;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// Casson's plastic: blood, chocolate, printing ink.
     ///
     /// ```text

@@ -6,9 +6,10 @@ use super::answers::moving;
 use super::parameters::Parameters;
 use super::viscometric::ViscometricFluid;
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// Cross's fluid: two plateaus of the viscosity.
     ///
     /// ```text

@@ -6,9 +6,10 @@ use super::answers::{Relation, finite_rate, moment_of_power, moving, solve_from_
 use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// Ellis' fluid: linear at small stresses, a power law at large ones; the rate is explicit in the stress.
     ///
     /// ```text

@@ -3,7 +3,7 @@
 use piola_continuum::{CauchyStress, Deformation, SecondPiola, Symmetric};
 use piola_numerics::{Dual, Real};
 
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 /// An Eulerian (elastic, barotropic) fluid.
 ///
@@ -69,6 +69,7 @@ pub trait EulerianFluid {
 }
 
 parameters! {
+    ConstitutiveError;
     /// The polytropic gas.
     ///
     /// ```text

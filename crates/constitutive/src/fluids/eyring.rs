@@ -6,9 +6,10 @@ use super::answers::{finite_rate, inverse_sinh};
 use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The fluid of Prandtl and Eyring: flow by thermally activated jumps.
     ///
     /// ```text

@@ -7,9 +7,10 @@ use super::parameters::Parameters;
 use super::power_law::odd_power;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The plastic of Herschel and Bulkley: at rest up to a yield stress, a power law beyond.
     ///
     /// ```text

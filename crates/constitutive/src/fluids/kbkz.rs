@@ -8,7 +8,7 @@ use super::quadrature::{Integral, integrate};
 use super::viscometric::ViscometricFluid;
 use crate::ConstitutiveError;
 use crate::error::{check_bound, check_finite};
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 /// How much less a large strain is remembered than a small one: h, with h = 1 at no strain.
 pub trait Damping {
@@ -21,6 +21,7 @@ pub trait Damping {
 }
 
 parameters! {
+    ConstitutiveError;
     /// The damping of Papanastasiou, Scriven and Macosko.
     ///
     /// ```text
@@ -42,6 +43,7 @@ parameters! {
 }
 
 parameters! {
+    ConstitutiveError;
     /// Wagner's damping.
     ///
     /// ```text

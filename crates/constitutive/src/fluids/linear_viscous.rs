@@ -6,9 +6,10 @@ use piola_numerics::Real;
 
 use super::viscous::ViscousFluid;
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The compressible Newtonian fluid of Navier and Stokes.
     ///
     /// ```text

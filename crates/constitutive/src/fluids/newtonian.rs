@@ -6,9 +6,10 @@ use super::answers::finite_rate;
 use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The incompressible Newtonian fluid.
     ///
     /// ```text

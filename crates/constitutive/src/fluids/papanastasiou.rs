@@ -7,9 +7,10 @@ use super::parameters::Parameters;
 use super::power_law::odd_power;
 use super::viscometric::ViscometricFluid;
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// Papanastasiou's plastic: that of Herschel and Bulkley, with a yield stress that grows with the rate instead of a jump.
     ///
     /// ```text

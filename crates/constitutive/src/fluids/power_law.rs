@@ -6,9 +6,10 @@ use super::answers::{finite_rate, moment_of_power, moving};
 use super::parameters::Parameters;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The power law of Ostwald and de Waele.
     ///
     /// ```text

@@ -6,7 +6,7 @@ use piola_numerics::Real;
 
 use super::viscometric::ViscometricFluid;
 use super::viscous::ViscousFluid;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 /// The coefficients g₁ and g₂ of a Reiner–Rivlin fluid, functions of the invariants of D:
 /// I = tr D, II = ½ (I² − D : D), III = det D.
@@ -20,6 +20,7 @@ pub trait ReinerRivlinCoefficients {
 }
 
 parameters! {
+    ConstitutiveError;
     /// Coefficients of a Reiner–Rivlin fluid that are constants.
     ///
     /// | symbol | parameter | unit | bounds |

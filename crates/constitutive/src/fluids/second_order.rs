@@ -6,9 +6,10 @@ use piola_numerics::Real;
 
 use super::viscometric::ViscometricFluid;
 use super::viscous::ViscousFluid;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The second-order fluid: any simple fluid with fading memory in slow flow, one order beyond the Newtonian.
     ///
     /// ```text

@@ -6,9 +6,10 @@ use super::parameters::Parameters;
 use super::power_law::odd_power;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// Sisko's fluid: a power law and a Newtonian fluid side by side; greases.
     ///
     /// ```text

@@ -5,7 +5,7 @@ use piola_numerics::Real;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::ConstitutiveError;
 use crate::error::check_bound;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 /// The molar gas constant R, J/(mol K), exact by the definition of the unit.
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
@@ -39,6 +39,7 @@ pub trait TemperatureShift {
 }
 
 parameters! {
+    ConstitutiveError;
     /// The shift of Arrhenius: jumps over a barrier, far above the glass transition.
     ///
     /// ```text
@@ -73,6 +74,7 @@ parameters! {
 }
 
 parameters! {
+    ConstitutiveError;
     /// The shift of Williams, Landel and Ferry: free volume, up to 100 K above the glass transition.
     ///
     /// ```text

@@ -7,10 +7,11 @@ use super::incompressible::inverse_excess;
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants};
 use super::range::{check_below, largest_exponent, within};
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_given;
-use crate::parameters::parameters;
+use piola_numerics::internal::excess_over_given;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The solid of Blatz and Ko, for foamed and for solid rubber.
     ///
     /// ```text

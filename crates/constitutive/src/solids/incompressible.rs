@@ -8,7 +8,7 @@ use piola_numerics::{Mask, Real};
 use super::invariant::{Curvatures, InvariantEnergy, Invariants, Slopes, first_excess, hyperelastic_of_invariants};
 use super::isochoric::{self, Isochoric};
 use crate::ConstitutiveError;
-use crate::elementary::excess_over_given;
+use piola_numerics::internal::excess_over_given;
 use crate::error::check_finite;
 
 const LAW: &str = "incompressible solid";

@@ -5,7 +5,8 @@ use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, True
 use piola_continuum::tensor::voigt::{ComplianceMatrix, StiffnessMatrix, VoigtOrder};
 use piola_continuum::tensor::{FourthOrder, MajorSymmetric};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
-use piola_numerics::{Lanewise, Real};
+use piola_numerics::internal::Lanewise;
+use piola_numerics::Real;
 
 use super::strain_energy::linear_numbers;
 use super::{ElasticConstants, Hyperelastic, numbers};

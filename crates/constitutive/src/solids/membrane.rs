@@ -33,9 +33,10 @@ use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::tensor::FourthOrder;
 use piola_numerics::Real;
 
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// A membrane: energy ½ τ |∇u|², equilibrium f + τ Δu = 0.
     ///
     /// | symbol | parameter | unit | bounds |
@@ -111,6 +112,7 @@ impl Membrane {
 }
 
 parameters! {
+    ConstitutiveError;
     /// A thin plate: energy ½ D |∇∇u|², equilibrium f − D Δ²u = 0; see the [module's](self) derivation for the sign.
     ///
     /// | symbol | parameter | unit | bounds |

@@ -1,4 +1,4 @@
-//! P and ∂P/∂F as numbers one after the other, for [`Lanewise`](piola_numerics::Lanewise).
+//! P and ∂P/∂F as numbers one after the other, for `Lanewise`.
 
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::tensor::FourthOrder;

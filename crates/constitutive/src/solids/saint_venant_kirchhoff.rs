@@ -6,12 +6,14 @@ use piola_continuum::tensor::MajorSymmetric;
 use piola_continuum::tensor::rows::{Rows, product, scaled};
 use piola_continuum::{Deformation, FirstPiola, SecondPiola, Symmetric};
 use piola_numerics::linear::matrix3::from_rows;
-use piola_numerics::{Lanewise, Real};
+use piola_numerics::internal::Lanewise;
+use piola_numerics::Real;
 
 use super::{Hyperelastic, numbers};
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The solid of St. Venant and Kirchhoff: Hooke's law between E and S.
     ///
     /// ```text

@@ -5,7 +5,8 @@ use piola_continuum::tensor::rows::{Rows, product, transpose};
 use piola_continuum::tensor::{MajorSymmetric, PairSymmetric, SLOT};
 use piola_continuum::{Deformation, FirstPiola, Symmetric};
 use piola_numerics::linear::matrix3::{dot, from_rows};
-use piola_numerics::{Lanewise, Real};
+use piola_numerics::internal::Lanewise;
+use piola_numerics::Real;
 
 use super::numbers;
 use crate::ConstitutiveError;

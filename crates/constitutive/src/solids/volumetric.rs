@@ -21,8 +21,8 @@
 
 use piola_numerics::Real;
 
-use crate::elementary::{excess_over_given as excess, volume_excess};
-use crate::parameters::parameters;
+use piola_numerics::internal::{excess_over_given as excess, volume_excess};
+use piola_numerics::parameters;
 
 /// An energy of the change of volume, zero with its first derivative at J = 1.
 ///
@@ -105,6 +105,7 @@ impl<U: Volumetric> Volumetric for &U {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = ½ κ (J − 1)².
     ///
     /// κ in Pa, 0 ≤ κ. Volume may vanish at the finite cost ½ κ.
@@ -143,6 +144,7 @@ impl Volumetric for Quadratic {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = ½ κ ln² J.
     ///
     /// κ in Pa, 0 ≤ κ. The pressure falls again where e < J.
@@ -183,6 +185,7 @@ impl Volumetric for Logarithmic {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = ½ λ ln² J with λ of either sign: beside a change of shape that resists a change of volume too.
     ///
     /// λ in Pa. The bulk modulus is that of the whole law, λ + ⅔ μ for [`Hencky`](super::Hencky) and
@@ -225,6 +228,7 @@ impl Volumetric for Lame {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = ¼ κ ((J − 1)² + ln² J).
     ///
     /// κ in Pa, 0 ≤ κ.
@@ -267,6 +271,7 @@ impl Volumetric for QuadraticLogarithmic {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = ¼ κ (J² − 1 − 2 ln J).
     ///
     /// κ in Pa, 0 ≤ κ.
@@ -307,6 +312,7 @@ impl Volumetric for SimoTaylor {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = κ (J ln J − J + 1).
     ///
     /// κ in Pa, 0 ≤ κ. The pressure is −κ ln J; volume may vanish at the finite cost κ.
@@ -346,6 +352,7 @@ impl Volumetric for Liu {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = κ (J − 1 − ln J).
     ///
     /// κ in Pa, 0 ≤ κ.
@@ -385,6 +392,7 @@ impl Volumetric for Miehe {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = κ β⁻² (J^(−β) − 1 + β ln J).
     ///
     /// κ in Pa, 0 ≤ κ; β ≠ 0, κ/β² finite. β = 9 is Ogden's value for rubber, β = −2 is [`SimoTaylor`]'s energy.
@@ -437,6 +445,7 @@ impl Volumetric for OgdenVolumetric {
 }
 
 parameters! {
+    ConstitutiveError;
     /// U = κ (J⁵ + J⁻⁵ − 2)/50.
     ///
     /// κ in Pa, 0 ≤ κ.

@@ -1,7 +1,8 @@
 //! Where results are written: arrays of structures, structures of arrays, strided numbers.
 
 use nalgebra::Matrix3;
-use piola_numerics::{Element, Lanes, prefetch_for_writing};
+use piola_numerics::internal::prefetch_for_writing;
+use piola_numerics::{Element, Lanes};
 
 use super::records;
 use super::sources::{ahead, transposed};

@@ -2,7 +2,8 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::sums::unit_in_last_place;
-use piola_numerics::{Element, Lanes, Real, prefetch};
+use piola_numerics::internal::prefetch;
+use piola_numerics::{Element, Lanes, Real};
 
 use super::records::gather;
 use super::{AllEntries, BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};

@@ -10,7 +10,8 @@
 
 use piola_numerics::linear::matrix3::{cross, dot};
 use piola_numerics::sums::{two_product, two_sum};
-use piola_numerics::{Lanewise, Mask, Real};
+use piola_numerics::internal::Lanewise;
+use piola_numerics::{Mask, Real};
 
 use crate::tensor::rows::{Rows, difference, identity};
 

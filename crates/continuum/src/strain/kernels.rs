@@ -6,7 +6,8 @@
 //! ```
 
 use piola_numerics::linear::matrix3::determinant;
-use piola_numerics::{Lanewise, Real};
+use piola_numerics::internal::Lanewise;
+use piola_numerics::Real;
 
 use crate::Symmetric;
 use crate::stress::kernels::product_symmetrized;

@@ -163,7 +163,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
 impl<T: Real> Workspace<T> {
     /// A motion without inertia, or quasi-velocities without motion.
     #[cold]
-    fn explain(&self, error: Error) -> DynamicsError {
+    fn explain(&self, error: NumericsError) -> DynamicsError {
         let NumericsError::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
         let (n, m) = (self.velocity.len(), self.free.len());
         let mut direction = vec![T::zero(); m];

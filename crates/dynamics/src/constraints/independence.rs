@@ -70,7 +70,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// Factors the metric of n coordinates.
-    pub(super) fn factor_metric(&mut self, metric: &[T], n: usize) -> Result<(), Error> {
+    pub(super) fn factor_metric(&mut self, metric: &[T], n: usize) -> Result<(), NumericsError> {
         self.coordinates = n;
         self.factors.clear();
         self.factors.extend_from_slice(metric);
@@ -252,7 +252,7 @@ impl<T: Real> Independence<T> {
     /// The multipliers of the last accelerations: Σ λᵢ gᵢ = f − M q̈, those of least Σ (λᵢ sᵢ)².
     ///
     /// To be called after [`choose`](Self::choose).
-    pub(super) fn multiply(&mut self, multipliers: &mut [T]) -> Result<(), Error> {
+    pub(super) fn multiply(&mut self, multipliers: &mut [T]) -> Result<(), NumericsError> {
         let (count, rank) = (self.count(), self.rank);
         let free = count - rank;
         // R λ₁ = −w.
@@ -326,7 +326,7 @@ impl<T: Real> Independence<T> {
     ///
     /// μ is far above rounding, so that constraints that depend on others need no decision, and far below one,
     /// so that the corrections of a few iterations are those without it.
-    pub(super) fn factor_corrections(&mut self) -> Result<(), Error> {
+    pub(super) fn factor_corrections(&mut self) -> Result<(), NumericsError> {
         const MU: f64 = 1e-12;
         let count = self.count();
         zeros(&mut self.small, count * count);
@@ -341,7 +341,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// x ← S⁻¹ (B Bᵀ + μ)⁻¹ S⁻¹ x: the weights of the gradients that correct residuals x.
-    pub(super) fn weigh(&self, x: &mut [T]) -> Result<(), Error> {
+    pub(super) fn weigh(&self, x: &mut [T]) -> Result<(), NumericsError> {
         let scale = |x: &mut [T]| {
             for (x, &length) in x.iter_mut().zip(&self.sizes) {
                 *x = if 0.0 < size(length) { *x / length } else { T::zero() };
@@ -354,7 +354,7 @@ impl<T: Real> Independence<T> {
     }
 
     /// x ← M⁻¹ x.
-    pub(super) fn solve_metric(&self, x: &mut [T]) -> Result<(), Error> {
+    pub(super) fn solve_metric(&self, x: &mut [T]) -> Result<(), NumericsError> {
         ldlt::solve_in_place(&self.factors, self.coordinates, x)
     }
 }

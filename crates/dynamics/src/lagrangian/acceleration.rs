@@ -303,7 +303,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         v: &[T],
         t: T,
         out: &mut [T],
-    ) -> Result<(), Error> {
+    ) -> Result<(), NumericsError> {
         let n = q.len();
         let Formed { mut metric, mut force } = self.form_in_one_pass::<T, N>(work, q, v, t);
         for (i, column) in metric.iter_mut().enumerate().skip(n) {
@@ -335,7 +335,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         (q, v, t): (&[T], &[T], T),
         error: NumericsError,
         out: &mut [T],
-    ) -> Result<(), Error> {
+    ) -> Result<(), NumericsError> {
         match self.accelerate_by_rows(work, (q, v, t), T::Mask::splat(false), out) {
             Ok(true) => Ok(()),
             _ => Err(error),
@@ -396,7 +396,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         v: &[T],
         t: T,
         out: &mut [T],
-    ) -> Result<(), Error> {
+    ) -> Result<(), NumericsError> {
         self.form_by_rows(work, q, v, t);
         match ldlt::factor_and_grade_in_place(&mut work.metric, q.len(), trusted_pivot::<T>()) {
             Ok(sound) => {

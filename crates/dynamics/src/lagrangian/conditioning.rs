@@ -47,7 +47,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         (q, v, t): (&[T], &[T], T),
         sound: T::Mask,
         out: &mut [T],
-    ) -> Result<bool, Error> {
+    ) -> Result<bool, NumericsError> {
         if P::VELOCITY_DEPENDENT && !P::LINEAR_IN_VELOCITIES && !self.is_linear_in_velocities(work, q, v, t) {
             return Ok(false);
         }
@@ -68,7 +68,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         (q, t): (&[T], T),
         sound: T::Mask,
         out: &mut [T],
-    ) -> Result<bool, Error> {
+    ) -> Result<bool, NumericsError> {
         work.rows.clear();
         self.collect_rows_from(work, q, t, 0);
         solve_by_rows(work, sound, out)
@@ -88,7 +88,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 }
 
 /// The rows with what is left of the forces on them, and `work.force` beside them.
-fn solve_by_rows<T: Real>(work: &mut Workspace<T>, sound: T::Mask, out: &mut [T]) -> Result<bool, Error> {
+fn solve_by_rows<T: Real>(work: &mut Workspace<T>, sound: T::Mask, out: &mut [T]) -> Result<bool, NumericsError> {
     let n = out.len();
     let Workspace { rows, force, least_squares, linear, .. } = work;
     least_squares.begin(n);

@@ -140,7 +140,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ) -> Result<(), DynamicsError> {
         let solved = ldlt::factor_in_place(&mut work.metric, q.len())
             .and_then(|()| ldlt::solve_in_place(&work.metric, q.len(), b));
-        solved.map_err(|error: Error| self.explain(error, [("q", q), ("p", p)], t, work))
+        solved.map_err(|error: NumericsError| self.explain(error, [("q", q), ("p", p)], t, work))
     }
 
     /// Newton's iteration for ∂L/∂q̇ = p. It seeks the maximum of the concave function p·q̇ − L: a step is too

@@ -78,7 +78,7 @@ impl Reduction {
 
 /// A mass matrix that is not positive definite, with the direction that has no inertia.
 #[cold]
-pub(super) fn singular<T: Real>(mass_matrix: &DMatrix<T>, error: Error) -> DynamicsError {
+pub(super) fn singular<T: Real>(mass_matrix: &DMatrix<T>, error: NumericsError) -> DynamicsError {
     let NumericsError::NotPositiveDefinite { pivot, value, diagonal } = error else { return error.into() };
     let n = mass_matrix.nrows();
     let mut factors = mass_matrix.clone();

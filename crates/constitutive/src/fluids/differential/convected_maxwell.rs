@@ -11,15 +11,16 @@ use piola_numerics::Real;
 
 use super::mode::{DifferentialFluid, Mode, ShearStresses, convected, only_mode};
 use crate::ConstitutiveError;
-use crate::elementary::excess_of_exponential;
+use piola_numerics::internal::excess_of_exponential;
 use crate::error::{check_bound, check_finite};
 use crate::fluids::answers::finite_rate;
 use crate::fluids::parameters::Parameters;
 use crate::fluids::quadrature::{Integral, integrate};
 use crate::fluids::{FlowMoment, Newtonian, ViscometricFluid};
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The upper-convected Maxwell fluid.
     ///
     /// ```text
@@ -54,6 +55,7 @@ parameters! {
 }
 
 parameters! {
+    ConstitutiveError;
     /// Oldroyd's fluid B: an upper-convected Maxwell fluid in a Newtonian solvent.
     ///
     /// ```text

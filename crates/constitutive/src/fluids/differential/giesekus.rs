@@ -7,9 +7,10 @@ use super::mode::{Mode, only_mode};
 use crate::ConstitutiveError;
 use crate::fluids::ViscometricFluid;
 use crate::fluids::parameters::Parameters;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// Giesekus' fluid: polymers drag less along the direction in which they are drawn out.
     ///
     /// ```text

@@ -10,9 +10,10 @@ use crate::fluids::answers::{Relation, finite_rate, moment_of_power, moving, sol
 use crate::fluids::parameters::Parameters;
 use crate::fluids::viscometric::rate_at_stress;
 use crate::fluids::{FlowMoment, ViscometricFluid};
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// The linear fluid of Phan-Thien and Tanner: a network whose junctions break the faster the more it is drawn out.
     ///
     /// ```text
@@ -57,6 +58,7 @@ parameters! {
 }
 
 parameters! {
+    ConstitutiveError;
     /// The exponential fluid of Phan-Thien and Tanner.
     ///
     /// ```text

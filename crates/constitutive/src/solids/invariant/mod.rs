@@ -19,7 +19,7 @@ use piola_numerics::{Dual, Real};
 
 use crate::solids::known::Known;
 use crate::solids::numbers;
-use crate::{ConstitutiveError, elementary};
+use crate::ConstitutiveError;
 
 mod kinematics;
 mod measures;
@@ -171,7 +171,7 @@ pub fn invariants_of<T: Real, L: InvariantEnergy>(_law: &L, deformation: &impl D
 #[inline(always)]
 #[must_use]
 pub fn volume_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
-    elementary::volume_excess(deformation.volume_change(), deformation.jacobian())
+    piola_numerics::internal::volume_excess(deformation.volume_change(), deformation.jacobian())
 }
 
 /// I₁ − 3 − 2 ln J, never negative and of second order in the strain, without cancellation.

@@ -9,7 +9,8 @@ use piola_continuum::strain::kernels;
 use piola_continuum::tensor::rows::Rows;
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::linear::matrix3::rows_of;
-use piola_numerics::{Dual, Lanewise, Mask, Real};
+use piola_numerics::internal::Lanewise;
+use piola_numerics::{Dual, Mask, Real};
 
 use super::InvariantEnergy;
 use super::kinematics::Kinematics;

@@ -5,10 +5,11 @@ use piola_numerics::{Mask, Real};
 use super::Isochoric;
 use super::langevin::{inverse_langevin, langevin, ratio_and_slope};
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 use crate::solids::range::{check_below, within};
 
 parameters! {
+    ConstitutiveError;
     /// The network of Arruda and Boyce: eight chains of N freely jointed links, exactly.
     ///
     /// ```text
@@ -160,6 +161,7 @@ impl Isochoric for ArrudaBoyce {
 const SERIES: [f64; 5] = [0.5, 1.0 / 20.0, 11.0 / 1050.0, 19.0 / 7000.0, 519.0 / 673_750.0];
 
 parameters! {
+    ConstitutiveError;
     /// The first five terms of the series of [`ArrudaBoyce`], as it stands in many programs.
     ///
     /// ```text

@@ -4,10 +4,11 @@ use piola_numerics::Real;
 
 use super::Isochoric;
 use crate::ConstitutiveError;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 use crate::solids::range::{check_below, within};
 
 parameters! {
+    ConstitutiveError;
     /// W̄ = −½ μ Jₘ ln(1 − (Ī₁ − 3)/Jₘ): a network whose chains can be stretched so far and no further.
     ///
     /// | symbol | parameter | unit | bounds |

@@ -3,9 +3,10 @@
 use piola_numerics::Real;
 
 use super::Isochoric;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// W̄ = C₁₀ (Ī₁ − 3) + C₀₁ (Ī₂ − 3).
     ///
     /// | symbol | parameter | unit | bounds |

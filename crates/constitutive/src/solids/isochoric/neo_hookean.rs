@@ -3,9 +3,10 @@
 use piola_numerics::Real;
 
 use super::Isochoric;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// W̄ = ½ μ (Ī₁ − 3): the network of Gaussian chains.
     ///
     /// | symbol | parameter | unit | bounds |

@@ -3,9 +3,10 @@
 use piola_numerics::Real;
 
 use super::Isochoric;
-use crate::parameters::parameters;
+use piola_numerics::parameters;
 
 parameters! {
+    ConstitutiveError;
     /// W̄ = C₁ x + C₂ x² + C₃ x³ with x = Ī₁ − 3: one set of numbers for all modes of rubber with filler.
     ///
     /// | symbol | parameter | unit | bounds |

@@ -6,7 +6,7 @@ use piola_continuum::tensor::rows::double_contraction;
 use piola_numerics::{Mask, Real};
 
 use crate::ConstitutiveError;
-use crate::elementary::excess_of_exponential;
+use piola_numerics::internal::excess_of_exponential;
 use crate::error::{check_bound, check_finite};
 use crate::solids::range::{check_exponent, largest_logarithm, small_exponent};
 

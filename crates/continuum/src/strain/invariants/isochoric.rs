@@ -4,7 +4,8 @@
 //! Ī₁ = J^(−2/3) I₁      Ī₂ = J^(−4/3) I₂      of C or B, unchanged by a dilatation
 //! ```
 
-use piola_numerics::{Lanewise, Mask, Real};
+use piola_numerics::internal::Lanewise;
+use piola_numerics::{Mask, Real};
 
 use super::{derivatives, first, second};
 use crate::strain::kernels::{green, left_cauchy_green, right_cauchy_green, right_cauchy_green_minus_one};

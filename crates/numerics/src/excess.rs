@@ -1,13 +1,13 @@
 //! Differences of elementary functions that would cancel if they were formed.
 
-use piola_numerics::{Mask, Real};
+use crate::{Mask, Real};
 
 /// x − ln(1 + x), of second order in x, without cancellation.
 ///
 /// # Accuracy
 /// 4 ulp for |x| ≤ ½; beyond, the difference itself, 8 ulp.
 #[inline(always)]
-pub(crate) fn excess_over_logarithm<T: Real>(x: T) -> T {
+pub fn excess_over_logarithm<T: Real>(x: T) -> T {
     let small = x.abs().at_most(T::lit(0.5));
     if small.all() {
         return small_excess(x);
@@ -51,7 +51,7 @@ fn series<T: Real>(x: T) -> T {
 /// # Accuracy
 /// That of [`excess_over_logarithm`]; for x → −1 and its derivatives that of the logarithm.
 #[inline(always)]
-pub(crate) fn excess_over_given<T: Real>(x: T, logarithm: T) -> T {
+pub fn excess_over_given<T: Real>(x: T, logarithm: T) -> T {
     let small = x.abs().at_most(T::lit(0.5));
     if small.all() {
         return small_excess(x);
@@ -66,7 +66,7 @@ pub(crate) fn excess_over_given<T: Real>(x: T, logarithm: T) -> T {
 /// # Accuracy
 /// As [`excess_over_given`].
 #[inline(always)]
-pub(crate) fn volume_excess<T: Real>(change: T, jacobian: T) -> T {
+pub fn volume_excess<T: Real>(change: T, jacobian: T) -> T {
     let small = change.abs().at_most(T::lit(0.5));
     if small.all() {
         return small_excess(change);
@@ -80,7 +80,7 @@ pub(crate) fn volume_excess<T: Real>(change: T, jacobian: T) -> T {
 /// # Accuracy
 /// 4 ulp for |x| ≤ ½; beyond, the difference itself, 8 ulp.
 #[inline(always)]
-pub(crate) fn excess_of_exponential<T: Real>(x: T) -> T {
+pub fn excess_of_exponential<T: Real>(x: T) -> T {
     let small = x.abs().at_most(T::lit(0.5));
     let plain = x.exp_m1() - x;
     if !small.any() {

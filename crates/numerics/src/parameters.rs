@@ -1,8 +1,12 @@
-//! What every law of a solid or fluid with plain parameters has: a checked constructor, getters and validated serde.
+//! Declares a law of a solid or fluid with plain parameters: checked constructor, getters, validated serde.
 
-/// Declares a law of numbers: each parameter with its documentation, its bound as text and as a condition on all of them.
+/// Declares a law: the error of its crate, then each parameter with its documentation, its bound as text and as a condition.
+#[doc(hidden)]
+#[macro_export]
+#[expect(clippy::crate_in_macro_def, reason = "the checks are those of the crate whose law it is")]
 macro_rules! parameters {
     (
+        $error:ident;
         $(#[$documentation:meta])*
         pub struct $name:ident($law:literal) {
             $($(#[$about:meta])* $field:ident: $bound:literal => $holds:expr),+ $(,)?
@@ -22,9 +26,9 @@ macro_rules! parameters {
             /// From the parameters, within the bounds of the table.
             ///
             /// # Errors
-            /// [`ConstitutiveError::NotFinite`](crate::ConstitutiveError::NotFinite),
-            /// [`ConstitutiveError::OutOfBounds`](crate::ConstitutiveError::OutOfBounds).
-            pub fn new($($field: f64),+) -> Result<Self, crate::ConstitutiveError> {
+            #[doc = concat!("[`", stringify!($error), "::NotFinite`](crate::", stringify!($error), "::NotFinite),")]
+            #[doc = concat!("[`", stringify!($error), "::OutOfBounds`](crate::", stringify!($error), "::OutOfBounds).")]
+            pub fn new($($field: f64),+) -> Result<Self, crate::$error> {
                 $(crate::error::check_finite($law, stringify!($field), $field)?;)+
                 $(crate::error::check_bound($law, stringify!($field), $field, $bound, $holds)?;)+
                 Ok(Self { $($field),+ })
@@ -52,4 +56,3 @@ macro_rules! parameters {
         }
     };
 }
-pub(crate) use parameters;
