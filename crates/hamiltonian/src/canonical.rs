@@ -227,9 +227,6 @@ fn symplecticity(jacobian: &DMatrix<f64>) -> CanonicalTest {
 /// # Errors
 /// [`HamiltonianError::NotCanonical`] with the worst entry; what [`image_and_jacobian`] refuses.
 ///
-/// # Example
-/// See [`canonical_test`].
-///
 /// # Source
 /// W(9.16).
 pub fn require_canonical(

@@ -148,9 +148,6 @@ pub fn differential<T: Real>(
 /// # Errors
 /// As [`differential`].
 ///
-/// # Example
-/// See [`differential`].
-///
 /// # Source
 /// W(9.13), W p. 57.
 pub fn symplectic_gradient<T: Real>(

@@ -59,9 +59,6 @@ impl PhasePoint {
     ///
     /// # Errors
     /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`PhasePoint`].
     pub fn new(q: &[f64], p: &[f64], t: f64) -> Result<Self, HamiltonianError> {
         check_length("p", q.len(), p.len())?;
         check_finite("q", q)?;

@@ -145,9 +145,6 @@ pub fn lie_derivative_of_one_form<T: Real>(
 /// # Accuracy
 /// Derivatives are exact to rounding.
 ///
-/// # Example
-/// See [`locally_hamiltonian_test`].
-///
 /// # Source
 /// W(9.15), W(10.13).
 pub fn lie_derivative_of_two_form<T: Real>(

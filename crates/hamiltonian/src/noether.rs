@@ -186,9 +186,6 @@ const LOCALLY_HAMILTONIAN: f64 = 1e-10;
 /// [`HamiltonianError::NotLocallyHamiltonian`] with the worst entry of L_k ω; [`HamiltonianError::WrongLength`];
 /// [`HamiltonianError::NotFinite`]; [`HamiltonianError::QuadratureNotConverged`].
 ///
-/// # Example
-/// See [`Generator`].
-///
 /// # Source
 /// W(9.16), W p. 58.
 pub fn integral_of_symmetry(

@@ -48,9 +48,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// coordinates themselves would change too. The difference is noticed by the pivots of the metric, at no
     /// cost. Where the potential is not linear in the velocities, the metric is used throughout.
     ///
-    /// # Example
-    /// See [`Lagrangian`].
-    ///
     /// # Source
     /// W(5.31), W(6.3).
     pub fn acceleration<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {

@@ -65,12 +65,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`driving_forces`](Self::driving_forces).
-    ///
-    /// # Example
-    /// See [`driving_forces`](Self::driving_forces).
-    ///
-    /// # Source
-    /// W(5.31).
     pub fn driving_forces_into<T: Real>(
         &self,
         work: &mut Workspace<T>,

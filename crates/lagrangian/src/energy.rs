@@ -26,16 +26,10 @@ pub struct Energies<T = f64> {
 
 impl<T: Real> Energies<T> {
     /// E + V.
-    ///
-    /// # Example
-    /// See [`Lagrangian::energies`].
     pub fn total(self) -> T {
         self.kinetic + self.potential
     }
     /// L = E − V.
-    ///
-    /// # Example
-    /// See [`Lagrangian::energies`].
     pub fn lagrangian(self) -> T {
         self.kinetic - self.potential
     }
@@ -93,9 +87,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`energies`](Self::energies).
-    ///
-    /// # Example
-    /// See [`energies`](Self::energies).
     pub fn energies_with<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -139,8 +130,10 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///     }
     /// }
     /// // E = ½·2 (q̇² + (q̇ + 3)²) = ½·4 q̇² + 6 q̇ + 9
-    /// let parts = Lagrangian::of(Lift).kinetic_energy_parts(&[0.0], 0.0);
+    /// let lift = Lagrangian::of(Lift).with_gravity(10.0);
+    /// let parts = lift.kinetic_energy_parts(&[0.0], 0.0);
     /// assert_eq!((parts.linear[0], parts.constant), (6.0, 9.0));
+    /// assert_eq!(lift.time_derivative(&[0.0], &[0.0], 0.0)?, -60.0); // ∂L/∂t: it is lifted with 3 m/s against 20 N
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -183,8 +176,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///     }
     /// }
     /// // m ṙ and m r² φ̇, at r = 2 with 3 m/s and 0.5 rad/s.
-    /// let momenta = Lagrangian::of(Polar).momenta(&[2.0, 0.0], &[3.0, 0.5], 0.0)?;
-    /// assert_eq!(momenta.as_slice(), [12.0, 8.0]);
+    /// let (polar, q, v) = (Lagrangian::of(Polar), [2.0, 0.0], [3.0, 0.5]);
+    /// assert_eq!(polar.momenta(&q, &v, 0.0)?.as_slice(), [12.0, 8.0]);
+    /// assert_eq!(polar.coordinate_gradient(&q, &v, 0.0)?.as_slice(), [2.0, 0.0]); // m r φ̇²: the centrifugal force
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -200,9 +194,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`momenta`](Self::momenta).
-    ///
-    /// # Example
-    /// See [`momenta`](Self::momenta).
     pub fn momenta_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -222,24 +213,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Polar; // q = [r, φ], 4 kg
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// // ∂L/∂r = m r φ̇²: the centrifugal force.
-    /// let gradient = Lagrangian::of(Polar).coordinate_gradient(&[2.0, 0.0], &[3.0, 0.5], 0.0)?;
-    /// assert_eq!(gradient.as_slice(), [2.0, 0.0]);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(7.3).
     pub fn coordinate_gradient<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -254,24 +227,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Hoist; // 2 kg on a rope of which q is unwound, hauled in with 3 m/s² from rest
-    /// impl Holonomic for Hoist {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), T::lit(1.5) * t * t - q[0]));
-    ///     }
-    /// }
-    /// // L = (3 t − q̇)² − 20 (1.5 t² − q): ∂L/∂t = 6 (3 t − q̇) − 60 t = −54 at t = 1, q̇ = 2.
-    /// let rate = Lagrangian::of(Hoist).with_gravity(10.0).time_derivative(&[0.0], &[2.0], 1.0)?;
-    /// assert_eq!(rate, -54.0);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(7.20).
@@ -320,32 +275,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// # use piola_lagrangian::Forces;
-    /// struct Polar; // q = [r, φ], 4 kg
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// struct Wind; // 5 N along y
-    /// impl Forces for Wind {
-    ///     const ON_PARTS: bool = true;
-    ///     fn on_part<T: Real>(&self, _part: usize, _x: [T; 3], _v: [T; 3], _t: T) -> [T; 3] {
-    ///         [T::zero(), T::lit(5.0), T::zero()]
-    ///     }
-    /// }
-    /// // At φ = 0 it is across the ray: a moment r f about the origin.
-    /// let forces = Lagrangian::of(Polar).with_forces(Wind).generalised_forces(&[2.0, 0.0], &[0.0, 0.0], 0.0)?;
-    /// assert_eq!(forces.as_slice(), [0.0, 10.0]);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(5.9).

@@ -122,12 +122,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`system_momentum`](Self::system_momentum).
-    ///
-    /// # Source
-    /// W(1.18), W(2.35).
     pub fn system_momentum_with<T: Real>(
         &self,
         work: &mut Workspace<T>,

@@ -62,9 +62,6 @@ impl<S, P, F, C: Constraints> Constrained<S, P, F, C> {
 
 impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F, C> {
     /// The residuals φ(q, t).
-    ///
-    /// # Example
-    /// See [`Constraints`].
     pub fn residuals<T: Real>(&self, q: &[T], t: T) -> DVector<T> {
         let mut out = DVector::from_element(self.constraints.count(), T::zero());
         self.constraints.residuals(q, t, out.as_mut_slice());

@@ -204,18 +204,12 @@ impl<T: Real> Linearisation<T> {
     }
 
     /// The number of coordinates, n.
-    ///
-    /// # Example
-    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn coordinates(&self) -> usize {
         self.mass_matrix.nrows()
     }
 
     /// C + G, what multiplies δq̇.
-    ///
-    /// # Example
-    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn velocity_matrix(&self) -> DMatrix<T> {
         let n = self.coordinates();
@@ -223,9 +217,6 @@ impl<T: Real> Linearisation<T> {
     }
 
     /// K + N, what multiplies δq.
-    ///
-    /// # Example
-    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn position_matrix(&self) -> DMatrix<T> {
         let n = self.coordinates();
@@ -263,6 +254,8 @@ impl<T: Real> Linearisation<T> {
     /// assert_eq!(spring_and_damper.position_matrix(), dmatrix![8.0]);
     /// assert_eq!(spring_and_damper.velocity_matrix(), dmatrix![6.0]);
     /// assert_eq!(spring_and_damper.coordinates(), 1);
+    /// // 1 N moves 2 kg with 0.5 m/s².
+    /// assert_eq!(spring_and_damper.input_matrix(&dmatrix![1.0])?, dmatrix![0.0; 0.5]);
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     pub fn state_matrix(&self) -> Result<DMatrix<T>, LagrangianError> {
@@ -299,23 +292,6 @@ impl<T: Real> Linearisation<T> {
     /// # Errors
     /// [`LagrangianError::WrongLength`] unless W has n rows and all matrices are n×n; [`LagrangianError::NotFinite`];
     /// [`LagrangianError::SingularMetric`].
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_lagrangian::small_motions::Linearisation;
-    /// # use nalgebra::{dmatrix, dvector};
-    /// let zero = dmatrix![0.0];
-    /// let mass = Linearisation {
-    ///     acceleration: dvector![0.0],
-    ///     mass_matrix: dmatrix![2.0],
-    ///     damping: zero.clone(),
-    ///     gyroscopic: zero.clone(),
-    ///     stiffness: zero.clone(),
-    ///     circulatory: zero,
-    /// };
-    /// assert_eq!(mass.input_matrix(&dmatrix![1.0])?, dmatrix![0.0; 0.5]); // 1 N moves 2 kg with 0.5 m/s²
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn input_matrix(&self, inputs: &DMatrix<T>) -> Result<DMatrix<T>, LagrangianError> {
         self.check()?;
         let n = self.coordinates();

@@ -51,9 +51,6 @@ impl RollingDisc {
     ///
     /// # Errors
     /// [`AnholonomicError::InvalidLength`](crate::AnholonomicError::InvalidLength).
-    ///
-    /// # Example
-    /// See [`RollingDisc`].
     pub fn new(body: RigidBody, radius: f64) -> Result<Self, LagrangianError> {
         Ok(Self { body, radius: check_length("radius", radius)? })
     }
@@ -62,9 +59,6 @@ impl RollingDisc {
     ///
     /// # Errors
     /// [`AnholonomicError::InvalidLength`](crate::AnholonomicError::InvalidLength); [`LagrangianError::Kinematics`] for a mass that is not positive.
-    ///
-    /// # Example
-    /// See [`RollingDisc`].
     pub fn homogeneous(mass: f64, radius: f64) -> Result<Self, LagrangianError> {
         let moment = 0.25 * mass * check_length("radius", radius)?.powi(2);
         Self::new(RigidBody::new(mass, Inertia::principal([moment, moment, 2.0 * moment])?)?, radius)
@@ -74,22 +68,12 @@ impl RollingDisc {
     ///
     /// # Errors
     /// As [`homogeneous`](Self::homogeneous).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::anholonomic::rolling::RollingDisc;
-    /// assert_eq!(RollingDisc::hoop(2.0, 0.5)?.body().inertia().matrix()[(2, 2)], 0.5); // M R²
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn hoop(mass: f64, radius: f64) -> Result<Self, LagrangianError> {
         let moment = 0.5 * mass * check_length("radius", radius)?.powi(2);
         Self::new(RigidBody::new(mass, Inertia::principal([moment, moment, 2.0 * moment])?)?, radius)
     }
 
     /// The disc on its plane under uniform gravity (m/s², any direction).
-    ///
-    /// # Example
-    /// See [`RollingDisc`].
     #[must_use]
     pub fn on_plane(self, gravity: [f64; 3]) -> OnPlane<Self> {
         let free = Lagrangian::of(self).with_uniform_gravity(gravity).in_frame(self);
@@ -97,18 +81,12 @@ impl RollingDisc {
     }
 
     /// The body.
-    ///
-    /// # Example
-    /// See [`hoop`](Self::hoop).
     #[must_use]
     pub const fn body(&self) -> &RigidBody {
         &self.body
     }
 
     /// The radius, m.
-    ///
-    /// # Example
-    /// See [`RollingDisc`].
     #[must_use]
     pub const fn radius(&self) -> f64 {
         self.radius
