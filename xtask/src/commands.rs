@@ -8,12 +8,14 @@ mod docs;
 mod features;
 mod fmt;
 mod ledger;
+mod mutants;
 mod package;
 mod scenes;
 mod stability;
 mod test;
 mod tidy;
 mod viscometry_accuracy;
+mod weight;
 mod work_precision;
 
 use xshell::Shell;
@@ -49,6 +51,8 @@ const COMMANDS: &[Command] = &[
     stability::COMMAND,
     continuum_accuracy::COMMAND,
     viscometry_accuracy::COMMAND,
+    weight::COMMAND,
+    mutants::COMMAND,
 ];
 
 pub(crate) fn find(name: &str) -> Option<&'static Command> {
