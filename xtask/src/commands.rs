@@ -5,6 +5,7 @@ mod ci;
 mod clippy;
 mod continuum_accuracy;
 mod docs;
+mod errors;
 mod features;
 mod fmt;
 mod ledger;
@@ -46,6 +47,7 @@ const COMMANDS: &[Command] = &[
     package::COMMAND,
     scenes::COMMAND,
     ledger::COMMAND,
+    errors::COMMAND,
     bench::COMMAND,
     work_precision::COMMAND,
     stability::COMMAND,

@@ -1,4 +1,4 @@
-//! P of 10⁶ points beside a copy of as many bytes, in turn: `taskset -c 1 cargo run --profile plain-release -p piola-benches --bin
+//! P of 10⁶ points beside a copy of as many bytes, in turn: `taskset -c 1 cargo run --release -p piola-benches --bin
 //! constitutive-bandwidth`.
 //!
 //! Medians of forty turns, nanoseconds a point: what one turn of the machine's memory does to one of them it does to all.

@@ -1,4 +1,4 @@
-//! From how many points on two threads pay in a batch: `cargo run --profile plain-release -p piola-benches --bin
+//! From how many points on two threads pay in a batch: `cargo run --release -p piola-benches --bin
 //! continuum-threads`.
 //!
 //! A cheap request (first Piola–Kirchhoff stress of Cauchy's) and a dear one (R, U and ln U), whole on one thread and in

@@ -17,7 +17,7 @@ pub(super) const COMMAND: Command = Command {
             "stability",
             cmd!(
                 shell,
-                "cargo run --profile plain-release --package piola-benches --bin stability -- --out {out} {steps...}"
+                "cargo run --release --package piola-benches --bin stability -- --out {out} {steps...}"
             ),
             "an error exceeds what is allowed: the sheet shows which",
         )])

@@ -15,7 +15,7 @@ The figures are taken in cargo's own release profile, on one core where `taskset
         let pinned = cmd!(shell, "taskset --version").quiet().ignore_stdout().ignore_stderr().run().is_ok();
         let last_core = std::thread::available_parallelism().map_or(0, |count| count.get() - 1).to_string();
         let command = if pinned { cmd!(shell, "taskset --cpu-list {last_core} cargo") } else { cmd!(shell, "cargo") };
-        let run = command.args(["run", "--profile", "plain-release", "--package", "piola-benches"]);
+        let run = command.args(["run", "--release", "--package", "piola-benches"]);
         let run = run.args(["--bin", "viscometry-accuracy", "--", "--out", &out]);
         Ok(vec![Step::program("viscometry-accuracy", run, "the runner names what failed")])
     },

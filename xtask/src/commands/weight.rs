@@ -108,7 +108,7 @@ fn builds(workspace: &Workspace, target: &Path) -> Result<Vec<Build>, String> {
         builds.push(Build {
             name: member.folder.clone(),
             what: format!("`{}` alone", member.name),
-            arguments: words(&format!("build --profile plain-release --package {}", member.name)),
+            arguments: words(&format!("build --release --package {}", member.name)),
             folder: root.clone(),
             limit,
             after: None,

@@ -18,7 +18,7 @@ several times, and the median counts, but a busy machine still widens the spread
             "work-precision",
             cmd!(
                 shell,
-                "cargo run --profile plain-release --package piola-benches --bin work-precision -- --out {out} {filter...}"
+                "cargo run --release --package piola-benches --bin work-precision -- --out {out} {filter...}"
             ),
             "the runner names the problem and the method that failed",
         )])
