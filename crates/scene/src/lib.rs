@@ -6,7 +6,7 @@
 //! | read | [`document`] | text and `--set` arguments → tree with places |
 //! | check | [`schema`], [`units`], [`model`] | tree → [`Scene`], or all mistakes at once |
 //! | plan | [`plan`] | scene → method, step, what is computed and what is skipped, with reasons |
-//! | run | [`run`](mod@run) | plan → history, drift of invariants, errors against the reference ([`kepler`] or a table) |
+//! | run | [`run`](mod@run) | plan → history, drift of invariants, errors against the reference ([`kepler`](piola_gravitation::kepler) or a table) |
 //! | write | [`output`] | run → `summary.json`, CSV tables, SVG figures |
 //!
 //! A file whose scene has no motion in time is a [study](studies) and goes the same way; [`SceneFile`] tells the two apart.
@@ -18,7 +18,6 @@
 pub mod document;
 mod error;
 pub mod fitting;
-pub mod kepler;
 pub mod model;
 pub mod output;
 pub mod plan;

@@ -2,7 +2,7 @@
 
 use super::Builder;
 use crate::document::Mistake;
-use crate::kepler::{Elements, KeplerMotion};
+use piola_gravitation::kepler::{Elements, KeplerMotion};
 use crate::validation::Record;
 
 /// Bodies about a fixed centre at the origin, without attraction among themselves.

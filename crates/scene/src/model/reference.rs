@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use super::{Builder, System, TimeSpan};
 use crate::document::Mistake;
-use crate::kepler::KeplerMotion;
+use piola_gravitation::kepler::KeplerMotion;
 use crate::validation::Record;
 use crate::words;
 

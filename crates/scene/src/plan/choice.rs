@@ -3,7 +3,7 @@
 use piola_integrators::Order;
 
 use super::Method;
-use crate::kepler::KeplerMotion;
+use piola_gravitation::kepler::KeplerMotion;
 use crate::model::{Central, Gravitation, Scene, System};
 
 /// Steps a method of order 8 takes for each turn of the fastest motion: errors near rounding on mild ellipses.

@@ -66,7 +66,7 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
             .iter()
             .enumerate()
             .map(|(record, t)| {
-                let at = |motion: &crate::kepler::KeplerMotion| motion.position(t - scene.time.start);
+                let at = |motion: &piola_gravitation::kepler::KeplerMotion| motion.position(t - scene.time.start);
                 (record, motions.iter().map(at).enumerate().collect())
             })
             .collect(),

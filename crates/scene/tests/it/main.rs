@@ -2,7 +2,6 @@
 
 mod bad_input;
 mod fitting;
-mod kepler;
 mod plan;
 mod reference;
 mod rheology;

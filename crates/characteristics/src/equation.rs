@@ -1,0 +1,52 @@
+//! The equation Φ(x, u, ξ) = 0, written once for any scalar.
+
+use piola_numerics::Real;
+
+/// A first-order partial differential equation in m variables.
+///
+/// ```text
+/// Φ(x, u, ξ) = 0,    ξᵢ = ∂u/∂xⁱ                                                        W(A.34)
+/// ```
+///
+/// | symbol | argument | shape | unit |
+/// |---|---|---|---|
+/// | x | `x` | m | \[x\] |
+/// | u | `u` | scalar | \[u\] |
+/// | ξ | `xi` | m | \[u\]/\[x\] |
+///
+/// An equation of evolution takes the time as its first variable, x = (t, q) and ξ = (∂u/∂t, ∂u/∂q); with
+/// Φ = ∂u/∂t + …, the parameter of the characteristics is the time.
+///
+/// # Example
+/// ```
+/// use piola_characteristics::FirstOrderPde;
+/// use piola_numerics::Real;
+/// /// The eikonal equation |∇u| = n in the form (|ξ|² − n²)/2 = 0, whose characteristics have the speed n.
+/// struct Eikonal { index: f64 }
+/// impl FirstOrderPde for Eikonal {
+///     fn value<T: Real>(&self, _x: &[T], _u: T, xi: &[T]) -> T {
+///         T::lit(0.5) * (xi[0] * xi[0] + xi[1] * xi[1] - T::lit(self.index * self.index))
+///     }
+/// }
+/// assert_eq!(Eikonal { index: 5.0 }.value(&[0.0, 0.0], 0.0, &[3.0, 4.0]), 0.0);
+/// ```
+///
+/// # Source
+/// W(A.1), W(A.34).
+pub trait FirstOrderPde {
+    /// Whether Φ = a(x, u)·ξ − b(x, u).
+    ///
+    /// The characteristics x′ = a, u′ = b then need no ξ, and are followed through the places where ξ becomes
+    /// infinite: a wave that breaks. Undeclared, the integration stops there. A declaration that is not true is
+    /// refused.
+    const QUASILINEAR: bool = false;
+    /// Φ(x, u, ξ).
+    fn value<T: Real>(&self, x: &[T], u: T, xi: &[T]) -> T;
+}
+
+impl<P: FirstOrderPde> FirstOrderPde for &P {
+    const QUASILINEAR: bool = P::QUASILINEAR;
+    fn value<T: Real>(&self, x: &[T], u: T, xi: &[T]) -> T {
+        (**self).value(x, u, xi)
+    }
+}

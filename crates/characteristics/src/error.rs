@@ -1,0 +1,216 @@
+//! What can be wrong with an equation, its data or its solution.
+
+/// A condition that an equation of first order, its data or its solution violates.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CharacteristicsError {
+    /// A slice of the wrong length.
+    #[error("`{quantity}` has {found} components where {expected} are needed")]
+    WrongLength {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The length needed.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+    /// An infinite or NaN component.
+    #[error("component {index} of `{quantity}` is {value}; it must be finite")]
+    NotFinite {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The component.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// from ≤ 0 ≤ to violated by the span of characteristics, or an end that is not finite.
+    #[error("the characteristics are asked for from {from} to {to}; they start at 0, which must lie between")]
+    InvalidSpan {
+        /// The lower end.
+        from: f64,
+        /// The upper end.
+        to: f64,
+    },
+    /// An interval without extent, or with ends that are not finite.
+    #[error("the interval of `{quantity}` goes from {from} to {to}; it must satisfy −∞ < from < to < ∞")]
+    InvalidInterval {
+        /// What has that interval.
+        quantity: &'static str,
+        /// The lower end.
+        from: f64,
+        /// The upper end.
+        to: f64,
+    },
+    /// Too few samples to say anything of the motion between them.
+    #[error("{found} samples are given where at least {needed} are needed")]
+    TooFewSamples {
+        /// The number given.
+        found: usize,
+        /// The number needed.
+        needed: usize,
+    },
+    /// A point that no characteristic of the solution reaches.
+    #[error("no characteristic reaches {point:?}; the nearest, of parameters {parameters:?}, stays {distance:e} away")]
+    OutsideOfCharacteristics {
+        /// The point.
+        point: Vec<f64>,
+        /// τ of the nearest characteristic computed.
+        parameters: Vec<f64>,
+        /// Its distance.
+        distance: f64,
+    },
+    /// Several characteristics reach a point: the solution has several sheets there.
+    #[error("{} characteristics reach {point:?}, with u = {values:?}: ask for all sheets or for the first arrival", values.len())]
+    SeveralSheets {
+        /// The point.
+        point: Vec<f64>,
+        /// u on the sheets.
+        values: Vec<f64>,
+    },
+    /// The one characteristic that reaches a point has passed caustics.
+    #[error(
+        "the characteristic that reaches {point:?} with u = {value} has passed {caustics} caustics: ask for all sheets"
+    )]
+    BeyondCaustic {
+        /// The point.
+        point: Vec<f64>,
+        /// u on it.
+        value: f64,
+        /// The caustics passed.
+        caustics: usize,
+    },
+    /// The initial manifold would need more characteristics than are allowed.
+    #[error(
+        "{rays} characteristics leave an error of interpolation of {error:e}: allow more of them, more parts of each, or a coarser resolution"
+    )]
+    TooManyCharacteristics {
+        /// The characteristics made.
+        rays: usize,
+        /// The largest error of interpolation left.
+        error: f64,
+    },
+    /// No generator of the Monge cone was found over a direction.
+    #[error(
+        "no generator of the Monge cone lies over {direction:?}: at ξ = {covector:?} the conditions are violated by {residual:e}"
+    )]
+    NoGenerator {
+        /// x′.
+        direction: Vec<f64>,
+        /// The last ξ.
+        covector: Vec<f64>,
+        /// The largest relative residual of Φ_ξ = λ x′ and Φ = 0.
+        residual: f64,
+    },
+    /// The run in time failed.
+    #[error("the run stopped at time {time} s: {source}")]
+    Run {
+        /// The time reached.
+        time: f64,
+        /// Why.
+        source: Box<piola_integrators::IntegratorsError<CharacteristicsError>>,
+    },
+    /// Data on the initial manifold that give no solution, or not one.
+    #[error(transparent)]
+    Strip(#[from] StripError),
+    /// A linear system that cannot be solved.
+    #[error(transparent)]
+    Numerics(#[from] piola_numerics::NumericsError),
+}
+
+/// A condition that the strip of data on the initial manifold violates.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StripError {
+    /// The derivatives of a manifold along its parameters depend on each other.
+    #[error(
+        "the initial manifold is singular at {parameters:?}: its derivative along parameter {index} depends on those \
+         before (a share of {share:e} is its own)"
+    )]
+    DependentParameters {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The parameter.
+        index: usize,
+        /// The share of the derivative that is not a combination of those before.
+        share: f64,
+    },
+    /// No ξ near the guess satisfies u_τ = ξ·x_τ and Φ(x, u, ξ) = 0.
+    #[error(
+        "no ξ satisfies the data and the equation at {parameters:?} near the guess: at {covector:?} Φ is {residual:e} \
+         and changes by {slope:e} along the normal of the manifold"
+    )]
+    NoInitialCovector {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The nearest ξ found.
+        covector: Vec<f64>,
+        /// Φ there.
+        residual: f64,
+        /// Its derivative along the normal.
+        slope: f64,
+    },
+    /// A given ξ(τ) is not that of a strip, or does not satisfy the equation.
+    #[error(
+        "the ξ given at {parameters:?} violates condition {condition} of a strip (the last is Φ = 0) by {residual:e}"
+    )]
+    NotAStrip {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The parameter whose u_τ = ξ·x_τ is violated; their number where it is Φ = 0.
+        condition: usize,
+        /// u_τ − ξ·x_τ or Φ.
+        residual: f64,
+    },
+    /// An equation that declares itself linear in ξ but is not: its characteristics would be wrong.
+    #[error(
+        "the equation is not linear in ξ at {parameters:?} (a second difference is {residual:e}): leave out \
+         `const QUASILINEAR: bool = true`"
+    )]
+    NotQuasilinear {
+        /// τ.
+        parameters: Vec<f64>,
+        /// Φ(2ξ) − 2Φ(ξ) + Φ(0).
+        residual: f64,
+    },
+    /// A characteristic strip carries infinitely many solutions.
+    #[error(
+        "the initial strip is characteristic at {parameters:?} (sine {transversality:e} between the characteristic and \
+         the manifold, residual {residual:e}): infinitely many solutions contain it"
+    )]
+    Characteristic {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The sine of the angle between Φ_ξ and the manifold.
+        transversality: f64,
+        /// The relative residual of the condition on ξ′.
+        residual: f64,
+    },
+    /// A strip that is Monge but not characteristic lies on no solution.
+    #[error(
+        "the initial strip is a Monge strip but not a characteristic one at {parameters:?} (sine {transversality:e} \
+         between the characteristic and the manifold, residual {residual:e}): no twice differentiable solution \
+         contains it"
+    )]
+    Monge {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The sine of the angle between Φ_ξ and the manifold.
+        transversality: f64,
+        /// The relative residual of the condition on ξ′.
+        residual: f64,
+    },
+    /// A point of the manifold that no characteristic leaves, because ξ is not determined or Φ_ξ = 0.
+    #[error(
+        "the initial manifold determines no solution at {parameters:?}: {kind:?}, sine {transversality:e} between it \
+         and the manifold"
+    )]
+    Degenerate {
+        /// τ.
+        parameters: Vec<f64>,
+        /// The sine of the angle between Φ_ξ and the manifold.
+        transversality: f64,
+        /// What the manifold is there.
+        kind: crate::StripKind,
+    },
+}

@@ -1,0 +1,154 @@
+//! Attracting bodies followed in time, beside reference values.
+
+use core::ops::ControlFlow;
+
+use piola_gravitation::{Gravitation, GravitationInvariants, PostNewtonian, SPEED_OF_LIGHT};
+use piola_integrators::{Composition, GaussLegendre, Order, State};
+use piola_testkit::golden;
+use serde_json::Value;
+
+const DAY: f64 = 86_400.0;
+const EPOCHS: [f64; 3] = [30.0, 365.0, 3650.0];
+const MOON: usize = 4;
+
+struct SolarSystem {
+    bodies: Gravitation,
+    state: State,
+    cases: Vec<Value>,
+}
+
+fn triple(value: &Value) -> [f64; 3] {
+    golden::vector(value).try_into().expect("three components")
+}
+
+fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt()
+}
+
+fn solar_system() -> SolarSystem {
+    let cases = golden::load("solar_system").cases;
+    let start = cases.iter().find(|case| case["kind"] == "ephemeris").expect("epoch 0")["bodies"].clone();
+    let list = |key: &str| start.as_array().expect("bodies").iter().map(|body| triple(&body[key])).collect::<Vec<_>>();
+    let parameters = start.as_array().expect("bodies").iter().map(|body| golden::number(&body["GM"])).collect();
+    let bodies = Gravitation::new(parameters).unwrap();
+    let state = State::new(0.0, bodies.state(&list("position"), &list("velocity")).unwrap()).unwrap();
+    SolarSystem { bodies, state, cases }
+}
+
+/// The largest change of an invariant, relative to its scale.
+struct Drift {
+    start: GravitationInvariants,
+    days: Vec<f64>,
+    energy: Vec<f64>,
+    momentum: Vec<f64>,
+    moment: Vec<f64>,
+}
+
+impl Drift {
+    fn add(&mut self, time: f64, now: GravitationInvariants) {
+        let start = self.start;
+        self.days.push(time / DAY);
+        self.energy.push((now.energy - start.energy) / start.energy.abs());
+        self.momentum.push(distance(now.momentum, start.momentum) / start.momentum_scale);
+        self.moment.push(distance(now.angular_momentum, start.angular_momentum) / start.angular_momentum_scale);
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, x| m.max(x.abs()))
+}
+
+/// What a straight line through the values grows by over the whole run.
+fn linear_growth(x: &[f64], y: &[f64]) -> f64 {
+    let n = x.len() as f64;
+    let (mean_x, mean_y) = (x.iter().sum::<f64>() / n, y.iter().sum::<f64>() / n);
+    let covariance: f64 = x.iter().zip(y).map(|(x, y)| (x - mean_x) * (y - mean_y)).sum();
+    let variance: f64 = x.iter().map(|x| (x - mean_x).powi(2)).sum();
+    covariance / variance * (x[x.len() - 1] - x[0])
+}
+
+#[test]
+fn newtonian_solar_system_equals_prediction_and_keeps_its_invariants() {
+    let SolarSystem { mut bodies, mut state, cases } = solar_system();
+    let reader = bodies.clone();
+    let prediction = cases.iter().find(|case| case["kind"] == "newtonian_prediction").expect("the prediction");
+    let start = reader.invariants(&state.values);
+    let mut drift = Drift { start, days: vec![], energy: vec![], momentum: vec![], moment: vec![] };
+    let mut method = Composition::new(Order::Eight, 0.5 * DAY).unwrap();
+    for (epoch, predicted) in EPOCHS.into_iter().zip(prediction["predictions"].as_array().expect("three epochs")) {
+        method
+            .integrate(&mut bodies, &mut state, epoch * DAY, |step| {
+                if step.number % 20 == 0 {
+                    drift.add(step.time, reader.invariants(step.values));
+                }
+                ControlFlow::Continue(())
+            })
+            .unwrap();
+        let positions = predicted["positions"].as_array().expect("positions");
+        for (body, expected) in positions.iter().enumerate() {
+            let error = distance(reader.position(&state.values, body), triple(expected));
+            assert!(error < 1.0, "body {body} after {epoch} days: {error} m");
+        }
+    }
+    for (what, values) in [("energy", &drift.energy), ("momentum", &drift.momentum), ("moment", &drift.moment)] {
+        let (drift, growth) = (largest(values), linear_growth(&drift.days, values).abs());
+        assert!(drift < 1e-13, "{what}: {drift:e}");
+        // A systematic error of one in 2⁵³ a step would grow to 8e-13.
+        assert!(growth < 2e-14, "{what} grows by {growth:e} of {drift:e}");
+    }
+}
+
+#[test]
+fn post_newtonian_solar_system_equals_ephemeris() {
+    let SolarSystem { bodies, mut state, cases } = solar_system();
+    let mut bodies = bodies.with_post_newtonian(PostNewtonian::of(0)).unwrap();
+    let reader = bodies.clone();
+    let mut method = GaussLegendre::new(Order::Eight, 0.5 * DAY).unwrap();
+    for epoch in EPOCHS {
+        method.integrate_to(&mut bodies, &mut state, epoch * DAY).unwrap();
+        let ephemeris = cases
+            .iter()
+            .find(|case| case["kind"] == "ephemeris" && (golden::number(&case["days_after"]) - epoch).abs() < 0.5)
+            .expect("the epoch");
+        let expected = ephemeris["bodies"].as_array().expect("bodies");
+        let relative = |x: [f64; 3], sun: [f64; 3]| [x[0] - sun[0], x[1] - sun[1], x[2] - sun[2]];
+        let (sun, expected_sun) = (reader.position(&state.values, 0), triple(&expected[0]["position"]));
+        for (body, entry) in expected.iter().enumerate().skip(1) {
+            let x = relative(reader.position(&state.values, body), sun);
+            let e = relative(triple(&entry["position"]), expected_sun);
+            let error = distance(x, e) / distance(e, [0.0; 3]);
+            let allowed = if body == MOON { 1.5e-6 } else { 3e-8 };
+            assert!(error < allowed, "{} after {epoch} days: {error:e}", golden::text(&entry["body"]));
+        }
+    }
+}
+
+/// The largest relative change of the post-Newtonian energy in ten years, with the masses of all bodies but the
+/// Sun and the speed of light multiplied by the given factors.
+fn post_newtonian_energy_change(masses: f64, light: f64) -> f64 {
+    let SolarSystem { bodies, mut state, .. } = solar_system();
+    let scaled = |(body, &parameter): (usize, &f64)| if body == 0 { parameter } else { masses * parameter };
+    let parameters = bodies.parameters().iter().enumerate().map(scaled).collect();
+    let term = PostNewtonian { centre: 0, speed_of_light: light * SPEED_OF_LIGHT };
+    let mut bodies = Gravitation::new(parameters).unwrap().with_post_newtonian(term).unwrap();
+    let reader = bodies.clone();
+    let start = reader.invariants(&state.values);
+    let mut largest = 0.0_f64;
+    let mut method = GaussLegendre::new(Order::Eight, DAY).unwrap();
+    for month in 1..=120 {
+        method.integrate_to(&mut bodies, &mut state, f64::from(month) * 30.0 * DAY).unwrap();
+        let change = reader.invariants(&state.values).post_newtonian_energy - start.post_newtonian_energy;
+        largest = largest.max((change / start.energy).abs());
+    }
+    largest
+}
+
+#[test]
+fn post_newtonian_energy_changes_by_the_terms_of_order_m_over_mc2_that_are_left_out() {
+    let change = post_newtonian_energy_change(1.0, 1.0);
+    assert!(change < 1e-11, "{change:e}");
+    // Proportional to the masses of the planets and to 1/c², but for the next orders and the changed orbits.
+    let lighter = post_newtonian_energy_change(0.1, 1.0) / change;
+    let slower = post_newtonian_energy_change(1.0, 0.5) / change;
+    assert!((0.08..0.12).contains(&lighter) && (3.6..4.4).contains(&slower), "{lighter} {slower}");
+}

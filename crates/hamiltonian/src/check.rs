@@ -1,0 +1,19 @@
+//! Checks of what comes from outside.
+
+use piola_numerics::{Mask, Real};
+
+use crate::HamiltonianError;
+
+pub(crate) fn check_length(quantity: &'static str, expected: usize, found: usize) -> Result<(), HamiltonianError> {
+    if expected == found { Ok(()) } else { Err(HamiltonianError::WrongLength { quantity, expected, found }) }
+}
+
+pub(crate) fn check_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), HamiltonianError> {
+    for (index, value) in values.iter().enumerate() {
+        if !value.is_finite().all() {
+            let lane = (0..T::LANES).find(|&lane| !f64::is_finite(value.primal(lane))).unwrap_or(0);
+            return Err(HamiltonianError::NotFinite { quantity, index, value: value.primal(lane) });
+        }
+    }
+    Ok(())
+}

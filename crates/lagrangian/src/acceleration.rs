@@ -1,0 +1,501 @@
+//! Lagrange's equations solved for the accelerations.
+
+use nalgebra::DVector;
+use piola_kinematics::Holonomic;
+use piola_numerics::linear::ldlt;
+use piola_numerics::{Dual, Gradient, Jet, Mask, NumericsError, Real};
+
+use super::collect::{Equations, Pass};
+use super::conditioning::trusted_pivot;
+use super::directions::{CHUNK, HESSIAN_CHUNK, LARGEST, with_directions, with_exact_directions};
+use super::workspace::{Twice, Workspace};
+use super::{Forces, Lagrangian, Potential};
+use crate::LagrangianError;
+use crate::check::{check_finite, check_length};
+
+/// The mass matrix (lower triangle by columns) and the forcing of at most N coordinates.
+struct Formed<T, const N: usize> {
+    metric: [[T; N]; N],
+    force: [T; N],
+}
+
+impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
+    /// The accelerations q̈ that Lagrange's equations give.
+    ///
+    /// ```text
+    /// g_ΔΓ q̈^Γ = Q_Δ − Σ m ∂x/∂q^Δ·ẍ₀ − …                         W(5.31), W(6.3)
+    /// ```
+    ///
+    /// | symbol | argument | shape | unit |
+    /// |---|---|---|---|
+    /// | q, q̇ | `q`, `v` | n | the coordinates' own |
+    /// | t | `t` | scalar | s |
+    /// | q̈ | returned | n | the coordinates' own / s² |
+    ///
+    /// One pass of the placement gives the inertia metric and the accelerations at q̈ = 0; Christoffel
+    /// symbols are not formed.
+    ///
+    /// # Errors
+    /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`] and
+    /// [`LagrangianError::SingularMetric`], which names a motion without inertia; then also what
+    /// [`check`](Self::check) finds wrong with the parts. A negative mass that leaves the metric positive is
+    /// not noticed here, but by `check`.
+    ///
+    /// # Accuracy
+    /// A few ulp times κ, the condition number of the metric scaled to unit diagonal, as long as κ is below 10⁷
+    /// or so. Beyond, the accelerations are found from the rows √m ∂x/∂q of the placement, without the metric:
+    /// the error is then of a few ulp times √κ, and κ ulp only of what an ulp of q or of a force on the
+    /// coordinates themselves would change too. The difference is noticed by the pivots of the metric, at no
+    /// cost. Where the potential is not linear in the velocities, the metric is used throughout.
+    ///
+    /// # Example
+    /// See [`Lagrangian`].
+    ///
+    /// # Source
+    /// W(5.31), W(6.3).
+    pub fn acceleration<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
+        let mut out = DVector::from_element(q.len(), T::zero());
+        self.acceleration_into(&mut Workspace::default(), q, v, t, out.as_mut_slice())?;
+        Ok(out)
+    }
+
+    /// [`acceleration`](Self::acceleration) to the caller's memory, without allocation once `work` has been
+    /// used.
+    ///
+    /// # Errors
+    /// As [`acceleration`](Self::acceleration).
+    #[inline]
+    pub fn acceleration_into<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        out: &mut [T],
+    ) -> Result<(), LagrangianError> {
+        let n = q.len();
+        check_length("q̇", n, v.len())?;
+        check_length("q̈", n, out.len())?;
+        let solved = with_exact_directions!(n, N => self.acceleration_in_one_pass::<T, N>(work, q, v, t, out),
+            beyond => self.acceleration_by_rows(work, q, v, t, out));
+        // NaN velocities and forces leave the metric as it is: they show in the result only.
+        let finite = out.iter().fold(T::Mask::splat(true), |all, a| all & a.is_finite());
+        match solved {
+            Ok(()) if finite.all() => Ok(()),
+            Ok(()) => Err(self.explain_non_finite([("q", q), ("q̇", v)], t, ("q̈", out))),
+            Err(error) => Err(self.explain(error, [("q", q), ("q̇", v)], t, work)),
+        }
+    }
+
+    /// The reason for results that are not finite.
+    #[cold]
+    pub(super) fn explain_non_finite<T: Real>(
+        &self,
+        state: [(&'static str, &[T]); 2],
+        t: T,
+        (quantity, result): (&'static str, &[T]),
+    ) -> LagrangianError {
+        let reason = self.check_given(state, t).and_then(|()| check_finite(quantity, result));
+        reason.err().unwrap_or(LagrangianError::NotFinite { quantity, index: 0, value: f64::NAN })
+    }
+
+    /// The reason for a failed factorisation, in the terms of mechanics. `work.metric` holds the factors made.
+    #[cold]
+    pub(super) fn explain<T: Real>(
+        &self,
+        error: NumericsError,
+        state: [(&'static str, &[T]); 2],
+        t: T,
+        work: &Workspace<T>,
+    ) -> LagrangianError {
+        if let Err(error) = self.check_given(state, t) {
+            return error;
+        }
+        let n = state[0].1.len();
+        match error {
+            NumericsError::NotPositiveDefinite { pivot, value, diagonal } => {
+                let mut direction = vec![T::zero(); n];
+                if ldlt::null_direction_into(&work.metric, n, pivot, &mut direction).is_err() {
+                    direction.clear();
+                }
+                // The lane that failed is the one with this pivot.
+                let pivot_in = |lane: usize| work.metric.get(pivot * (n + 1)).map(|entry| entry.primal(lane).to_bits());
+                let lane = (0..T::LANES).find(|&lane| pivot_in(lane) == Some(value.to_bits())).unwrap_or(0);
+                let direction = direction.into_iter().map(|x| x.primal(lane)).collect();
+                LagrangianError::SingularMetric { coordinate: pivot, pivot: value, diagonal, direction }
+            }
+            // Only the rows of a metric are solved that way: pivots are the squares of what is left of them.
+            NumericsError::Singular { pivot, value, scale } => {
+                let mut direction = vec![T::zero(); n];
+                if work.least_squares.null_direction_into(pivot, &mut direction).is_err() {
+                    direction.clear();
+                }
+                let direction = direction.into_iter().map(|x| x.primal(0)).collect();
+                let (pivot, coordinate, diagonal) = (value * value, pivot, scale * scale);
+                LagrangianError::SingularMetric { coordinate, pivot, diagonal, direction }
+            }
+            other => LagrangianError::Numerics(other),
+        }
+    }
+
+    /// The mass matrix and the forcing of the equations of motion, `mass_matrix` q̈ = `forcing`.
+    ///
+    /// ```text
+    /// M = g − ∂²V/∂q̇∂q̇
+    /// f = Q − ∂V/∂q + (∂²V/∂q̇∂q) q̇ + ∂²V/∂q̇∂t − (Σ m ∂x/∂q·ẍ₀ + …)            W(5.31), W(6.3)
+    /// ```
+    ///
+    /// M is the inertia metric where the potential does not depend on velocities, and always the Hessian
+    /// ∂²L/∂q̇∂q̇. `mass_matrix` holds n² entries, (i, j) at `i + j n`; `forcing` n. Nothing is allocated once
+    /// `work` has been used, and no Christoffel symbols are formed.
+    ///
+    /// # Errors
+    /// [`LagrangianError::WrongLength`]; [`LagrangianError::NotFinite`] and what [`check`](Self::check) finds
+    /// wrong with the parts. A singular matrix is no error here.
+    ///
+    /// # Accuracy
+    /// A few ulp of the terms summed.
+    ///
+    /// # Example
+    /// ```
+    /// # use nalgebra::Vector3;
+    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
+    /// # use piola_numerics::Real;
+    /// struct Pendulum; // 3 kg on 2 m
+    /// impl Holonomic for Pendulum {
+    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
+    ///         let (s, c) = q[0].sin_cos();
+    ///         bodies.particle(3.0, Vector3::new(T::lit(2.0) * s, T::zero(), T::lit(-2.0) * c));
+    ///     }
+    /// }
+    /// let (mut mass_matrix, mut forcing) = ([0.0], [0.0]);
+    /// let q = [std::f64::consts::FRAC_PI_2];
+    /// let pendulum = Lagrangian::of(Pendulum).with_gravity(10.0);
+    /// pendulum.equations_into(&mut Workspace::default(), &q, &[0.0], 0.0, &mut mass_matrix, &mut forcing)?;
+    /// assert_eq!((mass_matrix, forcing), ([12.0], [-60.0])); // m l² and −m g l
+    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
+    /// ```
+    ///
+    /// # Source
+    /// W(5.31), W(6.3), W(7.3).
+    pub fn equations_into<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        mass_matrix: &mut [T],
+        forcing: &mut [T],
+    ) -> Result<(), LagrangianError> {
+        let n = q.len();
+        check_length("q̇", n, v.len())?;
+        check_length("mass matrix", n * n, mass_matrix.len())?;
+        check_length("forcing", n, forcing.len())?;
+        with_directions!(n, N => {
+            let Formed { metric, force } = self.form_in_one_pass::<T, N>(work, q, v, t);
+            for (i, (forcing, entry)) in forcing.iter_mut().zip(force).enumerate() {
+                *forcing = entry;
+                for j in i..n {
+                    mass_matrix[j + i * n] = metric[i][j];
+                    mass_matrix[i + j * n] = metric[i][j];
+                }
+            }
+        }, beyond => {
+            self.form_by_rows(work, q, v, t);
+            work.complete_metric(n);
+            mass_matrix.copy_from_slice(&work.metric);
+            forcing.copy_from_slice(&work.force);
+        });
+        let given = mass_matrix.iter().chain(&*forcing);
+        if given.fold(T::Mask::splat(true), |all, a| all & a.is_finite()).all() {
+            Ok(())
+        } else {
+            Err(self.explain_non_finite([("q", q), ("q̇", v)], t, ("equations of motion", forcing)))
+        }
+    }
+
+    #[inline(always)]
+    fn form_in_one_pass<T: Real, const N: usize>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+    ) -> Formed<T, N> {
+        let n = q.len();
+        let mut coordinates = [Jet::<T, N>::constant(T::zero()); N];
+        for (i, jet) in coordinates.iter_mut().take(n).enumerate() {
+            *jet = Jet::coordinate(q[i], v[i], i);
+        }
+        let time = if S::TIME_DEPENDENT { Jet::time(t) } else { Jet::constant(t) };
+        let mut equations = Equations::<T, S, P, F, N>::new(self, t);
+        self.system.place(&coordinates[..n], time, &mut equations);
+        let Equations { mut metric, mut force, .. } = equations;
+
+        if P::PRESENT {
+            if P::VELOCITY_DEPENDENT {
+                self.add_velocity_dependence::<T, N>(work, q, v, t, metric.as_flattened_mut(), &mut force);
+            } else {
+                self.subtract_gradient::<T, N>(q, t, &mut force[..n]);
+            }
+        }
+        if F::GENERALISED {
+            self.forces.generalised(q, v, t, &mut force[..n]);
+        }
+        Formed { metric, force }
+    }
+
+    #[inline(always)]
+    fn acceleration_in_one_pass<T: Real, const N: usize>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        out: &mut [T],
+    ) -> Result<(), NumericsError> {
+        let n = q.len();
+        let Formed { mut metric, mut force } = self.form_in_one_pass::<T, N>(work, q, v, t);
+        for (i, column) in metric.iter_mut().enumerate().skip(n) {
+            column[i] = T::one(); // directions that the system does not have
+        }
+        let factors = metric.as_flattened_mut();
+        match ldlt::factor_and_grade_in_place(factors, N, trusted_pivot::<T>()) {
+            Ok(sound) => {
+                ldlt::solve_in_place(factors, N, &mut force)?;
+                out.copy_from_slice(&force[..n]);
+                if sound.all() { Ok(()) } else { self.accelerate_by_rows(work, (q, v, t), sound, out).map(|_| ()) }
+            }
+            Err(error) => {
+                work.metric.clear();
+                for column in factors.chunks(N).take(n) {
+                    work.metric.extend_from_slice(&column[..n]);
+                }
+                self.accelerate_by_rows_alone(work, (q, v, t), error, out)
+            }
+        }
+    }
+
+    /// The accelerations where the metric cannot be factored, or else the error that says so.
+    #[cold]
+    #[inline(never)]
+    fn accelerate_by_rows_alone<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        (q, v, t): (&[T], &[T], T),
+        error: NumericsError,
+        out: &mut [T],
+    ) -> Result<(), NumericsError> {
+        match self.accelerate_by_rows(work, (q, v, t), T::Mask::splat(false), out) {
+            Ok(true) => Ok(()),
+            _ => Err(error),
+        }
+    }
+
+    /// −∂V/∂q where V does not depend on velocities.
+    #[inline(always)]
+    fn subtract_gradient<T: Real, const N: usize>(&self, q: &[T], t: T, force: &mut [T]) {
+        let n = q.len();
+        let mut coordinates = [Gradient::<T, N>::constant(T::zero()); N];
+        for (i, (coordinate, &q)) in coordinates.iter_mut().zip(q).enumerate() {
+            *coordinate = Gradient::variable(q, i);
+        }
+        let value = self.potential.potential(&coordinates[..n], &[], Gradient::constant(t));
+        for (force, partial) in force.iter_mut().zip(value.partials) {
+            *force -= partial;
+        }
+    }
+
+    /// What a potential of velocities adds: −∂²V/∂q̇∂q̇ to the metric, and to the force, in one pass,
+    ///
+    /// ```text
+    /// (∂²V/∂q̇∂q) q̇ + ∂²V/∂q̇∂t − ∂V/∂q = ∂/∂ε d/dt V(q, q̇ + ε, t)   along   q̇ − ε,  ṫ = 1,  q̈ = 0
+    /// ```
+    ///
+    /// The coordinates move slower by the ε by which the velocities are more: see [`moving_against`].
+    fn add_velocity_dependence<T: Real, const N: usize>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        metric: &mut [T],
+        force: &mut [T; N],
+    ) {
+        let n = q.len();
+        let zero = Gradient::<T, N>::constant(T::zero());
+        let mut moving = [Dual::constant(zero); N];
+        let mut rates = [Dual::constant(zero); N];
+        for i in 0..n {
+            [moving[i], rates[i]] = moving_against(q[i], v[i], i);
+        }
+        let value = self.potential.potential(&moving[..n], &rates[..n], Dual::variable(Gradient::constant(t)));
+        for (force, partial) in force.iter_mut().zip(value.tangent.partials) {
+            *force += partial;
+        }
+        if !P::LINEAR_IN_VELOCITIES {
+            self.subtract_velocity_hessian(&mut work.nested, q, v, t, metric, N);
+        }
+    }
+
+    /// The same for more coordinates than one pass serves: g = JᵀmJ from stored rows.
+    fn acceleration_by_rows<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        out: &mut [T],
+    ) -> Result<(), NumericsError> {
+        self.form_by_rows(work, q, v, t);
+        match ldlt::factor_and_grade_in_place(&mut work.metric, q.len(), trusted_pivot::<T>()) {
+            Ok(sound) => {
+                ldlt::solve_in_place(&work.metric, q.len(), &mut work.force)?;
+                out.copy_from_slice(&work.force);
+                if sound.all() { Ok(()) } else { self.accelerate_by_rows(work, (q, v, t), sound, out).map(|_| ()) }
+            }
+            Err(error) => self.accelerate_by_rows_alone(work, (q, v, t), error, out),
+        }
+    }
+
+    /// Leaves the mass matrix in `work.metric` and the forcing in `work.force`.
+    fn form_by_rows<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+        let n = q.len();
+        self.collect_rows_with_rates(work, q, v, t);
+        work.form_metric(n);
+        work.force.clear();
+        work.force.resize(n, T::zero());
+        work.rows.add_forces(&mut work.force);
+        self.add_forces_without_parts(work, q, v, t);
+        if P::VELOCITY_DEPENDENT && !P::LINEAR_IN_VELOCITIES {
+            self.subtract_velocity_hessian(&mut work.nested, q, v, t, &mut work.metric, n);
+        }
+    }
+
+    /// Adds to `work.force` what does not act on parts: the potential's and the generalised forces.
+    pub(super) fn add_forces_without_parts<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+        if P::PRESENT {
+            if P::VELOCITY_DEPENDENT {
+                self.add_velocity_dependence_by_chunks(work, q, v, t);
+            } else {
+                self.subtract_gradient_by_chunks(work, q, t);
+            }
+        }
+        if F::GENERALISED {
+            self.forces.generalised(q, v, t, &mut work.force);
+        }
+    }
+
+    /// The rows, weights and residuals at a state.
+    pub(super) fn collect_rows_with_rates<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+        work.rows.clear();
+        work.jets.clear();
+        work.jets.extend(q.iter().zip(v).enumerate().map(|(i, (&q, &v))| Jet::coordinate(q, v, i)));
+        let time = if S::TIME_DEPENDENT { Jet::time(t) } else { Jet::constant(t) };
+        self.system.place(&work.jets, time, &mut Pass::new(self, &mut work.rows, t));
+        self.collect_rows_from(work, q, t, CHUNK);
+    }
+
+    /// The rows in the directions from `first` on.
+    pub(super) fn collect_rows_from<T: Real>(&self, work: &mut Workspace<T>, q: &[T], t: T, first: usize) {
+        let n = q.len();
+        for first in (first..n).step_by(CHUNK) {
+            work.coordinates.clear();
+            work.coordinates.extend(q.iter().enumerate().map(|(i, &q)| Gradient::variable(q, i.wrapping_sub(first))));
+            let mut pass = Pass::new(self, &mut work.rows, t);
+            self.system.place(&work.coordinates, Gradient::constant(t), &mut pass);
+        }
+    }
+
+    fn subtract_gradient_by_chunks<T: Real>(&self, work: &mut Workspace<T>, q: &[T], t: T) {
+        let n = q.len();
+        for first in (0..n).step_by(CHUNK) {
+            work.coordinates.clear();
+            work.coordinates.extend(q.iter().enumerate().map(|(i, &q)| Gradient::variable(q, i.wrapping_sub(first))));
+            let value = self.potential.potential(&work.coordinates, &[], Gradient::constant(t));
+            for (force, partial) in work.force[first..].iter_mut().zip(value.partials) {
+                *force -= partial;
+            }
+        }
+    }
+
+    fn add_velocity_dependence_by_chunks<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+        let n = q.len();
+        for first in (0..n).step_by(CHUNK) {
+            work.mixed.clear();
+            work.mixed_rates.clear();
+            for (i, (&q, &v)) in q.iter().zip(v).enumerate() {
+                let [moving, rate] = moving_against(q, v, i.wrapping_sub(first));
+                work.mixed.push(moving);
+                work.mixed_rates.push(rate);
+            }
+            let time = Dual::variable(Gradient::constant(t));
+            let value = self.potential.potential(&work.mixed, &work.mixed_rates, time);
+            for (force, partial) in work.force[first..].iter_mut().zip(value.tangent.partials) {
+                *force += partial;
+            }
+        }
+    }
+
+    /// Subtracts ∂²V/∂q̇∂q̇ from a metric whose columns are `stride` apart.
+    pub(super) fn subtract_velocity_hessian<T: Real>(
+        &self,
+        nested: &mut Vec<Twice<T>>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        metric: &mut [T],
+        stride: usize,
+    ) {
+        let n = q.len();
+        for first in (0..n).step_by(HESSIAN_CHUNK) {
+            for second in (0..n).step_by(HESSIAN_CHUNK) {
+                // Coordinates are constants; the velocities carry both sets of directions.
+                nested.clear();
+                nested.extend(q.iter().map(|&q| Gradient::constant(Gradient::constant(q))));
+                let twice = |(i, &v): (usize, &T)| {
+                    let inner = Gradient::variable(v, i.wrapping_sub(second));
+                    Gradient::variable(inner, i.wrapping_sub(first))
+                };
+                nested.extend(v.iter().enumerate().map(twice));
+                let (coordinates, rates) = nested.split_at(n);
+                let time = Gradient::constant(Gradient::constant(t));
+                let value = self.potential.potential(coordinates, rates, time);
+                for i in first..n.min(first + HESSIAN_CHUNK) {
+                    for j in second..n.min(second + HESSIAN_CHUNK) {
+                        metric[j + i * stride] -= value.partials[i - first].partials[j - second];
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A coordinate that moves at v − ε, and its velocity v + ε, ε in the given direction: what d/dt V along them has
+/// of ε is d/dt(∂V/∂q̇) − ∂V/∂q.
+#[inline(always)]
+fn moving_against<T: Real, const N: usize>(q: T, v: T, direction: usize) -> [Dual<Gradient<T, N>>; 2] {
+    let mut slower = Gradient::variable(v, direction);
+    slower.partials = slower.partials.map(|partial| -partial);
+    [Dual::new(Gradient::constant(q), slower), Dual::constant(Gradient::variable(v, direction))]
+}
+
+impl<T: Real> Workspace<T> {
+    /// The lower triangle of g = JᵀmJ, down the columns.
+    pub(super) fn form_metric(&mut self, n: usize) {
+        self.metric.clear();
+        self.metric.resize(n * n, T::zero());
+        self.rows.form_metric(n, &mut self.metric);
+    }
+
+    /// The upper triangle from the lower.
+    pub(super) fn complete_metric(&mut self, n: usize) {
+        for j in 0..n {
+            for i in 0..j {
+                self.metric[i + j * n] = self.metric[j + i * n];
+            }
+        }
+    }
+}
+
+const _: () = assert!(LARGEST == CHUNK, "one chunk serves every system that is solved in one pass");

@@ -1,0 +1,12 @@
+//! Tests of Lagrange's equations.
+
+mod alloc;
+mod any;
+mod counts;
+mod golden;
+mod laws;
+mod systems;
+mod traps;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
