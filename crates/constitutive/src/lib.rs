@@ -7,7 +7,6 @@ pub mod checks;
 mod error;
 #[cfg(feature = "fit")]
 pub mod fit;
-pub mod fluids;
 pub mod homogeneous;
 pub mod internal_constraints;
 pub mod memory;
