@@ -1,7 +1,6 @@
 //! Every built-in law as one type: each claim is tried on all of them.
 
 mod alloc;
-mod claims;
 mod derived;
 mod differences;
 mod extremes;

@@ -1,7 +1,6 @@
 //! One law of each kind in lanes and on all cores: the numbers of single points.
 
 use nalgebra::Matrix3;
-use piola_constitutive::{SolidsError, batch};
 use piola_continuum::batch::BatchScalar;
 use piola_continuum::stress::tangents::{MaterialTangent, TruesdellTangent};
 use piola_continuum::tensor::MajorSymmetric;
@@ -13,6 +12,7 @@ use piola_solids::{
     Compressible, EngineeringConstants, Fibre, Fung, Hencky, HolzapfelGasserOgden, Hyperelastic, IsochoricOgden,
     OgdenTerm, SaintVenantKirchhoff, Stiffness,
 };
+use piola_solids::{SolidsError, batch};
 use piola_testkit::spectral::Random;
 use piola_testkit::{Tol, assert_close_at_scale};
 

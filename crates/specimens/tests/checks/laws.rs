@@ -6,9 +6,8 @@ use piola_solids::isochoric::Gent;
 use piola_solids::volumetric::Quadratic;
 use piola_solids::{
     Compressible, ElasticConstants, Fibre, HolzapfelGasserOgden, Hyperelastic, IsochoricOgden, LinearElastic,
-    MooneyRivlin, OgdenTerm, derived,
+    MooneyRivlin, OgdenTerm, SolidsError, derived,
 };
-use piola_specimens::SpecimensError;
 use piola_specimens::checks::{Sampler, Search, Stored, baker_ericksen, hyperelasticity, noll};
 use piola_specimens::homogeneous::{self, Mode, nominal_stress};
 use piola_testkit::{Tol, assert_close_at_scale};
@@ -21,7 +20,7 @@ trait Visitor {
 const TERMS: [OgdenTerm; 2] = [OgdenTerm { mu: 0.6, alpha: 1.3 }, OgdenTerm { mu: -0.02, alpha: -2.0 }];
 
 /// One of each kind of closed form.
-fn some(visitor: &mut impl Visitor) -> Result<(), SpecimensError> {
+fn some(visitor: &mut impl Visitor) -> Result<(), SolidsError> {
     visitor.visit("Mooney–Rivlin", &MooneyRivlin::stress_free(0.5, 0.25, 1.25)?);
     visitor.visit("Gent", &Compressible::new(Gent::new(0.8, 30.0)?, Quadratic::new(5.0)?));
     visitor.visit("isochoric Ogden", &IsochoricOgden::new(&TERMS, 5.0)?);
@@ -29,7 +28,7 @@ fn some(visitor: &mut impl Visitor) -> Result<(), SpecimensError> {
 }
 
 /// Two families of fibres that answer in tension only.
-fn wall() -> Result<HolzapfelGasserOgden, SpecimensError> {
+fn wall() -> Result<HolzapfelGasserOgden, SolidsError> {
     HolzapfelGasserOgden::new(1.0, 50.0, 2.0, 1.0, 0.1, [Fibre::in_plane(0.6)?, Fibre::in_plane(-0.6)?])
 }
 

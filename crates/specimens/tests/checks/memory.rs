@@ -4,11 +4,9 @@ use nalgebra::Matrix3;
 use piola_continuum::strain::GreenStrain;
 use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient, Symmetric};
 use piola_numerics::{Dual, Real};
-use piola_solids::memory::{
-    History, Prony, PronyTerm, Reduced, Remembered, Scaled, SimpleMaterial, Viscoelastic, history_indifference,
-};
+use piola_solids::memory::{History, Prony, PronyTerm, Reduced, Remembered, Scaled, SimpleMaterial, Viscoelastic};
 use piola_solids::{Hyperelastic, MooneyRivlin};
-use piola_specimens::checks::Search;
+use piola_specimens::checks::{Search, history_indifference};
 use piola_testkit::{Tol, allocations_in, assert_close, assert_close_at_scale};
 
 /// S = λ tr E 1 + 2 μ E.

@@ -2,6 +2,7 @@
 
 mod contradictions;
 mod incompressible;
+mod limits;
 mod reactions;
 mod refusals;
 mod viscoelastic;

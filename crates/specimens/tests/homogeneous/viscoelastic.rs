@@ -2,7 +2,7 @@
 
 use piola_continuum::DisplacementGradient;
 use piola_solids::memory::{Prony, PronyTerm, Scaled, Viscoelastic, ViscoelasticState};
-use piola_solids::{Hyperelastic, IncompressibleSolid, MooneyRivlin, SaintVenantKirchhoff, isochoric};
+use piola_solids::{Hyperelastic, IncompressibleSolid, MooneyRivlin, SaintVenantKirchhoff, SolidsError, isochoric};
 use piola_specimens::SpecimensError;
 use piola_specimens::homogeneous::{Control, Controls, HomogeneousState, equilibrium, uniaxial};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
@@ -127,10 +127,10 @@ fn states_and_steps_of_others_and_limits_are_refused() {
     let other = Viscoelastic::relaxing(gent, none).expect("nothing relaxes");
     let step = solid.prony().step(0.5).expect("a step");
     let foreign = solid.response(&other.at_rest(), &step).map(|_| ());
-    assert!(matches!(foreign, Err(SpecimensError::OutOfBounds { parameter: "number of overstresses", .. })));
+    assert!(matches!(foreign, Err(SolidsError::OutOfBounds { parameter: "number of overstresses", .. })));
     let (state, foreign) = (solid.at_rest(), other.prony().step(0.5).expect("a step"));
     let foreign = solid.response(&state, &foreign).map(|_| ());
-    assert!(matches!(foreign, Err(SpecimensError::OutOfBounds { parameter: "number of terms", .. })));
+    assert!(matches!(foreign, Err(SolidsError::OutOfBounds { parameter: "number of terms", .. })));
     let response = solid.response(&state, &step).expect("its own");
     assert!(uniaxial(&response, 1.5).is_ok());
     let beyond = uniaxial(&response, 4.0);

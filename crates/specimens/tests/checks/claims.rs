@@ -1,14 +1,14 @@
 //! Noll's equivalences, the declared symmetry group and the energy of closed circuits, for every law of every volume.
 
 use piola_continuum::DeformationGradient;
-use piola_solids::SolidsError;
 use piola_solids::{AnySolid, Hyperelastic};
+use piola_specimens::SpecimensError;
 use piola_specimens::checks::{
     CrystalClass, Sampler, Search, Stored, SymmetryGroup, hyperelasticity, material_symmetry, noll, potential,
 };
 use piola_testkit::{Tol, assert_close_at_scale};
 
-use super::laws::all;
+use super::every_law::all;
 
 const SAMPLES: usize = 60;
 
@@ -16,7 +16,7 @@ const SAMPLES: usize = 60;
 const AXIS: [f64; 3] = [1.0, 2.0, 2.0];
 
 /// The declared groups of all laws that are independent of the observer.
-fn declared() -> Result<Vec<(AnySolid, SymmetryGroup)>, SolidsError> {
+fn declared() -> Result<Vec<(AnySolid, SymmetryGroup)>, SpecimensError> {
     // The three of Hooke's law between E and S: of wood, of a ply, of a cubic crystal.
     let mut hookean = [
         SymmetryGroup::orthotropic(),
