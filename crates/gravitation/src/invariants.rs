@@ -18,6 +18,7 @@ pub struct GravitationInvariants {
     /// G Σ m |v|: what the momentum is compared with.
     pub momentum_scale: f64,
     /// G Σ m r × v about the origin, m⁵/s³.
+    #[doc(alias = "moment of momentum")]
     pub angular_momentum: [f64; 3],
     /// G Σ m |r × v|: what the angular momentum is compared with.
     pub angular_momentum_scale: f64,

@@ -77,7 +77,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         check_length("q̇", n, v.len())?;
         check_length("q̈", n, out.len())?;
         let solved = with_exact_directions!(n, N => self.acceleration_in_one_pass::<T, N>(work, q, v, t, out),
-            beyond => self.acceleration_by_rows(work, q, v, t, out));
+            beyond => self.acceleration_in_chunks(work, q, v, t, out));
         // NaN velocities and forces leave the metric as it is: they show in the result only.
         let finite = out.iter().fold(T::Mask::splat(true), |all, a| all & a.is_finite());
         match solved {
@@ -201,7 +201,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 }
             }
         }, beyond => {
-            self.form_by_rows(work, q, v, t);
+            self.form_in_chunks(work, q, v, t);
             work.complete_metric(n);
             mass_matrix.copy_from_slice(&work.metric);
             forcing.copy_from_slice(&work.force);
@@ -264,14 +264,14 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             Ok(sound) => {
                 ldlt::solve_in_place(factors, N, &mut force)?;
                 out.copy_from_slice(&force[..n]);
-                if sound.all() { Ok(()) } else { self.accelerate_by_rows(work, (q, v, t), sound, out).map(|_| ()) }
+                if sound.all() { Ok(()) } else { self.refine_by_least_squares(work, (q, v, t), sound, out).map(|_| ()) }
             }
             Err(error) => {
                 work.metric.clear();
                 for column in factors.chunks(N).take(n) {
                     work.metric.extend_from_slice(&column[..n]);
                 }
-                self.accelerate_by_rows_alone(work, (q, v, t), error, out)
+                self.solve_singular_by_least_squares(work, (q, v, t), error, out)
             }
         }
     }
@@ -279,14 +279,14 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The accelerations where the metric cannot be factored, or else the error that says so.
     #[cold]
     #[inline(never)]
-    fn accelerate_by_rows_alone<T: Real>(
+    fn solve_singular_by_least_squares<T: Real>(
         &self,
         work: &mut Workspace<T>,
         (q, v, t): (&[T], &[T], T),
         error: NumericsError,
         out: &mut [T],
     ) -> Result<(), NumericsError> {
-        match self.accelerate_by_rows(work, (q, v, t), T::Mask::splat(false), out) {
+        match self.refine_by_least_squares(work, (q, v, t), T::Mask::splat(false), out) {
             Ok(true) => Ok(()),
             _ => Err(error),
         }
@@ -339,7 +339,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// The same for more coordinates than one pass serves: g = JᵀmJ from stored rows.
-    fn acceleration_by_rows<T: Real>(
+    fn acceleration_in_chunks<T: Real>(
         &self,
         work: &mut Workspace<T>,
         q: &[T],
@@ -347,19 +347,19 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         t: T,
         out: &mut [T],
     ) -> Result<(), NumericsError> {
-        self.form_by_rows(work, q, v, t);
+        self.form_in_chunks(work, q, v, t);
         match ldlt::factor_and_grade_in_place(&mut work.metric, q.len(), trusted_pivot::<T>()) {
             Ok(sound) => {
                 ldlt::solve_in_place(&work.metric, q.len(), &mut work.force)?;
                 out.copy_from_slice(&work.force);
-                if sound.all() { Ok(()) } else { self.accelerate_by_rows(work, (q, v, t), sound, out).map(|_| ()) }
+                if sound.all() { Ok(()) } else { self.refine_by_least_squares(work, (q, v, t), sound, out).map(|_| ()) }
             }
-            Err(error) => self.accelerate_by_rows_alone(work, (q, v, t), error, out),
+            Err(error) => self.solve_singular_by_least_squares(work, (q, v, t), error, out),
         }
     }
 
     /// Leaves the mass matrix in `work.metric` and the forcing in `work.force`.
-    fn form_by_rows<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
+    fn form_in_chunks<T: Real>(&self, work: &mut Workspace<T>, q: &[T], v: &[T], t: T) {
         let n = q.len();
         self.collect_rows_with_rates(work, q, v, t);
         work.form_metric(n);

@@ -279,7 +279,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 v_duals[i] = Dual::new(v[i], eta_jets[i].rate);
             }
             let energies = self.energies_with(&mut varied_work, &q_duals, &v_duals, Dual::constant(t))?;
-            self.driving_forces_into(&mut work, (&q, &v, &a), t, &mut residual)?;
+            self.driving_forces_into(&mut work, &q, &v, &a, t, &mut residual)?;
             let interior = |sum: f64, (residual, eta): (&f64, &Jet<f64, 0>)| sum - residual * eta.value;
             let mut interior = residual.iter().zip(&eta_jets).fold(0.0, interior);
             if F::GENERALISED || F::ON_PARTS || F::MOMENTS {

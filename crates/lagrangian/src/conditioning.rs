@@ -41,7 +41,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// `Ok(false)` says that nothing was replaced. `work.metric` is left as it is.
     #[cold]
     #[inline(never)]
-    pub(super) fn accelerate_by_rows<T: Real>(
+    pub(super) fn refine_by_least_squares<T: Real>(
         &self,
         work: &mut Workspace<T>,
         (q, v, t): (&[T], &[T], T),
@@ -62,7 +62,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// `work.force`.
     #[cold]
     #[inline(never)]
-    pub(super) fn velocities_by_rows<T: Real>(
+    pub(super) fn refine_velocities_by_least_squares<T: Real>(
         &self,
         work: &mut Workspace<T>,
         (q, t): (&[T], T),

@@ -56,7 +56,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// W(5.31), W(7.3).
     pub fn driving_forces<T: Real>(&self, q: &[T], v: &[T], a: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut out = DVector::from_element(q.len(), T::zero());
-        self.driving_forces_into(&mut Workspace::default(), (q, v, a), t, out.as_mut_slice())?;
+        self.driving_forces_into(&mut Workspace::default(), q, v, a, t, out.as_mut_slice())?;
         Ok(out)
     }
 
@@ -74,7 +74,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     pub fn driving_forces_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
-        (q, v, a): (&[T], &[T], &[T]),
+        q: &[T],
+        v: &[T],
+        a: &[T],
         t: T,
         out: &mut [T],
     ) -> Result<(), LagrangianError> {

@@ -155,7 +155,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
         let mut work = Workspace::default();
         let bare = self.without_actions();
-        bare.differentiate(&mut work, &zeros, q, t, With::Velocities, linear.as_mut_slice());
+        bare.differentiate(&mut work, q, &zeros, t, With::Velocities, linear.as_mut_slice());
         let moving: Vec<Dual<T>> = q.iter().map(|&q| Dual::constant(q)).collect();
         KineticEnergyParts { linear, constant: bare.energies_over(&moving, q, &zeros, t).kinetic }
     }
@@ -213,7 +213,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ) -> Result<(), LagrangianError> {
         check_length("q̇", q.len(), v.len())?;
         check_length("p", q.len(), out.len())?;
-        self.differentiate(work, v, q, t, With::Velocities, out);
+        self.differentiate(work, q, v, t, With::Velocities, out);
         self.finite([("q", q), ("q̇", v)], t, ("p", out))
     }
 
@@ -245,7 +245,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     pub fn coordinate_gradient<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         check_length("q̇", q.len(), v.len())?;
         let mut out = DVector::from_element(q.len(), T::zero());
-        self.differentiate(&mut Workspace::default(), v, q, t, With::Coordinates, out.as_mut_slice());
+        self.differentiate(&mut Workspace::default(), q, v, t, With::Coordinates, out.as_mut_slice());
         self.finite([("q", q), ("q̇", v)], t, ("∂L/∂q", out.as_slice()))?;
         Ok(out)
     }
@@ -390,13 +390,13 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     pub(super) fn differentiate<T: Real>(
         &self,
         work: &mut Workspace<T>,
-        v: &[T],
         q: &[T],
+        v: &[T],
         t: T,
         with: With,
         out: &mut [T],
     ) {
-        with_directions!(q.len(), N => self.differentiate_in_one_pass::<T, N>(v, q, t, with, out), beyond =>
+        with_directions!(q.len(), N => self.differentiate_in_one_pass::<T, N>(q, v, t, with, out), beyond =>
             for first in (0..q.len()).step_by(CHUNK) {
                 let seed = |on: bool, (i, &x): (usize, &T)| {
                     if on { Gradient::variable(x, i.wrapping_sub(first)) } else { Gradient::constant(x) }
@@ -418,7 +418,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     #[inline(always)]
-    fn differentiate_in_one_pass<T: Real, const N: usize>(&self, v: &[T], q: &[T], t: T, with: With, out: &mut [T]) {
+    fn differentiate_in_one_pass<T: Real, const N: usize>(&self, q: &[T], v: &[T], t: T, with: With, out: &mut [T]) {
         let n = q.len();
         let zero = Gradient::<T, N>::constant(T::zero());
         let (mut coordinates, mut rates) = ([zero; N], [zero; N]);

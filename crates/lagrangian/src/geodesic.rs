@@ -38,7 +38,7 @@ impl<S: Holonomic> Holonomic for Still<'_, S> {
 pub struct GeodesicMotion<'a, S, T = f64> {
     lagrangian: Lagrangian<Still<'a, S>, NoPotential, NoForces>,
     coordinates: usize,
-    time: f64,
+    t: f64,
     work: Workspace<T>,
 }
 
@@ -54,7 +54,7 @@ impl<S: Holonomic, T: Real> Field<T> for GeodesicMotion<'_, S, T> {
         let (q, direction) = y.split_at(self.coordinates);
         let (velocity, bend) = rate.split_at_mut(self.coordinates);
         velocity.copy_from_slice(direction);
-        self.lagrangian.acceleration_into(&mut self.work, q, direction, T::lit(self.time), bend)
+        self.lagrangian.acceleration_into(&mut self.work, q, direction, T::lit(self.t), bend)
     }
 }
 
@@ -130,7 +130,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         t: T,
     ) -> Result<DVector<T>, LagrangianError> {
         let mut out = DVector::from_element(q.len(), T::zero());
-        self.covariant_acceleration_into(&mut Workspace::default(), (q, v, a), t, out.as_mut_slice())?;
+        self.covariant_acceleration_into(&mut Workspace::default(), q, v, a, t, out.as_mut_slice())?;
         Ok(out)
     }
 
@@ -148,7 +148,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     pub fn covariant_acceleration_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
-        (q, v, a): (&[T], &[T], &[T]),
+        q: &[T],
+        v: &[T],
+        a: &[T],
         t: T,
         out: &mut [T],
     ) -> Result<(), LagrangianError> {
@@ -244,7 +246,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// Geodesics of the inertia metric as a field in (q, dq/ds), over the arc length or, what is the same, the
-    /// motion without forces over time, on the constraint surface held still at `time`.
+    /// motion without forces over time, on the constraint surface held still at `t`.
     ///
     /// # Example
     /// ```
@@ -270,8 +272,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Source
     /// W(6.10) with Q = 0.
-    pub fn geodesic_motion<T: Real>(&self, coordinates: usize, time: f64) -> GeodesicMotion<'_, S, T> {
-        GeodesicMotion { lagrangian: self.held_still(), coordinates, time, work: Workspace::default() }
+    pub fn geodesic_motion<T: Real>(&self, coordinates: usize, t: f64) -> GeodesicMotion<'_, S, T> {
+        GeodesicMotion { lagrangian: self.held_still(), coordinates, t, work: Workspace::default() }
     }
 
     /// Follows a geodesic from q in a direction for a given arc length, √kg m.
@@ -314,14 +316,14 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         q: &[f64],
         direction: &[f64],
         length: f64,
-        time: f64,
+        t: f64,
         tolerance: Tolerance,
     ) -> Result<GeodesicEnd, LagrangianError> {
         let n = q.len();
         check_length("direction", n, direction.len())?;
-        self.check_given([("q", q), ("direction", direction)], time)?;
+        self.check_given([("q", q), ("direction", direction)], t)?;
         let squared = |q: &[f64], v: &[f64]| -> Result<f64, LagrangianError> {
-            Ok(self.lower(q, v, time)?.iter().zip(v).map(|(p, v)| p * v).sum())
+            Ok(self.lower(q, v, t)?.iter().zip(v).map(|(p, v)| p * v).sum())
         };
         let squared_length = squared(q, direction)?;
         if !(0.0 < squared_length && squared_length < f64::INFINITY) {
@@ -335,7 +337,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         let mut state =
             State::new(0.0, q.iter().copied().chain(unit).collect()).map_err(|error| stopped(0.0, error))?;
         DormandPrince853::new(tolerance)
-            .integrate_to(&mut self.geodesic_motion(n, time), &mut state, length)
+            .integrate_to(&mut self.geodesic_motion(n, t), &mut state, length)
             .map_err(|error| LagrangianError::Run { time: state.time, source: Box::new(error) })?;
         let (q, v) = state.values.split_at(n);
         let length_error = squared(q, v)? - 1.0;

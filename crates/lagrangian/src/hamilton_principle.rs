@@ -285,8 +285,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 v[i] = (q1[i] - q0[i]) / h;
             }
             let t = samples.times[k] + 0.5 * h;
-            self.differentiate(&mut work, &v, &q, t, With::Velocities, &mut after);
-            self.differentiate(&mut work, &v, &q, t, With::Coordinates, &mut gradient);
+            self.differentiate(&mut work, &q, &v, t, With::Velocities, &mut after);
+            self.differentiate(&mut work, &q, &v, t, With::Coordinates, &mut gradient);
             self.add_generalised_forces(&mut work, &q, &v, t, &mut gradient)?;
             if 0 < k {
                 let step = 0.5 * (step_before + h);

@@ -81,7 +81,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 linear.clear();
                 linear.resize(2 * n, T::zero());
                 let (zero, momenta) = linear.split_at_mut(n);
-                self.differentiate(work, zero, q, t, With::Velocities, momenta);
+                self.differentiate(work, q, zero, t, With::Velocities, momenta);
                 for (out, &linear) in out.iter_mut().zip(&*momenta) {
                     *out -= linear;
                 }
@@ -113,7 +113,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
                 }
                 ldlt::solve_in_place(&work.metric, n, b)?;
                 if !sound.all() {
-                    let refused = self.velocities_by_rows(work, (q, t), sound, b).err();
+                    let refused = self.refine_velocities_by_least_squares(work, (q, t), sound, b).err();
                     if let Some(error) = refused {
                         return Err(self.explain(error, [("q", q), ("p", p)], t, work));
                     }
@@ -123,7 +123,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             Err(error) => {
                 work.force.clear();
                 work.force.extend_from_slice(b);
-                match self.velocities_by_rows(work, (q, t), T::Mask::splat(false), b) {
+                match self.refine_velocities_by_least_squares(work, (q, t), T::Mask::splat(false), b) {
                     Ok(true) => Ok(()),
                     _ => Err(self.explain(error, [("q", q), ("p", p)], t, work)),
                 }
@@ -161,7 +161,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         residual.resize(n, T::zero());
         out.fill(T::zero());
         let remainder = |work: &mut Workspace<T>, v: &[T], residual: &mut [T]| {
-            self.differentiate(work, v, q, t, With::Velocities, residual);
+            self.differentiate(work, q, v, t, With::Velocities, residual);
             for (residual, &p) in residual.iter_mut().zip(p) {
                 *residual = p - *residual;
             }

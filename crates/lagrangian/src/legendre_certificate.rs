@@ -78,7 +78,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         check_finite("p", p)?;
         let mut work = Workspace::default();
         let mut remainder = vec![0.0; n];
-        self.differentiate(&mut work, v, q, t, With::Velocities, &mut remainder);
+        self.differentiate(&mut work, q, v, t, With::Velocities, &mut remainder);
         check_finite("∂L/∂q̇", &remainder)?;
         for (remainder, &p) in remainder.iter_mut().zip(p) {
             *remainder = p - *remainder;

@@ -38,6 +38,7 @@ pub struct SystemMomentum<T: Real = f64> {
     pub momentum: Vector3<T>,
     /// Σ (x − o)×m v + Iω, kg m²/s.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::written::finite_vector"))]
+    #[doc(alias = "moment of momentum")]
     pub angular_momentum: Vector3<T>,
 }
 
@@ -106,6 +107,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Source
     /// W(1.18), W(2.35), W(4.6).
+    #[doc(alias = "moment of momentum")]
     pub fn system_momentum<T: Real>(
         &self,
         q: &[T],
@@ -113,7 +115,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         t: T,
         about: &Vector3<T>,
     ) -> Result<SystemMomentum<T>, LagrangianError> {
-        self.system_momentum_with(&mut Workspace::default(), (q, v), t, about)
+        self.system_momentum_with(&mut Workspace::default(), q, v, t, about)
     }
 
     /// [`system_momentum`](Self::system_momentum) without allocation once `work` has been used.
@@ -129,7 +131,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     pub fn system_momentum_with<T: Real>(
         &self,
         work: &mut Workspace<T>,
-        (q, v): (&[T], &[T]),
+        q: &[T],
+        v: &[T],
         t: T,
         about: &Vector3<T>,
     ) -> Result<SystemMomentum<T>, LagrangianError> {

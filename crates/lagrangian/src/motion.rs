@@ -121,7 +121,7 @@ impl<S: Holonomic, P: Potential, F: Forces, T: Real> Field<T> for CanonicalMotio
         let (velocity, force) = rate.split_at_mut(self.coordinates);
         let t = T::lit(t);
         self.lagrangian.velocities_into(&mut self.work, q, p, t, velocity)?;
-        self.lagrangian.differentiate(&mut self.work, velocity, q, t, With::Coordinates, force);
+        self.lagrangian.differentiate(&mut self.work, q, velocity, t, With::Coordinates, force);
         if F::GENERALISED || F::ON_PARTS || F::MOMENTS {
             self.lagrangian.add_generalised_forces(&mut self.work, q, velocity, t, force)?;
         }

@@ -176,7 +176,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         v: &[T],
         t: T,
     ) -> Result<PowerBalance<T>, LagrangianError> {
-        self.with_acceleration(work, q, v, t, |work, a| self.power_balance_at_acceleration(work, (q, v, a), t))
+        self.with_acceleration(work, q, v, t, |work, a| self.power_balance_at_acceleration(work, q, v, a, t))
     }
 
     /// The balance along any motion, given as (q, q̇, q̈): its [residual](PowerBalance::residual) is the power that
@@ -198,14 +198,16 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// }
     /// let lift = Lagrangian::of(Lift).with_gravity(10.0);
     /// // Rising evenly with 3 m/s: gravity takes 60 W, and nothing gives them.
-    /// let balance = lift.power_balance_at_acceleration(&mut Workspace::default(), (&[0.0], &[3.0], &[0.0]), 0.0)?;
+    /// let balance = lift.power_balance_at_acceleration(&mut Workspace::default(), &[0.0], &[3.0], &[0.0], 0.0)?;
     /// assert_eq!((balance.gravity, balance.residual()), (-60.0, 60.0));
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     pub fn power_balance_at_acceleration<T: Real>(
         &self,
         work: &mut Workspace<T>,
-        (q, v, a): (&[T], &[T], &[T]),
+        q: &[T],
+        v: &[T],
+        a: &[T],
         t: T,
     ) -> Result<PowerBalance<T>, LagrangianError> {
         let zero = T::zero();

@@ -284,7 +284,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         t: T,
         out: &mut [Reaction<T>],
     ) -> Result<(), LagrangianError> {
-        self.with_acceleration(work, q, v, t, |work, a| self.reactions_at_acceleration_into(work, (q, v, a), t, out))
+        self.with_acceleration(work, q, v, t, |work, a| self.reactions_at_acceleration_into(work, q, v, a, t, out))
     }
 
     /// The reactions along any motion, given as (q, q̇, q̈): what the constraint and the drives must do so that it
@@ -308,7 +308,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// let mut held = [Reaction::none()];
     /// let lift = Lagrangian::of(Lift).with_gravity(10.0);
     /// // Accelerated upwards with 3 m/s²: m (g + a).
-    /// lift.reactions_at_acceleration_into(&mut Workspace::default(), (&[0.0], &[1.0], &[3.0]), 0.0, &mut held)?;
+    /// lift.reactions_at_acceleration_into(&mut Workspace::default(), &[0.0], &[1.0], &[3.0], 0.0, &mut held)?;
     /// assert_eq!(held[0].force().z, 26.0);
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
@@ -318,7 +318,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     pub fn reactions_at_acceleration_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
-        (q, v, a): (&[T], &[T], &[T]),
+        q: &[T],
+        v: &[T],
+        a: &[T],
         t: T,
         out: &mut [Reaction<T>],
     ) -> Result<(), LagrangianError> {

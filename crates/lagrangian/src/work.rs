@@ -83,7 +83,7 @@ impl<S: Holonomic, P: Potential, F: Forces, T: Real> Field<T> for MotionWithWork
         velocity.copy_from_slice(v);
         let t = T::lit(t);
         self.lagrangian.acceleration_into(&mut self.work, q, v, t, acceleration)?;
-        let balance = self.lagrangian.power_balance_at_acceleration(&mut self.work, (q, v, acceleration), t)?;
+        let balance = self.lagrangian.power_balance_at_acceleration(&mut self.work, q, v, acceleration, t)?;
         powers.copy_from_slice(&[balance.applied, balance.moving_constraint, balance.potential_by_time]);
         Ok(())
     }

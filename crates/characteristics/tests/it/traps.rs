@@ -175,3 +175,15 @@ fn front_keeps_its_rows_when_a_step_fails() {
     empty.advance(&Root, 1.0, Tolerance::relative(1e-9).unwrap()).unwrap();
     assert!(empty.is_empty() && empty.row(0).is_none());
 }
+
+#[test]
+fn timing_of_undeclared() {
+    let problem = CauchyProblem::new(&Undeclared, &Line::Sine, 2).unwrap();
+    let start = std::time::Instant::now();
+    let error = problem.characteristic(&[core::f64::consts::PI], 1.5).err();
+    eprintln!("one: {:?} {error:?}", start.elapsed());
+    let wave = [piola_characteristics::ParameterInterval { from: 0.0, to: 6.0, parts: 8 }];
+    let start = std::time::Instant::now();
+    let error = problem.solve(&wave, (0.0, 1.5), piola_characteristics::Refinement::to(1e-3)).err();
+    eprintln!("solve: {:?} {error:?}", start.elapsed());
+}

@@ -22,8 +22,8 @@ pub struct Event {
 impl Event {
     /// The event (q, t).
     #[must_use]
-    pub fn new(coordinates: &[f64], time: f64) -> Self {
-        Self { coordinates: coordinates.to_vec(), time }
+    pub fn new(coordinates: &[f64], t: f64) -> Self {
+        Self { coordinates: coordinates.to_vec(), time: t }
     }
 
     pub(super) fn check(&self) -> Result<(), HamiltonianError> {

@@ -149,8 +149,8 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
 
     /// The characteristics of the values of U at one time: p₀ = ∂U/∂q.
     #[must_use]
-    pub fn of_values(hamiltonian: &'a H, function: &'a U, time: f64) -> Self {
-        Self { hamiltonian, function, start: Start::Values { time }, tolerance: FINE }
+    pub fn of_values(hamiltonian: &'a H, function: &'a U, t: f64) -> Self {
+        Self { hamiltonian, function, start: Start::Values { time: t }, tolerance: FINE }
     }
 
     /// Sets the tolerance of the integration.
@@ -244,17 +244,17 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
     ///
     /// # Errors
     /// [`HamiltonianError::NotFinite`]; [`HamiltonianError::Run`].
-    pub fn follow(&self, start: &Transversal, time: f64) -> Result<TransversalPoint, HamiltonianError> {
-        check_finite("t", &[time])?;
+    pub fn follow(&self, start: &Transversal, t: f64) -> Result<TransversalPoint, HamiltonianError> {
+        check_finite("t", &[t])?;
         let (n, from) = (start.foot.coordinates.len(), start.foot.time);
         let ray = (self.hamiltonian, n, self.tolerance);
-        let end = follow(ray, &start.state, (from, time), |_| Ok(()))?;
+        let end = follow(ray, &start.state, (from, t), |_| Ok(()))?;
         // Units apart, P and sX are then of one size.
         let ratio = end.sizes[4] / end.sizes[3];
-        let scale = if 0.0 < ratio && ratio.is_finite() { ratio } else { 1.0 } * (time - from).signum();
+        let scale = if 0.0 < ratio && ratio.is_finite() { ratio } else { 1.0 } * (t - from).signum();
         let mut passages = Passages::of_manifold(n, scale, from, &start.state);
-        follow(ray, &start.state, (from, time), |step| passages.inspect(step))?;
-        Ok(self.point(start, &end, time, passages.points))
+        follow(ray, &start.state, (from, t), |step| passages.inspect(step))?;
+        Ok(self.point(start, &end, t, passages.points))
     }
 
     fn point(&self, start: &Transversal, end: &RayEnd, time: f64, caustics: Vec<ConjugatePoint>) -> TransversalPoint {

@@ -366,7 +366,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
         self.solve(work, q, w, t)?;
         work.form_coordinate_acceleration();
         let Workspace { lagrangian, velocity, acceleration, .. } = work;
-        self.system.lagrangian().reactions_at_acceleration_into(lagrangian, (q, velocity, acceleration), t, out)
+        self.system.lagrangian().reactions_at_acceleration_into(lagrangian, q, velocity, acceleration, t, out)
     }
 
     /// The motion of n coordinates as a field in y = (q, w).

@@ -100,7 +100,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     pub fn multipliers<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut out = DVector::from_element(self.constraints.count(), T::zero());
         let mut acceleration = vec![T::zero(); q.len()];
-        self.solve_into(&mut Workspace::default(), (q, v), t, &mut acceleration, out.as_mut_slice())?;
+        self.solve_into(&mut Workspace::default(), q, v, t, &mut acceleration, out.as_mut_slice())?;
         Ok(out)
     }
 
@@ -111,7 +111,8 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     pub fn solve_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
-        (q, v): (&[T], &[T]),
+        q: &[T],
+        v: &[T],
         t: T,
         acceleration: &mut [T],
         multipliers: &mut [T],
@@ -158,7 +159,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
             (core::mem::take(&mut work.acceleration), core::mem::take(&mut work.multipliers));
         zeros(&mut acceleration, n);
         zeros(&mut multipliers, self.constraints.count());
-        let solved = self.solve_into(work, (q, v), t, &mut acceleration, &mut multipliers);
+        let solved = self.solve_into(work, q, v, t, &mut acceleration, &mut multipliers);
         out.fill(T::zero());
         for (row, &multiplier) in work.gradients.rows.chunks_exact(n.max(1)).zip(&multipliers) {
             for (out, &entry) in out.iter_mut().zip(row) {
@@ -181,8 +182,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
         let acceleration = self.acceleration(q, v, t)?;
         let mut out = vec![Reaction::none(); self.lagrangian.parts(q, t)];
         let mut work = crate::Workspace::default();
-        let motion = (q, v, acceleration.as_slice());
-        self.lagrangian.reactions_at_acceleration_into(&mut work, motion, t, &mut out)?;
+        self.lagrangian.reactions_at_acceleration_into(&mut work, q, v, acceleration.as_slice(), t, &mut out)?;
         Ok(out)
     }
 

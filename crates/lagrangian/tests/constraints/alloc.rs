@@ -17,7 +17,7 @@ fn evaluations_and_projections_allocate_nothing() {
     let (mut six, mut multipliers) = ([0.0; 6], [0.0; 6]);
     let mut evaluate = || {
         loops.acceleration_into(&mut work, &q, &v, 0.0, &mut six).unwrap();
-        loops.solve_into(&mut work, (&q, &v), 0.0, &mut six, &mut multipliers).unwrap();
+        loops.solve_into(&mut work, &q, &v, 0.0, &mut six, &mut multipliers).unwrap();
         loops.reactions_into(&mut work, &q, &v, 0.0, &mut six).unwrap();
     };
     evaluate();

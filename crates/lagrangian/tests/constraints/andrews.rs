@@ -213,6 +213,6 @@ fn published_accelerations_are_those_of_the_published_state_to_six_digits_only()
 /// (q, q̇, q̈, λ) of a state.
 fn complete(system: &Constrained<System, Spring, Drive, Ties>, (q, v): (&[f64], &[f64])) -> Vec<f64> {
     let (mut acceleration, mut multipliers) = ([0.0; 7], [0.0; 6]);
-    system.solve_into(&mut Workspace::default(), (q, v), 0.03, &mut acceleration, &mut multipliers).unwrap();
+    system.solve_into(&mut Workspace::default(), q, v, 0.03, &mut acceleration, &mut multipliers).unwrap();
     q.iter().chain(v).chain(&acceleration).chain(&multipliers).copied().collect()
 }

@@ -20,10 +20,10 @@ fn evaluations_with_a_workspace_allocate_nothing() {
         system.power_balance_with(&mut work, &q, &v, t).unwrap();
         system.virtual_work_into(&mut work, &forces, &q, t, &mut out).unwrap();
         system.actuator_powers_into(&mut work, &q, &v, t, &mut parts, &mut out).unwrap();
-        system.covariant_acceleration_into(&mut work, (&q, &v, &a), t, &mut out).unwrap();
+        system.covariant_acceleration_into(&mut work, &q, &v, &a, t, &mut out).unwrap();
         system.raise_in_place(&mut work, &q, t, &mut out).unwrap();
-        system.driving_forces_into(&mut work, (&q, &v, &a), t, &mut out).unwrap();
-        system.system_momentum_with(&mut work, (&q, &v), t, &Vector3::zeros()).unwrap();
+        system.driving_forces_into(&mut work, &q, &v, &a, t, &mut out).unwrap();
+        system.system_momentum_with(&mut work, &q, &v, t, &Vector3::zeros()).unwrap();
     };
     all();
     assert_eq!(allocations_in(all).0, 0);

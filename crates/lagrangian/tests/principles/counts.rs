@@ -36,7 +36,7 @@ const STATE: (&[f64], &[f64], &[f64]) = (&[0.25, 0.5], &[1.0, 2.0], &[0.5, 0.25]
 fn reactions_of_a_given_motion_place_the_system_once_along_it() {
     let mut out = [Reaction::none(); 2];
     let reactions = |system: &Lagrangian<Counted<true>>, work: &mut Workspace| {
-        system.reactions_at_acceleration_into(work, STATE, 0.0, &mut out).unwrap();
+        system.reactions_at_acceleration_into(work, STATE.0, STATE.1, STATE.2, 0.0, &mut out).unwrap();
     };
     assert_eq!(placed(reactions), [type_name::<Jet<f64, 0>>()]);
 }
@@ -44,11 +44,11 @@ fn reactions_of_a_given_motion_place_the_system_once_along_it() {
 #[test]
 fn powers_carry_the_derivative_along_the_time_only_where_it_is_declared() {
     let moving = placed::<true>(|system, work| {
-        system.power_balance_at_acceleration(work, STATE, 0.0).unwrap();
+        system.power_balance_at_acceleration(work, STATE.0, STATE.1, STATE.2, 0.0).unwrap();
     });
     assert_eq!(moving, [type_name::<Jet<f64, 1>>()]);
     let still = placed::<false>(|system, work| {
-        system.power_balance_at_acceleration(work, STATE, 0.0).unwrap();
+        system.power_balance_at_acceleration(work, STATE.0, STATE.1, STATE.2, 0.0).unwrap();
         system.force_along_time(STATE.0, STATE.1, 0.0).unwrap();
     });
     assert_eq!(still, [type_name::<Jet<f64, 0>>()], "no force along the time is sought");

@@ -47,7 +47,7 @@ fn non_finite_input_is_refused_by_name() {
     assert!(matches!(found, LagrangianError::NotFinite { quantity: "t", index: 0, .. }), "{found}");
     let mut out = [Reaction::none(); 3];
     let given = (&q[..], &q[..], &[0.0, 0.0, f64::NAN][..]);
-    let found = refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), given, 0.0, &mut out));
+    let found = refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), given.0, given.1, given.2, 0.0, &mut out));
     assert!(matches!(found, LagrangianError::NotFinite { quantity: "q̈", index: 2, .. }), "{found}");
     let found = refusal(system.covariant_acceleration(&q, &q, given.2, 0.0));
     assert!(matches!(found, LagrangianError::NotFinite { quantity: "q̈", index: 2, .. }), "{found}");
@@ -87,7 +87,7 @@ fn results_that_are_not_finite_are_refused_by_the_name_of_their_cause() {
     named(refusal(system.lower(&bad, &good, 0.0)), "q", 1);
     named(refusal(system.system_momentum(&good, &good, 0.0, &Vector3::from(bad))), "about", 1);
     named(refusal(system.driving_forces(&good, &good, &bad, 0.0)), "q̈", 1);
-    named(refusal(system.power_balance_at_acceleration(&mut work, (&good, &good, &bad), 0.0)), "q̈", 1);
+    named(refusal(system.power_balance_at_acceleration(&mut work, &good, &good, &bad, 0.0)), "q̈", 1);
 }
 
 /// A weight that cannot move: a system without coordinates.
@@ -159,7 +159,7 @@ fn part_with_an_infinite_force_is_named() {
     let zero: &[f64] = &[0.0; 3];
     let mut out = [Reaction::none(); 3];
     let found =
-        refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), (zero, zero, zero), 0.0, &mut out));
+        refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), zero, zero, zero, 0.0, &mut out));
     assert!(matches!(found, LagrangianError::NotFinite { quantity: "reactions", index: 1, .. }), "{found}");
 }
 

@@ -144,14 +144,14 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
     /// # Errors
     /// [`HamiltonianError::NotFinite`]; [`HamiltonianError::QuadratureNotConverged`]; [`HamiltonJacobiError::NotFound`](crate::HamiltonJacobiError::NotFound) when the
     /// equations of the motion could not be solved, as behind a collision; [`HamiltonJacobiError::IncompleteIntegral`](crate::HamiltonJacobiError::IncompleteIntegral).
-    pub fn at(&self, time: f64) -> Result<(Vec<f64>, Vec<f64>), HamiltonianError> {
-        check_finite("t", &[time])?;
+    pub fn at(&self, t: f64) -> Result<(Vec<f64>, Vec<f64>), HamiltonianError> {
+        check_finite("t", &[t])?;
         let n = self.start.len();
         let (mut place, mut part, mut step) = (self.start.clone(), 0.0, 1.0);
         while part < 1.0 {
             let next = f64::min(part + step, 1.0);
-            let elapsed = if 1.0 <= next { time - self.time } else { next * (time - self.time) };
-            let advance = (next - part) * (time - self.time);
+            let elapsed = if 1.0 <= next { t - self.time } else { next * (t - self.time) };
+            let advance = (next - part) * (t - self.time);
             match self.predicted(&place, advance).and_then(|guess| self.solve(guess, elapsed)) {
                 Ok(found) => (place, part, step) = (found, next, 2.0 * step),
                 Err(error) if step <= SHORTEST_PART => return Err(error),
