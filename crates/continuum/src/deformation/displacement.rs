@@ -9,8 +9,8 @@ use super::volume::{determinant, volume_change_of_displacement};
 use super::{Deformation, DeformationGradient};
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::Symmetric;
-use crate::tensor::rows::{Rows, identity, product, scaled, sum};
+use piola_tensor::Symmetric;
+use piola_tensor::internal::rows::{Rows, identity, product, scaled, sum};
 
 /// The displacement gradient ∇u = ∂u/∂X = F − 1 with 0 < det F, B(4.28): no cancellation at small strain.
 ///
@@ -128,7 +128,7 @@ impl<T: Real> DisplacementGradient<T> {
     /// ∇u = Σ (λᵢ − 1) nᵢ ⊗ nᵢ: the pure stretch with elongations λᵢ − 1 along the columns nᵢ of `axes`.
     ///
     /// # Errors
-    /// As [`diagonal`](Self::diagonal); [`ContinuumError::NotARotation`] unless the axes are orthonormal to 64 ulp and
+    /// As [`diagonal`](Self::diagonal); [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation) unless the axes are orthonormal to 64 ulp and
     /// right-handed.
     ///
     /// # Accuracy
@@ -210,7 +210,8 @@ impl<T: Real> DisplacementGradient<T> {
 
     /// From rows that are known to be those of ∇u with 0 < det F, or whose result will not be used.
     #[inline(always)]
-    pub(crate) fn trusted(rows: Rows<T>) -> Self {
+    #[doc(hidden)]
+    pub fn trusted(rows: Rows<T>) -> Self {
         Self { matrix: from_rows(rows) }
     }
 }

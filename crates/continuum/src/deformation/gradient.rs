@@ -9,9 +9,9 @@ use super::volume::{determinant, volume_change_of_gradient};
 use super::{Deformation, DisplacementGradient};
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::Symmetric;
-use crate::tensor::rotation::check_rotation;
-use crate::tensor::rows::{Rows, difference, identity, product};
+use piola_tensor::Symmetric;
+use piola_tensor::internal::rows::{Rows, difference, identity, product};
+use piola_tensor::rotation::check_rotation;
 
 /// The deformation gradient F = ∂x/∂X with 0 < det F, W(14.7–14.8).
 ///
@@ -192,7 +192,7 @@ impl<T: Real> DeformationGradient<T> {
     /// d and n are unit vectors at right angles, the first two columns of `axes`.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NotARotation`] unless `axes` is orthonormal and right-handed.
+    /// [`ContinuumError::NotFinite`]; [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation) unless `axes` is orthonormal and right-handed.
     ///
     /// # Example
     /// ```
@@ -219,7 +219,7 @@ impl<T: Real> DeformationGradient<T> {
     /// With a rotation R, `rotation.compose(&stretch)` is R U.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveStretch`]; [`ContinuumError::NotARotation`] unless the
+    /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveStretch`]; [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation) unless the
     /// axes are orthonormal to 64 ulp and right-handed.
     ///
     /// # Accuracy
@@ -301,7 +301,8 @@ impl<T: Real> DeformationGradient<T> {
 
     /// From rows that are known to be those of F with 0 < det F, or whose result will not be used.
     #[inline(always)]
-    pub(crate) fn trusted(rows: Rows<T>) -> Self {
+    #[doc(hidden)]
+    pub fn trusted(rows: Rows<T>) -> Self {
         Self { matrix: from_rows(rows) }
     }
 }
@@ -314,7 +315,7 @@ impl<T: Real> Default for DeformationGradient<T> {
 
 /// 0 < det F < ∞ in every lane.
 #[inline]
-pub(crate) fn check_jacobian<T: Real>(determinant: T) -> Result<(), ContinuumError> {
+pub fn check_jacobian<T: Real>(determinant: T) -> Result<(), ContinuumError> {
     if (T::zero().less_than(determinant) & determinant.is_finite()).all() {
         return Ok(());
     }

@@ -6,7 +6,7 @@ use piola_numerics::Real;
 use super::Deformation;
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::rows::apply;
+use piola_tensor::internal::rows::apply;
 
 /// The homogeneous deformation x = F X + c of a whole body.
 ///

@@ -13,6 +13,8 @@ mod displacement;
 pub(crate) mod gradient;
 mod homogeneous;
 mod interchange;
+pub(crate) mod moderate;
+pub mod transport;
 pub(crate) mod volume;
 
 pub use displacement::DisplacementGradient;
@@ -22,7 +24,7 @@ pub use homogeneous::HomogeneousDeformation;
 use nalgebra::Vector3;
 use piola_numerics::Real;
 
-use crate::tensor::rows::{Rows, apply, cofactor, product, scaled, transpose};
+use piola_tensor::internal::rows::{Rows, apply, cofactor, product, scaled, transpose};
 
 /// The deformation of a neighbourhood: F = 1 + ∇u with 0 < det F.
 ///
@@ -92,11 +94,11 @@ pub trait Deformation<T: Real>: Copy {
         self.volume_change().ln_1p_given(self.jacobian())
     }
 
-    /// Where strain and rotation are moderate, see [`is_moderate`](crate::strain::kernels::is_moderate).
+    /// Where strain and rotation are moderate, see [`is_moderate`](moderate::is_moderate).
     #[inline(always)]
     #[must_use]
     fn is_moderate(&self) -> T::Mask {
-        crate::strain::kernels::is_moderate(self.gradient_rows(), self.displacement_rows())
+        moderate::is_moderate(self.gradient_rows(), self.displacement_rows())
     }
 
     /// Cof F = J F⁻ᵀ, by rows.

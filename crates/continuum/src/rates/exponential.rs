@@ -29,8 +29,8 @@ use piola_numerics::{Dual, Mask, Real};
 
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::Skew;
-use crate::tensor::rows::{Rows, difference, identity, product, scaled, sum, trace};
+use piola_tensor::Skew;
+use piola_tensor::internal::rows::{Rows, difference, identity, product, scaled, sum, trace};
 
 /// The number of terms of the series: with |A″| ≤ 1 those left out are below 1e-19, and so are their first three
 /// derivatives.
@@ -257,7 +257,7 @@ fn is_skew<T: Real>(a: Rows<T>) -> T::Mask {
 /// # Example
 /// ```
 /// use piola_continuum::rates::rotation_minus_identity;
-/// use piola_continuum::tensor::Skew;
+/// use piola_tensor::Skew;
 /// let half_turn = rotation_minus_identity(Skew::new(0.0, 0.0, core::f64::consts::PI).rows());
 /// assert_eq!(half_turn[0][0], -2.0); // x goes to −x
 /// ```

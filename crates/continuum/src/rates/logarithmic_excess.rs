@@ -2,7 +2,7 @@
 
 use piola_numerics::{Mask, Real};
 
-use crate::spectral::IsotropicFunction;
+use piola_tensor::spectral::IsotropicFunction;
 
 /// g(y) = (1/x − 1/sinh x)/x = (sinh x − x)/(x² sinh x), y = x²: 1/6 − 7y/360 + …
 pub(super) struct LogarithmicExcess;

@@ -3,8 +3,8 @@
 use piola_numerics::{Dual, Mask, Real};
 
 use crate::Symmetric;
-use crate::spectral::IsotropicFunction;
-use crate::tensor::rows::{Rows, product, transpose};
+use piola_tensor::internal::rows::{Rows, product, transpose};
+use piola_tensor::spectral::IsotropicFunction;
 
 /// f[a, b, c] from the first differences, to half the digits: enough for the factor of a rounding.
 #[inline(always)]

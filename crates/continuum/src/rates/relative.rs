@@ -16,10 +16,10 @@ use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_o
 
 use super::VelocityGradient;
 use super::kernels::transported;
+use crate::measures::symmetric_measure;
 use crate::strain::kernels::right_cauchy_green_minus_one;
-use crate::tensor::measures::symmetric_measure;
-use crate::tensor::rows::{Rows, difference, identity, product, scaled, sum, transpose};
 use crate::{ContinuumError, Deformation, DisplacementGradient, Symmetric};
+use piola_tensor::internal::rows::{Rows, difference, identity, product, scaled, sum, transpose};
 
 /// The relative deformation gradient Fₜ(τ) = F(τ) F(t)⁻¹: from the present configuration to that at τ.
 ///
@@ -184,7 +184,7 @@ symmetric_measure! {
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::rates::{RivlinEricksen, VelocityGradient, steady_gradients};
+    /// use piola_continuum::rates::{RivlinEricksen, steady_gradients, VelocityGradient};
     /// // Simple shear v₂ = k x₁ with k = 3: A₁ = k (e₁e₂ + e₂e₁), A₂ = 2k² e₁e₁, A₃ = 0.
     /// let shear = VelocityGradient::new(Matrix3::new(0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
     /// let [a1, a2, a3] = RivlinEricksen::of_gradients(&steady_gradients::<_, 3>(&shear));
@@ -208,7 +208,7 @@ symmetric_measure! {
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::rates::{VelocityGradient, WhiteMetzner, steady_gradients};
+    /// use piola_continuum::rates::{steady_gradients, VelocityGradient, WhiteMetzner};
     /// // Simple shear v₂ = k x₁ with k = 3: B₂ = −2k² e₂e₂.
     /// let shear = VelocityGradient::new(Matrix3::new(0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
     /// let [b1, b2] = WhiteMetzner::of_gradients(&steady_gradients::<_, 2>(&shear));
@@ -224,7 +224,7 @@ symmetric_measure! {
 /// # Example
 /// ```
 /// use nalgebra::Matrix3;
-/// use piola_continuum::rates::{VelocityGradient, steady_gradients};
+/// use piola_continuum::rates::{steady_gradients, VelocityGradient};
 /// let growth = VelocityGradient::new(Matrix3::from_diagonal_element(3.0))?;
 /// let [_, _, third] = steady_gradients(&growth);
 /// assert_eq!(third[(0, 0)], 27.0);
@@ -306,7 +306,7 @@ impl<T: Real> RivlinEricksen<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{Symmetric, rates::{RivlinEricksen, VelocityGradient}};
+    /// use piola_continuum::{rates::{RivlinEricksen, VelocityGradient}, Symmetric};
     /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?;
     /// let second = RivlinEricksen::first(&shear).next(&Symmetric::zero(), &shear);
     /// assert_eq!(second.0.components, [18.0, 0.0, 0.0, 0.0, 0.0, 0.0]); // 2k² e₁e₁
@@ -339,7 +339,7 @@ impl<T: Real> WhiteMetzner<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::rates::{WhiteMetzner, VelocityGradient};
+    /// use piola_continuum::rates::{VelocityGradient, WhiteMetzner};
     /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?;
     /// assert_eq!(WhiteMetzner::first(&shear).0.components[3], 3.0);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
@@ -354,7 +354,7 @@ impl<T: Real> WhiteMetzner<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{Symmetric, rates::{VelocityGradient, WhiteMetzner}};
+    /// use piola_continuum::{rates::{VelocityGradient, WhiteMetzner}, Symmetric};
     /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?;
     /// let second = WhiteMetzner::first(&shear).next(&Symmetric::zero(), &shear);
     /// assert_eq!(second.0.components, [0.0, -18.0, 0.0, 0.0, 0.0, 0.0]); // −2k² e₂e₂

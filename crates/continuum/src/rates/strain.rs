@@ -14,10 +14,10 @@
 use piola_numerics::Real;
 
 use super::{GradientRate, VelocityGradient};
+use crate::measures::{linear_measure, symmetric_measure};
 use crate::strain::kernels::{green_derivative, left_cauchy_green_derivative};
-use crate::tensor::measures::{linear_measure, symmetric_measure};
-use crate::tensor::rows::{double_contraction, product, transpose};
 use crate::{Deformation, Symmetric};
+use piola_tensor::internal::rows::{double_contraction, product, transpose};
 
 symmetric_measure! {
     /// Ċ, the rate of the right Cauchy–Green tensor, 1/s: twice Ė, from which it is a type apart.
@@ -189,7 +189,7 @@ pub fn left_cauchy_green_rate<T: Real>(
 /// # Example
 /// ```
 /// use nalgebra::Matrix3;
-/// use piola_continuum::{DeformationGradient, rates::{VelocityGradient, strain}};
+/// use piola_continuum::{DeformationGradient, rates::{strain, VelocityGradient}};
 /// // e = ½ (1 − λ⁻²): ė = λ⁻² λ̇/λ = ¼ · 3.
 /// let f = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
 /// let growth = VelocityGradient::new(Matrix3::from_diagonal_element(3.0))?;

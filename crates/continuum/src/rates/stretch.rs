@@ -35,10 +35,11 @@ use super::logarithmic_excess::LogarithmicExcess;
 use super::principal_frame::{along, second_difference, spin_of};
 use super::spins::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, SpatialTwirl};
 use super::{GradientRate, VelocityGradient};
-use crate::spectral::{self, IsotropicFunction, Logarithm, StretchAnalysis};
-use crate::tensor::Skew;
-use crate::tensor::rows::{Rows, apply, product, product_transposed, transpose};
+use crate::polar::StretchAnalysis;
 use crate::{ContinuumError, Deformation, Symmetric};
+use piola_tensor::Skew;
+use piola_tensor::internal::rows::{Rows, apply, product, product_transposed, transpose};
+use piola_tensor::spectral::{IsotropicFunction, Logarithm, derivative, tensor_function};
 
 /// The rates of R, U, V, ln U and ln V, computed once, and each given when it is asked for.
 ///
@@ -110,7 +111,7 @@ impl<T: Real> StretchRates<T> {
     /// # Example
     /// ```
     /// use piola_continuum::rates::{GradientRate, StretchRates};
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+    /// use piola_continuum::{DeformationGradient, polar::StretchAnalysis};
     /// let analysis = StretchAnalysis::of(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
     /// let rate = GradientRate::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
     /// assert_eq!(StretchRates::of_analysis(analysis, &rate).right_stretch().components[0], 3.0);
@@ -263,7 +264,7 @@ impl<T: Real> StretchRates<T> {
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::spectral::SquareRoot;
+    /// use piola_tensor::spectral::SquareRoot;
     /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
     /// let fourfold = DeformationGradient::new(Matrix3::from_diagonal_element(4.0))?;
     /// let rate = GradientRate::new(Matrix3::from_diagonal_element(1.0))?;
@@ -281,7 +282,7 @@ impl<T: Real> StretchRates<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::spectral::Power;
+    /// use piola_tensor::spectral::Power;
     /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
     /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
     /// let growing = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
@@ -339,7 +340,7 @@ impl<T: Real> StretchRates<T> {
         let commutator = Skew::commutator(&h, &stretching.0).axial;
         let square = Symmetric::upper_triangle(product(h.rows(), h.rows()));
         let gaps = Symmetric::identity() * (T::lit(2.0) * square.trace()) - square * T::lit(3.0);
-        let excess = spectral::tensor_function(&LogarithmicExcess, &gaps).apply(commutator);
+        let excess = tensor_function(&LogarithmicExcess, &gaps).apply(commutator);
         let polar = self.polar_spin().axial;
         LogarithmicSpin::of_axial([polar[0] + excess[0], polar[1] + excess[1], polar[2] + excess[2]])
     }
@@ -452,7 +453,7 @@ impl<T: Real> StretchRates<T> {
     fn function_in_frame<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
         let rate = self.right_in_frame();
         if T::ORDER != 0 {
-            return spectral::derivative(f, &Symmetric { components: self.stretch }, &rate);
+            return derivative(f, &Symmetric { components: self.stretch }, &rate);
         }
         // Df(Λ + N)[H]ₖₗ = f[λₖ, λₗ] Hₖₗ + Σ f[λₖ, λₘ, λₗ] (Nₖₘ Hₘₗ + Hₖₘ Nₘₗ), N the rounding off the diagonal.
         let [a, b, c, n, p, r] = self.stretch;

@@ -4,10 +4,10 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
 
-use crate::tensor::Skew;
-use crate::tensor::measures::{general_measure, skew_measure, symmetric_measure};
-use crate::tensor::rows::{difference, product, product_transposed, sum, trace};
+use crate::measures::{general_measure, skew_measure, symmetric_measure};
 use crate::{Deformation, Symmetric};
+use piola_tensor::Skew;
+use piola_tensor::internal::rows::{difference, product, product_transposed, sum, trace};
 
 general_measure! {
     /// The rate of the deformation gradient, Ḟ = Grad v, 1/s; also that of the displacement gradient.
@@ -79,14 +79,14 @@ symmetric_measure! {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::rates::Stretching;
-    /// let pull = Stretching::new(2.0, -1.0, -1.0, 0.0, 0.0, 0.0)?;
+    /// use piola_continuum::rates::RateOfDeformation;
+    /// let pull = RateOfDeformation::new(2.0, -1.0, -1.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(pull.0.trace(), 0.0); // no change of volume
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     /// # Source
     /// W(14.29), B(4.34).
-    Stretching, "stretching"
+    RateOfDeformation, "stretching"
 }
 
 skew_measure! {
@@ -169,15 +169,15 @@ impl<T: Real> VelocityGradient<T> {
     /// # Example
     /// ```
     /// use nalgebra::Vector3;
-    /// use piola_continuum::rates::{Spin, Stretching, VelocityGradient};
-    /// let stretching = Stretching::new(0.0, 0.0, 0.0, 1.5, 0.0, 0.0)?;
+    /// use piola_continuum::rates::{RateOfDeformation, Spin, VelocityGradient};
+    /// let stretching = RateOfDeformation::new(0.0, 0.0, 0.0, 1.5, 0.0, 0.0)?;
     /// let shear = VelocityGradient::of_parts(&stretching, &Spin::new(Vector3::new(0.0, 0.0, 1.5))?);
     /// assert_eq!(shear.rows(), [[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]]);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
     #[inline(always)]
     #[must_use]
-    pub fn of_parts(stretching: &Stretching<T>, spin: &Spin<T>) -> Self {
+    pub fn of_parts(stretching: &RateOfDeformation<T>, spin: &Spin<T>) -> Self {
         Self::trusted(sum(stretching.rows(), spin.rows()))
     }
 
@@ -192,8 +192,8 @@ impl<T: Real> VelocityGradient<T> {
     /// ```
     #[inline(always)]
     #[must_use]
-    pub fn stretching(&self) -> Stretching<T> {
-        Stretching(Symmetric::symmetric_part(self.rows()))
+    pub fn stretching(&self) -> RateOfDeformation<T> {
+        RateOfDeformation(Symmetric::symmetric_part(self.rows()))
     }
 
     /// W = ½ (L − Lᵀ), W(14.28).

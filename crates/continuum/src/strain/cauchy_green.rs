@@ -6,9 +6,9 @@ use piola_numerics::linear::matrix3::rows_of;
 
 use super::kernels;
 use super::lines::derivatives_of_measure;
-use crate::stress::kernels::product_symmetrized;
-use crate::tensor::measures::symmetric_measure;
+use crate::measures::symmetric_measure;
 use crate::{Deformation, Symmetric};
+use piola_tensor::internal::product_symmetrized;
 
 symmetric_measure! {
     /// The right Cauchy–Green tensor C = Fᵀ F = U²: squares of lengths of material lines, |dx|² = dX · C dX.

@@ -7,9 +7,9 @@ use piola_numerics::linear::matrix3::rows_of;
 use super::RightCauchyGreen;
 use super::kernels;
 use super::lines::derivatives_of_measure;
-use crate::tensor::measures::{linear_measure, symmetric_measure};
-use crate::tensor::rows::product;
+use crate::measures::{linear_measure, symmetric_measure};
 use crate::{Deformation, Symmetric};
+use piola_tensor::internal::rows::product;
 
 symmetric_measure! {
     /// Green–St. Venant's strain E = ½ (C − 1) = ½ (∇u + ∇uᵀ + ∇uᵀ ∇u).

@@ -5,10 +5,11 @@ use piola_numerics::Real;
 use super::lines::derivatives_of_measure;
 use super::stretch::of_stretch_analysis;
 use super::{GreenStrain, RightCauchyGreen, SethHill};
-use crate::spectral::{StretchAnalysis, derivative_array, second_derivative};
-use crate::tensor::Slots;
-use crate::tensor::measures::{linear_measure, symmetric_measure};
+use crate::measures::{linear_measure, symmetric_measure};
+use crate::polar::StretchAnalysis;
 use crate::{Deformation, Symmetric};
+use piola_tensor::Slots;
+use piola_tensor::spectral::{derivative_array, second_derivative};
 
 symmetric_measure! {
     /// Hencky's strain ln U in the material: its trace is ln J, and coaxial stretches add.
@@ -95,7 +96,7 @@ impl<T: Real> HenckyStrain<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{Symmetric, strain::{HenckyStrain, RightCauchyGreen}};
+    /// use piola_continuum::{strain::{HenckyStrain, RightCauchyGreen}, Symmetric};
     /// let c = RightCauchyGreen::new(2.0, 2.0, 2.0, 0.0, 0.0, 0.0)?;
     /// let along = Symmetric::identity();
     /// let second = HenckyStrain::second_derivative_by_metric(&c, &along, &along);

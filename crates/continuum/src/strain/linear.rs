@@ -5,9 +5,9 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
 use super::lines::derivatives_of_measure;
-use crate::tensor::measures::{linear_measure, symmetric_measure};
-use crate::tensor::voigt::{BroNielsen, Piola, StrainVector};
+use crate::measures::{linear_measure, symmetric_measure};
 use crate::{Deformation, Symmetric};
+use piola_tensor::voigt::{BroNielsen, Piola, StrainVector};
 
 symmetric_measure! {
     /// The linear strain ε = ½ (∇u + ∇uᵀ), the limit of every strain for ∇u → 0.

@@ -13,8 +13,8 @@ use nalgebra::Matrix3;
 
 use crate::Deformation;
 use crate::deformation::volume::{determinant, volume_change_of_gradient};
-use crate::spectral::StretchAnalysis;
-use crate::tensor::rows::Rows;
+use crate::polar::StretchAnalysis;
+use piola_tensor::internal::rows::Rows;
 
 /// A deformation that carries directions of change.
 #[derive(Clone, Copy)]

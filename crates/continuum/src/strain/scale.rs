@@ -4,7 +4,7 @@ use piola_numerics::{Mask, Real};
 
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::spectral::{IsotropicFunction, Logarithm, Power};
+use piola_tensor::spectral::{IsotropicFunction, Logarithm, Power};
 
 /// The scale (λᵐ − 1)/m of a stretch λ, with its limit ln λ for m → 0.
 ///
@@ -20,7 +20,7 @@ use crate::spectral::{IsotropicFunction, Logarithm, Power};
 ///
 /// # Example
 /// ```
-/// use piola_continuum::spectral::IsotropicFunction;
+/// use piola_tensor::spectral::IsotropicFunction;
 /// use piola_continuum::strain::SethHill;
 /// assert_eq!(SethHill::new(3.0)?.value(2.0), 7.0 / 3.0);
 /// assert_eq!(SethHill::HENCKY.value(2.0), 2.0_f64.ln());
@@ -81,7 +81,7 @@ impl SethHill {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::spectral::IsotropicFunction;
+    /// use piola_tensor::spectral::IsotropicFunction;
     /// use piola_continuum::strain::SethHill;
     /// assert_eq!(SethHill::GREEN.of_metric().value(4.0), 1.5);
     /// ```
@@ -146,7 +146,7 @@ impl IsotropicFunction for SethHill {
 ///
 /// # Example
 /// ```
-/// use piola_continuum::spectral::{IsotropicFunction, derivative_array};
+/// use piola_tensor::spectral::{derivative_array, IsotropicFunction};
 /// use piola_continuum::strain::{RightCauchyGreen, SethHill};
 /// // ∂ ln U/∂C at C = 1 is half the identity on symmetric tensors.
 /// let identity = piola_continuum::Symmetric::<f64>::identity();

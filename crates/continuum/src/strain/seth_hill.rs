@@ -5,9 +5,10 @@ use piola_numerics::Real;
 
 use super::lines::{along, along_all, along_both, moving_analysis, partials};
 use super::{RightCauchyGreen, SethHill};
-use crate::spectral::{StretchAnalysis, derivative_array, second_derivative};
-use crate::tensor::Slots;
+use crate::polar::StretchAnalysis;
 use crate::{Deformation, Symmetric};
+use piola_tensor::Slots;
+use piola_tensor::spectral::{derivative_array, second_derivative};
 
 macro_rules! family {
     ($(#[$documentation:meta])* $name:ident $function:ident) => {
@@ -47,7 +48,7 @@ macro_rules! family {
             ///
             /// # Example
             /// ```
-            /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis};
+            /// use piola_continuum::{DeformationGradient, polar::StretchAnalysis};
             #[doc = concat!("use piola_continuum::strain::{SethHill, ", stringify!($name), "};")]
             /// let stretches = StretchAnalysis::of(&DeformationGradient::uniaxial(2.0, 1.0)?);
             #[doc = concat!("let strain = ", stringify!($name), "::from_analysis(&stretches, SethHill::GREEN);")]
@@ -188,7 +189,7 @@ impl<T: Real> SethHillStrain<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{Symmetric, strain::{RightCauchyGreen, SethHill, SethHillStrain}};
+    /// use piola_continuum::{strain::{RightCauchyGreen, SethHill, SethHillStrain}, Symmetric};
     /// let c = RightCauchyGreen::new(2.0, 2.0, 2.0, 0.0, 0.0, 0.0)?;
     /// let along = Symmetric::identity();
     /// let second = SethHillStrain::second_derivative_by_metric(&c, SethHill::HENCKY, &along, &along);

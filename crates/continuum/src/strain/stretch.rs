@@ -6,12 +6,13 @@ use piola_numerics::linear::matrix3::from_rows;
 
 use super::RightCauchyGreen;
 use super::lines::{along, derivatives_of_measure, moving_analysis, tangent};
-use crate::spectral::{SquareRoot, StretchAnalysis, derivative_array, second_derivative};
-use crate::tensor::Slots;
-use crate::tensor::measures::{linear_measure, symmetric_measure};
-use crate::tensor::rotation::check_rotation;
-use crate::tensor::rows::Rows;
+use crate::measures::{linear_measure, symmetric_measure};
+use crate::polar::StretchAnalysis;
 use crate::{ContinuumError, Deformation, Symmetric};
+use piola_tensor::Slots;
+use piola_tensor::internal::rows::Rows;
+use piola_tensor::rotation::check_rotation;
+use piola_tensor::spectral::{SquareRoot, derivative_array, second_derivative};
 
 symmetric_measure! {
     /// The right stretch tensor U = √C of F = R U.
@@ -89,7 +90,7 @@ macro_rules! of_stretch_analysis {
             ///
             /// # Example
             /// ```
-            #[doc = concat!("use piola_continuum::{DeformationGradient, spectral::StretchAnalysis, strain::", stringify!($name), "};")]
+            #[doc = concat!("use piola_continuum::{DeformationGradient, polar::StretchAnalysis, strain::", stringify!($name), "};")]
             /// let shear = DeformationGradient::simple_shear(2.0)?;
             #[doc = concat!("let known = ", stringify!($name), "::from_analysis(&StretchAnalysis::of(&shear));")]
             #[doc = concat!("assert_eq!(known, ", stringify!($name), "::of(&shear));")]
@@ -148,7 +149,7 @@ impl<T: Real> RightStretch<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{Symmetric, strain::{RightCauchyGreen, RightStretch}};
+    /// use piola_continuum::{strain::{RightCauchyGreen, RightStretch}, Symmetric};
     /// let c = RightCauchyGreen::new(4.0, 4.0, 4.0, 0.0, 0.0, 0.0)?;
     /// let along = Symmetric::identity();
     /// let second = RightStretch::second_derivative_by_metric(&c, &along, &along);
@@ -199,12 +200,6 @@ pub struct Rotation<T = f64> {
 }
 
 impl<T: Real> Rotation<T> {
-    /// Of a matrix that is known to be a rotation.
-    #[cfg(feature = "serde")]
-    pub(crate) const fn trusted(matrix: Matrix3<T>) -> Self {
-        Self { matrix }
-    }
-
     /// R of a deformation.
     ///
     /// # Accuracy
@@ -227,7 +222,7 @@ impl<T: Real> Rotation<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{DeformationGradient, spectral::StretchAnalysis, strain::Rotation};
+    /// use piola_continuum::{DeformationGradient, polar::StretchAnalysis, strain::Rotation};
     /// let shear = DeformationGradient::simple_shear(2.0)?;
     /// assert_eq!(Rotation::from_analysis(&StretchAnalysis::of(&shear)), Rotation::of(&shear));
     /// # Ok::<(), piola_continuum::ContinuumError>(())
@@ -241,7 +236,7 @@ impl<T: Real> Rotation<T> {
     /// From an orthogonal matrix with determinant one.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`] beyond 64 ulp, in any lane.
+    /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation) beyond 64 ulp, in any lane.
     ///
     /// # Example
     /// ```

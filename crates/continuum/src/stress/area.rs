@@ -11,9 +11,9 @@ use piola_numerics::Real;
 
 use super::normal::normalized;
 use super::{ReferenceNormal, UnitNormal};
-use crate::tensor::rows::{apply, transpose};
-use crate::tensor::scale::norm;
 use crate::{ContinuumError, Deformation};
+use piola_tensor::internal::rows::{apply, transpose};
+use piola_tensor::internal::scale::norm;
 
 /// What a deformation makes of a unit of area, by Nanson's formula.
 ///

@@ -34,6 +34,8 @@ use piola_numerics::{Mask, Real};
 use super::deviator::{self, Coordinates};
 use crate::error::check_finite;
 use crate::{ContinuumError, Symmetric};
+use piola_tensor::internal::check_range;
+pub use piola_tensor::principal_invariants;
 
 /// The mean stress m = ⅓ tr T, Pa.
 ///
@@ -64,21 +66,6 @@ pub fn mean<T: Real>(stress: &Symmetric<T>) -> T {
 #[must_use]
 pub fn deviator<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
     (*stress * T::lit(0.25)).deviator() * T::lit(4.0)
-}
-
-/// The principal invariants (I₁, I₂, I₃) = (tr T, sum of the principal minors, det T) in Pa, Pa², Pa³.
-///
-/// # Example
-/// ```
-/// use piola_continuum::{Symmetric, stress::invariants::principal_invariants};
-/// assert_eq!(principal_invariants(&Symmetric::diagonal([1.0, 2.0, 3.0])), [6.0, 11.0, 6.0]);
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn principal_invariants<T: Real>(stress: &Symmetric<T>) -> [T; 3] {
-    let [xx, yy, zz, xy, yz, xz] = stress.components;
-    let second = (xx * yy - xy * xy) + (yy * zz - yz * yz) + (xx * zz - xz * xz);
-    [stress.trace(), second, stress.determinant()]
 }
 
 /// J₂ = ½ D : D, Pa².
@@ -292,7 +279,7 @@ impl<T: Real> HaighWestergaard<T> {
     /// From (ξ, ρ, θ).
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`]; [`ContinuumError::OutOfRange`] unless 0 ≤ ρ and 0 ≤ θ ≤ π/3.
+    /// [`ContinuumError::NotFinite`]; [`TensorError::OutOfRange`](piola_tensor::TensorError::OutOfRange) unless 0 ≤ ρ and 0 ≤ θ ≤ π/3.
     ///
     /// # Example
     /// ```
@@ -342,16 +329,6 @@ impl<T: Real> HaighWestergaard<T> {
         let turn = T::lit(2.0 * core::f64::consts::FRAC_PI_3);
         let value = |angle: T| mean + radius * angle.cos();
         [value(self.lode_angle), value(self.lode_angle - turn), value(self.lode_angle + turn)]
-    }
-}
-
-/// 0 ≤ value ≤ largest, to an ulp of that, in every lane.
-pub(crate) fn check_range<T: Real>(quantity: &'static str, value: T, largest: f64) -> Result<(), ContinuumError> {
-    let slack = largest.min(1.0) * piola_numerics::sums::unit_in_last_place::<T>();
-    let within = |x: f64| 0.0 <= x && x <= largest + slack;
-    match (0..T::LANES).map(|lane| value.primal(lane)).find(|&x| !within(x)) {
-        None => Ok(()),
-        Some(value) => Err(ContinuumError::OutOfRange { quantity, value, least: 0.0, largest }),
     }
 }
 

@@ -9,42 +9,17 @@
 //! products of the entries of F have for large ratios of stretches.
 
 use piola_numerics::Real;
-use piola_numerics::linear::matrix3::dot;
 
 use crate::Symmetric;
-use crate::tensor::Skew;
-use crate::tensor::rows::{Rows, cofactor, product, product_transposed, scaled, transposed_product};
-
-/// sym(A Bᵀ).
-///
-/// # Example
-/// ```
-/// use piola_continuum::stress::kernels::product_symmetrized;
-/// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// let a = [[1.0, 4.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// assert_eq!(product_symmetrized(a, one).components[3], 3.0);
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn product_symmetrized<T: Real>(a: Rows<T>, b: Rows<T>) -> Symmetric<T> {
-    let half = T::lit(0.5);
-    Symmetric {
-        components: [
-            dot(a[0], b[0]),
-            dot(a[1], b[1]),
-            dot(a[2], b[2]),
-            half * (dot(a[0], b[1]) + dot(a[1], b[0])),
-            half * (dot(a[1], b[2]) + dot(a[2], b[1])),
-            half * (dot(a[0], b[2]) + dot(a[2], b[0])),
-        ],
-    }
-}
+use piola_tensor::Skew;
+use piola_tensor::internal::product_symmetrized;
+use piola_tensor::internal::rows::{Rows, cofactor, product, product_transposed, scaled, transposed_product};
 
 /// P = T Cof F of Cauchy's stress.
 ///
 /// # Example
 /// ```
-/// use piola_continuum::{Symmetric, stress::kernels::first_piola_of_cauchy};
+/// use piola_continuum::{Symmetric, internal::stress::first_piola_of_cauchy};
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
 /// // A bar of half the width: 8 Pa on a quarter of the area are 2 Pa on the area before.
 /// assert_eq!(first_piola_of_cauchy(f, &Symmetric::diagonal([8.0, 0.0, 0.0]))[0][0], 2.0);
@@ -62,7 +37,7 @@ pub fn first_piola_of_cauchy<T: Real>(f: Rows<T>, cauchy: &Symmetric<T>) -> Rows
 ///
 /// # Example
 /// ```
-/// use piola_continuum::stress::kernels::cauchy_of_first_piola;
+/// use piola_continuum::internal::stress::cauchy_of_first_piola;
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
 /// assert_eq!(cauchy_of_first_piola(f, 0.5, [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).components[0], 8.0);
 /// ```
@@ -79,7 +54,7 @@ pub fn cauchy_of_first_piola<T: Real>(f: Rows<T>, jacobian: T, first_piola: Rows
 ///
 /// # Example
 /// ```
-/// use piola_continuum::{Symmetric, stress::kernels::second_piola_of_cauchy};
+/// use piola_continuum::{Symmetric, internal::stress::second_piola_of_cauchy};
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
 /// assert_eq!(second_piola_of_cauchy(f, 0.5, &Symmetric::diagonal([8.0, 0.0, 0.0])).components[0], 1.0);
 /// ```
@@ -96,7 +71,7 @@ pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, jacobian: T, cauchy: &Symmetr
 ///
 /// # Example
 /// ```
-/// use piola_continuum::{Symmetric, stress::kernels::cauchy_of_second_piola};
+/// use piola_continuum::{Symmetric, internal::stress::cauchy_of_second_piola};
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
 /// assert_eq!(cauchy_of_second_piola(f, 0.5, &Symmetric::diagonal([1.0, 0.0, 0.0])).components[0], 8.0);
 /// ```
@@ -113,7 +88,7 @@ pub fn cauchy_of_second_piola<T: Real>(f: Rows<T>, jacobian: T, second_piola: &S
 ///
 /// # Example
 /// ```
-/// use piola_continuum::stress::kernels::second_piola_of_first_piola;
+/// use piola_continuum::internal::stress::second_piola_of_first_piola;
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
 /// assert_eq!(second_piola_of_first_piola(f, 0.5, [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]).components[0], 1.0);
 /// ```
@@ -130,7 +105,7 @@ pub fn second_piola_of_first_piola<T: Real>(f: Rows<T>, jacobian: T, first_piola
 ///
 /// # Example
 /// ```
-/// use piola_continuum::stress::kernels::first_piola_of_mandel;
+/// use piola_continuum::internal::stress::first_piola_of_mandel;
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
 /// assert_eq!(first_piola_of_mandel(f, 0.5, [[4.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])[0][0], 2.0);
 /// ```
@@ -144,7 +119,7 @@ pub fn first_piola_of_mandel<T: Real>(f: Rows<T>, jacobian: T, mandel: Rows<T>) 
 ///
 /// # Example
 /// ```
-/// use piola_continuum::{Symmetric, stress::kernels::first_piola_of_kirchhoff};
+/// use piola_continuum::{Symmetric, internal::stress::first_piola_of_kirchhoff};
 /// let f = [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.0, 0.5]];
 /// assert_eq!(first_piola_of_kirchhoff(f, 0.5, &Symmetric::diagonal([4.0, 0.0, 0.0]))[0][0], 2.0);
 /// ```
@@ -158,7 +133,7 @@ pub fn first_piola_of_kirchhoff<T: Real>(f: Rows<T>, jacobian: T, kirchhoff: &Sy
 ///
 /// # Example
 /// ```
-/// use piola_continuum::stress::kernels::moment_of_first_piola;
+/// use piola_continuum::internal::stress::moment_of_first_piola;
 /// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// assert_eq!(moment_of_first_piola(one, [[0.0, 1.0, 0.0], [3.0, 0.0, 0.0], [0.0; 3]]), [0.0, 0.0, 2.0]);
 /// ```

@@ -6,7 +6,7 @@ use piola_numerics::{Mask, Real};
 
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::scale::{largest, power_of_two_scale, square_root};
+use piola_tensor::internal::scale::{largest, power_of_two_scale, square_root};
 
 /// The vector scaled to length one, or why it has no direction.
 fn direction<T: Real>(vector: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
@@ -145,6 +145,6 @@ unit_normal! {
 }
 
 #[cfg(feature = "glam")]
-crate::tensor::measures::glam_vectors!(UnitNormal, |normal| normal.components);
+piola_tensor::internal::glam_vectors!(UnitNormal, ContinuumError, |normal| normal.components);
 #[cfg(feature = "glam")]
-crate::tensor::measures::glam_vectors!(ReferenceNormal, |normal| normal.components);
+piola_tensor::internal::glam_vectors!(ReferenceNormal, ContinuumError, |normal| normal.components);

@@ -26,8 +26,8 @@ use piola_numerics::linear::matrix3::rows_of;
 use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use crate::rates::strain::GreenStrainRate;
 use crate::rates::{GradientRate, VelocityGradient};
-use crate::tensor::rows::double_contraction;
 use crate::{Deformation, Symmetric};
+use piola_tensor::internal::rows::double_contraction;
 
 /// A : sym B for symmetric A.
 #[inline(always)]

@@ -9,17 +9,17 @@
 
 use piola_numerics::Real;
 
-#[cfg(feature = "serde")]
-use super::invariants::check_range;
 use super::invariants::mean;
 use super::{CauchyStress, KirchhoffStress, UnitNormal};
 use crate::Symmetric;
 #[cfg(feature = "serde")]
-use crate::spectral::check_principal;
-use crate::spectral::decompose;
-use crate::tensor::rows::Rows;
-#[cfg(feature = "serde")]
 use crate::{ContinuumError, error::check_finite};
+#[cfg(feature = "serde")]
+use piola_tensor::internal::check_range;
+use piola_tensor::internal::rows::Rows;
+#[cfg(feature = "serde")]
+use piola_tensor::internal::spectral::check_principal;
+use piola_tensor::spectral::decompose;
 
 /// Principal stresses and directions of a symmetric stress tensor.
 ///

@@ -11,8 +11,9 @@ use piola_numerics::{Mask, Real};
 
 use super::kernels::moment_of_first_piola;
 use super::{BiotStress, FirstPiola, MandelStress};
-use crate::tensor::rows::{Rows, product_transposed};
 use crate::{ContinuumError, Deformation};
+use piola_tensor::TensorError;
+use piola_tensor::internal::rows::{Rows, product_transposed};
 
 /// T − Tᵀ of what should be Cauchy's stress, as the vector of its entries 32, 13, 21: the moment per volume that
 /// the stress exerts on the body beyond what the balance allows.
@@ -69,7 +70,7 @@ impl<T: Real> FirstPiola<T> {
     /// Refuses a stress that does not obey the balance of angular momentum W(17.35) to rounding.
     ///
     /// # Errors
-    /// [`ContinuumError::NotSymmetric`] when, in any lane, two opposite entries of P Fᵀ differ by more than
+    /// [`TensorError::NotSymmetric`](piola_tensor::TensorError::NotSymmetric) when, in any lane, two opposite entries of P Fᵀ differ by more than
     /// 32 ulp of the largest entry of |P| |F|ᵀ.
     ///
     /// # Example
@@ -92,7 +93,8 @@ impl<T: Real> FirstPiola<T> {
     /// Where P surely obeys the balance: the differences are within 8 ulp of P Fᵀ itself, which is cheaply seen and never
     /// more than [`check_balance`](Self::check_balance) allows; that one is to be asked elsewhere.
     #[inline(always)]
-    pub(crate) fn is_balanced(&self, deformation: &impl Deformation<T>) -> T::Mask {
+    #[doc(hidden)]
+    pub fn is_balanced(&self, deformation: &impl Deformation<T>) -> T::Mask {
         let (p, f) = (self.rows(), deformation.gradient_rows());
         let [a, b, c] = off_diagonal_differences(p, f);
         let (x, y, z) = (dot(p[0], f[0]), dot(p[1], f[1]), dot(p[2], f[2]));
@@ -106,10 +108,11 @@ impl<T: Real> FirstPiola<T> {
     /// been computed, allow that.
     ///
     /// # Errors
-    /// [`ContinuumError::NotSymmetric`] when two opposite entries of P Fᵀ differ by more than 96 ulp of
+    /// [`TensorError::NotSymmetric`](piola_tensor::TensorError::NotSymmetric) when two opposite entries of P Fᵀ differ by more than 96 ulp of
     /// |P| |F| max(1, |F|³/J), by largest entries: T Cof F is rounded by ulp of |T| |F|², and T is |P| |F|/J.
     #[cold]
-    pub(crate) fn check_balance(&self, deformation: &impl Deformation<T>) -> Result<(), ContinuumError> {
+    #[doc(hidden)]
+    pub fn check_balance(&self, deformation: &impl Deformation<T>) -> Result<(), ContinuumError> {
         let differences = off_diagonal_differences(self.rows(), deformation.gradient_rows());
         let (scale, tolerance) = self.tolerated(deformation);
         refuse_differences(differences, scale, tolerance)
@@ -148,13 +151,13 @@ fn refuse_differences<T: Real>(differences: [T; 3], scale: T, tolerance: T) -> R
         if !difference.abs().at_most(tolerance).all() {
             let exceeds = |lane: usize| tolerance.primal(lane) < difference.primal(lane).abs();
             let lane = (0..T::LANES).find(|&lane| exceeds(lane)).unwrap_or(0);
-            return Err(ContinuumError::NotSymmetric {
+            return Err(ContinuumError::Tensor(TensorError::NotSymmetric {
                 quantity: "P F^T",
                 row,
                 column,
                 difference: difference.primal(lane),
                 scale: scale.primal(lane),
-            });
+            }));
         }
     }
     Ok(())

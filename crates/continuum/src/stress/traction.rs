@@ -16,8 +16,8 @@ use piola_numerics::linear::matrix3::dot;
 use super::invariants::{deviator, mean};
 use super::{CauchyStress, FirstPiola, ReferenceNormal, UnitNormal};
 use crate::ContinuumError;
-use crate::tensor::rows::apply;
-use crate::tensor::scale::norm;
+use piola_tensor::internal::rows::apply;
+use piola_tensor::internal::scale::norm;
 
 impl<T: Real> CauchyStress<T> {
     /// The traction t = T n, Pa: the force per deformed area on the side from which n points.

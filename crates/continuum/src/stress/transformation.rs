@@ -13,14 +13,14 @@ use piola_numerics::linear::matrix3::rows_of;
 
 use super::{CauchyStress, FirstPiola, KirchhoffStress};
 use crate::ContinuumError;
-use crate::tensor::rotation::check_rotation;
-use crate::tensor::rows::product;
+use piola_tensor::internal::rows::product;
+use piola_tensor::rotation::check_rotation;
 
 impl<T: Real> CauchyStress<T> {
     /// Q T Qᵀ: the stress of the body turned by Q, or its components in the basis Qᵀ eᵢ.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
     ///
     /// # Accuracy
     /// 8 ulp of |T|.
@@ -47,7 +47,7 @@ impl<T: Real> KirchhoffStress<T> {
     /// Q τ Qᵀ, as [`CauchyStress::rotated`].
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
     ///
     /// # Example
     /// ```
@@ -68,7 +68,7 @@ impl<T: Real> FirstPiola<T> {
     /// Q P: the stress of the body turned by Q; its reference configuration does not turn.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
     ///
     /// # Example
     /// ```

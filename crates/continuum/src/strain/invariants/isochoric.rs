@@ -9,8 +9,8 @@ use piola_numerics::{Mask, Real};
 
 use super::{derivatives, first, second};
 use crate::strain::kernels::{green, left_cauchy_green, right_cauchy_green, right_cauchy_green_minus_one};
-use crate::tensor::rows::Rows;
 use crate::{Deformation, Symmetric};
+use piola_tensor::internal::rows::Rows;
 
 /// J^p.
 #[inline(always)]
@@ -305,7 +305,7 @@ pub fn isochoric_second_derivative<T: Real>(deformation: &impl Deformation<T>) -
 fn times_inverse_metric<T: Real>(deformation: &impl Deformation<T>, a: &Symmetric<T>, s: T) -> Symmetric<T> {
     let inverse = deformation.inverse_rows();
     let metric: Rows<T> = left_cauchy_green(inverse).rows();
-    Symmetric::symmetric_part(crate::tensor::rows::product(metric, a.rows())) * s
+    Symmetric::symmetric_part(piola_tensor::internal::rows::product(metric, a.rows())) * s
 }
 
 /// `D²Ī₁[X]`, the derivative of ∂Ī₁/∂C along a symmetric X.

@@ -20,8 +20,8 @@ use piola_numerics::{Mask, Real};
 
 use super::kernels::right_cauchy_green;
 use crate::deformation::volume::trace_pair;
-use crate::tensor::rows::{Rows, cofactor, double_contraction};
 use crate::{Deformation, Symmetric};
+use piola_tensor::internal::rows::{Rows, cofactor, double_contraction};
 
 mod isochoric;
 mod near_rotation;
@@ -32,7 +32,7 @@ pub use isochoric::{
     isochoric_second_second_derivative,
 };
 
-pub use crate::stress::invariants::principal_invariants;
+pub use piola_tensor::principal_invariants;
 
 /// (∂I₁/∂A, ∂I₂/∂A, ∂I₃/∂A) = (1, I₁ 1 − A, Cof A) of a symmetric tensor; finite for singular A too.
 ///
@@ -227,7 +227,7 @@ pub fn third_minus_one<T: Real>(deformation: &impl Deformation<T>) -> T {
 #[inline(always)]
 #[must_use]
 pub fn first_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
-    crate::tensor::rows::scaled(deformation.gradient_rows(), T::lit(2.0))
+    piola_tensor::internal::rows::scaled(deformation.gradient_rows(), T::lit(2.0))
 }
 
 /// ∂I₂/∂F = 2 F (I₁ 1 − C).
@@ -259,14 +259,14 @@ pub fn second_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
 #[inline(always)]
 #[must_use]
 pub fn third_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
-    crate::tensor::rows::scaled(deformation.cofactor_rows(), T::lit(2.0) * deformation.jacobian())
+    piola_tensor::internal::rows::scaled(deformation.cofactor_rows(), T::lit(2.0) * deformation.jacobian())
 }
 
 /// ∂φ/∂F = 2 F (∂φ/∂C) of a function of C, given its derivative: by the chain rule of C = Fᵀ F.
 ///
 /// # Example
 /// ```
-/// use piola_continuum::{DeformationGradient, Deformation, strain::invariants};
+/// use piola_continuum::{Deformation, DeformationGradient, strain::invariants};
 /// let bar = DeformationGradient::diagonal([2.0, 1.0, 0.5])?;
 /// let derivative = invariants::isochoric_first_derivative(&bar);
 /// let gradient = invariants::gradient_of_metric_derivative(bar.gradient_rows(), &derivative);

@@ -10,7 +10,7 @@ use piola_numerics::sums::unit_in_last_place;
 
 use crate::Deformation;
 use crate::deformation::volume::Pair;
-use crate::tensor::rows::Rows;
+use piola_tensor::internal::rows::Rows;
 
 /// Where the value is below 2¹² ulp of the terms of which it is the sum.
 #[inline(always)]

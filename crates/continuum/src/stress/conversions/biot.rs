@@ -4,11 +4,11 @@ use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
-use crate::spectral::StretchAnalysis;
+use crate::polar::StretchAnalysis;
 use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
-use crate::tensor::rotation::check_rotation;
-use crate::tensor::rows::product;
 use crate::{ContinuumError, Deformation, Symmetric};
+use piola_tensor::internal::rows::product;
+use piola_tensor::rotation::check_rotation;
 
 impl<T: Real> BiotStress<T> {
     /// P = R Biot; the rotation R is computed, see [`StretchAnalysis`].
@@ -16,7 +16,7 @@ impl<T: Real> BiotStress<T> {
     /// # Example
     /// ```
     /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// # use piola_continuum::{BiotStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
     /// assert_eq!(stress.first_piola(&bar).0[(0, 0)], 2.0);
@@ -33,7 +33,7 @@ impl<T: Real> BiotStress<T> {
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::spectral::StretchAnalysis;
+    /// use piola_continuum::polar::StretchAnalysis;
     /// use piola_continuum::{BiotStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?;
     /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
@@ -51,7 +51,7 @@ impl<T: Real> BiotStress<T> {
     /// # Example
     /// ```
     /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// # use piola_continuum::{BiotStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
     /// assert_eq!(stress.cauchy(&bar).0.components[0], 8.0);
@@ -68,7 +68,7 @@ impl<T: Real> BiotStress<T> {
     /// # Example
     /// ```
     /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// # use piola_continuum::{BiotStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
     /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
@@ -85,7 +85,7 @@ impl<T: Real> BiotStress<T> {
     /// # Example
     /// ```
     /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// # use piola_continuum::{BiotStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
     /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
@@ -102,7 +102,7 @@ impl<T: Real> BiotStress<T> {
     /// # Example
     /// ```
     /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, BiotStress};
+    /// # use piola_continuum::{BiotStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = BiotStress::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
     /// assert_eq!(stress.mandel(&bar).0[(0, 0)], 4.0);
@@ -117,7 +117,7 @@ impl<T: Real> BiotStress<T> {
     /// P = R Biot where the rotation R of F is known.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
     ///
     /// # Example
     /// ```

@@ -11,7 +11,7 @@ impl<T: Real> CauchyStress<T> {
     ///
     /// # Example
     /// ```
-    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// # use piola_continuum::{CauchyStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
@@ -27,7 +27,7 @@ impl<T: Real> CauchyStress<T> {
     ///
     /// # Example
     /// ```
-    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// # use piola_continuum::{CauchyStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(stress.first_piola(&bar).0[(0, 0)], 2.0);
@@ -43,7 +43,7 @@ impl<T: Real> CauchyStress<T> {
     ///
     /// # Example
     /// ```
-    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// # use piola_continuum::{CauchyStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
@@ -59,7 +59,7 @@ impl<T: Real> CauchyStress<T> {
     ///
     /// # Example
     /// ```
-    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// # use piola_continuum::{CauchyStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(stress.mandel(&bar).0[(0, 0)], 4.0);
@@ -75,7 +75,7 @@ impl<T: Real> CauchyStress<T> {
     ///
     /// # Example
     /// ```
-    /// # use piola_continuum::{DeformationGradient, CauchyStress};
+    /// # use piola_continuum::{CauchyStress, DeformationGradient};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
     /// let stress = CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(stress.biot(&bar).0[(0, 0)], 2.0);

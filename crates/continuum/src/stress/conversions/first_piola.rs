@@ -4,12 +4,13 @@ use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
 
-use crate::spectral::StretchAnalysis;
-use crate::stress::kernels::{cauchy_of_first_piola, product_symmetrized, second_piola_of_first_piola};
+use crate::polar::StretchAnalysis;
+use crate::stress::kernels::{cauchy_of_first_piola, second_piola_of_first_piola};
 use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
-use crate::tensor::rotation::check_rotation;
-use crate::tensor::rows::transposed_product;
 use crate::{ContinuumError, Deformation};
+use piola_tensor::internal::product_symmetrized;
+use piola_tensor::internal::rows::transposed_product;
+use piola_tensor::rotation::check_rotation;
 
 impl<T: Real> FirstPiola<T> {
     /// T = sym(P Fᵀ)/J, W(17.21).
@@ -102,7 +103,7 @@ impl<T: Real> FirstPiola<T> {
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::spectral::StretchAnalysis;
+    /// use piola_continuum::polar::StretchAnalysis;
     /// use piola_continuum::{DeformationGradient, FirstPiola};
     /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?;
     /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
@@ -118,7 +119,7 @@ impl<T: Real> FirstPiola<T> {
     /// Biot's stress Rᵀ P where the rotation R of F is known.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
     ///
     /// # Example
     /// ```

@@ -5,8 +5,8 @@ use piola_numerics::Real;
 use crate::strain::RightCauchyGreen;
 use crate::stress::kernels::cauchy_of_second_piola;
 use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
-use crate::tensor::rows::product;
 use crate::{Deformation, Symmetric};
+use piola_tensor::internal::rows::product;
 
 impl<T: Real> SecondPiola<T> {
     /// T = F S Fᵀ/J, B(4.57).

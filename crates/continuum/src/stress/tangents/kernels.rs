@@ -4,13 +4,13 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
 
 use crate::Symmetric;
-use crate::tensor::fourth::kernels::{congruence_matrix, transform_major};
-use crate::tensor::rows::Rows;
-use crate::tensor::{PAIR, SLOT, Slots};
+use piola_tensor::internal::fourth::{congruence_matrix, transform_major};
+use piola_tensor::internal::rows::Rows;
+use piola_tensor::{PAIR, SLOT, Slots};
 
 /// `F_iA F_jB F_kC F_lD C_ABCD` of a tangent with all symmetries, as the 21 components of its upper triangle.
 ///
-/// 396 products: see [`fourth::kernels`](crate::tensor::fourth::kernels).
+/// 396 products: see [`fourth::kernels`](piola_tensor::internal::fourth).
 ///
 /// # Example
 /// ```

@@ -16,10 +16,10 @@
 //! Jaumann = c/J + ½ (δ_ik T_jl + δ_il T_jk + T_ik δ_jl + T_il δ_jk)        τ°/J = T° + T tr D
 //! ```
 //! Tangents are stored without factors for shears; the matrix that multiplies engineering shears is made by
-//! [`voigt`](crate::tensor::voigt). The second parameter of a type says whether the law has an energy
-//! ([`Major`](crate::tensor::Major), the default) or not ([`Minor`](crate::tensor::Minor)).
+//! [`voigt`](piola_tensor::voigt). The second parameter of a type says whether the law has an energy
+//! ([`Major`](piola_tensor::Major), the default) or not ([`Minor`](piola_tensor::Minor)).
 
-pub mod kernels;
+pub(crate) mod kernels;
 mod nominal;
 mod spatial;
 mod spins;

@@ -6,10 +6,10 @@ use piola_numerics::linear::matrix3::rows_of;
 
 use super::{FirstPiolaTangent, MaterialTangent, kernels};
 use crate::rates::GradientRate;
-use crate::tensor::rotation::check_rotation;
-use crate::tensor::rows::identity;
-use crate::tensor::{FourthOrder, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 use crate::{ContinuumError, Deformation, FirstPiola, SecondPiola};
+use piola_tensor::internal::rows::identity;
+use piola_tensor::rotation::check_rotation;
+use piola_tensor::{FourthOrder, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 
 impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     /// ∂P/∂F = `δ_ij S_AB + F_iC F_jD C_CADB`.
@@ -20,7 +20,7 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     /// # Example
     /// ```
     /// use piola_continuum::stress::tangents::MaterialTangent;
-    /// use piola_continuum::tensor::MajorSymmetric;
+    /// use piola_tensor::MajorSymmetric;
     /// use piola_continuum::{DeformationGradient, SecondPiola};
     /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let stress = SecondPiola::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
@@ -39,7 +39,8 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{Symmetric, stress::tangents::MaterialTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{Symmetric, stress::tangents::MaterialTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let rate = tangent.rate(&Symmetric::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0));
     /// assert_eq!(rate.0.components, [7.0, 1.0, 1.0, 12.0, 0.0, 0.0]); // λ tr Ė 1 + 2μ Ė
@@ -56,7 +57,8 @@ impl<T: Real> FirstPiolaTangent<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{rates::GradientRate, stress::tangents::FirstPiolaTangent, tensor::FourthOrder};
+    /// use piola_continuum::{rates::GradientRate, stress::tangents::FirstPiolaTangent};
+    /// use piola_tensor::FourthOrder;
     /// let tangent = FirstPiolaTangent(FourthOrder::identity());
     /// let rate = GradientRate::from_rows([[0.0, 5.0, 0.0], [0.0; 3], [0.0; 3]])?;
     /// assert_eq!(tangent.rate(&rate).0[(0, 1)], 5.0);
@@ -73,7 +75,7 @@ impl<T: Real> FirstPiolaTangent<T> {
     /// The tangent of any law that does not depend on the observer has minor symmetries then, and what is lacking is
     /// rounding: the mean over the exchanges is returned, and [`objectivity_residual`](Self::objectivity_residual)
     /// tells how much is left out. Of a law with an energy,
-    /// [`major_part`](crate::tensor::MinorSymmetric::major_part) has the major symmetry too.
+    /// [`major_part`](piola_tensor::MinorSymmetric::major_part) has the major symmetry too.
     ///
     /// # Accuracy
     /// 16 ulp of |F⁻¹|² (|A| + |S|).
@@ -81,7 +83,7 @@ impl<T: Real> FirstPiolaTangent<T> {
     /// # Example
     /// ```
     /// use piola_continuum::stress::tangents::MaterialTangent;
-    /// use piola_continuum::tensor::MajorSymmetric;
+    /// use piola_tensor::MajorSymmetric;
     /// use piola_continuum::{DeformationGradient, SecondPiola};
     /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let stress = SecondPiola::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
@@ -103,7 +105,7 @@ impl<T: Real> FirstPiolaTangent<T> {
     /// # Example
     /// ```
     /// use piola_continuum::stress::tangents::FirstPiolaTangent;
-    /// use piola_continuum::tensor::FourthOrder;
+    /// use piola_tensor::FourthOrder;
     /// use piola_continuum::{DeformationGradient, SecondPiola};
     /// let (stress, still) = (SecondPiola::<f64>::zero(), DeformationGradient::identity());
     /// // Without stress a turn of the body leaves P as it is; a tangent that is the identity would change it.
@@ -124,12 +126,13 @@ impl<T: Real> FirstPiolaTangent<T> {
     /// The tangent of the body turned by Q after its deformation: `Q_ik Q_jl A_kAlB`.
     ///
     /// # Errors
-    /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+    /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
     ///
     /// # Example
     /// ```
     /// use nalgebra::Matrix3;
-    /// use piola_continuum::{stress::tangents::FirstPiolaTangent, tensor::FourthOrder};
+    /// use piola_continuum::stress::tangents::FirstPiolaTangent;
+    /// use piola_tensor::FourthOrder;
     /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
     /// let e1 = [[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
     /// let turned = FirstPiolaTangent(FourthOrder::dyad(e1, e1)).rotated(&quarter_turn)?;

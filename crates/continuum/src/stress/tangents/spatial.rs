@@ -6,8 +6,8 @@ use super::{
     CauchyJaumannTangent, CauchyLowerConvectedTangent, CauchyUpperConvectedTangent, FirstPiolaTangent, JaumannTangent,
     LieTangent, LowerConvectedTangent, MaterialTangent, TruesdellTangent,
 };
-use crate::tensor::{MajorSymmetric, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 use crate::{CauchyStress, Deformation, SecondPiola, Symmetric};
+use piola_tensor::{MajorSymmetric, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 
 impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     /// c = `F_iA F_jB F_kC F_lD C_ABCD`, the push-forward.
@@ -17,7 +17,8 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::MaterialTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{DeformationGradient, stress::tangents::MaterialTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let lie = tangent.lie(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
     /// assert_eq!((lie.entry(0, 0, 0, 0), lie.entry(0, 0, 1, 1)), (112.0, 4.0)); // 2⁴ (λ + 2μ), 2² λ
@@ -33,7 +34,8 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::MaterialTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{DeformationGradient, stress::tangents::MaterialTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let truesdell = tangent.truesdell(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
     /// assert_eq!(truesdell.entry(0, 0, 1, 1), 2.0); // 2² λ/J
@@ -52,7 +54,7 @@ impl<T: Real> FirstPiolaTangent<T> {
     /// # Example
     /// ```
     /// use piola_continuum::stress::tangents::MaterialTangent;
-    /// use piola_continuum::tensor::MajorSymmetric;
+    /// use piola_tensor::MajorSymmetric;
     /// use piola_continuum::{DeformationGradient, SecondPiola};
     /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let stress = SecondPiola::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
@@ -73,7 +75,8 @@ impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::LieTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{DeformationGradient, stress::tangents::LieTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let lie: LieTangent = LieTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// assert_eq!(lie.truesdell(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).entry(0, 0, 0, 0), 3.5); // 7/J
     /// # Ok::<(), piola_continuum::ContinuumError>(())
@@ -91,7 +94,8 @@ impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::LieTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{DeformationGradient, stress::tangents::LieTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let lie: LieTangent = LieTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let material = lie.material(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
     /// assert_eq!((material.entry(0, 0, 0, 0), material.entry(0, 0, 1, 1)), (0.4375, 0.25)); // 7/2⁴, 1/2²
@@ -127,7 +131,8 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::TruesdellTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{DeformationGradient, stress::tangents::TruesdellTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// assert_eq!(truesdell.lie(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).entry(0, 0, 0, 0), 14.0); // 7 J
     /// # Ok::<(), piola_continuum::ContinuumError>(())
@@ -142,7 +147,8 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::TruesdellTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{DeformationGradient, stress::tangents::TruesdellTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let material = truesdell.material(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
     /// assert_eq!(material.entry(0, 0, 0, 0), 0.875); // 7 J/2⁴
@@ -158,7 +164,8 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// let jaumann = truesdell.jaumann(&stress);
@@ -175,7 +182,8 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(truesdell.lower_convected(&stress).entry(0, 0, 0, 0), 47.0); // 7 + 4·10
@@ -191,7 +199,8 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let tangent = truesdell.cauchy_upper_convected(&CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
     /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (-9.0, 1.0)); // λ − T₁₁, λ − T₂₂
@@ -209,7 +218,8 @@ impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::JaumannTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::JaumannTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let jaumann: JaumannTangent = JaumannTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(jaumann.truesdell(&stress).entry(0, 0, 0, 0), -13.0); // 7 − 2·10
@@ -225,7 +235,8 @@ impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::JaumannTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::JaumannTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let jaumann: JaumannTangent = JaumannTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let tangent = jaumann.cauchy(&CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
     /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (-9.0, 1.0)); // λ − T₁₁, λ − T₂₂
@@ -243,7 +254,8 @@ impl<T: Real, Y: Symmetry> LowerConvectedTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::LowerConvectedTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::LowerConvectedTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let lower: LowerConvectedTangent = LowerConvectedTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// assert_eq!(lower.truesdell(&stress).entry(0, 0, 0, 0), -33.0); // 7 − 4·10
@@ -259,7 +271,8 @@ impl<T: Real, Y: Symmetry> LowerConvectedTangent<T, Y> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::LowerConvectedTangent, tensor::MajorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::LowerConvectedTangent};
+    /// use piola_tensor::MajorSymmetric;
     /// let lower: LowerConvectedTangent = LowerConvectedTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let tangent = lower.cauchy(&CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
     /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (-9.0, 1.0)); // λ − T₁₁, λ − T₂₂
@@ -277,7 +290,8 @@ impl<T: Real> CauchyJaumannTangent<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyJaumannTangent, tensor::MinorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyJaumannTangent};
+    /// use piola_tensor::MinorSymmetric;
     /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// let tangent = CauchyJaumannTangent(MinorSymmetric::zero()).kirchhoff(&stress);
     /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (10.0, 0.0)); // T₁₁, T₂₂
@@ -295,7 +309,8 @@ impl<T: Real> CauchyLowerConvectedTangent<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyLowerConvectedTangent, tensor::MinorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyLowerConvectedTangent};
+    /// use piola_tensor::MinorSymmetric;
     /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// let tangent = CauchyLowerConvectedTangent(MinorSymmetric::zero()).kirchhoff(&stress);
     /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (10.0, 0.0)); // T₁₁, T₂₂
@@ -313,7 +328,8 @@ impl<T: Real> CauchyUpperConvectedTangent<T> {
     ///
     /// # Example
     /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyUpperConvectedTangent, tensor::MinorSymmetric};
+    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyUpperConvectedTangent};
+    /// use piola_tensor::MinorSymmetric;
     /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
     /// let tangent = CauchyUpperConvectedTangent(MinorSymmetric::zero()).truesdell(&stress);
     /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (10.0, 0.0)); // T₁₁, T₂₂

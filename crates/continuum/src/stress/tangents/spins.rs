@@ -11,10 +11,10 @@ use super::spatial::volume_terms;
 use super::{
     CauchyGreenNaghdiTangent, CauchyLogarithmicTangent, GreenNaghdiTangent, JaumannTangent, LogarithmicTangent,
 };
+use crate::polar::StretchAnalysis;
 use crate::rates::{GradientRate, StretchRates, VelocityGradient};
-use crate::spectral::StretchAnalysis;
-use crate::tensor::{Minor, MinorSymmetric, PairSymmetric, Skew, Symmetry};
 use crate::{CauchyStress, Deformation, Symmetric};
+use piola_tensor::{Minor, MinorSymmetric, PairSymmetric, Skew, Symmetry};
 
 /// D ↦ Z T − T Z for the two spins Z of the stretch rates: polar, and logarithmic.
 #[inline(always)]
@@ -44,7 +44,7 @@ macro_rules! spinning {
             /// # Example
             /// ```
             /// use piola_continuum::stress::tangents::JaumannTangent;
-            /// use piola_continuum::tensor::MajorSymmetric;
+            /// use piola_tensor::MajorSymmetric;
             /// use piola_continuum::{CauchyStress, DeformationGradient};
             /// let jaumann: JaumannTangent = JaumannTangent(MajorSymmetric::isotropic(1.0, 3.0));
             /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
@@ -76,7 +76,7 @@ macro_rules! spinning {
             /// # Example
             /// ```
             #[doc = concat!("use piola_continuum::{CauchyStress, DeformationGradient, stress::tangents::", stringify!($name), "};")]
-            /// use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
+            /// use piola_tensor::{MajorSymmetric, PairSymmetric};
             #[doc = concat!("let tangent = ", stringify!($name), "(MajorSymmetric::isotropic(1.0, 3.0).minor());")]
             /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
             /// let jaumann = tangent.jaumann(&stress, &DeformationGradient::identity());
@@ -108,7 +108,7 @@ macro_rules! spinning {
             ///
             /// # Example
             /// ```
-            #[doc = concat!("use piola_continuum::{CauchyStress, stress::tangents::", stringify!($name), ", tensor::MinorSymmetric};")]
+            #[doc = concat!("use piola_tensor::MinorSymmetric; use piola_continuum::{CauchyStress, stress::tangents::", stringify!($name), "};")]
             /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
             #[doc = concat!("let tangent = ", stringify!($name), "(MinorSymmetric::zero()).cauchy(&stress);")]
             /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (-10.0, 0.0)); // −T₁₁, −T₂₂
@@ -126,7 +126,7 @@ macro_rules! spinning {
             ///
             /// # Example
             /// ```
-            #[doc = concat!("use piola_continuum::{CauchyStress, stress::tangents::", stringify!($cauchy), ", tensor::MinorSymmetric};")]
+            #[doc = concat!("use piola_tensor::MinorSymmetric; use piola_continuum::{CauchyStress, stress::tangents::", stringify!($cauchy), "};")]
             /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
             #[doc = concat!("let tangent = ", stringify!($cauchy), "(MinorSymmetric::zero()).kirchhoff(&stress);")]
             /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (10.0, 0.0)); // T₁₁, T₂₂

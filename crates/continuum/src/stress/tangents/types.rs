@@ -3,11 +3,12 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 
-use crate::rates::{
-    GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, Stretching, TruesdellRate, UpperConvectedRate,
+use crate::rates::RateOfDeformation;
+use crate::stress::rates::{
+    GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, TruesdellRate, UpperConvectedRate,
 };
-use crate::tensor::{FourthOrder, Major, MinorSymmetric, PairSymmetric, Symmetry};
 use crate::{CauchyStress, ContinuumError, KirchhoffStress, Symmetric};
+use piola_tensor::{FourthOrder, Major, MinorSymmetric, PairSymmetric, Symmetry};
 
 /// A tangent whose major symmetry is that of the law.
 macro_rules! symmetric_tangent {
@@ -38,12 +39,12 @@ macro_rules! symmetric_tangent {
             /// The tangent of the turned body, or of the turned basis: all four indices turned by Q.
             ///
             /// # Errors
-            /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+            /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
             ///
             /// # Example
             /// ```
             /// use nalgebra::Matrix3;
-            #[doc = concat!("use piola_continuum::{Symmetric, stress::tangents::", stringify!($name), ", tensor::MajorSymmetric};")]
+            #[doc = concat!("use piola_tensor::MajorSymmetric; use piola_continuum::{Symmetric, stress::tangents::", stringify!($name), "};")]
             /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
             /// let along_1 = MajorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0]));
             #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(along_1);")]
@@ -83,12 +84,13 @@ macro_rules! minor_tangent {
             /// The tangent of the turned body, or of the turned basis: all four indices turned by Q.
             ///
             /// # Errors
-            /// [`ContinuumError::NotFinite`], [`ContinuumError::NotARotation`].
+            /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
             ///
             /// # Example
             /// ```
             /// use nalgebra::Matrix3;
-            /// use piola_continuum::{Symmetric, tensor::MinorSymmetric};
+            /// use piola_continuum::Symmetric;
+            /// use piola_tensor::MinorSymmetric;
             #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
             /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
             /// let along_1 = Symmetric::diagonal([2.0, 0.0, 0.0]);
@@ -111,16 +113,17 @@ macro_rules! rate {
             ///
             /// # Example
             /// ```
-            /// use piola_continuum::{rates::Stretching, tensor::MajorSymmetric};
+            /// use piola_continuum::rates::RateOfDeformation;
+            /// use piola_tensor::MajorSymmetric;
             #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
             #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(MajorSymmetric::isotropic(1.0, 3.0).into());")]
-            /// let rate = tangent.rate(&Stretching::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0)?);
+            /// let rate = tangent.rate(&RateOfDeformation::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0)?);
             /// assert_eq!(rate.0.0.components, [7.0, 1.0, 1.0, 12.0, 0.0, 0.0]); // λ tr D 1 + 2μ D
             /// # Ok::<(), piola_continuum::ContinuumError>(())
             /// ```
             #[inline(always)]
             #[must_use]
-            pub fn rate(&self, stretching: &Stretching<T>) -> $objective<$stress<T>> {
+            pub fn rate(&self, stretching: &RateOfDeformation<T>) -> $objective<$stress<T>> {
                 $objective($stress(self.0.contract(&stretching.0)))
             }
         }
@@ -133,16 +136,17 @@ macro_rules! rate {
             ///
             /// # Example
             /// ```
-            /// use piola_continuum::{rates::Stretching, tensor::MajorSymmetric};
+            /// use piola_continuum::rates::RateOfDeformation;
+            /// use piola_tensor::MajorSymmetric;
             #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
             #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(MajorSymmetric::isotropic(1.0, 3.0).into());")]
-            /// let rate = tangent.rate(&Stretching::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0)?);
+            /// let rate = tangent.rate(&RateOfDeformation::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0)?);
             /// assert_eq!(rate.components, [7.0, 1.0, 1.0, 12.0, 0.0, 0.0]); // λ tr D 1 + 2μ D
             /// # Ok::<(), piola_continuum::ContinuumError>(())
             /// ```
             #[inline(always)]
             #[must_use]
-            pub fn rate(&self, stretching: &Stretching<T>) -> Symmetric<T> {
+            pub fn rate(&self, stretching: &RateOfDeformation<T>) -> Symmetric<T> {
                 self.0.contract(&stretching.0)
             }
         }
@@ -153,7 +157,7 @@ symmetric_tangent! {
     /// The material tangent C = ∂S/∂E = 2 ∂S/∂C: Ṡ = C : Ė. Pa.
     ///
     /// Entry `C_ABCD` is the derivative of `S_AB` with respect to `E_CD`, both of the symmetric pairs varied together
-    /// and by half each; in [`StiffnessMatrix`](crate::tensor::voigt::StiffnessMatrix) it multiplies engineering shears
+    /// and by half each; in [`StiffnessMatrix`](piola_tensor::voigt::StiffnessMatrix) it multiplies engineering shears
     /// as it is.
     ///
     /// # Example
@@ -161,7 +165,8 @@ symmetric_tangent! {
     /// ```
     /// use nalgebra::Matrix3;
     /// use piola_continuum::stress::tangents::{MaterialTangent, TruesdellTangent};
-    /// use piola_continuum::{DeformationGradient, tensor::MajorSymmetric};
+    /// use piola_continuum::DeformationGradient;
+    /// use piola_tensor::MajorSymmetric;
     /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
     /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[2.0, 1.0, 1.0].into()))?;
     /// let spatial: TruesdellTangent = tangent.truesdell(&stretch);
@@ -248,7 +253,8 @@ rate! {
 /// ```
 /// use nalgebra::Matrix3;
 /// use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
-/// use piola_continuum::{DeformationGradient, SecondPiola, tensor::MajorSymmetric};
+/// use piola_continuum::{DeformationGradient, SecondPiola};
+/// use piola_tensor::MajorSymmetric;
 /// let material: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
 /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[2.0, 1.0, 1.0].into()))?;
 /// let stress = SecondPiola::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
