@@ -107,7 +107,7 @@ pub enum SolidsError {
     #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
     BadPoints {
         /// All bad points, in order.
-        points: Vec<crate::batch::BadPoint>,
+        points: Vec<BadPoint>,
         /// The number of points of the batch.
         count: usize,
         /// How many good points took the slow path of the analysis of the stretches.
@@ -118,9 +118,19 @@ pub enum SolidsError {
     Continuum(#[from] ContinuumError),
 }
 
+#[cfg(feature = "batch")]
+/// A point of a batch at which something is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadPoint {
+    /// Which point, from 0.
+    pub index: usize,
+    /// What is wrong, as the law or the constructor of a single deformation says it.
+    pub error: SolidsError,
+}
+
 /// The first bad point in words.
 #[cfg(feature = "batch")]
-fn first_of(points: &[crate::batch::BadPoint]) -> String {
+fn first_of(points: &[BadPoint]) -> String {
     points.first().map_or_else(String::new, |point| format!("at point {}, {}", point.index, point.error))
 }
 

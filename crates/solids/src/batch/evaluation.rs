@@ -4,15 +4,7 @@ use piola_continuum::ContinuumError;
 use piola_continuum::batch::{self, BatchScalar, Deformations, Report, Requests};
 
 use crate::SolidsError;
-
-/// A point of a batch at which something is wrong.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BadPoint {
-    /// Which point, from 0.
-    pub index: usize,
-    /// What is wrong, as the law or the constructor of a single deformation says it.
-    pub error: SolidsError,
-}
+use crate::error::BadPoint;
 
 /// Computes the requested outputs at all points.
 ///

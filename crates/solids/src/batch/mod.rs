@@ -41,7 +41,8 @@ mod requests;
 mod tangents;
 mod together;
 
-pub use evaluation::{BadPoint, evaluate};
+pub use crate::error::BadPoint;
+pub use evaluation::evaluate;
 pub use requests::*;
 pub use tangents::*;
 pub use together::*;

@@ -5,7 +5,7 @@ use piola_continuum::tensor::rows::{Rows, cofactor, double_contraction, product,
 use piola_continuum::{Deformation, Symmetric};
 use piola_numerics::{Mask, Real};
 
-use super::{InvariantEnergy, Invariants, Slopes};
+use super::energy::{InvariantEnergy, Invariants, Slopes};
 
 /// Strains with components up to this size take the forms in which everything is as small as the strain.
 pub(super) const SMALL: f64 = 0.25;

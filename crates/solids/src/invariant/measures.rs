@@ -5,8 +5,8 @@ use piola_continuum::tensor::rows::{double_contraction, product, scaled, transpo
 use piola_continuum::{Deformation, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::{Mask, Real};
 
+use super::energy::{InvariantEnergy, Invariants, Slopes, invariants_of};
 use super::kinematics::{SMALL, largest_modulus, select_symmetric};
-use super::{InvariantEnergy, Invariants, Slopes, invariants_of};
 
 impl<T: Real> Invariants<T> {
     /// With I₁ and I₂ from F itself where `beside` does not hold.

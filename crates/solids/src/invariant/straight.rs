@@ -12,7 +12,7 @@ use piola_numerics::internal::Lanewise;
 use piola_numerics::linear::matrix3::rows_of;
 use piola_numerics::{Dual, Mask, Real};
 
-use super::InvariantEnergy;
+use super::energy::InvariantEnergy;
 use super::kinematics::Kinematics;
 use super::tangent::tangent;
 use crate::packed;

@@ -3,7 +3,7 @@
 use piola_continuum::spectral::{IsotropicFunction, Logarithm};
 use piola_numerics::{Mask, Real};
 
-use super::StretchEnergy;
+use super::energy::StretchEnergy;
 
 /// w(ln λ), whose sum over the stretches is the energy.
 pub(super) struct Part<'a, L>(pub(super) &'a L);

@@ -8,7 +8,7 @@ use piola_continuum::{FirstPiola, SecondPiola, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
 
-use super::{StretchEnergy, Volume, isochoric_scale};
+use super::energy::{StretchEnergy, Volume, isochoric_scale};
 
 /// The law in the principal frame.
 pub(super) struct Principal<T> {
