@@ -15,13 +15,13 @@ fn derivatives_into_memory_of_the_caller_allocate_nothing() {
     let mut workspace = Workspace::<f64>::with_values(N, N);
     let (mut vector, mut value, mut matrix) = ([0.0; N], [0.0; N], [0.0; N * N]);
     let (count, result) = allocations_in(|| {
-        derivatives::gradient_into(&Coupled, &x, &mut workspace, &mut vector)?;
-        derivatives::hessian_vector_product_into(&Coupled, &x, &v, &mut workspace, &mut vector)?;
-        derivatives::hessian_into(&Coupled, &x, &mut workspace, &mut vector, &mut matrix)?;
-        derivatives::directional(&Coupled, &x, &v, &mut workspace)?;
-        derivatives::mixed(&Coupled, &x, &v, &v, &mut workspace)?;
-        derivatives::jacobian_into(&CoupledGradient, &x, &mut workspace, &mut value, &mut matrix)?;
-        derivatives::jacobian_vector_product_into(&CoupledGradient, &x, &v, &mut workspace, &mut value, &mut vector)
+        derivatives::gradient_into(&mut workspace, &Coupled, &x, &mut vector)?;
+        derivatives::hessian_vector_product_into(&mut workspace, &Coupled, &x, &v, &mut vector)?;
+        derivatives::hessian_into(&mut workspace, &Coupled, &x, &mut vector, &mut matrix)?;
+        derivatives::directional(&mut workspace, &Coupled, &x, &v)?;
+        derivatives::mixed(&mut workspace, &Coupled, &x, &v, &v)?;
+        derivatives::jacobian_into(&mut workspace, &CoupledGradient, &x, &mut value, &mut matrix)?;
+        derivatives::jacobian_vector_product_into(&mut workspace, &CoupledGradient, &x, &v, &mut value, &mut vector)
     });
     assert_eq!((count, result), (0, Ok(())));
 }

@@ -86,7 +86,7 @@ pub struct Twist<T: Real, F> {
 /// The twist of a body in body components, of its reference point.
 ///
 /// # Example
-/// See [`Twist::new`].
+/// See [`BodyTwist::of_motion`].
 pub type BodyTwist<T> = Twist<T, InBody>;
 
 /// The twist of a body in space components, of its point at the origin.
@@ -97,13 +97,6 @@ pub type SpaceTwist<T> = Twist<T, InSpace>;
 
 impl<T: Real, F> Twist<T, F> {
     /// A twist of the given angular and linear velocity.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::BodyTwist;
-    /// assert_eq!(BodyTwist::new(Vector3::<f64>::x(), Vector3::z()).linear.z, 1.0);
-    /// ```
     #[inline]
     #[must_use]
     pub const fn new(angular: Vector3<T>, linear: Vector3<T>) -> Self {
@@ -111,12 +104,6 @@ impl<T: Real, F> Twist<T, F> {
     }
 
     /// No motion.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::BodyTwist;
-    /// assert_eq!(BodyTwist::<f64>::at_rest().angular.x, 0.0);
-    /// ```
     #[inline]
     #[must_use]
     pub fn at_rest() -> Self {
@@ -124,15 +111,6 @@ impl<T: Real, F> Twist<T, F> {
     }
 
     /// A constant twist in another scalar: all derivatives zero, the same in every lane.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::SpaceTwist;
-    /// use piola_numerics::Dual;
-    /// let joint: SpaceTwist<Dual<f64>> = SpaceTwist::constant(&SpaceTwist::new(Vector3::z(), Vector3::zeros()));
-    /// assert_eq!((joint.angular.z.value, joint.angular.z.tangent), (1.0, 0.0));
-    /// ```
     #[inline]
     #[must_use]
     pub fn constant(twist: &Twist<f64, F>) -> Self {
@@ -140,9 +118,6 @@ impl<T: Real, F> Twist<T, F> {
     }
 
     /// The twist times a number.
-    ///
-    /// # Example
-    /// See [`Twist`].
     #[inline]
     #[must_use]
     pub fn scaled(&self, factor: T) -> Self {
@@ -150,14 +125,6 @@ impl<T: Real, F> Twist<T, F> {
     }
 
     /// The sum of two twists of one kind.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::SpaceTwist;
-    /// let turn = SpaceTwist::new(Vector3::<f64>::z(), Vector3::zeros());
-    /// assert_eq!(turn.plus(&turn).angular.z, 2.0);
-    /// ```
     #[inline]
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
@@ -175,9 +142,6 @@ impl<T: Real, F> Twist<T, F> {
     ///
     /// # Accuracy
     /// A few ulps of |v|, at any angle.
-    ///
-    /// # Example
-    /// See [`Twist`].
     #[must_use]
     pub fn exponential(&self) -> BodyPose<T> {
         let turn = RotationVector(self.angular);
@@ -189,15 +153,6 @@ impl<T: Real, F> Twist<T, F> {
     ///
     /// # Accuracy
     /// A few ulps of ω and of |x^c|; of a half turn one of the two axes ±ω.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::BodyTwist;
-    /// let twist = BodyTwist::new(Vector3::new(0.0, 0.0, 1.0e-9_f64), Vector3::x());
-    /// let back = BodyTwist::logarithm(&twist.exponential());
-    /// assert!(back.angular == twist.angular && (back.linear - twist.linear).amax() <= f64::EPSILON);
-    /// ```
     #[must_use]
     pub fn logarithm(pose: &BodyPose<T>) -> Self {
         let turn = RotationVector::of_attitude(pose.attitude);
@@ -209,15 +164,6 @@ impl<T: Real, F> Twist<T, F> {
     ///
     /// ```text
     /// d/dt Ad_{exp(tξ)} η = [ξ, η] at t = 0
-    /// ```
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::SpaceTwist;
-    /// let turn = SpaceTwist::new(Vector3::<f64>::z(), Vector3::zeros());
-    /// let slide = SpaceTwist::new(Vector3::zeros(), Vector3::x());
-    /// assert_eq!(turn.commutator(&slide).linear, Vector3::y());
     /// ```
     #[must_use]
     pub fn commutator(&self, other: &Self) -> Self {
@@ -247,29 +193,12 @@ impl<T: Real> BodyTwist<T> {
     }
 
     /// The velocity of the body at a pose.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{BodyPose, BodyTwist};
-    /// let velocity = BodyTwist::new(Vector3::z(), Vector3::x()).velocity(&BodyPose::at_rest());
-    /// assert_eq!((velocity.velocity.x, velocity.angular_velocity.z), (1.0, 1.0));
-    /// ```
     #[must_use]
     pub fn velocity(&self, pose: &BodyPose<T>) -> BodyVelocity<T> {
         BodyVelocity { velocity: pose.attitude.to_space(&self.linear), angular_velocity: self.angular }
     }
 
     /// The same motion as a twist of space: `ξ_s = Ad_g ξ_b`.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{BodyPose, BodyTwist};
-    /// // Turning about its own axis at (1, 0, 0): a point of it at the origin would move along −e₂.
-    /// let pose = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
-    /// assert_eq!(BodyTwist::new(Vector3::z(), Vector3::zeros()).in_space(&pose).linear.y, -1.0);
-    /// ```
     #[must_use]
     pub fn in_space(&self, pose: &BodyPose<T>) -> SpaceTwist<T> {
         let angular = pose.attitude.to_space(&self.angular);
@@ -299,15 +228,6 @@ impl<T: Real> SpaceTwist<T> {
     }
 
     /// The velocity of the body at a pose.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{BodyPose, SpaceTwist};
-    /// let pose = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
-    /// let velocity = SpaceTwist::new(Vector3::z(), Vector3::zeros()).velocity(&pose);
-    /// assert_eq!(velocity.velocity, Vector3::y());
-    /// ```
     #[must_use]
     pub fn velocity(&self, pose: &BodyPose<T>) -> BodyVelocity<T> {
         BodyVelocity {
@@ -318,14 +238,6 @@ impl<T: Real> SpaceTwist<T> {
 
     /// The velocity of the embedded point that is at the place x: v + ω×x (m/s).
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::SpaceTwist;
-    /// let turn = SpaceTwist::new(Vector3::z() * 2.0, Vector3::zeros());
-    /// assert_eq!(turn.velocity_at(&Vector3::x()).y, 2.0);
-    /// ```
-    ///
     /// # Source
     /// W(2.19).
     #[inline]
@@ -335,14 +247,6 @@ impl<T: Real> SpaceTwist<T> {
     }
 
     /// The same motion as a twist of the body: `ξ_b = Ad_g⁻¹ ξ_s`.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{BodyPose, SpaceTwist};
-    /// let pose = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
-    /// assert_eq!(SpaceTwist::new(Vector3::z(), Vector3::zeros()).in_body(&pose).linear.y, 1.0);
-    /// ```
     #[must_use]
     pub fn in_body(&self, pose: &BodyPose<T>) -> BodyTwist<T> {
         let linear = pose.attitude.to_body(&self.velocity_at(&pose.position));
@@ -350,15 +254,6 @@ impl<T: Real> SpaceTwist<T> {
     }
 
     /// The twist carried along by a displacement g of space: `Ad_g ξ`, whose axis is the axis displaced.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{BodyPose, SpaceTwist};
-    /// let aside = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
-    /// let moved = SpaceTwist::new(Vector3::z(), Vector3::zeros()).displaced(&aside);
-    /// assert_eq!(moved.velocity_at(&Vector3::x()), Vector3::zeros());
-    /// ```
     #[inline]
     #[must_use]
     pub fn displaced(&self, by: &BodyPose<T>) -> Self {
@@ -371,14 +266,6 @@ impl<T: Real> SpaceTwist<T> {
 /// ```text
 /// Ad_g = ⎡ R      0⎤    R = Qᵀ
 ///        ⎣ x^c×R  R⎦
-/// ```
-///
-/// # Example
-/// ```
-/// # use nalgebra::Vector3;
-/// # use piola_kinematics::{BodyPose, twist::adjoint};
-/// let aside = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
-/// assert_eq!(adjoint(&aside)[(4, 2)], -1.0); // turning about z at (1, 0, 0)
 /// ```
 #[must_use]
 pub fn adjoint<T: Real>(pose: &BodyPose<T>) -> Matrix6<T> {

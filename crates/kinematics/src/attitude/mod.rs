@@ -61,12 +61,6 @@ pub struct Attitude<T> {
 
 impl<T: Real> Attitude<T> {
     /// The attitude whose body basis is the space basis: q = 1.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// assert_eq!(Attitude::<f64>::identity().w, 1.0);
-    /// ```
     #[inline]
     #[must_use]
     pub fn identity() -> Self {
@@ -74,12 +68,6 @@ impl<T: Real> Attitude<T> {
     }
 
     /// Rotation by `angle` (rad) about the first axis.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// assert_eq!(Attitude::about_x(0.0_f64), Attitude::identity());
-    /// ```
     #[inline]
     #[must_use]
     pub fn about_x(angle: T) -> Self {
@@ -88,12 +76,6 @@ impl<T: Real> Attitude<T> {
     }
 
     /// Rotation by `angle` (rad) about the second axis.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// assert_eq!(Attitude::about_y(0.0_f64), Attitude::identity());
-    /// ```
     #[inline]
     #[must_use]
     pub fn about_y(angle: T) -> Self {
@@ -102,12 +84,6 @@ impl<T: Real> Attitude<T> {
     }
 
     /// Rotation by `angle` (rad) about the third axis.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// assert_eq!(Attitude::about_z(std::f64::consts::PI).z, 1.0);
-    /// ```
     #[inline]
     #[must_use]
     pub fn about_z(angle: T) -> Self {
@@ -122,13 +98,6 @@ impl<T: Real> Attitude<T> {
     /// ```
     ///
     /// Other sequences: [`EulerAngles::attitude`](crate::EulerAngles::attitude).
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// // Opposite turns about the same axis cancel.
-    /// assert_eq!(Attitude::from_euler_zyz([0.7_f64, 0.0, -0.7]), Attitude::identity());
-    /// ```
     ///
     /// # Source
     /// W(2.22–2.25).
@@ -184,14 +153,6 @@ impl<T: Real> Attitude<T> {
     ///
     /// # Accuracy
     /// A few ulps, also for tiny rotations; derivatives are finite at the identity.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::Attitude;
-    /// let tiny = Vector3::new(3.0e-200_f64, 0.0, 0.0);
-    /// assert_eq!(Attitude::from_rotation_vector(&tiny).rotation_vector(), tiny);
-    /// ```
     #[must_use]
     pub fn rotation_vector(self) -> Vector3<T> {
         let negative = self.w.less_than(T::zero());
@@ -215,14 +176,6 @@ impl<T: Real> Attitude<T> {
 
     /// The attitude reached by turning first as `other` says and then, in space, as `self` says: the
     /// Hamilton product q p. Equivalently `other` is taken about the axes that `self` has reached.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// let half_turn = Attitude::about_x(std::f64::consts::PI);
-    /// let full_turn = half_turn.product(half_turn);
-    /// assert!((full_turn.w + 1.0).abs() <= f64::EPSILON); // q and −q are one attitude
-    /// ```
     #[inline]
     #[must_use]
     pub fn product(self, other: Self) -> Self {
@@ -231,12 +184,6 @@ impl<T: Real> Attitude<T> {
     }
 
     /// The inverse rotation, q*.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// assert_eq!(Attitude::about_z(0.3).conjugate(), Attitude::about_z(-0.3));
-    /// ```
     #[inline]
     #[must_use]
     pub fn conjugate(self) -> Self {
@@ -248,14 +195,6 @@ impl<T: Real> Attitude<T> {
     /// ```text
     /// v_space = v + 2 w u×v + 2 u×(u×v),   u = (x, y, z)
     /// ```
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::Attitude;
-    /// let half_turn = Attitude { w: 0.0, x: 0.0, y: 0.0, z: 1.0 };
-    /// assert_eq!(half_turn.to_space(&Vector3::new(1.0, 2.0, 3.0)), Vector3::new(-1.0, -2.0, 3.0));
-    /// ```
     #[inline]
     #[must_use]
     pub fn to_space(self, in_body: &Vector3<T>) -> Vector3<T> {
@@ -265,14 +204,6 @@ impl<T: Real> Attitude<T> {
     }
 
     /// Body components of a vector given by its space components: `v_body = Q v_space = q* v_space q`.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::Attitude;
-    /// let half_turn = Attitude { w: 0.0, x: 0.0, y: 0.0, z: 1.0 };
-    /// assert_eq!(half_turn.to_body(&Vector3::new(1.0, 2.0, 3.0)), Vector3::new(-1.0, -2.0, 3.0));
-    /// ```
     #[inline]
     #[must_use]
     pub fn to_body(self, in_space: &Vector3<T>) -> Vector3<T> {
@@ -283,14 +214,6 @@ impl<T: Real> Attitude<T> {
     /// components of `f_i`.
     ///
     /// Mind the direction: nalgebra's rotation of the same attitude, body to space, is Qᵀ.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// // A quarter turn about z: f₁ = e₂, so the first row is (0, 1, 0).
-    /// let q = Attitude::about_z(std::f64::consts::FRAC_PI_2).to_matrix();
-    /// assert!((q[(0, 1)] - 1.0).abs() <= f64::EPSILON);
-    /// ```
     ///
     /// # Source
     /// W(2.22).
@@ -316,14 +239,6 @@ impl<T: Real> Attitude<T> {
     /// The rate may be the derivative along any parameter: with ∂q/∂q^Δ the result is the angular
     /// velocity `ω_Δ` of the tangent vector `h_Δ`. With q̈ it is ω̇, since q̇* q̇ has no vector part.
     ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// // At q = 1, q̇ = ½ω.
-    /// let omega = Attitude::identity().angular_velocity_in_body([0.0, 0.5, 1.0, 1.5]);
-    /// assert_eq!((omega.x, omega.y, omega.z), (1.0, 2.0, 3.0));
-    /// ```
-    ///
     /// # Source
     /// W(2.13–2.14).
     #[inline]
@@ -335,13 +250,6 @@ impl<T: Real> Attitude<T> {
 
     /// Angular velocity in space components from the quaternion's rate (w, x, y, z)·: ω = 2 q̇ q*.
     ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// let omega = Attitude::identity().angular_velocity_in_space([0.0, 0.5, 1.0, 1.5]);
-    /// assert_eq!((omega.x, omega.y, omega.z), (1.0, 2.0, 3.0));
-    /// ```
-    ///
     /// # Source
     /// W(2.13–2.14).
     #[inline]
@@ -352,14 +260,6 @@ impl<T: Real> Attitude<T> {
     }
 
     /// The quaternion's rate (w, x, y, z)· at an angular velocity in body components: q̇ = ½ q ω.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::Attitude;
-    /// let rate = Attitude::identity().rate(&Vector3::new(1.0, 2.0, 3.0));
-    /// assert_eq!(rate, [0.0, 0.5, 1.0, 1.5]);
-    /// ```
     ///
     /// # Source
     /// W(2.13).
@@ -374,13 +274,6 @@ impl<T: Real> Attitude<T> {
     ///
     /// A quaternion of length zero has no nearest attitude: the result is not finite. Data from outside
     /// goes through [`from_quaternion`](Attitude::from_quaternion), which refuses it.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// let attitude = Attitude { w: 0.0, x: 3.0, y: 0.0, z: 4.0_f64 }.normalise();
-    /// assert!((attitude.z - 0.8).abs() <= f64::EPSILON);
-    /// ```
     #[inline]
     #[must_use]
     pub fn normalise(self) -> Self {
@@ -389,12 +282,6 @@ impl<T: Real> Attitude<T> {
     }
 
     /// w² + x² + y² + z²: one, but for rounding.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// assert_eq!(Attitude { w: 0.0, x: 3.0, y: 0.0, z: 4.0 }.squared_length(), 25.0);
-    /// ```
     #[inline]
     #[must_use]
     pub fn squared_length(self) -> T {
@@ -402,14 +289,6 @@ impl<T: Real> Attitude<T> {
     }
 
     /// A constant attitude in another scalar: all derivatives zero, the same in every lane.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// use piola_numerics::Dual;
-    /// let attitude: Attitude<Dual<f64>> = Attitude::constant(Attitude::about_x(0.5));
-    /// assert_eq!(attitude.x.tangent, 0.0);
-    /// ```
     #[inline]
     #[must_use]
     pub fn constant(attitude: Attitude<f64>) -> Self {

@@ -349,12 +349,6 @@ impl<T: Element, const N: usize> Lanes<T, N> {
     }
 
     /// The first N numbers of `values`; lanes beyond its end get `fill`.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_numerics::Lanes;
-    /// assert_eq!(Lanes::<f64, 4>::load(&[1.0, 2.0, 3.0], 0.0), Lanes([1.0, 2.0, 3.0, 0.0]));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn load(values: &[T], fill: T) -> Self {
@@ -369,14 +363,6 @@ impl<T: Element, const N: usize> Lanes<T, N> {
     }
 
     /// Writes the lanes to the start of `values`, as many as it has room for.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_numerics::Lanes;
-    /// let mut three = [0.0; 3];
-    /// Lanes([1.0, 2.0, 3.0, 4.0]).store(&mut three);
-    /// assert_eq!(three, [1.0, 2.0, 3.0]);
-    /// ```
     #[inline(always)]
     pub fn store(self, values: &mut [T]) {
         if let Some(all) = values.first_chunk_mut::<N>() {

@@ -10,7 +10,7 @@
 //!
 //! ```
 //! use nalgebra::Vector3;
-//! use piola_kinematics::{Holonomic, Placement};
+//! use piola_kinematics::{Holonomic, Placement, placement};
 //! use piola_numerics::Real;
 //!
 //! /// A pendulum in the plane x–z; q = [angle from the vertical].
@@ -23,6 +23,7 @@
 //!         bodies.particle(self.mass, Vector3::new(length * s, T::zero(), -length * c));
 //!     }
 //! }
+//! assert_eq!(placement::count(&Pendulum { mass: 1.0, length: 2.0 }, &[0.5], 0.0).particles, 1);
 //! ```
 //!
 //! # Which one?
@@ -81,10 +82,7 @@ impl<S: Holonomic> Holonomic for &S {
     }
 }
 
-/// How many parts a system has.
-///
-/// # Example
-/// See [`count`].
+/// How many parts a system has: the result of [`count`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct PartCount {
     /// Particles.
@@ -103,20 +101,6 @@ impl<T: Real> Placement<T> for PartCount {
 }
 
 /// How many particles and bodies a system places.
-///
-/// # Example
-/// ```
-/// # use nalgebra::Vector3;
-/// # use piola_kinematics::{Holonomic, Placement, placement};
-/// # use piola_numerics::Real;
-/// struct Free;
-/// impl Holonomic for Free {
-///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-///         bodies.particle(1.0, Vector3::new(q[0], q[1], q[2]));
-///     }
-/// }
-/// assert_eq!(placement::count(&Free, &[0.0; 3], 0.0).particles, 1);
-/// ```
 #[must_use]
 pub fn count<T: Real>(system: &impl Holonomic, q: &[T], t: T) -> PartCount {
     let mut parts = PartCount::default();

@@ -75,9 +75,6 @@ pub struct EulerAngles<T> {
 
 impl<T> EulerAngles<T> {
     /// The angles z–y–z.
-    ///
-    /// # Example
-    /// See [`EulerAngles`].
     #[inline]
     #[must_use]
     pub const fn zyz(theta: [T; 3]) -> Self {
@@ -85,14 +82,6 @@ impl<T> EulerAngles<T> {
     }
 
     /// Angles about the axes of a sequence.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::{Attitude, EulerAngles, EulerSequence};
-    /// // Yaw, pitch and roll: with a yaw alone the nose, f₁, turns towards e₂.
-    /// let yawed = EulerAngles::new(EulerSequence::Zyx, [0.25, 0.0, 0.0]);
-    /// assert_eq!(yawed.attitude(), Attitude::about_z(0.25));
-    /// ```
     #[inline]
     #[must_use]
     pub const fn new(sequence: EulerSequence, theta: [T; 3]) -> Self {
@@ -180,13 +169,6 @@ impl<T: Real> Canonical<T> {
 impl<T: Real> EulerAngles<T> {
     /// The matrix Q: `f_i = Q_ij e_j`, `v_body = Q v_space`.
     ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::EulerAngles;
-    /// let q = EulerAngles::zyz([0.0, 0.5, 0.0]).matrix();
-    /// assert_eq!(q[(2, 0)], 0.5_f64.sin()); // f₃ leans towards e₁
-    /// ```
-    ///
     /// # Source
     /// W(2.25).
     #[must_use]
@@ -205,13 +187,6 @@ impl<T: Real> EulerAngles<T> {
 
     /// The matrix W: `ω_body = W θ̇`.
     ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::EulerAngles;
-    /// let w = EulerAngles::zyz([0.3, 0.5, 0.0]).rate_matrix();
-    /// assert_eq!(w[(2, 0)], 0.5_f64.cos());
-    /// ```
-    ///
     /// # Source
     /// W(2.28).
     #[must_use]
@@ -225,14 +200,6 @@ impl<T: Real> EulerAngles<T> {
     /// The matrix of the space components: `ω_space = W_space θ̇`, `W_space = Qᵀ W`. Its columns are the axes
     /// of the three turns.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::EulerAngles;
-    /// let w = EulerAngles::zyz([0.3, 0.5, 0.7]).rate_matrix_in_space();
-    /// assert_eq!(w.column(0), Vector3::z());
-    /// ```
-    ///
     /// # Source
     /// W(2.26).
     #[must_use]
@@ -245,12 +212,6 @@ impl<T: Real> EulerAngles<T> {
     }
 
     /// det W: −sin θ² for z–y–z and all Eulerian sequences, ±cos θ² for those of Tait and Bryan.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::EulerAngles;
-    /// assert_eq!(EulerAngles::zyz([0.3, 0.0, 0.2]).rate_matrix_determinant(), 0.0);
-    /// ```
     #[must_use]
     pub fn rate_matrix_determinant(&self) -> T {
         let canonical = Canonical::of(self);
@@ -258,13 +219,6 @@ impl<T: Real> EulerAngles<T> {
     }
 
     /// cond W = (1 + |c₂|)/|s₂| in the spectral norm; infinite at a gimbal point.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::EulerAngles;
-    /// let near_gimbal = EulerAngles::zyz([0.0, 1.0e-8_f64, 0.0]);
-    /// assert!((near_gimbal.condition_number() / 2.0e8 - 1.0).abs() <= f64::EPSILON);
-    /// ```
     #[must_use]
     pub fn condition_number(&self) -> T {
         // W has the singular values √(1 + |c₂|), 1, √(1 − |c₂|).
@@ -273,9 +227,6 @@ impl<T: Real> EulerAngles<T> {
     }
 
     /// Angular velocity in body components, ω = W θ̇ (rad/s).
-    ///
-    /// # Example
-    /// See [`EulerAngles`].
     ///
     /// # Source
     /// W(2.26–2.28).
@@ -286,13 +237,6 @@ impl<T: Real> EulerAngles<T> {
     }
 
     /// Angular velocity in space components, θ̇¹ e₃ + θ̇² ē₂ + θ̇³ f₃ (rad/s).
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::EulerAngles;
-    /// let top = EulerAngles::zyz([0.4, 0.5, 0.6]);
-    /// assert_eq!(top.angular_velocity_in_space([7.0, 0.0, 0.0]).z, 7.0);
-    /// ```
     ///
     /// # Source
     /// W(2.26).
@@ -306,15 +250,6 @@ impl<T: Real> EulerAngles<T> {
     ///
     /// These are also the body components of the rate of ω in space, because ω×ω = 0.
     ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::EulerAngles;
-    /// // Steady precession of a spinning top: ω̇ = θ̇¹ e₃ × θ̇³ f₃.
-    /// let top = EulerAngles::zyz([0.0, std::f64::consts::FRAC_PI_2, 0.0]);
-    /// let rate = top.angular_acceleration_in_body([2.0, 0.0, 3.0], [0.0; 3]);
-    /// assert_eq!(rate.y, 6.0);
-    /// ```
-    ///
     /// # Source
     /// W(2.28), differentiated.
     #[must_use]
@@ -325,14 +260,6 @@ impl<T: Real> EulerAngles<T> {
     }
 
     /// Rate of the space components of ω (rad/s²).
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::EulerAngles;
-    /// let top = EulerAngles::zyz([0.0, std::f64::consts::FRAC_PI_2, 0.0]);
-    /// let rate = top.angular_acceleration_in_space([2.0, 0.0, 3.0], [0.0; 3]);
-    /// assert_eq!(rate.y, 6.0);
-    /// ```
     ///
     /// # Source
     /// W(2.26), differentiated.
@@ -349,12 +276,6 @@ impl<T: Real> EulerAngles<T> {
     ///
     /// # Accuracy
     /// A few ulps of one; of its vector part where all angles are small.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::{Attitude, EulerAngles};
-    /// assert_eq!(EulerAngles::zyz([0.0_f64; 3]).attitude(), Attitude::identity());
-    /// ```
     ///
     /// # Source
     /// W(2.22).

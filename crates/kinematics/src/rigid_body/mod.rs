@@ -35,6 +35,9 @@ pub use motion::{BodyMotion, BodyPose, BodyVelocity};
 /// let body = RigidBody::new(2.0, Inertia::principal([1.0, 1.0, 0.5])?)?;
 /// let energy = body.kinetic_energy(&Vector3::new(3.0, 0.0, 0.0), &Vector3::new(0.0, 0.0, 4.0));
 /// assert_eq!(energy, 9.0 + 4.0); // ½·2·3² + ½·½·4²
+/// // Torque-free only about a principal axis: here (I₃ − I₂) ω₂ ω₃ = −½·3·4 about the first.
+/// let torque = body.spin_rate_in_body(&Vector3::new(0.0, 3.0, 4.0), &Vector3::zeros());
+/// assert_eq!(torque, Vector3::new(-6.0, 0.0, 0.0));
 /// # Ok::<(), piola_kinematics::KinematicsError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,27 +53,12 @@ impl RigidBody {
     ///
     /// # Errors
     /// [`KinematicsError::NotFinite`]; [`KinematicsError::NonPositiveMass`] unless 0 < mass.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::{Inertia, RigidBody};
-    /// let inertia = Inertia::principal([1.0, 1.0, 0.5])?;
-    /// assert!(RigidBody::new(-1.0, inertia).is_err());
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn new(mass: f64, inertia: Inertia) -> Result<Self, KinematicsError> {
         crate::error::positive_mass(mass)?;
         Ok(Self { mass, inertia })
     }
 
     /// Mass M (kg).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::{Inertia, RigidBody};
-    /// assert_eq!(RigidBody::new(2.0, Inertia::principal([1.0, 1.0, 0.5])?)?.mass(), 2.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn mass(&self) -> f64 {
@@ -78,14 +66,6 @@ impl RigidBody {
     }
 
     /// Inertia tensor I about the centre of mass.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::{Inertia, RigidBody};
-    /// let inertia = Inertia::principal([1.0, 1.0, 0.5])?;
-    /// assert_eq!(RigidBody::new(2.0, inertia)?.inertia(), &inertia);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn inertia(&self) -> &Inertia {
@@ -103,9 +83,6 @@ impl RigidBody {
     /// | ω | `angular_velocity_in_body` | 3 | rad/s |
     /// | E | returned | scalar | J |
     ///
-    /// # Example
-    /// See [`RigidBody`].
-    ///
     /// # Source
     /// W(2.40).
     #[inline]
@@ -117,17 +94,6 @@ impl RigidBody {
     }
 
     /// Rate of kinetic energy, dE/dt = M v^c·a^c + ω·I ω̇ (W).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::{Inertia, RigidBody};
-    /// let body = RigidBody::new(2.0, Inertia::principal([1.0, 1.0, 0.5])?)?;
-    /// let (v, a) = (Vector3::new(3.0, 0.0, 0.0), Vector3::x());
-    /// let (spin, spin_up) = (Vector3::new(0.0, 0.0, 4.0), Vector3::z());
-    /// assert_eq!(body.kinetic_energy_rate(&v, &a, &spin, &spin_up), 6.0 + 2.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(2.41).
@@ -146,15 +112,6 @@ impl RigidBody {
 
     /// Momentum L = M v^c (kg m/s).
     ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::{Inertia, RigidBody};
-    /// let body = RigidBody::new(2.0, Inertia::principal([1.0, 1.0, 0.5])?)?;
-    /// assert_eq!(body.momentum(&Vector3::new(3.0, 0.0, 0.0)).x, 6.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
-    ///
     /// # Source
     /// W(2.35).
     #[inline]
@@ -164,15 +121,6 @@ impl RigidBody {
     }
 
     /// Angular momentum about the centre of mass in body components, I ω (kg m²/s).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::{Inertia, RigidBody};
-    /// let body = RigidBody::new(2.0, Inertia::principal([1.0, 1.0, 0.5])?)?;
-    /// assert_eq!(body.spin_in_body(&Vector3::new(0.0, 0.0, 4.0)).z, 2.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(2.35).
@@ -184,17 +132,6 @@ impl RigidBody {
 
     /// Body components of the rate of angular momentum about the centre of mass, I ω̇ + ω×I ω (N m):
     /// the torque of Euler's equations.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::{Inertia, RigidBody};
-    /// // Torque-free only about a principal axis: here (I₃ − I₂) ω₂ ω₃ = −½·3·4 about the first.
-    /// let body = RigidBody::new(2.0, Inertia::principal([1.0, 1.0, 0.5])?)?;
-    /// let rate = body.spin_rate_in_body(&Vector3::new(0.0, 3.0, 4.0), &Vector3::zeros());
-    /// assert_eq!(rate, Vector3::new(-6.0, 0.0, 0.0));
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(2.39), W(4.8).
@@ -215,19 +152,6 @@ impl RigidBody {
     /// H = M (x^c − o)×v^c + I ω
     /// ```
     ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::{BodyMotion, Inertia, RigidBody};
-    /// let body = RigidBody::new(2.0, Inertia::principal([1.0, 1.0, 0.5])?)?;
-    /// let mut motion = BodyMotion::at_rest();
-    /// motion.position.x = 1.0;
-    /// motion.velocity.y = 3.0;
-    /// motion.angular_velocity.z = 4.0;
-    /// assert_eq!(body.angular_momentum(&motion, &Vector3::zeros()).z, 6.0 + 2.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
-    ///
     /// # Source
     /// W(2.35).
     #[must_use]
@@ -241,18 +165,6 @@ impl RigidBody {
     ///
     /// ```text
     /// dH/dt = M (x^c − o)×a^c + I ω̇ + ω×I ω
-    /// ```
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::{BodyMotion, Inertia, RigidBody};
-    /// let body = RigidBody::new(2.0, Inertia::principal([1.0, 1.0, 0.5])?)?;
-    /// let mut motion = BodyMotion::at_rest();
-    /// motion.position.x = 1.0;
-    /// motion.acceleration.y = 3.0;
-    /// assert_eq!(body.angular_momentum_rate(&motion, &Vector3::zeros()).z, 6.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
     ///
     /// # Source
