@@ -16,7 +16,7 @@ use piola_benches::chain::{Chain, GRAVITY, Links, LinksWork, NUM_DUAL};
 use piola_benches::golden_systems::{self as by_hand, Case};
 use piola_benches::notes::Notes;
 use piola_benches::problems::DoublePendulum;
-use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Placement, Potential, Workspace};
+use piola_lagrangian::{Forces, Holonomic, Lagrangian, Placement, Potential, Workspace};
 use piola_integrators::Field as _;
 use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_numerics::Real;

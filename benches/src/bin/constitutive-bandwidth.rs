@@ -11,11 +11,11 @@ use std::time::Instant;
 use piola_benches::constitutive::WithoutTangent;
 use piola_benches::constitutive::laws;
 use piola_benches::continuum::ordinary_deformations;
-use piola_constitutive::batch;
-use piola_constitutive::solids::isochoric::{Gent, NeoHookean, Yeoh};
-use piola_constitutive::solids::volumetric::Quadratic;
-use piola_constitutive::solids::{Compressible, ElasticConstants, Hyperelastic, LinearElastic, SaintVenantKirchhoff};
-use piola_continuum::batch::{Gradients, LaneBlocks};
+use piola_solids::batch;
+use piola_solids::isochoric::{Gent, NeoHookean, Yeoh};
+use piola_solids::volumetric::Quadratic;
+use piola_solids::{Compressible, ElasticConstants, Hyperelastic, LinearElastic, SaintVenantKirchhoff};
+use piola_batch::{Gradients, LaneBlocks};
 
 const POINTS: usize = 1_000_000;
 const BLOCK: usize = 8;

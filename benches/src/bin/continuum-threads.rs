@@ -10,7 +10,8 @@ use std::time::Instant;
 
 use nalgebra::Matrix3;
 use piola_benches::continuum::{methods, ordinary_deformations};
-use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola, Symmetric, batch};
+use ::piola_batch;
+use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola, Symmetric};
 
 /// Inputs and outputs of both requests.
 struct Points<'a> {

@@ -12,8 +12,8 @@ use piola_benches::work_precision::{
     Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, dormand_prince, gauss_legendre,
     measure, peer_methods,
 };
-use piola_dynamics::gravitation::Gravitation;
-use piola_dynamics::lagrangian::Lagrangian;
+use piola_gravitation::Gravitation;
+use piola_lagrangian::Lagrangian;
 use piola_integrators::Order;
 use serde_json::Value;
 

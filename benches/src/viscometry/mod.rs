@@ -7,10 +7,8 @@ pub mod problems;
 pub mod sheet;
 pub mod truth;
 
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fluids::{
-    CarreauYasuda, ExponentialDamping, Giesekus, HerschelBulkley, Kbkz, PowerLaw, Relaxation,
-};
+use piola_solids::SolidsError;
+use piola_fluids::{CarreauYasuda, ExponentialDamping, Giesekus, HerschelBulkley, Kbkz, PowerLaw, Relaxation};
 
 /// A fluid whose flows are closed.
 ///

@@ -20,7 +20,7 @@ pub mod stretches;
 use std::error::Error;
 
 use nalgebra::{Matrix3, SMatrix};
-use piola_constitutive::solids::Hyperelastic;
+use piola_solids::Hyperelastic;
 use piola_continuum::DeformationGradient;
 use piola_testkit::relative_error;
 
