@@ -1,6 +1,9 @@
 //! Violated conditions of laws of solids: each variant names one.
 
+#[cfg(feature = "batch")]
+use piola_batch::BatchError;
 use piola_continuum::ContinuumError;
+use piola_tensor::TensorError;
 
 /// A violated condition of a law of a solid or of a constraint.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -107,7 +110,7 @@ pub enum SolidsError {
     #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
     BadPoints {
         /// All bad points, in order.
-        points: Vec<crate::batch::BadPoint>,
+        points: Vec<BadPoint>,
         /// The number of points of the batch.
         count: usize,
         /// How many good points took the slow path of the analysis of the stretches.
@@ -116,11 +119,44 @@ pub enum SolidsError {
     /// The deformation or stress itself is refused.
     #[error(transparent)]
     Continuum(#[from] ContinuumError),
+    /// A view of a batch is refused.
+    #[cfg(feature = "batch")]
+    #[error(transparent)]
+    Batch(BatchError),
+}
+
+impl From<TensorError> for SolidsError {
+    fn from(error: TensorError) -> Self {
+        ContinuumError::from(error).into()
+    }
+}
+
+#[cfg(feature = "batch")]
+impl From<BatchError> for SolidsError {
+    fn from(error: BatchError) -> Self {
+        match error {
+            BatchError::Continuum(error) => error.into(),
+            BatchError::NotFinite { quantity, index, value } => {
+                ContinuumError::NotFinite { quantity, index, value }.into()
+            }
+            other => Self::Batch(other),
+        }
+    }
+}
+
+#[cfg(feature = "batch")]
+/// A point of a batch at which something is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadPoint {
+    /// Which point, from 0.
+    pub index: usize,
+    /// What is wrong, as the law or the constructor of a single deformation says it.
+    pub error: SolidsError,
 }
 
 /// The first bad point in words.
 #[cfg(feature = "batch")]
-fn first_of(points: &[crate::batch::BadPoint]) -> String {
+fn first_of(points: &[BadPoint]) -> String {
     points.first().map_or_else(String::new, |point| format!("at point {}, {}", point.index, point.error))
 }
 

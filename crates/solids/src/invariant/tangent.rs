@@ -2,12 +2,12 @@
 
 use piola_continuum::Symmetric;
 use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::tensor::FourthOrder;
-use piola_continuum::tensor::rows::{Rows, product, product_transposed};
 use piola_numerics::Real;
+use piola_tensor::FourthOrder;
+use piola_tensor::internal::rows::{Rows, product, product_transposed};
 
+use super::energy::{Curvatures, InvariantEnergy, Slopes};
 use super::kinematics::Kinematics;
-use super::{Curvatures, InvariantEnergy, Slopes};
 
 #[inline(always)]
 fn flat<T: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> [T; 9] {

@@ -15,104 +15,26 @@
 //! ```
 //! Square brackets are divided differences, finite for equal stretches. No evaluation fails, whatever the stretches.
 
-use piola_continuum::spectral::StretchAnalysis;
+use piola_continuum::polar::StretchAnalysis;
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
-use piola_continuum::tensor::FourthOrder;
-use piola_continuum::tensor::rows::{Rows, product, scaled, sum};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Gradient, Real};
+use piola_tensor::FourthOrder;
+use piola_tensor::internal::rows::{Rows, product, scaled, sum};
 
-use super::known_volume::Known;
-use crate::SolidsError;
+use super::known_volume::KnownVolume;
 
+mod energy;
 mod isochoric;
 mod parts;
 mod principal;
 
+use energy::isochoric_scale;
+pub use energy::{StretchEnergy, Volume};
 use isochoric::Isochoric;
 use parts::{Part, Stress};
 use principal::{Principal, tangent};
-
-/// The volume as its part U(J) of an energy wants it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Volume<T> {
-    /// ln J.
-    pub logarithm: T,
-    /// J − 1.
-    pub change: T,
-    /// J.
-    pub jacobian: T,
-}
-
-impl<T: Real> Volume<T> {
-    /// That of F or ∇u.
-    #[inline(always)]
-    #[must_use]
-    pub fn of(deformation: &impl Deformation<T>) -> Self {
-        Self {
-            logarithm: deformation.ln_jacobian(),
-            change: deformation.volume_change(),
-            jacobian: deformation.jacobian(),
-        }
-    }
-}
-
-/// An energy Σ w(ln λₐ) + U(J) with its derivatives in closed form.
-pub trait StretchEnergy {
-    /// Whether w acts on the isochoric part J^(−1/3) F of the deformation.
-    const ISOCHORIC: bool;
-
-    /// Refuses deformations at which the law has no answer.
-    ///
-    /// # Errors
-    /// [`SolidsError::BeyondLimit`]; most laws have no limit.
-    #[inline(always)]
-    fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
-        Ok(())
-    }
-
-    /// Whether the body keeps its volume.
-    #[must_use]
-    fn is_incompressible(&self) -> bool {
-        false
-    }
-
-    /// w(x), J/m³, w(0) = w′(0) = 0, without cancellation near 0.
-    #[must_use]
-    fn part<T: Real>(&self, x: T) -> T;
-
-    /// w′(x), Pa, without cancellation near 0.
-    #[must_use]
-    fn slope<T: Real>(&self, x: T) -> T;
-
-    /// w″(x), Pa.
-    #[must_use]
-    fn curvature<T: Real>(&self, x: T) -> T;
-
-    /// w″(0), Pa.
-    #[inline(always)]
-    #[must_use]
-    fn curvature_at_rest<T: Real>(&self) -> T {
-        self.curvature(T::zero())
-    }
-
-    /// w′[x, y] = (w′(x) − w′(y))/(x − y), w″(x) for x = y.
-    #[must_use]
-    fn secant<T: Real>(&self, x: T, y: T) -> T;
-
-    /// U(J), J/m³, without cancellation.
-    #[must_use]
-    fn volume_energy<T: Real>(&self, volume: &Volume<T>) -> T;
-
-    /// J U′, Pa, without cancellation.
-    #[must_use]
-    fn volume_slope<T: Real>(&self, volume: &Volume<T>) -> T;
-
-    /// J (J U′)′, Pa.
-    #[must_use]
-    fn volume_curvature<T: Real>(&self, volume: &Volume<T>) -> T;
-}
 
 /// The stretches that w acts on.
 #[inline(always)]
@@ -127,7 +49,7 @@ fn analysis<T: Real, L: StretchEnergy>(deformation: &impl Deformation<T>) -> Str
 #[inline(always)]
 #[must_use]
 pub fn energy<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> T {
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     energy_of(law, &analysis::<T, L>(&known), &Volume::of(&known))
 }
 
@@ -173,17 +95,11 @@ fn uniform<T: Real, L: StretchEnergy>(law: &L, sum: T, volume: &Volume<T>) -> T 
     if L::ISOCHORIC { slope - sum * T::lit(1.0 / 3.0) } else { slope }
 }
 
-/// J^(−1/3) for an isochoric law, whose stretches are λₐ times it; otherwise 1.
-#[inline(always)]
-fn isochoric_scale<T: Real, L: StretchEnergy>(volume: &Volume<T>) -> T {
-    if L::ISOCHORIC { volume.jacobian.recip_cbrt() } else { T::one() }
-}
-
 /// τ.
 #[inline(always)]
 #[must_use]
 pub fn kirchhoff<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let volume = Volume::of(&known);
     let (stress, _) = stress_function::<T, L, 0, true>(law, &analysis::<T, L>(&known));
     let stress = if L::ISOCHORIC { stress.deviator() } else { stress };
@@ -194,7 +110,7 @@ pub fn kirchhoff<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformat
 #[inline(always)]
 #[must_use]
 pub fn first_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     FirstPiola(from_rows(first_piola_rows(law, &analysis::<T, L>(&known), &Volume::of(&known), &known)))
 }
 
@@ -205,7 +121,7 @@ pub fn energy_and_first_piola<T: Real, L: StretchEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
 ) -> (T, FirstPiola<T>) {
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let (analysis, volume) = (analysis::<T, L>(&known), Volume::of(&known));
     let stress = first_piola_rows(law, &analysis, &volume, &known);
     (energy_of(law, &analysis, &volume), FirstPiola(from_rows(stress)))
@@ -229,7 +145,7 @@ fn first_piola_rows<T: Real, L: StretchEnergy>(
 #[inline(always)]
 #[must_use]
 pub fn second_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> SecondPiola<T> {
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let volume = Volume::of(&known);
     let stretches = analysis::<T, L>(&known);
     let scale = isochoric_scale::<T, L>(&volume);
@@ -250,7 +166,7 @@ pub fn material_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl D
     if T::ORDER != 0 {
         return derived_material_tangent(law, deformation);
     }
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let analysis = analysis::<T, L>(&known);
     Principal::of(law, &analysis, &Volume::of(&known)).material_tangent(&analysis)
 }
@@ -265,7 +181,7 @@ pub fn second_piola_and_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return (second_piola(law, deformation), derived_material_tangent(law, deformation));
     }
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let analysis = analysis::<T, L>(&known);
     let principal = Principal::of(law, &analysis, &Volume::of(&known));
     (principal.second_piola(&analysis), principal.material_tangent(&analysis))
@@ -281,7 +197,7 @@ pub fn cauchy_and_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return (kirchhoff(law, deformation).cauchy(deformation), truesdell_tangent(law, deformation));
     }
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let volume = Volume::of(&known);
     let analysis = analysis::<T, L>(&known);
     let principal = Principal::of(law, &analysis, &volume);
@@ -297,7 +213,7 @@ pub fn truesdell_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl 
     if T::ORDER != 0 {
         return derived_material_tangent(law, deformation).truesdell(deformation);
     }
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let volume = Volume::of(&known);
     let analysis = analysis::<T, L>(&known);
     Principal::of(law, &analysis, &volume).truesdell_tangent(&analysis, &volume)
@@ -313,7 +229,7 @@ pub fn first_piola_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return derived_tangent(law, deformation);
     }
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let analysis = analysis::<T, L>(&known);
     tangent(&Principal::of(law, &analysis, &Volume::of(&known)), &analysis)
 }
@@ -328,7 +244,7 @@ pub fn first_piola_and_tangent<T: Real, L: StretchEnergy>(
     if T::ORDER != 0 {
         return (first_piola(law, deformation), derived_tangent(law, deformation));
     }
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let analysis = analysis::<T, L>(&known);
     let principal = Principal::of(law, &analysis, &Volume::of(&known));
     (principal.first_piola(&analysis), tangent(&principal, &analysis))
@@ -345,7 +261,7 @@ pub fn energy_first_piola_and_tangent<T: Real, L: StretchEnergy>(
         let (energy, stress) = energy_and_first_piola(law, deformation);
         return (energy, stress, derived_tangent(law, deformation));
     }
-    let known = Known::of(deformation);
+    let known = KnownVolume::of(deformation);
     let (analysis, volume) = (analysis::<T, L>(&known), Volume::of(&known));
     let principal = Principal::of(law, &analysis, &volume);
     (energy_of(law, &analysis, &volume), principal.first_piola(&analysis), tangent(&principal, &analysis))

@@ -1,9 +1,9 @@
 //! Functions of one stretch, of which energy and stresses are made.
 
-use piola_continuum::spectral::{IsotropicFunction, Logarithm};
 use piola_numerics::{Mask, Real};
+use piola_tensor::spectral::{IsotropicFunction, Logarithm};
 
-use super::StretchEnergy;
+use super::energy::StretchEnergy;
 
 /// w(ln λ), whose sum over the stretches is the energy.
 pub(super) struct Part<'a, L>(pub(super) &'a L);
