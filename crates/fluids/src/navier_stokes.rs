@@ -1,9 +1,9 @@
 //! The equation of Navier and Stokes, and the stress of a viscous fluid as a field.
 
 use nalgebra::Vector3;
-use piola_continuum::fields::{Coordinates, Field, Flow, Residual, ValueOf, VectorResidual};
 use piola_continuum::rates::VelocityGradient;
 use piola_continuum::{CauchyStress, ContinuumError};
+use piola_fields::{Coordinates, Field, Flow, Residual, ValueOf, VectorResidual};
 use piola_numerics::{Gradient, Real};
 
 use crate::{LinearViscous, ViscousFluid};
@@ -22,7 +22,7 @@ use crate::{LinearViscous, ViscousFluid};
 /// ```
 /// use nalgebra::Vector3;
 /// use piola_fluids::{LinearViscous, ViscousStress};
-/// use piola_continuum::fields::{Cylindrical, Field, Flow, Uniform};
+/// use piola_fields::{Cylindrical, Field, Flow, Uniform};
 /// use piola_numerics::Real;
 /// struct Velocity;
 /// impl Field for Velocity {
@@ -96,7 +96,7 @@ where
 /// ```
 /// use nalgebra::Vector3;
 /// use piola_fluids::{LinearViscous, navier_stokes_residual};
-/// use piola_continuum::fields::{Cartesian, Field, Flow, Uniform};
+/// use piola_fields::{Cartesian, Field, Flow, Uniform};
 /// use piola_numerics::Real;
 /// struct Channel; // v₂ = 1 − x₁²
 /// impl Field for Channel {
@@ -161,4 +161,4 @@ where
 /// Coordinates whose gradients are plain derivatives.
 pub trait CartesianCoordinates: Coordinates {}
 
-impl CartesianCoordinates for piola_continuum::fields::Cartesian {}
+impl CartesianCoordinates for piola_fields::Cartesian {}

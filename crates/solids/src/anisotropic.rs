@@ -2,10 +2,10 @@
 
 use piola_continuum::strain::{GreenStrain, LinearStrain};
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
-use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::internal::Lanewise;
+use piola_tensor::{MajorSymmetric, PairSymmetric};
 
 use super::strain_energy::{GreenEnergy, StrainEnergy, constant_tangent, hyperelastic_of_strain, linear_numbers};
 use super::{Hyperelastic, Stiffness, packed};

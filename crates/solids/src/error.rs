@@ -1,6 +1,9 @@
 //! Violated conditions of laws of solids: each variant names one.
 
+#[cfg(feature = "batch")]
+use piola_batch::BatchError;
 use piola_continuum::ContinuumError;
+use piola_tensor::TensorError;
 
 /// A violated condition of a law of a solid or of a constraint.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -116,6 +119,29 @@ pub enum SolidsError {
     /// The deformation or stress itself is refused.
     #[error(transparent)]
     Continuum(#[from] ContinuumError),
+    /// A view of a batch is refused.
+    #[cfg(feature = "batch")]
+    #[error(transparent)]
+    Batch(BatchError),
+}
+
+impl From<TensorError> for SolidsError {
+    fn from(error: TensorError) -> Self {
+        ContinuumError::from(error).into()
+    }
+}
+
+#[cfg(feature = "batch")]
+impl From<BatchError> for SolidsError {
+    fn from(error: BatchError) -> Self {
+        match error {
+            BatchError::Continuum(error) => error.into(),
+            BatchError::NotFinite { quantity, index, value } => {
+                ContinuumError::NotFinite { quantity, index, value }.into()
+            }
+            other => Self::Batch(other),
+        }
+    }
 }
 
 #[cfg(feature = "batch")]

@@ -1,9 +1,9 @@
 //! Fung's exponential law of soft tissue.
 
 use piola_continuum::strain::GreenStrain;
-use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
 use piola_continuum::{Deformation, FirstPiola, Symmetric};
 use piola_numerics::Real;
+use piola_tensor::{MajorSymmetric, PairSymmetric};
 
 use super::Stiffness;
 use super::exponent_range::check_range;

@@ -1,9 +1,10 @@
 //! The law of Holzapfel, Gasser and Ogden for arterial walls.
 
-use piola_continuum::strain::{invariants, kernels};
-use piola_continuum::tensor::MajorSymmetric;
+use piola_continuum::internal::strain as kernels;
+use piola_continuum::strain::invariants;
 use piola_continuum::{Deformation, Symmetric};
 use piola_numerics::{Mask, Real};
+use piola_tensor::MajorSymmetric;
 
 use super::Fibre;
 use super::exponent_range::check_exponent;

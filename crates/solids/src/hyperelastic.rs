@@ -216,9 +216,9 @@ pub trait Hyperelastic {
 pub mod derived {
     use nalgebra::Matrix3;
     use piola_continuum::stress::tangents::FirstPiolaTangent;
-    use piola_continuum::tensor::FourthOrder;
     use piola_continuum::{Deformation, FirstPiola};
     use piola_numerics::{Dual, Gradient, Real};
+    use piola_tensor::FourthOrder;
 
     use super::Hyperelastic;
 

@@ -1,7 +1,8 @@
 //! Incompressible solids: any energy of the change of shape, with a pressure that is given.
 
 use nalgebra::Matrix3;
-use piola_continuum::strain::{invariants, kernels};
+use piola_continuum::internal::strain as kernels;
+use piola_continuum::strain::invariants;
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, Symmetric};
 use piola_numerics::{Mask, Real};
 
@@ -237,7 +238,7 @@ pub(super) fn inverse_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
     let h = deformation.spatial_displacement_rows();
     let minor = |i: usize, j: usize| h[i][i] * h[j][j] - h[i][j] * h[j][i];
     let beyond = (minor(0, 1) + minor(1, 2) + minor(0, 2)) - piola_numerics::linear::matrix3::determinant(h);
-    piola_continuum::tensor::rows::double_contraction(h, h) - two * beyond
+    piola_tensor::internal::rows::double_contraction(h, h) - two * beyond
         + two * excess_over_given(-deformation.volume_change() * reciprocal, -deformation.ln_jacobian())
 }
 

@@ -1,8 +1,8 @@
 //! A deformation whose change of volume is computed once.
 
 use piola_continuum::Deformation;
-use piola_continuum::tensor::rows::Rows;
 use piola_numerics::Real;
+use piola_tensor::internal::rows::Rows;
 
 /// A deformation with J and J − 1, for everything that is asked of it: each formula would compute J − 1 again, and the compiler
 /// does not see that it is the same where a rare case has a path of its own.

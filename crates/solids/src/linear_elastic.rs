@@ -2,11 +2,11 @@
 
 use piola_continuum::strain::LinearStrain;
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
-use piola_continuum::tensor::voigt::{ComplianceMatrix, StiffnessMatrix, VoigtOrder};
-use piola_continuum::tensor::{FourthOrder, MajorSymmetric};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::internal::Lanewise;
+use piola_tensor::voigt::{ComplianceMatrix, StiffnessMatrix, VoigtOrder};
+use piola_tensor::{FourthOrder, MajorSymmetric};
 
 use super::strain_energy::linear_numbers;
 use super::{ElasticConstants, Hyperelastic, packed};
@@ -32,7 +32,7 @@ const LAW: &str = "linear elastic";
 /// ```
 /// use piola_solids::{ElasticConstants, LinearElastic};
 /// use piola_continuum::strain::LinearStrain;
-/// use piola_continuum::tensor::voigt::BroNielsen;
+/// use piola_tensor::voigt::BroNielsen;
 /// let steel = LinearElastic::new(ElasticConstants::from_young_poisson(200e9, 0.25)?)?;
 /// let strain = LinearStrain::new(1e-3, 0.0, 0.0, 0.5e-3, 0.0, 0.0)?;
 /// let stress = steel.stress(&strain).0.components;
@@ -116,8 +116,8 @@ impl LinearElastic {
     }
 
     /// The material matrix M of σ = M ε in an order of components, such as
-    /// [`Piola`](piola_continuum::tensor::voigt::Piola) or that of the text,
-    /// [`BroNielsen`](piola_continuum::tensor::voigt::BroNielsen).
+    /// [`Piola`](piola_tensor::voigt::Piola) or that of the text,
+    /// [`BroNielsen`](piola_tensor::voigt::BroNielsen).
     ///
     /// # Source
     /// B(4.77).

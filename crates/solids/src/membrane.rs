@@ -30,8 +30,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::tensor::FourthOrder;
 use piola_numerics::Real;
+use piola_tensor::FourthOrder;
 
 use piola_numerics::parameters;
 

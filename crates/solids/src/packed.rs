@@ -1,11 +1,11 @@
 //! P and ∂P/∂F as numbers one after the other, for `Lanewise`.
 
 use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::tensor::FourthOrder;
-use piola_continuum::tensor::rows::Rows;
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
+use piola_tensor::FourthOrder;
+use piola_tensor::internal::rows::Rows;
 
 // Written out: loops within the loop over lanes would keep that from becoming vectors.
 

@@ -1,9 +1,9 @@
 //! A neo-Hookean matrix with one family of fibres.
 
-use piola_continuum::strain::kernels;
-use piola_continuum::tensor::MajorSymmetric;
+use piola_continuum::internal::strain as kernels;
 use piola_continuum::{Deformation, Symmetric};
 use piola_numerics::Real;
+use piola_tensor::MajorSymmetric;
 
 use super::Fibre;
 use super::invariant::first_excess;

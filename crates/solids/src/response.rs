@@ -14,8 +14,8 @@
 //! ```
 //! with I of B and i of V.
 
-use piola_continuum::spectral::StretchAnalysis;
-use piola_continuum::strain::kernels;
+use piola_continuum::internal::strain as kernels;
+use piola_continuum::polar::StretchAnalysis;
 use piola_continuum::stress::invariants::principal_invariants;
 use piola_continuum::{CauchyStress, Deformation, Symmetric};
 use piola_numerics::Real;

@@ -1,13 +1,13 @@
 //! The solid of St. Venant and Kirchhoff.
 
-use piola_continuum::strain::kernels;
+use piola_continuum::internal::strain as kernels;
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
-use piola_continuum::tensor::MajorSymmetric;
-use piola_continuum::tensor::rows::{Rows, product, scaled};
 use piola_continuum::{Deformation, FirstPiola, SecondPiola, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::internal::Lanewise;
 use piola_numerics::linear::matrix3::from_rows;
+use piola_tensor::MajorSymmetric;
+use piola_tensor::internal::rows::{Rows, product, scaled};
 
 use super::{Hyperelastic, packed};
 use piola_numerics::parameters;

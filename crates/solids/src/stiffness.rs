@@ -1,8 +1,8 @@
 //! Stiffness of anisotropic bodies, from engineering constants or components.
 
 use nalgebra::{Matrix3, Matrix6};
-use piola_continuum::tensor::{MajorSymmetric, PairSymmetric};
 use piola_numerics::linear::matrix3::{cross, from_rows, inverse_and_determinant};
+use piola_tensor::{MajorSymmetric, PairSymmetric};
 
 use super::Fibre;
 use crate::SolidsError;
@@ -19,7 +19,7 @@ const LAW: &str = "stiffness";
 /// ```
 /// use nalgebra::Matrix3;
 /// use piola_solids::{EngineeringConstants, Stiffness};
-/// use piola_continuum::tensor::PairSymmetric;
+/// use piola_tensor::PairSymmetric;
 /// let wood = EngineeringConstants { young: [12.0, 1.0, 0.5], poisson: [0.0, 0.0, 0.0], shear: [0.8, 0.1, 0.7] };
 /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
 /// let turned = Stiffness::orthotropic(&wood, &quarter_turn)?;

@@ -1,12 +1,12 @@
 //! Laws W(E) with S and ∂S/∂E in closed form: P = F S and ∂P/∂F follow.
 
-use piola_continuum::strain::kernels::green;
-use piola_continuum::tensor::rows::{Rows, product, transpose};
-use piola_continuum::tensor::{MajorSymmetric, PairSymmetric, SLOT};
+use piola_continuum::internal::strain::green;
 use piola_continuum::{Deformation, FirstPiola, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::internal::Lanewise;
 use piola_numerics::linear::matrix3::{dot, from_rows};
+use piola_tensor::internal::rows::{Rows, product, transpose};
+use piola_tensor::{MajorSymmetric, PairSymmetric, SLOT};
 
 use super::packed;
 use crate::SolidsError;
@@ -132,7 +132,7 @@ pub(super) fn nominal_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, tangen
 pub(super) fn inverse_metric<T: Real>(deformation: &impl Deformation<T>) -> (Symmetric<T>, Symmetric<T>) {
     // F⁻¹ = 1 − K: 1 − C⁻¹ = K + Kᵀ − K Kᵀ.
     let k = deformation.spatial_displacement_rows();
-    let less = piola_continuum::strain::kernels::almansi(transpose(k)) * T::lit(2.0);
+    let less = piola_continuum::internal::strain::almansi(transpose(k)) * T::lit(2.0);
     (Symmetric::gram(deformation.inverse_rows()), less)
 }
 

@@ -1,14 +1,14 @@
 //! A body of one hyperelastic material, for the integrals over bodies.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_continuum::fields::integral::StoredEnergy;
 use piola_continuum::{Deformation, DeformationGradient, FirstPiola};
+use piola_fields::integral::StoredEnergy;
 use piola_numerics::Real;
 use piola_solids::Hyperelastic;
 
 /// A body that is the same hyperelastic solid everywhere: its total strain energy ∫ W dV by
-/// [`strain_energy`](piola_continuum::fields::integral::strain_energy), its balance of energy by
-/// [`EnergyBalance`](piola_continuum::fields::integral::EnergyBalance).
+/// [`strain_energy`](piola_fields::integral::strain_energy), its balance of energy by
+/// [`EnergyBalance`](piola_fields::integral::EnergyBalance).
 ///
 /// # Example
 /// A block of 2 m³ stretched to double length.
@@ -16,8 +16,8 @@ use piola_solids::Hyperelastic;
 /// use nalgebra::Vector3;
 /// use piola_solids::SaintVenantKirchhoff;
 /// use piola_specimens::UniformBody;
-/// use piola_continuum::fields::Motion;
-/// use piola_continuum::fields::integral::{Cuboid, Quadrature, strain_energy};
+/// use piola_fields::Motion;
+/// use piola_fields::integral::{Cuboid, Quadrature, strain_energy};
 /// use piola_numerics::Real;
 /// struct Pull;
 /// impl Motion for Pull {

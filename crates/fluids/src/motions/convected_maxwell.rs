@@ -5,9 +5,9 @@
 //! ```
 
 use piola_continuum::rates::{RelativeDeformation, VelocityGradient, exponential_rows, logarithm};
-use piola_continuum::tensor::rows::{difference, identity, scaled};
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::internal::excess_of_exponential;
+use piola_tensor::internal::rows::{difference, identity, scaled};
 
 use super::quadrature::integrate;
 use super::shear_stresses::ShearStresses;

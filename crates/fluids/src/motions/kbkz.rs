@@ -4,9 +4,9 @@ use piola_continuum::rates::{
     HomogeneousMotion, RelativeDeformation, VelocityGradient, exponential_minus_identity_rows, exponential_rows,
     logarithm,
 };
-use piola_continuum::tensor::rows::{Rows, product, product_transposed, scaled, sum};
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::linear::matrix3::{inverse_and_determinant, rows_of};
+use piola_tensor::internal::rows::{Rows, product, product_transposed, scaled, sum};
 
 use super::oscillation::{Oscillation, POINTS, check_oscillation, harmonics_of, phase};
 use super::quadrature::{integrate, integrate_between};

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix6, Schur};
 use piola_continuum::Symmetric;
 use piola_continuum::rates::VelocityGradient;
-use piola_continuum::tensor::rows::{Rows, product};
 use piola_numerics::linear::lu;
 use piola_numerics::{Gradient, Real};
+use piola_tensor::internal::rows::{Rows, product};
 
 use super::stress_rate::{StressRate, carrying};
 use crate::{DifferentialFluid, FluidsError};

@@ -2,9 +2,9 @@
 
 use piola_continuum::Symmetric;
 use piola_continuum::rates::VelocityGradient;
-use piola_continuum::tensor::rows::product;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
+use piola_tensor::internal::rows::product;
 
 use crate::differential::{
     ExponentialPhanThienTanner, Giesekus, LinearPhanThienTanner, Mode, NetworkMode, OldroydB, Slipping,

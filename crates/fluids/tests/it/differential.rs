@@ -2,7 +2,6 @@
 
 use nalgebra::Matrix3;
 use piola_continuum::rates::{VelocityGradient, exponential_rows};
-use piola_continuum::tensor::rows::{product_transposed, scaled};
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_fluids::{
     ConvectedMaxwell, DifferentialFluid, ExponentialPhanThienTanner, Extension, FlowMoment, FluidsError, Giesekus,
@@ -10,6 +9,7 @@ use piola_fluids::{
     ViscometricFluid, follow, follow_shear, oscillate,
 };
 use piola_numerics::{Dual, Lanes, Real};
+use piola_tensor::internal::rows::{product_transposed, scaled};
 use piola_testkit::golden::{load, number, text};
 use piola_testkit::{DoubleDouble, Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;

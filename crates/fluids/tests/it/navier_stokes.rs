@@ -1,7 +1,7 @@
 //! The equation of Navier and Stokes, and the viscous stress as a field.
 
 use nalgebra::Vector3;
-use piola_continuum::fields::{Cartesian, Cylindrical, Field, Flow, Uniform};
+use piola_fields::{Cartesian, Cylindrical, Field, Flow, Uniform};
 use piola_fluids::{
     CarreauYasuda, GeneralisedNewtonian, LinearViscous, ViscometricFluid, ViscousStress, navier_stokes_residual,
 };

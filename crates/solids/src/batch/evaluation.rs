@@ -1,19 +1,18 @@
 //! Evaluation with this crate's errors.
 
-use piola_continuum::ContinuumError;
-use piola_continuum::batch::{self, BatchScalar, Deformations, Report, Requests};
+use piola_batch::{BatchError, BatchScalar, Deformations, Report, Requests};
 
 use crate::SolidsError;
 use crate::error::BadPoint;
 
 /// Computes the requested outputs at all points.
 ///
-/// It is [`piola_continuum::batch::evaluate`], with bad points by the errors of this crate.
+/// It is [`piola_batch::evaluate`], with bad points by the errors of this crate.
 ///
 /// # Errors
 /// [`SolidsError::BadPoints`] with *all* bad points when there are any, be it that they are no deformations or
 /// that a law has no answer there: their outputs are NaN, those of the good points are written all the same.
-/// [`ContinuumError::WrongLength`], before anything is computed, when a view does not have as many points as there are
+/// [`SolidsError::Batch`] with [`BatchError::WrongLength`], before anything is computed, when a view does not have as many points as there are
 /// deformations.
 ///
 /// # Accuracy
@@ -23,7 +22,7 @@ use crate::error::BadPoint;
 /// # Example
 /// ```
 /// use piola_solids::{Compressible, isochoric::Gent, volumetric::Quadratic};
-/// use piola_constitutive::{SolidsError, batch};
+/// use piola_solids::{SolidsError, batch};
 /// use piola_continuum::DeformationGradient;
 /// let law = Compressible::new(Gent::new(1.0, 2.0)?, Quadratic::new(10.0)?); // Ī₁ − 3 < 2
 /// let f = [1.5, 9.0, 1.0].map(|stretch| DeformationGradient::uniaxial(stretch, 1.0).unwrap());
@@ -40,8 +39,8 @@ pub fn evaluate<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(
     deformations: D,
     requests: R,
 ) -> Result<Report, SolidsError> {
-    batch::evaluate(deformations, requests).map_err(|error| match error {
-        ContinuumError::BadPoints { points, count, slow_path } => {
+    piola_batch::evaluate(deformations, requests).map_err(|error| match error {
+        BatchError::BadPoints { points, count, slow_path } => {
             let points = points.into_iter().map(|point| BadPoint { index: point.index, error: typed(point.error) });
             SolidsError::BadPoints { points: points.collect(), count, slow_path }
         }
@@ -50,9 +49,9 @@ pub fn evaluate<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(
 }
 
 /// The law's own error where a law refused.
-fn typed(error: ContinuumError) -> SolidsError {
+fn typed(error: BatchError) -> SolidsError {
     match &error {
-        ContinuumError::Refused(refusal) => refusal.downcast_ref().cloned().unwrap_or(error.into()),
+        BatchError::Refused(refusal) => refusal.downcast_ref().cloned().unwrap_or(error.into()),
         _ => error.into(),
     }
 }

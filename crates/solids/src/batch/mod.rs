@@ -14,7 +14,7 @@
 //! ```
 //!
 //! [`evaluate`] takes the deformations of the points and requests, one or a tuple of them, which may be of several laws
-//! and may stand beside those of [`piola_continuum::batch`]. A request is a law and where its answer goes; what is not
+//! and may stand beside those of [`piola_batch`]. A request is a law and where its answer goes; what is not
 //! asked for is not compiled in.
 //!
 //! | request | what | numbers a point | typed destination |
@@ -30,9 +30,9 @@
 //! | [`second_piola_and_tangent`], [`cauchy_and_tangent`] | S and ∂S/∂E, T and c/J, from what they share | 6 + 21 | |
 //! | [`first_piola_derivative`] | (∂P/∂F) : δF of a given δF | 9 | `&mut [FirstPiola<T>]` |
 //!
-//! Deformations and destinations are the views of [`piola_continuum::batch`]: arrays of structures, structures of
-//! arrays ([`Components`](piola_continuum::batch::Components)), strided numbers and, the fastest, blocks of lanes
-//! ([`LaneBlocks`](piola_continuum::batch::LaneBlocks)), of `f64` or `f32`. Any
+//! Deformations and destinations are the views of [`piola_batch`]: arrays of structures, structures of
+//! arrays ([`Components`](piola_batch::Components)), strided numbers and, the fastest, blocks of lanes
+//! ([`LaneBlocks`](piola_batch::LaneBlocks)), of `f64` or `f32`. Any
 //! [`Hyperelastic`](crate::Hyperelastic) law will do, also one that gives only its energy. At 10⁶ points 81 numbers take longer to store than
 //! to compute: 45 hold the same, and a product with a direction needs none.
 

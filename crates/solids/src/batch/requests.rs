@@ -1,6 +1,6 @@
 //! What may be asked of a law: the energy and the stresses.
 
-use piola_continuum::batch::{Point, Quantity, Refusal, Request};
+use piola_batch::{Point, Quantity, Refusal, Request};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola};
 use piola_numerics::linear::matrix3::rows_of;
 use piola_numerics::{Mask, Real};
@@ -117,7 +117,7 @@ quantities! {
     /// ```
     /// use piola_solids::batch;
     /// use piola_solids::SaintVenantKirchhoff;
-    /// use piola_continuum::batch::Gradients;
+    /// use piola_batch::Gradients;
     /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
     /// let f = [[[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; 7];
     /// let mut p = [[[0.0; 3]; 3]; 7];

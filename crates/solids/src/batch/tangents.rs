@@ -1,7 +1,7 @@
 //! What may be asked of a law: its tangent, whole, by half, or in one direction.
 
 use nalgebra::Matrix3;
-use piola_continuum::batch::{Point, Quantity, Refusal, Request};
+use piola_batch::{Point, Quantity, Refusal, Request};
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::Real;
@@ -56,7 +56,7 @@ quantities! {
     pub first_piola_tangent_square FirstPiolaTangentSquareOf [81 knows] FirstPiolaTangent,
         |law, point| square(&law.first_piola_tangent(point));
     /// The 21 components of ∂S/∂E, the upper triangle by rows of the 6×6 array over the pairs 11, 22, 33, 12, 23, 13 without
-    /// factors for shears, as in [`MajorSymmetric`](piola_continuum::tensor::MajorSymmetric): see
+    /// factors for shears, as in [`MajorSymmetric`](piola_tensor::MajorSymmetric): see
     /// [`Hyperelastic::material_tangent`].
     ///
     /// # Example

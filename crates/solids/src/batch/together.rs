@@ -1,6 +1,6 @@
 //! What may be asked of a law together: what several answers share is computed once, each goes to a destination of its own.
 
-use piola_continuum::batch::{BatchScalar, Destination, Point, Quantity, Refusal, Request};
+use piola_batch::{BatchScalar, Destination, Point, Quantity, Refusal, Request};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, SecondPiola};
 use piola_numerics::{Lanes, Real};
 

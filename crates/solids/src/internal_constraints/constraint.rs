@@ -2,10 +2,10 @@
 
 use nalgebra::Matrix3;
 use piola_continuum::strain::RightCauchyGreen;
-use piola_continuum::tensor::rows::{Rows, product, product_transposed, scaled};
 use piola_continuum::{CauchyStress, Deformation, Symmetric};
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_numerics::{Gradient, Real};
+use piola_tensor::internal::rows::{Rows, product, product_transposed, scaled};
 
 use crate::SolidsError;
 

@@ -1,9 +1,9 @@
 //! The constraints of one material, as what asks for multipliers sees them.
 
 use nalgebra::Matrix3;
-use piola_continuum::tensor::FourthOrder;
 use piola_continuum::{Deformation, Symmetric};
 use piola_numerics::{Dual, Gradient, Real};
+use piola_tensor::FourthOrder;
 
 use super::{InternalConstraint, Restriction, Rigidity};
 use crate::SolidsError;

@@ -1,11 +1,11 @@
 //! The constraints of the text.
 
 use nalgebra::Matrix3;
-use piola_continuum::strain::kernels::right_cauchy_green_minus_one;
-use piola_continuum::tensor::rows::{apply, product, scaled};
+use piola_continuum::internal::strain::right_cauchy_green_minus_one;
 use piola_continuum::{CauchyStress, Deformation, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
+use piola_tensor::internal::rows::{apply, product, scaled};
 
 use super::{InternalConstraint, Restriction};
 use crate::Fibre;

@@ -1,9 +1,9 @@
 //! What the stress and tangent of a law of invariants share: near the reference, turned from it, and far from it.
 
-use piola_continuum::strain::kernels;
-use piola_continuum::tensor::rows::{Rows, cofactor, double_contraction, product, scaled, sum};
+use piola_continuum::internal::strain as kernels;
 use piola_continuum::{Deformation, Symmetric};
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::rows::{Rows, cofactor, double_contraction, product, scaled, sum};
 
 use super::energy::{InvariantEnergy, Invariants, Slopes};
 

@@ -1,9 +1,9 @@
 //! S and τ of a law of invariants without P.
 
-use piola_continuum::strain::kernels;
-use piola_continuum::tensor::rows::{double_contraction, product, scaled, transpose};
+use piola_continuum::internal::strain as kernels;
 use piola_continuum::{Deformation, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::rows::{double_contraction, product, scaled, transpose};
 
 use super::energy::{InvariantEnergy, Invariants, Slopes, invariants_of};
 use super::kinematics::{SMALL, largest_modulus, select_symmetric};

@@ -10,12 +10,12 @@
 //! the differences from the reference would hide what is left.
 
 use nalgebra::Matrix3;
-use piola_continuum::strain::kernels;
+use piola_continuum::internal::strain as kernels;
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent};
-use piola_continuum::tensor::rows::{Rows, double_contraction};
 use piola_continuum::{Deformation, FirstPiola, SecondPiola};
 use piola_numerics::linear::matrix3::{determinant, from_rows};
 use piola_numerics::{Dual, Real};
+use piola_tensor::internal::rows::{Rows, double_contraction};
 
 use crate::known_volume::KnownVolume;
 use crate::packed;

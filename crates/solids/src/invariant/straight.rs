@@ -5,12 +5,12 @@
 //! where many numbers are written.
 
 use nalgebra::Matrix3;
-use piola_continuum::strain::kernels;
-use piola_continuum::tensor::rows::Rows;
+use piola_continuum::internal::strain as kernels;
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::internal::Lanewise;
 use piola_numerics::linear::matrix3::rows_of;
 use piola_numerics::{Dual, Mask, Real};
+use piola_tensor::internal::rows::Rows;
 
 use super::energy::InvariantEnergy;
 use super::kinematics::Kinematics;

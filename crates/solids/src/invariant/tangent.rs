@@ -2,9 +2,9 @@
 
 use piola_continuum::Symmetric;
 use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::tensor::FourthOrder;
-use piola_continuum::tensor::rows::{Rows, product, product_transposed};
 use piola_numerics::Real;
+use piola_tensor::FourthOrder;
+use piola_tensor::internal::rows::{Rows, product, product_transposed};
 
 use super::energy::{Curvatures, InvariantEnergy, Slopes};
 use super::kinematics::Kinematics;

@@ -1,9 +1,10 @@
 //! The series of powers of the principal stretches that all of Ogden's solids share.
 
 use piola_continuum::Deformation;
-use piola_continuum::spectral::{Exponential, IsotropicFunction, StretchAnalysis};
-use piola_continuum::tensor::rows::double_contraction;
+use piola_continuum::polar::StretchAnalysis;
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::rows::double_contraction;
+use piola_tensor::spectral::{Exponential, IsotropicFunction};
 
 use crate::SolidsError;
 use crate::error::{check_bound, check_finite};

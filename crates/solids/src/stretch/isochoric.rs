@@ -1,8 +1,8 @@
 //! The isochoric part of a deformation.
 
 use piola_continuum::Deformation;
-use piola_continuum::tensor::rows::{Rows, difference, identity, scaled, sum};
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::rows::{Rows, difference, identity, scaled, sum};
 
 use crate::isochoric_factor::Unimodular;
 

@@ -15,13 +15,13 @@
 //! ```
 //! Square brackets are divided differences, finite for equal stretches. No evaluation fails, whatever the stretches.
 
-use piola_continuum::spectral::StretchAnalysis;
+use piola_continuum::polar::StretchAnalysis;
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
-use piola_continuum::tensor::FourthOrder;
-use piola_continuum::tensor::rows::{Rows, product, scaled, sum};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Gradient, Real};
+use piola_tensor::FourthOrder;
+use piola_tensor::internal::rows::{Rows, product, scaled, sum};
 
 use super::known_volume::KnownVolume;
 

@@ -1,7 +1,7 @@
 //! Functions of one stretch, of which energy and stresses are made.
 
-use piola_continuum::spectral::{IsotropicFunction, Logarithm};
 use piola_numerics::{Mask, Real};
+use piola_tensor::spectral::{IsotropicFunction, Logarithm};
 
 use super::energy::StretchEnergy;
 

@@ -1,12 +1,14 @@
 //! A law of stretches in the principal frame: stresses and tangents from one set of terms.
 
-use piola_continuum::spectral::{IsotropicFunction, Logarithm, StretchAnalysis};
-use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent, kernels::push_forward};
-use piola_continuum::tensor::rows::{Rows, transpose};
-use piola_continuum::tensor::{FourthOrder, MajorSymmetric};
+use piola_continuum::internal::tangents::push_forward;
+use piola_continuum::polar::StretchAnalysis;
+use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::{FirstPiola, SecondPiola, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
+use piola_tensor::internal::rows::{Rows, transpose};
+use piola_tensor::spectral::{IsotropicFunction, Logarithm};
+use piola_tensor::{FourthOrder, MajorSymmetric};
 
 use super::energy::{StretchEnergy, Volume, isochoric_scale};
 

@@ -1,10 +1,10 @@
 //! Closed forms of every law against exact derivatives of its energy.
 
 use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::tensor::{FourthOrder, PairSymmetric};
 use piola_continuum::{Deformation, DeformationGradient};
 use piola_numerics::Gradient;
 use piola_solids::{Hyperelastic, derived};
+use piola_tensor::{FourthOrder, PairSymmetric};
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 

@@ -41,8 +41,8 @@ fn shapes_beyond_the_limit_are_refused_and_have_no_stress() -> Result<(), Solids
 #[test]
 fn points_of_a_batch_beyond_the_limit_are_named_and_have_no_stress() -> Result<(), SolidsError> {
     use nalgebra::Matrix3;
+    use piola_batch::Gradients;
     use piola_continuum::FirstPiola;
-    use piola_continuum::batch::Gradients;
     use piola_solids::batch;
 
     fn check<L: Hyperelastic + Sync>(law: &L, name: &str) {

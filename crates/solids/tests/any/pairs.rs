@@ -2,14 +2,14 @@
 
 use core::cell::Cell;
 
-use piola_continuum::strain::kernels;
-use piola_continuum::tensor::PairSymmetric;
+use piola_continuum::internal::strain as kernels;
 use piola_continuum::{Deformation, DeformationGradient};
 use piola_numerics::Real;
 use piola_solids::SolidsError;
 use piola_solids::isochoric::{Gent, Isochoric};
 use piola_solids::volumetric::Quadratic;
 use piola_solids::{Compressible, Hyperelastic};
+use piola_tensor::PairSymmetric;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;
 

@@ -1,9 +1,8 @@
 //! One law of each kind in lanes and on all cores: the numbers of single points.
 
 use nalgebra::Matrix3;
-use piola_continuum::batch::BatchScalar;
+use piola_batch::BatchScalar;
 use piola_continuum::stress::tangents::{MaterialTangent, TruesdellTangent};
-use piola_continuum::tensor::MajorSymmetric;
 use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola, SecondPiola};
 use piola_numerics::Real;
 use piola_solids::isochoric::{ArrudaBoyce, Gent, MooneyRivlin};
@@ -13,6 +12,7 @@ use piola_solids::{
     OgdenTerm, SaintVenantKirchhoff, Stiffness,
 };
 use piola_solids::{SolidsError, batch};
+use piola_tensor::MajorSymmetric;
 use piola_testkit::spectral::Random;
 use piola_testkit::{Tol, assert_close_at_scale};
 

@@ -1,13 +1,13 @@
 //! A batch gives the numbers of single points in every view and precision, and allocates nothing.
 
 use nalgebra::Matrix3;
-use piola_continuum::batch::{Components, Gradients, LaneBlocks};
+use piola_batch::{Components, Gradients, LaneBlocks};
 use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::tensor::FourthOrder;
 use piola_continuum::{CauchyStress, Deformation, DeformationGradient, FirstPiola, KirchhoffStress, SecondPiola};
 use piola_numerics::Real;
 use piola_solids::batch;
 use piola_solids::{Hyperelastic, MooneyRivlin, SaintVenantKirchhoff};
+use piola_tensor::FourthOrder;
 use piola_testkit::spectral::Random;
 use piola_testkit::{Tol, allocations_in, assert_close};
 

@@ -1,7 +1,7 @@
 //! Points at which a law has no answer are reported by their index with the law's own error; all others are computed.
 
 use nalgebra::Matrix3;
-use piola_continuum::batch::Gradients;
+use piola_batch::Gradients;
 use piola_continuum::{ContinuumError, DeformationGradient, FirstPiola, SecondPiola};
 use piola_solids::SolidsError;
 use piola_solids::batch::{self, BadPoint};

@@ -1,9 +1,9 @@
 //! Pairs of elastic constants: there and back, their bounds, and ν = ½.
 
 use piola_continuum::strain::LinearStrain;
-use piola_continuum::tensor::voigt::{BroNielsen, Piola};
 use piola_solids::SolidsError;
 use piola_solids::{ElasticConstants, LinearElastic, MixedLinearElastic, PoissonSign};
+use piola_tensor::voigt::{BroNielsen, Piola};
 use piola_testkit::{Tol, assert_close};
 use proptest::prelude::*;
 

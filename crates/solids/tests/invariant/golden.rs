@@ -1,13 +1,13 @@
 //! Linear elasticity, incompressible Mooney–Rivlin and the polynomial against reference values.
 
 use piola_continuum::strain::LinearStrain;
-use piola_continuum::tensor::PairSymmetric;
-use piola_continuum::tensor::voigt::Piola;
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_solids::isochoric::MooneyRivlin;
 use piola_solids::{
     ElasticConstants, Hyperelastic, IncompressibleSolid, LinearElastic, MixedLinearElastic, Polynomial, PolynomialTerm,
 };
+use piola_tensor::PairSymmetric;
+use piola_tensor::voigt::Piola;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
 use serde_json::Value;
 

@@ -1,9 +1,9 @@
 //! Reference energies, stresses and tangents of every law.
 
-use piola_continuum::tensor::PairSymmetric;
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_solids::{Compressible, NeoHookeanLogarithmic, SaintVenantKirchhoff, isochoric, volumetric};
 use piola_solids::{Hencky, Hyperelastic, IsochoricOgden, MooneyRivlin, Ogden, OgdenTerm};
+use piola_tensor::PairSymmetric;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
 use serde_json::Value;
 

@@ -1,9 +1,9 @@
 //! Identities that every law satisfies.
 
 use nalgebra::Matrix3;
-use piola_continuum::tensor::PairSymmetric;
 use piola_continuum::{Deformation, DeformationGradient};
 use piola_solids::Hyperelastic;
+use piola_tensor::PairSymmetric;
 use piola_testkit::strategies::{rotation, rotation_matrix};
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;

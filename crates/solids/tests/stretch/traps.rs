@@ -142,7 +142,7 @@ fn exponents_beyond_the_range_of_numbers_are_refused() {
 
 #[test]
 fn engineering_constants_equal_those_of_the_simple_tests() {
-    use piola_continuum::tensor::PairSymmetric;
+    use piola_tensor::PairSymmetric;
     let compliance = super::cases::orthotropic().tensor().inverse().expect("positive definite");
     let EngineeringConstants { young, poisson, shear } = wood();
     let strain = |i: usize| compliance.entry(i, i, 0, 0);

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use piola_continuum::DeformationGradient;
-use piola_continuum::spectral::StretchAnalysis;
+use piola_continuum::polar::StretchAnalysis;
 
 use super::law::{cofactor, first_piola, isochoric, jacobian};
 use super::quadrature::{Integral, integrate};

@@ -1,10 +1,11 @@
 //! Drucker's condition: at states, over random deformations, along paths.
 
 use nalgebra::{Matrix3, Matrix6};
-use piola_continuum::spectral::{Exponential, StretchAnalysis, decompose, derivative, second_derivative};
+use piola_continuum::polar::StretchAnalysis;
 use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient, Symmetric};
 use piola_numerics::{Dual, Gradient, Real};
 use piola_solids::Hyperelastic;
+use piola_tensor::spectral::{Exponential, decompose, derivative, second_derivative};
 
 use super::law::isochoric;
 use super::{Kinematics, Sampler, Search};

@@ -1,12 +1,12 @@
 //! Ellipticity: whether plane waves have real speeds.
 
-use piola_continuum::spectral::decompose;
 use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::tensor::rows::{Rows, apply, transpose};
 use piola_continuum::{Deformation, DeformationGradient, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{cross, dot};
 use piola_solids::Hyperelastic;
+use piola_tensor::internal::rows::{Rows, apply, transpose};
+use piola_tensor::spectral::decompose;
 
 use super::{Sampler, Search};
 

@@ -87,7 +87,7 @@ pub(super) fn first_piola(law: &impl Elastic, gradient: &Matrix3<f64>) -> Matrix
 
 /// Cof F.
 pub(super) fn cofactor(gradient: &Matrix3<f64>) -> Matrix3<f64> {
-    let rows = piola_continuum::tensor::rows::cofactor(rows_of(gradient));
+    let rows = piola_tensor::internal::rows::cofactor(rows_of(gradient));
     Matrix3::from(rows).transpose()
 }
 

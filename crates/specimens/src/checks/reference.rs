@@ -1,10 +1,10 @@
 //! Change of the reference configuration.
 
 use nalgebra::Matrix3;
-use piola_continuum::tensor::rows::{Rows, product};
 use piola_continuum::{Deformation, DeformationGradient};
 use piola_numerics::Real;
 use piola_solids::{Hyperelastic, SolidsError};
+use piola_tensor::internal::rows::{Rows, product};
 
 use super::Elastic;
 

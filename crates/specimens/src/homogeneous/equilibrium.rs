@@ -290,7 +290,8 @@ fn undetermined<const N: usize>(
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::{homogeneous, solids::MooneyRivlin};
+/// use piola_solids::MooneyRivlin;
+/// use piola_specimens::homogeneous;
 /// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
 /// let bar = homogeneous::uniaxial(&rubber, 2.0)?;
 /// assert!(bar.cauchy.0.components[1].abs() < 1e-14);
@@ -334,7 +335,8 @@ pub fn simple_shear(law: &impl Response, amount: f64, free: bool) -> Result<Homo
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::{homogeneous, solids::MooneyRivlin};
+/// use piola_solids::MooneyRivlin;
+/// use piola_specimens::homogeneous;
 /// let solid = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?;
 /// // T = [(J^(2/3) − 1)/J + 2 (J² − 1)/J] 1 at J = 8.
 /// let stress = homogeneous::volumetric(&solid, 8.0)?.cauchy.0.components[0];

@@ -1,10 +1,10 @@
 //! Incompressible laws in homogeneous tests: the pressure is that of a face free of traction.
 
 use nalgebra::Matrix3;
-use piola_continuum::tensor::rows::Rows;
 use piola_continuum::{CauchyStress, Deformation, DisplacementGradient, FirstPiola, Symmetric};
 use piola_numerics::{Dual, Real};
 use piola_solids::Hyperelastic;
+use piola_tensor::internal::rows::Rows;
 
 use super::{Mode, diagonal};
 use crate::SpecimensError;

@@ -32,8 +32,8 @@ pub use equilibrium::{
 pub use incompressible::{Incompressible, IncompressibleState, nominal_stress, nominal_stress_and_slope};
 pub use mode::Mode;
 
-use piola_continuum::tensor::rows::Rows;
 use piola_numerics::Real;
+use piola_tensor::internal::rows::Rows;
 
 /// ∇u of stretches along the axes, from the elongations.
 #[inline(always)]

@@ -8,11 +8,11 @@
 
 use nalgebra::Matrix3;
 use piola_continuum::stress::tangents::FirstPiolaTangent;
-use piola_continuum::tensor::rows::Rows;
 use piola_continuum::{CauchyStress, Deformation, DisplacementGradient, FirstPiola};
 use piola_numerics::linear::lu;
 use piola_solids::Response;
 use piola_solids::internal_constraints::Constraints;
+use piola_tensor::internal::rows::Rows;
 
 use super::{Control, Controls};
 

@@ -1,7 +1,7 @@
 //! Drucker's condition over deformations of any axes, against closed forms and differences of the energy.
 
 use nalgebra::Matrix3;
-use piola_continuum::spectral::StretchAnalysis;
+use piola_continuum::polar::StretchAnalysis;
 use piola_continuum::{Deformation, DeformationGradient, Symmetric};
 use piola_solids::isochoric::{Gent, MooneyRivlin, NeoHookean};
 use piola_solids::volumetric::Quadratic;

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 use piola_continuum::DeformationGradient;
-use piola_continuum::fields::Motion;
-use piola_continuum::fields::integral::{Ball, Quadrature, strain_energy};
+use piola_fields::Motion;
+use piola_fields::integral::{Ball, Quadrature, strain_energy};
 use piola_numerics::{Dual, Real};
 use piola_solids::{Hyperelastic, MooneyRivlin};
 use piola_specimens::UniformBody;

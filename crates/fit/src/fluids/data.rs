@@ -2,20 +2,22 @@
 
 use core::f64::consts::PI;
 
-use piola_constitutive::fluids::{Parameters, ViscometricFluid};
+use piola_fluids::{Parameters, ViscometricFluid};
 use piola_numerics::Real;
+use piola_viscometry::recover::{
+    ChannelGeometry, ConeGeometry, CouetteGeometry, FlowTable, Noise, PipeGeometry, PlatesGeometry,
+};
 
-use crate::ViscometryError;
-use crate::recover::{ChannelGeometry, ConeGeometry, CouetteGeometry, FlowTable, Noise, PipeGeometry, PlatesGeometry};
+use crate::FitError;
 
 /// Measurements of one kind.
 ///
 /// # Example
 /// ```
-/// use piola_viscometry::fit::FlowData;
+/// use piola_fit::fluids::FlowData;
 /// let curve = FlowData::flow_curve(&[[0.1, 3.0], [1.0, 9.0], [10.0, 28.0]])?;
 /// assert_eq!(curve.len(), 3);
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
+/// # Ok::<(), piola_fit::FitError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -40,9 +42,9 @@ impl FlowData {
     /// A flow curve: rows of the shear rate, 1/s, rising, and the shear stress, Pa.
     ///
     /// # Errors
-    /// [`ViscometryError::Row`], [`ViscometryError::RowTwice`], [`ViscometryError::RowNotSorted`].
-    pub fn flow_curve(rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
-        FlowTable::new((), rows).map(|table| Self::of(Kind::FlowCurve, &table))
+    /// [`FitError::Viscometry`], as [`FlowTable::new`].
+    pub fn flow_curve(rows: &[[f64; 2]]) -> Result<Self, FitError> {
+        Ok(Self::of(Kind::FlowCurve, &FlowTable::new((), rows)?))
     }
 
     /// Discharges of a pipe.
@@ -89,16 +91,17 @@ impl FlowData {
     ///
     /// # Errors
     /// As [`FlowTable::with_noise`].
-    pub fn with_noise(self, noise: Noise) -> Result<Self, ViscometryError> {
-        FlowTable::new((), &[])?.with_noise(noise).map(|table| Self { noise: table.noise(), ..self })
+    pub fn with_noise(self, noise: Noise) -> Result<Self, FitError> {
+        let table = FlowTable::new((), &[])?.with_noise(noise)?;
+        Ok(Self { noise: table.noise(), ..self })
     }
 
     /// Refuses responses that fall by more than noise explains.
     ///
     /// # Errors
     /// As [`FlowTable::check_rising`].
-    pub fn check_rising(&self) -> Result<(), ViscometryError> {
-        FlowTable::new((), &self.rows)?.with_noise(self.noise)?.check_rising()
+    pub fn check_rising(&self) -> Result<(), FitError> {
+        Ok(FlowTable::new((), &self.rows)?.with_noise(self.noise)?.check_rising()?)
     }
 
     /// Its rows: what was set, what was measured.
@@ -135,7 +138,7 @@ impl FlowData {
         fluid: &F,
         parameters: [T; N],
         row: usize,
-    ) -> Result<T, ViscometryError> {
+    ) -> Result<T, FitError> {
         let drive = self.rows[row][0];
         let stress = |k: f64| F::shear_stress_of(parameters, T::lit(k));
         Ok(match self.kind {

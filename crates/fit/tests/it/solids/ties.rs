@@ -1,8 +1,8 @@
 //! Models and laws, modes and components: two ways to the same stress.
 
-use piola_constitutive::fit::{AnyModel, Component, Data, Fitted, Measure, Options, Table, Test, fit};
-use piola_constitutive::homogeneous::{IncompressibleState, Mode, nominal_stress};
-use piola_constitutive::solids::volumetric::SimoTaylor;
+use piola_fit::solids::{AnyModel, Component, Data, Fitted, Measure, Options, Table, Test, fit};
+use piola_solids::volumetric::SimoTaylor;
+use piola_specimens::homogeneous::{IncompressibleState, Mode, nominal_stress};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
 /// A model of each kind, with parameters.

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use piola_constitutive::fit::{AnyModel, Data, Fit, Measure, Options, Stability, State, Table, Test, fit};
-use piola_constitutive::homogeneous::Mode;
+use piola_fit::solids::{AnyModel, Data, Fit, Measure, Options, Stability, State, Table, Test, fit};
+use piola_specimens::homogeneous::Mode;
 use piola_testkit::{Tol, assert_close};
 
 /// (stretch, stress) of the rows of a mode, from the columns F11 and S11.

@@ -31,7 +31,7 @@ impl Criteria {
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fit::Criteria;
+    /// use piola_fit::Criteria;
     /// // One parameter, six numbers, S = 6: only the count is left, 2 K = 4; AICc adds 2·2·3/3.
     /// let criteria = Criteria::new(6, 1, 6.0);
     /// assert_eq!((criteria.aic, criteria.aicc), (Some(4.0), Some(8.0)));
@@ -121,7 +121,7 @@ const MANY: usize = 1_000_000;
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::fit::student;
+/// use piola_fit::student;
 /// let t = student(0.5, 1).expect("a degree of freedom");
 /// assert!((t - 1.0).abs() < 1e-9); // tan(π/4)
 /// ```

@@ -1,5 +1,4 @@
-//! The tests of `piola_constitutive::fit`.
-#![cfg(feature = "fit")]
+//! Fits of solids.
 
 mod freedom;
 mod recovery;

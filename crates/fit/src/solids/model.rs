@@ -1,9 +1,9 @@
 //! What can be fitted: an energy of the principal stretches with parameters.
 
 use piola_numerics::{Dual, Real};
+use piola_specimens::homogeneous::Incompressible;
 
-use crate::ConstitutiveError;
-use crate::homogeneous::Incompressible;
+use crate::FitError;
 
 /// How a parameter enters the energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +85,7 @@ impl Parameter {
 /// # Example
 /// Varga's law W = 2 μ (λ₁ + λ₂ + λ₃ − 3), fitted to a point.
 /// ```
-/// use piola_constitutive::fit::{Data, Measure, Model, Options, Parameter, Table, Test, fit};
+/// use piola_fit::solids::{Data, Measure, Model, Options, Parameter, Table, Test, fit};
 /// use piola_numerics::Real;
 ///
 /// struct Varga;
@@ -107,7 +107,7 @@ impl Parameter {
 /// let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
 /// let fitted = fit(&Varga, &data, &Options::default())?;
 /// assert!((fitted.parameters[0].value - 2.0).abs() < 1e-14);
-/// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+/// # Ok::<(), piola_fit::FitError>(())
 /// ```
 pub trait Model {
     /// Its name, such as `ogden:3`.
@@ -145,26 +145,26 @@ impl<'m, M: Model, T: Real> Fitted<'m, M, T> {
     /// With parameters of any scalar, so that derivatives with respect to them come along.
     ///
     /// # Errors
-    /// [`ConstitutiveError::NumberOfValues`] unless there is a value for each parameter.
+    /// [`FitError::NumberOfValues`] unless there is a value for each parameter.
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fit::{AnyModel, Fitted};
-    /// use piola_constitutive::homogeneous::{Mode, nominal_stress};
+    /// use piola_fit::solids::{AnyModel, Fitted};
+    /// use piola_specimens::homogeneous::{Mode, nominal_stress};
     /// let rubber = Fitted::new(&AnyModel::MooneyRivlin, [0.5, 0.25])?;
     /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
     /// assert!((stress - 2.0 * 1.75 * 0.625).abs() < 1e-14); // 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ)
     /// assert!(Fitted::new(&AnyModel::Gent, [1.0]).is_err());
-    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// # Ok::<(), piola_fit::FitError>(())
     /// ```
-    pub fn new(model: &'m M, parameters: impl IntoIterator<Item = T>) -> Result<Self, ConstitutiveError> {
+    pub fn new(model: &'m M, parameters: impl IntoIterator<Item = T>) -> Result<Self, FitError> {
         let fitted = Self::trusted(model, parameters);
         // The number of parameters is the same for any data; 3 is the invariant of the reference.
         let (expected, values) = (model.parameters(3.0).len(), fitted.parameters.len());
         if values == expected {
             Ok(fitted)
         } else {
-            Err(ConstitutiveError::NumberOfValues { model: model.name(), parameters: expected, values })
+            Err(FitError::NumberOfValues { model: model.name(), parameters: expected, values })
         }
     }
 

@@ -4,14 +4,14 @@ use core::fmt;
 use core::str::FromStr;
 
 use piola_numerics::Real;
+use piola_solids::isochoric::{self, RivlinTerm};
+use piola_solids::{
+    AnyIsochoric, AnySolid, AnyVolumetric, Compressible, IncompressibleOgden, IncompressibleSolid, IsochoricOgden,
+    OgdenTerm, internal,
+};
 
 use super::{Model, Parameter, StableSign};
-use crate::ConstitutiveError;
-use crate::solids::isochoric::{self, RivlinTerm};
-use crate::solids::{
-    AnyIsochoric, AnySolid, AnyVolumetric, Compressible, IncompressibleOgden, IncompressibleSolid, IsochoricOgden,
-    OgdenTerm, ogden_term,
-};
+use crate::FitError;
 
 /// The largest number of terms, or degree, of a series.
 const MOST: usize = 6;
@@ -32,7 +32,7 @@ const STARTS: usize = 48;
 /// | `Polynomial(n)` | Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ, 1 ≤ i + j ≤ n | Cᵢⱼ |
 /// | `Ogden(n)` | Σ μₚ/αₚ (λ₁^αₚ + λ₂^αₚ + λ₃^αₚ − 3) | μₚ, αₚ |
 ///
-/// The energies are those of the [laws](crate::solids), the same functions over numbers that have derivatives with respect to the
+/// The energies are those of the [laws](piola_solids), the same functions over numbers that have derivatives with respect to the
 /// parameters; [`law`](Self::law) and [`compressible`](Self::compressible) make laws of fitted parameters.
 ///
 /// They are stable by the signs of their parameters: μ, n, C₁₀ and C₀₁ not negative, and 0 ≤ μₚ αₚ. Yeoh's and the
@@ -40,14 +40,14 @@ const STARTS: usize = 48;
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::fit::{AnyModel, Model};
+/// use piola_fit::solids::{AnyModel, Model};
 /// let ogden: AnyModel = "ogden:2".parse()?;
 /// let names: Vec<_> = ogden.parameters(5.0).into_iter().map(|parameter| parameter.name).collect();
 /// assert_eq!(names, ["mu1", "alpha1", "mu2", "alpha2"]);
 /// let energy: f64 = ogden.energy([2.0, 1.0, 0.5], &[3.0, 2.0, 1.0, -2.0]); // I₁ = I₂ = 5.25
 /// assert!((energy - (3.375 - 1.125)).abs() < 1e-15);
 /// assert!("ogden:0".parse::<AnyModel>().is_err());
-/// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+/// # Ok::<(), piola_fit::FitError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -78,13 +78,9 @@ impl Series {
     /// Of a number.
     ///
     /// # Errors
-    /// [`ConstitutiveError::SeriesLength`].
-    pub const fn new(count: usize) -> Result<Self, ConstitutiveError> {
-        if 1 <= count && count <= MOST {
-            Ok(Self(count))
-        } else {
-            Err(ConstitutiveError::SeriesLength { value: count })
-        }
+    /// [`FitError::SeriesLength`].
+    pub const fn new(count: usize) -> Result<Self, FitError> {
+        if 1 <= count && count <= MOST { Ok(Self(count)) } else { Err(FitError::SeriesLength { value: count }) }
     }
 
     /// The number.
@@ -114,18 +110,18 @@ impl AnyModel {
     /// The incompressible law with these parameters, without excess pressure.
     ///
     /// # Errors
-    /// [`ConstitutiveError::NumberOfValues`]; what the law's constructor refuses, such as a modulus that is not positive.
+    /// [`FitError::NumberOfValues`]; what the law's constructor refuses, such as a modulus that is not positive.
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fit::AnyModel;
-    /// use piola_constitutive::homogeneous::{Mode, nominal_stress};
+    /// use piola_fit::solids::AnyModel;
+    /// use piola_specimens::homogeneous::{Mode, nominal_stress};
     /// let rubber = AnyModel::MooneyRivlin.law(&[0.5, 0.25])?;
     /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
     /// assert!((stress - 2.0 * 1.75 * 0.625).abs() < 1e-14); // 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ)
-    /// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+    /// # Ok::<(), piola_fit::FitError>(())
     /// ```
-    pub fn law(&self, parameters: &[f64]) -> Result<AnySolid, ConstitutiveError> {
+    pub fn law(&self, parameters: &[f64]) -> Result<AnySolid, FitError> {
         Ok(match self.shape(parameters)? {
             Shape::Invariants(isochoric) => IncompressibleSolid::new(isochoric).into(),
             Shape::Stretches(terms) => IncompressibleOgden::new(&terms)?.into(),
@@ -136,11 +132,7 @@ impl AnyModel {
     ///
     /// # Errors
     /// As [`law`](Self::law).
-    pub fn compressible(
-        &self,
-        parameters: &[f64],
-        volumetric: impl Into<AnyVolumetric>,
-    ) -> Result<AnySolid, ConstitutiveError> {
+    pub fn compressible(&self, parameters: &[f64], volumetric: impl Into<AnyVolumetric>) -> Result<AnySolid, FitError> {
         let volumetric = volumetric.into();
         Ok(match self.shape(parameters)? {
             Shape::Invariants(isochoric) => Compressible::checked(isochoric, volumetric)?.into(),
@@ -148,11 +140,11 @@ impl AnyModel {
         })
     }
 
-    fn shape(&self, parameters: &[f64]) -> Result<Shape, ConstitutiveError> {
+    fn shape(&self, parameters: &[f64]) -> Result<Shape, FitError> {
         // The number of parameters is the same for any data; 3 is the invariant of the reference.
         let (values, expected) = (parameters.len(), self.parameters(3.0).len());
         if values != expected {
-            return Err(ConstitutiveError::NumberOfValues { model: self.to_string(), parameters: expected, values });
+            return Err(FitError::NumberOfValues { model: self.to_string(), parameters: expected, values });
         }
         let p = parameters;
         Ok(Shape::Invariants(match self {
@@ -188,10 +180,10 @@ impl fmt::Display for AnyModel {
 }
 
 impl FromStr for AnyModel {
-    type Err = ConstitutiveError;
+    type Err = FitError;
 
-    fn from_str(text: &str) -> Result<Self, ConstitutiveError> {
-        let unknown = || ConstitutiveError::UnknownModel { name: text.to_owned() };
+    fn from_str(text: &str) -> Result<Self, FitError> {
+        let unknown = || FitError::UnknownModel { name: text.to_owned() };
         let series = |count: &str| Series::new(count.parse().map_err(|_| unknown())?);
         match text.split_once(':') {
             None => match text {
@@ -210,9 +202,9 @@ impl FromStr for AnyModel {
 }
 
 impl TryFrom<String> for AnyModel {
-    type Error = ConstitutiveError;
+    type Error = FitError;
 
-    fn try_from(text: String) -> Result<Self, ConstitutiveError> {
+    fn try_from(text: String) -> Result<Self, FitError> {
         text.parse()
     }
 }
@@ -258,16 +250,16 @@ impl Model for AnyModel {
         let first = a + b + c - three;
         let second = || a * b + b * c + c * a - three;
         match self {
-            Self::NeoHookean => isochoric::neo_hookean(parameters[0], first),
-            Self::MooneyRivlin => isochoric::mooney_rivlin([parameters[0], parameters[1]], first, second()),
-            Self::Yeoh => isochoric::yeoh([parameters[0], parameters[1], parameters[2]], first),
-            Self::Gent => isochoric::gent(parameters[0], parameters[1], first),
-            Self::ArrudaBoyce => isochoric::arruda_boyce(parameters[0], parameters[1], first),
+            Self::NeoHookean => internal::neo_hookean(parameters[0], first),
+            Self::MooneyRivlin => internal::mooney_rivlin([parameters[0], parameters[1]], first, second()),
+            Self::Yeoh => internal::yeoh([parameters[0], parameters[1], parameters[2]], first),
+            Self::Gent => internal::gent(parameters[0], parameters[1], first),
+            Self::ArrudaBoyce => internal::arruda_boyce(parameters[0], parameters[1], first),
             Self::Polynomial(series) => {
                 let second = second();
                 let mut energy = T::zero();
                 for (powers, factor) in series.powers().zip(parameters) {
-                    energy += isochoric::rivlin_term(*factor, powers, first, second);
+                    energy += internal::rivlin_term(*factor, powers, first, second);
                 }
                 energy
             }
@@ -275,7 +267,7 @@ impl Model for AnyModel {
                 let logarithms = stretches.map(Real::ln);
                 let mut energy = T::zero();
                 for term in parameters.chunks_exact(2) {
-                    let [a, b, c] = logarithms.map(|x| ogden_term(term[0], term[1], x));
+                    let [a, b, c] = logarithms.map(|x| internal::ogden_term(term[0], term[1], x));
                     energy += a + b + c;
                 }
                 energy

@@ -1,7 +1,7 @@
 //! Known parameters from made data with seeded errors.
 
-use piola_constitutive::fit::{AnyModel, Data, Fitted, Measure, Model, Options, Stability, Table, Test, fit};
-use piola_constitutive::homogeneous::{Mode, nominal_stress};
+use piola_fit::solids::{AnyModel, Data, Fitted, Measure, Model, Options, Stability, Table, Test, fit};
+use piola_specimens::homogeneous::{Mode, nominal_stress};
 use piola_testkit::{Tol, assert_close};
 
 const TRIALS: u64 = 200;

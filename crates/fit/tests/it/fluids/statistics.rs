@@ -1,7 +1,7 @@
 //! Intervals and criteria under noise.
 
-use piola_constitutive::fluids::{CarreauYasuda, HerschelBulkley, PowerLaw};
-use piola_viscometry::fit::{FlowData, Options, Weighting, fit_flow};
+use piola_fit::fluids::{FlowData, Options, Weighting, fit_flow};
+use piola_fluids::{CarreauYasuda, HerschelBulkley, PowerLaw};
 
 /// `SplitMix64` and the transform of Box and Muller.
 struct Normal(u64);

@@ -1,10 +1,10 @@
 //! Fluids from the discharges and speeds of `viscometric.json`.
 
-use piola_constitutive::fluids::{Bingham, CarreauYasuda, Newtonian, Parameters, PowerLaw, ViscometricFluid};
+use piola_fit::FitError;
+use piola_fit::fluids::{FlowData, Options, fit_flow};
+use piola_fluids::{Bingham, CarreauYasuda, Newtonian, Parameters, PowerLaw, ViscometricFluid};
 use piola_testkit::golden::{self, number, text, vector};
 use piola_testkit::{Tol, assert_close};
-use piola_viscometry::ViscometryError;
-use piola_viscometry::fit::{FlowData, Options, fit_flow};
 use piola_viscometry::recover::FlowTable;
 use serde_json::Value;
 
@@ -13,7 +13,7 @@ fn rows(drive: &Value, response: &Value) -> Vec<[f64; 2]> {
 }
 
 /// All four kinds of data of a case.
-fn data(case: &Value) -> Result<[FlowData; 4], ViscometryError> {
+fn data(case: &Value) -> Result<[FlowData; 4], FitError> {
     let (pipe, channel, couette) = (&case["input"]["pipe"], &case["input"]["channel"], &case["input"]["couette"]);
     let curve = &case["output"]["pipe"];
     Ok([

@@ -17,7 +17,7 @@
 //!
 //! # Example
 //! ```
-//! use piola_constitutive::fit::{AnyModel, Data, Measure, Options, Table, Test, fit};
+//! use piola_fit::solids::{AnyModel, Data, Measure, Options, Table, Test, fit};
 //! // Nominal stresses 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ) of C₁₀ = 0.3, C₀₁ = 0.1 with errors in the fourth digit.
 //! let bar = Table::Uniaxial(vec![[1.25, 0.4642], [1.5, 0.7758], [2.0, 1.2247], [3.0, 1.9260], [4.0, 2.5594]]);
 //! let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
@@ -25,7 +25,7 @@
 //! let c10 = &rubber.parameters[0];
 //! assert!((c10.value - 0.3).abs() < 1e-3 && rubber.tests[0].relative_rms < 1e-3);
 //! assert!(rubber.outcome.is_converged() && rubber.stability.is_stable());
-//! # Ok::<(), piola_constitutive::ConstitutiveError>(())
+//! # Ok::<(), piola_fit::FitError>(())
 //! ```
 
 mod laws;
@@ -33,17 +33,17 @@ mod linear;
 mod model;
 mod search;
 mod stability;
-mod statistics;
 mod test;
 
+pub use crate::{Covariance, Criteria, Outcome, student};
 pub use laws::{AnyModel, Series};
 pub use model::{Fitted, Model, Parameter, Role, StableSign};
 pub use stability::{Counterexample, StabilityReport};
-pub use statistics::{Covariance, Criteria, student};
 pub use test::{Component, Data, Measure, Table, Test};
 
-use crate::ConstitutiveError;
-use crate::solids::{AnySolid, AnyVolumetric};
+use piola_solids::{AnySolid, AnyVolumetric};
+
+use crate::FitError;
 use search::{Best, Problem};
 
 /// What residuals are divided by.
@@ -95,50 +95,6 @@ impl Default for Options {
             bounds: Vec::new(),
             confidence: 0.95,
             patience: 200,
-        }
-    }
-}
-
-/// How a fit ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum Outcome {
-    /// Solved directly: all parameters are factors.
-    LinearSolution,
-    /// Nothing is left to be fitted.
-    ExactFit,
-    /// The residuals are orthogonal to what parameters can change.
-    GradientZero,
-    /// Neither the sum of squares nor the parameters change any more.
-    NoFurtherDecrease,
-    /// Not converged: the evaluations are used up.
-    OutOfPatience,
-    /// Not converged: stresses were not finite on the way.
-    NotFinite,
-    /// Not converged to a stable law: the data ask for less than no stiffness. Every factor is zero, at its bound.
-    NoStiffness,
-}
-
-impl Outcome {
-    /// Whether the parameters are at a minimum, and the law has some stiffness if the data ask for any.
-    #[must_use]
-    pub const fn is_converged(self) -> bool {
-        !matches!(self, Self::OutOfPatience | Self::NotFinite | Self::NoStiffness)
-    }
-
-    /// It in words.
-    #[must_use]
-    pub const fn reason(self) -> &'static str {
-        match self {
-            Self::LinearSolution => "solved directly",
-            Self::ExactFit => "the residuals are zero",
-            Self::GradientZero => "the gradient is zero",
-            Self::NoFurtherDecrease => "no further decrease",
-            Self::OutOfPatience => "stopped: evaluations used up",
-            Self::NotFinite => "stopped: stresses not finite",
-            Self::NoStiffness => "stopped: no stiffness, all factors at their bound 0",
         }
     }
 }
@@ -236,13 +192,13 @@ impl Fit {
     /// The fitted law, incompressible and without excess pressure.
     ///
     /// # Errors
-    /// [`ConstitutiveError::UnknownModel`] for a model of your own; as [`AnyModel::law`] otherwise.
+    /// [`FitError::UnknownModel`] for a model of your own; as [`AnyModel::law`] otherwise.
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fit::{AnyModel, Data, Measure, Options, Table, Test, fit};
-    /// use piola_constitutive::homogeneous::{Mode, nominal_stress};
-    /// use piola_constitutive::solids::{Hyperelastic, volumetric::SimoTaylor};
+    /// use piola_fit::solids::{AnyModel, Data, Measure, Options, Table, Test, fit};
+    /// use piola_specimens::homogeneous::{Mode, nominal_stress};
+    /// use piola_solids::{Hyperelastic, volumetric::SimoTaylor};
     /// use piola_continuum::DeformationGradient;
     /// let bar = Table::Uniaxial(vec![[1.5, 0.4], [2.0, 0.6], [3.0, 1.1]]);
     /// let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
@@ -255,7 +211,7 @@ impl Fit {
     /// assert!((sheared - 0.5 * mu).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn law(&self) -> Result<AnySolid, ConstitutiveError> {
+    pub fn law(&self) -> Result<AnySolid, FitError> {
         self.model.parse::<AnyModel>()?.law(&self.values())
     }
 
@@ -263,7 +219,7 @@ impl Fit {
     ///
     /// # Errors
     /// As [`law`](Self::law).
-    pub fn compressible(&self, volumetric: impl Into<AnyVolumetric>) -> Result<AnySolid, ConstitutiveError> {
+    pub fn compressible(&self, volumetric: impl Into<AnyVolumetric>) -> Result<AnySolid, FitError> {
         self.model.parse::<AnyModel>()?.compressible(&self.values(), volumetric)
     }
 
@@ -280,10 +236,10 @@ impl Fit {
 /// numbers as parameters are fitted without errors: see [`Fit::degrees_of_freedom`].
 ///
 /// # Errors
-/// [`ConstitutiveError::NothingDeformed`] if nothing is deformed in any test, so that the stresses say nothing of any
-/// parameter; [`ConstitutiveError::TooFewPoints`] for fewer numbers than parameters;
-/// [`ConstitutiveError::UnknownParameter`], [`ConstitutiveError::ImpossibleBounds`],
-/// [`ConstitutiveError::Confidence`], [`ConstitutiveError::NoSuchSign`]; [`ConstitutiveError::NoStart`] if the model has finite stresses at no start.
+/// [`FitError::NothingDeformed`] if nothing is deformed in any test, so that the stresses say nothing of any
+/// parameter; [`FitError::TooFewPoints`] for fewer numbers than parameters;
+/// [`FitError::UnknownParameter`], [`FitError::ImpossibleBounds`],
+/// [`FitError::ConfidenceOutOfRange`], [`FitError::NoSuchSign`]; [`FitError::NoStart`] if the model has finite stresses at no start.
 ///
 /// # Accuracy
 /// Parameters that are factors: that of linear least squares. Others: to about the root of the rounding of S, ten digits
@@ -291,26 +247,26 @@ impl Fit {
 ///
 /// # Example
 /// See the [module](self).
-pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, ConstitutiveError> {
+pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, FitError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
-        return Err(ConstitutiveError::Confidence { value: options.confidence });
+        return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
     if let Some(first) = data.tests().first().filter(|_| data.tests().iter().all(Test::is_at_rest)) {
         let (test, value) = (first.name().to_owned(), first.abscissas().next().unwrap_or(1.0));
-        return Err(ConstitutiveError::NothingDeformed { test, value });
+        return Err(FitError::NothingDeformed { test, value });
     }
     let reach = data.largest_first_invariant();
     let parameters = bounded(model, reach, &options.bounds)?;
     if data.len() < parameters.len() {
         let (points, parameters) = (data.len(), parameters.len());
-        return Err(ConstitutiveError::TooFewPoints { model: model.name(), points, parameters });
+        return Err(FitError::TooFewPoints { model: model.name(), points, parameters });
     }
     let signs = options.stability == Stability::Required;
     let weights = weights(data, options.weighting);
     let problem = Problem::new(model, data, parameters, weights, signs, options.patience.clamp(1, MOST_PATIENCE));
     let starts = model.starts(reach);
     let Some((mut best, starts_that_agree)) = problem.search(&starts) else {
-        return Err(ConstitutiveError::NoStart { model: model.name() });
+        return Err(FitError::NoStart { model: model.name() });
     };
     if options.bounds.is_empty() {
         model.order(&mut best.parameters);
@@ -334,19 +290,15 @@ pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, C
 const MOST_PATIENCE: usize = 1_000_000;
 
 /// Refuses bounds that hold no number.
-fn check_bounds<M: Model>(model: &M, parameter: &str, [lower, upper]: [f64; 2]) -> Result<(), ConstitutiveError> {
+fn check_bounds<M: Model>(model: &M, parameter: &str, [lower, upper]: [f64; 2]) -> Result<(), FitError> {
     if lower <= upper && lower < f64::INFINITY && f64::NEG_INFINITY < upper {
         return Ok(());
     }
-    Err(ConstitutiveError::ImpossibleBounds { model: model.name(), parameter: parameter.to_owned(), lower, upper })
+    Err(FitError::ImpossibleBounds { model: model.name(), parameter: parameter.to_owned(), lower, upper })
 }
 
 /// The parameters of a model within narrower bounds.
-fn bounded<M: Model>(
-    model: &M,
-    reach: f64,
-    bounds: &[(String, [f64; 2])],
-) -> Result<Vec<Parameter>, ConstitutiveError> {
+fn bounded<M: Model>(model: &M, reach: f64, bounds: &[(String, [f64; 2])]) -> Result<Vec<Parameter>, FitError> {
     let mut parameters = model.parameters(reach);
     for parameter in &parameters {
         check_bounds(model, &parameter.name, parameter.bounds)?;
@@ -354,18 +306,18 @@ fn bounded<M: Model>(
             && parameters.get(index).is_none_or(|other| other.role == Role::Linear)
         {
             let (model, parameter) = (model.name(), parameter.name.clone());
-            return Err(ConstitutiveError::NoSuchSign { model, parameter, index });
+            return Err(FitError::NoSuchSign { model, parameter, index });
         }
     }
     for (name, [low, high]) in bounds {
         let Some(parameter) = parameters.iter_mut().find(|parameter| parameter.name == *name) else {
-            return Err(ConstitutiveError::UnknownParameter { model: model.name(), parameter: name.clone() });
+            return Err(FitError::UnknownParameter { model: model.name(), parameter: name.clone() });
         };
         let [least, greatest] = parameter.bounds;
         let (lower, upper) = (low.max(least), high.min(greatest));
         if low.is_nan() || high.is_nan() {
             let (model, parameter) = (model.name(), name.clone());
-            return Err(ConstitutiveError::ImpossibleBounds { model, parameter, lower, upper });
+            return Err(FitError::ImpossibleBounds { model, parameter, lower, upper });
         }
         check_bounds(model, name, [lower, upper])?;
         parameter.bounds = [lower, upper];

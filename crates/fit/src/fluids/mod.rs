@@ -8,26 +8,26 @@
 //!
 //! # Example
 //! ```
-//! use piola_constitutive::fluids::PowerLaw;
-//! use piola_viscometry::fit::{FlowData, Options, fit_flow};
+//! use piola_fluids::PowerLaw;
+//! use piola_fit::fluids::{FlowData, Options, fit_flow};
 //! // τ = 3 √k.
 //! let data = FlowData::flow_curve(&[[1.0, 3.0], [4.0, 6.0], [9.0, 9.0], [100.0, 30.0]])?;
 //! let fit = fit_flow::<PowerLaw, 2>(&[data], &[[1.0, 1.0]], &Options::default())?;
 //! assert!((fit.fluid.consistency() - 3.0).abs() < 1e-10 && (fit.fluid.exponent() - 0.5).abs() < 1e-10);
-//! # Ok::<(), piola_viscometry::ViscometryError>(())
+//! # Ok::<(), piola_fit::FitError>(())
 //! ```
 
 mod data;
 mod search;
 
+pub use crate::{Covariance, Criteria, Outcome};
 pub use data::FlowData;
-pub use piola_constitutive::fit::{Covariance, Criteria, Outcome};
 
 use nalgebra::DMatrix;
-use piola_constitutive::fit::student;
-use piola_constitutive::fluids::{Parameters, ViscometricFluid};
+use piola_fluids::{Parameters, ViscometricFluid};
 
-use crate::ViscometryError;
+use crate::search::Range;
+use crate::{FitError, student};
 use search::Problem;
 
 /// What residuals are.
@@ -108,9 +108,9 @@ pub struct FluidFit<F> {
 /// What cannot converge still returns the best parameters that were found, with an [`Outcome`] that says so.
 ///
 /// # Errors
-/// [`ViscometryError::TooFewRows`], [`ViscometryError::Confidence`], [`ViscometryError::UnknownParameter`],
-/// [`ViscometryError::ImpossibleBounds`], [`ViscometryError::NoStart`] if no start has finite answers;
-/// [`ViscometryError::ResponseFalls`] with the row of a set whose responses fall by more than its noise ([`FlowData::check_rising`]).
+/// [`FitError::TooFewPoints`], [`FitError::ConfidenceOutOfRange`], [`FitError::UnknownParameter`],
+/// [`FitError::EmptyInterval`], [`FitError::NoStart`] if no start has finite answers;
+/// [`FitError::Viscometry`] with the row of a set whose responses fall by more than its noise ([`FlowData::check_rising`]).
 ///
 /// # Accuracy
 /// Parameters to about the root of the rounding of S, ten digits where the data determine them; answers to 10⁻¹⁰. Intervals suppose
@@ -122,20 +122,20 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
     data: &[FlowData],
     starts: &[[f64; N]],
     options: &Options,
-) -> Result<FluidFit<F>, ViscometryError> {
+) -> Result<FluidFit<F>, FitError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
-        return Err(ViscometryError::Confidence { value: options.confidence });
+        return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
     let rows: usize = data.iter().map(FlowData::len).sum();
     if rows < N {
-        return Err(ViscometryError::TooFewRows { rows, least: N });
+        return Err(FitError::TooFewPoints { model: F::NAME.to_owned(), points: rows, parameters: N });
     }
     data.iter().try_for_each(FlowData::check_rising)?;
-    let bounds = bounds::<F, N>(&options.bounds)?;
-    let problem = Problem::<F, N>::new(data, options.weighting, bounds, options.patience.max(1));
+    let ranges = ranges::<F, N>(&options.bounds)?;
+    let problem = Problem::<F, N>::new(data, options.weighting, ranges, options.patience.max(1));
     let mut found: Vec<_> = starts.iter().filter_map(|start| problem.search(*start)).collect();
     found.sort_by(|a, b| a.squares.total_cmp(&b.squares));
-    let Some(best) = found.first() else { return Err(ViscometryError::NoStart { fluid: F::NAME }) };
+    let Some(best) = found.first() else { return Err(FitError::NoStart { model: F::NAME.to_owned() }) };
     let (residuals, slopes) = problem.evaluate(best.parameters)?;
     let degrees_of_freedom = rows - N;
     let variance = if 0 < degrees_of_freedom { best.squares / degrees_of_freedom as f64 } else { 0.0 };
@@ -172,20 +172,20 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
     })
 }
 
-/// The bounds of each parameter, if there are any.
-fn bounds<F: Parameters<N> + ViscometricFluid, const N: usize>(
+/// Where each parameter is searched for: within its bounds, or above zero.
+fn ranges<F: Parameters<N> + ViscometricFluid, const N: usize>(
     given: &[(String, [f64; 2])],
-) -> Result<[Option<[f64; 2]>; N], ViscometryError> {
-    let mut bounds = [None; N];
+) -> Result<[Range; N], FitError> {
+    let mut ranges = [Range::POSITIVE; N];
     for (name, [lower, upper]) in given {
+        let parameter = name.clone();
         let Some(k) = F::NAMES.iter().position(|known| known == name) else {
-            return Err(ViscometryError::UnknownParameter { fluid: F::NAME, parameter: name.clone() });
+            return Err(FitError::UnknownParameter { model: F::NAME.to_owned(), parameter });
         };
         if !(lower.is_finite() && upper.is_finite() && lower < upper) {
-            let parameter = name.clone();
-            return Err(ViscometryError::ImpossibleBounds { parameter, lower: *lower, upper: *upper });
+            return Err(FitError::EmptyInterval { parameter, lower: *lower, upper: *upper });
         }
-        bounds[k] = Some([*lower, *upper]);
+        ranges[k].bounds = [*lower, *upper];
     }
-    Ok(bounds)
+    Ok(ranges)
 }

@@ -1,7 +1,7 @@
 //! As many numbers as parameters, data that ask for no stiffness, and data that say nothing: each is said by name.
 
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fit::{
+use piola_fit::FitError;
+use piola_fit::solids::{
     AnyModel, Component, Criteria, Data, Fit, Measure, Options, Outcome, Stability, State, Table, Test, fit,
 };
 use piola_testkit::{Tol, assert_close};
@@ -109,7 +109,7 @@ fn data_in_which_nothing_is_deformed_are_refused_with_their_stretch() {
     for (table, stretch) in tables {
         for model in [AnyModel::NeoHookean, AnyModel::Gent, AnyModel::Yeoh] {
             let error = fit(&model, &of(table.clone()), &Options::default()).expect_err("at rest");
-            let ConstitutiveError::NothingDeformed { test, value } = &error else { panic!("{error}") };
+            let FitError::NothingDeformed { test, value } = &error else { panic!("{error}") };
             assert!(test == "bar" && (value - stretch).abs() <= 1e-15, "{error}");
             assert!(error.to_string().ends_with("the data say nothing of the parameters"), "{error}");
         }

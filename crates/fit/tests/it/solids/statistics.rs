@@ -1,6 +1,6 @@
 //! Covariance, intervals and criteria against the normal equations of two parameters, solved by hand.
 
-use piola_constitutive::fit::{AnyModel, Data, Measure, Options, Stability, Table, Test, Weighting, fit};
+use piola_fit::solids::{AnyModel, Data, Measure, Options, Stability, Table, Test, Weighting, fit};
 use piola_testkit::{Tol, assert_close};
 
 /// Of three degrees of freedom at 95 %.

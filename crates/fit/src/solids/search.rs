@@ -8,13 +8,12 @@
 
 use core::cell::Cell;
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, MinimizationReport, TerminationReason};
 use nalgebra::{DMatrix, DVector};
-use nalgebra_of_search as searched;
 use piola_numerics::Gradient;
 
 use super::model::Fitted;
 use super::{Data, Model, Outcome, Parameter, Role, StableSign, linear, stability};
+use crate::search::{End, Misfit, Range, minimise};
 
 /// Parameters of one evaluation.
 const CHUNK: usize = 4;
@@ -156,10 +155,10 @@ impl<'a, M: Model> Problem<'a, M> {
                 found.push(Best { parameters: theta, squares: residuals.norm_squared(), outcome });
                 continue;
             }
-            let inner = searched.iter().map(|&k| self.inward(k, theta[k]));
-            let x = searched::DVector::from_iterator(searched.len(), inner);
-            let target = Separable { problem: self, searched: &searched, observed: &observed, theta, x, state: None };
-            found.extend(target.run());
+            let x = searched.iter().map(|&k| self.range(k).inward(theta[k])).collect();
+            let target = Separable { problem: self, searched: &searched, observed: &observed, theta };
+            let end = minimise(target, x, self.patience);
+            found.extend(end.map(Best::from).filter(|best| best.squares.is_finite()));
         }
         let best = found.iter().min_by(|a, b| a.squares.total_cmp(&b.squares))?.clone();
         let agree = found.iter().filter(|other| other.squares <= best.squares * (1.0 + 1e-6)).count();
@@ -180,11 +179,9 @@ impl<'a, M: Model> Problem<'a, M> {
         // From soft to hard, until nothing is lacking.
         for power in 0..7 {
             let hardness = 10_f64.powi(power);
-            let inner = (0..theta.len()).map(|k| self.inward(k, theta[k]));
-            let x = searched::DVector::from_iterator(theta.len(), inner);
-            let start = theta.clone();
-            let target = Penalised { problem: self, observed: &observed, fan, hardness, theta: start, x, state: None };
-            let reached = target.run()?;
+            let x = (0..theta.len()).map(|k| self.range(k).inward(theta[k])).collect();
+            let target = Penalised { problem: self, observed: &observed, fan, hardness, theta: theta.clone() };
+            let reached = Best::from(minimise(target, x, self.patience)?);
             let (values, _) = self.stresses(&reached.parameters);
             let squares = (values - &observed).norm_squared();
             theta.clone_from(&reached.parameters);
@@ -197,60 +194,24 @@ impl<'a, M: Model> Problem<'a, M> {
         found
     }
 
-    /// The unbounded coordinate of a parameter.
-    fn inward(&self, k: usize, value: f64) -> f64 {
+    /// Where a parameter is searched for.
+    fn range(&self, k: usize) -> Range {
         let least = 1e-6 * if self.parameters[k].is_stress { self.stress } else { 1.0 };
-        match self.parameters[k].bounds {
-            [low, high] if low.is_finite() && high.is_finite() => {
-                let half = 0.5 * (high - low);
-                if 0.0 < half { ((value - low) / half - 1.0).clamp(-0.999, 0.999).asin() } else { 0.0 }
-            }
-            [low, _] if low.is_finite() => (value - low).max(least).ln(),
-            [_, high] if high.is_finite() => (high - value).max(least).ln(),
-            _ => value,
-        }
-    }
-
-    /// The parameter of an unbounded coordinate, and its derivative.
-    fn outward(&self, k: usize, x: f64) -> (f64, f64) {
-        match self.parameters[k].bounds {
-            [low, high] if low.is_finite() && high.is_finite() => {
-                let half = 0.5 * (high - low);
-                (low + half * (1.0 + x.sin()), half * x.cos())
-            }
-            [low, _] if low.is_finite() => (low + x.exp(), x.exp()),
-            [_, high] if high.is_finite() => (high - x.exp(), -x.exp()),
-            _ => (x, 1.0),
-        }
-    }
-
-    fn minimiser(&self) -> LevenbergMarquardt<f64> {
-        LevenbergMarquardt::new().with_ftol(1e-14).with_xtol(1e-12).with_gtol(1e-12).with_patience(self.patience)
+        Range { bounds: self.parameters[k].bounds, least }
     }
 }
 
-fn outcome(report: &MinimizationReport<f64>) -> Outcome {
-    match report.termination {
-        TerminationReason::ResidualsZero => Outcome::ExactFit,
-        TerminationReason::Orthogonal => Outcome::GradientZero,
-        TerminationReason::Converged { .. } | TerminationReason::NoImprovementPossible(_) => Outcome::NoFurtherDecrease,
-        TerminationReason::LostPatience => Outcome::OutOfPatience,
-        _ => Outcome::NotFinite,
+impl<M: Parametric> From<End<M>> for Best {
+    fn from(end: End<M>) -> Self {
+        let squares = end.state.0.norm_squared();
+        Self { parameters: end.misfit.into_parameters(), squares, outcome: end.outcome }
     }
 }
 
-/// Residuals of a point without finite stresses: the step there is taken back.
-fn refused(rows: usize) -> searched::DVector<f64> {
-    searched::DVector::from_element(rows, 1e100)
+/// A misfit of parameters, with residuals and their derivatives or what these follow from.
+trait Parametric: Misfit<State = (DVector<f64>, DMatrix<f64>)> {
+    fn into_parameters(self) -> Vec<f64>;
 }
-
-fn to_search(matrix: &DMatrix<f64>) -> searched::DMatrix<f64> {
-    searched::DMatrix::from_column_slice(matrix.nrows(), matrix.ncols(), matrix.as_slice())
-}
-
-type Dynamic = searched::Dyn;
-type Column = searched::Owned<f64, Dynamic>;
-type Rectangle = searched::Owned<f64, Dynamic, Dynamic>;
 
 /// The search for α alone.
 struct Separable<'p, 'a, M> {
@@ -258,63 +219,40 @@ struct Separable<'p, 'a, M> {
     searched: &'p [usize],
     observed: &'p DVector<f64>,
     theta: Vec<f64>,
-    x: searched::DVector<f64>,
-    /// Residuals and basis at x.
-    state: Option<(DVector<f64>, DMatrix<f64>)>,
 }
 
-impl<M: Model> Separable<'_, '_, M> {
+impl<M: Model> Parametric for Separable<'_, '_, M> {
+    fn into_parameters(self) -> Vec<f64> {
+        self.theta
+    }
+}
+
+impl<M: Model> Misfit for Separable<'_, '_, M> {
+    /// Residuals, and the basis of what the linear parameters can change.
+    type State = (DVector<f64>, DMatrix<f64>);
+
     fn rows(&self) -> usize {
         self.observed.len()
     }
 
-    fn run(mut self) -> Option<Best> {
-        let minimiser = self.problem.minimiser();
-        let x = self.x.clone();
-        self.set_params(&x);
-        self.state.as_ref()?;
-        let (mut end, report) = minimiser.minimize(self);
-        let x = end.x.clone();
-        end.set_params(&x);
-        let (residuals, _) = end.state?;
-        let squares = residuals.norm_squared();
-        squares.is_finite().then_some(Best { parameters: end.theta, squares, outcome: outcome(&report) })
-    }
-}
-
-impl<M: Model> LeastSquaresProblem<f64, Dynamic, Dynamic> for Separable<'_, '_, M> {
-    type ResidualStorage = Column;
-    type JacobianStorage = Rectangle;
-    type ParameterStorage = Column;
-
-    fn set_params(&mut self, x: &searched::DVector<f64>) {
-        self.x.copy_from(x);
-        for (index, &k) in self.searched.iter().enumerate() {
-            self.theta[k] = self.problem.outward(k, x[index]).0;
+    fn visit(&mut self, x: &[f64]) -> Option<Self::State> {
+        for (&k, &x) in self.searched.iter().zip(x) {
+            self.theta[k] = self.problem.range(k).outward(x)[0];
         }
-        self.state = self.problem.eliminate(&mut self.theta, self.observed);
+        self.problem.eliminate(&mut self.theta, self.observed)
     }
 
-    fn params(&self) -> searched::DVector<f64> {
-        self.x.clone()
+    fn residuals<'s>(&self, (residuals, _): &'s Self::State) -> &'s [f64] {
+        residuals.as_slice()
     }
 
-    fn residuals(&self) -> Option<searched::DVector<f64>> {
-        Some(match &self.state {
-            Some((residuals, _)) => searched::DVector::from_column_slice(residuals.as_slice()),
-            None => refused(self.rows()),
-        })
-    }
-
-    fn jacobian(&self) -> Option<searched::DMatrix<f64>> {
-        let (_, basis) = self.state.as_ref()?;
+    fn jacobian(&self, (_, basis): &Self::State, x: &[f64]) -> DMatrix<f64> {
         let mut slopes = self.problem.stresses(&self.theta).1.select_columns(self.searched);
-        for (index, &k) in self.searched.iter().enumerate() {
-            let slope = self.problem.outward(k, self.x[index]).1;
-            slopes.column_mut(index).scale_mut(slope);
+        for (index, (&k, &x)) in self.searched.iter().zip(x).enumerate() {
+            slopes.column_mut(index).scale_mut(self.problem.range(k).outward(x)[1]);
         }
         let within = basis.tr_mul(&slopes);
-        Some(to_search(&(slopes - basis * within)))
+        slopes - basis * within
     }
 }
 
@@ -325,32 +263,31 @@ struct Penalised<'p, 'a, M> {
     fan: &'p [[f64; 3]],
     hardness: f64,
     theta: Vec<f64>,
-    x: searched::DVector<f64>,
-    state: Option<(DVector<f64>, DMatrix<f64>)>,
 }
 
 impl<M: Model> Penalised<'_, '_, M> {
     /// The least modulus that is asked for, as a part of the largest stress.
     const MARGIN: f64 = 1e-3;
+}
+
+impl<M: Model> Parametric for Penalised<'_, '_, M> {
+    fn into_parameters(self) -> Vec<f64> {
+        self.theta
+    }
+}
+
+impl<M: Model> Misfit for Penalised<'_, '_, M> {
+    /// Residuals of the data, then of Drucker's condition, and their derivatives.
+    type State = (DVector<f64>, DMatrix<f64>);
 
     fn rows(&self) -> usize {
         self.observed.len() + self.fan.len()
     }
 
-    fn run(mut self) -> Option<Best> {
-        let minimiser = self.problem.minimiser();
-        let x = self.x.clone();
-        self.set_params(&x);
-        self.state.as_ref()?;
-        let (mut end, report) = minimiser.minimize(self);
-        let x = end.x.clone();
-        end.set_params(&x);
-        let (residuals, _) = end.state?;
-        Some(Best { parameters: end.theta, squares: residuals.norm_squared(), outcome: outcome(&report) })
-    }
-
-    /// Residuals of the data, then of Drucker's condition.
-    fn evaluate(&self) -> Option<(DVector<f64>, DMatrix<f64>)> {
+    fn visit(&mut self, x: &[f64]) -> Option<Self::State> {
+        for (k, &x) in x.iter().enumerate() {
+            self.theta[k] = self.problem.range(k).outward(x)[0];
+        }
         let (values, slopes) = self.problem.stresses(&self.theta);
         let (rows, unknowns) = (values.len(), self.theta.len());
         let mut residuals = DVector::zeros(rows + self.fan.len());
@@ -377,39 +314,16 @@ impl<M: Model> Penalised<'_, '_, M> {
             }
         }
         for k in 0..unknowns {
-            let slope = self.problem.outward(k, self.x[k]).1;
-            jacobian.column_mut(k).scale_mut(slope);
+            jacobian.column_mut(k).scale_mut(self.problem.range(k).outward(x[k])[1]);
         }
         residuals.iter().all(|x| x.is_finite()).then_some((residuals, jacobian))
     }
-}
 
-impl<M: Model> LeastSquaresProblem<f64, Dynamic, Dynamic> for Penalised<'_, '_, M> {
-    type ResidualStorage = Column;
-    type JacobianStorage = Rectangle;
-    type ParameterStorage = Column;
-
-    fn set_params(&mut self, x: &searched::DVector<f64>) {
-        self.x.copy_from(x);
-        for k in 0..self.theta.len() {
-            self.theta[k] = self.problem.outward(k, x[k]).0;
-        }
-        self.state = self.evaluate();
+    fn residuals<'s>(&self, (residuals, _): &'s Self::State) -> &'s [f64] {
+        residuals.as_slice()
     }
 
-    fn params(&self) -> searched::DVector<f64> {
-        self.x.clone()
-    }
-
-    fn residuals(&self) -> Option<searched::DVector<f64>> {
-        Some(match &self.state {
-            Some((residuals, _)) => searched::DVector::from_column_slice(residuals.as_slice()),
-            None => refused(self.rows()),
-        })
-    }
-
-    fn jacobian(&self) -> Option<searched::DMatrix<f64>> {
-        let (_, jacobian) = self.state.as_ref()?;
-        Some(to_search(jacobian))
+    fn jacobian(&self, (_, jacobian): &Self::State, _: &[f64]) -> DMatrix<f64> {
+        jacobian.clone()
     }
 }

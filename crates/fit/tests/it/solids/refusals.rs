@@ -1,12 +1,12 @@
 //! What cannot be fitted is refused by name.
 
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fit::{
+use piola_fit::FitError;
+use piola_fit::solids::{
     AnyModel, Component, Data, Fitted, Measure, Model, Options, Outcome, Parameter, StableSign, State, Table, Test, fit,
 };
 use piola_numerics::Real;
 
-fn bar(points: Vec<[f64; 2]>) -> Result<Test, ConstitutiveError> {
+fn bar(points: Vec<[f64; 2]>) -> Result<Test, FitError> {
     Test::new("bar", Table::Uniaxial(points), Measure::Nominal)
 }
 
@@ -15,7 +15,7 @@ fn data(count: u32) -> Data {
     Data::new(vec![bar(points).expect("a test")]).expect("data")
 }
 
-fn sentence<T: core::fmt::Debug>(result: Result<T, ConstitutiveError>) -> String {
+fn sentence<T: core::fmt::Debug>(result: Result<T, FitError>) -> String {
     result.expect_err("refused").to_string()
 }
 
@@ -68,14 +68,14 @@ fn impossible_models_and_options_are_refused() {
     let contradiction = fit(&ogden, &data(20), &Options { bounds, ..Options::default() });
     assert_eq!(
         sentence(contradiction),
-        "ogden:1: the stresses are finite, and the bounds kept, at no start of the search"
+        "ogden:1: at no start of the search are the answers finite and the bounds kept"
     );
 }
 
 /// Stresses beyond a limiting stretch are no numbers: a model asked there has no start, and a fit stays below.
 #[test]
 fn stretches_beyond_a_limit_have_no_stress_and_no_fit_ends_there() {
-    use piola_constitutive::homogeneous::{Mode, nominal_stress};
+    use piola_specimens::homogeneous::{Mode, nominal_stress};
     for (model, parameters) in [(AnyModel::Gent, [1.0, 3.0]), (AnyModel::ArrudaBoyce, [1.0, 2.0])] {
         let law = Fitted::new(&model, parameters).expect("as many");
         assert!(nominal_stress(Mode::Uniaxial, 2.0_f64, &law).is_finite());
@@ -110,14 +110,14 @@ fn impossible_models_of_ones_own_are_refused() {
     let given = |parameters: Vec<Parameter>| fit(&Given(parameters), &data(20), &Options::default());
     for bounds in [[1.0, 0.0], [f64::NAN, 1.0], [0.0, f64::NAN], [f64::INFINITY, f64::INFINITY]] {
         let error = given(vec![Parameter::number("x", bounds)]).expect_err("no number is between");
-        assert!(matches!(error, ConstitutiveError::ImpossibleBounds { .. }), "{bounds:?}: {error}");
+        assert!(matches!(error, FitError::ImpossibleBounds { .. }), "{bounds:?}: {error}");
     }
     let signed = |index| Parameter::factor("mu").stable_if(StableSign::SameAs(index));
     for index in [0, 1, 99] {
         let parameters = vec![signed(index), Parameter::factor("nu"), Parameter::number("x", [0.0, 1.0])];
         let error = given(parameters).expect_err("no such parameter, or a factor");
         let (model, parameter) = ("given".to_owned(), "mu".to_owned());
-        assert_eq!(error, ConstitutiveError::NoSuchSign { model, parameter, index });
+        assert_eq!(error, FitError::NoSuchSign { model, parameter, index });
     }
     assert!(given(vec![signed(1), Parameter::number("x", [0.0, 1.0])]).is_ok());
     for values in [vec![], vec![1.0], vec![1.0; 3]] {
@@ -145,7 +145,7 @@ fn stresses_that_are_all_zero_are_those_of_no_stiffness() {
 #[test]
 fn stretches_at_which_no_law_has_a_stress_are_refused_with_their_point() {
     let error = bar(vec![[1.5, 1.0], [1e200, 1.0]]).expect_err("beyond");
-    assert!(matches!(error, ConstitutiveError::StretchOutOfRange { index: 1, .. }), "{error}");
+    assert!(matches!(error, FitError::StretchOutOfRange { index: 1, .. }), "{error}");
     assert!(bar(vec![[1e-200, 1.0]]).is_err());
     let sheared = |k| Test::new("block", Table::SimpleShear(vec![[k, 0.0]]), Measure::Nominal);
     assert!(sheared(0.0).is_ok() && sheared(-1e-200).is_ok() && sheared(1e200).is_err());

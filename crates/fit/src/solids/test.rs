@@ -2,9 +2,9 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::{Dual, Real};
+use piola_specimens::homogeneous::{Incompressible, Mode, nominal_stress};
 
-use crate::ConstitutiveError;
-use crate::homogeneous::{Incompressible, Mode, nominal_stress};
+use crate::FitError;
 
 /// det F of a measured deformation may differ from 1 by this much.
 const ISOCHORIC: f64 = 1e-6;
@@ -82,12 +82,12 @@ impl Table {
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::fit::{Measure, Table, Test};
+/// use piola_fit::solids::{Measure, Table, Test};
 /// let bar = Test::new("bar", Table::Uniaxial(vec![[1.5, 0.4], [2.0, 0.6]]), Measure::Nominal)?;
 /// assert_eq!(bar.largest_stress(), 0.6);
 /// let wrong = Test::new("bar", Table::Uniaxial(vec![[-1.5, 0.4]]), Measure::Nominal);
 /// assert_eq!(wrong.unwrap_err().to_string(), "test `bar`, point 0: the stretch -1.5 is not positive and finite");
-/// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+/// # Ok::<(), piola_fit::FitError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -119,9 +119,9 @@ impl Test {
     /// A test of weight 1.
     ///
     /// # Errors
-    /// [`ConstitutiveError::EmptyTest`], [`ConstitutiveError::Stretch`], [`ConstitutiveError::Stress`],
-    /// [`ConstitutiveError::NotIsochoric`], [`ConstitutiveError::NoSuchComponent`].
-    pub fn new(name: impl Into<String>, table: Table, measure: Measure) -> Result<Self, ConstitutiveError> {
+    /// [`FitError::EmptyTest`], [`FitError::StretchNotPositive`], [`FitError::StressNotFinite`],
+    /// [`FitError::NotIsochoric`], [`FitError::NoSuchComponent`].
+    pub fn new(name: impl Into<String>, table: Table, measure: Measure) -> Result<Self, FitError> {
         let name = name.into();
         let points = match (table.mode(), &table) {
             (Some((mode, points)), _) => points
@@ -137,7 +137,7 @@ impl Test {
             (None, _) => Vec::new(),
         };
         if points.is_empty() {
-            return Err(ConstitutiveError::EmptyTest { test: name });
+            return Err(FitError::EmptyTest { test: name });
         }
         Ok(Self { name, table, measure, weight: 1.0, points })
     }
@@ -145,12 +145,12 @@ impl Test {
     /// The same test with a weight: its squared residuals count that many times squared.
     ///
     /// # Errors
-    /// [`ConstitutiveError::Weight`] unless it is positive and finite.
-    pub fn with_weight(self, weight: f64) -> Result<Self, ConstitutiveError> {
+    /// [`FitError::WeightNotPositive`] unless it is positive and finite.
+    pub fn with_weight(self, weight: f64) -> Result<Self, FitError> {
         if 0.0 < weight && weight.is_finite() {
             Ok(Self { weight, ..self })
         } else {
-            Err(ConstitutiveError::Weight { test: self.name, value: weight })
+            Err(FitError::WeightNotPositive { test: self.name, value: weight })
         }
     }
 
@@ -263,26 +263,26 @@ fn of_mode(
     measure: Measure,
     stretch: f64,
     stress: f64,
-) -> Result<Measurement, ConstitutiveError> {
+) -> Result<Measurement, FitError> {
     let positive = 0.0 < stretch || matches!(mode, Mode::SimpleShear);
     if !(positive && stretch.is_finite()) {
-        return Err(ConstitutiveError::Stretch { test: test.to_owned(), index, value: stretch });
+        return Err(FitError::StretchNotPositive { test: test.to_owned(), index, value: stretch });
     }
     let reach = 1e-30..=1e30;
     let size = stretch.abs();
     // An amount of shear may be as small as it likes.
     if !(reach.contains(&size) || mode == Mode::SimpleShear && size <= *reach.end()) {
-        return Err(ConstitutiveError::StretchOutOfRange { test: test.to_owned(), index, value: stretch });
+        return Err(FitError::StretchOutOfRange { test: test.to_owned(), index, value: stretch });
     }
     check_stress(test, index, stress)?;
     Ok(Measurement { at: At::Mode(mode, stretch, factor(mode, measure, stretch)), stress })
 }
 
-fn check_stress(test: &str, index: usize, stress: f64) -> Result<(), ConstitutiveError> {
+fn check_stress(test: &str, index: usize, stress: f64) -> Result<(), FitError> {
     if stress.is_finite() {
         Ok(())
     } else {
-        Err(ConstitutiveError::Stress { test: test.to_owned(), index, value: stress })
+        Err(FitError::StressNotFinite { test: test.to_owned(), index, value: stress })
     }
 }
 
@@ -291,22 +291,17 @@ fn check_stress(test: &str, index: usize, stress: f64) -> Result<(), Constitutiv
 /// ```text
 /// T = Σ tₐ nₐ ⊗ nₐ − p 1,   tₐ = λₐ ∂W/∂λₐ,   T_kk = 0:   Tᵢⱼ = Σ tₐ (nₐᵢ nₐⱼ − δᵢⱼ nₐₖ²),   P = T F⁻ᵀ
 /// ```
-fn of_component(
-    test: &str,
-    index: usize,
-    measure: Measure,
-    point: &Component,
-) -> Result<Measurement, ConstitutiveError> {
+fn of_component(test: &str, index: usize, measure: Measure, point: &Component) -> Result<Measurement, FitError> {
     let Component { deformation, component: [i, j], free, stress } = *point;
     if let Some(place) = [i, j, free].into_iter().find(|place| 2 < *place) {
-        return Err(ConstitutiveError::NoSuchComponent { test: test.to_owned(), index, value: place });
+        return Err(FitError::NoSuchComponent { test: test.to_owned(), index, value: place });
     }
     check_stress(test, index, stress)?;
     let f = Matrix3::from_fn(|i, j| deformation[i][j]);
     let determinant = f.determinant();
     let isochoric = (determinant - 1.0).abs() <= ISOCHORIC;
     let (true, Some(inverse)) = (isochoric, f.try_inverse()) else {
-        return Err(ConstitutiveError::NotIsochoric { test: test.to_owned(), index, determinant });
+        return Err(FitError::NotIsochoric { test: test.to_owned(), index, determinant });
     };
     let axes = (f * f.transpose()).symmetric_eigen();
     let stretches: [f64; 3] = core::array::from_fn(|a| axes.eigenvalues[a].sqrt());
@@ -343,9 +338,9 @@ const fn one() -> f64 {
 
 #[cfg(feature = "serde")]
 impl TryFrom<Written> for Test {
-    type Error = ConstitutiveError;
+    type Error = FitError;
 
-    fn try_from(Written { name, table, measure, weight }: Written) -> Result<Self, ConstitutiveError> {
+    fn try_from(Written { name, table, measure, weight }: Written) -> Result<Self, FitError> {
         Self::new(name, table, measure)?.with_weight(weight)
     }
 }
@@ -361,12 +356,12 @@ impl From<Test> for Written {
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::fit::{Data, Measure, Table, Test};
+/// use piola_fit::solids::{Data, Measure, Table, Test};
 /// let bar = Test::new("bar", Table::Uniaxial(vec![[1.5, 0.4], [2.0, 0.6]]), Measure::Nominal)?;
 /// let data = Data::new(vec![bar])?;
 /// assert_eq!(data.len(), 2);
 /// assert_eq!(data.largest_first_invariant(), 5.0); // 2² + 2/2
-/// # Ok::<(), piola_constitutive::ConstitutiveError>(())
+/// # Ok::<(), piola_fit::FitError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -379,14 +374,14 @@ impl Data {
     /// All tests of one material.
     ///
     /// # Errors
-    /// [`ConstitutiveError::NoTests`]; [`ConstitutiveError::TestTwice`] for two of one name.
-    pub fn new(tests: Vec<Test>) -> Result<Self, ConstitutiveError> {
+    /// [`FitError::NoTests`]; [`FitError::TestTwice`] for two of one name.
+    pub fn new(tests: Vec<Test>) -> Result<Self, FitError> {
         if tests.is_empty() {
-            return Err(ConstitutiveError::NoTests);
+            return Err(FitError::NoTests);
         }
         for (index, test) in tests.iter().enumerate() {
             if tests[..index].iter().any(|other| other.name == test.name) {
-                return Err(ConstitutiveError::TestTwice { test: test.name.clone() });
+                return Err(FitError::TestTwice { test: test.name.clone() });
             }
         }
         Ok(Self { tests })
@@ -420,9 +415,9 @@ impl Data {
 
 #[cfg(feature = "serde")]
 impl TryFrom<Vec<Test>> for Data {
-    type Error = ConstitutiveError;
+    type Error = FitError;
 
-    fn try_from(tests: Vec<Test>) -> Result<Self, ConstitutiveError> {
+    fn try_from(tests: Vec<Test>) -> Result<Self, FitError> {
         Self::new(tests)
     }
 }
