@@ -26,47 +26,22 @@
 //! The formulas are those of the single point, run in [`Lanes`](piola_numerics::Lanes) with the widest vector
 //! instructions of the machine; with feature `rayon` on all threads from [`PARALLEL_POINTS`] points on. Nothing is
 //! allocated unless points are bad; those are all reported, and all others computed.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
 
-mod deformations;
-mod derivatives;
-mod destinations;
-mod evaluation;
-mod forces;
-mod invariants;
-mod kinematic;
-mod motions;
-mod parts;
-mod point;
-mod rates;
-mod records;
-mod refusal;
+mod engine;
+mod error;
 mod requests;
-mod sources;
-mod spectral;
-mod spinning;
-mod stresses;
-mod tangents;
-mod transport;
-mod views;
 
-pub use deformations::{Deformations, Displacements, Gradients, Undeformed};
-pub use derivatives::*;
-pub use destinations::Destination;
+pub use engine::deformations::{Deformations, Displacements, Gradients, Undeformed};
+pub use engine::destinations::Destination;
 #[doc(hidden)]
-pub use evaluation::Tally;
-pub use evaluation::{BadPoint, BatchScalar, PARALLEL_POINTS, Report, evaluate};
-pub use forces::*;
-pub use invariants::*;
-pub use kinematic::*;
-pub use motions::*;
-pub use point::Point;
-pub use rates::*;
-pub use refusal::Refusal;
-pub use requests::{Quantity, Request, Requests};
-pub use sources::Source;
-pub use spectral::*;
-pub use spinning::*;
-pub use stresses::*;
-pub use tangents::*;
-pub use transport::*;
-pub use views::{AllEntries, ColumnMajor, Components, LaneBlocks, Strided, points_of, points_of_mut};
+pub use engine::evaluation::Tally;
+pub use engine::evaluation::{BadPoint, BatchScalar, PARALLEL_POINTS, Report, evaluate};
+pub use engine::point::Point;
+pub use engine::refusal::Refusal;
+pub use engine::request::{Quantity, Request, Requests};
+pub use engine::sources::Source;
+pub use engine::views::{AllEntries, ColumnMajor, Components, LaneBlocks, Strided, points_of, points_of_mut};
+pub use error::BatchError;
+pub use requests::*;

@@ -3,12 +3,11 @@
 use core::fmt::Debug;
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
-
-use crate::tensor::Symmetric;
-use crate::tensor::rows::Rows;
-use crate::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
+use piola_tensor::Symmetric;
+use piola_tensor::internal::rows::Rows;
 
 /// A kind of value of fields, named by its type over `f64`: `f64`, `Vector3<f64>`, `Matrix3<f64>`,
 /// [`Symmetric`] and every measure of stress.

@@ -3,7 +3,7 @@
 use nalgebra::Matrix3;
 use piola_batch as batch;
 use piola_continuum::polar::StretchAnalysis;
-use piola_continuum::strain::{AlmansiStrain, GreenStrain, RightCauchyGreen};
+use piola_continuum::strain::{GreenStrain, LeftCauchyGreen, RightCauchyGreen};
 use piola_continuum::{Deformation, DeformationGradient, FirstPiola, Symmetric};
 use piola_numerics::Lanes;
 use piola_numerics::linear::matrix3::from_rows;
@@ -100,7 +100,7 @@ fn strains_and_stresses_of_a_batch_equal_those_of_its_points() {
         batch::jacobian(&mut j[..]),
         batch::right_cauchy_green(&mut c[..]),
         batch::green_strain(&mut e[..]),
-        batch::almansi_strain(&mut a[..]),
+        batch::left_cauchy_green(&mut a[..]),
         batch::cauchy_to_first_piola(&t[..], &mut p[..]),
         batch::von_mises(&t[..], &mut equivalent[..]),
     );
@@ -110,7 +110,7 @@ fn strains_and_stresses_of_a_batch_equal_those_of_its_points() {
         assert_eq!(j[i].to_bits(), f.jacobian().to_bits());
         assert_eq!(c[i], RightCauchyGreen::of(f).0);
         assert_eq!(e[i], GreenStrain::of(f).0);
-        assert_eq!(a[i], AlmansiStrain::of(f).0);
+        assert_eq!(a[i], LeftCauchyGreen::of(f).0);
         assert_eq!(p[i], t.first_piola(f));
         assert_eq!(back[i], p[i].cauchy(f));
         assert_eq!(equivalent[i].to_bits(), t.von_mises().to_bits());

@@ -3,10 +3,7 @@
 mod alloc;
 mod bad_points;
 mod cases;
-mod every_derivative;
-mod every_motion;
 mod every_request;
-mod every_spin;
 mod identical;
 mod requests;
 mod single_precision;

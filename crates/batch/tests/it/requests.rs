@@ -3,10 +3,10 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use piola_batch as batch;
-use piola_batch::{Deformations, Requests};
-use piola_tensor::internal::rows::{Rows, identity};
-use piola_continuum::{ContinuumError, Deformation, Symmetric};
+use piola_batch::{BatchError, Deformations, Requests};
+use piola_continuum::{Deformation, Symmetric};
 use piola_numerics::{Lanes, Real};
+use piola_tensor::internal::rows::{Rows, identity};
 
 /// How often F, ∇u, det F and det F − 1 were asked of the points.
 static ASKED: [AtomicUsize; 4] = [const { AtomicUsize::new(0) }; 4];
@@ -55,7 +55,7 @@ impl Deformations<f64> for Block {
         let _: Lanes<f64, N>;
         Counting
     }
-    fn check(&self, _index: usize) -> Result<(), ContinuumError> {
+    fn check(&self, _index: usize) -> Result<(), BatchError> {
         Ok(())
     }
 }

@@ -46,22 +46,13 @@ fn requests_in_single_precision_equal_those_in_double() {
     let mut random = Random::new(20);
     for _ in 0..200 {
         let f = deformation(&mut random);
-        let (s, r, v) = (both::<6>(&mut random), both::<6>(&mut random), both::<3>(&mut random));
-        let g = both::<9>(&mut random);
-        let (c, m, a) = (both::<21>(&mut random), both::<36>(&mut random), both::<81>(&mut random));
+        let (s, g, c) = (both::<6>(&mut random), both::<9>(&mut random), both::<21>(&mut random));
         in_both! { f:
-            jacobian(); volume_change(); inverse(); right_cauchy_green(); green_strain(); almansi_strain();
-            strain_invariants(); strain_invariants_less_reference(); isochoric_invariants_less_three();
-            rotation(); right_stretch(); left_stretch_less_one(); hencky_spatial(); log_principal_stretches();
-            almansi_strain_derivative(); hencky_derivative();
-            cauchy_to_kirchhoff(s); cauchy_to_second_piola(s); cauchy_to_biot(s); first_piola_to_cauchy(g);
-            second_piola_to_first_piola(s); mandel_to_cauchy(g);
-            deviator(s); stress_invariants(s); von_mises(s); tresca(s); j3_gradient(s);
-            traction(s, v); power_of_cauchy(s, g); push_vector(v); pull_area(v); pull_covariant(s); push_mixed(g);
-            velocity_gradient(g); green_rate(g); right_stretch_rate(g); jaumann_rate(s, r, g);
-            green_naghdi_rate(s, r, g);
-            push_forward_tangent(c); first_piola_tangent(s, c); material_tangent(s, a); jaumann_tangent(s, c);
-            green_naghdi_tangent(s, c); logarithmic_to_jaumann_tangent(s, m);
+            jacobian(); right_cauchy_green(); green_strain(); rotation(); right_stretch(); left_stretch();
+            spatial_hencky(); principal_stretches(); hencky_derivative();
+            cauchy_to_kirchhoff(s); cauchy_to_second_piola(s); first_piola_to_cauchy(g); second_piola_to_first_piola(s);
+            von_mises(s); velocity_gradient(g); hencky_rate(g);
+            push_forward_tangent(c); first_piola_tangent(s, c); jaumann_tangent(s, c);
         }
     }
 }

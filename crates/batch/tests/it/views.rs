@@ -2,8 +2,8 @@
 
 use nalgebra::Matrix3;
 use piola_batch as batch;
-use piola_batch::{ColumnMajor, Components, Displacements, Gradients, LaneBlocks, Strided};
-use piola_continuum::{ContinuumError, DeformationGradient, DisplacementGradient, Symmetric};
+use piola_batch::{BatchError, ColumnMajor, Components, Displacements, Gradients, LaneBlocks, Strided};
+use piola_continuum::{DeformationGradient, DisplacementGradient, Symmetric};
 
 use super::cases::deformations;
 
@@ -91,11 +91,11 @@ fn lengths_that_differ_are_refused_before_anything_is_computed() {
     let f = deformations(4);
     let mut j = [7.0; 3];
     let refusal = batch::evaluate(&f[..], batch::jacobian(&mut j[..]));
-    let wrong = ContinuumError::WrongLength { quantity: "destination of a batch", found: 3, expected: 4 };
+    let wrong = BatchError::WrongLength { quantity: "destination of a batch", found: 3, expected: 4 };
     assert_eq!((refusal, j), (Err(wrong), [7.0; 3]));
     let (stress, mut p) = ([Symmetric::<f64>::zero(); 5], [Matrix3::zeros(); 4]);
     let refusal = batch::evaluate(&f[..], batch::cauchy_to_first_piola(&stress[..], &mut p[..]));
-    let wrong = ContinuumError::WrongLength { quantity: "CauchyStress", found: 5, expected: 4 };
+    let wrong = BatchError::WrongLength { quantity: "CauchyStress", found: 5, expected: 4 };
     assert_eq!(refusal, Err(wrong));
     assert!(batch::points_of::<9, _>(&[0.0; 10]).is_err());
     assert!(Components::new([&[0.0; 2][..], &[0.0; 3]]).is_err());
@@ -153,7 +153,7 @@ fn blocks_that_do_not_fit_the_points_are_refused() {
     for (count, fits) in [(8, false), (9, true), (16, true), (17, false)] {
         assert_eq!(LaneBlocks::new(&blocks, count).is_ok(), fits, "{count} points");
     }
-    let expected = ContinuumError::WrongLength { quantity: "blocks of points", found: 2, expected: 3 };
+    let expected = BatchError::WrongLength { quantity: "blocks of points", found: 2, expected: 3 };
     assert_eq!(LaneBlocks::new(&blocks, 17).err(), Some(expected));
 }
 
@@ -170,7 +170,7 @@ fn bad_points_in_blocks_are_found_and_the_others_written() {
     let mut j = [[[0.0; 8]; 1]; 3];
     let to = LaneBlocks::new_mut(&mut j, 18).expect("as many blocks");
     let result = batch::evaluate(Gradients(LaneBlocks::new(&gradients, 18).expect("as many")), batch::jacobian(to));
-    let Err(ContinuumError::BadPoints { points, .. }) = result else { panic!("two bad points") };
+    let Err(BatchError::BadPoints { points, .. }) = result else { panic!("two bad points") };
     assert_eq!(points.iter().map(|point| point.index).collect::<Vec<_>>(), [11, 17]);
     for i in 0..18 {
         let j = j[i / 8][0][i % 8];

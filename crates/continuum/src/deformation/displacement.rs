@@ -3,14 +3,14 @@
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_numerics::{Mask, Real};
+use piola_tensor::Symmetric;
+use piola_tensor::internal::rows::{Rows, identity, product, scaled, sum};
 
 use super::gradient::{check_jacobian_of, checked_axes};
 use super::volume::{determinant, volume_change_of_displacement};
 use super::{Deformation, DeformationGradient};
 use crate::ContinuumError;
 use crate::error::check_finite;
-use piola_tensor::Symmetric;
-use piola_tensor::internal::rows::{Rows, identity, product, scaled, sum};
 
 /// The displacement gradient ∇u = ∂u/∂X = F − 1 with 0 < det F, B(4.28): no cancellation at small strain.
 ///

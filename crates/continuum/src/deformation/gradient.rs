@@ -4,14 +4,14 @@ use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
+use piola_tensor::Symmetric;
+use piola_tensor::internal::rows::{Rows, difference, identity, product};
+use piola_tensor::rotation::check_rotation;
 
 use super::volume::{determinant, volume_change_of_gradient};
 use super::{Deformation, DisplacementGradient};
 use crate::ContinuumError;
 use crate::error::check_finite;
-use piola_tensor::Symmetric;
-use piola_tensor::internal::rows::{Rows, difference, identity, product};
-use piola_tensor::rotation::check_rotation;
 
 /// The deformation gradient F = ∂x/∂X with 0 < det F, W(14.7–14.8).
 ///

@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 use piola_numerics::Real;
+use piola_tensor::internal::rows::apply;
 
 use super::Deformation;
 use crate::ContinuumError;
 use crate::error::check_finite;
-use piola_tensor::internal::rows::apply;
 
 /// The homogeneous deformation x = F X + c of a whole body.
 ///

@@ -17,9 +17,9 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
+use piola_tensor::internal::rows::{apply, product, transpose};
 
 use crate::{Deformation, Symmetric};
-use piola_tensor::internal::rows::{apply, product, transpose};
 
 macro_rules! vectors {
     ($($(#[$documentation:meta])* $name:ident, |$d:ident| $rows:expr;)*) => {$(

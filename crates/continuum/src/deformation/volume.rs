@@ -12,7 +12,6 @@ use piola_numerics::internal::Lanewise;
 use piola_numerics::linear::matrix3::{cross, dot};
 use piola_numerics::sums::{two_product, two_sum};
 use piola_numerics::{Mask, Real};
-
 use piola_tensor::internal::rows::{Rows, difference, identity};
 
 /// How much larger than the result the terms may be before the sum is formed in twice the precision.

@@ -4,16 +4,16 @@ use core::marker::PhantomData;
 
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::from_rows;
+#[cfg(feature = "serde")]
+use piola_numerics::linear::matrix3::rows_of;
 use piola_numerics::{Kernel, Real, dispatch};
+#[cfg(feature = "serde")]
+use piola_tensor::{internal::positive_definite, rotation::check_rotation};
 
 use super::StretchAnalysis;
 #[cfg(feature = "serde")]
 use crate::{ContinuumError, error::check_finite};
 use crate::{Deformation, Symmetric};
-#[cfg(feature = "serde")]
-use piola_numerics::linear::matrix3::rows_of;
-#[cfg(feature = "serde")]
-use piola_tensor::{internal::positive_definite, rotation::check_rotation};
 
 /// What [`polar_hencky`] finds.
 ///

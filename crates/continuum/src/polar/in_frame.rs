@@ -1,12 +1,12 @@
 //! U, its inverse and its functions by their components in the frame of the axes, and tensors made of these.
 
 use piola_numerics::{Mask, Real};
-
-use super::{StretchAnalysis, any_tilted, choose, freeze, twice_green};
-use crate::Symmetric;
 use piola_tensor::internal::rows::{Rows, transpose};
 use piola_tensor::internal::spectral::{combination, expand, from_frame, gram, larger, smaller, weighted};
 use piola_tensor::spectral::{IsotropicFunction, Logarithm};
+
+use super::{StretchAnalysis, any_tilted, choose, freeze, twice_green};
+use crate::Symmetric;
 
 impl<T: Real> StretchAnalysis<T> {
     /// Σ Mₖₗ qₖ ⊗ qₗ + s 1, and for small strain the multiple of E that was left out of M.

@@ -3,7 +3,6 @@
 use piola_numerics::linear::matrix3::dot;
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
-
 use piola_tensor::internal::rows::{Rows, apply};
 use piola_tensor::internal::spectral::combination;
 

@@ -1,12 +1,12 @@
 //! What an analysis of the stretches gives: stretches, axes, R, U, V, their logarithms and functions.
 
 use piola_numerics::{Mask, Real};
-
-use super::{StretchAnalysis, outer_products};
-use crate::Symmetric;
 use piola_tensor::internal::rows::Rows;
 use piola_tensor::internal::spectral::{axes_in_order, combination, descending, in_order, lifted, turned};
 use piola_tensor::spectral::{IsotropicFunction, Logarithm};
+
+use super::{StretchAnalysis, outer_products};
+use crate::Symmetric;
 
 impl<T: Real> StretchAnalysis<T> {
     /// The principal stretches λ₁ ≥ λ₂ ≥ λ₃, W(14.12).

@@ -26,11 +26,11 @@ use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{dot, from_rows, inverse_and_determinant, rows_of};
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Dual, Mask, Real};
+use piola_tensor::Skew;
+use piola_tensor::internal::rows::{Rows, difference, identity, product, scaled, sum, trace};
 
 use crate::ContinuumError;
 use crate::error::check_finite;
-use piola_tensor::Skew;
-use piola_tensor::internal::rows::{Rows, difference, identity, product, scaled, sum, trace};
 
 /// The number of terms of the series: with |A″| ≤ 1 those left out are below 1e-19, and so are their first three
 /// derivatives.

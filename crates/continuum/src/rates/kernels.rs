@@ -1,9 +1,9 @@
 //! Kernels of rates on arrays of rows.
 
 use piola_numerics::Real;
+use piola_tensor::internal::rows::{Rows, product};
 
 use crate::Symmetric;
-use piola_tensor::internal::rows::{Rows, product};
 
 /// A S + S Aᵀ for a symmetric S: the rate of S carried by a flow or a spin A.
 ///

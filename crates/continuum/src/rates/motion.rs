@@ -9,12 +9,12 @@
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
 use piola_numerics::{Jet, Real};
+use piola_tensor::internal::rows::{Rows, difference, product, scaled, sum};
 
 use super::exponential::{exponential_minus_identity_rows, exponential_rows};
 use super::{AccelerationGradient, GradientRate, GradientSecondRate, RelativeDeformation, VelocityGradient};
 use crate::error::check_finite;
 use crate::{ContinuumError, DeformationGradient};
-use piola_tensor::internal::rows::{Rows, difference, product, scaled, sum};
 
 /// A homogeneous motion x = F(t) X + c(t), by its deformation gradient as a function of time, W(14.10).
 ///

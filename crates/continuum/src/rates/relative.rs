@@ -13,13 +13,13 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
+use piola_tensor::internal::rows::{Rows, difference, identity, product, scaled, sum, transpose};
 
 use super::VelocityGradient;
 use super::kernels::transported;
 use crate::measures::symmetric_measure;
 use crate::strain::kernels::right_cauchy_green_minus_one;
 use crate::{ContinuumError, Deformation, DisplacementGradient, Symmetric};
-use piola_tensor::internal::rows::{Rows, difference, identity, product, scaled, sum, transpose};
 
 /// The relative deformation gradient Fₜ(τ) = F(τ) F(t)⁻¹: from the present configuration to that at τ.
 ///

@@ -12,12 +12,12 @@
 //! Ċ, Ė and Ḃ within 4 ulp of |F| |Ḟ|, without a division; ė within a few ulp × the condition number of F.
 
 use piola_numerics::Real;
+use piola_tensor::internal::rows::{double_contraction, product, transpose};
 
 use super::{GradientRate, VelocityGradient};
 use crate::measures::{linear_measure, symmetric_measure};
 use crate::strain::kernels::{green_derivative, left_cauchy_green_derivative};
 use crate::{Deformation, Symmetric};
-use piola_tensor::internal::rows::{double_contraction, product, transpose};
 
 symmetric_measure! {
     /// Ċ, the rate of the right Cauchy–Green tensor, 1/s: twice Ė, from which it is a type apart.

@@ -30,6 +30,9 @@ use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{dot, from_rows};
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
+use piola_tensor::Skew;
+use piola_tensor::internal::rows::{Rows, apply, product, product_transposed, transpose};
+use piola_tensor::spectral::{IsotropicFunction, Logarithm, derivative, tensor_function};
 
 use super::logarithmic_excess::LogarithmicExcess;
 use super::principal_frame::{along, second_difference, spin_of};
@@ -37,9 +40,6 @@ use super::spins::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, Spat
 use super::{GradientRate, VelocityGradient};
 use crate::polar::StretchAnalysis;
 use crate::{ContinuumError, Deformation, Symmetric};
-use piola_tensor::Skew;
-use piola_tensor::internal::rows::{Rows, apply, product, product_transposed, transpose};
-use piola_tensor::spectral::{IsotropicFunction, Logarithm, derivative, tensor_function};
 
 /// The rates of R, U, V, ln U and ln V, computed once, and each given when it is asked for.
 ///
@@ -336,7 +336,7 @@ impl<T: Real> StretchRates<T> {
         let hencky = self.analysis.hencky_spatial();
         let third = hencky.trace() * T::lit(1.0 / 3.0);
         let h = hencky - Symmetric::identity() * third;
-        let stretching = self.velocity_gradient().stretching();
+        let stretching = self.velocity_gradient().rate_of_deformation();
         let commutator = Skew::commutator(&h, &stretching.0).axial;
         let square = Symmetric::upper_triangle(product(h.rows(), h.rows()));
         let gaps = Symmetric::identity() * (T::lit(2.0) * square.trace()) - square * T::lit(3.0);

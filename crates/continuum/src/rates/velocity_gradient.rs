@@ -1,13 +1,13 @@
-//! The velocity gradient, stretching and spin.
+//! The velocity gradient, the rate of deformation and the spin.
 
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
+use piola_tensor::Skew;
+use piola_tensor::internal::rows::{difference, product, product_transposed, sum, trace};
 
 use crate::measures::{general_measure, skew_measure, symmetric_measure};
 use crate::{Deformation, Symmetric};
-use piola_tensor::Skew;
-use piola_tensor::internal::rows::{difference, product, product_transposed, sum, trace};
 
 general_measure! {
     /// The rate of the deformation gradient, Ḟ = Grad v, 1/s; also that of the displacement gradient.
@@ -48,7 +48,7 @@ general_measure! {
     /// use piola_continuum::rates::VelocityGradient;
     /// // Simple shear at the rate 2: half of it stretches, half of it turns.
     /// let shear = VelocityGradient::new(Matrix3::new(0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))?;
-    /// assert_eq!(shear.stretching().0.components, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+    /// assert_eq!(shear.rate_of_deformation().0.components, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
     /// assert_eq!(shear.spin().axial.z, -1.0);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
@@ -75,7 +75,7 @@ general_measure! {
 }
 
 symmetric_measure! {
-    /// The stretching D = ½ (L + Lᵀ), the rate of strain per present length, 1/s.
+    /// The rate of deformation D = ½ (L + Lᵀ), the rate of strain per present length, 1/s.
     ///
     /// # Example
     /// ```
@@ -86,7 +86,8 @@ symmetric_measure! {
     /// ```
     /// # Source
     /// W(14.29), B(4.34).
-    RateOfDeformation, "stretching"
+    #[doc(alias = "stretching")]
+    RateOfDeformation, "rate of deformation"
 }
 
 skew_measure! {
@@ -187,12 +188,13 @@ impl<T: Real> VelocityGradient<T> {
     /// ```
     /// use piola_continuum::rates::VelocityGradient;
     /// let shear = VelocityGradient::from_rows([[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]])?; // v₂ = 3 x₁
-    /// assert_eq!(shear.stretching().0.components[3], 1.5);
+    /// assert_eq!(shear.rate_of_deformation().0.components[3], 1.5);
     /// # Ok::<(), piola_continuum::ContinuumError>(())
     /// ```
+    #[doc(alias = "stretching")]
     #[inline(always)]
     #[must_use]
-    pub fn stretching(&self) -> RateOfDeformation<T> {
+    pub fn rate_of_deformation(&self) -> RateOfDeformation<T> {
         RateOfDeformation(Symmetric::symmetric_part(self.rows()))
     }
 

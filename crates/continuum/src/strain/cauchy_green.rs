@@ -3,12 +3,12 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_tensor::internal::product_symmetrized;
 
 use super::kernels;
 use super::lines::derivatives_of_measure;
 use crate::measures::symmetric_measure;
 use crate::{Deformation, Symmetric};
-use piola_tensor::internal::product_symmetrized;
 
 symmetric_measure! {
     /// The right Cauchy–Green tensor C = Fᵀ F = U²: squares of lengths of material lines, |dx|² = dX · C dX.

@@ -3,13 +3,13 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_tensor::internal::rows::product;
 
 use super::RightCauchyGreen;
 use super::kernels;
 use super::lines::derivatives_of_measure;
 use crate::measures::{linear_measure, symmetric_measure};
 use crate::{Deformation, Symmetric};
-use piola_tensor::internal::rows::product;
 
 symmetric_measure! {
     /// Green–St. Venant's strain E = ½ (C − 1) = ½ (∇u + ∇uᵀ + ∇uᵀ ∇u).

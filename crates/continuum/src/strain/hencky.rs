@@ -1,6 +1,8 @@
 //! Hencky's logarithmic strains.
 
 use piola_numerics::Real;
+use piola_tensor::Slots;
+use piola_tensor::spectral::{derivative_array, second_derivative};
 
 use super::lines::derivatives_of_measure;
 use super::stretch::of_stretch_analysis;
@@ -8,8 +10,6 @@ use super::{GreenStrain, RightCauchyGreen, SethHill};
 use crate::measures::{linear_measure, symmetric_measure};
 use crate::polar::StretchAnalysis;
 use crate::{Deformation, Symmetric};
-use piola_tensor::Slots;
-use piola_tensor::spectral::{derivative_array, second_derivative};
 
 symmetric_measure! {
     /// Hencky's strain ln U in the material: its trace is ln J, and coaxial stretches add.

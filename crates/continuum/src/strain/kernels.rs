@@ -6,10 +6,10 @@
 //! ```
 
 use piola_numerics::Real;
-
-use crate::Symmetric;
 use piola_tensor::internal::product_symmetrized;
 use piola_tensor::internal::rows::{Rows, product, scaled, transpose};
+
+use crate::Symmetric;
 
 /// C = Fᵀ F.
 ///

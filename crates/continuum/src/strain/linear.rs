@@ -3,11 +3,11 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_tensor::voigt::{BroNielsen, Piola, StrainVector};
 
 use super::lines::derivatives_of_measure;
 use crate::measures::{linear_measure, symmetric_measure};
 use crate::{Deformation, Symmetric};
-use piola_tensor::voigt::{BroNielsen, Piola, StrainVector};
 
 symmetric_measure! {
     /// The linear strain ε = ½ (∇u + ∇uᵀ), the limit of every strain for ∇u → 0.

@@ -6,15 +6,14 @@
 //! These evaluations are large: unlike the measures themselves they are compiled once for each scalar and called, not
 //! inlined wherever they are asked for.
 
+use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_numerics::{Dual, Gradient, Real};
-
-use nalgebra::Matrix3;
+use piola_tensor::internal::rows::Rows;
 
 use crate::Deformation;
 use crate::deformation::volume::{determinant, volume_change_of_gradient};
 use crate::polar::StretchAnalysis;
-use piola_tensor::internal::rows::Rows;
 
 /// A deformation that carries directions of change.
 #[derive(Clone, Copy)]

@@ -1,10 +1,10 @@
 //! The scales of Seth and Hill: how a strain counts a principal stretch.
 
 use piola_numerics::{Mask, Real};
+use piola_tensor::spectral::{IsotropicFunction, Logarithm, Power};
 
 use crate::ContinuumError;
 use crate::error::check_finite;
-use piola_tensor::spectral::{IsotropicFunction, Logarithm, Power};
 
 /// The scale (λᵐ − 1)/m of a stretch λ, with its limit ln λ for m → 0.
 ///

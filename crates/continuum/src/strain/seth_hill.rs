@@ -2,13 +2,13 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::Real;
+use piola_tensor::Slots;
+use piola_tensor::spectral::{derivative_array, second_derivative};
 
 use super::lines::{along, along_all, along_both, moving_analysis, partials};
 use super::{RightCauchyGreen, SethHill};
 use crate::polar::StretchAnalysis;
 use crate::{Deformation, Symmetric};
-use piola_tensor::Slots;
-use piola_tensor::spectral::{derivative_array, second_derivative};
 
 macro_rules! family {
     ($(#[$documentation:meta])* $name:ident $function:ident) => {

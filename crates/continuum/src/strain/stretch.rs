@@ -3,16 +3,16 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
+use piola_tensor::Slots;
+use piola_tensor::internal::rows::Rows;
+use piola_tensor::rotation::check_rotation;
+use piola_tensor::spectral::{SquareRoot, derivative_array, second_derivative};
 
 use super::RightCauchyGreen;
 use super::lines::{along, derivatives_of_measure, moving_analysis, tangent};
 use crate::measures::{linear_measure, symmetric_measure};
 use crate::polar::StretchAnalysis;
 use crate::{ContinuumError, Deformation, Symmetric};
-use piola_tensor::Slots;
-use piola_tensor::internal::rows::Rows;
-use piola_tensor::rotation::check_rotation;
-use piola_tensor::spectral::{SquareRoot, derivative_array, second_derivative};
 
 symmetric_measure! {
     /// The right stretch tensor U = √C of F = R U.

@@ -8,12 +8,12 @@
 
 use nalgebra::Vector3;
 use piola_numerics::Real;
+use piola_tensor::internal::rows::{apply, transpose};
+use piola_tensor::internal::scale::norm;
 
 use super::normal::normalized;
 use super::{ReferenceNormal, UnitNormal};
 use crate::{ContinuumError, Deformation};
-use piola_tensor::internal::rows::{apply, transpose};
-use piola_tensor::internal::scale::norm;
 
 /// What a deformation makes of a unit of area, by Nanson's formula.
 ///

@@ -30,11 +30,12 @@
 //! (1926); R. Hill, *The Mathematical Theory of Plasticity* (1950), II.1.
 
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::check_range;
 
 use super::deviator::{self, Coordinates};
 use crate::error::check_finite;
 use crate::{ContinuumError, Symmetric};
-use piola_tensor::internal::check_range;
+
 pub use piola_tensor::principal_invariants;
 
 /// The mean stress m = ⅓ tr T, Pa.

@@ -9,11 +9,11 @@
 //! products of the entries of F have for large ratios of stretches.
 
 use piola_numerics::Real;
-
-use crate::Symmetric;
 use piola_tensor::Skew;
 use piola_tensor::internal::product_symmetrized;
 use piola_tensor::internal::rows::{Rows, cofactor, product, product_transposed, scaled, transposed_product};
+
+use crate::Symmetric;
 
 /// P = T Cof F of Cauchy's stress.
 ///

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use piola_numerics::linear::matrix3::dot;
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::scale::{largest, power_of_two_scale, square_root};
 
 use crate::ContinuumError;
 use crate::error::check_finite;
-use piola_tensor::internal::scale::{largest, power_of_two_scale, square_root};
 
 /// The vector scaled to length one, or why it has no direction.
 fn direction<T: Real>(vector: &Vector3<T>) -> Result<[T; 3], ContinuumError> {

@@ -22,12 +22,12 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_tensor::internal::rows::double_contraction;
 
 use super::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use crate::rates::strain::GreenStrainRate;
 use crate::rates::{GradientRate, VelocityGradient};
 use crate::{Deformation, Symmetric};
-use piola_tensor::internal::rows::double_contraction;
 
 /// A : sym B for symmetric A.
 #[inline(always)]

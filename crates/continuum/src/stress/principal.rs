@@ -8,18 +8,18 @@
 //! directions keep their digits under any pressure.
 
 use piola_numerics::Real;
-
-use super::invariants::mean;
-use super::{CauchyStress, KirchhoffStress, UnitNormal};
-use crate::Symmetric;
-#[cfg(feature = "serde")]
-use crate::{ContinuumError, error::check_finite};
 #[cfg(feature = "serde")]
 use piola_tensor::internal::check_range;
 use piola_tensor::internal::rows::Rows;
 #[cfg(feature = "serde")]
 use piola_tensor::internal::spectral::check_principal;
 use piola_tensor::spectral::decompose;
+
+use super::invariants::mean;
+use super::{CauchyStress, KirchhoffStress, UnitNormal};
+use crate::Symmetric;
+#[cfg(feature = "serde")]
+use crate::{ContinuumError, error::check_finite};
 
 /// Principal stresses and directions of a symmetric stress tensor.
 ///

@@ -8,12 +8,12 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::linear::matrix3::dot;
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
+use piola_tensor::TensorError;
+use piola_tensor::internal::rows::{Rows, product_transposed};
 
 use super::kernels::moment_of_first_piola;
 use super::{BiotStress, FirstPiola, MandelStress};
 use crate::{ContinuumError, Deformation};
-use piola_tensor::TensorError;
-use piola_tensor::internal::rows::{Rows, product_transposed};
 
 /// T − Tᵀ of what should be Cauchy's stress, as the vector of its entries 32, 13, 21: the moment per volume that
 /// the stress exerts on the body beyond what the balance allows.

@@ -12,12 +12,12 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
+use piola_tensor::internal::rows::apply;
+use piola_tensor::internal::scale::norm;
 
 use super::invariants::{deviator, mean};
 use super::{CauchyStress, FirstPiola, ReferenceNormal, UnitNormal};
 use crate::ContinuumError;
-use piola_tensor::internal::rows::apply;
-use piola_tensor::internal::scale::norm;
 
 impl<T: Real> CauchyStress<T> {
     /// The traction t = T n, Pa: the force per deformed area on the side from which n points.

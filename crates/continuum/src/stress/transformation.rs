@@ -10,11 +10,11 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_tensor::internal::rows::product;
+use piola_tensor::rotation::check_rotation;
 
 use super::{CauchyStress, FirstPiola, KirchhoffStress};
 use crate::ContinuumError;
-use piola_tensor::internal::rows::product;
-use piola_tensor::rotation::check_rotation;
 
 impl<T: Real> CauchyStress<T> {
     /// Q T Qᵀ: the stress of the body turned by Q, or its components in the basis Qᵀ eᵢ.

@@ -1,20 +1,21 @@
 //! Balances at particles, from the motion.
 
 use nalgebra::Vector3;
+use piola_continuum::internal::check_jacobian;
+use piola_continuum::{CauchyStress, FirstPiola};
 use piola_numerics::linear::matrix3::{determinant, inverse_and_determinant};
 use piola_numerics::{Dual, Gradient, Real};
+use piola_tensor::internal::rows::Rows;
 
 use super::flow::dot_terms;
 use super::identities::{divergence, two_point_symmetry};
 use super::{checked, checked_vector, momentum};
-use crate::deformation::gradient::check_jacobian;
+use crate::FieldsError;
 use crate::error::check_finite;
 use crate::field::{Field, along, local_rate};
 use crate::frames::{Material, Spatial};
 use crate::motion::{Motion, check_event, kernels};
 use crate::residual::{Residual, VectorResidual};
-use crate::tensor::rows::Rows;
-use crate::{CauchyStress, FieldsError, FirstPiola};
 
 /// A body as a motion x(X, t) with the density `ρ_κ(X)` of its reference configuration. Cartesian components.
 ///

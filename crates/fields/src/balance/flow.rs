@@ -1,16 +1,17 @@
 //! Balances at places, in any orthogonal coordinates.
 
 use nalgebra::Vector3;
+use piola_continuum::CauchyStress;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
 
 use super::{checked, checked_vector, momentum};
-use crate::error::check_finite;
+use crate::FieldsError;
 use crate::coordinates::{Coordinates, divergence_of, gradient_of};
+use crate::error::check_finite;
 use crate::field::{Field, check_point, finite, local_rate, value_and_partials};
 use crate::residual::{Residual, VectorResidual};
 use crate::value::TensorValue;
-use crate::{CauchyStress, FieldsError};
 
 /// A body in motion as fields in space: density and velocity as functions of coordinates q and time, in physical
 /// components.
@@ -115,11 +116,7 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     /// assert_eq!(flow.continuity_residual(&point, 0.0)?.value, 12.0); // ρ div v = 2 (3 + 3)
     /// # Ok::<(), piola_fields::FieldsError>(())
     /// ```
-    pub fn continuity_residual<T: Real>(
-        &self,
-        coordinates: &Vector3<T>,
-        time: T,
-    ) -> Result<Residual<T>, FieldsError> {
+    pub fn continuity_residual<T: Real>(&self, coordinates: &Vector3<T>, time: T) -> Result<Residual<T>, FieldsError> {
         let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, time)?;
         let density = self.density.at(coordinates, time);
         let residual = self.material_rate(&self.density, &v, coordinates, time)?;
@@ -268,11 +265,7 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     }
 
     /// Terms of ∂v/∂t + (grad v) v.
-    fn acceleration_terms<T: Real>(
-        &self,
-        coordinates: &Vector3<T>,
-        time: T,
-    ) -> Result<[Residual<T>; 3], FieldsError> {
+    fn acceleration_terms<T: Real>(&self, coordinates: &Vector3<T>, time: T) -> Result<[Residual<T>; 3], FieldsError> {
         let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, time)?;
         let local = local_rate(&self.velocity, coordinates, time);
         Ok([0, 1, 2].map(|i: usize| {

@@ -1,18 +1,19 @@
 //! Identities of Piola, and the symmetry of stress.
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::CauchyStress;
 use piola_numerics::linear::matrix3::determinant;
 use piola_numerics::{Gradient, Real};
+use piola_tensor::internal::rows::{Rows, cofactor, product};
 
 use super::checked_vector;
 use super::flow::dot_terms;
+use crate::FieldsError;
 use crate::field::{Field, finite};
 use crate::frames::Spatial;
 use crate::motion::kernels::{place_and_gradient, variables};
 use crate::motion::{Motion, check_event};
 use crate::residual::{Residual, VectorResidual};
-use crate::tensor::rows::{Rows, cofactor, product};
-use crate::{CauchyStress, FieldsError};
 
 /// Div(J F⁻ᵀ), `∂(J F⁻ᵀ)ᵢ_A/∂X_A`, 1/m: zero for every motion.
 ///

@@ -42,10 +42,7 @@ fn checked<T: Real>(quantity: &'static str, residual: Residual<T>) -> Result<Res
 
 /// The residual, if it is finite.
 #[inline]
-fn checked_vector<T: Real>(
-    quantity: &'static str,
-    terms: [Residual<T>; 3],
-) -> Result<VectorResidual<T>, FieldsError> {
+fn checked_vector<T: Real>(quantity: &'static str, terms: [Residual<T>; 3]) -> Result<VectorResidual<T>, FieldsError> {
     let residual = VectorResidual::from(terms);
     check_finite(quantity, residual.value.as_slice())?;
     check_finite(quantity, residual.scale.as_slice())?;

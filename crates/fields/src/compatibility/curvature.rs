@@ -3,14 +3,16 @@
 use nalgebra::Vector3;
 use piola_numerics::linear::matrix3::{determinant, inverse_and_determinant};
 use piola_numerics::{Gradient, Mask, Real};
+use piola_tensor::Symmetric;
+use piola_tensor::TensorError;
+use piola_tensor::internal::rows::{Rows, double_contraction, product};
 
+use crate::FieldsError;
 use crate::error::check_finite;
 use crate::field::{Field, check_point};
 use crate::frames::Material;
 use crate::motion::kernels::twice_variables;
 use crate::residual::Residual;
-use crate::tensor::rows::{Rows, double_contraction, product};
-use crate::{FieldsError, Symmetric};
 
 /// A symmetric residual with the sums of the moduli of its terms, component by component.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,10 +49,7 @@ impl<T: Real> SymmetricResidual<T> {
     }
 
     /// From its entries, if they are finite.
-    pub(super) fn of(
-        quantity: &'static str,
-        entry: impl Fn(usize, usize) -> Residual<T>,
-    ) -> Result<Self, FieldsError> {
+    pub(super) fn of(quantity: &'static str, entry: impl Fn(usize, usize) -> Residual<T>) -> Result<Self, FieldsError> {
         let entries = [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(0, 2)];
         check_finite(quantity, &entries.map(|entry| entry.value))?;
         let (value, scale) = (entries.map(|entry| entry.value), entries.map(|entry| entry.scale));
@@ -323,12 +322,13 @@ fn check_metric<T: Real>(c: &Rows<T>) -> Result<(), FieldsError> {
     for (index, minor) in minors.into_iter().enumerate() {
         if !T::zero().less_than(minor).all() {
             let lane = (0..T::LANES).find(|&lane| minor.primal(lane) <= 0.0).unwrap_or(0);
-            return Err(FieldsError::NotPositiveDefinite {
+            return Err(TensorError::NotPositiveDefinite {
                 quantity: "C",
                 order: index + 1,
                 minor: minor.primal(lane),
                 scale: 1.0,
-            });
+            }
+            .into());
         }
     }
     Ok(())

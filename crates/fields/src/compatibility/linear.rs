@@ -2,12 +2,13 @@
 
 use nalgebra::Vector3;
 use piola_numerics::Real;
+use piola_tensor::Symmetric;
 
 use super::SymmetricResidual;
 use super::curvature::{PAIRS, second_differences, with_second_partials};
+use crate::FieldsError;
 use crate::field::{Field, check_point};
 use crate::frames::Material;
-use crate::{FieldsError, Symmetric};
 
 /// inc ε, the incompatibility of a field of linear strains, 1/m²: zero where ε = sym ∇u (Saint-Venant).
 ///

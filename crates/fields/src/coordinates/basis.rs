@@ -4,12 +4,13 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::linear::matrix3::{determinant, dot, inverse_and_determinant};
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Gradient, Mask, Real};
+use piola_tensor::Symmetric;
+use piola_tensor::internal::rows::{Rows, product, product_transposed, transpose, transposed_product};
 
 use super::{Coordinates, PhysicalFrame, singular};
+use crate::FieldsError;
 use crate::error::check_finite;
 use crate::motion::kernels::twice_variables;
-use crate::tensor::rows::{Rows, product, product_transposed, transpose, transposed_product};
-use crate::{FieldsError, Symmetric};
 
 /// The local basis gᵢ = ∂x/∂qⁱ of a system of coordinates and how it changes.
 ///
@@ -144,7 +145,7 @@ impl<T: Real> LocalBasis<T> {
     #[inline]
     #[must_use]
     pub fn vector_to_cartesian(&self, v: &Vector3<T>) -> Vector3<T> {
-        Vector3::from(crate::tensor::rows::apply(transpose(self.basis), (*v).into()))
+        Vector3::from(piola_tensor::internal::rows::apply(transpose(self.basis), (*v).into()))
     }
 
     /// Contravariant components vⁱ = gⁱ·v of a vector with given Cartesian ones.
@@ -160,7 +161,7 @@ impl<T: Real> LocalBasis<T> {
     #[inline]
     #[must_use]
     pub fn vector_from_cartesian(&self, v: &Vector3<T>) -> Vector3<T> {
-        Vector3::from(crate::tensor::rows::apply(self.dual, (*v).into()))
+        Vector3::from(piola_tensor::internal::rows::apply(self.dual, (*v).into()))
     }
 
     /// Cartesian components of T = Tⁱʲ gᵢ⊗gⱼ.

@@ -2,12 +2,12 @@
 
 use nalgebra::Vector3;
 use piola_numerics::Real;
+use piola_tensor::internal::rows::{Rows, transpose};
 
 use super::Coordinates;
 use crate::FieldsError;
 use crate::error::check_finite;
 use crate::residual::Residual;
-use crate::tensor::rows::{Rows, transpose};
 
 /// Cartesian coordinates x, y, z.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

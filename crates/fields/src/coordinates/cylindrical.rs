@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 use piola_numerics::Real;
+use piola_tensor::internal::rows::Rows;
 
 use super::{Coordinates, check_radius};
 use crate::FieldsError;
 use crate::residual::Residual;
-use crate::tensor::rows::Rows;
 
 /// Cylindrical coordinates r, θ, z: x = (r cos θ, r sin θ, z), 0 < r.
 ///

@@ -4,11 +4,11 @@ use nalgebra::Vector3;
 use piola_numerics::linear::matrix3::dot;
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::rows::{Rows, apply, product, product_transposed, transpose, transposed_product};
 
 use super::LocalBasis;
 use crate::FieldsError;
 use crate::residual::Residual;
-use crate::tensor::rows::{Rows, apply, product, product_transposed, transpose, transposed_product};
 
 /// The unit vectors eᵢ of orthogonal coordinates at a point, with what derivatives of components need.
 ///

@@ -43,7 +43,7 @@ use super::residual::{Residual, VectorResidual};
 use super::value::TensorValue;
 use crate::FieldsError;
 use crate::error::check_finite;
-use crate::tensor::rows::Rows;
+use piola_tensor::internal::rows::Rows;
 
 /// A system of coordinates, given by its map to Cartesian coordinates.
 ///
@@ -286,7 +286,7 @@ pub trait Coordinates {
         time: T,
     ) -> Result<T, FieldsError> {
         let gradient = gradient_of(self, vector, coordinates, time)?.1;
-        let divergence = crate::tensor::rows::trace(gradient);
+        let divergence = piola_tensor::internal::rows::trace(gradient);
         check_finite("divergence", &[divergence])?;
         Ok(divergence)
     }

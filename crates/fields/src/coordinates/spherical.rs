@@ -2,11 +2,11 @@
 
 use nalgebra::Vector3;
 use piola_numerics::Real;
+use piola_tensor::internal::rows::Rows;
 
 use super::{Coordinates, check_radius};
 use crate::FieldsError;
 use crate::residual::Residual;
-use crate::tensor::rows::Rows;
 
 /// Spherical coordinates r, θ, φ with θ the *azimuth* and φ the *colatitude*:
 /// x = (r sin φ cos θ, r sin φ sin θ, r cos φ), 0 < r, 0 < φ < π.

@@ -23,11 +23,11 @@ use nalgebra::Vector3;
 use piola_numerics::linear::matrix3::{determinant, inverse_and_determinant};
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::rows::{Rows, apply, difference, identity, product};
 
 use crate::FieldsError;
 use crate::error::check_finite;
 use crate::motion::{Motion, kernels};
-use crate::tensor::rows::{Rows, apply, difference, identity, product};
 
 /// How hard to look for the particle at a place.
 ///
@@ -171,7 +171,7 @@ impl Inversion {
         let start = guess.map(T::frozen);
         motion.check_domain(&start, instant)?;
         let mut best = trial(motion, &target, instant, start);
-        crate::deformation::gradient::check_jacobian(determinant(best.gradient))?;
+        piola_continuum::internal::check_jacobian(determinant(best.gradient))?;
 
         let mut iterations = 0;
         while !best.size.at_most(best.rounding).all() {
@@ -290,7 +290,7 @@ impl<T: Real> Preimage<T> {
         motion.check_domain(&centre, instant)?;
         let gradient = kernels::gradient(motion, &centre, instant);
         check_finite("F", gradient.as_flattened())?;
-        crate::deformation::gradient::check_jacobian(determinant(gradient))?;
+        piola_continuum::internal::check_jacobian(determinant(gradient))?;
         let (inverse, _) = inverse_and_determinant(gradient);
 
         let mut radius = T::zero();

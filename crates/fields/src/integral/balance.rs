@@ -11,13 +11,14 @@
 //! residuals at points.
 
 use nalgebra::Vector3;
+use piola_continuum::FirstPiola;
 use piola_numerics::Dual;
+use piola_tensor::internal::rows::double_contraction;
 
 use super::{Estimate, EstimatedQuadrature, ForceResultants, Quadrature, Region, Resultants};
+use crate::FieldsError;
 use crate::motion::kernels::gradient_and_rate;
 use crate::{Body, Field, Material, Motion, Residual, VectorResidual};
-use crate::tensor::rows::double_contraction;
-use crate::{FieldsError, FirstPiola};
 
 /// The terms of the balances of a part of a body at a time.
 ///

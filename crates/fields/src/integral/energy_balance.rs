@@ -5,15 +5,16 @@
 //! ```
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::FirstPiola;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_numerics::{Dual, Gradient, Real};
 
 use super::integrand::RunningIntegral;
 use super::region::lift;
 use super::{ForceResultants, Quadrature, Region, Resultants};
+use crate::FieldsError;
 use crate::motion::kernels::gradient;
 use crate::{Body, Field, Material, Motion, Residual};
-use crate::{FieldsError, FirstPiola};
 
 /// Stored energy of a hyperelastic body, stated once over any scalar.
 ///

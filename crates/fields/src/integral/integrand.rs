@@ -3,11 +3,12 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::sums::two_sum;
 use piola_numerics::{Dual, Element, Gradient, Jet, Lanes, Mask, Real};
+use piola_tensor::Symmetric;
 
-use crate::error::check_finite;
 use crate::FieldValue;
+use crate::FieldsError;
+use crate::error::check_finite;
 use crate::field::finite;
-use crate::{FieldsError, Symmetric};
 
 /// A value with components that can be weighted and added.
 ///

@@ -1,17 +1,17 @@
 //! Mass, momentum, angular momentum and energy of a body; forces and moments on it.
 
 use nalgebra::Vector3;
+use piola_continuum::FirstPiola;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{cross, dot};
+use piola_tensor::internal::rows::apply;
 
 use super::integrand::RunningIntegral;
 use super::region::lift;
 use super::{Quadrature, Region};
 use crate::FieldsError;
-use crate::FirstPiola;
 use crate::motion::kernels::velocity;
 use crate::{Body, Field, Material, Motion, Spatial};
-use crate::tensor::rows::apply;
 
 /// Mass, momentum, angular momentum and kinetic energy of a body.
 ///

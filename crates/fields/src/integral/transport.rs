@@ -9,15 +9,16 @@
 //! right sides integrate the spatial derivatives of g and the velocity gradient L, or the flux through the boundary.
 
 use nalgebra::Vector3;
+use piola_continuum::Deformation;
 use piola_numerics::{Dual, Gradient};
 
 use super::integrand::FieldIntegral;
 use super::region::{moved_element, placed};
 use super::{MovedRegion, Quadrature, Region};
+use crate::FieldsError;
 use crate::motion::kernels::{variables, velocity};
 use crate::value::map;
 use crate::{Body, Field, FieldValue, Motion, Spatial, TensorValue, ValueOf};
-use crate::{FieldsError, Deformation};
 
 /// Both sides of the transport theorem for the part that a motion carries; V is the kind of value of the field.
 ///
@@ -250,7 +251,7 @@ pub fn divergence_theorem(
 
 /// Both sides of the divergence theorem for a tensor field, ∫ div T dv and ∮ T n da; div contracts the last index.
 ///
-/// With [`FirstPiola`](crate::FirstPiola) on a region of the reference configuration it is ∫ Div P dV = ∮ P N dA.
+/// With [`FirstPiola`](piola_continuum::FirstPiola) on a region of the reference configuration it is ∫ Div P dV = ∮ P N dA.
 ///
 /// # Errors
 /// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
@@ -277,7 +278,10 @@ pub fn tensor_divergence_theorem<V: TensorValue>(
         Vector3::from_fn(|i, _| rows[i][0].partials[0] + rows[i][1].partials[1] + rows[i][2].partials[2])
     })?;
     let right = quadrature.surface_integral(region, |point| {
-        Vector3::from(crate::tensor::rows::apply(V::rows(&field.0.at(&point.position, time)), point.normal.into()))
+        Vector3::from(piola_tensor::internal::rows::apply(
+            V::rows(&field.0.at(&point.position, time)),
+            point.normal.into(),
+        ))
     })?;
     Ok(Sides { left, right })
 }

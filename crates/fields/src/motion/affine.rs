@@ -1,11 +1,12 @@
 //! Homogeneous and rigid motions.
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::DeformationGradient;
 use piola_numerics::Real;
 
 use super::Motion;
+use crate::FieldsError;
 use crate::error::check_finite;
-use crate::{FieldsError, DeformationGradient};
 
 /// F(t) and c(t) of a [`Homogeneous`] motion.
 pub trait AffineHistory {

@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 use piola_numerics::{Dual, Gradient, Jet, Real};
+use piola_tensor::internal::rows::Rows;
 
 use super::Motion;
-use crate::tensor::rows::Rows;
 
 /// The three coordinates as variables.
 #[inline(always)]

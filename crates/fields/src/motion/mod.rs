@@ -25,10 +25,11 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{determinant, from_rows, inverse_and_determinant};
 
-use crate::deformation::gradient::check_jacobian;
+use crate::FieldsError;
 use crate::error::check_finite;
-use crate::tensor::rows::product;
-use crate::{FieldsError, DeformationGradient, DisplacementGradient};
+use piola_continuum::internal::check_jacobian;
+use piola_continuum::{DeformationGradient, DisplacementGradient};
+use piola_tensor::internal::rows::product;
 
 /// A motion x = x(X, t) of a body, W(14.1): the place at time t of the particle whose place in the reference
 /// configuration is X.
@@ -164,7 +165,7 @@ pub trait Motion {
         time: T,
     ) -> Result<DeformationGradient<T>, FieldsError> {
         check_event(self, reference, time)?;
-        DeformationGradient::new(from_rows(kernels::gradient(self, reference, time)))
+        Ok(DeformationGradient::new(from_rows(kernels::gradient(self, reference, time)))?)
     }
 
     /// ∇u = ∂u/∂X = F − 1, B(4.28), from the displacement: without cancellation where the motion states it.
@@ -178,7 +179,7 @@ pub trait Motion {
         time: T,
     ) -> Result<DisplacementGradient<T>, FieldsError> {
         check_event(self, reference, time)?;
-        DisplacementGradient::new(from_rows(kernels::displacement_gradient(self, reference, time)))
+        Ok(DisplacementGradient::new(from_rows(kernels::displacement_gradient(self, reference, time)))?)
     }
 
     /// Ḟ = ∂F/∂t at fixed X, 1/s.

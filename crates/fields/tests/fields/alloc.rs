@@ -1,9 +1,11 @@
 //! Evaluations allocate nothing.
 
 use nalgebra::Vector3;
-use piola_fields::compatibility::{Curvature, gradient_residual};
-use piola_fields::{Body, Coordinates, Cylindrical, Eulerian, Flow, Inversion, Material, Motion, Spatial, Spherical, Uniform};
 use piola_continuum::{CauchyStress, Symmetric};
+use piola_fields::compatibility::{Curvature, gradient_residual};
+use piola_fields::{
+    Body, Coordinates, Cylindrical, Eulerian, Flow, Inversion, Material, Motion, Spatial, Spherical, Uniform,
+};
 use piola_testkit::allocations_in;
 
 use super::fixtures::{Column, Tensor, Wave};

@@ -1,9 +1,12 @@
 //! Balances at points: manufactured motions and exact solutions leave nothing but rounding.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_fields::balance::{cofactor_divergence, piola_identity_residual};
-use piola_fields::{AffineHistory, Body, Cartesian, Coordinates, Cylindrical, Field, Flow, Homogeneous, Material, Motion, Spatial, Spherical, Uniform, equilibrium_residual, symmetry_residual};
 use piola_continuum::{CauchyStress, FirstPiola, Symmetric};
+use piola_fields::balance::{cofactor_divergence, piola_identity_residual};
+use piola_fields::{
+    AffineHistory, Body, Cartesian, Coordinates, Cylindrical, Field, Flow, Homogeneous, Material, Motion, Spatial,
+    Spherical, Uniform, equilibrium_residual, symmetry_residual,
+};
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close_at_scale};
 use proptest::prelude::*;

@@ -1,8 +1,10 @@
 //! Curvilinear coordinates against Cartesian ones: explicit forms, any orthogonal system, the general metric.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_continuum::ContinuumError;
-use piola_fields::{Cartesian, Coordinates, Cylindrical, Field, PhysicalFrame, Spherical, Uniform, equilibrium_residual};
+use piola_fields::FieldsError;
+use piola_fields::{
+    Cartesian, Coordinates, Cylindrical, Field, PhysicalFrame, Spherical, Uniform, equilibrium_residual,
+};
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
 use piola_numerics::{Gradient, Lanes, Real};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
@@ -129,7 +131,7 @@ impl Contravariant {
 }
 
 /// Divergence, gradient and Laplacian in one system against those by hand in Cartesian coordinates.
-fn check<C: ByHand>(system: C, field: Tensor, q: &Vector3<f64>, t: f64) -> Result<(), ContinuumError> {
+fn check<C: ByHand>(system: C, field: Tensor, q: &Vector3<f64>, t: f64) -> Result<(), FieldsError> {
     let (x, e) = (system.place(q), system.directions(q));
     let tol = Tol::ulps(64.0);
 
@@ -174,7 +176,7 @@ fn check_explicit_form<C: ByHand>(
     vector: &Physical<C, Column>,
     q: &Vector3<f64>,
     t: f64,
-) -> Result<(), ContinuumError> {
+) -> Result<(), FieldsError> {
     let (tol, local) = (Tol::ulps(64.0), system.local_basis(q)?);
     let frame: PhysicalFrame = local.physical_frame()?;
     let variables = Vector3::from_fn(|i, _| Gradient::<f64, 3>::variable(q[i], i));
@@ -337,7 +339,7 @@ impl Field for Pulled {
 }
 
 /// Divergence in any orthogonal system.
-fn check_divergence<C: ByHand>(system: C, field: Tensor, q: &Vector3<f64>, t: f64) -> Result<(), ContinuumError> {
+fn check_divergence<C: ByHand>(system: C, field: Tensor, q: &Vector3<f64>, t: f64) -> Result<(), FieldsError> {
     let (x, e) = (system.place(q), system.directions(q));
     let frame = system.physical_frame(q)?;
     assert_close("eᵢ", from_rows(frame.directions).as_slice(), e.as_slice(), Tol::ulps(64.0));

@@ -1,8 +1,8 @@
 //! Motions, stresses and coordinates whose derivatives are written out by hand.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_fields::{Coordinates, Field, Motion};
 use piola_continuum::{CauchyStress, Symmetric};
+use piola_fields::{Coordinates, Field, Motion};
 use piola_numerics::Real;
 use proptest::prelude::*;
 

@@ -1,8 +1,9 @@
 //! Lagrangian and Eulerian frames: inversion with certificate, and the material derivative from both sides.
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::Symmetric;
+use piola_fields::FieldsError;
 use piola_fields::{Eulerian, Field, FieldValue, Inversion, Material, Motion, Spatial, Uniform, ValueOf};
-use piola_continuum::{ContinuumError, Symmetric};
 use piola_numerics::{Dual, Gradient, Lanes, Real};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
@@ -20,7 +21,7 @@ fn check_material_derivative<F: Field + Copy>(
     motion: &Wave,
     x: &Vector3<f64>,
     t: f64,
-) -> Result<(), ContinuumError> {
+) -> Result<(), FieldsError> {
     let (place, velocity) = (motion.position(x, t)?, motion.velocity(x, t)?);
     let spatial = Spatial(field);
     let slopes = spatial.gradient(&place, t)?.map(|slope| components(&field, &slope));
@@ -40,12 +41,7 @@ fn check_material_derivative<F: Field + Copy>(
 }
 
 /// ∂Ψ/∂t at fixed x plus (grad Ψ) v is the rate of a field of particles.
-fn check_eulerian_parts<F: Field + Copy>(
-    field: F,
-    motion: &Wave,
-    x: &Vector3<f64>,
-    t: f64,
-) -> Result<(), ContinuumError> {
+fn check_eulerian_parts<F: Field + Copy>(field: F, motion: &Wave, x: &Vector3<f64>, t: f64) -> Result<(), FieldsError> {
     let (space, material) = (Eulerian::new(motion), Material(field));
     let (place, velocity) = (motion.position(x, t)?, motion.velocity(x, t)?);
     let slopes = space.gradient(&material, &place, t)?.map(|slope| components(&field, &slope));

@@ -1,7 +1,7 @@
 //! Sampled motions: exact for polynomials, of the stated order for the rest, and what samples are refused.
 
 use nalgebra::Vector3;
-use piola_continuum::ContinuumError;
+use piola_fields::FieldsError;
 use piola_fields::{Interpolation, Inversion, Motion, MotionSamples, SampledMotion, SampledTrajectories};
 use piola_numerics::{Lanes, Real};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, assert_order};
@@ -193,36 +193,36 @@ fn samples_that_make_no_motion_are_refused_by_name() {
     unsorted.nodes[1].swap(1, 2);
     assert!(matches!(
         SampledMotion::new(unsorted),
-        Err(ContinuumError::NotIncreasing { quantity: "nodes along X2", index: 2, .. })
+        Err(FieldsError::NotIncreasing { quantity: "nodes along X2", index: 2, .. })
     ));
     let mut repeated = good();
     repeated.times[1] = repeated.times[0];
     assert!(matches!(
         SampledMotion::new(repeated),
-        Err(ContinuumError::NotIncreasing { quantity: "times", index: 1, .. })
+        Err(FieldsError::NotIncreasing { quantity: "times", index: 1, .. })
     ));
     let mut infinite = good();
     infinite.displacements[7][2] = f64::INFINITY;
     assert!(matches!(
         SampledMotion::new(infinite),
-        Err(ContinuumError::NotFinite { quantity: "displacements", index: 23, .. })
+        Err(FieldsError::NotFinite { quantity: "displacements", index: 23, .. })
     ));
     let mut short = good();
     short.displacements.pop();
     let expected = 4 * 4 * 5 * 4;
     assert!(matches!(
         SampledMotion::new(short),
-        Err(ContinuumError::WrongLength { found, expected: e, .. }) if e == expected && found == e - 1
+        Err(FieldsError::WrongLength { found, expected: e, .. }) if e == expected && found == e - 1
     ));
     let mut empty = good();
     empty.nodes[0].clear();
-    assert!(matches!(SampledMotion::new(empty), Err(ContinuumError::WrongLength { quantity: "nodes along X1", .. })));
+    assert!(matches!(SampledMotion::new(empty), Err(FieldsError::WrongLength { quantity: "nodes along X1", .. })));
 
     // Node (2, 1, 1) at the last time is pushed past its neighbour (3, 1, 1).
     let mut folded = good();
     let index = ((3 * 4 + 2) * 5 + 1) * 4 + 1;
     folded.displacements[index][0] += 3.0;
-    let Err(ContinuumError::FoldedCell { cell, time, determinant }) = SampledMotion::new(folded) else {
+    let Err(FieldsError::FoldedCell { cell, time, determinant }) = SampledMotion::new(folded) else {
         panic!("a folded cell was accepted");
     };
     assert!(cell == [2, 0, 0] && time == 3 && determinant < 0.0, "{cell:?} {time} {determinant}");
@@ -230,12 +230,12 @@ fn samples_that_make_no_motion_are_refused_by_name() {
     let motion = SampledMotion::new(good()).expect("samples");
     assert!(matches!(
         motion.position(&Vector3::new(0.0, 0.0, 1.5), 0.0),
-        Err(ContinuumError::OutsideSamples { quantity: "nodes along X3", value: 1.5, .. })
+        Err(FieldsError::OutsideSamples { quantity: "nodes along X3", value: 1.5, .. })
     ));
-    assert!(matches!(motion.velocity(&Vector3::zeros(), -2.0), Err(ContinuumError::OutsideSamples { .. })));
+    assert!(matches!(motion.velocity(&Vector3::zeros(), -2.0), Err(FieldsError::OutsideSamples { .. })));
     let places = [[0.0; 3]; 3];
     assert!(matches!(
         SampledTrajectories::new(&[0.0, 1.0], &[&places], Interpolation::Cubic),
-        Err(ContinuumError::WrongLength { found: 3, expected: 2, .. })
+        Err(FieldsError::WrongLength { found: 3, expected: 2, .. })
     ));
 }

@@ -2,7 +2,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::FirstPiola;
-use piola_fields::integral::{AdaptiveQuadrature, Ball, Cuboid, Cylinder, EnergyBalance, EstimatedQuadrature, ExplicitMotion, IntegralBalance, LinearTetrahedra, QuadraticTetrahedra, Quadrature, Resultants, SurfacePoint, TetrahedralMesh, transport};
+use piola_fields::integral::{
+    AdaptiveQuadrature, Ball, Cuboid, Cylinder, EnergyBalance, EstimatedQuadrature, ExplicitMotion, IntegralBalance,
+    LinearTetrahedra, QuadraticTetrahedra, Quadrature, Resultants, SurfacePoint, TetrahedralMesh, transport,
+};
 use piola_fields::{Body, Material, Spatial, Uniform};
 use piola_numerics::Dual;
 use piola_testkit::allocations_in;

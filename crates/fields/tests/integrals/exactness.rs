@@ -1,7 +1,9 @@
 //! Every rule integrates every monomial of its degree exactly.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_fields::integral::{Ball, Cuboid, Cylinder, Ellipsoid, Quadrature, Region, SphericalShell, SurfacePoint, TetrahedralMesh, VolumePoint};
+use piola_fields::integral::{
+    Ball, Cuboid, Cylinder, Ellipsoid, Quadrature, Region, SphericalShell, SurfacePoint, TetrahedralMesh, VolumePoint,
+};
 use piola_testkit::{Tol, assert_close_at_scale};
 
 /// Sums are compensated: what remains is the rounding of nodes, weights and powers of the degree.

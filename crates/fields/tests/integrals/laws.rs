@@ -2,7 +2,11 @@
 
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::FirstPiola;
-use piola_fields::integral::{Ball, Cuboid, Cylinder, EnergyBalance, EstimatedQuadrature, ForceResultants, IntegralBalance, MassBalance, MovedRegion, Quadrature, Region, Resultants, SphericalShell, TetrahedralMesh, divergence_theorem, strain_energy, stress_power, tensor_divergence_theorem, transport, transport_of_mass};
+use piola_fields::integral::{
+    Ball, Cuboid, Cylinder, EnergyBalance, EstimatedQuadrature, ForceResultants, IntegralBalance, MassBalance,
+    MovedRegion, Quadrature, Region, Resultants, SphericalShell, TetrahedralMesh, divergence_theorem, strain_energy,
+    stress_power, tensor_divergence_theorem, transport, transport_of_mass,
+};
 use piola_fields::{Body, Field, Material, Motion, Spatial, Uniform};
 use piola_numerics::{Dual, Lanes, Real};
 use piola_testkit::{Tol, assert_close_at_scale, difference_quotient};

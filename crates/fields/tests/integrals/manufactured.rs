@@ -1,9 +1,9 @@
 //! Motions, stresses and fields that are polynomials of the place, so that rules of quadrature are exact for them.
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::{Deformation, FirstPiola};
 use piola_fields::integral::StoredEnergy;
 use piola_fields::{Body, Field, Material, Motion};
-use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::{Gradient, Real};
 use proptest::prelude::*;
 

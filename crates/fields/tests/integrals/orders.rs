@@ -1,9 +1,12 @@
 //! Convergence: of rules with their degree and the size of elements, of elements, of explicit motion.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_fields::Motion;
-use piola_fields::integral::{AdaptiveQuadrature, Ball, Cuboid, EstimatedQuadrature, ExplicitMotion, LinearTetrahedra, MaterialPoint, MovedRegion, QuadraticTetrahedra, Quadrature, TetrahedralElements, TetrahedralMesh};
 use piola_continuum::{Deformation, DisplacementGradient, FirstPiola};
+use piola_fields::Motion;
+use piola_fields::integral::{
+    AdaptiveQuadrature, Ball, Cuboid, EstimatedQuadrature, ExplicitMotion, LinearTetrahedra, MaterialPoint,
+    MovedRegion, QuadraticTetrahedra, Quadrature, TetrahedralElements, TetrahedralMesh,
+};
 use piola_numerics::linear::matrix3::rows_of;
 use piola_numerics::{Dual, Gradient, Real};
 use piola_testkit::{Tol, assert_close, assert_order};

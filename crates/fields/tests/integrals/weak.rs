@@ -1,9 +1,11 @@
 //! Forces on the nodes of elements: patch test, virtual work, energy, tangents, masses.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_fields::integral::{Cuboid, LinearTetrahedra, MaterialPoint, QuadraticTetrahedra, StoredEnergy, TetrahedralElements, TetrahedralMesh};
-use piola_fields::{Field, Motion};
 use piola_continuum::{Deformation, DisplacementGradient, FirstPiola};
+use piola_fields::integral::{
+    Cuboid, LinearTetrahedra, MaterialPoint, QuadraticTetrahedra, StoredEnergy, TetrahedralElements, TetrahedralMesh,
+};
+use piola_fields::{Field, Motion};
 use piola_numerics::linear::matrix3::from_rows;
 use piola_numerics::{Dual, Real};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
@@ -27,13 +29,13 @@ pub(super) fn patch(cells: usize) -> TetrahedralMesh {
 
 pub(super) fn stress<T: Real>(
     energy: SaintVenant,
-) -> impl Fn(&MaterialPoint, &DisplacementGradient<T>) -> Result<FirstPiola<T>, piola_continuum::ContinuumError> {
+) -> impl Fn(&MaterialPoint, &DisplacementGradient<T>) -> Result<FirstPiola<T>, piola_fields::FieldsError> {
     move |point, gradient| Ok(energy.stress(&point.position, &from_rows(gradient.gradient_rows())))
 }
 
 fn density<T: Real>(
     energy: SaintVenant,
-) -> impl Fn(&MaterialPoint, &DisplacementGradient<T>) -> Result<T, piola_continuum::ContinuumError> {
+) -> impl Fn(&MaterialPoint, &DisplacementGradient<T>) -> Result<T, piola_fields::FieldsError> {
     move |point, gradient| Ok(energy.density(&point.position, &from_rows(gradient.gradient_rows())))
 }
 

@@ -5,12 +5,12 @@ use core::ops::Mul;
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
+use piola_numerics::linear::matrix3::{from_rows, rows_of};
 
 use super::Symmetric;
 use crate::TensorError;
 use crate::rotation::check_rotation;
 use crate::rows::{Rows, product, transpose};
-use piola_numerics::linear::matrix3::{from_rows, rows_of};
 
 impl<T: Real> Symmetric<T> {
     /// v ⊗ v = vᵢ vⱼ.

@@ -6,11 +6,11 @@
 
 use piola_numerics::internal::Lanewise;
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::rows::Rows;
 
 use super::{derivatives, first, second};
 use crate::strain::kernels::{green, left_cauchy_green, right_cauchy_green, right_cauchy_green_minus_one};
 use crate::{Deformation, Symmetric};
-use piola_tensor::internal::rows::Rows;
 
 /// J^p.
 #[inline(always)]

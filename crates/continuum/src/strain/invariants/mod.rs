@@ -17,11 +17,11 @@
 
 use piola_numerics::linear::matrix3::dot;
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::rows::{Rows, cofactor, double_contraction};
 
 use super::kernels::right_cauchy_green;
 use crate::deformation::volume::trace_pair;
 use crate::{Deformation, Symmetric};
-use piola_tensor::internal::rows::{Rows, cofactor, double_contraction};
 
 mod isochoric;
 mod near_rotation;

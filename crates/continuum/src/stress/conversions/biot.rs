@@ -3,12 +3,12 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_tensor::internal::rows::product;
+use piola_tensor::rotation::check_rotation;
 
 use crate::polar::StretchAnalysis;
 use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use crate::{ContinuumError, Deformation, Symmetric};
-use piola_tensor::internal::rows::product;
-use piola_tensor::rotation::check_rotation;
 
 impl<T: Real> BiotStress<T> {
     /// P = R Biot; the rotation R is computed, see [`StretchAnalysis`].

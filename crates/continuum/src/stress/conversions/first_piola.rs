@@ -3,14 +3,14 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_tensor::internal::product_symmetrized;
+use piola_tensor::internal::rows::transposed_product;
+use piola_tensor::rotation::check_rotation;
 
 use crate::polar::StretchAnalysis;
 use crate::stress::kernels::{cauchy_of_first_piola, second_piola_of_first_piola};
 use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use crate::{ContinuumError, Deformation};
-use piola_tensor::internal::product_symmetrized;
-use piola_tensor::internal::rows::transposed_product;
-use piola_tensor::rotation::check_rotation;
 
 impl<T: Real> FirstPiola<T> {
     /// T = sym(P Fᵀ)/J, W(17.21).

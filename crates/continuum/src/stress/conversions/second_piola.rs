@@ -1,12 +1,12 @@
 //! Conversions of the second Piola–Kirchhoff stress.
 
 use piola_numerics::Real;
+use piola_tensor::internal::rows::product;
 
 use crate::strain::RightCauchyGreen;
 use crate::stress::kernels::cauchy_of_second_piola;
 use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use crate::{Deformation, Symmetric};
-use piola_tensor::internal::rows::product;
 
 impl<T: Real> SecondPiola<T> {
     /// T = F S Fᵀ/J, B(4.57).

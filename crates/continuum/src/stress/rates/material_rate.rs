@@ -1,10 +1,10 @@
 //! Material derivatives of stresses, and those of one measure from those of another.
 
 use piola_numerics::Real;
+use piola_tensor::internal::rows::{product, sum};
 
 use crate::rates::{GradientRate, VelocityGradient};
 use crate::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola};
-use piola_tensor::internal::rows::{product, sum};
 
 /// The material derivative Ṡ of a quantity S: its rate at a body point, Pa/s for a stress.
 ///

@@ -1,12 +1,12 @@
 //! The objective rates.
 
 use piola_numerics::Real;
+use piola_tensor::internal::rows::{Rows, transpose};
 
 use super::material_rate::MaterialRate;
 use crate::rates::kernels::transported;
 use crate::rates::{LogarithmicSpin, PolarSpin, Spin, VelocityGradient};
 use crate::{CauchyStress, Deformation, KirchhoffStress, SecondPiola, Symmetric};
-use piola_tensor::internal::rows::{Rows, transpose};
 
 /// A symmetric measure of stress whose components refer to space on both sides.
 pub trait SpatialStress<T: Real>: Copy {

@@ -2,11 +2,11 @@
 
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::dot;
-
-use crate::Symmetric;
 use piola_tensor::internal::fourth::{congruence_matrix, transform_major};
 use piola_tensor::internal::rows::Rows;
 use piola_tensor::{PAIR, SLOT, Slots};
+
+use crate::Symmetric;
 
 /// `F_iA F_jB F_kC F_lD C_ABCD` of a tangent with all symmetries, as the 21 components of its upper triangle.
 ///

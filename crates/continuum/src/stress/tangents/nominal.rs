@@ -3,13 +3,13 @@
 use nalgebra::Matrix3;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::rows_of;
+use piola_tensor::internal::rows::identity;
+use piola_tensor::rotation::check_rotation;
+use piola_tensor::{FourthOrder, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 
 use super::{FirstPiolaTangent, MaterialTangent, kernels};
 use crate::rates::GradientRate;
 use crate::{ContinuumError, Deformation, FirstPiola, SecondPiola};
-use piola_tensor::internal::rows::identity;
-use piola_tensor::rotation::check_rotation;
-use piola_tensor::{FourthOrder, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 
 impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     /// ∂P/∂F = `δ_ij S_AB + F_iC F_jD C_CADB`.

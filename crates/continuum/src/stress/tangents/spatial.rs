@@ -1,13 +1,13 @@
 //! ∂S/∂E to and from the spatial tangents, and those to and from one another.
 
 use piola_numerics::Real;
+use piola_tensor::{MajorSymmetric, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 
 use super::{
     CauchyJaumannTangent, CauchyLowerConvectedTangent, CauchyUpperConvectedTangent, FirstPiolaTangent, JaumannTangent,
     LieTangent, LowerConvectedTangent, MaterialTangent, TruesdellTangent,
 };
 use crate::{CauchyStress, Deformation, SecondPiola, Symmetric};
-use piola_tensor::{MajorSymmetric, Minor, MinorSymmetric, PairSymmetric, Symmetry};
 
 impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     /// c = `F_iA F_jB F_kC F_lD C_ABCD`, the push-forward.

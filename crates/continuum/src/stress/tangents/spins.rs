@@ -6,6 +6,7 @@
 //! Z is taken from the rates of the stretches for the six unit stretchings, so it is exact at coalescent stretches.
 
 use piola_numerics::Real;
+use piola_tensor::{Minor, MinorSymmetric, PairSymmetric, Skew, Symmetry};
 
 use super::spatial::volume_terms;
 use super::{
@@ -14,7 +15,6 @@ use super::{
 use crate::polar::StretchAnalysis;
 use crate::rates::{GradientRate, StretchRates, VelocityGradient};
 use crate::{CauchyStress, Deformation, Symmetric};
-use piola_tensor::{Minor, MinorSymmetric, PairSymmetric, Skew, Symmetry};
 
 /// D ↦ Z T − T Z for the two spins Z of the stretch rates: polar, and logarithmic.
 #[inline(always)]

@@ -2,13 +2,13 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::Real;
+use piola_tensor::{FourthOrder, Major, MinorSymmetric, PairSymmetric, Symmetry};
 
 use crate::rates::RateOfDeformation;
 use crate::stress::rates::{
     GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, TruesdellRate, UpperConvectedRate,
 };
 use crate::{CauchyStress, ContinuumError, KirchhoffStress, Symmetric};
-use piola_tensor::{FourthOrder, Major, MinorSymmetric, PairSymmetric, Symmetry};
 
 /// A tangent whose major symmetry is that of the law.
 macro_rules! symmetric_tangent {

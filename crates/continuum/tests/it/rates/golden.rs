@@ -28,7 +28,7 @@ fn rate(name: &str, x: &[f64]) -> Vec<f64> {
     let stretch = StretchRates::of(&f, &fdot);
     match name {
         "L" => flat(&l.0),
-        "D" => flat(&l.stretching().matrix()),
+        "D" => flat(&l.rate_of_deformation().matrix()),
         "spin" => flat(&l.spin().matrix()),
         "Cdot" => flat(&strain::right_cauchy_green_rate(&f, &fdot).matrix()),
         "Edot" => flat(&strain::green_rate(&f, &fdot).matrix()),

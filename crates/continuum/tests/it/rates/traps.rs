@@ -31,8 +31,8 @@ fn rates_at_equal_stretches_equal_those_of_parts() {
         assert_same("V̇", &rates.left_stretch().matrix(), &symmetric, 0.0, tol);
         assert_same("ṘRᵀ", &rates.polar_spin().matrix(), &l.spin().matrix(), 0.0, tol);
         assert_same("Ω^log", &rates.logarithmic_spin().matrix(), &l.spin().matrix(), 0.0, tol);
-        assert_same("(ln U)˙", &rates.hencky_material().matrix(), &l.stretching().matrix(), 0.0, tol);
-        assert_same("(ln V)˙", &rates.hencky_spatial().matrix(), &l.stretching().matrix(), 0.0, tol);
+        assert_same("(ln U)˙", &rates.hencky_material().matrix(), &l.rate_of_deformation().matrix(), 0.0, tol);
+        assert_same("(ln V)˙", &rates.hencky_spatial().matrix(), &l.rate_of_deformation().matrix(), 0.0, tol);
     }
 }
 
@@ -82,7 +82,7 @@ fn rates_at_tiny_displacements_equal_parts_of_velocity_gradient() {
     let displacement = DisplacementGradient::new(rate().0 * 1e-20).expect("0 < det F");
     let rates = StretchRates::of(&displacement, &rate());
     let l = VelocityGradient(rate().0);
-    assert_same("U̇ = D", &rates.right_stretch().matrix(), &l.stretching().matrix(), 0.0, Tol::ulps(4.0));
+    assert_same("U̇ = D", &rates.right_stretch().matrix(), &l.rate_of_deformation().matrix(), 0.0, Tol::ulps(4.0));
     assert_same("Ṙ = W", &rates.rotation(), &l.spin().matrix(), 0.0, Tol::ulps(4.0));
     assert_same("Ω^log = W", &rates.logarithmic_spin().matrix(), &l.spin().matrix(), 0.0, Tol::ulps(4.0));
 }

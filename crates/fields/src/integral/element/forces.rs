@@ -1,14 +1,15 @@
 //! Forces on the nodes, by virtual work.
 
 use nalgebra::Vector3;
+use piola_continuum::{DisplacementGradient, FirstPiola};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
+use piola_tensor::internal::rows::apply;
 
 use super::{MaterialPoint, TetrahedralElements, check_length, checked_gradient, gradient_of};
+use crate::FieldsError;
 use crate::integral::mesh::{FACES, normal_and_area, weighted};
 use crate::integral::{BoundaryTriangle, SurfacePoint};
-use crate::tensor::rows::apply;
-use crate::{FieldsError, DisplacementGradient, FirstPiola};
 
 impl<const N: usize> TetrahedralElements<N> {
     /// Adds the forces of stress on the nodes, −∫ P ∇Nₐ dV.

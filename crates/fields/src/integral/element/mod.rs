@@ -32,8 +32,10 @@ use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant};
 use super::TetrahedralMesh;
 use super::integrand::{Integrand, RunningIntegral};
 use super::quadrature::Quadrature;
-use crate::tensor::rows::Rows;
-use crate::{FieldsError, DisplacementGradient};
+use crate::FieldsError;
+use piola_continuum::ContinuumError;
+use piola_continuum::DisplacementGradient;
+use piola_tensor::internal::rows::Rows;
 use shape::{Shape, ShapePoint};
 
 /// Tetrahedra with N nodes each on which displacements are sampled.
@@ -349,10 +351,10 @@ fn checked_gradient<T: Real>(
     gradient: nalgebra::Matrix3<T>,
 ) -> Result<DisplacementGradient<T>, FieldsError> {
     DisplacementGradient::new(gradient).map_err(|error| match error {
-        FieldsError::NonPositiveJacobian { determinant } => {
+        ContinuumError::NonPositiveJacobian { determinant } => {
             FieldsError::InvertedElement { element: point.element, volume: determinant * point.weight }
         }
-        other => other,
+        other => other.into(),
     })
 }
 

@@ -43,10 +43,7 @@ impl<T: Real> Region<T> for TetrahedralMesh {
 }
 
 /// The point with barycentric coordinates `share`.
-pub(in crate::integral) fn weighted<const N: usize>(
-    share: &[f64; N],
-    corners: &[Vector3<f64>; N],
-) -> Vector3<f64> {
+pub(in crate::integral) fn weighted<const N: usize>(share: &[f64; N], corners: &[Vector3<f64>; N]) -> Vector3<f64> {
     share.iter().zip(corners).fold(Vector3::zeros(), |sum, (&share, corner)| sum + corner * share)
 }
 

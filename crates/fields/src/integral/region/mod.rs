@@ -30,8 +30,8 @@ use piola_numerics::linear::matrix3::dot;
 use super::Quadrature;
 use crate::FieldsError;
 use crate::error::check_finite;
-use crate::tensor::rows::cofactor;
-use crate::tensor::rows::{Rows, apply};
+use piola_tensor::internal::rows::cofactor;
+use piola_tensor::internal::rows::{Rows, apply};
 
 /// A point of a rule inside a region.
 #[derive(Clone, Copy, Debug, PartialEq)]

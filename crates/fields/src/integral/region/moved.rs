@@ -1,15 +1,16 @@
 //! The image of a region under a motion.
 
 use nalgebra::Vector3;
+use piola_continuum::{Deformation, DeformationGradient};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
 
 use super::{Region, SurfacePoint, VolumePoint, moved_element};
+use crate::FieldsError;
 use crate::Motion;
 use crate::integral::Quadrature;
 use crate::motion::check_event;
 use crate::motion::kernels::place_and_gradient;
-use crate::{FieldsError, Deformation, DeformationGradient};
 
 /// The region that a motion makes of another one at a time: χ(𝒫, t).
 ///

@@ -1,6 +1,7 @@
 //! Balls, spherical shells and ellipsoids.
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::ContinuumError;
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{determinant, rows_of};
 
@@ -156,7 +157,7 @@ impl Ellipsoid {
         check_finite("semi-axes", rows.as_flattened())?;
         let determinant = determinant(rows);
         if determinant <= 0.0 {
-            return Err(FieldsError::NonPositiveJacobian { determinant });
+            return Err(ContinuumError::NonPositiveJacobian { determinant }.into());
         }
         Ok(Self { centre, semi_axes })
     }

@@ -30,7 +30,7 @@ proptest! {
         assert_same("L F = Ḟ", &back.0, &path.gradient[1], 1.0, tol);
         let displaced = DisplacementGradient::new(f.matrix() - Matrix3::identity()).expect("0 < det F");
         assert_same("L (1 + ∇u) = Ḟ", &GradientRate::of(&displaced, &l).0, &path.gradient[1], 1.0, tol);
-        let parts = VelocityGradient::of_parts(&l.stretching(), &l.spin());
+        let parts = VelocityGradient::of_parts(&l.rate_of_deformation(), &l.spin());
         assert_same("D + W = L", &parts.0, &l.0, 0.0, Tol::ulps(1.0));
         let curl = l.spin().vorticity();
         let entries = [l.0[(2, 1)] - l.0[(1, 2)], l.0[(0, 2)] - l.0[(2, 0)], l.0[(1, 0)] - l.0[(0, 1)]];
@@ -62,7 +62,7 @@ proptest! {
         let right = derivative(&(moving.transpose() * moving));
         assert_same("Ċ", &strain::right_cauchy_green_rate(&f, &rate).matrix(), &right, 3.0, Tol::ulps(8.0));
         assert_same("Ė", &(strain::green_rate(&f, &rate).matrix() * 2.0), &right, 3.0, Tol::ulps(8.0));
-        let stretching = l.stretching().matrix();
+        let stretching = l.rate_of_deformation().matrix();
         let pulled = f.matrix().transpose() * stretching * f.matrix();
         let tol = Tol::ulps(16.0).times(path.condition());
         assert_same("Fᵀ D F = Ė", &pulled, &(right * 0.5), 3.0, tol);
@@ -126,7 +126,7 @@ proptest! {
         let (strain, rate) = (hencky.map(|x| x.re), derivative(&hencky));
         let spin = rates.logarithmic_spin().matrix();
         let objective = rate - spin * strain + strain * spin;
-        let stretching = path.velocity_gradient().stretching().matrix();
+        let stretching = path.velocity_gradient().rate_of_deformation().matrix();
         assert_same("(ln V)° = D", &objective, &stretching, 1.0, Tol::ulps(32.0).times(path.condition()));
     }
 

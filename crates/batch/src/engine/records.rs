@@ -1,12 +1,12 @@
 //! Points whose numbers lie side by side: they become lanes by a transposition in registers.
 
 use nalgebra::Matrix3;
-use piola_numerics::{Element, Lanes, Real};
-
-use crate::{
+use piola_continuum::{
     BiotStress, CauchyStress, DeformationGradient, DisplacementGradient, FirstPiola, KirchhoffStress, MandelStress,
-    SecondPiola, Symmetric,
+    SecondPiola,
 };
+use piola_numerics::{Element, Lanes, Real};
+use piola_tensor::Symmetric;
 
 /// The K numbers of a point as they lie in memory.
 pub(super) trait Record<T, const K: usize> {

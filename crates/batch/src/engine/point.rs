@@ -1,12 +1,9 @@
 //! What several outputs at a point share.
 
+use piola_continuum::Deformation;
+use piola_continuum::polar::StretchAnalysis;
 use piola_numerics::Real;
-
-use super::requests::{Quantity, Request};
-use super::{BatchScalar, Destination, Source};
-use crate::Deformation;
-use crate::spectral::StretchAnalysis;
-use crate::tensor::rows::Rows;
+use piola_tensor::internal::rows::Rows;
 
 /// A deformation with what is already known of it: J where it was checked, the stretches as far as an output
 /// needs them.
@@ -45,40 +42,6 @@ impl<T: Real, D: Deformation<T>> Point<T, D> {
 #[inline(never)]
 fn analysed<T: Real, D: Deformation<T>>(deformation: &D) -> StretchAnalysis<T> {
     StretchAnalysis::of(deformation)
-}
-
-impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
-    /// What a batch would write at one point: from the deformation there, and the input of the request at an index.
-    ///
-    /// To look into a batch, or to try a quantity of one's own; of a million points [`evaluate`](super::evaluate) is the
-    /// way. Nothing is written, and nothing is checked.
-    ///
-    /// # Accuracy
-    /// The numbers of a batch, but for elementary functions, which are those of the standard library here.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_batch as batch;
-    /// use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola};
-    /// let (f, stress) = (DeformationGradient::diagonal([2.0, 0.5, 0.5])?, [CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?]);
-    /// let mut nominal = [FirstPiola::zero()];
-    /// let request = batch::cauchy_to_first_piola(&stress[..], &mut nominal[..]);
-    /// assert_eq!(request.at(&f, 0)[0], 2.0); // by rows
-    /// # Ok::<(), piola_batch::BatchError>(())
-    /// ```
-    ///
-    /// # Panics
-    /// When the source has no such index.
-    #[must_use]
-    pub fn at<T: BatchScalar, D: Deformation<T> + Copy>(&self, deformation: &D, index: usize) -> [T; K]
-    where
-        Q: Quantity<I, K>,
-        S: Source<Q::Input, T, I>,
-        V: Destination<Q::Output, T, K>,
-    {
-        let point = Point { deformation: *deformation, jacobian: None, stretch: None };
-        self.quantity.of(&point, self.source.point(index))
-    }
 }
 
 impl<T: Real, D: Deformation<T>> Deformation<T> for Point<T, D> {

@@ -1,15 +1,16 @@
 //! Where results are written: arrays of structures, structures of arrays, strided numbers.
 
 use nalgebra::Matrix3;
+use piola_continuum::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use piola_numerics::internal::prefetch_for_writing;
 use piola_numerics::{Element, Lanes};
+use piola_tensor::Symmetric;
 
+use super::evaluation::BatchScalar;
 use super::records;
 use super::sources::{ahead, transposed};
-use super::{BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
-use crate::{
-    BiotStress, CauchyStress, BatchError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
-};
+use super::views::{ColumnMajor, Components, LaneBlocks, Strided};
+use crate::BatchError;
 
 /// Memory of the caller for K components at each of many points; `Q` is what is written there.
 ///
@@ -270,9 +271,7 @@ impl<'a, T, const K: usize> Components<&'a mut [T], K> {
     pub fn new_mut(arrays: [&'a mut [T]; K]) -> Result<Self, BatchError> {
         let expected = arrays.first().map_or(0, |array| array.len());
         match arrays.iter().find(|array| array.len() != expected) {
-            Some(odd) => {
-                Err(BatchError::WrongLength { quantity: "array of a component", found: odd.len(), expected })
-            }
+            Some(odd) => Err(BatchError::WrongLength { quantity: "array of a component", found: odd.len(), expected }),
             None => Ok(Self(arrays)),
         }
     }

@@ -2,13 +2,14 @@
 
 use core::marker::PhantomData;
 
+use piola_continuum::Deformation;
+use piola_continuum::polar::StretchAnalysis;
 use piola_numerics::{Element, LaneKernel, Lanes, Mask, Real, dispatch_lanes};
 
 use super::deformations::Deformations;
 use super::point::Point;
-use super::requests::Requests;
-use crate::spectral::StretchAnalysis;
-use crate::{BatchError, Deformation};
+use super::request::Requests;
+use crate::BatchError;
 
 /// `f64` or `f32`, with the number of lanes that was measured to be the fastest.
 pub trait BatchScalar: Element + Real {

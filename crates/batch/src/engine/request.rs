@@ -1,13 +1,15 @@
 //! What is asked of a batch: single outputs and tuples of them.
 
+use piola_continuum::Deformation;
 use piola_numerics::{Lanes, Mask, Real};
+use piola_tensor::internal::check_finite;
 
-use super::destinations::scatter;
+use super::destinations::{Destination, scatter};
+use super::evaluation::BatchScalar;
 use super::point::Point;
-use super::sources::fill;
-use super::{BatchScalar, Destination, Refusal, Source};
-use crate::error::check_finite;
-use crate::{BatchError, Deformation};
+use super::refusal::Refusal;
+use super::sources::{Source, fill};
+use crate::BatchError;
 
 /// A quantity with K components, of the deformation and I components of something else.
 ///
@@ -92,7 +94,7 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
 
 /// One output: what, from what beside the deformation, and where to.
 ///
-/// Made by the functions of [`batch`](super), such as [`green_strain`](super::green_strain).
+/// Made by the functions of this crate, such as [`green_strain`](crate::green_strain).
 #[derive(Clone, Copy, Debug)]
 pub struct Request<Q, S, V, const I: usize, const K: usize> {
     pub(super) quantity: Q,
@@ -105,6 +107,40 @@ impl<Q: Quantity<I, K>, S, V, const I: usize, const K: usize> Request<Q, S, V, I
     #[must_use]
     pub const fn new(quantity: Q, source: S, to: V) -> Self {
         Self { quantity, source, to }
+    }
+}
+
+impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
+    /// What a batch would write at one point: from the deformation there, and the input of the request at an index.
+    ///
+    /// To look into a batch, or to try a quantity of one's own; of a million points [`evaluate`](super::evaluate) is the
+    /// way. Nothing is written, and nothing is checked.
+    ///
+    /// # Accuracy
+    /// The numbers of a batch, but for elementary functions, which are those of the standard library here.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_batch as batch;
+    /// use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola};
+    /// let (f, stress) = (DeformationGradient::diagonal([2.0, 0.5, 0.5])?, [CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?]);
+    /// let mut nominal = [FirstPiola::zero()];
+    /// let request = batch::cauchy_to_first_piola(&stress[..], &mut nominal[..]);
+    /// assert_eq!(request.at(&f, 0)[0], 2.0); // by rows
+    /// # Ok::<(), piola_batch::BatchError>(())
+    /// ```
+    ///
+    /// # Panics
+    /// When the source has no such index.
+    #[must_use]
+    pub fn at<T: BatchScalar, D: Deformation<T> + Copy>(&self, deformation: &D, index: usize) -> [T; K]
+    where
+        Q: Quantity<I, K>,
+        S: Source<Q::Input, T, I>,
+        V: Destination<Q::Output, T, K>,
+    {
+        let point = Point { deformation: *deformation, jacobian: None, stretch: None };
+        self.quantity.of(&point, self.source.point(index))
     }
 }
 

@@ -1,15 +1,16 @@
 //! Where the components of points are read from: arrays of structures, structures of arrays, strided numbers.
 
 use nalgebra::Matrix3;
-use piola_numerics::sums::unit_in_last_place;
+use piola_continuum::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 use piola_numerics::internal::prefetch;
+use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Element, Lanes, Real};
+use piola_tensor::Symmetric;
 
+use super::evaluation::BatchScalar;
 use super::records::gather;
-use super::{AllEntries, BatchScalar, ColumnMajor, Components, LaneBlocks, Strided};
-use crate::{
-    BiotStress, CauchyStress, BatchError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
-};
+use super::views::{AllEntries, ColumnMajor, Components, LaneBlocks, Strided};
+use crate::BatchError;
 
 /// K components at each of many points, read without a copy; `Q` is what they may be taken for.
 ///
@@ -281,7 +282,8 @@ impl<Q, T: BatchScalar, A: Source<Q, T, 9>> Source<Q, T, 6> for AllEntries<A> {
     }
     fn check(&self, quantity: &'static str, index: usize) -> Result<(), BatchError> {
         let [a, b, c, d, e, f, g, h, i] = self.0.point(index);
-        Symmetric::of_quantity(quantity, [[a, b, c], [d, e, f], [g, h, i]]).map(|_| ())
+        Symmetric::of_quantity(quantity, [[a, b, c], [d, e, f], [g, h, i]])?;
+        Ok(())
     }
 }
 
@@ -377,9 +379,7 @@ impl<'a, T, const K: usize> Components<&'a [T], K> {
     pub fn new(arrays: [&'a [T]; K]) -> Result<Self, BatchError> {
         let expected = arrays.first().map_or(0, |array| array.len());
         match arrays.iter().find(|array| array.len() != expected) {
-            Some(odd) => {
-                Err(BatchError::WrongLength { quantity: "array of a component", found: odd.len(), expected })
-            }
+            Some(odd) => Err(BatchError::WrongLength { quantity: "array of a component", found: odd.len(), expected }),
             None => Ok(Self(arrays)),
         }
     }

@@ -1,12 +1,13 @@
 //! The deformations of many points: typed ones, and numbers with a meaning.
 
+use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient};
 use piola_numerics::{Lanes, Real};
 
-use super::BatchScalar;
+use super::evaluation::BatchScalar;
+use super::parts::rows;
 use super::records::gather;
 use super::sources::{Source, by_rows, fill};
-use crate::tensor::rows::Rows;
-use crate::{BatchError, Deformation, DeformationGradient, DisplacementGradient};
+use crate::BatchError;
 
 /// The deformations of many points.
 ///
@@ -50,11 +51,6 @@ pub trait Deformations<T: BatchScalar>: Copy + Send + Sync {
     /// # Errors
     /// [`BatchError::NotFinite`], [`ContinuumError::NonPositiveJacobian`](piola_continuum::ContinuumError::NonPositiveJacobian).
     fn check(&self, index: usize) -> Result<(), BatchError>;
-}
-
-#[inline(always)]
-fn rows<T: Copy>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> Rows<T> {
-    [[a, b, c], [d, e, f], [g, h, i]]
 }
 
 /// Deformation gradients F that may be anything: each point is checked.
@@ -116,75 +112,54 @@ pub struct Undeformed(
     pub usize,
 );
 
-impl<T: BatchScalar, S: Source<DeformationGradient, T, 9>> Deformations<T> for Gradients<S> {
-    type Point<U: Real> = DeformationGradient<U>;
-    const TRUSTED: bool = false;
-    const IN_LANES: bool = S::IN_LANES;
-    const RECORDS: bool = S::RECORDS;
-    #[inline(always)]
-    fn count(&self) -> usize {
-        self.0.count().unwrap_or(0)
-    }
-    #[inline(always)]
-    fn load<const N: usize>(&self, first: usize, count: usize) -> DeformationGradient<Lanes<T, N>> {
-        DeformationGradient::trusted(rows(self.0.load(first, count)))
-    }
-    #[inline(always)]
-    fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9], in_registers: bool) {
-        if in_registers {
-            self.0.gather(first, count, lanes);
-        } else {
-            fill(&self.0, first, count, lanes);
+/// Numbers that may be anything: each point is checked.
+macro_rules! unchecked {
+    ($view:ident $name:ident) => {
+        impl<T: BatchScalar, S: Source<$name, T, 9>> Deformations<T> for $view<S> {
+            type Point<U: Real> = $name<U>;
+            const TRUSTED: bool = false;
+            const IN_LANES: bool = S::IN_LANES;
+            const RECORDS: bool = S::RECORDS;
+            #[inline(always)]
+            fn count(&self) -> usize {
+                self.0.count().unwrap_or(0)
+            }
+            #[inline(always)]
+            fn load<const N: usize>(&self, first: usize, count: usize) -> $name<Lanes<T, N>> {
+                $name::trusted(rows(self.0.load(first, count)))
+            }
+            #[inline(always)]
+            fn fill<const N: usize>(
+                &self,
+                first: usize,
+                count: usize,
+                lanes: &mut [Lanes<T, N>; 9],
+                in_registers: bool,
+            ) {
+                if in_registers {
+                    self.0.gather(first, count, lanes);
+                } else {
+                    fill(&self.0, first, count, lanes);
+                }
+            }
+            #[inline(always)]
+            fn filled<const N: usize>(
+                &self,
+                _first: usize,
+                _count: usize,
+                lanes: [Lanes<T, N>; 9],
+            ) -> Self::Point<Lanes<T, N>> {
+                $name::trusted(rows(lanes))
+            }
+            fn check(&self, index: usize) -> Result<(), BatchError> {
+                $name::from_rows(rows(self.0.point(index)))?;
+                Ok(())
+            }
         }
-    }
-    #[inline(always)]
-    fn filled<const N: usize>(
-        &self,
-        _first: usize,
-        _count: usize,
-        lanes: [Lanes<T, N>; 9],
-    ) -> Self::Point<Lanes<T, N>> {
-        DeformationGradient::trusted(rows(lanes))
-    }
-    fn check(&self, index: usize) -> Result<(), BatchError> {
-        DeformationGradient::from_rows(rows(self.0.point(index))).map(|_| ())
-    }
+    };
 }
-
-impl<T: BatchScalar, S: Source<DisplacementGradient, T, 9>> Deformations<T> for Displacements<S> {
-    type Point<U: Real> = DisplacementGradient<U>;
-    const TRUSTED: bool = false;
-    const IN_LANES: bool = S::IN_LANES;
-    const RECORDS: bool = S::RECORDS;
-    #[inline(always)]
-    fn count(&self) -> usize {
-        self.0.count().unwrap_or(0)
-    }
-    #[inline(always)]
-    fn load<const N: usize>(&self, first: usize, count: usize) -> DisplacementGradient<Lanes<T, N>> {
-        DisplacementGradient::trusted(rows(self.0.load(first, count)))
-    }
-    #[inline(always)]
-    fn fill<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9], in_registers: bool) {
-        if in_registers {
-            self.0.gather(first, count, lanes);
-        } else {
-            fill(&self.0, first, count, lanes);
-        }
-    }
-    #[inline(always)]
-    fn filled<const N: usize>(
-        &self,
-        _first: usize,
-        _count: usize,
-        lanes: [Lanes<T, N>; 9],
-    ) -> Self::Point<Lanes<T, N>> {
-        DisplacementGradient::trusted(rows(lanes))
-    }
-    fn check(&self, index: usize) -> Result<(), BatchError> {
-        DisplacementGradient::from_rows(rows(self.0.point(index))).map(|_| ())
-    }
-}
+unchecked!(Gradients DeformationGradient);
+unchecked!(Displacements DisplacementGradient);
 
 macro_rules! typed {
     ($name:ident) => {

@@ -1,20 +1,29 @@
-//! Sources of several quantities, side by side: a stress and a tangent, a stress and the velocity gradient.
+//! Sources of several quantities, side by side: a stress and a tangent, two directions.
 
 use nalgebra::{Matrix3, Vector3};
+use piola_continuum::rates::{GradientRate, VelocityGradient};
+use piola_continuum::stress::tangents::{MaterialTangent, TruesdellTangent};
+use piola_continuum::{CauchyStress, SecondPiola};
 use piola_numerics::{Element, Lanes};
+use piola_tensor::Symmetric;
+use piola_tensor::internal::rows::Rows;
 
-use super::{Destination, Source};
-use crate::rates::strain::GreenStrainRate;
-use crate::rates::{AccelerationGradient, GradientRate, RateOfDeformation, VelocityGradient};
-use crate::stress::tangents::{
-    CauchyGreenNaghdiTangent, CauchyJaumannTangent, CauchyLogarithmicTangent, CauchyLowerConvectedTangent,
-    CauchyUpperConvectedTangent, FirstPiolaTangent, GreenNaghdiTangent, JaumannTangent, LieTangent, LogarithmicTangent,
-    LowerConvectedTangent, MaterialTangent, TruesdellTangent,
-};
-use crate::tensor::MajorSymmetric;
-use crate::{
-    BiotStress, CauchyStress, BatchError, FirstPiola, KirchhoffStress, MandelStress, SecondPiola, Symmetric,
-};
+use super::destinations::Destination;
+use super::evaluation::BatchScalar;
+use super::sources::{Source, by_rows};
+use crate::BatchError;
+
+/// Nine components by rows.
+#[inline(always)]
+pub(crate) fn flat<T: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> [T; 9] {
+    [a, b, c, d, e, f, g, h, i]
+}
+
+/// Three rows of nine components.
+#[inline(always)]
+pub(crate) fn rows<T: Copy>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> Rows<T> {
+    [[a, b, c], [d, e, f], [g, h, i]]
+}
 
 /// A tuple of sources is a source of the components of all of them, one after the other.
 macro_rules! tuples {
@@ -64,7 +73,7 @@ fn put<X: Copy, const K: usize, const TOTAL: usize>(all: &mut [X; TOTAL], at: us
 
 /// Components of a part of the input.
 #[inline(always)]
-pub(super) fn part<X: Copy, const K: usize, const TOTAL: usize>(all: &[X; TOTAL], at: usize) -> [X; K] {
+pub(crate) fn part<X: Copy, const K: usize, const TOTAL: usize>(all: &[X; TOTAL], at: usize) -> [X; K] {
     let mut part = [all[at]; K];
     let mut k = 0;
     while k < K {
@@ -76,41 +85,10 @@ pub(super) fn part<X: Copy, const K: usize, const TOTAL: usize>(all: &[X; TOTAL]
 
 tuples! {
     A Symmetric, 0 [6]; B Symmetric, 1 [6] => 12;
-    A Symmetric, 0 [6]; B Symmetric, 1 [6]; C Symmetric, 2 [6] => 18;
     A Matrix3<f64>, 0 [9]; B Matrix3<f64>, 1 [9] => 18;
     A Symmetric, 0 [6]; B Matrix3<f64>, 1 [9] => 15;
-    A MajorSymmetric, 0 [21]; B Matrix3<f64>, 1 [9] => 30;
-    A SecondPiola, 0 [6]; B GreenStrainRate, 1 [6] => 12;
-    A CauchyStress, 0 [6]; B Vector3<f64>, 1 [3] => 9;
-    A FirstPiola, 0 [9]; B Vector3<f64>, 1 [3] => 12;
-    A CauchyStress, 0 [6]; B VelocityGradient, 1 [9] => 15;
-    A FirstPiola, 0 [9]; B GradientRate, 1 [9] => 18;
-    A CauchyStress, 0 [6]; B CauchyStress, 1 [6]; C VelocityGradient, 2 [9] => 21;
-    A KirchhoffStress, 0 [6]; B KirchhoffStress, 1 [6]; C VelocityGradient, 2 [9] => 21;
-    A SecondPiola, 0 [6]; B SecondPiola, 1 [6]; C GradientRate, 2 [9] => 21;
-    A KirchhoffStress, 0 [6]; B VelocityGradient, 1 [9] => 15;
-    A BiotStress, 0 [9]; B Symmetric, 1 [6] => 15;
-    A MandelStress, 0 [9]; B Matrix3<f64>, 1 [9] => 18;
-    A Vector3<f64>, 0 [3]; B Vector3<f64>, 1 [3] => 6;
-    A AccelerationGradient, 0 [9]; B VelocityGradient, 1 [9] => 18;
-    A MaterialTangent, 0 [21]; B GreenStrainRate, 1 [6] => 27;
-    A LieTangent, 0 [21]; B RateOfDeformation, 1 [6] => 27;
-    A TruesdellTangent, 0 [21]; B RateOfDeformation, 1 [6] => 27;
-    A JaumannTangent, 0 [21]; B RateOfDeformation, 1 [6] => 27;
-    A LowerConvectedTangent, 0 [21]; B RateOfDeformation, 1 [6] => 27;
-    A FirstPiolaTangent, 0 [81]; B GradientRate, 1 [9] => 90;
     A SecondPiola, 0 [6]; B MaterialTangent, 1 [21] => 27;
     A CauchyStress, 0 [6]; B TruesdellTangent, 1 [21] => 27;
-    A CauchyStress, 0 [6]; B JaumannTangent, 1 [21] => 27;
-    A CauchyStress, 0 [6]; B LowerConvectedTangent, 1 [21] => 27;
-    A CauchyStress, 0 [6]; B GreenNaghdiTangent, 1 [36] => 42;
-    A CauchyStress, 0 [6]; B LogarithmicTangent, 1 [36] => 42;
-    A CauchyStress, 0 [6]; B CauchyJaumannTangent, 1 [36] => 42;
-    A CauchyStress, 0 [6]; B CauchyUpperConvectedTangent, 1 [36] => 42;
-    A CauchyStress, 0 [6]; B CauchyLowerConvectedTangent, 1 [36] => 42;
-    A CauchyStress, 0 [6]; B CauchyGreenNaghdiTangent, 1 [36] => 42;
-    A CauchyStress, 0 [6]; B CauchyLogarithmicTangent, 1 [36] => 42;
-    A SecondPiola, 0 [6]; B FirstPiolaTangent, 1 [81] => 87;
 }
 
 impl<Q, T: Element> Source<Q, T, 3> for &[Vector3<T>] {
@@ -139,3 +117,20 @@ impl<Q, T: Element> Destination<Q, T, 3> for &mut [Vector3<T>] {
         self[index] = Vector3::new(x, y, z);
     }
 }
+
+/// Rates as sources.
+macro_rules! typed {
+    ($($name:ident)*) => { $(
+        impl<T: BatchScalar> Source<$name, T, 9> for &[$name<T>] {
+            #[inline(always)]
+            fn count(&self) -> Option<usize> {
+                Some(self.len())
+            }
+            #[inline(always)]
+            fn point(&self, index: usize) -> [T; 9] {
+                by_rows(&self[index].0)
+            }
+        }
+    )* };
+}
+typed!(GradientRate VelocityGradient);
