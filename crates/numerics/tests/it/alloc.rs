@@ -2,6 +2,7 @@
 
 use piola_numerics::derivatives::{self, Workspace};
 use piola_numerics::linear::{ldlt, lu, matrix3};
+use piola_numerics::quadrature::{self, GaussKronrod, OnStack, Quadpack};
 use piola_numerics::sums::{compensated_add, compensated_dot, compensated_sum};
 use piola_testkit::allocations_in;
 
@@ -55,5 +56,18 @@ fn compensated_sums_allocate_nothing() {
         compensated_add(&mut y, &mut carry, &[1e-17; 4])?;
         compensated_dot(&y, &carry).map(|dot| dot + compensated_sum(&y))
     });
+    assert_eq!(count, 0);
+}
+
+#[test]
+fn adaptive_integration_on_the_stack_allocates_nothing() {
+    let allowed = |values: &[f64; 1], _: &[f64; 1]| [1e-12 * values[0]];
+    let (count, found) = allocations_in(|| {
+        let method = (&GaussKronrod::POINTS_21, &Quadpack);
+        quadrature::integrate(&mut OnStack::<1, 96>::default(), [(0.0, 1.0)], method, &allowed, |_, x: f64| {
+            Ok::<_, core::convert::Infallible>([x.sqrt()])
+        })
+    });
+    assert!(found.is_ok_and(|found| 5 < found.panels));
     assert_eq!(count, 0);
 }

@@ -268,13 +268,13 @@ fn input_that_is_not_finite_is_refused_by_name() {
 
 #[test]
 fn vectors_of_the_wrong_length_are_refused_by_name() {
-    let refused = |quantity, expected, actual| Err(NumericsError::WrongLength { quantity, expected, actual });
+    let refused = |quantity, expected, found| Err(NumericsError::WrongLength { quantity, expected, found });
     let x = [1.0, 2.0];
     let mut workspace = Workspace::<f64>::new(2);
     assert_eq!(derivatives::gradient_into(&mut workspace, &Sum, &[1.0], &mut [0.0]), refused("x", 2, 1));
     assert_eq!(derivatives::gradient_into(&mut workspace, &Sum, &x, &mut [0.0]), refused("gradient", 2, 1));
     let result = derivatives::jacobian_into(&mut workspace, &Sum, &x, &mut [0.0], &mut [0.0; 2]);
-    assert_eq!(result, Err(NumericsError::WrongLength { quantity: "workspace values", expected: 1, actual: 0 }));
+    assert_eq!(result, Err(NumericsError::WrongLength { quantity: "workspace values", expected: 1, found: 0 }));
     assert!(ldlt::Ldlt::new(&dmatrix![1.0, 2.0]).is_err(), "a matrix that is not square");
 }
 
