@@ -2,8 +2,8 @@
 
 use nalgebra::{Const, SMatrix, SVector, U1, Vector3};
 use num_dual::{Derivative, Dual2_64, DualSVec64};
-use piola_lagrangian::{Holonomic, Placement};
 use piola_kinematics::{Attitude, RigidBody};
+use piola_lagrangian::{Holonomic, Placement};
 use piola_numerics::Real;
 use piola_numerics::linear::ldlt;
 

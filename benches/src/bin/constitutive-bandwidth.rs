@@ -8,6 +8,7 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
+use piola_batch::{Gradients, LaneBlocks};
 use piola_benches::constitutive::WithoutTangent;
 use piola_benches::constitutive::laws;
 use piola_benches::continuum::ordinary_deformations;
@@ -15,7 +16,6 @@ use piola_solids::batch;
 use piola_solids::isochoric::{Gent, NeoHookean, Yeoh};
 use piola_solids::volumetric::Quadratic;
 use piola_solids::{Compressible, ElasticConstants, Hyperelastic, LinearElastic, SaintVenantKirchhoff};
-use piola_batch::{Gradients, LaneBlocks};
 
 const POINTS: usize = 1_000_000;
 const BLOCK: usize = 8;

@@ -9,8 +9,8 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::Matrix3;
+use piola_batch as batch;
 use piola_benches::continuum::{methods, ordinary_deformations};
-use ::piola_batch;
 use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola, Symmetric};
 
 /// Inputs and outputs of both requests.

@@ -13,8 +13,8 @@ use piola_benches::work_precision::{
     measure, peer_methods,
 };
 use piola_gravitation::Gravitation;
-use piola_lagrangian::Lagrangian;
 use piola_integrators::Order;
+use piola_lagrangian::Lagrangian;
 use serde_json::Value;
 
 const COLLOCATION: [Order; 3] = [Order::Four, Order::Six, Order::Eight];

@@ -8,9 +8,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::Matrix3;
+use piola_batch as batch;
 use piola_continuum::polar::PolarHencky;
 use piola_continuum::strain::RightCauchyGreen;
-use ::piola_batch;
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;

@@ -33,7 +33,11 @@ fn write(workspace: &Workspace) -> Outcome {
 fn compare(workspace: &Workspace) -> Outcome {
     let (text, count) = page(workspace);
     let found = read(&workspace.root.join(PAGE)).map_err(|error| vec![error])?;
-    if found == text { Ok(format!("{count} errors, all in {PAGE}")) } else { Err(vec![format!("{PAGE} is not current")]) }
+    if found == text {
+        Ok(format!("{count} errors, all in {PAGE}"))
+    } else {
+        Err(vec![format!("{PAGE} is not current")])
+    }
 }
 
 /// The page, and how many errors it lists.
@@ -103,9 +107,7 @@ fn said(attribute: &str) -> String {
         match c {
             '"' => break,
             // A line that goes on: the white space after it is not part of the text.
-            '\\' if characters.peek() == Some(&'\n') => {
-                while characters.next_if(|c| c.is_whitespace()).is_some() {}
-            }
+            '\\' if characters.peek() == Some(&'\n') => while characters.next_if(|c| c.is_whitespace()).is_some() {},
             '\\' => text.extend(characters.next()),
             '\n' => text.push(' '),
             c => text.push(c),

@@ -44,8 +44,12 @@ fn try_them(shell: &Shell, workspace: &Workspace, package: &str, target: &Path, 
     let _place = shell.push_dir(&workspace.root);
     let listed = cmd!(shell, "cargo mutants --list --json --package {package} --re {ARITHMETIC}").quiet().read();
     let listed: Value = serde_json::from_str(&listed.map_err(fail)?).map_err(|error| vec![error.to_string()])?;
-    let mut names: Vec<String> =
-        listed.as_array().into_iter().flatten().filter_map(|mutant| mutant["name"].as_str().map(str::to_owned)).collect();
+    let mut names: Vec<String> = listed
+        .as_array()
+        .into_iter()
+        .flatten()
+        .filter_map(|mutant| mutant["name"].as_str().map(str::to_owned))
+        .collect();
     names.sort();
     let drawn = draw(names, sample, seed);
     if drawn.is_empty() {
@@ -109,7 +113,9 @@ fn draw(mut names: Vec<String>, count: u64, seed: u64) -> Vec<String> {
 fn escaped(name: &str) -> String {
     let mut text = String::with_capacity(name.len());
     for c in name.chars() {
-        if c.is_ascii_punctuation() && !matches!(c, '_' | ':' | '/' | '<' | '>' | '\'' | '"' | ',' | '=' | '&' | '!' | '%' | '@' | ';' | '`') {
+        if c.is_ascii_punctuation()
+            && !matches!(c, '_' | ':' | '/' | '<' | '>' | '\'' | '"' | ',' | '=' | '&' | '!' | '%' | '@' | ';' | '`')
+        {
             text.push('\\');
         }
         text.push(c);

@@ -15,10 +15,7 @@ pub(super) const COMMAND: Command = Command {
         let steps = options.value("--steps")?.into_iter().flat_map(|steps| ["--steps".to_owned(), steps]);
         Ok(vec![Step::program(
             "stability",
-            cmd!(
-                shell,
-                "cargo run --release --package piola-benches --bin stability -- --out {out} {steps...}"
-            ),
+            cmd!(shell, "cargo run --release --package piola-benches --bin stability -- --out {out} {steps...}"),
             "an error exceeds what is allowed: the sheet shows which",
         )])
     },

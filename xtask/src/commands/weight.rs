@@ -189,7 +189,9 @@ fn heaviest(shell: &Shell, workspace: &Workspace, target: &Path, only: &[String]
         .ignore_stderr()
         .read();
     let Ok(listed) = listed else { return String::new() };
-    let mut text = String::from("\nLines of LLVM IR of the program that evaluates all laws, the ten heaviest functions:\n\n```text\n");
+    let mut text = String::from(
+        "\nLines of LLVM IR of the program that evaluates all laws, the ten heaviest functions:\n\n```text\n",
+    );
     for line in listed.lines().take(13) {
         text.push_str(line.trim_end());
         text.push('\n');
@@ -217,6 +219,16 @@ fn write_program(workspace: &Workspace, folder: &Path, name: &str, source: &str)
 
 /// Programs of a user: name, what it is, source, limit in seconds for what is compiled after the libraries.
 const PROGRAMS: &[(&str, &str, &str, f64)] = &[
-    ("one-law", "a program that evaluates one law in lanes, after its libraries", include_str!("weight/one_law.rs"), 5.0),
-    ("all-laws", "a program that evaluates all laws in lanes, after their libraries", include_str!("weight/all_laws.rs"), 60.0),
+    (
+        "one-law",
+        "a program that evaluates one law in lanes, after its libraries",
+        include_str!("weight/one_law.rs"),
+        5.0,
+    ),
+    (
+        "all-laws",
+        "a program that evaluates all laws in lanes, after their libraries",
+        include_str!("weight/all_laws.rs"),
+        60.0,
+    ),
 ];

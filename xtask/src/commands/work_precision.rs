@@ -16,10 +16,7 @@ several times, and the median counts, but a busy machine still widens the spread
         let filter = options.value("--filter")?.into_iter().flat_map(|problem| ["--filter".to_owned(), problem]);
         Ok(vec![Step::program(
             "work-precision",
-            cmd!(
-                shell,
-                "cargo run --release --package piola-benches --bin work-precision -- --out {out} {filter...}"
-            ),
+            cmd!(shell, "cargo run --release --package piola-benches --bin work-precision -- --out {out} {filter...}"),
             "the runner names the problem and the method that failed",
         )])
     },

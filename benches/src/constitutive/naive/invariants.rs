@@ -9,7 +9,9 @@
 
 use nalgebra::Matrix3;
 use piola_solids::volumetric::{Logarithmic, SimoTaylor};
-use piola_solids::{BlatzKo, IncompressibleSolid, MooneyRivlin, NeoHookean, Polynomial, PolynomialTerm, Pressure, isochoric};
+use piola_solids::{
+    BlatzKo, IncompressibleSolid, MooneyRivlin, NeoHookean, Polynomial, PolynomialTerm, Pressure, isochoric,
+};
 
 use super::{Naive, Tangent, Textbook, by_entries, inverse_transposed};
 

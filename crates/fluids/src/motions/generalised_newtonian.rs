@@ -55,7 +55,7 @@ impl<F: ViscometricFluid> GeneralisedNewtonian<F> {
 impl<F: ViscometricFluid> ViscousFluid for GeneralisedNewtonian<F> {
     #[inline(always)]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
-        let stretching = velocity_gradient.stretching().0;
+        let stretching = velocity_gradient.rate_of_deformation().0;
         let largest = stretching.components.iter().fold(T::zero(), |largest, x| largest.max(x.abs())).frozen();
         let rest = largest.at_most(T::zero());
         let scale = T::select(rest, T::one(), largest);

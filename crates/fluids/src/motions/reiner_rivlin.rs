@@ -10,7 +10,7 @@ use crate::{ReinerRivlin, ReinerRivlinCoefficients};
 impl<C: ReinerRivlinCoefficients> ViscousFluid for ReinerRivlin<C> {
     #[inline(always)]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
-        let stretching = velocity_gradient.stretching().0;
+        let stretching = velocity_gradient.rate_of_deformation().0;
         let trace = stretching.trace();
         let second = T::lit(0.5) * (trace * trace - stretching.double_contraction(&stretching));
         let invariants = [trace, second, stretching.determinant()];

@@ -110,9 +110,12 @@ pub(super) fn check(workspace: &Workspace) -> Vec<String> {
 
 /// The features of the facade that the table of its README does not name.
 fn missing_features(features: &[String], table: &str) -> Vec<String> {
-    let is_named = |feature: &String| table.lines().any(|line| line.starts_with('|') && line.contains(&format!("`{feature}`")));
+    let is_named =
+        |feature: &String| table.lines().any(|line| line.starts_with('|') && line.contains(&format!("`{feature}`")));
     let missing = features.iter().filter(|feature| !is_named(feature));
-    missing.map(|feature| format!("crates/piola: the table of README.md does not name the feature `{feature}`")).collect()
+    missing
+        .map(|feature| format!("crates/piola: the table of README.md does not name the feature `{feature}`"))
+        .collect()
 }
 
 fn size(member: &Member) -> Option<String> {
@@ -287,7 +290,8 @@ mod tests {
 
     #[test]
     fn an_arrow_by_feature_is_optional() {
-        let manifest = "[dependencies]\npiola-continuum.workspace = true\npiola-fields = { workspace = true, optional = true }";
+        let manifest =
+            "[dependencies]\npiola-continuum.workspace = true\npiola-fields = { workspace = true, optional = true }";
         assert_eq!(not_by_feature("fluids", &manifest.parse().unwrap_or_default()).len(), 1);
     }
 

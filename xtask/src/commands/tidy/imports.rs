@@ -166,7 +166,8 @@ impl Module {
 fn use_of(statement: &str) -> Option<usize> {
     let at = statement.rfind("use ")?;
     let before = statement[..at].trim_end();
-    let is_start = before.is_empty() || before.ends_with(['}', ']', ';', '{']) || before.ends_with("pub") || before.ends_with(')');
+    let is_start =
+        before.is_empty() || before.ends_with(['}', ']', ';', '{']) || before.ends_with("pub") || before.ends_with(')');
     is_start.then_some(at)
 }
 
