@@ -87,7 +87,7 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     fn start_up_stress(&self, velocity_gradient: &VelocityGradient, time: f64) -> Result<Symmetric, FluidsError> {
         check_flow::<Self>(0.0, time)?;
         let started = if 0.0 < time { 2.0 * self.total_solvent_viscosity() } else { 0.0 };
-        let mut total = velocity_gradient.stretching().0 * started;
+        let mut total = velocity_gradient.rate_of_deformation().0 * started;
         for mode in self.modes() {
             total += bounded::<Self>(from_rest(mode, velocity_gradient, time), time)?;
         }
@@ -199,7 +199,7 @@ fn from_rest<M: LinearMode>(mode: &M, velocity_gradient: &VelocityGradient, time
         doublings += 1;
     }
     // Σ hʲ⁺¹/(j + 1)! Mʲ (2 ηₚ/λ D) with M x = L x + x Lᵀ − x/λ.
-    let mut term = velocity_gradient.stretching().0 * (2.0 * mode.polymer_viscosity() / mode.time() * step);
+    let mut term = velocity_gradient.rate_of_deformation().0 * (2.0 * mode.polymer_viscosity() / mode.time() * step);
     let mut stress = term;
     for j in 2..24 {
         let next = convected(&term, velocity_gradient) - term * mode.time().recip();

@@ -78,7 +78,7 @@ impl<'a, M: StressRate, T: Real> Balanced<'a, M, T> {
         let l = carrying(mode, velocity_gradient).rows().map(|row| row.map(|x| x * time));
         let scale = balance(l.map(|row| row.map(|x| x.primal(0))));
         let carrying = core::array::from_fn(|i| core::array::from_fn(|j| l[i][j] * T::lit(scale[j] / scale[i])));
-        let drawing = stretched(&(velocity_gradient.stretching().0 * (time + time)), scale.map(f64::recip));
+        let drawing = stretched(&(velocity_gradient.rate_of_deformation().0 * (time + time)), scale.map(f64::recip));
         Self { mode, scale, carrying, drawing }
     }
 
@@ -204,7 +204,7 @@ pub trait SteadyStress: DifferentialFluid<Mode: StressRate> {
     /// # Ok::<(), piola_fluids::FluidsError>(())
     /// ```
     fn steady_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Result<Symmetric<T>, FluidsError> {
-        let mut total = velocity_gradient.stretching().0 * T::lit(2.0 * self.total_solvent_viscosity());
+        let mut total = velocity_gradient.rate_of_deformation().0 * T::lit(2.0 * self.total_solvent_viscosity());
         for mode in self.modes() {
             total += steady_mode(mode, velocity_gradient)?;
         }
@@ -228,7 +228,7 @@ pub(super) fn steady_mode<M: StressRate, T: Real>(
         drawing: Symmetric { components: problem.drawing.components.map(|x| x.primal(0)) },
     };
     let Some(solution) = values.solve() else {
-        let rates = velocity_gradient.stretching().0.components.map(|x| x.primal(0));
+        let rates = velocity_gradient.rate_of_deformation().0.components.map(|x| x.primal(0));
         return Err(FluidsError::BeyondLimit {
             law: M::NAME,
             quantity: "the largest real part of an eigenvalue of 2 λ L",

@@ -26,7 +26,8 @@ pub trait StressRate: Mode {
     #[inline(always)]
     #[must_use]
     fn stress_rate<T: Real>(&self, stress: &Symmetric<T>, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
-        let drawn = velocity_gradient.stretching().0 * T::lit(2.0 * self.polymer_viscosity()) - self.relaxing(stress);
+        let drawn =
+            velocity_gradient.rate_of_deformation().0 * T::lit(2.0 * self.polymer_viscosity()) - self.relaxing(stress);
         drawn * T::lit(self.time().recip()) + convected(stress, &carrying(self, velocity_gradient))
     }
 }

@@ -26,7 +26,7 @@ use piola_numerics::Real;
 /// struct Water;
 /// impl ViscousFluid for Water {
 ///     fn extra_stress<T: Real>(&self, l: &VelocityGradient<T>) -> Symmetric<T> {
-///         l.stretching().0 * T::lit(0.002)
+///         l.rate_of_deformation().0 * T::lit(0.002)
 ///     }
 /// }
 /// let shear = VelocityGradient::from_rows([[0.0; 3], [50.0, 0.0, 0.0], [0.0; 3]])?;
@@ -53,6 +53,6 @@ pub trait ViscousFluid {
     #[inline(always)]
     #[must_use]
     fn dissipation<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> T {
-        self.extra_stress(velocity_gradient).double_contraction(&velocity_gradient.stretching().0)
+        self.extra_stress(velocity_gradient).double_contraction(&velocity_gradient.rate_of_deformation().0)
     }
 }

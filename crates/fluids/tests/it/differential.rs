@@ -46,7 +46,7 @@ fn motions_of_maxwell_fluids_equal_golden() {
                 let pairs = input["modes"].as_array().expect("modes");
                 let each = output["per_mode"].as_array().expect("stresses");
                 assert_eq!(pairs.len(), each.len());
-                let mut sum = l.stretching().0 * (2.0 * input.get("eta_s").map_or(0.0, number));
+                let mut sum = l.rate_of_deformation().0 * (2.0 * input.get("eta_s").map_or(0.0, number));
                 for (pair, expected) in pairs.iter().zip(each) {
                     let mode = UpperConvectedMaxwell::new(number(&pair[0]), number(&pair[1])).expect("bounds");
                     let stress = mode.steady_stress(&l).expect("bounded");
@@ -61,7 +61,7 @@ fn motions_of_maxwell_fluids_equal_golden() {
                 // The same through the history, by quadrature.
                 let strain = |s: f64| finger_strain(&l, s);
                 let history = fluid.stress_of_history(strain, t).expect("0 < t");
-                let solvent = l.stretching().0 * (2.0 * fluid.total_solvent_viscosity());
+                let solvent = l.rate_of_deformation().0 * (2.0 * fluid.total_solvent_viscosity());
                 close(history.value + solvent, Tol::stated(1e-11, "quadratures"));
                 let exact = fluid.start_up_stress(&l, t).expect("bounded") - solvent;
                 let error = (history.value - exact).components.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
@@ -362,7 +362,7 @@ fn motions_followed_by_integration_equal_the_exact_ones() {
     let mut memory = vec![Symmetric::zero(); 2];
     fluid.advance(&mut memory, &l, 1.0).expect("bounded");
     fluid.advance(&mut memory, &l, 1.5).expect("bounded");
-    let exact = fluid.start_up_stress(&l, 2.5).expect("bounded") - l.stretching().0 * 0.5;
+    let exact = fluid.start_up_stress(&l, 2.5).expect("bounded") - l.rate_of_deformation().0 * 0.5;
     assert_close("pieces", &(memory[0] + memory[1]).components, &exact.components, Tol::ulps(64.0));
     assert!(follow_shear(&fluid, |_| 1.0, &[1.0, 0.5], 1e-9).is_err());
     assert!(follow_shear(&fluid, |_| f64::NAN, &[1.0], 1e-9).is_err());

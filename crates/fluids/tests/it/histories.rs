@@ -189,7 +189,8 @@ impl SimpleFluid for Solid {
     ) -> Result<Symmetric, FluidsError> {
         let deformation: DeformationGradient = motion.deformation(time)?;
         let f = deformation.matrix();
-        Symmetric::from_matrix(&(f * f.transpose() - Matrix3::identity())).map_err(|error| FluidsError::from(piola_continuum::ContinuumError::from(error)))
+        Symmetric::from_matrix(&(f * f.transpose() - Matrix3::identity()))
+            .map_err(|error| FluidsError::from(piola_continuum::ContinuumError::from(error)))
     }
     fn response_to_steady(&self, _: &piola_continuum::rates::VelocityGradient) -> Result<Symmetric, FluidsError> {
         Ok(Symmetric::zero())

@@ -211,7 +211,7 @@ impl Visit for General<'_> {
         let Self(l, turn, direction) = self;
         let what = format!("{fluid:?} at {:?}", l.rows());
         let stress = fluid.steady_stress(l).unwrap_or_else(|error| panic!("{what}: {error}"));
-        let polymer = stress - l.stretching().0 * (2.0 * fluid.solvent_viscosity());
+        let polymer = stress - l.rate_of_deformation().0 * (2.0 * fluid.solvent_viscosity());
         let scale = fluid.relaxing(&polymer).norm() / fluid.time() + 2.0 * l.0.norm() * polymer.norm();
         let rate = fluid.stress_rate(&polymer, l).components;
         assert_close_at_scale(&what, &rate, &[0.0; 6], scale, Tol::ulps(512.0));
@@ -241,7 +241,7 @@ impl Visit for Any<'_> {
         let l = self.0;
         let what = format!("{fluid:?} at {:?}", l.rows());
         let stress = fluid.steady_stress(l).unwrap_or_else(|error| panic!("{what}: {error}"));
-        let polymer = stress - l.stretching().0 * (2.0 * fluid.solvent_viscosity());
+        let polymer = stress - l.rate_of_deformation().0 * (2.0 * fluid.solvent_viscosity());
         let scale = fluid.relaxing(&polymer).norm() / fluid.time() + 2.0 * l.0.norm() * polymer.norm();
         let rate = fluid.stress_rate(&polymer, l).components;
         // Of the whole the polymer's part is a difference, and an exponential of it is relaxing.

@@ -34,7 +34,7 @@ fn stresses_of_viscous_fluids_equal_golden() {
             "newtonian" => {
                 let fluid = LinearViscous::new(of("lambda"), of("mu")).expect("bounds");
                 let l = gradient(&input["L"]);
-                let (stress, rate) = (fluid.cauchy(of("p"), &l), l.stretching().0);
+                let (stress, rate) = (fluid.cauchy(of("p"), &l), l.rate_of_deformation().0);
                 // T : D may cancel, pressure against viscous stresses; κ = λ + ⅔ μ too.
                 let power = [number(&output["stress_power"])];
                 let scale = stress.0.norm() * rate.norm();
@@ -64,7 +64,12 @@ fn stresses_of_viscous_fluids_equal_golden() {
         };
         let id = text(&case["id"]);
         if let Some(d) = output.get("D") {
-            assert_close(id, gradient(&input["L"]).stretching().rows().as_flattened(), rows(d).as_flattened(), CLOSED);
+            assert_close(
+                id,
+                gradient(&input["L"]).rate_of_deformation().rows().as_flattened(),
+                rows(d).as_flattened(),
+                CLOSED,
+            );
         }
         assert_close(id, stress.rows().as_flattened(), rows(&output["T"]).as_flattened(), CLOSED);
         count += 1;

@@ -28,7 +28,7 @@ mod exact {
         let mut memory = vec![Symmetric::zero(); fluid.modes().len()];
         fluid.advance_through(&mut memory, samples)?;
         let last = gradient_between(&samples[samples.len() - 2], &samples[samples.len() - 1])?;
-        let solvent = last.stretching().0 * (2.0 * fluid.total_solvent_viscosity());
+        let solvent = last.rate_of_deformation().0 * (2.0 * fluid.total_solvent_viscosity());
         Ok(memory.iter().fold(solvent, |sum, stress| sum + *stress))
     }
 
