@@ -78,6 +78,10 @@ pub enum FluidsError {
     #[cfg(feature = "motions")]
     #[error(transparent)]
     Continuum(#[from] piola_continuum::ContinuumError),
+    /// A field is refused.
+    #[cfg(feature = "fields")]
+    #[error(transparent)]
+    Fields(#[from] piola_fields::FieldsError),
 }
 
 /// Refuses a parameter that is not finite.

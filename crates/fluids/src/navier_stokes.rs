@@ -1,12 +1,12 @@
 //! The equation of Navier and Stokes, and the stress of a viscous fluid as a field.
 
 use nalgebra::Vector3;
+use piola_continuum::CauchyStress;
 use piola_continuum::rates::VelocityGradient;
-use piola_continuum::{CauchyStress, ContinuumError};
-use piola_fields::{Coordinates, Field, Flow, Residual, ValueOf, VectorResidual};
+use piola_fields::{Coordinates, Field, FieldsError, Flow, Residual, ValueOf, VectorResidual};
 use piola_numerics::{Gradient, Real};
 
-use crate::{LinearViscous, ViscousFluid};
+use crate::{FluidsError, LinearViscous, ViscousFluid};
 
 /// T = −p 1 + V(grad v) of a flow, as a field in any orthogonal coordinates: what [`Flow::momentum_residual`] takes.
 ///
@@ -87,7 +87,7 @@ where
 /// With derivatives of v to the second order in place, exact. It equals −[`Flow::momentum_residual`] of [`ViscousStress`].
 ///
 /// # Errors
-/// [`ContinuumError::NotFinite`]: the place, the time, or a term.
+/// [`FluidsError::Fields`]: the place, the time, or a term.
 ///
 /// # Accuracy
 /// A few ulp of the scale of the residual.
@@ -122,7 +122,7 @@ pub fn navier_stokes_residual<C, R, V, T>(
     force: &impl Field<Value = Vector3<f64>>,
     place: &Vector3<T>,
     time: T,
-) -> Result<VectorResidual<T>, ContinuumError>
+) -> Result<VectorResidual<T>, FluidsError>
 where
     C: CartesianCoordinates,
     R: Field<Value = f64>,
@@ -152,7 +152,7 @@ where
     for (index, x) in residual.value.iter().enumerate() {
         if !piola_numerics::Mask::all(x.is_finite()) {
             let value = x.primal(0);
-            return Err(ContinuumError::NotFinite { quantity: "residual of momentum", index, value });
+            return Err(FieldsError::NotFinite { quantity: "residual of momentum", index, value }.into());
         }
     }
     Ok(residual)

@@ -43,7 +43,7 @@ impl ReinerRivlinCoefficients for ConstantCoefficients {
     }
 }
 
-/// The fluid of Reiner and Rivlin: the most general whose stress is a function of the present stretching.
+/// The fluid of Reiner and Rivlin: the most general whose stress is a function of the present rate of deformation.
 ///
 /// ```text
 /// T = −p 1 + g₁ D + g₂ D²      g₁, g₂ functions of I, II, III of D

@@ -19,7 +19,7 @@ pub trait Mode: ViscometricFluid + Clone {
     /// λ, s.
     #[must_use]
     fn time(&self) -> f64;
-    /// ξ: the share of the stretching that the polymer does not follow; none of most.
+    /// ξ: the share of the rate of deformation that the polymer does not follow; none of most.
     #[inline(always)]
     #[must_use]
     fn slip(&self) -> f64 {

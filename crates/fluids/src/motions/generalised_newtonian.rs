@@ -7,7 +7,7 @@ use piola_numerics::{Mask, Real};
 use super::viscous::ViscousFluid;
 use crate::ViscometricFluid;
 
-/// A generalised Newtonian fluid in any isochoric flow: a viscosity that depends on the rate of stretching.
+/// A generalised Newtonian fluid in any isochoric flow: a viscosity that depends on the rate of deformation.
 ///
 /// ```text
 /// T = −p 1 + 2 η(k) D      k = √(2 D : D)      η = τ(k)/k
@@ -60,7 +60,7 @@ impl<F: ViscometricFluid> ViscousFluid for GeneralisedNewtonian<F> {
         let rest = largest.at_most(T::zero());
         let scale = T::select(rest, T::one(), largest);
         // D in units of its largest component; 2 η D = 2 D τ/k. At rest any direction serves.
-        let mut direction = stretching * scale.recip();
+        let mut direction = rate * scale.recip();
         direction.components[3] = T::select(rest, T::one(), direction.components[3]);
         let size = (T::lit(2.0) * direction.double_contraction(&direction)).sqrt();
         let flowing = direction * (T::lit(2.0) * self.fluid.shear_stress(scale * size) / size);
@@ -69,7 +69,7 @@ impl<F: ViscometricFluid> ViscousFluid for GeneralisedNewtonian<F> {
         }
         let viscosity = self.fluid.viscosity(T::zero()).frozen();
         let solid = !viscosity.is_finite();
-        let slow = stretching * (T::lit(2.0) * T::select(solid, T::zero(), viscosity));
+        let slow = rate * (T::lit(2.0) * T::select(solid, T::zero(), viscosity));
         Symmetric { components: core::array::from_fn(|i| T::select(rest, slow.components[i], flowing.components[i])) }
     }
 }

@@ -299,7 +299,7 @@ pub fn viscometric_motion(motion: &impl HomogeneousMotion, time: f64) -> Result<
     let second = RivlinEricksen(part(|x| x.tangent.tangent.value));
     let third = RivlinEricksen(part(|x| x.tangent.tangent.tangent));
     let rate = (0.5 * first.0.double_contraction(&first.0)).sqrt();
-    check_finite("motion", "rate of stretching", rate)?;
+    check_finite("motion", "rate of deformation", rate)?;
     if rate <= 0.0 {
         return Ok(None);
     }

@@ -66,6 +66,6 @@ impl ViscousFluid for LinearViscous {
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
         let stretching = velocity_gradient.rate_of_deformation().0;
         let volume = T::lit(self.second_viscosity) * velocity_gradient.divergence();
-        stretching * T::lit(2.0 * self.shear_viscosity) + Symmetric::identity() * volume
+        rate * T::lit(2.0 * self.shear_viscosity) + Symmetric::identity() * volume
     }
 }
