@@ -38,17 +38,6 @@ macro_rules! symmetric_tangent {
             ///
             /// # Errors
             /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
-            ///
-            /// # Example
-            /// ```
-            /// use nalgebra::Matrix3;
-            #[doc = concat!("use piola_tensor::MajorSymmetric; use piola_continuum::{Symmetric, stress::tangents::", stringify!($name), "};")]
-            /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-            /// let along_1 = MajorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0]));
-            #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(along_1);")]
-            /// assert_eq!(tangent.rotated(&quarter_turn)?.entry(1, 1, 1, 1), 4.0);
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
                 Ok(Self(self.0.rotated(rotation)?))
             }
