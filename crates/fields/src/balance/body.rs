@@ -64,17 +64,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Affine, Body, Uniform};
-    /// use piola_continuum::DeformationGradient;
-    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
-    /// assert_eq!(body.density(&Vector3::zeros(), 1.0)?, 4.0); // 8/J
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn density<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<T, FieldsError> {
         check_event(&self.motion, reference, time)?;
         let jacobian = determinant(kernels::gradient(&self.motion, reference, time));
@@ -88,18 +77,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Affine, Body, Spatial, Uniform};
-    /// use piola_continuum::DeformationGradient;
-    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
-    /// assert_eq!(body.density_residual(&Spatial(Uniform(4.0)), &Vector3::zeros(), 1.0)?.value, 0.0);
-    /// assert_eq!(body.density_residual(&Spatial(Uniform(5.0)), &Vector3::zeros(), 1.0)?.value, 2.0); // 5·2 − 8
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn density_residual<T: Real>(
         &self,
         density: &Spatial<impl Field<Value = f64>>,
@@ -117,23 +94,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Body, Motion, Spatial, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t) X: Ḟ = 1
-    /// impl Motion for Growth {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference * (T::one() + time)
-    ///     }
-    /// }
-    /// let body = Body { motion: Growth, reference_density: Uniform(1.0) };
-    /// let residual = body.continuity_residual(&Spatial(Uniform(4.0)), &Vector3::zeros(), 1.0)?;
-    /// assert_eq!(residual.value, 6.0); // 0 + 4 div v: a density that stays while the volume grows
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn continuity_residual<T: Real>(
         &self,
         density: &Spatial<impl Field<Value = f64>>,
@@ -164,33 +124,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// A bar that accelerates along its axis under its own weight and P₁₁ = 3 X₁.
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::{Body, Field, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Fall;
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + Vector3::new(T::lit(6.0) * time * time, T::lit(0.0), T::lit(0.0))
-    ///     }
-    /// }
-    /// struct Pull;
-    /// impl Field for Pull {
-    ///     type Value = FirstPiola;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _time: T) -> FirstPiola<T> {
-    ///         FirstPiola(Matrix3::from_diagonal(&Vector3::new(T::lit(3.0) * particle.x, T::lit(0.0), T::lit(0.0))))
-    ///     }
-    /// }
-    /// let bar = Body { motion: Fall, reference_density: Uniform(1.0) };
-    /// let force = Material(Uniform(Vector3::new(9.0, 0.0, 0.0)));
-    /// let residual = bar.momentum_residual(&Material(Pull), &force, &Vector3::zeros(), 1.0)?;
-    /// assert_eq!((residual.value.x, residual.scale.x), (0.0, 24.0)); // 3 + 9 − 12
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn momentum_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
@@ -215,25 +148,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Body, Motion, Spatial, Uniform};
-    /// use piola_continuum::CauchyStress;
-    /// use piola_numerics::Real;
-    /// struct Fall; // 6 t² along the first axis
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + Vector3::new(T::lit(6.0) * time * time, T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let body = Body { motion: Fall, reference_density: Uniform(2.0) };
-    /// let (stress, force) = (Spatial(Uniform(CauchyStress::zero())), Spatial(Uniform(Vector3::new(9.0, 0.0, 0.0))));
-    /// // 2·9 − 2·12
-    /// assert_eq!(body.spatial_momentum_residual(&stress, &force, &Vector3::zeros(), 1.0)?.value.x, -6.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn spatial_momentum_residual<T: Real>(
         &self,
         stress: &Spatial<impl Field<Value = CauchyStress>>,
@@ -260,25 +174,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_continuum::FirstPiola;
-    /// use piola_numerics::Real;
-    /// struct Fall; // 6 t² along the first axis
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + Vector3::new(T::lit(6.0) * time * time, T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let body = Body { motion: Fall, reference_density: Uniform(2.0) };
-    /// let (stress, force) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(60.0, 0.0, 0.0))));
-    /// let residual = body.damped_residual(&stress, &force, &Material(Uniform(3.0)), &Vector3::zeros(), 1.0)?;
-    /// assert_eq!(residual.value.x, 0.0); // 2·12 + 3·12 − 60
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn damped_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
@@ -305,18 +200,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Affine, Body, Material, Uniform};
-    /// use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
-    /// let (stress, force) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(7.0, 0.0, 0.0))));
-    /// assert_eq!(body.equilibrium_residual(&stress, &force, &Vector3::zeros(), 1.0)?.value.x, 7.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn equilibrium_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
@@ -335,18 +218,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Affine, Body, Material, Uniform};
-    /// use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
-    /// let turning = Material(Uniform(FirstPiola::from_rows([[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]])?));
-    /// assert_eq!(body.symmetry_residual(&turning, &Vector3::zeros(), 1.0)?.value.z, -1.0); // P₂₁ F₁₁ − P₁₂ F₂₂
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn symmetry_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
@@ -368,25 +239,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t) X: Ḟ = 1
-    /// impl Motion for Growth {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference * (T::one() + time)
-    ///     }
-    /// }
-    /// let body = Body { motion: Growth, reference_density: Uniform(1.0) };
-    /// let stress = Material(Uniform(FirstPiola::from_rows([[5.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?));
-    /// let residual = body.energy_residual(&Material(Uniform(0.0)), &stress, &Vector3::zeros(), 1.0)?;
-    /// assert_eq!(residual.value, -5.0); // the power P : Ḟ goes nowhere
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn energy_residual<T: Real>(
         &self,
         internal_energy: &Material<impl Field<Value = f64>>,
@@ -413,27 +265,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t) X: Ḟ = 1
-    /// impl Motion for Growth {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference * (T::one() + time)
-    ///     }
-    /// }
-    /// let body = Body { motion: Growth, reference_density: Uniform(1.0) };
-    /// let stress = Material(Uniform(FirstPiola::from_rows([[5.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?));
-    /// let (energy, supply) = (Material(Uniform(0.0)), Material(Uniform(-5.0)));
-    /// let flux = Material(Uniform(Vector3::zeros()));
-    /// let residual = body.heated_energy_residual(&energy, &stress, &flux, &supply, &Vector3::zeros(), 1.0)?;
-    /// assert_eq!(residual.value, 0.0); // what the stress does leaves as heat
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn heated_energy_residual<T: Real>(
         &self,
         internal_energy: &Material<impl Field<Value = f64>>,

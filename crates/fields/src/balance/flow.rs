@@ -71,24 +71,6 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// assert_eq!(flow.acceleration(&point, 0.0)?.x, 36.0); // v ∂v/∂r = 9 r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn acceleration<T: Real>(&self, coordinates: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
         let terms = self.acceleration_terms(coordinates, time)?;
         finite::<Vector3<f64>, T>("acceleration", terms.map(|a| a.value).into())
@@ -98,24 +80,6 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// assert_eq!(flow.continuity_residual(&point, 0.0)?.value, 12.0); // ρ div v = 2 (3 + 3)
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn continuity_residual<T: Real>(&self, coordinates: &Vector3<T>, time: T) -> Result<Residual<T>, FieldsError> {
         let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, time)?;
         let density = self.density.at(coordinates, time);
@@ -134,26 +98,6 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::CauchyStress;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// let (stress, force) = (Uniform(CauchyStress::zero()), Uniform(Vector3::new(36.0, 0.0, 0.0)));
-    /// assert_eq!(flow.momentum_residual(&stress, &force, &point, 0.0)?.value.x, 0.0); // 2·36 − 2·9 r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn momentum_residual<T: Real>(
         &self,
         stress: &impl Field<Value = CauchyStress>,
@@ -177,27 +121,6 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::CauchyStress;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// let stress = Uniform(CauchyStress::new(5.0, 5.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// let residual = flow.energy_residual(&Uniform(0.0), &stress, &point, 0.0)?;
-    /// assert_eq!(residual.value, -30.0); // the power T : L = 5·3 + 5·3 goes nowhere
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn energy_residual<T: Real>(
         &self,
         internal_energy: &impl Field<Value = f64>,
@@ -227,28 +150,6 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::CauchyStress;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// let stress = Uniform(CauchyStress::new(5.0, 5.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// let (energy, flux, supply) = (Uniform(0.0), Uniform(Vector3::zeros()), Uniform(-30.0));
-    /// let residual = flow.heated_energy_residual(&energy, &stress, &flux, &supply, &point, 0.0)?;
-    /// assert_eq!(residual.value, 0.0); // what the stress does leaves as heat
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn heated_energy_residual<T: Real>(
         &self,
         internal_energy: &impl Field<Value = f64>,

@@ -92,16 +92,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?;
-    /// assert_eq!(basis.christoffel[0][1][1], -2.0); // Γʳθθ = −r
-    /// assert!(Cylindrical.local_basis(&Vector3::new(0.0, 0.0, 0.0)).is_err()); // no basis on the axis
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn local_basis<T: Real>(&self, coordinates: &Vector3<T>) -> Result<LocalBasis<T>, FieldsError> {
         LocalBasis::of(self, coordinates)
     }
@@ -110,15 +100,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, 0.0, 0.0))?;
-    /// assert_eq!(frame.curvatures[1][0], 0.5); // 1/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn physical_frame<T: Real>(&self, coordinates: &Vector3<T>) -> Result<PhysicalFrame<T>, FieldsError> {
         self.local_basis(coordinates)?.physical_frame()
     }
@@ -127,14 +108,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// assert_eq!(Cylindrical.scale_factors(&Vector3::new(2.0, 0.0, 0.0))?, [1.0, 2.0, 1.0]);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn scale_factors<T: Real>(&self, coordinates: &Vector3<T>) -> Result<[T; 3], FieldsError> {
         Ok(self.physical_frame(coordinates)?.scale_factors)
     }
@@ -144,16 +117,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let (tensor, still) = ([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]], [[[0.0; 3]; 3]; 3]);
-    /// let terms = Cylindrical.divergence_terms(&Vector3::new(2.0, 0.0, 0.0), &tensor, &still)?;
-    /// assert_eq!(terms[0].value, 1.5); // T_rr/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn divergence_terms<T: Real>(
         &self,
         coordinates: &Vector3<T>,
@@ -168,17 +131,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// // v_θ = 3 r: a rigid turn.
-    /// let partials = [[0.0, 3.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let gradient = Cylindrical.gradient_from_partials(&Vector3::new(2.0, 0.0, 0.0), &[0.0, 6.0, 0.0], &partials)?;
-    /// assert_eq!((gradient[0][1], gradient[1][0]), (-3.0, 3.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn gradient_from_partials<T: Real>(
         &self,
         coordinates: &Vector3<T>,
@@ -197,24 +149,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// T = r eᵣ⊗eᵣ in cylindrical coordinates: (div T)ᵣ = ∂Tᵣᵣ/∂r + Tᵣᵣ/r = 2.
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Radial;
-    /// impl Field for Radial {
-    ///     type Value = Matrix3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Matrix3<T> {
-    ///         Matrix3::from_diagonal(&Vector3::new(q[0], T::lit(0.0), T::lit(0.0)))
-    ///     }
-    /// }
-    /// let divergence = Cylindrical.divergence(&Radial, &Vector3::new(4.0, 0.5, 0.0), 0.0)?;
-    /// assert_eq!(divergence, Vector3::new(2.0, 0.0, 0.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn divergence<F: Field<Value: TensorValue>, T: Real>(
         &self,
         tensor: &F,
@@ -230,24 +164,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// The rigid turn v = ω r `e_θ` has the skew gradient with the angular velocity.
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Turn;
-    /// impl Field for Turn {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(0.0), T::lit(3.0) * q[0], T::lit(0.0))
-    ///     }
-    /// }
-    /// let gradient = Cylindrical.vector_gradient(&Turn, &Vector3::new(2.0, 1.0, 0.0), 0.0)?;
-    /// assert_eq!((gradient[(0, 1)], gradient[(1, 0)]), (-3.0, 3.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn vector_gradient<F: Field<Value = Vector3<f64>>, T: Real>(
         &self,
         vector: &F,
@@ -263,22 +179,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Radial;
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// assert_eq!(Cylindrical.vector_divergence(&Radial, &Vector3::new(2.0, 0.0, 0.0), 0.0)?, 2.0); // ∂v_r/∂r + v_r/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn vector_divergence<F: Field<Value = Vector3<f64>>, T: Real>(
         &self,
         vector: &F,
@@ -295,23 +195,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Azimuth;
-    /// impl Field for Azimuth {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> T {
-    ///         q[1]
-    ///     }
-    /// }
-    /// let gradient = Cylindrical.scalar_gradient(&Azimuth, &Vector3::new(2.0, 0.0, 0.0), 0.0)?;
-    /// assert_eq!(gradient, Vector3::new(0.0, 0.5, 0.0)); // 1/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn scalar_gradient<F: Field<Value = f64>, T: Real>(
         &self,
         scalar: &F,
@@ -328,23 +211,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// Δ r² = 4 in cylindrical coordinates.
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Square;
-    /// impl Field for Square {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> T {
-    ///         q[0] * q[0]
-    ///     }
-    /// }
-    /// assert_eq!(Cylindrical.laplacian(&Square, &Vector3::new(2.0, 0.0, 0.0), 0.0)?, 4.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn laplacian<F: Field<Value = f64>, T: Real>(
         &self,
         scalar: &F,

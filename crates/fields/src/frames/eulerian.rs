@@ -43,16 +43,6 @@ pub struct Eulerian<M> {
 
 impl<M: Motion> Eulerian<M> {
     /// A motion seen from space, inverted as usual.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian};
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.velocity(&Vector3::new(6.0, 0.0, 0.0), 0.0)?, Vector3::zeros()); // at rest
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn new(motion: M) -> Self {
         Self { motion, inversion: Inversion::default() }
@@ -62,16 +52,6 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian};
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.preimage(&Vector3::new(6.0, 0.0, 0.0), 0.0)?.reference.x, 3.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn preimage<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Preimage<T>, FieldsError> {
         self.inversion.preimage(&self.motion, place, time)
     }
@@ -81,16 +61,6 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian};
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.displacement(&Vector3::new(6.0, 0.0, 0.0), 0.0)?.x, 3.0); // from 3 to 6
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn displacement<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
         let reference = self.preimage(place, time)?.reference;
         finite::<Vector3<f64>, T>("displacement", self.motion.displacement(&reference, time))
@@ -100,22 +70,6 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::{AffineHistory, Eulerian, Homogeneous};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t) X
-    /// impl AffineHistory for Growth {
-    ///     fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-    ///         Matrix3::from_diagonal(&Vector3::repeat(T::one() + time))
-    ///     }
-    /// }
-    /// let velocity = Eulerian::new(Homogeneous(Growth)).velocity(&Vector3::new(6.0, 0.0, 0.0), 1.0)?;
-    /// assert!((velocity.x - 3.0_f64).abs() < 1e-14); // x/(1 + t)
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn velocity<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
         let reference = self.preimage(place, time)?.reference;
         finite::<Vector3<f64>, T>("velocity", kernels::velocity(&self.motion, &reference, time))
@@ -125,22 +79,6 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::{AffineHistory, Eulerian, Homogeneous};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t²) X
-    /// impl AffineHistory for Growth {
-    ///     fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-    ///         Matrix3::from_diagonal(&Vector3::repeat(T::one() + time * time))
-    ///     }
-    /// }
-    /// let acceleration = Eulerian::new(Homogeneous(Growth)).acceleration(&Vector3::new(6.0, 0.0, 0.0), 1.0)?;
-    /// assert!((acceleration.x - 6.0_f64).abs() < 1e-14); // 2 X with X = 3
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn acceleration<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
         let reference = self.preimage(place, time)?.reference;
         finite::<Vector3<f64>, T>("acceleration", kernels::acceleration(&self.motion, &reference, time))
@@ -150,25 +88,6 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian, Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Label;
-    /// impl Field for Label {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _time: T) -> T {
-    ///         particle.x
-    ///     }
-    /// }
-    /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&Vector3::new(4.0, 1.0, 1.0)))?;
-    /// let motion = Eulerian::new(Affine::new(stretch, Vector3::zeros())?);
-    /// assert_eq!(motion.field(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 0.0)?, 2.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn field<F: Field, T: Real>(
         &self,
         field: &Material<F>,
@@ -183,24 +102,6 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian, Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Label;
-    /// impl Field for Label {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
-    ///         particle.x * time
-    ///     }
-    /// }
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.gradient(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 2.0)?[0], 0.5); // t/4
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn gradient<F: Field, T: Real>(
         &self,
         field: &Material<F>,
@@ -228,24 +129,6 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian, Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Label;
-    /// impl Field for Label {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
-    ///         particle.x * time
-    ///     }
-    /// }
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.local_rate(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 1.0)?, 2.0); // X of a body at rest
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn local_rate<F: Field, T: Real>(
         &self,
         field: &Material<F>,
@@ -260,24 +143,6 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian, Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Label;
-    /// impl Field for Label {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
-    ///         particle.x * time
-    ///     }
-    /// }
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.material_derivative(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 1.0)?, 2.0); // X
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn material_derivative<F: Field, T: Real>(
         &self,
         field: &Material<F>,

@@ -102,16 +102,6 @@ impl Inversion {
     ///
     /// # Errors
     /// As [`preimage_near`](Self::preimage_near).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Inversion};
-    /// let motion = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// assert_eq!(Inversion::default().preimage(&motion, &Vector3::new(6.0, 0.0, 0.0), 0.0)?.reference.x, 3.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     pub fn preimage<T: Real>(
         &self,
@@ -139,24 +129,6 @@ impl Inversion {
     /// `error_bound` is proved but for two estimates: how far F changes within it is taken as twice the most at the
     /// eight corners of its cube, which is more than enough for motions of the second degree; the rounding of
     /// x(X, t) is taken as 8 ulp of |x| + |F| |X|.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Inversion, Motion};
-    /// use piola_numerics::Real;
-    /// // X² has two particles at every place: which one is found, the guess says.
-    /// struct Fold;
-    /// impl Motion for Fold {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(reference.x * reference.x, reference.y, reference.z)
-    ///     }
-    /// }
-    /// let (place, guess) = (Vector3::new(4.0, 0.0, 0.0), Vector3::new(1.5, 0.0, 0.0));
-    /// let found = Inversion::default().preimage_near(&Fold, &place, 0.0, &guess)?;
-    /// assert!((found.reference.x - 2.0_f64).abs() < 1e-14);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn preimage_near<T: Real>(
         &self,
         motion: &impl Motion,

@@ -37,22 +37,6 @@ impl<F: Field> Material<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or value.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Material(Temperature).value(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 18.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn value<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
         check_point(reference, time)?;
         finite::<F::Value, T>("field", self.0.at(reference, time))
@@ -62,22 +46,6 @@ impl<F: Field> Material<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Material(Temperature).rate(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 9.0); // X²
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn rate<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
         check_point(reference, time)?;
         finite::<F::Value, T>("material rate", local_rate(&self.0, reference, time))
@@ -87,22 +55,6 @@ impl<F: Field> Material<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Material(Temperature).gradient(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, [12.0, 0.0, 0.0]); // 2 X t
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn gradient<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<[ValueOf<F, T>; 3], FieldsError> {
         check_point(reference, time)?;
         let [a, b, c] = value_and_partials(&self.0, reference, time).1;

@@ -40,22 +40,6 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or value.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Spatial(Temperature).value(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 18.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn value<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
         check_point(place, time)?;
         finite::<F::Value, T>("field", self.0.at(place, time))
@@ -65,22 +49,6 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Spatial(Temperature).local_rate(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 9.0); // x²
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn local_rate<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
         check_point(place, time)?;
         finite::<F::Value, T>("local rate", local_rate(&self.0, place, time))
@@ -90,22 +58,6 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Spatial(Temperature).gradient(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, [12.0, 0.0, 0.0]); // 2 x t
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn gradient<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<[ValueOf<F, T>; 3], FieldsError> {
         check_point(place, time)?;
         let [a, b, c] = value_and_partials(&self.0, place, time).1;
@@ -125,24 +77,6 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time, velocity or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Spatial, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// let wind = Uniform(Vector3::new(5.0, 0.0, 0.0));
-    /// // x² + 2 x t · 5
-    /// assert_eq!(Spatial(Temperature).material_derivative(&wind, &Vector3::new(3.0, 0.0, 0.0), 2.0)?, 69.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn material_derivative<T: Real>(
         &self,
         velocity: &impl Field<Value = Vector3<f64>>,
@@ -158,30 +92,6 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// What the motion refuses; [`FieldsError::NotFinite`] for a result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Motion, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// struct Wind;
-    /// impl Motion for Wind {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + Vector3::new(T::lit(5.0) * time, T::zero(), T::zero())
-    ///     }
-    /// }
-    /// // The particle that starts at −7 is at 3 after two seconds.
-    /// let rate = Spatial(Temperature).rate_following(&Wind, &Vector3::new(-7.0, 0.0, 0.0), 2.0)?;
-    /// assert_eq!(rate, 69.0); // x² + 2 x t · 5
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn rate_following<T: Real>(
         &self,
         motion: &impl Motion,
@@ -195,25 +105,6 @@ impl<F: Field> Spatial<F> {
     }
 
     /// The same field as a function of the particle: Ψ(X, t) = Ψ(x(X, t), t), B(4.14).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Field, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Height;
-    /// impl Field for Height {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, _time: T) -> T {
-    ///         place.z
-    ///     }
-    /// }
-    /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 3.0)))?;
-    /// let height = Spatial(Height).following(Affine::new(stretch, Vector3::zeros())?);
-    /// assert_eq!(height.value(&Vector3::new(0.0, 0.0, 2.0), 0.0)?, 6.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn following<M: Motion>(self, motion: M) -> Material<Following<F, M>> {
         Material(Following { field: self.0, motion })
     }

@@ -91,84 +91,18 @@ impl IntegralBalance {
     }
 
     /// d/dt ∫ `ρ_κ` ẋ dV − f, N, W(15.16).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::integral::{Cuboid, IntegralBalance, Quadrature};
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Fall; // 5 m after a second
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference - Vector3::new(T::zero(), T::zero(), T::lit(5.0) * time * time)
-    ///     }
-    /// }
-    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
-    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
-    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
-    /// let terms = IntegralBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &free, &weight, &pole, 1.0)?;
-    /// let residual = terms.momentum_residual();
-    /// // 10 N against 1 kg · 10 m/s²
-    /// assert!(residual.value.norm() < 1e-13 && (residual.scale.z - 20.0).abs() < 1e-13);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn momentum_residual(&self) -> VectorResidual {
         residual_of(&self.resultants.momentum, &self.body.force, &self.surface.force)
     }
 
     /// d/dt ∫ `ρ_κ` (x − o) × ẋ dV − m, N m, W(15.18).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::integral::{Cuboid, IntegralBalance, Quadrature};
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Fall; // 5 m after a second
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference - Vector3::new(T::zero(), T::zero(), T::lit(5.0) * time * time)
-    ///     }
-    /// }
-    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
-    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
-    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
-    /// let terms = IntegralBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &free, &weight, &pole, 1.0)?;
-    /// assert!(terms.moment_residual().value.norm() < 1e-13);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn moment_residual(&self) -> VectorResidual {
         residual_of(&self.resultants.angular_momentum, &self.body.moment, &self.surface.moment)
     }
 
     /// K̇ + ∫ P : Ḟ dV − external power, W, W(21.4).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::integral::{Cuboid, IntegralBalance, Quadrature};
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Fall; // 5 m after a second
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference - Vector3::new(T::zero(), T::zero(), T::lit(5.0) * time * time)
-    ///     }
-    /// }
-    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
-    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
-    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
-    /// let terms = IntegralBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &free, &weight, &pole, 1.0)?;
-    /// let residual = terms.power_residual();
-    /// assert!(residual.value.abs() < 1e-12 && (residual.scale - 200.0).abs() < 1e-12); // 10 N at 10 m/s
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn power_residual(&self) -> Residual {
         let rates = Residual::zero().plus(self.resultants.kinetic_energy.tangent).plus(self.stress_power);
@@ -180,28 +114,6 @@ impl IntegralBalance {
     ///
     /// # Errors
     /// As [`of`](Self::of).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::integral::{Cuboid, EstimatedQuadrature, IntegralBalance};
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Fall; // 5 m after a second
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference - Vector3::new(T::zero(), T::zero(), T::lit(5.0) * time * time)
-    ///     }
-    /// }
-    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
-    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
-    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
-    /// let rules = EstimatedQuadrature::of_degree(2)?;
-    /// let residuals = IntegralBalance::estimated_residuals(&rules, &unit, &body, &free, &weight, &pole, 1.0)?;
-    /// assert!(residuals.value.iter().all(|residual| residual.abs() < 1e-12) && residuals.error < 1e-12);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn estimated_residuals(
         quadrature: &EstimatedQuadrature,
         region: &impl Region<f64>,

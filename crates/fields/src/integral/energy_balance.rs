@@ -138,33 +138,6 @@ impl EnergyBalance {
     ///
     /// # Errors
     /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::integral::{Cuboid, EnergyBalance, Quadrature, StoredEnergy};
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Bar; // W = ½ (F₁₁ − 1)²
-    /// impl StoredEnergy for Bar {
-    ///     fn density<T: Real>(&self, _: &Vector3<f64>, gradient: &Matrix3<T>) -> T {
-    ///         let elongation = gradient[(0, 0)] - T::one();
-    ///         T::lit(0.5) * elongation * elongation
-    ///     }
-    /// }
-    /// struct Pull; // F₁₁ = 1 + t
-    /// impl Motion for Pull {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         Vector3::new(reference.x * (T::one() + time), reference.y, reference.z)
-    ///     }
-    /// }
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let body = Body { motion: Pull, reference_density: Uniform(1.0) };
-    /// let none = Material(Uniform(Vector3::zeros()));
-    /// let terms = EnergyBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &Bar, &none, 3.0)?;
-    /// assert!((terms.stored.value - 4.5).abs() < 1e-14); // ½ 3²
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn of(
         quadrature: &Quadrature,
         region: &impl Region<f64>,
@@ -186,34 +159,6 @@ impl EnergyBalance {
     }
 
     /// d/dt (K + ∫ W dV) − power of body forces and tractions, W.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::integral::{Cuboid, EnergyBalance, Quadrature, StoredEnergy};
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Bar; // W = ½ (F₁₁ − 1)²
-    /// impl StoredEnergy for Bar {
-    ///     fn density<T: Real>(&self, _: &Vector3<f64>, gradient: &Matrix3<T>) -> T {
-    ///         let elongation = gradient[(0, 0)] - T::one();
-    ///         T::lit(0.5) * elongation * elongation
-    ///     }
-    /// }
-    /// struct Pull; // F₁₁ = 1 + t
-    /// impl Motion for Pull {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         Vector3::new(reference.x * (T::one() + time), reference.y, reference.z)
-    ///     }
-    /// }
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let body = Body { motion: Pull, reference_density: Uniform(1.0) };
-    /// let none = Material(Uniform(Vector3::zeros()));
-    /// let terms = EnergyBalance::of(&Quadrature::of_degree(2)?, &unit, &body, &Bar, &none, 3.0)?;
-    /// let residual = terms.residual();
-    /// assert!(residual.value.abs() < 1e-13 && residual.relative() < 1e-15); // the pull of 3 N at 1 m/s is stored
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn residual(&self) -> Residual {
         let rates = Residual::zero().plus(self.kinetic.tangent).plus(self.stored.tangent);

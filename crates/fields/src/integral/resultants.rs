@@ -107,28 +107,6 @@ impl<T: Real> Resultants<T> {
     ///
     /// # Errors
     /// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, Quadrature, Resultants};
-    /// use piola_fields::{Field, Spatial, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Shear;
-    /// impl Field for Shear {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, _: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(2.0) * place.y, T::lit(0.0), T::lit(0.0))
-    ///     }
-    /// }
-    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
-    /// let (rules, density) = (Quadrature::of_degree(2)?, Spatial(Uniform(3.0)));
-    /// let of = Resultants::in_space(&rules, &unit, &density, &Spatial(Shear), &pole, 0.0)?;
-    /// assert!((of.mass - 3.0).abs() < 1e-15 && (of.momentum.x - 3.0).abs() < 1e-15);
-    /// assert!((of.kinetic_energy - 2.0).abs() < 1e-15); // ½ · 3 · 4/3
-    /// assert!((of.centre_of_mass(&pole).z - 0.5).abs() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn in_space(
         quadrature: &Quadrature,
         region: &impl Region<T>,
@@ -147,18 +125,6 @@ impl<T: Real> Resultants<T> {
     }
 
     /// c, m, for the pole that the resultants were taken about.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, Quadrature, Resultants};
-    /// use piola_fields::{Spatial, Uniform};
-    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::new(4.0, 0.0, 0.0));
-    /// let (density, rest) = (Spatial(Uniform(3.0)), Spatial(Uniform(Vector3::zeros())));
-    /// let of = Resultants::in_space(&Quadrature::of_degree(2)?, &unit, &density, &rest, &pole, 0.0)?;
-    /// assert!((of.centre_of_mass(&pole) - Vector3::repeat(0.5)).norm() < 1e-14); // whatever the pole
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn centre_of_mass(&self, pole: &Vector3<f64>) -> Vector3<T> {
         let mass = self.mass;
@@ -249,29 +215,6 @@ impl ForceResultants {
     ///
     /// # Errors
     /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
-    ///
-    /// # Example
-    /// Under water of unit weight, the pressure lifts a unit cube by the weight of the water displaced.
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::integral::{Cuboid, ForceResultants, Quadrature};
-    /// use piola_fields::{Affine, Field, Material};
-    /// use piola_continuum::{DeformationGradient, FirstPiola};
-    /// use piola_numerics::Real;
-    /// struct Water;
-    /// impl Field for Water {
-    ///     type Value = FirstPiola;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _: T) -> FirstPiola<T> {
-    ///         FirstPiola(Matrix3::from_diagonal(&Vector3::repeat(particle.z - T::lit(1.0))))
-    ///     }
-    /// }
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let rest = Affine::new(DeformationGradient::new(Matrix3::identity())?, Vector3::zeros())?;
-    /// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
-    /// let of = ForceResultants::of_tractions(&rules, &unit, &rest, &Material(Water), &pole, 0.0)?;
-    /// assert!((of.force - Vector3::z()).norm() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn of_tractions(
         quadrature: &Quadrature,
         region: &impl Region<f64>,

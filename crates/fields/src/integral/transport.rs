@@ -215,26 +215,6 @@ fn place_variables(place: &Vector3<f64>) -> Vector3<Gradient<f64, 4>> {
 ///
 /// # Errors
 /// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
-///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_fields::integral::{Ball, divergence_theorem, Quadrature};
-/// use piola_fields::{Field, Spatial};
-/// use piola_numerics::Real;
-/// struct Place;
-/// impl Field for Place {
-///     type Value = Vector3<f64>;
-///     fn at<T: Real>(&self, place: &Vector3<T>, _: T) -> Vector3<T> {
-///         *place
-///     }
-/// }
-/// let ball = Ball::new(Vector3::zeros(), 1.0)?;
-/// let sides = divergence_theorem(&Quadrature::of_degree(2)?, &ball, &Spatial(Place), 0.0)?;
-/// let volumes = 4.0 * core::f64::consts::PI; // div x = 3
-/// assert!((sides.left - volumes).abs() < 1e-14 && (sides.right - volumes).abs() < 1e-14);
-/// # Ok::<(), piola_fields::FieldsError>(())
-/// ```
 pub fn divergence_theorem(
     quadrature: &Quadrature,
     region: &impl Region<f64>,
@@ -255,18 +235,6 @@ pub fn divergence_theorem(
 ///
 /// # Errors
 /// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
-///
-/// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_fields::integral::{Cuboid, Quadrature, tensor_divergence_theorem};
-/// use piola_fields::{Spatial, Uniform};
-/// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-/// let uniform = Spatial(Uniform(Matrix3::<f64>::identity()));
-/// let sides = tensor_divergence_theorem(&Quadrature::of_degree(0)?, &unit, &uniform, 0.0)?;
-/// assert_eq!((sides.left, sides.right), (Vector3::zeros(), Vector3::zeros()));
-/// # Ok::<(), piola_fields::FieldsError>(())
-/// ```
 pub fn tensor_divergence_theorem<V: TensorValue>(
     quadrature: &Quadrature,
     region: &impl Region<f64>,

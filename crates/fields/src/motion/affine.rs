@@ -105,17 +105,6 @@ impl Affine {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::Affine;
-    /// let stretch = DeformationGradient::uniaxial(2.0, 1.0)?;
-    /// assert!(Affine::new(stretch, Vector3::new(0.0, 0.0, 5.0)).is_ok());
-    /// assert!(Affine::new(stretch, Vector3::new(0.0, 0.0, f64::NAN)).is_err());
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn new(gradient: DeformationGradient, translation: Vector3<f64>) -> Result<Self, FieldsError> {
         check_finite("translation", translation.as_slice())?;
         Ok(Self { gradient, translation })

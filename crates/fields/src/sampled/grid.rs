@@ -74,19 +74,6 @@ impl SampledMotion {
     /// n₁ n₂ n₃ × times; [`FieldsError::NotFinite`]; [`FieldsError::NotIncreasing`] with the name of the
     /// axis and the index of the node; [`FieldsError::FoldedCell`] with cell and time where 0 < det F is
     /// violated at a corner of a cell, by the edges that meet there.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::{Interpolation, MotionSamples, SampledMotion};
-    /// let samples = |elongation: f64| MotionSamples {
-    ///     nodes: [vec![0.0, 1.0], vec![0.0], vec![0.0]],
-    ///     times: vec![0.0],
-    ///     displacements: vec![[0.0; 3], [elongation, 0.0, 0.0]],
-    ///     interpolation: Interpolation::Linear,
-    /// };
-    /// assert!(SampledMotion::new(samples(0.5)).is_ok());
-    /// assert!(SampledMotion::new(samples(-1.5)).is_err()); // the cell is turned inside out
-    /// ```
     pub fn new(samples: MotionSamples) -> Result<Self, FieldsError> {
         let spline = |name, nodes: &[f64]| Axis::new(name, nodes, samples.interpolation);
         let [x, y, z] = &samples.nodes;
@@ -116,16 +103,6 @@ impl SampledMotion {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Interpolation, Motion, SampledMotion};
-    /// let (nodes, places) = ([vec![0.0, 1.0], vec![0.0], vec![0.0]], [[0.0; 3], [3.0, 0.0, 0.0]]);
-    /// let stretch = SampledMotion::from_places(nodes, vec![0.0], &places, Interpolation::Linear)?;
-    /// assert_eq!(stretch.position(&Vector3::new(0.5, 0.0, 0.0), 0.0)?.x, 1.5);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn from_places(
         nodes: [Vec<f64>; 3],
         times: Vec<f64>,
