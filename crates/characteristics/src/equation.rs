@@ -36,9 +36,10 @@ use piola_numerics::Real;
 pub trait FirstOrderPde {
     /// Whether Φ = a(x, u)·ξ − b(x, u).
     ///
-    /// The characteristics x′ = a, u′ = b then need no ξ, and are followed through the places where ξ becomes
-    /// infinite: a wave that breaks. Undeclared, the integration stops there. A declaration that is not true is
-    /// refused.
+    /// Set it to true for such an equation: the characteristics x′ = a, u′ = b then need no ξ, and are followed through
+    /// the places where ξ becomes infinite, as where a wave breaks. Undeclared, they stop there with
+    /// [`CharacteristicsError::UndeclaredQuasilinear`](crate::CharacteristicsError::UndeclaredQuasilinear). A false
+    /// declaration is refused with [`StripError::NotQuasilinear`](crate::StripError::NotQuasilinear).
     const QUASILINEAR: bool = false;
     /// Φ(x, u, ξ).
     fn value<T: Real>(&self, x: &[T], u: T, xi: &[T]) -> T;

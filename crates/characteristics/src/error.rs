@@ -50,6 +50,18 @@ pub enum CharacteristicsError {
         /// The number needed.
         needed: usize,
     },
+    /// ξ becomes infinite along a characteristic of an equation that is linear in ξ, but does not
+    /// [declare](crate::FirstOrderPde::QUASILINEAR) it.
+    #[error(
+        "the characteristic stops at s = {s}, x = {x:?}, where ξ becomes infinite. The equation is linear in ξ: declare \
+         `const QUASILINEAR: bool = true`, and its characteristics are followed without ξ"
+    )]
+    UndeclaredQuasilinear {
+        /// s there.
+        s: f64,
+        /// x there.
+        x: Vec<f64>,
+    },
     /// A point that no characteristic of the solution reaches.
     #[error("no characteristic reaches {point:?}; the nearest, of parameters {parameters:?}, stays {distance:e} away")]
     OutsideOfCharacteristics {

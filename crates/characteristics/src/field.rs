@@ -118,8 +118,8 @@ fn magnitudes_of_strip<T: Real>(m: usize, y: &[T], magnitudes: &mut [f64]) {
 /// W(A.22), W(A.38), W(A.43).
 #[derive(Clone, Debug)]
 pub struct RayField<'a, P, T = f64> {
-    equation: &'a P,
-    variables: usize,
+    pub(super) equation: &'a P,
+    pub(super) variables: usize,
     tangents: usize,
     work: Partials<Dual<T>>,
     state: Vec<Dual<T>>,

@@ -68,10 +68,78 @@ pub(super) fn march<P: FirstOrderPde, T: Real>(
     s: f64,
 ) -> Result<Vec<T>, CharacteristicsError> {
     let mut state = State::new(0.0, start).map_err(|source| failed(0.0, source.with_field_error()))?;
-    let result = method.integrate_to(field, &mut state, s);
-    result.map_err(|source| failed(state.time, source))?;
+    let mut watch = Watch::new(field.equation, field.variables, s);
+    let result = method.integrate(field, &mut state, s, |step| watch.after(step.start(), step.time(), step.values()));
+    watch.judge(result.map(|_| ()), state.time, &state.values)?;
     Ok(state.values)
 }
+
+/// A step of less than this share of the way to go says that ξ becomes infinite.
+const VANISHING_STEP: f64 = 1e-10;
+
+/// Finds characteristics that end only because an equation does not declare that it is linear in ξ.
+struct Watch<'a, P> {
+    equation: &'a P,
+    variables: usize,
+    end: f64,
+    linear: Option<bool>,
+    stopped: bool,
+}
+
+impl<'a, P: FirstOrderPde> Watch<'a, P> {
+    fn new(equation: &'a P, variables: usize, end: f64) -> Self {
+        Self { equation, variables, end, linear: None, stopped: false }
+    }
+
+    /// Ends a run whose steps vanish where ξ is not needed.
+    fn after<T: Real>(&mut self, from: f64, to: f64, y: &[T]) -> ControlFlow<()> {
+        let reached = (self.end - to).abs() <= 0.0;
+        self.stopped = !P::QUASILINEAR
+            && !reached
+            && (to - from).abs() < VANISHING_STEP * self.end.abs()
+            && self.is_linear(y);
+        if self.stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The error of a run that was ended or failed.
+    fn judge<T: Real>(
+        &mut self,
+        result: Result<(), IntegratorsError<CharacteristicsError>>,
+        s: f64,
+        y: &[T],
+    ) -> Result<(), CharacteristicsError> {
+        match result {
+            Ok(()) if !self.stopped => Ok(()),
+            Err(source) if P::QUASILINEAR || !self.is_linear(y) => Err(failed(s, source)),
+            _ => {
+                let x = y[..self.variables].iter().map(|x| x.primal(0)).collect();
+                Err(CharacteristicsError::UndeclaredQuasilinear { s, x })
+            }
+        }
+    }
+
+    /// Whether Φ is linear in ξ at (x, u): Φ(ξ + η) − Φ(ξ) − Φ(η) + Φ(0) is rounding for some ξ and η in general position.
+    fn is_linear<T: Real>(&mut self, y: &[T]) -> bool {
+        let (equation, m) = (self.equation, self.variables);
+        *self.linear.get_or_insert_with(|| {
+            let point: Vec<f64> = y[..=m].iter().map(|y| y.primal(0)).collect();
+            let at = |xi: &dyn Fn(f64) -> f64| {
+                let xi: Vec<f64> = (0..m).map(|i| xi(i as f64)).collect();
+                equation.value(&point[..m], point[m], &xi)
+            };
+            let zero = at(&|_| 0.0);
+            [0.7, 1.9, 5.3].into_iter().all(|angle: f64| {
+                let (first, second) = (|i: f64| (angle + i).sin(), |i: f64| (angle + 2.0 * i).cos());
+                let (both, one, other) = (at(&|i| first(i) + second(i)), at(&first), at(&second));
+                let terms = both.abs() + one.abs() + other.abs() + zero.abs();
+                (both - one - other + zero).abs() <= LINEAR * terms
+            })
+        })
+    }
+}
+
+/// The share of its terms below which a second difference of Φ is rounding.
+const LINEAR: f64 = 1e-12;
 
 fn failed(time: f64, source: IntegratorsError<CharacteristicsError>) -> CharacteristicsError {
     CharacteristicsError::Run { time, source: Box::new(source) }
@@ -180,6 +248,7 @@ impl<'a, P: FirstOrderPde> Marcher<'a, P> {
         }
         let mut state = State::new(0.0, start.to_vec()).map_err(|source| failed(0.0, source.with_field_error()))?;
         let mut next = 0;
+        let mut watch = Watch::new(equation, m, end);
         let result = self.method.integrate_with_events(
             &mut self.field,
             &mut state,
@@ -190,6 +259,9 @@ impl<'a, P: FirstOrderPde> Marcher<'a, P> {
                 ControlFlow::Continue(())
             },
             |step| {
+                if watch.after(step.start(), step.time(), step.values()).is_break() {
+                    return ControlFlow::Break(());
+                }
                 while let Some((level, row)) = rows.get_mut(next)
                     && step.contains(*level)
                 {
@@ -201,7 +273,7 @@ impl<'a, P: FirstOrderPde> Marcher<'a, P> {
                 ControlFlow::Continue(())
             },
         );
-        result.map_err(|source| failed(state.time, source))?;
+        watch.judge(result.map(|_| ()), state.time, &state.values)?;
         debug_assert_eq!(self.field.dimension(), start.len());
         if next == rows.len() {
             Ok(())

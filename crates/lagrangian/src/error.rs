@@ -38,6 +38,12 @@ pub enum LagrangianError {
         /// w² + x² + y² + z².
         squared_length: f64,
     },
+    /// The inertia metric of a system without parts, whose mechanics is all in its Lagrangian function.
+    #[error(
+        "the system has no parts and so no inertia metric: for a Lagrangian function, `equations_into` gives the mass \
+         matrix ∂²L/∂q̇∂q̇ at a velocity"
+    )]
+    NoParts,
     /// A mass that violates 0 ≤ m < ∞.
     #[error("part {part} has the mass {mass} kg; it must satisfy 0 ≤ m < ∞")]
     InvalidMass {

@@ -59,8 +59,20 @@ impl<L: LagrangianFunction> Potential for Negative<L> {
 impl<L: LagrangianFunction> Lagrangian<NoParts, Negative<L>> {
     /// A system given by its Lagrangian function alone.
     ///
-    /// All that is said of systems with parts holds for it: accelerations, momenta, the Jacobi integral,
-    /// the motion in (q, q̇) and in (q, p). Its energies are counted as potential, V = −L.
+    /// It has accelerations, momenta, the Jacobi integral, a Hamiltonian, driving forces, an action, motions in (q, q̇),
+    /// in (q, p) and in quasi-velocities, small motions and constraints. Its energies are counted as potential, V = −L.
+    ///
+    /// It has no parts, and nothing that is said of parts:
+    ///
+    /// | call | returns |
+    /// |---|---|
+    /// | [`reactions`](Lagrangian::reactions) | no reactions |
+    /// | [`system_momentum`](Lagrangian::system_momentum), kinetic energy | zero |
+    /// | [`with_gravity`](Lagrangian::with_gravity), forces on parts | no effect: nothing is there to pull |
+    /// | [`inertia_metric_into`](Lagrangian::inertia_metric_into), that of [`InFrame`](crate::anholonomic::InFrame) | [`LagrangianError::NoParts`](crate::LagrangianError::NoParts) |
+    /// | [`equations_into`](Lagrangian::equations_into) | the mass matrix ∂²L/∂q̇∂q̇, which stands for the metric |
+    ///
+    /// [`geodesic`](Lagrangian::geodesic) refuses every direction: none has a length.
     pub const fn from_function(function: L) -> Self {
         Self { system: NoParts, gravity: [0.0; 3], potential: Negative(function), forces: NoForces }
     }

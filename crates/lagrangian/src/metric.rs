@@ -20,7 +20,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// ```
     ///
     /// It is symmetric and positive semidefinite, and definite where the coordinates are independent. The
-    /// unit of an entry is kg m² over the units of its two coordinates.
+    /// unit of an entry is kg m² over the units of its two coordinates. It is that of the parts: zero for a system
+    /// [given by a function](Lagrangian::from_function), which [`inertia_metric_into`](Self::inertia_metric_into)
+    /// refuses.
     ///
     /// # Accuracy
     /// A few ulp of √(g_ΔΔ g_ΓΓ).
@@ -53,7 +55,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// allocation once `work` has been used.
     ///
     /// # Errors
-    /// [`LagrangianError::WrongLength`].
+    /// [`LagrangianError::WrongLength`]; [`LagrangianError::NoParts`] where a system has none, as one given by its
+    /// Lagrangian function.
     pub fn inertia_metric_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -63,8 +66,15 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ) -> Result<(), LagrangianError> {
         check_length("metric", q.len() * q.len(), out.len())?;
         self.form_inertia_metric(work, q, t);
+        self.refuse_without_parts(q, t, &work.metric)?;
         out.copy_from_slice(&work.metric);
         Ok(())
+    }
+
+    /// Refuses a metric that is zero because there is nothing that has inertia.
+    pub(crate) fn refuse_without_parts<T: Real>(&self, q: &[T], t: T, metric: &[T]) -> Result<(), LagrangianError> {
+        let nothing = !q.is_empty() && metric.iter().all(T::is_zero) && self.parts(q, t) == 0;
+        if nothing { Err(LagrangianError::NoParts) } else { Ok(()) }
     }
 
     /// Leaves the metric in `work.metric`.

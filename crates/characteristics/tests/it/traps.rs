@@ -101,12 +101,23 @@ fn guess_from_which_no_step_leads_is_refused() {
     ));
 }
 
-/// Riccati's ξ′ = −ξ² − … has no end but infinity: the run says where.
+/// Riccati's ξ′ = −ξ² − … has no end but infinity: the run says where, and which declaration leads on.
 #[test]
-fn gradient_that_becomes_infinite_stops_the_run() {
+fn gradient_that_becomes_infinite_names_the_missing_declaration() {
     let problem = CauchyProblem::new(&Undeclared, &Line::Sine, 2).unwrap();
-    let error = problem.characteristic(&[core::f64::consts::PI], 1.5).err();
-    assert!(matches!(error, Some(CharacteristicsError::Run { time, .. }) if (time - 1.0).abs() < 1e-6), "{error:?}");
+    let named = |error: Option<CharacteristicsError>, breaking: f64| match error {
+        Some(CharacteristicsError::UndeclaredQuasilinear { s, x }) => {
+            assert!((s - breaking).abs() < 1e-6 && (x[0] - breaking).abs() < 1e-6, "{s}, {x:?}");
+        }
+        other => panic!("{other:?}"),
+    };
+    named(problem.characteristic(&[core::f64::consts::PI], 1.5).err(), 1.0);
+    named(problem.characteristic(&[3.75], 1.5).err(), -1.0 / 3.75_f64.cos());
+    let wave = [ParameterInterval { from: 0.0, to: 6.0, parts: 8 }];
+    // The first characteristic of the grid that breaks.
+    named(problem.solve(&wave, (0.0, 1.5), Refinement::to(1e-3)).err(), -1.0 / 3.0_f64.cos());
+    let message = problem.characteristic(&[core::f64::consts::PI], 1.5).unwrap_err().to_string();
+    assert!(message.contains("const QUASILINEAR: bool = true"), "{message}");
 }
 
 /// Burgers's equation that does not say that it is linear in ξ.
@@ -174,16 +185,4 @@ fn front_keeps_its_rows_when_a_step_fails() {
     let mut empty = Front::new(2, Vec::new()).unwrap();
     empty.advance(&Root, 1.0, Tolerance::relative(1e-9).unwrap()).unwrap();
     assert!(empty.is_empty() && empty.row(0).is_none());
-}
-
-#[test]
-fn timing_of_undeclared() {
-    let problem = CauchyProblem::new(&Undeclared, &Line::Sine, 2).unwrap();
-    let start = std::time::Instant::now();
-    let error = problem.characteristic(&[core::f64::consts::PI], 1.5).err();
-    eprintln!("one: {:?} {error:?}", start.elapsed());
-    let wave = [piola_characteristics::ParameterInterval { from: 0.0, to: 6.0, parts: 8 }];
-    let start = std::time::Instant::now();
-    let error = problem.solve(&wave, (0.0, 1.5), piola_characteristics::Refinement::to(1e-3)).err();
-    eprintln!("solve: {:?} {error:?}", start.elapsed());
 }

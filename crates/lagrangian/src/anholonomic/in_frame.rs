@@ -276,16 +276,15 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// The inertia metric of the quasi-velocities, ḡ_AB = k_A^C k_B^D g_CD.
     ///
     /// # Errors
-    /// As [`frame_matrix`](Self::frame_matrix).
-    ///
-    /// # Example
-    /// See [`InFrame`].
+    /// As [`frame_matrix`](Self::frame_matrix); [`LagrangianError::NoParts`] for a system given by its Lagrangian
+    /// function.
     ///
     /// # Source
     /// W(6.15).
     pub fn inertia_metric<T: Real>(&self, q: &[T], t: T) -> Result<DMatrix<T>, LagrangianError> {
         let frame = self.frame_matrix(q, t)?;
         let metric = self.lagrangian.inertia_metric(q, t);
+        self.lagrangian.refuse_without_parts(q, t, metric.as_slice())?;
         Ok(&frame * metric * frame.transpose())
     }
 

@@ -2,8 +2,9 @@
 
 use piola_integrators::Tolerance;
 use piola_lagrangian::anholonomic::rolling::{KnifeEdge, RollingDisc, RollingSphere};
-use piola_lagrangian::anholonomic::{BodyAngularVelocity, ByCoframe, structure_coefficients};
-use piola_lagrangian::{AnholonomicError, LagrangianError};
+use piola_lagrangian::anholonomic::{AnholonomicFrame, BodyAngularVelocity, ByCoframe, structure_coefficients};
+use piola_lagrangian::{AnholonomicError, Lagrangian, LagrangianError, LagrangianFunction, Workspace};
+use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close_at_scale};
 
 use crate::systems::{All, Applied, Forms, Frame, System, all, body};
@@ -124,4 +125,30 @@ fn what_is_read_equals_what_was_written_and_is_checked() {
     let edge = KnifeEdge::new(1.0, 0.5, -0.25).unwrap();
     let text = serde_json::to_string(&edge).unwrap();
     assert_eq!(serde_json::from_str::<KnifeEdge>(&text).unwrap(), edge);
+}
+
+#[test]
+fn metric_of_a_lagrangian_function_is_refused_and_its_mass_matrix_is_given() {
+    struct Polar; // L = ½·2 (ṙ² + r² φ̇²)
+    impl LagrangianFunction for Polar {
+        fn lagrangian<T: Real>(&self, q: &[T], v: &[T], _t: T) -> T {
+            v[0] * v[0] + q[0] * q[0] * v[1] * v[1]
+        }
+    }
+    struct Unit;
+    impl AnholonomicFrame for Unit {
+        fn frame<T: Real>(&self, q: &[T], _t: T, rows: &mut [T]) {
+            rows.copy_from_slice(&[T::one(), T::zero(), T::zero(), q[0].recip()]);
+        }
+    }
+    let q = [3.0, 0.0];
+    let (mut work, mut matrix, mut forcing) = (Workspace::default(), [0.0; 4], [0.0; 2]);
+    let free = Lagrangian::from_function(Polar);
+    assert_eq!(free.inertia_metric_into(&mut work, &q, 0.0, &mut matrix), Err(LagrangianError::NoParts));
+    free.equations_into(&mut work, &q, &[0.0, 1.0], 0.0, &mut matrix, &mut forcing).unwrap();
+    assert_close_at_scale("∂²L/∂q̇∂q̇", &matrix, &[2.0, 0.0, 0.0, 18.0], 18.0, Tol::ulps(4.0));
+    let framed = free.in_frame(Unit);
+    assert_eq!(framed.inertia_metric(&q, 0.0).unwrap_err(), LagrangianError::NoParts);
+    // The equations are those of the function: r̈ = u₂²/r.
+    assert_close_at_scale("u̇", framed.acceleration(&q, &[0.0, 6.0], 0.0).unwrap().as_slice(), &[12.0, 0.0], 12.0, Tol::ulps(8.0));
 }
