@@ -12,16 +12,15 @@
 //! | points of a panel | [`GaussKronrod::POINTS_15`], [`GaussKronrod::POINTS_21`] |
 //! | error of a panel | [`Difference`], [`LargestDifference`], [`Quadpack`], [`Kinks`], or any [`ErrorRule`] |
 //! | when to stop | a closure of values and sizes that returns the errors allowed, or any [`Accuracy`] |
-//! | memory for panels | [`OnStack`], [`Growing`] |
+//! | memory for panels | an array of [`Panel`]s, [`Growing`], or any [`Memory`] |
 //!
 //! # Example
 //! ```
-//! use piola_numerics::quadrature::{self, Ending, GaussKronrod, OnStack, Quadpack};
+//! use piola_numerics::quadrature::{self, Ending, GaussKronrod, Panel, Quadpack};
 //! // ∫ eˣ dx and ∫ √x dx from 0 to 1, each to ten digits.
 //! let digits = |values: &[f64; 2], _sizes: &[f64; 2]| values.map(|value| 1e-10 * value.abs());
-//! let mut memory = OnStack::<2, 64>::default();
-//! let method = (&GaussKronrod::POINTS_21, &Quadpack);
-//! let found = quadrature::integrate(&mut memory, [(0.0, 1.0)], method, &digits, |_part, x: f64| {
+//! let (mut panels, method) = ([Panel::EMPTY; 64], (&GaussKronrod::POINTS_21, &Quadpack));
+//! let found = quadrature::integrate(&mut panels, [(0.0, 1.0)], method, &digits, |_part, x: f64| {
 //!     Ok::<_, core::convert::Infallible>([x.exp(), x.sqrt()])
 //! })?;
 //! assert_eq!(found.ending, Ending::Accurate);
@@ -31,13 +30,11 @@
 //! ```
 
 mod errors;
-mod memory;
 mod points;
 
 use core::cmp::Ordering;
 
 pub use errors::{Difference, ErrorRule, Kinks, LargestDifference, Quadpack, Samples};
-pub use memory::{Growing, Memory, OnStack};
 pub use points::GaussKronrod;
 
 /// A part of the range with its integrals.
@@ -55,6 +52,48 @@ pub struct Panel<const K: usize> {
     pub sizes: [f64; K],
     /// The error of each integral, estimated by the [`ErrorRule`].
     pub errors: [f64; K],
+}
+
+impl<const K: usize> Panel<K> {
+    /// No panel: what memory is filled with.
+    pub const EMPTY: Self = Self { part: 0, from: 0.0, to: 0.0, values: [0.0; K], sizes: [0.0; K], errors: [0.0; K] };
+}
+
+/// Memory for panels: an array, for so many and without allocation; or [`Growing`].
+pub trait Memory<const K: usize> {
+    /// The first `count` panels; none where there is no room for so many.
+    fn first(&mut self, count: usize) -> Option<&mut [Panel<K>]>;
+}
+
+impl<const K: usize, const N: usize> Memory<K> for [Panel<K>; N] {
+    fn first(&mut self, count: usize) -> Option<&mut [Panel<K>]> {
+        self.get_mut(..count)
+    }
+}
+
+/// Memory that is allocated as panels need it, up to a bound.
+#[derive(Clone, Debug)]
+pub struct Growing<const K: usize> {
+    panels: Vec<Panel<K>>,
+    most: usize,
+}
+
+impl<const K: usize> Growing<K> {
+    /// Room for up to `most` panels.
+    #[must_use]
+    pub const fn up_to(most: usize) -> Self {
+        Self { panels: Vec::new(), most }
+    }
+}
+
+impl<const K: usize> Memory<K> for Growing<K> {
+    fn first(&mut self, count: usize) -> Option<&mut [Panel<K>]> {
+        if self.most < count {
+            return None;
+        }
+        self.panels.resize(count.max(self.panels.len()), Panel::EMPTY);
+        self.panels.get_mut(..count)
+    }
 }
 
 /// When integrals are accurate enough. A closure of values and sizes that returns the errors allowed is one.
@@ -130,19 +169,21 @@ pub fn integrate<const K: usize, R: ErrorRule<K>, E>(
     f: impl FnMut(usize, f64) -> Result<[f64; K], E>,
 ) -> Result<Integral<K>, E> {
     let mut sampler = Sampler { points, rule, f, evaluations: 0, bad: None };
-    let mut has_room = true;
-    memory.clear();
+    let (mut count, mut has_room) = (0, true);
     for (part, (from, to)) in parts.into_iter().enumerate() {
         let whole = sampler.panel(part, from, to)?;
-        if R::COMPARES_HALVES {
-            let [first, second] = sampler.halves(&whole)?;
-            has_room = has_room && memory.push(first) && memory.push(second);
+        let halves = if R::COMPARES_HALVES { sampler.halves(&whole)? } else { [whole; 2] };
+        let new = if R::COMPARES_HALVES { &halves[..] } else { &halves[..1] };
+        if let Some(panels) = memory.first(count + new.len()) {
+            panels[count..].copy_from_slice(new);
+            count += new.len();
         } else {
-            has_room = has_room && memory.push(whole);
+            has_room = false;
         }
     }
     loop {
-        let panels = memory.panels();
+        let is_full = memory.first(count + 1).is_none();
+        let panels = memory.first(count).unwrap_or_default();
         let sum = |part: fn(&Panel<K>) -> &[f64; K]| -> [f64; K] {
             core::array::from_fn(|k| panels.iter().map(|panel| part(panel)[k]).sum())
         };
@@ -159,19 +200,20 @@ pub fn integrate<const K: usize, R: ErrorRule<K>, E>(
             _ if sampler.bad.is_some() => sampler.bad,
             _ if !has_room => Some(Ending::Full),
             _ if !(0..K).any(too_large) => Some(Ending::Accurate),
-            _ if memory.is_full() => Some(Ending::Full),
+            _ if is_full => Some(Ending::Full),
             None => Some(Ending::Exhausted),
             Some(_) => None,
         };
         if let (None, Some((index, &whole))) = (ending, worst) {
-            let [first, second] = sampler.halves(&whole)?;
-            memory.panels_mut()[index] = first;
-            memory.push(second);
+            let halves = sampler.halves(&whole)?;
+            if let Some(panels) = memory.first(count + 1) {
+                [panels[index], panels[count]] = halves;
+                count += 1;
+            }
             continue;
         }
-        let (panels, evaluations) = (panels.len(), sampler.evaluations);
         let ending = ending.unwrap_or(Ending::Exhausted);
-        return Ok(Integral { values, sizes, errors, panels, evaluations, ending });
+        return Ok(Integral { values, sizes, errors, panels: count, evaluations: sampler.evaluations, ending });
     }
 }
 

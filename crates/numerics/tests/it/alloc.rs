@@ -2,7 +2,7 @@
 
 use piola_numerics::derivatives::{self, Workspace};
 use piola_numerics::linear::{ldlt, lu, matrix3};
-use piola_numerics::quadrature::{self, GaussKronrod, OnStack, Quadpack};
+use piola_numerics::quadrature::{self, GaussKronrod, Panel, Quadpack};
 use piola_numerics::sums::{compensated_add, compensated_dot, compensated_sum};
 use piola_testkit::allocations_in;
 
@@ -64,7 +64,7 @@ fn adaptive_integration_on_the_stack_allocates_nothing() {
     let allowed = |values: &[f64; 1], _: &[f64; 1]| [1e-12 * values[0]];
     let (count, found) = allocations_in(|| {
         let method = (&GaussKronrod::POINTS_21, &Quadpack);
-        quadrature::integrate(&mut OnStack::<1, 96>::default(), [(0.0, 1.0)], method, &allowed, |_, x: f64| {
+        quadrature::integrate(&mut [Panel::EMPTY; 96], [(0.0, 1.0)], method, &allowed, |_, x: f64| {
             Ok::<_, core::convert::Infallible>([x.sqrt()])
         })
     });
