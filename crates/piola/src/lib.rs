@@ -114,36 +114,31 @@ pub use piola_tensor as tensor;
 #[cfg(feature = "viscometry")]
 pub use piola_viscometry as viscometry;
 
-/// The snippets of the project's read-me run as tests.
-#[cfg(all(doctest, feature = "dynamics", feature = "viscometry"))]
-#[doc = include_str!("../../../README.md")]
-struct ProjectReadMe;
-
-/// The snippets of the book run as tests.
-#[cfg(all(doctest, feature = "dynamics"))]
+/// The snippets of the project's read-me and of the book run as tests.
+#[cfg(all(doctest, feature = "full"))]
 mod book {
-    #[doc = include_str!("../../../docs/placements.md")]
-    struct Placements;
-    #[doc = include_str!("../../../docs/mechanisms.md")]
+    #[doc = include_str!("../../../README.md")]
+    struct ReadMe;
+    #[doc = include_str!("../../../docs/tutorials/tour.md")]
+    struct Tour;
+    #[doc = include_str!("../../../docs/tutorials/mechanisms.md")]
     struct Mechanisms;
-    #[doc = include_str!("../../../docs/constraints.md")]
-    struct Constraints;
-    #[doc = include_str!("../../../docs/phase-space.md")]
+    #[doc = include_str!("../../../docs/tutorials/phase-space.md")]
     struct PhaseSpace;
-    #[doc = include_str!("../../../docs/integrators.md")]
-    struct Integrators;
-    #[doc = include_str!("../../../docs/scalars.md")]
-    struct Scalars;
-    #[cfg(feature = "continuum")]
-    #[doc = include_str!("../../../docs/continuum.md")]
+    #[doc = include_str!("../../../docs/tutorials/continuum.md")]
     struct Continuum;
-    #[cfg(feature = "constitutive")]
-    #[doc = include_str!("../../../docs/solids.md")]
+    #[doc = include_str!("../../../docs/tutorials/solids.md")]
     struct Solids;
-    #[cfg(feature = "viscometry")]
-    #[doc = include_str!("../../../docs/rheometry.md")]
-    struct Rheometry;
-    #[cfg(feature = "fit")]
-    #[doc = include_str!("../../../docs/fitting.md")]
+    #[doc = include_str!("../../../docs/tutorials/flows.md")]
+    struct Flows;
+    #[doc = include_str!("../../../docs/how-to/placements.md")]
+    struct Placements;
+    #[doc = include_str!("../../../docs/how-to/constraints.md")]
+    struct Constraints;
+    #[doc = include_str!("../../../docs/how-to/integrators.md")]
+    struct Integrators;
+    #[doc = include_str!("../../../docs/how-to/scalars.md")]
+    struct Scalars;
+    #[doc = include_str!("../../../docs/how-to/fitting.md")]
     struct Fitting;
 }

@@ -11,7 +11,7 @@ pub(super) const COMMAND: Command = Command {
     help: "measure time and worst error of 3×3 decompositions, ours and the peers', as Markdown and SVG (default: docs)
 The figures are taken in cargo's own release profile, on one core where `taskset` exists. Close other programs.",
     prepare: |shell, _, options| {
-        let out = options.value("--out")?.unwrap_or_else(|| "docs".into());
+        let out = options.value("--out")?.unwrap_or_else(|| "docs/measurements".into());
         let pinned = cmd!(shell, "taskset --version").quiet().ignore_stdout().ignore_stderr().run().is_ok();
         let last_core = std::thread::available_parallelism().map_or(0, |count| count.get() - 1).to_string();
         let command = if pinned { cmd!(shell, "taskset --cpu-list {last_core} cargo") } else { cmd!(shell, "cargo") };
