@@ -8,7 +8,7 @@ use crate::step::Step;
 pub(super) const COMMAND: Command = Command {
     name: "viscometry-accuracy",
     usage: "[--out FOLDER]",
-    help: "measure time and true error of profiles, discharges and torques, ours and plain quadrature's (default: docs)
+    help: "measure time and true error of profiles, discharges and torques, ours and plain quadrature's (default: docs/measurements)
 The figures are taken in cargo's own release profile, on one core where `taskset` exists. Close other programs.",
     prepare: |shell, _, options| {
         let out = options.value("--out")?.unwrap_or_else(|| "docs/measurements".into());
