@@ -28,17 +28,17 @@ use std::time::Duration;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput};
 use nalgebra::Matrix3;
+use piola_batch::{Components, Gradients, LaneBlocks};
 use piola_benches::constitutive::laws::{self, Visit};
 use piola_benches::constitutive::naive::{self, Naive, Tangent, Textbook};
 use piola_benches::constitutive::{Printed, WithoutTangent};
 use piola_benches::continuum::methods::NALGEBRA;
 use piola_benches::continuum::ordinary_deformations;
 use piola_benches::notes::Notes;
-use piola_constitutive::batch;
-use piola_constitutive::homogeneous::{IncompressibleState, Mode};
-use piola_constitutive::solids::{Hyperelastic, Membrane, MooneyRivlin, ThinPlate};
-use piola_continuum::batch::{Components, Gradients, LaneBlocks};
 use piola_continuum::{DeformationGradient, FirstPiola};
+use piola_solids::batch;
+use piola_solids::{Hyperelastic, Membrane, MooneyRivlin, ThinPlate};
+use piola_specimens::homogeneous::{IncompressibleState, Mode};
 
 const BATCHES: [(&str, usize); 2] = [("1k", 1000), ("1M", 1_000_000)];
 

@@ -12,14 +12,15 @@ use std::time::Duration;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 use nalgebra::Matrix3;
+use piola_batch as batch;
+use piola_batch::{Components, Gradients};
 use piola_benches::continuum::{methods, ordinary_deformations};
 use piola_benches::notes::Notes;
-use piola_continuum::batch::{self, Components, Gradients};
-use piola_continuum::spectral::StretchAnalysis;
+use piola_continuum::polar::StretchAnalysis;
 use piola_continuum::strain::{GreenStrain, RightCauchyGreen};
 use piola_continuum::stress::tangents::{LieTangent, MaterialTangent};
-use piola_continuum::tensor::MajorSymmetric;
 use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola, Symmetric};
+use piola_tensor::MajorSymmetric;
 
 const BATCHES: [(&str, usize); 2] = [("1k", 1000), ("1M", 1_000_000)];
 

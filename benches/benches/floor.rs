@@ -13,12 +13,12 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
+use piola_batch::{Gradients, LaneBlocks};
 use piola_benches::constitutive::floor::{self, BLOCK, Cofactor, Copied, NeoHookean, Step};
 use piola_benches::continuum::ordinary_deformations;
-use piola_constitutive::batch;
-use piola_constitutive::solids::volumetric::Quadratic;
-use piola_constitutive::solids::{Compressible, isochoric};
-use piola_continuum::batch::{Gradients, LaneBlocks};
+use piola_solids::batch;
+use piola_solids::volumetric::Quadratic;
+use piola_solids::{Compressible, isochoric};
 use piola_testkit::relative_error;
 
 type Blocks = Vec<[[f64; BLOCK]; 9]>;

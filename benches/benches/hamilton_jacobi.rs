@@ -8,8 +8,8 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, Throughput};
-use piola_dynamics::hamilton_jacobi::{Event, GeodeticDistance, InitialFront, RayField, WaveFront};
-use piola_dynamics::hamiltonian::PhaseFunction;
+use piola_hamiltonian::PhaseFunction;
+use piola_hamiltonian::hamilton_jacobi::{Event, GeodeticDistance, InitialFront, RayField, WaveFront};
 use piola_integrators::Field;
 use piola_numerics::Real;
 

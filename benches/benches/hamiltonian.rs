@@ -13,7 +13,7 @@ use nalgebra::SVector;
 use num_dual::{DualNum, DualSVec64};
 use piola_benches::chain::NUM_DUAL;
 use piola_benches::notes::Notes;
-use piola_dynamics::hamiltonian::{Bracket, HamiltonianField, PhaseFunction, poisson_bracket};
+use piola_hamiltonian::{Bracket, HamiltonianField, PhaseFunction, poisson_bracket};
 use piola_integrators::Field;
 use piola_numerics::Real;
 

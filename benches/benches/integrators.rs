@@ -16,8 +16,8 @@ use piola_benches::notes::Notes;
 use piola_benches::peers;
 use piola_benches::problems::{self, Equations, Force, Problem};
 use piola_benches::work_precision::{Outcome, by_hand};
-use piola_dynamics::lagrangian::Lagrangian;
 use piola_integrators::{Composition, DormandPrince853, GaussLegendre, Order, Report, State, Tolerance, separable};
+use piola_lagrangian::Lagrangian;
 
 const TOLERANCE: f64 = 1e-10;
 

@@ -16,12 +16,12 @@ use piola_benches::chain::{Chain, GRAVITY, Links, LinksWork, NUM_DUAL};
 use piola_benches::golden_systems::{self as by_hand, Case};
 use piola_benches::notes::Notes;
 use piola_benches::problems::DoublePendulum;
-use piola_dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Placement, Potential, Workspace};
 use piola_integrators::Field as _;
 use piola_kinematics::{Attitude, Inertia, RigidBody};
+use piola_lagrangian::{Forces, Holonomic, Lagrangian, Placement, Potential, Workspace};
 use piola_numerics::Real;
 
-#[path = "../../crates/dynamics/tests/it/systems.rs"]
+#[path = "../../crates/lagrangian/tests/it/systems.rs"]
 #[expect(dead_code, reason = "the tests place more systems than the data has")]
 mod systems;
 

@@ -12,7 +12,7 @@ use std::time::Duration;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 use piola_benches::problems;
-use piola_dynamics::gravitation::{Gravitation, PARALLEL_BODIES};
+use piola_gravitation::{Gravitation, PARALLEL_BODIES};
 use piola_integrators::{Composition, Order, State};
 
 const SIZES: [usize; 11] = [2, 3, 6, 11, 16, 32, 128, 512, 1024, 2048, 4096];

@@ -21,12 +21,12 @@ use piola_benches::notes::Notes;
 use piola_benches::viscometry::history::{self, RATE};
 use piola_benches::viscometry::problems::{PIPE, PLACES, Problem, places, problems};
 use piola_benches::viscometry::{carreau_yasuda, giesekus, herschel_bulkley, melt, plain, power_law};
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fluids::{ViscometricFluid, batch};
+use piola_fluids::FluidsError;
+use piola_fluids::{ViscometricFluid, batch};
 use piola_viscometry::{Estimate, Poiseuille, Stresses, ViscometryError};
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
-type Many<F> = fn(&F, &[f64], &mut [f64]) -> Result<(), ConstitutiveError>;
+type Many<F> = fn(&F, &[f64], &mut [f64]) -> Result<(), FluidsError>;
 
 /// Entries of a batch.
 const BATCH: usize = 1000;

@@ -2,8 +2,8 @@
 
 use nalgebra::{Const, SMatrix, SVector, U1, Vector3};
 use num_dual::{Derivative, Dual2_64, DualSVec64};
-use piola_dynamics::lagrangian::{Holonomic, Placement};
 use piola_kinematics::{Attitude, RigidBody};
+use piola_lagrangian::{Holonomic, Placement};
 use piola_numerics::Real;
 use piola_numerics::linear::ldlt;
 
@@ -256,12 +256,12 @@ impl<const N: usize> Placement<DualSVec64<N>> for Across<N> {
 
 #[cfg(test)]
 mod tests {
-    use piola_dynamics::lagrangian::Lagrangian;
+    use piola_lagrangian::Lagrangian;
 
     use super::{Chain, GRAVITY};
 
     #[test]
-    fn a_chain_three_ways_is_one() -> Result<(), piola_dynamics::DynamicsError> {
+    fn a_chain_three_ways_is_one() -> Result<(), piola_lagrangian::LagrangianError> {
         let chain = Chain::<4>::varied();
         let (q, v) = ([0.3, -1.2, 2.0, 0.7], [1.0, -0.5, 0.25, 2.0]);
         let by_hand = chain.acceleration_by_hand(&q, &v);

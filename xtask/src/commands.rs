@@ -5,15 +5,18 @@ mod ci;
 mod clippy;
 mod continuum_accuracy;
 mod docs;
+mod errors;
 mod features;
 mod fmt;
 mod ledger;
+mod mutants;
 mod package;
 mod scenes;
 mod stability;
 mod test;
 mod tidy;
 mod viscometry_accuracy;
+mod weight;
 mod work_precision;
 
 use xshell::Shell;
@@ -44,11 +47,14 @@ const COMMANDS: &[Command] = &[
     package::COMMAND,
     scenes::COMMAND,
     ledger::COMMAND,
+    errors::COMMAND,
     bench::COMMAND,
     work_precision::COMMAND,
     stability::COMMAND,
     continuum_accuracy::COMMAND,
     viscometry_accuracy::COMMAND,
+    weight::COMMAND,
+    mutants::COMMAND,
 ];
 
 pub(crate) fn find(name: &str) -> Option<&'static Command> {

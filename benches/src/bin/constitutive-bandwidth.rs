@@ -1,4 +1,4 @@
-//! P of 10⁶ points beside a copy of as many bytes, in turn: `taskset -c 1 cargo run --profile plain-release -p piola-benches --bin
+//! P of 10⁶ points beside a copy of as many bytes, in turn: `taskset -c 1 cargo run --release -p piola-benches --bin
 //! constitutive-bandwidth`.
 //!
 //! Medians of forty turns, nanoseconds a point: what one turn of the machine's memory does to one of them it does to all.
@@ -8,14 +8,14 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
+use piola_batch::{Gradients, LaneBlocks};
 use piola_benches::constitutive::WithoutTangent;
 use piola_benches::constitutive::laws;
 use piola_benches::continuum::ordinary_deformations;
-use piola_constitutive::batch;
-use piola_constitutive::solids::isochoric::{Gent, NeoHookean, Yeoh};
-use piola_constitutive::solids::volumetric::Quadratic;
-use piola_constitutive::solids::{Compressible, ElasticConstants, Hyperelastic, LinearElastic, SaintVenantKirchhoff};
-use piola_continuum::batch::{Gradients, LaneBlocks};
+use piola_solids::batch;
+use piola_solids::isochoric::{Gent, NeoHookean, Yeoh};
+use piola_solids::volumetric::Quadratic;
+use piola_solids::{Compressible, ElasticConstants, Hyperelastic, LinearElastic, SaintVenantKirchhoff};
 
 const POINTS: usize = 1_000_000;
 const BLOCK: usize = 8;

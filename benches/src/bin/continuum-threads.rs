@@ -1,4 +1,4 @@
-//! From how many points on two threads pay in a batch: `cargo run --profile plain-release -p piola-benches --bin
+//! From how many points on two threads pay in a batch: `cargo run --release -p piola-benches --bin
 //! continuum-threads`.
 //!
 //! A cheap request (first Piola–Kirchhoff stress of Cauchy's) and a dear one (R, U and ln U), whole on one thread and in
@@ -9,8 +9,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::Matrix3;
+use piola_batch as batch;
 use piola_benches::continuum::{methods, ordinary_deformations};
-use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola, Symmetric, batch};
+use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola, Symmetric};
 
 /// Inputs and outputs of both requests.
 struct Points<'a> {

@@ -12,9 +12,9 @@ use piola_benches::work_precision::{
     Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, dormand_prince, gauss_legendre,
     measure, peer_methods,
 };
-use piola_dynamics::gravitation::Gravitation;
-use piola_dynamics::lagrangian::Lagrangian;
+use piola_gravitation::Gravitation;
 use piola_integrators::Order;
+use piola_lagrangian::Lagrangian;
 use serde_json::Value;
 
 const COLLOCATION: [Order; 3] = [Order::Four, Order::Six, Order::Eight];

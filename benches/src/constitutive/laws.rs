@@ -3,18 +3,18 @@
 use std::error::Error;
 
 use nalgebra::Matrix3;
-use piola_constitutive::batch;
-use piola_constitutive::solids::isochoric::RivlinTerm;
-use piola_constitutive::solids::{
+use piola_batch::{Components, Gradients, LaneBlocks};
+use piola_continuum::{Deformation, DeformationGradient, FirstPiola};
+use piola_numerics::Real;
+use piola_solids::batch;
+use piola_solids::isochoric::RivlinTerm;
+use piola_solids::{
     AnisotropicLinear, AnisotropicSaintVenantKirchhoff, BlatzKo, Compressible, ElasticConstants, EngineeringConstants,
     Fibre, Fung, Hencky, HolzapfelGasserOgden, Hyperelastic, IncompressibleOgden, IncompressibleSolid, IsochoricOgden,
     LinearElastic, MooneyRivlin, MooneyRivlinIsochoric, NeoHookeanCiarlet, NeoHookeanLogarithmic, Ogden, OgdenTerm,
     Polynomial, PolynomialTerm, Pressurised, ReinforcedNeoHookean, SaintVenantKirchhoff, Stiffness,
     TransverseConstants, isochoric, volumetric,
 };
-use piola_continuum::batch::{Components, Gradients, LaneBlocks};
-use piola_continuum::{Deformation, DeformationGradient, FirstPiola};
-use piola_numerics::Real;
 use piola_testkit::{DoubleDouble, golden, relative_error};
 
 use super::naive::{Naive, Textbook};

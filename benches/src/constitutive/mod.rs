@@ -10,11 +10,11 @@ pub mod floor;
 pub mod laws;
 pub mod naive;
 
-use piola_constitutive::solids::{Hyperelastic, MooneyRivlin};
-use piola_continuum::tensor::rows::{Rows, cofactor, product, scaled, sum, transposed_product};
 use piola_continuum::{Deformation, FirstPiola};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{dot, from_rows};
+use piola_solids::{Hyperelastic, MooneyRivlin};
+use piola_tensor::internal::rows::{Rows, cofactor, product, scaled, sum, transposed_product};
 
 /// C₁₀, C₀₁, c and d of the printed formula, Pa.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,9 +8,10 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::Matrix3;
-use piola_continuum::spectral::PolarHencky;
+use piola_batch as batch;
+use piola_continuum::polar::PolarHencky;
 use piola_continuum::strain::RightCauchyGreen;
-use piola_continuum::{DeformationGradient, Symmetric, batch};
+use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::Real;
 use piola_numerics::linear::matrix3::from_rows;
 use piola_testkit::DoubleDouble;
@@ -111,7 +112,7 @@ pub fn chart() -> Chart {
     let mut slow_path: Vec<(&'static str, usize, usize)> = Vec::new();
     for case in &set {
         let f = DeformationGradient::from_rows(case.gradient).expect("the set consists of deformations");
-        let slow = usize::from(piola_continuum::spectral::StretchAnalysis::of(&f).slow_path());
+        let slow = usize::from(piola_continuum::polar::StretchAnalysis::of(&f).slow_path());
         match slow_path.iter_mut().find(|row| row.0 == case.kind) {
             Some(row) => (row.1, row.2) = (row.1 + 1, row.2 + slow),
             None => slow_path.push((case.kind, 1, slow)),

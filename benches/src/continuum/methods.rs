@@ -1,9 +1,11 @@
 //! Polar decomposition, logarithm and eigenvectors by several methods, over many points at a time.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
-use piola_continuum::spectral::{PolarHencky, StretchAnalysis, decompose, polar_hencky};
-use piola_continuum::{DeformationGradient, Symmetric, batch};
+use piola_batch as batch;
+use piola_continuum::polar::{PolarHencky, StretchAnalysis, polar_hencky};
+use piola_continuum::{DeformationGradient, Symmetric};
 use piola_numerics::linear::matrix3::from_rows;
+use piola_tensor::spectral::decompose;
 
 use super::trigonometric;
 

@@ -3,8 +3,8 @@
 use std::error::Error;
 
 use nalgebra::Vector3;
-use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
 use piola_kinematics::ParticleSystem;
+use piola_lagrangian::{Holonomic, Lagrangian, Placement};
 use piola_numerics::Real;
 use piola_testkit::DoubleDouble;
 

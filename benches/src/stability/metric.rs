@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use nalgebra::{DMatrix, Vector3};
-use piola_dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+use piola_lagrangian::{Holonomic, Lagrangian, Placement};
 use piola_numerics::Real;
 use piola_testkit::DoubleDouble;
 

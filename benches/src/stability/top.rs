@@ -3,9 +3,9 @@
 use std::error::Error;
 
 use nalgebra::Vector3;
-use piola_dynamics::rigid_motion::RigidRotation;
 use piola_integrators::{GaussLegendre, Order, State};
 use piola_kinematics::{Attitude, Inertia, RigidBody};
+use piola_lagrangian::rigid_motion::RigidRotation;
 use piola_numerics::Real;
 use piola_testkit::DoubleDouble;
 

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
-use piola_constitutive::fluids::{Damping, ExponentialDamping, Kbkz, ViscometricFluid};
+use piola_fluids::{Damping, ExponentialDamping, Kbkz, ViscometricFluid};
 
 use super::{DAMPING, melt, plain};
 
@@ -117,7 +117,7 @@ pub fn points() -> Result<Vec<Point>, Box<dyn Error>> {
 
 #[cfg(test)]
 mod tests {
-    use piola_constitutive::fluids::ViscometricFluid;
+    use piola_fluids::ViscometricFluid;
 
     use super::{RATE, STEPS, exact, melt, points};
 

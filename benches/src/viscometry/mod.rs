@@ -7,16 +7,14 @@ pub mod problems;
 pub mod sheet;
 pub mod truth;
 
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fluids::{
-    CarreauYasuda, ExponentialDamping, Giesekus, HerschelBulkley, Kbkz, PowerLaw, Relaxation,
-};
+use piola_fluids::FluidsError;
+use piola_fluids::{CarreauYasuda, ExponentialDamping, Giesekus, HerschelBulkley, Kbkz, PowerLaw, Relaxation};
 
 /// A fluid whose flows are closed.
 ///
 /// # Errors
 /// None: its parameters are within bounds.
-pub fn power_law() -> Result<PowerLaw, ConstitutiveError> {
+pub fn power_law() -> Result<PowerLaw, FluidsError> {
     PowerLaw::new(1.5, 0.4)
 }
 
@@ -24,7 +22,7 @@ pub fn power_law() -> Result<PowerLaw, ConstitutiveError> {
 ///
 /// # Errors
 /// None: its parameters are within bounds.
-pub fn carreau_yasuda() -> Result<CarreauYasuda, ConstitutiveError> {
+pub fn carreau_yasuda() -> Result<CarreauYasuda, FluidsError> {
     CarreauYasuda::new(1.0, 0.0, 2.0, 0.5, 1.25)
 }
 
@@ -32,7 +30,7 @@ pub fn carreau_yasuda() -> Result<CarreauYasuda, ConstitutiveError> {
 ///
 /// # Errors
 /// None: its parameters are within bounds.
-pub fn herschel_bulkley() -> Result<HerschelBulkley, ConstitutiveError> {
+pub fn herschel_bulkley() -> Result<HerschelBulkley, FluidsError> {
     HerschelBulkley::new(0.5, 1.0, 0.4)
 }
 
@@ -40,7 +38,7 @@ pub fn herschel_bulkley() -> Result<HerschelBulkley, ConstitutiveError> {
 ///
 /// # Errors
 /// None: its parameters are within bounds.
-pub fn giesekus() -> Result<Giesekus, ConstitutiveError> {
+pub fn giesekus() -> Result<Giesekus, FluidsError> {
     Giesekus::new(0.1, 1.0, 2.0, 0.3)
 }
 
@@ -48,7 +46,7 @@ pub fn giesekus() -> Result<Giesekus, ConstitutiveError> {
 ///
 /// # Errors
 /// None: its parameters are within bounds.
-pub fn melt() -> Result<Kbkz<ExponentialDamping>, ConstitutiveError> {
+pub fn melt() -> Result<Kbkz<ExponentialDamping>, FluidsError> {
     let memory = [(2.0, 0.01), (5.0, 0.1), (8.0, 1.0)].map(|(viscosity, time)| Relaxation { viscosity, time });
     Kbkz::new(memory.to_vec(), ExponentialDamping::new(DAMPING, 1.0)?)
 }

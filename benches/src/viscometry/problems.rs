@@ -4,7 +4,7 @@ use std::error::Error;
 use std::f64::consts::PI;
 use std::hint::black_box;
 
-use piola_constitutive::fluids::{HerschelBulkley, PowerLaw, ViscometricFluid};
+use piola_fluids::{HerschelBulkley, PowerLaw, ViscometricFluid};
 use piola_numerics::Real;
 use piola_testkit::DoubleDouble;
 use piola_viscometry::{Channel, Couette, Estimate, Poiseuille};

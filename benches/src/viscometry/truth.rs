@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::ViscometricFluid;
+use piola_fluids::ViscometricFluid;
 use piola_numerics::Real;
 use piola_testkit::DoubleDouble;
 
@@ -89,7 +89,7 @@ pub fn couette_torque<F: ViscometricFluid>(fluid: &F, [inner, outer]: [f64; 2], 
 
 #[cfg(test)]
 mod tests {
-    use piola_constitutive::fluids::PowerLaw;
+    use piola_fluids::PowerLaw;
 
     use super::{channel_discharge, pi, pipe_discharge, whole};
 

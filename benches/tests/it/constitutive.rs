@@ -8,8 +8,8 @@ use piola_benches::constitutive::Printed;
 use piola_benches::constitutive::laws::{self, Visit};
 use piola_benches::constitutive::naive::{self, Naive, Textbook};
 use piola_benches::continuum::ordinary_deformations;
-use piola_constitutive::solids::Hyperelastic;
 use piola_continuum::DeformationGradient;
+use piola_solids::Hyperelastic;
 
 struct Accurate(usize);
 

@@ -212,7 +212,7 @@ impl<T: Real> Composition<T> {
         for (stage, &gamma) in self.kicks[..self.stages].iter().enumerate() {
             let time = start + reached * h;
             let momentum = if stage == 0 { p_start } else { &*p };
-            field.velocity(time, momentum, rate).map_err(|source| IntegratorsError::Field { time, source })?;
+            field.velocity(time, momentum, rate).map_err(|source| IntegratorsError::Field { t: time, source })?;
             let drift = 0.5 * (previous + gamma) * h;
             if stage == 0 {
                 update_from((q_start, q_carry_start), q, q_carry, rate, drift);
@@ -220,8 +220,8 @@ impl<T: Real> Composition<T> {
                 update(q, q_carry, rate, drift);
             }
             let time = start + (reached + 0.5 * gamma) * h;
-            field.force(time, q, rate).map_err(|source| IntegratorsError::Field { time, source })?;
-            check_finite(start, rate)?;
+            field.force(time, q, rate).map_err(|source| IntegratorsError::Field { t: time, source })?;
+            check_finite("rate", Some(start), rate)?;
             if stage == 0 {
                 update_from((p_start, p_carry_start), p, p_carry, rate, gamma * h);
             } else {
@@ -231,10 +231,10 @@ impl<T: Real> Composition<T> {
             previous = gamma;
         }
         let time = start + h;
-        field.velocity(time, p, rate).map_err(|source| IntegratorsError::Field { time, source })?;
+        field.velocity(time, p, rate).map_err(|source| IntegratorsError::Field { t: time, source })?;
         update(q, q_carry, rate, 0.5 * previous * h);
         // A velocity that was infinite or NaN at any stage has left its mark on the position for good.
-        check_finite(start, q)
+        check_finite("state", Some(start), q)
     }
 }
 

@@ -9,27 +9,29 @@ use core::convert::Infallible;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IntegratorsError<E = Infallible> {
-    /// The state does not fit the field.
-    #[error("the field has dimension {expected}, but the state has {found} components")]
-    DimensionMismatch {
-        /// The field's dimension.
+    /// A state, or the memory for one, does not fit the field.
+    #[error("`{quantity}` has {found} entries where {expected} are needed")]
+    WrongLength {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The number of entries it must have: the field's dimension.
         expected: usize,
-        /// The number of components of the state.
+        /// The number of entries it has.
         found: usize,
     },
-    /// A time, or the time between start and end, that is infinite or NaN.
-    #[error("the time {time} is not finite")]
-    NonFiniteTime {
-        /// The time given.
-        time: f64,
-    },
-    /// A component of the state a run starts from that is infinite or NaN.
-    #[error("component {index} of the state is {value}; every component must be finite")]
-    NonFiniteState {
-        /// The component's index.
+    /// A number is infinite or NaN: a time or a state that was given, or a rate or a state that a step led to.
+    ///
+    /// An adaptive method returns the latter only where no shorter step avoids it.
+    #[error("entry {index} of `{quantity}` is {value}{}, which is not a finite number", at(*t))]
+    NotFinite {
+        /// The name of the argument, `rate`, or `state`.
+        quantity: &'static str,
+        /// The index of the first such entry, counted from 0.
         index: usize,
-        /// Its value.
+        /// The entry.
         value: f64,
+        /// The time of the last complete step where a step led to the number; none where it was given.
+        t: Option<f64>,
     },
     /// A time step that violates 0 < h < ∞.
     #[error("the time step {step} must satisfy 0 < h < ∞")]
@@ -48,44 +50,36 @@ pub enum IntegratorsError<E = Infallible> {
         absolute: f64,
     },
     /// The field refused to be evaluated; for an adaptive method: however small the step.
-    #[error("the field could not be evaluated at time {time}: {source}")]
+    #[error("the field could not be evaluated at t = {t}: {source}")]
     Field {
         /// The time of the evaluation.
-        time: f64,
+        t: f64,
         /// What the field said.
         source: E,
     },
-    /// The rate became infinite or NaN; for an adaptive method: however small the step.
-    #[error("the rate of component {index} is not finite at time {time}")]
-    NonFiniteRate {
-        /// The time of the last accepted step.
-        time: f64,
-        /// The first component concerned.
-        index: usize,
-    },
     /// The step shrank until it no longer advances the time.
-    #[error("the step {step} no longer advances the time {time}: the field may be singular there")]
+    #[error("the step {step} no longer advances t = {t}: the field may be singular there")]
     StepTooSmall {
         /// The time of the last accepted step.
-        time: f64,
+        t: f64,
         /// The last step tried.
         step: f64,
     },
     /// The limit on the number of steps was reached.
-    #[error("{steps} steps were taken and only time {time} was reached; allow more steps or a larger tolerance")]
+    #[error("{steps} steps were taken and only t = {t} was reached; allow more steps or a larger tolerance")]
     TooManySteps {
         /// The time reached.
-        time: f64,
+        t: f64,
         /// The number of steps taken.
         steps: u64,
     },
     /// The stages of an implicit step did not converge.
     #[error(
-        "the stages of the step from time {time} did not converge in {iterations} iterations (last change {change:e} of the increment): take a step smaller than {step}"
+        "the stages of the step from t = {t} did not converge in {iterations} iterations (last change {change:e} of the increment): take a step smaller than {step}"
     )]
     StagesDiverged {
         /// The time at the start of the step.
-        time: f64,
+        t: f64,
         /// The step.
         step: f64,
         /// Iterations made.
@@ -94,18 +88,18 @@ pub enum IntegratorsError<E = Infallible> {
         change: f64,
     },
     /// The function of an event is NaN.
-    #[error("the function of event {event} is NaN at time {time}")]
+    #[error("the function of event {event} is NaN at t = {t}")]
     InvalidEvent {
         /// The index of the event in the list given.
         event: usize,
         /// The time.
-        time: f64,
+        t: f64,
     },
     /// Dense output was asked for outside the step it belongs to.
-    #[error("time {time} lies outside the step [{start}, {end}]: dense output never extrapolates")]
+    #[error("t = {t} lies outside the step [{start}, {end}]: dense output never extrapolates")]
     OutsideStep {
         /// The time asked for.
-        time: f64,
+        t: f64,
         /// One end of the step.
         start: f64,
         /// The other end.
@@ -113,25 +107,30 @@ pub enum IntegratorsError<E = Infallible> {
     },
 }
 
+/// " at t = …", where a time is known.
+fn at(t: Option<f64>) -> String {
+    t.map(|t| format!(" at t = {t}")).unwrap_or_default()
+}
+
 impl IntegratorsError<Infallible> {
     /// The same error where the field can fail.
     #[must_use]
     pub fn with_field_error<E>(self) -> IntegratorsError<E> {
         match self {
-            Self::DimensionMismatch { expected, found } => IntegratorsError::DimensionMismatch { expected, found },
-            Self::NonFiniteTime { time } => IntegratorsError::NonFiniteTime { time },
-            Self::NonFiniteState { index, value } => IntegratorsError::NonFiniteState { index, value },
+            Self::WrongLength { quantity, expected, found } => {
+                IntegratorsError::WrongLength { quantity, expected, found }
+            }
+            Self::NotFinite { quantity, index, value, t } => IntegratorsError::NotFinite { quantity, index, value, t },
             Self::InvalidStep { step } => IntegratorsError::InvalidStep { step },
             Self::InvalidTolerance { relative, absolute } => IntegratorsError::InvalidTolerance { relative, absolute },
             Self::Field { source, .. } => match source {},
-            Self::NonFiniteRate { time, index } => IntegratorsError::NonFiniteRate { time, index },
-            Self::StepTooSmall { time, step } => IntegratorsError::StepTooSmall { time, step },
-            Self::TooManySteps { time, steps } => IntegratorsError::TooManySteps { time, steps },
-            Self::StagesDiverged { time, step, iterations, change } => {
-                IntegratorsError::StagesDiverged { time, step, iterations, change }
+            Self::StepTooSmall { t, step } => IntegratorsError::StepTooSmall { t, step },
+            Self::TooManySteps { t, steps } => IntegratorsError::TooManySteps { t, steps },
+            Self::StagesDiverged { t, step, iterations, change } => {
+                IntegratorsError::StagesDiverged { t, step, iterations, change }
             }
-            Self::InvalidEvent { event, time } => IntegratorsError::InvalidEvent { event, time },
-            Self::OutsideStep { time, start, end } => IntegratorsError::OutsideStep { time, start, end },
+            Self::InvalidEvent { event, t } => IntegratorsError::InvalidEvent { event, t },
+            Self::OutsideStep { t, start, end } => IntegratorsError::OutsideStep { t, start, end },
         }
     }
 }

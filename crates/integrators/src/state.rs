@@ -44,22 +44,17 @@ impl<T: Real> State<T> {
     /// A state at a time.
     ///
     /// # Errors
-    /// [`IntegratorsError::NonFiniteTime`], [`IntegratorsError::NonFiniteState`].
-    pub fn new(time: f64, values: Vec<T>) -> Result<Self, IntegratorsError> {
+    /// [`IntegratorsError::NotFinite`].
+    pub fn new(t: f64, values: Vec<T>) -> Result<Self, IntegratorsError> {
         let carry = vec![T::zero(); values.len()];
-        let state = Self { time, values, carry, time_carry: 0.0 };
+        let state = Self { time: t, values, carry, time_carry: 0.0 };
         state.check()?;
         Ok(state)
     }
 
     fn check<E>(&self) -> Result<(), IntegratorsError<E>> {
-        if !self.time.is_finite() {
-            return Err(IntegratorsError::NonFiniteTime { time: self.time });
-        }
-        match first_non_finite(&self.values) {
-            None => Ok(()),
-            Some((index, value)) => Err(IntegratorsError::NonFiniteState { index, value }),
-        }
+        check_time("t", self.time)?;
+        check_finite("state", None, &self.values)
     }
 
     pub(crate) fn advance_time(&mut self, step: f64) {
@@ -89,14 +84,11 @@ impl<T: Real> TryFrom<Unchecked<T>> for State<T> {
     fn try_from(unchecked: Unchecked<T>) -> Result<Self, IntegratorsError> {
         let Unchecked { time, values, carry, time_carry } = unchecked;
         if carry.len() != values.len() {
-            return Err(IntegratorsError::DimensionMismatch { expected: values.len(), found: carry.len() });
+            let (expected, found) = (values.len(), carry.len());
+            return Err(IntegratorsError::WrongLength { quantity: "carry", expected, found });
         }
-        if let Some((index, value)) = first_non_finite(&carry) {
-            return Err(IntegratorsError::NonFiniteState { index, value });
-        }
-        if !time_carry.is_finite() {
-            return Err(IntegratorsError::NonFiniteTime { time: time_carry });
-        }
+        check_finite("carry", None, &carry)?;
+        check_time("time_carry", time_carry)?;
         Ok(Self { carry, time_carry, ..Self::new(time, values)? })
     }
 }
@@ -188,7 +180,7 @@ pub(crate) fn equal_steps<E>(start: f64, end: f64, step: f64) -> Result<(u64, f6
     let count = (span.abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
     let h = span / count;
     if MOST_STEPS < count || h.abs() < 0.5 * f64::EPSILON * start.abs().max(end.abs()) {
-        return Err(IntegratorsError::StepTooSmall { time: start, step });
+        return Err(IntegratorsError::StepTooSmall { t: start, step });
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count between 1 and 2⁵³")]
     let steps = count as u64;
@@ -206,22 +198,28 @@ pub(crate) fn check_run<T: Real, E>(
     end: f64,
 ) -> Result<(), IntegratorsError<E>> {
     if state.values.len() != expected {
-        return Err(IntegratorsError::DimensionMismatch { expected, found: state.values.len() });
+        return Err(IntegratorsError::WrongLength { quantity: "state", expected, found: state.values.len() });
     }
     state.check()?;
-    for time in [end, end - state.time] {
-        if !time.is_finite() {
-            return Err(IntegratorsError::NonFiniteTime { time });
-        }
-    }
+    check_time("end", end)?;
+    check_time("end - t", end - state.time)?;
     state.carry.resize(expected, T::zero());
     Ok(())
 }
 
-pub(crate) fn check_finite<T: Real, E>(time: f64, rate: &[T]) -> Result<(), IntegratorsError<E>> {
-    match first_non_finite(rate) {
+fn check_time<E>(quantity: &'static str, value: f64) -> Result<(), IntegratorsError<E>> {
+    if value.is_finite() { Ok(()) } else { Err(IntegratorsError::NotFinite { quantity, index: 0, value, t: None }) }
+}
+
+/// Refuses numbers that are infinite or NaN in some lane: of a step from the time `t`, or as they were given.
+pub(crate) fn check_finite<T: Real, E>(
+    quantity: &'static str,
+    t: Option<f64>,
+    values: &[T],
+) -> Result<(), IntegratorsError<E>> {
+    match first_non_finite(values) {
         None => Ok(()),
-        Some((index, _)) => Err(IntegratorsError::NonFiniteRate { time, index }),
+        Some((index, value)) => Err(IntegratorsError::NotFinite { quantity, index, value, t }),
     }
 }
 

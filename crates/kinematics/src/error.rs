@@ -149,8 +149,8 @@ pub enum KinematicsError {
     #[error("a system of particles is empty")]
     NoParticles,
     /// Two sequences that describe the same things differ in length.
-    #[error("{quantity}: {found} given where {expected} are needed")]
-    Count {
+    #[error("`{quantity}` has {found} entries where {expected} are needed")]
+    WrongLength {
         /// What is counted.
         quantity: &'static str,
         /// How many are needed.
@@ -179,19 +179,22 @@ pub enum KinematicsError {
 
 /// 0 < mass < ∞.
 pub(crate) fn positive_mass(mass: f64) -> Result<(), KinematicsError> {
-    if !mass.is_finite() {
-        return Err(KinematicsError::NotFinite { quantity: "mass", index: 0, value: mass });
-    }
+    finite("mass", &[mass])?;
     if mass <= 0.0 {
         return Err(KinematicsError::NonPositiveMass { mass });
     }
     Ok(())
 }
 
-/// |values| < ∞.
-pub(crate) fn finite(quantity: &'static str, values: &[f64]) -> Result<(), KinematicsError> {
+/// |values| < ∞ in all lanes.
+pub(crate) fn finite<T: piola_numerics::Real>(quantity: &'static str, values: &[T]) -> Result<(), KinematicsError> {
     match crate::vector::first_non_finite(values) {
         None => Ok(()),
         Some((index, value)) => Err(KinematicsError::NotFinite { quantity, index, value }),
     }
+}
+
+/// found = expected.
+pub(crate) fn length(quantity: &'static str, found: usize, expected: usize) -> Result<(), KinematicsError> {
+    if found == expected { Ok(()) } else { Err(KinematicsError::WrongLength { quantity, expected, found }) }
 }

@@ -1,26 +1,17 @@
 //! Reading numbers that must be finite.
 
 use nalgebra::Vector3;
-use piola_numerics::{Mask, Real};
+use piola_numerics::Real;
 use serde::de::{Deserialize, Deserializer, Error};
 
-use crate::error::KinematicsError;
-
-fn check<T: Real>(values: &[T]) -> Result<(), KinematicsError> {
-    match values.iter().enumerate().find(|(_, value)| !value.is_finite().all()) {
-        None => Ok(()),
-        Some((index, value)) => {
-            Err(KinematicsError::NotFinite { quantity: "component", index, value: value.primal(0) })
-        }
-    }
-}
+use crate::error::finite;
 
 /// Reads a vector and refuses infinite and NaN components.
 pub(crate) fn vector<'de, D: Deserializer<'de>, T: Real + Deserialize<'de>>(
     deserializer: D,
 ) -> Result<Vector3<T>, D::Error> {
     let vector = Vector3::<T>::deserialize(deserializer)?;
-    check(vector.as_slice()).map_err(D::Error::custom)?;
+    finite("component", vector.as_slice()).map_err(D::Error::custom)?;
     Ok(vector)
 }
 
@@ -29,6 +20,6 @@ pub(crate) fn triple<'de, D: Deserializer<'de>, T: Real + Deserialize<'de>>(
     deserializer: D,
 ) -> Result<[T; 3], D::Error> {
     let triple = <[T; 3]>::deserialize(deserializer)?;
-    check(&triple).map_err(D::Error::custom)?;
+    finite("component", &triple).map_err(D::Error::custom)?;
     Ok(triple)
 }

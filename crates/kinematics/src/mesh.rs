@@ -22,8 +22,7 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::sums::CompensatedSum;
 
-use crate::error::KinematicsError;
-use crate::error::finite;
+use crate::error::{KinematicsError, finite};
 use crate::inertia::Inertia;
 use crate::rigid_body::RigidBody;
 use crate::solids::{FLAT, PlacedBody};
@@ -74,15 +73,6 @@ impl MeshSolid {
     /// # Accuracy
     /// A few ulps of the moments of a convex solid, wherever it is; the coordinates themselves are taken as
     /// exact.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::{KinematicsError, mesh::MeshSolid};
-    /// let vertices = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let open = MeshSolid::new(&vertices, &[[0, 2, 1], [0, 1, 3], [0, 3, 2]]);
-    /// assert_eq!(open, Err(KinematicsError::MeshNotClosed { edge: (1, 2), triangle: 0 }));
-    /// ```
     pub fn new(vertices: &[Vector3<f64>], triangles: &[[usize; 3]]) -> Result<Self, KinematicsError> {
         for (vertex, position) in vertices.iter().enumerate() {
             if let Some((component, value)) = first_non_finite(position.as_slice()) {
@@ -127,9 +117,6 @@ impl MeshSolid {
     }
 
     /// The volume enclosed (m³).
-    ///
-    /// # Example
-    /// See [`MeshSolid`].
     #[inline]
     #[must_use]
     pub fn volume(&self) -> f64 {
@@ -137,16 +124,6 @@ impl MeshSolid {
     }
 
     /// The area of all triangles (m²).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::mesh::MeshSolid;
-    /// let vertices = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let corner = MeshSolid::new(&vertices, &[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])?;
-    /// assert!((corner.surface_area() - (1.5 + 0.75_f64.sqrt())).abs() <= 4.0 * f64::EPSILON);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn surface_area(&self) -> f64 {
@@ -154,9 +131,6 @@ impl MeshSolid {
     }
 
     /// The centre of mass in the axes of the vertices (m).
-    ///
-    /// # Example
-    /// See [`MeshSolid`].
     #[inline]
     #[must_use]
     pub fn centre_of_mass(&self) -> Vector3<f64> {
@@ -167,17 +141,6 @@ impl MeshSolid {
     ///
     /// # Errors
     /// As [`RigidBody::new`] and [`Inertia::new`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::mesh::MeshSolid;
-    /// let vertices = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let corner = MeshSolid::new(&vertices, &[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])?;
-    /// // Twice ∫x² dV = 6/60 − 1/16 of a unit of mass.
-    /// assert!((corner.inertia(1.0)?.matrix()[(0, 0)] - 0.075).abs() <= f64::EPSILON);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(2.33).
@@ -203,17 +166,6 @@ impl MeshSolid {
     ///
     /// # Errors
     /// As [`inertia`](MeshSolid::inertia).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::mesh::MeshSolid;
-    /// let vertices = [Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let corner = MeshSolid::new(&vertices, &[[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])?;
-    /// // Of a density: its mass is ρ V.
-    /// assert_eq!(corner.body(6.0 * corner.volume())?.body.mass(), 1.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn body(&self, mass: f64) -> Result<PlacedBody, KinematicsError> {
         Ok(PlacedBody { body: RigidBody::new(mass, self.inertia(mass)?)?, centre_of_mass: self.centre_of_mass })
     }

@@ -51,35 +51,17 @@ pub struct Motion<T: Real> {
 
 impl<T: Real> Motion<T> {
     /// No motion at the origin.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::particle::Motion;
-    /// assert_eq!(Motion::<f64>::at_rest().velocity.x, 0.0);
-    /// ```
     #[must_use]
     pub fn at_rest() -> Self {
         Self { position: Vector3::zeros(), velocity: Vector3::zeros(), acceleration: Vector3::zeros() }
     }
 
     /// The motion along a path x(t) at the time `t`, by exact derivatives.
-    ///
-    /// # Example
-    /// See [`Motion`].
     pub fn along(path: impl Fn(Jet<T, 0>) -> Vector3<Jet<T, 0>>, t: T) -> Self {
         Self::from_jet(&path(Jet::time(t)))
     }
 
     /// Value, rate and second rate of a position that was computed over jets.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::particle::Motion;
-    /// use piola_numerics::Jet;
-    /// let t = Jet::<f64, 0>::time(3.0);
-    /// assert_eq!(Motion::from_jet(&Vector3::new(t, t * t, t)).acceleration.y, 2.0);
-    /// ```
     #[must_use]
     pub fn from_jet<const N: usize>(position: &Vector3<Jet<T, N>>) -> Self {
         Self {
@@ -146,15 +128,6 @@ pub struct AccelerationTerms<T: Real> {
 
 impl<T: Real> AccelerationTerms<T> {
     /// The acceleration in space: the sum of all terms.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::particle::AccelerationTerms;
-    /// let term = Vector3::new(1.0, 0.0, 0.0);
-    /// let terms = AccelerationTerms { origin: term, relative: term, coriolis: term, transport: term };
-    /// assert_eq!(terms.total().x, 4.0);
-    /// ```
     #[must_use]
     pub fn total(&self) -> Vector3<T> {
         self.origin + self.relative + self.coriolis + self.transport
@@ -168,9 +141,6 @@ impl<T: Real> MovingFrame<T> {
     /// ```text
     /// ė_i = ω×e_i        ë_i = ω̇×e_i + ω×(ω×e_i)
     /// ```
-    ///
-    /// # Example
-    /// See [`MovingFrame`].
     ///
     /// # Source
     /// W(1.9), W(2.13).
@@ -188,19 +158,6 @@ impl<T: Real> MovingFrame<T> {
     }
 
     /// A frame from its origin and basis computed over jets of time.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::particle::MovingFrame;
-    /// use piola_numerics::{Jet, Real};
-    /// let t = Jet::<f64, 0>::time(0.0);
-    /// let (s, c) = (t * Jet::lit(3.0)).sin_cos();
-    /// let (zero, one) = (Jet::lit(0.0), Jet::lit(1.0));
-    /// let basis = [Vector3::new(c, s, zero), Vector3::new(-s, c, zero), Vector3::new(zero, zero, one)];
-    /// let frame = MovingFrame::from_jets(&Vector3::new(zero, zero, zero), &basis);
-    /// assert_eq!(frame.basis_second_rate[0].x, -9.0);
-    /// ```
     #[must_use]
     pub fn from_jets<const N: usize>(origin: &Vector3<Jet<T, N>>, basis: &[Vector3<Jet<T, N>>; 3]) -> Self {
         Self {
@@ -212,9 +169,6 @@ impl<T: Real> MovingFrame<T> {
     }
 
     /// The motion in space of a particle whose coordinates xⁱ(t) in this frame are given.
-    ///
-    /// # Example
-    /// See [`MovingFrame`].
     ///
     /// # Source
     /// W(1.9).
@@ -229,9 +183,6 @@ impl<T: Real> MovingFrame<T> {
     }
 
     /// The acceleration in space, term by term.
-    ///
-    /// # Example
-    /// See [`AccelerationTerms`].
     ///
     /// # Source
     /// W(1.9).
@@ -258,7 +209,13 @@ fn combine<T: Real>(basis: &[Vector3<T>; 3], x: &Vector3<T>) -> Vector3<T> {
 /// ```
 /// use nalgebra::Vector3;
 /// use piola_kinematics::particle;
-/// assert_eq!(particle::momentum(2.0, &Vector3::new(3.0, 0.0, 0.0)).x, 6.0);
+/// let (mass, r, v, a) = (2.0, Vector3::<f64>::x(), Vector3::new(0.0, 3.0, 0.0), Vector3::new(0.0, 5.0, 0.0));
+/// assert_eq!(particle::momentum(mass, &v).y, 6.0);
+/// assert_eq!(particle::angular_momentum(mass, &r, &v).z, 6.0);
+/// assert_eq!(particle::kinetic_energy(mass, &v), 9.0);
+/// assert_eq!(particle::momentum_rate(mass, &a).y, 10.0);
+/// assert_eq!(particle::angular_momentum_rate(mass, &r, &a).z, 10.0);
+/// assert_eq!(particle::kinetic_energy_rate(mass, &v, &a), 30.0);
 /// ```
 ///
 /// # Source
@@ -271,13 +228,6 @@ pub fn momentum<T: Real>(mass: f64, velocity: &Vector3<T>) -> Vector3<T> {
 
 /// Angular momentum h = r × m v about the point from which r is drawn (kg m²/s).
 ///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_kinematics::particle;
-/// assert_eq!(particle::angular_momentum(2.0, &Vector3::x(), &Vector3::new(0.0, 3.0, 0.0)).z, 6.0);
-/// ```
-///
 /// # Source
 /// W(1.13).
 #[inline]
@@ -287,13 +237,6 @@ pub fn angular_momentum<T: Real>(mass: f64, r: &Vector3<T>, velocity: &Vector3<T
 }
 
 /// Kinetic energy e = ½ m v·v (J).
-///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_kinematics::particle;
-/// assert_eq!(particle::kinetic_energy(2.0, &Vector3::new(3.0, 0.0, 0.0)), 9.0);
-/// ```
 ///
 /// # Source
 /// W(1.13).
@@ -305,13 +248,6 @@ pub fn kinetic_energy<T: Real>(mass: f64, velocity: &Vector3<T>) -> T {
 
 /// Rate of momentum dl/dt = m a (N).
 ///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_kinematics::particle;
-/// assert_eq!(particle::momentum_rate(2.0, &Vector3::new(0.0, 0.0, -10.0)).z, -20.0);
-/// ```
-///
 /// # Source
 /// W(1.14).
 #[inline]
@@ -322,13 +258,6 @@ pub fn momentum_rate<T: Real>(mass: f64, acceleration: &Vector3<T>) -> Vector3<T
 
 /// Rate of angular momentum about a fixed point, dh/dt = r × m a (N m).
 ///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_kinematics::particle;
-/// assert_eq!(particle::angular_momentum_rate(2.0, &Vector3::<f64>::x(), &Vector3::y()).z, 2.0);
-/// ```
-///
 /// # Source
 /// W(1.14).
 #[inline]
@@ -338,13 +267,6 @@ pub fn angular_momentum_rate<T: Real>(mass: f64, r: &Vector3<T>, acceleration: &
 }
 
 /// Rate of kinetic energy de/dt = m v·a (W).
-///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_kinematics::particle;
-/// assert_eq!(particle::kinetic_energy_rate(2.0, &Vector3::x(), &Vector3::new(3.0, 4.0, 0.0)), 6.0);
-/// ```
 ///
 /// # Source
 /// W(1.14).

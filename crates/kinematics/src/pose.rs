@@ -37,9 +37,6 @@ impl Pose {
     pub const IDENTITY: Self = Self { translation: DVec3::ZERO, rotation: DQuat::IDENTITY };
 
     /// Where a point of the body is in space (m).
-    ///
-    /// # Example
-    /// See [`Pose`].
     #[inline]
     #[must_use]
     pub fn to_space(self, in_body: DVec3) -> DVec3 {
@@ -47,14 +44,6 @@ impl Pose {
     }
 
     /// Where a point of space is in the body (m).
-    ///
-    /// # Example
-    /// ```
-    /// use glam::{DQuat, DVec3};
-    /// use piola_kinematics::Pose;
-    /// let pose = Pose { translation: DVec3::X, rotation: DQuat::IDENTITY };
-    /// assert_eq!(pose.to_body(DVec3::X), DVec3::ZERO);
-    /// ```
     #[inline]
     #[must_use]
     pub fn to_body(self, in_space: DVec3) -> DVec3 {
@@ -62,14 +51,6 @@ impl Pose {
     }
 
     /// The pose of a body whose pose relative to this one is `other`.
-    ///
-    /// # Example
-    /// ```
-    /// use glam::{DQuat, DVec3};
-    /// use piola_kinematics::Pose;
-    /// let step = Pose { translation: DVec3::X, rotation: DQuat::IDENTITY };
-    /// assert_eq!(step.product(step).translation.x, 2.0);
-    /// ```
     #[inline]
     #[must_use]
     pub fn product(self, other: Self) -> Self {
@@ -77,14 +58,6 @@ impl Pose {
     }
 
     /// The pose that undoes this one.
-    ///
-    /// # Example
-    /// ```
-    /// use glam::{DQuat, DVec3};
-    /// use piola_kinematics::Pose;
-    /// let step = Pose { translation: DVec3::X, rotation: DQuat::IDENTITY };
-    /// assert_eq!(step.product(step.inverse()), Pose::IDENTITY);
-    /// ```
     #[inline]
     #[must_use]
     pub fn inverse(self) -> Self {

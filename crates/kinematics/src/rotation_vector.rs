@@ -56,14 +56,6 @@ struct Coefficients<T> {
 
 impl<T: Real> RotationVector<T> {
     /// The shortest rotation vector of an attitude, |φ| ≤ π: its logarithm.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{Attitude, RotationVector};
-    /// let tiny = RotationVector(Vector3::new(3.0e-200, 0.0, 0.0));
-    /// assert_eq!(RotationVector::of_attitude(tiny.attitude()), tiny);
-    /// ```
     #[inline]
     #[must_use]
     pub fn of_attitude(attitude: Attitude<T>) -> Self {
@@ -71,13 +63,6 @@ impl<T: Real> RotationVector<T> {
     }
 
     /// The attitude exp φ.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{Attitude, RotationVector};
-    /// assert_eq!(RotationVector(Vector3::z() * 0.5).attitude(), Attitude::about_z(0.5));
-    /// ```
     #[inline]
     #[must_use]
     pub fn attitude(&self) -> Attitude<T> {
@@ -88,16 +73,6 @@ impl<T: Real> RotationVector<T> {
     ///
     /// The rates are carried over by [`rate_from_body`](RotationVector::rate_from_body) of the new vector at the
     /// angular velocity of the old.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::RotationVector;
-    /// use std::f64::consts::TAU;
-    /// // Three quarters of a turn is a quarter the other way.
-    /// let back = RotationVector(Vector3::new(0.75 * TAU, 0.0, 0.0)).shortest();
-    /// assert!((back.0.x + 0.25 * TAU).abs() <= 4.0 * f64::EPSILON);
-    /// ```
     #[must_use]
     pub fn shortest(&self) -> Self {
         use core::f64::consts::{PI, TAU};
@@ -116,14 +91,6 @@ impl<T: Real> RotationVector<T> {
     /// # Accuracy
     /// A few ulps of its largest entry for any φ.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::{Matrix3, Vector3};
-    /// # use piola_kinematics::RotationVector;
-    /// let j = RotationVector(Vector3::new(0.0, 0.0, 1.0e-8)).exponential_derivative_in_body();
-    /// assert_eq!((j[(0, 1)], j[(2, 2)]), (0.5e-8, 1.0));
-    /// ```
-    ///
     /// # Source
     /// W(2.14), along φ.
     #[doc(alias = "right Jacobian")]
@@ -137,14 +104,6 @@ impl<T: Real> RotationVector<T> {
     ///
     /// # Accuracy
     /// As [`exponential_derivative_in_body`](Self::exponential_derivative_in_body).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::RotationVector;
-    /// let phi = RotationVector(Vector3::new(0.3, -0.4, 1.2_f64));
-    /// assert_eq!(phi.exponential_derivative_in_space(), phi.exponential_derivative_in_body().transpose());
-    /// ```
     ///
     /// # Source
     /// W(2.13), along φ.
@@ -162,16 +121,6 @@ impl<T: Real> RotationVector<T> {
     /// # Accuracy
     /// A few ulps × 2π/(2π − |φ|).
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::RotationVector;
-    /// let phi = RotationVector(Vector3::new(0.0, 0.0, std::f64::consts::PI));
-    /// // At a half turn (a/2) cot(a/2) = 0: nothing of the identity is left across the axis.
-    /// let inverse = phi.logarithm_derivative_from_body();
-    /// assert!(inverse[(0, 0)].abs() <= 4.0 * f64::EPSILON && inverse[(2, 2)] == 1.0);
-    /// ```
-    ///
     /// # Source
     /// W(2.14), along φ and inverted.
     #[doc(alias = "inverse right Jacobian")]
@@ -187,15 +136,6 @@ impl<T: Real> RotationVector<T> {
     /// # Accuracy
     /// As [`logarithm_derivative_from_body`](Self::logarithm_derivative_from_body).
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::RotationVector;
-    /// let phi = RotationVector(Vector3::new(0.3, -0.4, 1.2_f64));
-    /// let product = phi.logarithm_derivative_from_space() * phi.exponential_derivative_in_space();
-    /// assert!((product[(0, 0)] - 1.0).abs() <= 4.0 * f64::EPSILON);
-    /// ```
-    ///
     /// # Source
     /// W(2.13), along φ and inverted.
     #[doc(alias = "inverse left Jacobian")]
@@ -205,9 +145,6 @@ impl<T: Real> RotationVector<T> {
     }
 
     /// Angular velocity in body components at the rate φ̇ of the vector: ω = J φ̇ (rad/s).
-    ///
-    /// # Example
-    /// See [`RotationVector`].
     ///
     /// # Source
     /// W(2.14), along φ.
@@ -220,16 +157,6 @@ impl<T: Real> RotationVector<T> {
 
     /// Angular velocity in space components at the rate φ̇ of the vector: ω = Jᵀ φ̇ (rad/s).
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::RotationVector;
-    /// // After a quarter turn about z, the beginning of a tilt towards x is one half-way between.
-    /// let phi = RotationVector(Vector3::new(0.0, 0.0, std::f64::consts::FRAC_PI_2));
-    /// let omega = phi.angular_velocity_in_space(&Vector3::x());
-    /// assert!((omega.x - omega.y).abs() <= f64::EPSILON);
-    /// ```
-    ///
     /// # Source
     /// W(2.13), along φ.
     #[inline]
@@ -241,15 +168,6 @@ impl<T: Real> RotationVector<T> {
 
     /// Rate φ̇ of the vector at an angular velocity in body components: φ̇ = J⁻¹ ω. Valid for |φ| < 2π.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::RotationVector;
-    /// // Around the identity φ̇ = ω + ½ φ×ω + …
-    /// let phi = RotationVector(Vector3::new(1.0e-9, 0.0, 0.0));
-    /// assert_eq!(phi.rate_from_body(&Vector3::y()), Vector3::new(0.0, 1.0, 0.5e-9));
-    /// ```
-    ///
     /// # Source
     /// W(2.14), along φ and inverted.
     #[inline]
@@ -260,14 +178,6 @@ impl<T: Real> RotationVector<T> {
 
     /// Rate φ̇ of the vector at an angular velocity in space components: φ̇ = J⁻ᵀ ω. Valid for |φ| < 2π.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::RotationVector;
-    /// let phi = RotationVector(Vector3::new(1.0e-9, 0.0, 0.0));
-    /// assert_eq!(phi.rate_from_space(&Vector3::y()), Vector3::new(0.0, 1.0, -0.5e-9));
-    /// ```
-    ///
     /// # Source
     /// W(2.13), along φ and inverted.
     #[inline]
@@ -277,15 +187,6 @@ impl<T: Real> RotationVector<T> {
     }
 
     /// Angular acceleration in body components: ω̇ = J φ̈ + J̇ φ̇ (rad/s²), by the exact derivative of J.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::RotationVector;
-    /// // At φ = 0 the terms of φ̇ cancel: ω̇ = φ̈.
-    /// let identity = RotationVector(Vector3::<f64>::zeros());
-    /// assert_eq!(identity.angular_acceleration_in_body(&Vector3::x(), &Vector3::y()), Vector3::y());
-    /// ```
     ///
     /// # Source
     /// W(2.14), differentiated.

@@ -26,11 +26,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::error::KinematicsError;
+use crate::error::{KinematicsError, finite};
 use crate::inertia::{Inertia, point_inertia};
 use crate::rigid_body::RigidBody;
 use crate::system::ParticleSystem;
-use crate::vector::first_non_finite;
 
 /// A homogeneous solid, lengths in m; the [module](self) says how each is placed in its body axes.
 ///
@@ -120,13 +119,6 @@ impl Solid {
     ///
     /// # Errors
     /// [`KinematicsError::NonPositiveSize`], [`KinematicsError::NoVolume`], [`KinematicsError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::solids::Solid;
-    /// assert_eq!(Solid::Cuboid { edges: [0.5, 1.0, 2.0] }.volume()?, 1.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn volume(&self) -> Result<f64, KinematicsError> {
         use core::f64::consts::PI;
         self.check()?;
@@ -150,13 +142,6 @@ impl Solid {
     ///
     /// # Errors
     /// As [`volume`](Solid::volume).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::solids::Solid;
-    /// assert_eq!(Solid::Cone { radius: 1.0, height: 4.0 }.centre_of_mass()?.z, 3.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn centre_of_mass(&self) -> Result<Vector3<f64>, KinematicsError> {
         self.check()?;
         Ok(match *self {
@@ -173,9 +158,6 @@ impl Solid {
     ///
     /// # Accuracy
     /// A few ulps; no cancellation, also for a tetrahedron far from the origin of its vertices.
-    ///
-    /// # Example
-    /// See [`Solid`].
     ///
     /// # Source
     /// W(2.33), integrated.
@@ -243,13 +225,6 @@ impl Solid {
     ///
     /// # Errors
     /// As [`inertia`](Solid::inertia).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::solids::Solid;
-    /// assert_eq!(Solid::Disc { radius: 2.0 }.body(3.0)?.inertia().matrix()[(2, 2)], 6.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn body(&self, mass: f64) -> Result<RigidBody, KinematicsError> {
         RigidBody::new(mass, self.inertia(mass)?)
     }
@@ -282,9 +257,7 @@ impl Solid {
                 positive("height", &[*height])
             }
             Self::Tetrahedron { vertices } => {
-                if let Some((index, value)) = first_non_finite(vertices.as_flattened()) {
-                    return Err(KinematicsError::NotFinite { quantity: "vertices", index, value });
-                }
+                finite("vertices", vertices.as_flattened())?;
                 let longest = vertices[1..]
                     .iter()
                     .map(|v| (Vector3::from(*v) - Vector3::from(vertices[0])).norm())
@@ -342,9 +315,7 @@ pub fn thin_rod(
 ) -> Result<[(f64, Vector3<f64>); 3], KinematicsError> {
     crate::error::positive_mass(mass)?;
     for (quantity, point) in [("start", start), ("end", end)] {
-        if let Some((index, value)) = first_non_finite(point.as_slice()) {
-            return Err(KinematicsError::NotFinite { quantity, index, value });
-        }
+        finite(quantity, point.as_slice())?;
     }
     let tip = mass / 6.0;
     Ok([(tip, *start), (4.0 * tip, start * 0.5 + end * 0.5), (tip, *end)])

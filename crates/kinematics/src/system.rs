@@ -16,11 +16,11 @@
 //! W(1.18–1.26).
 
 use nalgebra::{Matrix3, Vector3};
+use piola_numerics::Real;
 use piola_numerics::sums::CompensatedSum;
-use piola_numerics::{Mask, Real};
 
-use crate::error::KinematicsError;
-use crate::vector::{cross, dot, scaled};
+use crate::error::{KinematicsError, length};
+use crate::vector::{cross, dot, first_non_finite, scaled};
 
 /// A system of particles in a state of motion: a view of the caller's data with its centre of mass.
 ///
@@ -76,9 +76,6 @@ pub struct Split<Q> {
 
 impl<Q: core::ops::Add<Output = Q>> Split<Q> {
     /// The sum of both parts.
-    ///
-    /// # Example
-    /// See [`Split`].
     pub fn total(self) -> Q {
         self.of_centre_of_mass + self.relative
     }
@@ -116,12 +113,9 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// A system of particles with masses (kg), positions (m) and velocities (m/s) in space components.
     ///
     /// # Errors
-    /// [`KinematicsError::NoParticles`]; [`KinematicsError::Count`] for unequal lengths;
+    /// [`KinematicsError::NoParticles`]; [`KinematicsError::WrongLength`] for unequal lengths;
     /// [`KinematicsError::NonPositiveMass`]; [`KinematicsError::NotFinite`], with the index 3α + i of
     /// component i of particle α, from 0.
-    ///
-    /// # Example
-    /// See [`ParticleSystem`].
     pub fn new(
         masses: &'a [f64],
         positions: &'a [Vector3<T>],
@@ -145,40 +139,18 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     }
 
     /// M (kg).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::ParticleSystem;
-    /// let at_rest = [Vector3::<f64>::zeros(); 2];
-    /// assert_eq!(ParticleSystem::new(&[1.0, 3.0], &at_rest, &at_rest)?.mass(), 4.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.mass
     }
 
     /// r^c (m).
-    ///
-    /// # Example
-    /// See [`ParticleSystem`].
     #[must_use]
     pub fn centre_of_mass(&self) -> Vector3<T> {
         self.position.rounded()
     }
 
     /// v^c (m/s).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::ParticleSystem;
-    /// let velocities = [Vector3::new(4.0, 0.0, 0.0), Vector3::zeros()];
-    /// let system = ParticleSystem::new(&[1.0, 3.0], &velocities, &velocities)?;
-    /// assert_eq!(system.velocity_of_centre_of_mass().x, 1.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     #[must_use]
     pub fn velocity_of_centre_of_mass(&self) -> Vector3<T> {
         self.velocity.rounded()
@@ -187,25 +159,14 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// Position of a particle relative to the centre of mass, r^{αc} (m).
     ///
     /// # Errors
-    /// [`KinematicsError::Count`] when there is no such particle.
+    /// [`KinematicsError::WrongLength`] when there is no such particle.
     ///
     /// # Accuracy
     /// A few ulps of itself, however far the system is from the origin.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::ParticleSystem;
-    /// let positions = [Vector3::new(1.0e9, 0.0, 0.0), Vector3::new(1.0e9 + 4.0, 0.0, 0.0)];
-    /// let at_rest = [Vector3::zeros(); 2];
-    /// let system = ParticleSystem::new(&[1.0, 3.0], &positions, &at_rest)?;
-    /// assert_eq!(system.relative_position(0)?.x, -3.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn relative_position(&self, particle: usize) -> Result<Vector3<T>, KinematicsError> {
         match self.positions.get(particle) {
             Some(x) => Ok(self.position.to(x)),
-            None => Err(KinematicsError::Count {
+            None => Err(KinematicsError::WrongLength {
                 quantity: "particles",
                 expected: particle.saturating_add(1),
                 found: self.positions.len(),
@@ -214,16 +175,6 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     }
 
     /// Momentum L = M v^c (kg m/s).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::ParticleSystem;
-    /// let velocities = [Vector3::new(4.0, 0.0, 0.0), Vector3::zeros()];
-    /// let system = ParticleSystem::new(&[1.0, 3.0], &velocities, &velocities)?;
-    /// assert_eq!(system.momentum().x, 4.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(1.18).
@@ -236,18 +187,6 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     ///
     /// ```text
     /// H = M (r^c − o)×v^c + Σ m r^{αc}×v^{αc}
-    /// ```
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::ParticleSystem;
-    /// // Two particles that turn about each other: the centre of mass rests.
-    /// let positions = [Vector3::<f64>::x(), -Vector3::x()];
-    /// let velocities = [Vector3::y(), -Vector3::y()];
-    /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &velocities)?;
-    /// assert_eq!(system.angular_momentum(&Vector3::zeros()).relative.z, 4.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
     /// ```
     ///
     /// # Source
@@ -269,9 +208,6 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// E = ½M v^c·v^c + Σ ½m|v^{αc}|²
     /// ```
     ///
-    /// # Example
-    /// See [`ParticleSystem`].
-    ///
     /// # Source
     /// W(1.24).
     #[must_use]
@@ -285,17 +221,6 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     }
 
     /// Inertia tensor of the instantaneous configuration about the centre of mass (kg m², space components).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::ParticleSystem;
-    /// let positions = [Vector3::<f64>::x(), -Vector3::x()];
-    /// let at_rest = [Vector3::zeros(); 2];
-    /// let system = ParticleSystem::new(&[2.0, 2.0], &positions, &at_rest)?;
-    /// assert_eq!(system.inertia_about_centre_of_mass()[(2, 2)], 4.0);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(2.33).
@@ -323,7 +248,7 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     /// ```
     ///
     /// # Errors
-    /// [`KinematicsError::Count`]; [`KinematicsError::NotFinite`].
+    /// [`KinematicsError::WrongLength`]; [`KinematicsError::NotFinite`].
     ///
     /// # Example
     /// ```
@@ -410,27 +335,20 @@ fn check_vectors<T: Real>(
     expected: usize,
     vectors: &[Vector3<T>],
 ) -> Result<(), KinematicsError> {
-    if vectors.len() != expected {
-        return Err(KinematicsError::Count { quantity, expected, found: vectors.len() });
-    }
-    for (index, component) in vectors.iter().flatten().enumerate() {
-        if !component.is_finite().all() {
-            return Err(KinematicsError::NotFinite { quantity, index, value: not_finite(*component) });
+    length(quantity, vectors.len(), expected)?;
+    for (particle, vector) in vectors.iter().enumerate() {
+        if let Some((component, value)) = first_non_finite(vector.as_slice()) {
+            return Err(KinematicsError::NotFinite { quantity, index: 3 * particle + component, value });
         }
     }
     Ok(())
-}
-
-/// The first value that is not finite among the lanes.
-fn not_finite<T: Real>(x: T) -> f64 {
-    (0..T::LANES).map(|lane| x.primal(lane)).find(|value| !value.is_finite()).unwrap_or(f64::NAN)
 }
 
 /// The pair of particles whose distance differs most between two configurations: a system moves rigidly
 /// when this is zero to rounding. `None` for a single particle. Takes n²/2 steps.
 ///
 /// # Errors
-/// [`KinematicsError::NoParticles`]; [`KinematicsError::Count`]; [`KinematicsError::NotFinite`].
+/// [`KinematicsError::NoParticles`]; [`KinematicsError::WrongLength`]; [`KinematicsError::NotFinite`].
 ///
 /// # Accuracy
 /// ε |x|/largest distance: absolute positions limit it.

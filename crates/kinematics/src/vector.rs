@@ -1,7 +1,7 @@
 //! Products of three-vectors over any [`Real`]: unrolled and inlined, so that they fuse in jets and lanes.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_numerics::Real;
+use piola_numerics::{Mask, Real};
 
 /// a·b.
 #[inline(always)]
@@ -28,7 +28,9 @@ pub(crate) fn constant_matrix_times<T: Real>(matrix: &Matrix3<f64>, a: &Vector3<
     Vector3::new(row(0), row(1), row(2))
 }
 
-/// Index and value of the first entry that is infinite or NaN.
-pub(crate) fn first_non_finite(values: &[f64]) -> Option<(usize, f64)> {
-    values.iter().copied().enumerate().find(|(_, value)| !value.is_finite())
+/// Index and value of the first entry that is infinite or NaN in some lane.
+pub(crate) fn first_non_finite<T: Real>(values: &[T]) -> Option<(usize, f64)> {
+    let (index, entry) = values.iter().enumerate().find(|(_, entry)| !entry.is_finite().all())?;
+    let value = (0..T::LANES).map(|lane| entry.primal(lane)).find(|value| !value.is_finite());
+    Some((index, value.unwrap_or(f64::NAN)))
 }

@@ -7,7 +7,7 @@
 //! | a derivative of a formula, exact to rounding | [`derivatives`], or [`Dual`], [`Gradient`], [`Jet`] directly |
 //! | several points at once, in the lanes of one scalar | [`Lanes`], run by [`dispatch`] |
 //! | a linear system solved over any scalar, with the reason when it cannot be | [`linear`] |
-//! | nodes and weights for adaptive integration | [`gauss_kronrod`] |
+//! | integrals of functions of one variable, with their errors | [`quadrature`] |
 //! | a sum, dot product or state update without rounding loss | [`sums`] |
 
 #![expect(
@@ -22,6 +22,7 @@ mod dual;
 mod elementary;
 mod error;
 mod excess;
+#[doc(hidden)]
 pub mod gauss_kronrod;
 mod gradient;
 mod jet;
@@ -32,6 +33,7 @@ pub mod linear;
 mod num_dual;
 mod parameters;
 mod prefetch;
+pub mod quadrature;
 mod real;
 pub mod sums;
 

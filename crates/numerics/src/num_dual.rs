@@ -35,6 +35,16 @@ impl<T: Scalar + Zero, const R: usize, const C: usize> Vanishes for Derivative<T
     }
 }
 
+/// Functions of one number that the crate has under the same name.
+macro_rules! dual_functions {
+    ($($name:ident)*) => {$(
+        #[inline]
+        fn $name(self) -> Self {
+            DualNum::$name(&self)
+        }
+    )*};
+}
+
 macro_rules! real_for_num_dual {
     ($([$($constants:tt)*] $type:ty, $order:literal, $float:ident, [$($part:ident),*];)*) => {$(
         impl<$($constants)*> Real for $type {
@@ -70,18 +80,7 @@ macro_rules! real_for_num_dual {
             fn is_finite(self) -> bool {
                 self.re.is_finite()
             }
-            #[inline]
-            fn recip(self) -> Self {
-                DualNum::recip(&self)
-            }
-            #[inline]
-            fn sqrt(self) -> Self {
-                DualNum::sqrt(&self)
-            }
-            #[inline]
-            fn cbrt(self) -> Self {
-                DualNum::cbrt(&self)
-            }
+            dual_functions!(recip sqrt cbrt exp exp_m1 ln ln_1p tan asin acos atan sinh cosh tanh);
             #[inline]
             fn powi(self, n: i32) -> Self {
                 DualNum::powi(&self, n)
@@ -95,40 +94,8 @@ macro_rules! real_for_num_dual {
                 }
             }
             #[inline]
-            fn exp(self) -> Self {
-                DualNum::exp(&self)
-            }
-            #[inline]
-            fn exp_m1(self) -> Self {
-                DualNum::exp_m1(&self)
-            }
-            #[inline]
-            fn ln(self) -> Self {
-                DualNum::ln(&self)
-            }
-            #[inline]
-            fn ln_1p(self) -> Self {
-                DualNum::ln_1p(&self)
-            }
-            #[inline]
             fn sin_cos(self) -> (Self, Self) {
                 DualNum::sin_cos(&self)
-            }
-            #[inline]
-            fn tan(self) -> Self {
-                DualNum::tan(&self)
-            }
-            #[inline]
-            fn asin(self) -> Self {
-                DualNum::asin(&self)
-            }
-            #[inline]
-            fn acos(self) -> Self {
-                DualNum::acos(&self)
-            }
-            #[inline]
-            fn atan(self) -> Self {
-                DualNum::atan(&self)
             }
             #[inline]
             fn atan2(self, x: Self) -> Self {
@@ -138,18 +105,6 @@ macro_rules! real_for_num_dual {
                 let mut angle = DualNum::atan(&((self * c - x * s) / (x * c + self * s)));
                 angle.re = self.re.atan2(x.re);
                 angle
-            }
-            #[inline]
-            fn sinh(self) -> Self {
-                DualNum::sinh(&self)
-            }
-            #[inline]
-            fn cosh(self) -> Self {
-                DualNum::cosh(&self)
-            }
-            #[inline]
-            fn tanh(self) -> Self {
-                DualNum::tanh(&self)
             }
             #[inline]
             fn abs(self) -> Self {

@@ -9,17 +9,6 @@ const LINE: usize = 64;
 ///
 /// Processors guess what will be read next. A long computation that reads the lines of an element in an order of its
 /// own leaves them guessing wrong.
-///
-/// # Example
-/// ```
-/// let blocks = [[1.0_f64; 72]; 3];
-/// let mut sum = 0.0;
-/// for i in 0..blocks.len() {
-///     piola_numerics::prefetch(&blocks, i + 1);
-///     sum += blocks[i].iter().sum::<f64>();
-/// }
-/// assert_eq!(sum, 216.0);
-/// ```
 #[inline(always)]
 pub fn prefetch<T>(elements: &[T], index: usize) {
     #[cfg(target_arch = "x86_64")]
@@ -29,16 +18,6 @@ pub fn prefetch<T>(elements: &[T], index: usize) {
 }
 
 /// As [`prefetch`], of an element that will be written: a line that is only read must be asked for again to be written.
-///
-/// # Example
-/// ```
-/// let mut blocks = [[0.0_f64; 72]; 3];
-/// for i in 0..blocks.len() {
-///     piola_numerics::prefetch_for_writing(&blocks, i + 1);
-///     blocks[i].fill(1.0);
-/// }
-/// assert_eq!(blocks[2][71], 1.0);
-/// ```
 #[inline(always)]
 pub fn prefetch_for_writing<T>(elements: &[T], index: usize) {
     #[cfg(target_arch = "x86_64")]

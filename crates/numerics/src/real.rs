@@ -276,6 +276,16 @@ pub trait Real:
     }
 }
 
+/// Functions of one number that the standard library has under the same name.
+macro_rules! float_functions {
+    ($float:ident: $($name:ident)*) => {$(
+        #[inline(always)]
+        fn $name(self) -> Self {
+            $float::$name(self)
+        }
+    )*};
+}
+
 macro_rules! real_for_float {
     ($float:ident) => {
         impl Real for $float {
@@ -316,14 +326,7 @@ macro_rules! real_for_float {
             fn is_finite(self) -> bool {
                 $float::is_finite(self)
             }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                $float::sqrt(self)
-            }
-            #[inline(always)]
-            fn cbrt(self) -> Self {
-                $float::cbrt(self)
-            }
+            float_functions!($float: sqrt cbrt exp exp_m1 ln ln_1p sin cos tan asin acos atan sinh cosh tanh abs);
             #[inline(always)]
             fn powi(self, n: i32) -> Self {
                 $float::powi(self, n)
@@ -333,68 +336,12 @@ macro_rules! real_for_float {
                 $float::powf(self, exponent)
             }
             #[inline(always)]
-            fn exp(self) -> Self {
-                $float::exp(self)
-            }
-            #[inline(always)]
-            fn exp_m1(self) -> Self {
-                $float::exp_m1(self)
-            }
-            #[inline(always)]
-            fn ln(self) -> Self {
-                $float::ln(self)
-            }
-            #[inline(always)]
-            fn ln_1p(self) -> Self {
-                $float::ln_1p(self)
-            }
-            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $float::sin_cos(self)
             }
             #[inline(always)]
-            fn sin(self) -> Self {
-                $float::sin(self)
-            }
-            #[inline(always)]
-            fn cos(self) -> Self {
-                $float::cos(self)
-            }
-            #[inline(always)]
-            fn tan(self) -> Self {
-                $float::tan(self)
-            }
-            #[inline(always)]
-            fn asin(self) -> Self {
-                $float::asin(self)
-            }
-            #[inline(always)]
-            fn acos(self) -> Self {
-                $float::acos(self)
-            }
-            #[inline(always)]
-            fn atan(self) -> Self {
-                $float::atan(self)
-            }
-            #[inline(always)]
             fn atan2(self, x: Self) -> Self {
                 $float::atan2(self, x)
-            }
-            #[inline(always)]
-            fn sinh(self) -> Self {
-                $float::sinh(self)
-            }
-            #[inline(always)]
-            fn cosh(self) -> Self {
-                $float::cosh(self)
-            }
-            #[inline(always)]
-            fn tanh(self) -> Self {
-                $float::tanh(self)
-            }
-            #[inline(always)]
-            fn abs(self) -> Self {
-                $float::abs(self)
             }
             #[inline(always)]
             fn copysign(self, sign: Self) -> Self {

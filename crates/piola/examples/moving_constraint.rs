@@ -2,7 +2,7 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use nalgebra::Vector3;
-use piola::dynamics::lagrangian::{Forces, Holonomic, Lagrangian, Placement};
+use piola::lagrangian::{Forces, Holonomic, Lagrangian, Placement};
 use piola::integrators::Tolerance;
 use piola::numerics::Real;
 

@@ -1,7 +1,7 @@
 //! A coin set rolling on a table: the path of its point of contact, the force there, and how well energy is kept.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use piola::dynamics::anholonomic::rolling::RollingDisc;
+use piola::lagrangian::anholonomic::rolling::RollingDisc;
 use piola::integrators::{DormandPrince853, State, Tolerance};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

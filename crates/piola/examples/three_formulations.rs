@@ -9,8 +9,8 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use nalgebra::Vector3;
-use piola::dynamics::lagrangian::{ChangeOfCoordinates, Holonomic, Lagrangian, LagrangianFunction, Placement};
-use piola::dynamics::newton_euler::particle_acceleration;
+use piola::lagrangian::{ChangeOfCoordinates, Holonomic, Lagrangian, LagrangianFunction, Placement};
+use piola::lagrangian::newton_euler::particle_acceleration;
 use piola::kinematics::particle::Motion;
 use piola::kinematics::placement::PlacementEvaluator;
 use piola::numerics::Real;

@@ -10,7 +10,7 @@
 //! ```
 //! # #[cfg(feature = "dynamics")] {
 //! use nalgebra::Vector3;
-//! use piola::dynamics::lagrangian::{Holonomic, Lagrangian, Placement};
+//! use piola::lagrangian::{Holonomic, Lagrangian, Placement};
 //! use piola::numerics::Real;
 //!
 //! struct Pendulum { length: f64 }
@@ -60,61 +60,85 @@
 //! |---|---|---|
 //! | scalars, exact derivatives, lanes, small linear systems, compensated sums | [`numerics`] | always |
 //! | particles, bodies, attitudes, inertia, placement maps | [`kinematics`] | `kinematics` |
-//! | Lagrange's and Hamilton's equations, gravitation | [`dynamics`] | `dynamics` |
-//! | deformation, strain, stress, rates, balance; batches in lanes | [`continuum`] | `continuum` |
-//! | laws of solids and fluids | [`constitutive`] | `constitutive` |
-//! | viscometric flows: profiles, stresses, discharges, torques | [`viscometry`] | `viscometry` |
 //! | time stepping | [`integrators`] | `integrators` |
+//! | Lagrange's equations, reactions, small motions, rolling, closed loops | [`lagrangian`] | `lagrangian` |
+//! | phase space, Hamilton–Jacobi theory, wave fronts | [`hamiltonian`] | `hamiltonian` |
+//! | attracting bodies, Kepler's motion | [`gravitation`] | `gravitation` |
+//! | equations of first order by characteristics | [`characteristics`] | `characteristics` |
+//! | tensors of three dimensions and their functions | [`tensor`] | `tensor` |
+//! | deformation, strain, rates, stress, tangents at a point | [`continuum`] | `continuum` |
+//! | millions of points in lanes | [`batch`] | `batch` |
+//! | motions, coordinates, balances, integrals | [`fields`] | `fields` |
+//! | laws of solids, internal constraints, memory | [`solids`] | `solids` |
+//! | homogeneous specimens, and checks of laws | [`specimens`] | `specimens` |
+//! | laws of fluids | [`fluids`] | `fluids` |
+//! | viscometric flows and their inversion | [`viscometry`] | `viscometry` |
+//! | parameters of laws from measurements | [`fit`] | `fit` |
+//!
+//! The feature `dynamics` is `lagrangian`, `hamiltonian` and `gravitation`; `constitutive` is `solids` and `fluids`.
 //!
 //! # Features
 #![doc = document_features::document_features!()]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-#[cfg(feature = "constitutive")]
-pub use piola_constitutive as constitutive;
+#[cfg(feature = "batch")]
+pub use piola_batch as batch;
+#[cfg(feature = "characteristics")]
+pub use piola_characteristics as characteristics;
 #[cfg(feature = "continuum")]
 pub use piola_continuum as continuum;
-#[cfg(feature = "dynamics")]
-pub use piola_dynamics as dynamics;
+#[cfg(feature = "fields")]
+pub use piola_fields as fields;
+#[cfg(feature = "fit")]
+pub use piola_fit as fit;
+#[cfg(feature = "fluids")]
+pub use piola_fluids as fluids;
+#[cfg(feature = "gravitation")]
+pub use piola_gravitation as gravitation;
+#[cfg(feature = "hamiltonian")]
+pub use piola_hamiltonian as hamiltonian;
 #[cfg(feature = "integrators")]
 pub use piola_integrators as integrators;
 #[cfg(feature = "kinematics")]
 pub use piola_kinematics as kinematics;
+#[cfg(feature = "lagrangian")]
+pub use piola_lagrangian as lagrangian;
 pub use piola_numerics as numerics;
+#[cfg(feature = "solids")]
+pub use piola_solids as solids;
+#[cfg(feature = "specimens")]
+pub use piola_specimens as specimens;
+#[cfg(feature = "tensor")]
+pub use piola_tensor as tensor;
 #[cfg(feature = "viscometry")]
 pub use piola_viscometry as viscometry;
 
-/// The snippets of the project's read-me run as tests.
-#[cfg(all(doctest, feature = "dynamics", feature = "viscometry"))]
-#[doc = include_str!("../../../README.md")]
-struct ProjectReadMe;
-
-/// The snippets of the book run as tests.
-#[cfg(all(doctest, feature = "dynamics"))]
+/// The snippets of the project's read-me and of the book run as tests.
+#[cfg(all(doctest, feature = "full"))]
 mod book {
-    #[doc = include_str!("../../../docs/placements.md")]
-    struct Placements;
-    #[doc = include_str!("../../../docs/mechanisms.md")]
+    #[doc = include_str!("../../../README.md")]
+    struct ReadMe;
+    #[doc = include_str!("../../../docs/tutorials/tour.md")]
+    struct Tour;
+    #[doc = include_str!("../../../docs/tutorials/mechanisms.md")]
     struct Mechanisms;
-    #[doc = include_str!("../../../docs/constraints.md")]
-    struct Constraints;
-    #[doc = include_str!("../../../docs/phase-space.md")]
+    #[doc = include_str!("../../../docs/tutorials/phase-space.md")]
     struct PhaseSpace;
-    #[doc = include_str!("../../../docs/integrators.md")]
-    struct Integrators;
-    #[doc = include_str!("../../../docs/scalars.md")]
-    struct Scalars;
-    #[cfg(feature = "continuum")]
-    #[doc = include_str!("../../../docs/continuum.md")]
+    #[doc = include_str!("../../../docs/tutorials/continuum.md")]
     struct Continuum;
-    #[cfg(feature = "constitutive")]
-    #[doc = include_str!("../../../docs/solids.md")]
+    #[doc = include_str!("../../../docs/tutorials/solids.md")]
     struct Solids;
-    #[cfg(feature = "viscometry")]
-    #[doc = include_str!("../../../docs/rheometry.md")]
-    struct Rheometry;
-    #[cfg(feature = "fit")]
-    #[doc = include_str!("../../../docs/fitting.md")]
+    #[doc = include_str!("../../../docs/tutorials/flows.md")]
+    struct Flows;
+    #[doc = include_str!("../../../docs/how-to/placements.md")]
+    struct Placements;
+    #[doc = include_str!("../../../docs/how-to/constraints.md")]
+    struct Constraints;
+    #[doc = include_str!("../../../docs/how-to/integrators.md")]
+    struct Integrators;
+    #[doc = include_str!("../../../docs/how-to/scalars.md")]
+    struct Scalars;
+    #[doc = include_str!("../../../docs/how-to/fitting.md")]
     struct Fitting;
 }

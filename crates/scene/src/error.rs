@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use piola_constitutive::ConstitutiveError;
+use piola_solids::SolidsError;
 use piola_viscometry::ViscometryError;
 
 use crate::document::Report;

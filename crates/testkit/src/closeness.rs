@@ -41,6 +41,40 @@ pub fn assert_close_at_scale(what: &str, actual: &[f64], expected: &[f64], scale
     check(what, actual, expected, largest(expected.iter().copied()).max(scale), tol);
 }
 
+/// Asserts |aᵢ − eᵢ| ≤ tol · |eᵢ| for each i: for components of different units or sizes. Where eᵢ is zero aᵢ must be, too.
+///
+/// # Panics
+/// When the lengths differ, a difference is larger or a number is NaN.
+///
+/// # Example
+/// ```
+/// use piola_testkit::{Tol, assert_each_close};
+/// // A position of 10⁷ m beside a mass of 1 kg: by the largest component the mass could be anything.
+/// assert_each_close("state", &[1e7, 1.0], &[1e7, 1.0 + f64::EPSILON], Tol::ulps(1.0));
+/// ```
+#[track_caller]
+pub fn assert_each_close(what: &str, actual: &[f64], expected: &[f64], tol: Tol) {
+    assert_each_close_at_scales(what, actual, expected, &vec![0.0; expected.len()], tol);
+}
+
+/// Asserts |aᵢ − eᵢ| ≤ tol · max(|eᵢ|, sᵢ) for each i: for components whose terms, of sizes sᵢ, cancel.
+///
+/// # Panics
+/// When the lengths differ, a difference is larger or a number is NaN.
+#[track_caller]
+pub fn assert_each_close_at_scales(what: &str, actual: &[f64], expected: &[f64], scales: &[f64], tol: Tol) {
+    assert_eq!((actual.len(), scales.len()), (expected.len(), expected.len()), "{what}: the lengths differ");
+    for (i, ((a, e), scale)) in actual.iter().zip(expected).zip(scales).enumerate() {
+        let scale = if e.is_finite() { e.abs().max(*scale) } else { 1.0 };
+        let difference = largest_difference(&[*a], &[*e]);
+        assert!(
+            difference <= tol.value() * scale,
+            "{what}: component {i} is off by {difference:.3e} of {scale:e}, more than {tol}\n  actual   {actual:?}\n  \
+             expected {expected:?}",
+        );
+    }
+}
+
 #[track_caller]
 fn check(what: &str, actual: &[f64], expected: &[f64], scale: f64, tol: Tol) {
     assert_eq!(actual.len(), expected.len(), "{what}: the lengths differ");

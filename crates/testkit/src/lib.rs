@@ -2,7 +2,7 @@
 //!
 //! | to | use |
 //! |---|---|
-//! | state how close two results must be, and why | [`Tol`], [`assert_close`], [`assert_close_at_scale`] |
+//! | state how close two results must be, and why | [`Tol`], [`assert_close`], [`assert_each_close`] |
 //! | read reference data with its provenance | [`golden`] |
 //! | show the order of a method | [`convergence_order`], [`assert_order`] |
 //! | scale a tolerance by how ill-conditioned the problem is | [`condition_number`], [`Tol::times`] |
@@ -25,7 +25,9 @@ pub mod strategies;
 mod tolerance;
 
 pub use allocations::{CountingAllocator, allocations_in};
-pub use closeness::{assert_close, assert_close_at_scale, relative_error, ulps_between};
+pub use closeness::{
+    assert_close, assert_close_at_scale, assert_each_close, assert_each_close_at_scales, relative_error, ulps_between,
+};
 pub use differences::{condition_number, condition_number_by_steps, difference_quotient};
 pub use double_double::DoubleDouble;
 pub use orders::{assert_order, convergence_order};

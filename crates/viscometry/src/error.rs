@@ -1,6 +1,6 @@
 //! What can be wrong with a flow or with what is asked of it: each variant names the violated condition.
 
-use piola_constitutive::ConstitutiveError;
+use piola_fluids::FluidsError;
 
 /// A violated condition of viscometry.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -57,18 +57,20 @@ pub enum ViscometryError {
         value: f64,
     },
     /// There is not one answer for each place.
-    #[error("{flow}: {places} places, but room for {answers} answers")]
-    Lengths {
+    #[error("{flow}: `{quantity}` has {found} entries where {expected} are needed")]
+    WrongLength {
         /// The flow.
         flow: &'static str,
-        /// How many places there are.
-        places: usize,
-        /// How many answers there is room for.
-        answers: usize,
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The number of entries it must have.
+        expected: usize,
+        /// The number of entries it has.
+        found: usize,
     },
     /// A number of a table is missing, infinite, zero or negative.
     #[error("row {row}, column {column}: {value} is not positive and finite")]
-    Row {
+    RowNotPositive {
         /// Its row, from 0.
         row: usize,
         /// Its column, from 0.
@@ -136,7 +138,7 @@ pub enum ViscometryError {
     },
     /// A probability is not between 0 and 1.
     #[error("the confidence {value} violates 0 < confidence < 1")]
-    Confidence {
+    ConfidenceOutOfRange {
         /// The probability.
         value: f64,
     },
@@ -188,33 +190,9 @@ pub enum ViscometryError {
         /// The highest that all reach.
         highest: f64,
     },
-    /// A fluid has no parameter of this name.
-    #[error("{fluid} has no parameter `{parameter}`")]
-    UnknownParameter {
-        /// The fluid.
-        fluid: &'static str,
-        /// The name.
-        parameter: String,
-    },
-    /// Bounds of a parameter are not finite, or leave nothing between them.
-    #[error("nothing lies between the bounds {lower:e} and {upper:e} of `{parameter}`, or they are not finite")]
-    ImpossibleBounds {
-        /// The parameter.
-        parameter: String,
-        /// Its least value.
-        lower: f64,
-        /// Its greatest value.
-        upper: f64,
-    },
-    /// A fluid has no finite answers at any start of a search.
-    #[error("{fluid}: no start has finite answers")]
-    NoStart {
-        /// The fluid.
-        fluid: &'static str,
-    },
     /// The fluid itself refuses: no shear rate at a stress, a parameter outside its bounds.
     #[error(transparent)]
-    Fluid(#[from] ConstitutiveError),
+    Fluids(#[from] FluidsError),
 }
 
 /// Refuses a number that is not finite.

@@ -4,8 +4,6 @@
 
 mod error;
 mod estimate;
-#[cfg(feature = "fit")]
-pub mod fit;
 mod flows;
 mod inverse;
 pub mod quadrature;

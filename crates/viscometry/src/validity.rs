@@ -90,7 +90,7 @@ impl fmt::Display for Warning {
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::fluids::Newtonian;
+/// use piola_fluids::Newtonian;
 /// use piola_viscometry::{Poiseuille, Warning};
 /// let water = Newtonian::new(0.001)?;
 /// let pipe = Poiseuille::with_discharge(0.01, 1e-4, &water)?;

@@ -34,7 +34,7 @@ pub(super) const COMMAND: Command = Command {
             .env("CRITERION_HOME", &criterion)
             // Where a bench states the error of its result and whether it is a peer's: see `benches/src/notes.rs`.
             .env("PIOLA_BENCH_NOTES", &notes);
-        let mut steps = vec![compile(shell, MEASURED, &targets), Step::program("bench: run", run, "a bench failed")];
+        let mut steps = vec![compile(shell, &targets), Step::program("bench: run", run, "a bench failed")];
         if peers {
             for manifest in PEERS {
                 let run = peer(shell, manifest, filter.as_deref())
@@ -53,14 +53,6 @@ pub(super) const COMMAND: Command = Command {
         }
         Ok(steps)
     },
-};
-
-/// The part of `ci`: benches are compiled, not run.
-pub(super) const COMPILE: Command = Command {
-    name: "bench",
-    usage: COMMAND.usage,
-    help: COMMAND.help,
-    prepare: |shell, _, _| Ok(vec![compile(shell, "dev", &targets(None))]),
 };
 
 /// Each is a file of that name in `benches/benches`, and its group has the same name.
@@ -86,19 +78,16 @@ fn targets(filter: Option<&str>) -> Vec<&'static str> {
     }
 }
 
-/// What is measured: the settings of a user of a published crate. That benches compile is seen in those of the tests, too.
-const MEASURED: &str = "plain-release";
-
-fn compile<'a>(shell: &'a Shell, profile: &str, targets: &[&str]) -> Step<'a> {
+fn compile<'a>(shell: &'a Shell, targets: &[&str]) -> Step<'a> {
     Step::program(
         "bench: compile",
-        cmd!(shell, "cargo bench --profile {profile} --package piola-benches --no-run").args(targets),
+        cmd!(shell, "cargo bench --package piola-benches --no-run").args(targets),
         "the benches do not compile",
     )
 }
 
 fn run<'a>(shell: &'a Shell, targets: &[&str], filter: Option<&str>) -> Cmd<'a> {
-    let command = pinned(shell).args(["bench", "--profile", MEASURED, "--package", "piola-benches"]).args(targets);
+    let command = pinned(shell).args(["bench", "--package", "piola-benches"]).args(targets);
     match filter {
         Some(name) => command.args(["--", name]),
         None => command,
@@ -111,7 +100,7 @@ const PEERS: [&str; 1] = ["benches/peers/conspire/Cargo.toml"];
 /// A peer's bench, in which ours and the peer's rows follow one another.
 fn peer<'a>(shell: &'a Shell, manifest: &str, filter: Option<&str>) -> Cmd<'a> {
     let command = pinned(shell)
-        .args(["bench", "--profile", MEASURED, "--manifest-path", manifest, "--benches"])
+        .args(["bench", "--manifest-path", manifest, "--benches"])
         // conspire uses a feature of the compiler that is not stable, and declares it only to a nightly one.
         .env("RUSTC_BOOTSTRAP", "1")
         .env("RUSTFLAGS", "-Zcrate-attr=feature(float_algebraic)");

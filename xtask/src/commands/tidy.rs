@@ -1,6 +1,8 @@
 //! `cargo xtask tidy`: the conventions that no compiler checks.
 
-mod crates;
+pub(super) mod crates;
+mod imports;
+mod names;
 mod sources;
 mod testdata;
 
@@ -13,8 +15,12 @@ pub(super) const COMMAND: Command = Command {
     help: "check the conventions that no compiler checks
 sources   a `//!` on top of every file; no test that is skipped or expects a panic; nothing left open; no panic in
           library code; no white space at the end of a line; no path of a developer's machine
+names     one name for one thing: the conditions of errors, arguments, words that have a standard term, public types
+          that share a name
+imports   folders inside a crate have floors, and no two files import each other
 crates    the arrows between the crates are those of ARCHITECTURE.md; internal dependencies name the workspace's entry,
-          internal development dependencies only a path; README, LICENSE and metadata in each crate that is published
+          internal development dependencies only a path; README, LICENSE and metadata in each crate that is published;
+          no crate is larger than its limit; the facade's table names its features
 testdata  every reference value says where it came from",
     prepare: |_, workspace, _| {
         Ok(vec![
@@ -22,6 +28,16 @@ testdata  every reference value says where it came from",
                 "tidy: sources",
                 || report(sources::check(workspace), "sources are tidy"),
                 "conventions of the sources: `cargo xtask tidy --help` lists them",
+            ),
+            Step::check(
+                "tidy: names",
+                || report(names::check(workspace), "names are tidy"),
+                "one name for one thing: docs/reference/naming.md",
+            ),
+            Step::check(
+                "tidy: imports",
+                || report(imports::check(workspace), "imports go down"),
+                "what two files or two folders share moves to a third, lower one",
             ),
             Step::check(
                 "tidy: crates",

@@ -8,18 +8,15 @@ use crate::step::Step;
 pub(super) const COMMAND: Command = Command {
     name: "work-precision",
     usage: "[--out FOLDER] [--filter PROBLEM]",
-    help: "measure error against time, our methods and the peers', as JSON and SVG (default: docs/figures)
+    help: "measure error against time, our methods and the peers', as JSON and SVG (default: docs/measurements/figures)
 The figures are taken in cargo's own release profile. Close other programs: all methods of a problem are run in turn,
 several times, and the median counts, but a busy machine still widens the spread.",
     prepare: |shell, _, options| {
-        let out = options.value("--out")?.unwrap_or_else(|| "docs/figures".into());
+        let out = options.value("--out")?.unwrap_or_else(|| "docs/measurements/figures".into());
         let filter = options.value("--filter")?.into_iter().flat_map(|problem| ["--filter".to_owned(), problem]);
         Ok(vec![Step::program(
             "work-precision",
-            cmd!(
-                shell,
-                "cargo run --profile plain-release --package piola-benches --bin work-precision -- --out {out} {filter...}"
-            ),
+            cmd!(shell, "cargo run --release --package piola-benches --bin work-precision -- --out {out} {filter...}"),
             "the runner names the problem and the method that failed",
         )])
     },

@@ -23,13 +23,11 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput};
 use piola_benches::constitutive::laws;
 use piola_benches::notes::Notes;
-use piola_constitutive::batch;
-use piola_constitutive::solids::isochoric::{Isochoric, RivlinTerm};
-use piola_constitutive::solids::{
-    BlatzKo, Compressible, Hencky, Hyperelastic, IsochoricOgden, OgdenTerm, SaintVenantKirchhoff, isochoric, volumetric,
-};
+use piola_solids::batch;
+use piola_solids::isochoric::{Isochoric, RivlinTerm};
+use piola_solids::{BlatzKo, Compressible, Hencky, Hyperelastic, IsochoricOgden, OgdenTerm, SaintVenantKirchhoff, isochoric, volumetric};
 use piola_continuum::DeformationGradient;
-use piola_continuum::batch::{Gradients, LaneBlocks};
+use piola_batch::{Gradients, LaneBlocks};
 use piola_peer_conspire::Exponential;
 
 const CONSPIRE: &str = "conspire 0.8";

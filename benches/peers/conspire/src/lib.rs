@@ -1,6 +1,6 @@
 //! The laws of conspire beside ours: see the bench. Here are energies of a change of shape that it has and we have no type of.
 
-use piola_constitutive::solids::isochoric::Isochoric;
+use piola_solids::isochoric::Isochoric;
 use piola_numerics::Real;
 
 /// W̄ = ½ (μ − μₘ) x + ½ (μₘ/c) (exp(c x) − 1) with x = Ī₁ − 3: conspire's Fung.

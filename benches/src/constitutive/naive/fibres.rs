@@ -1,7 +1,7 @@
 //! Laws with families of fibres along unit vectors a of the reference.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_constitutive::solids::{Fibre, HolzapfelGasserOgden, ReinforcedNeoHookean};
+use piola_solids::{Fibre, HolzapfelGasserOgden, ReinforcedNeoHookean};
 
 use super::{Naive, Tangent, Textbook, by_entries, inverse_transposed};
 

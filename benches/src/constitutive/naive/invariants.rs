@@ -8,8 +8,8 @@
 //! ```
 
 use nalgebra::Matrix3;
-use piola_constitutive::solids::volumetric::{Logarithmic, SimoTaylor};
-use piola_constitutive::solids::{
+use piola_solids::volumetric::{Logarithmic, SimoTaylor};
+use piola_solids::{
     BlatzKo, IncompressibleSolid, MooneyRivlin, NeoHookean, Polynomial, PolynomialTerm, Pressure, isochoric,
 };
 

@@ -4,9 +4,9 @@
 //! W = W̄(Ī₁, Ī₂) + ½ κ (J − 1)²        Ī₁ = J^(−2/3) I₁        Ī₂ = J^(−4/3) I₂
 //! ```
 
-use piola_constitutive::solids::Compressible;
-use piola_constitutive::solids::isochoric::{ArrudaBoyce, Gent, MooneyRivlin, NeoHookean, Rivlin, Yeoh};
-use piola_constitutive::solids::volumetric::Quadratic;
+use piola_solids::Compressible;
+use piola_solids::isochoric::{ArrudaBoyce, Gent, MooneyRivlin, NeoHookean, Rivlin, Yeoh};
+use piola_solids::volumetric::Quadratic;
 
 use super::Textbook;
 use super::invariants::{Energy, OfInvariants, power};

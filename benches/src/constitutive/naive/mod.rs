@@ -20,8 +20,8 @@ pub mod stretches;
 use std::error::Error;
 
 use nalgebra::{Matrix3, SMatrix};
-use piola_constitutive::solids::Hyperelastic;
 use piola_continuum::DeformationGradient;
+use piola_solids::Hyperelastic;
 use piola_testkit::relative_error;
 
 /// ∂P/∂F, Pa: row 3 i + p and column 3 k + q for `∂P_ip/∂F_kq`.

@@ -6,10 +6,10 @@
 //! A stiffness of any symmetry is a 6×6 matrix over 11, 22, 33, 12, 23, 13, and strain has engineering shears.
 
 use nalgebra::{Matrix3, Matrix6, Vector6};
-use piola_constitutive::solids::{
+use piola_solids::{
     AnisotropicLinear, AnisotropicSaintVenantKirchhoff, Fung, LinearElastic, SaintVenantKirchhoff, Stiffness,
 };
-use piola_continuum::tensor::PairSymmetric;
+use piola_tensor::PairSymmetric;
 
 use super::{Naive, Tangent, Textbook, by_entries};
 

@@ -11,9 +11,7 @@
 //! Source: R. W. Ogden, Non-Linear Elastic Deformations, 1984, section 6.1.
 
 use nalgebra::{Matrix3, SVector, Vector3};
-use piola_constitutive::solids::{
-    Hencky, IncompressibleOgden, IsochoricOgden, Ogden, OgdenTerm, Pressure, Pressurised,
-};
+use piola_solids::{Hencky, IncompressibleOgden, IsochoricOgden, Ogden, OgdenTerm, Pressure, Pressurised};
 
 use super::{Naive, Tangent, Textbook};
 

@@ -23,6 +23,10 @@ macro_rules! rows_of_gradients {
 rows_of_gradients!(DeformationGradient, DisplacementGradient);
 
 #[cfg(feature = "glam")]
-crate::tensor::measures::glam_matrices!(DeformationGradient, |gradient| rows_of(gradient.matrix()));
+piola_tensor::internal::glam_matrices!(DeformationGradient, crate::ContinuumError, |gradient| rows_of(
+    gradient.matrix()
+));
 #[cfg(feature = "glam")]
-crate::tensor::measures::glam_matrices!(DisplacementGradient, |gradient| rows_of(gradient.matrix()));
+piola_tensor::internal::glam_matrices!(DisplacementGradient, crate::ContinuumError, |gradient| rows_of(
+    gradient.matrix()
+));

@@ -8,12 +8,11 @@
 //! of the terms tells where rounding could exceed what the entries of F determine; only there are the sums formed
 //! again in twice the precision.
 
+use piola_numerics::internal::Lanewise;
 use piola_numerics::linear::matrix3::{cross, dot};
 use piola_numerics::sums::{two_product, two_sum};
-use piola_numerics::internal::Lanewise;
 use piola_numerics::{Mask, Real};
-
-use crate::tensor::rows::{Rows, difference, identity};
+use piola_tensor::internal::rows::{Rows, difference, identity};
 
 /// How much larger than the result the terms may be before the sum is formed in twice the precision.
 const CANCELLATION: f64 = 16.0;

@@ -1,15 +1,15 @@
 //! Kernels of rates on arrays of rows.
 
 use piola_numerics::Real;
+use piola_tensor::internal::rows::{Rows, product};
 
 use crate::Symmetric;
-use crate::tensor::rows::{Rows, product};
 
 /// A S + S Aᵀ for a symmetric S: the rate of S carried by a flow or a spin A.
 ///
 /// # Example
 /// ```
-/// use piola_continuum::{Symmetric, rates::kernels::transported};
+/// use piola_continuum::{Symmetric, internal::rates::transported};
 /// let shear = [[0.0, 2.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
 /// let carried = transported(shear, &Symmetric::diagonal([0.0, 3.0, 0.0]));
 /// assert_eq!(carried.components, [0.0, 0.0, 0.0, 6.0, 0.0, 0.0]);

@@ -1,8 +1,7 @@
 //! By how much the logarithmic spin exceeds the polar one, as a function of the ratio of two stretches.
 
 use piola_numerics::{Mask, Real};
-
-use crate::spectral::IsotropicFunction;
+use piola_tensor::spectral::IsotropicFunction;
 
 /// g(y) = (1/x − 1/sinh x)/x = (sinh x − x)/(x² sinh x), y = x²: 1/6 − 7y/360 + …
 pub(super) struct LogarithmicExcess;

@@ -1,12 +1,12 @@
-//! Rates: velocity gradient, stretching and spin; rates of strain and of the polar factors; objective rates of stress;
-//! relative deformation; exponential motions.
+//! Rates: velocity gradient, rate of deformation and spin; rates of strain and of the polar factors; relative
+//! deformation; exponential motions.
 //!
 //! | to get | use |
 //! |---|---|
-//! | L, D, W, J̇, grad a | [`VelocityGradient`], [`Stretching`], [`Spin`], [`AccelerationGradient`] |
+//! | L, D, W, J̇, grad a | [`VelocityGradient`], [`RateOfDeformation`], [`Spin`], [`AccelerationGradient`] |
 //! | Ċ, Ė, Ḃ, ė | [`strain`] |
 //! | U̇, V̇, Ṙ, (ln U)˙, (ln V)˙, spins of R, of ln V, of the principal axes | [`StretchRates`] |
-//! | rates of stress that any observer agrees on | [`objective`] |
+//! | rates of stress that any observer agrees on | [`stress::rates`](crate::stress::rates) |
 //! | Fₜ(τ), Cₜ; tensors of Rivlin–Ericksen and White–Metzner | [`RelativeDeformation`], [`RivlinEricksen`], [`WhiteMetzner`] |
 //! | exp(Kt), its derivative, ln F of a general F | [`exponential`], [`exponential_derivative`], [`logarithm`] |
 //! | motions F(t) of your own with all rates, linear and exponential ones | [`HomogeneousMotion`], [`LinearMotion`], [`ExponentialMotion`] |
@@ -15,11 +15,9 @@
 //! configuration or of space as their names say; skew tensors are stored as axial vectors, Ω v = ω × v.
 
 mod exponential;
-pub mod kernels;
+pub(crate) mod kernels;
 mod logarithmic_excess;
-mod material_rate;
 mod motion;
-pub mod objective;
 mod principal_frame;
 mod relative;
 mod spins;
@@ -31,15 +29,10 @@ pub use exponential::{
     exponential, exponential_derivative, exponential_minus_identity, exponential_minus_identity_rows, exponential_rows,
     logarithm, rotation_minus_identity,
 };
-pub use material_rate::MaterialRate;
 pub use motion::{ExponentialMotion, HomogeneousMotion, LinearMotion, MotionRates};
-pub use objective::{
-    Carrier, GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, SpatialStress, TruesdellRate,
-    UpperConvectedRate,
-};
 pub use relative::{RelativeDeformation, RivlinEricksen, WhiteMetzner, gradients_of_rates, steady_gradients};
 pub use spins::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, SpatialTwirl};
 pub use stretch::StretchRates;
 pub use velocity_gradient::{
-    AccelerationGradient, GradientRate, GradientSecondRate, Spin, Stretching, VelocityGradient,
+    AccelerationGradient, GradientRate, GradientSecondRate, RateOfDeformation, Spin, VelocityGradient,
 };

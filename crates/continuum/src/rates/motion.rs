@@ -9,11 +9,11 @@
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
 use piola_numerics::{Jet, Real};
+use piola_tensor::internal::rows::{Rows, difference, product, scaled, sum};
 
 use super::exponential::{exponential_minus_identity_rows, exponential_rows};
 use super::{AccelerationGradient, GradientRate, GradientSecondRate, RelativeDeformation, VelocityGradient};
 use crate::error::check_finite;
-use crate::tensor::rows::{Rows, difference, product, scaled, sum};
 use crate::{ContinuumError, DeformationGradient};
 
 /// A homogeneous motion x = F(t) X + c(t), by its deformation gradient as a function of time, W(14.10).
@@ -53,16 +53,6 @@ pub trait HomogeneousMotion {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`ContinuumError::NonPositiveJacobian`]: at this time F is no deformation.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::{Deformation, rates::{HomogeneousMotion, LinearMotion}};
-    /// let motion = LinearMotion::new(Matrix3::identity(), Matrix3::from_diagonal_element(0.5))?;
-    /// assert_eq!(motion.deformation(2.0)?.jacobian(), 8.0);
-    /// assert!(motion.deformation(-2.0).is_err()); // all at one point
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     fn deformation<T: Real>(&self, time: T) -> Result<DeformationGradient<T>, ContinuumError> {
         DeformationGradient::new(self.gradient(time))
     }
@@ -71,15 +61,6 @@ pub trait HomogeneousMotion {
     ///
     /// # Errors
     /// As [`deformation`](Self::deformation).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::rates::{HomogeneousMotion, LinearMotion};
-    /// let motion = LinearMotion::new(Matrix3::identity(), Matrix3::from_diagonal_element(0.5))?;
-    /// assert_eq!(motion.rates(2.0)?.rate.0[(0, 0)], 0.5);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     fn rates<T: Real>(&self, time: T) -> Result<MotionRates<T>, ContinuumError> {
         let jet = self.gradient(Jet::<T, 0>::time(time));
         Ok(MotionRates {
@@ -93,15 +74,6 @@ pub trait HomogeneousMotion {
     ///
     /// # Errors
     /// As [`deformation`](Self::deformation).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::rates::{HomogeneousMotion, LinearMotion};
-    /// let motion = LinearMotion::new(Matrix3::identity(), Matrix3::from_diagonal_element(0.5))?;
-    /// assert_eq!(motion.velocity_gradient(2.0)?.0[(0, 0)], 0.25); // 0.5/(1 + 0.5·2)
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     fn velocity_gradient<T: Real>(&self, time: T) -> Result<VelocityGradient<T>, ContinuumError> {
         let MotionRates { deformation, rate, .. } = self.rates(time)?;
         Ok(VelocityGradient::of(&deformation, &rate))
@@ -111,15 +83,6 @@ pub trait HomogeneousMotion {
     ///
     /// # Errors
     /// As [`deformation`](Self::deformation).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::rates::{ExponentialMotion, HomogeneousMotion};
-    /// let growth = ExponentialMotion::new(Matrix3::from_diagonal_element(3.0), Matrix3::identity())?;
-    /// assert_eq!(growth.acceleration_gradient(1.0)?.0[(0, 0)], 9.0); // K²
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     fn acceleration_gradient<T: Real>(&self, time: T) -> Result<AccelerationGradient<T>, ContinuumError> {
         let MotionRates { deformation, second_rate, .. } = self.rates(time)?;
         Ok(AccelerationGradient::of(&deformation, &second_rate))
@@ -129,15 +92,6 @@ pub trait HomogeneousMotion {
     ///
     /// # Errors
     /// As [`deformation`](Self::deformation), of Fₜ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::rates::{HomogeneousMotion, LinearMotion};
-    /// let motion = LinearMotion::new(Matrix3::identity(), Matrix3::from_diagonal_element(0.5))?;
-    /// assert_eq!(motion.relative(2.0, -2.0)?.gradient()[(0, 0)], 0.5); // half as long before
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     fn relative<T: Real>(&self, time: T, lapse: T) -> Result<RelativeDeformation<T>, ContinuumError> {
         RelativeDeformation::of_displacement(rows_of(&self.relative_displacement(time, lapse)))
     }
@@ -194,14 +148,6 @@ impl LinearMotion {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveJacobian`] of F₀.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::rates::LinearMotion;
-    /// assert!(LinearMotion::new(Matrix3::identity(), Matrix3::from_diagonal_element(0.5)).is_ok());
-    /// assert!(LinearMotion::new(-Matrix3::identity(), Matrix3::zeros()).is_err()); // inside out at the start
-    /// ```
     pub fn new(initial: Matrix3<f64>, rate: Matrix3<f64>) -> Result<Self, ContinuumError> {
         DeformationGradient::new(initial)?;
         let rate = rows_of(&rate);
@@ -250,14 +196,6 @@ impl ExponentialMotion {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`]; [`ContinuumError::NonPositiveJacobian`] of F₀.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::rates::ExponentialMotion;
-    /// assert!(ExponentialMotion::new(Matrix3::from_diagonal_element(0.5), Matrix3::identity()).is_ok());
-    /// assert!(ExponentialMotion::new(Matrix3::zeros(), -Matrix3::identity()).is_err()); // inside out at the start
-    /// ```
     pub fn new(generator: Matrix3<f64>, initial: Matrix3<f64>) -> Result<Self, ContinuumError> {
         DeformationGradient::new(initial)?;
         let generator = rows_of(&generator);

@@ -1,10 +1,10 @@
 //! Algebra in the principal frame of U, where it is diagonal but for rounding and derivatives.
 
 use piola_numerics::{Dual, Mask, Real};
+use piola_tensor::internal::rows::{Rows, product, transpose};
+use piola_tensor::spectral::IsotropicFunction;
 
 use crate::Symmetric;
-use crate::spectral::IsotropicFunction;
-use crate::tensor::rows::{Rows, product, transpose};
 
 /// f[a, b, c] from the first differences, to half the digits: enough for the factor of a rounding.
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 #[cfg(doc)]
 use super::StretchRates;
-use crate::tensor::measures::skew_measure;
+use crate::measures::skew_measure;
 
 skew_measure! {
     /// The polar spin Ω = Ṙ Rᵀ, by its axial vector, 1/s: how fast the rotation R of F = R U turns, seen in space.

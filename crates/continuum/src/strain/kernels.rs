@@ -5,19 +5,17 @@
 //! e = ½ (1 − B⁻¹) = ½ (G + Gᵀ − Gᵀ G)        G = F⁻¹ H
 //! ```
 
-use piola_numerics::linear::matrix3::determinant;
-use piola_numerics::internal::Lanewise;
 use piola_numerics::Real;
+use piola_tensor::internal::product_symmetrized;
+use piola_tensor::internal::rows::{Rows, product, scaled, transpose};
 
 use crate::Symmetric;
-use crate::stress::kernels::product_symmetrized;
-use crate::tensor::rows::{Rows, product, scaled, transpose};
 
 /// C = Fᵀ F.
 ///
 /// # Example
 /// ```
-/// use piola_continuum::strain::kernels::right_cauchy_green;
+/// use piola_continuum::internal::strain::right_cauchy_green;
 /// let shear = [[1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// assert_eq!(right_cauchy_green(shear).components, [5.0, 1.0, 1.0, 2.0, 0.0, 0.0]);
 /// ```
@@ -28,13 +26,6 @@ pub fn right_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
 }
 
 /// B = F Fᵀ.
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::left_cauchy_green;
-/// let shear = [[1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// assert_eq!(left_cauchy_green(shear).components, [1.0, 5.0, 1.0, 2.0, 0.0, 0.0]);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn left_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
@@ -42,13 +33,6 @@ pub fn left_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
 }
 
 /// C − 1 = H + Hᵀ + Hᵀ H, of a displacement gradient, without cancellation.
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::right_cauchy_green_minus_one;
-/// let shear = [[0.0, 0.0, 0.0], [1e-20, 0.0, 0.0], [0.0, 0.0, 0.0]];
-/// assert_eq!(right_cauchy_green_minus_one(shear).components, [1e-40, 0.0, 0.0, 1e-20, 0.0, 0.0]);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn right_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
@@ -64,58 +48,7 @@ pub fn right_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
     )
 }
 
-/// Where |∇u|² ≤ ¾ and 0 < det F, of F and ∇u: stretches differ from 1 by less than 0.87. NaN is not moderate.
-///
-/// In lanes it is a loop over lanes: see [`Real::lanewise`].
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::is_moderate;
-/// assert!(is_moderate::<f64>([[1.5, 0.0, 0.0], [0.0, 1.5, 0.0], [0.0, 0.5, 1.0]], [[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.5, 0.0]]));
-/// assert!(!is_moderate::<f64>([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]));
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn is_moderate<T: Real>(f: Rows<T>, h: Rows<T>) -> T::Mask {
-    let ([[a, b, c], [d, e, g], [i, j, k]], [[l, m, n], [o, p, q], [r, s, t]]) = (f, h);
-    let [square, jacobian] = T::lanewise(&SizeAndVolume, [a, b, c, d, e, g, i, j, k, l, m, n, o, p, q, r, s, t]);
-    square.at_most(T::lit(MODERATE)) & T::zero().less_than(jacobian)
-}
-
-/// The largest |∇u|² of what [`is_moderate`]. Up to it det F is positive.
-pub const MODERATE: f64 = 0.75;
-
-/// |∇u|².
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::square;
-/// assert_eq!(square([[1.0, 2.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 3.0]]), 14.0);
-/// ```
-#[inline(always)]
-#[must_use]
-pub fn square<T: Real>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> T {
-    ((a * a + b * b + c * c) + (d * d + e * e + f * f)) + (g * g + h * h + i * i)
-}
-
-/// |∇u|² and det F, which follows from it: but loops that are shorter the compiler would unroll, and mix the lanes.
-struct SizeAndVolume;
-
-impl Lanewise<18, 2> for SizeAndVolume {
-    #[inline(always)]
-    fn run<T: Real>(&self, [a, b, c, d, e, f, g, h, i, l, m, n, o, p, q, r, s, t]: [T; 18]) -> [T; 2] {
-        [square([[l, m, n], [o, p, q], [r, s, t]]), determinant([[a, b, c], [d, e, f], [g, h, i]])]
-    }
-}
-
 /// B − 1 = H + Hᵀ + H Hᵀ, of a displacement gradient, without cancellation.
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::left_cauchy_green_minus_one;
-/// let shear = [[0.0, 0.0, 0.0], [1e-20, 0.0, 0.0], [0.0, 0.0, 0.0]];
-/// assert_eq!(left_cauchy_green_minus_one(shear).components, [0.0, 1e-40, 0.0, 1e-20, 0.0, 0.0]);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn left_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
@@ -123,13 +56,6 @@ pub fn left_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
 }
 
 /// E = ½ (C − 1) of a displacement gradient.
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::green;
-/// let stretch = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
-/// assert_eq!(green(stretch).components[0], 1.5); // ½ (2² − 1)
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn green<T: Real>(h: Rows<T>) -> Symmetric<T> {
@@ -137,13 +63,6 @@ pub fn green<T: Real>(h: Rows<T>) -> Symmetric<T> {
 }
 
 /// e = ½ (G + Gᵀ − Gᵀ G) of G = 1 − F⁻¹.
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::almansi;
-/// let stretch = [[0.5, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
-/// assert_eq!(almansi(stretch).components[0], 0.375); // ½ (1 − 1/2²)
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn almansi<T: Real>(g: Rows<T>) -> Symmetric<T> {
@@ -151,14 +70,6 @@ pub fn almansi<T: Real>(g: Rows<T>) -> Symmetric<T> {
 }
 
 /// sym(Fᵀ δF), the change of E.
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::green_derivative;
-/// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// let direction = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
-/// assert_eq!(green_derivative(f, direction).components[0], 2.0); // d ½ λ² = λ dλ
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
@@ -166,14 +77,6 @@ pub fn green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> Symmetric<T>
 }
 
 /// 2 sym(δF Fᵀ), the change of B.
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::left_cauchy_green_derivative;
-/// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// let direction = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
-/// assert_eq!(left_cauchy_green_derivative(f, direction).components[0], 4.0); // d λ² = 2 λ dλ
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn left_cauchy_green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
@@ -181,14 +84,6 @@ pub fn left_cauchy_green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> 
 }
 
 /// sym(F⁻ᵀ F⁻¹ l) with l = δF F⁻¹, the change of e = ½ (1 − B⁻¹).
-///
-/// # Example
-/// ```
-/// use piola_continuum::strain::kernels::almansi_derivative;
-/// let inverse = [[0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-/// let direction = [[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
-/// assert_eq!(almansi_derivative(inverse, direction).components[0], 0.125); // d ½(1 − λ⁻²) = λ⁻³ dλ
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn almansi_derivative<T: Real>(inverse: Rows<T>, direction: Rows<T>) -> Symmetric<T> {

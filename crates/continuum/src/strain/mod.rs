@@ -13,7 +13,7 @@
 //!
 //! Each is a type of its own, made by `of` from any [`Deformation`](crate::Deformation), and nothing is computed
 //! before it is asked for. C, B, E, e and ε are polynomials of F, ∇u or F⁻¹; the others and the [`Rotation`] R need the
-//! principal stretches: to ask for several, make one [`StretchAnalysis`](crate::spectral::StretchAnalysis), which also has
+//! principal stretches: to ask for several, make one [`StretchAnalysis`](crate::polar::StretchAnalysis), which also has
 //! the principal stretches and axes, and use `from_analysis`. From a
 //! [`DisplacementGradient`](crate::DisplacementGradient) all strains keep their digits however small they are.
 //!
@@ -29,11 +29,10 @@
 //! All are finite and accurate where stretches coalesce. The table of invariants is in [`invariants`].
 
 mod cauchy_green;
-pub(crate) mod check;
 mod green;
 mod hencky;
 pub mod invariants;
-pub mod kernels;
+pub(crate) mod kernels;
 mod linear;
 mod lines;
 mod scale;

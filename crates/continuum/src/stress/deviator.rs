@@ -11,9 +11,9 @@
 
 use piola_numerics::Real;
 use piola_numerics::sums::unit_in_last_place;
+use piola_tensor::internal::scale::{largest, power_of_two_scale, square_root};
 
 use crate::Symmetric;
-use crate::tensor::scale::{largest, power_of_two_scale, square_root};
 
 /// Coordinates of a quarter of a deviator, in units of `unscale`: of a quarter, so that no difference overflows.
 #[derive(Clone, Copy, Debug)]

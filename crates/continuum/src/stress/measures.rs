@@ -1,6 +1,6 @@
 //! The types of the measures of stress.
 
-use crate::tensor::measures::{general_measure, linear_measure, symmetric_measure};
+use crate::measures::{general_measure, linear_measure, symmetric_measure};
 
 symmetric_measure! {
     /// Cauchy's stress T, Pa: force per area of the deformed body.

@@ -25,7 +25,7 @@
 //! A general P, M or Q becomes a symmetric measure by its symmetric part. What is left out is zero for a stress that
 //! obeys the balance of angular momentum W(17.34–17.35): [`FirstPiola::moment_residual`] tells how large it is, and
 //! [`FirstPiola::check_moment`] refuses it. Biot's stress needs R, which is computed from F; with a
-//! [`StretchAnalysis`](crate::spectral::StretchAnalysis) or R at hand the methods `…_of_analysis` and
+//! [`StretchAnalysis`](crate::polar::StretchAnalysis) or R at hand the methods `…_of_analysis` and
 //! `…_of_rotation` do not compute it again.
 //!
 //! Results are within a few ulp × their condition number: |F| |F⁻¹| where F or F⁻¹ stands on one side of the stress, its
@@ -84,12 +84,13 @@ mod conversions;
 mod deviator;
 pub mod gradients;
 pub mod invariants;
-pub mod kernels;
+pub(crate) mod kernels;
 mod measures;
 mod methods;
 mod normal;
 mod power;
 mod principal;
+pub mod rates;
 mod symmetry;
 pub mod tangents;
 mod traction;

@@ -3,10 +3,10 @@
 use nalgebra::Vector3;
 use piola_numerics::linear::matrix3::dot;
 use piola_numerics::{Mask, Real};
+use piola_tensor::internal::scale::{largest, power_of_two_scale, square_root};
 
 use crate::ContinuumError;
 use crate::error::check_finite;
-use crate::tensor::scale::{largest, power_of_two_scale, square_root};
 
 /// The vector scaled to length one, or why it has no direction.
 fn direction<T: Real>(vector: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
@@ -54,15 +54,6 @@ macro_rules! unit_normal {
             ///
             /// # Accuracy
             /// 2 ulp, for vectors of any size.
-            ///
-            /// # Example
-            /// ```
-            /// use nalgebra::Vector3;
-            #[doc = concat!("use piola_continuum::", stringify!($name), ";")]
-            #[doc = concat!("assert_eq!(", stringify!($name), "::new(Vector3::new(0.0, -2.0, 0.0))?.vector(), -Vector3::y());")]
-            #[doc = concat!("assert!(", stringify!($name), "::new(Vector3::new(0.0, 0.0, 0.0)).is_err());")]
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             pub fn new(vector: Vector3<T>) -> Result<Self, ContinuumError> {
                 direction(&vector).map(|components| Self { components })
             }
@@ -145,6 +136,6 @@ unit_normal! {
 }
 
 #[cfg(feature = "glam")]
-crate::tensor::measures::glam_vectors!(UnitNormal, |normal| normal.components);
+piola_tensor::internal::glam_vectors!(UnitNormal, ContinuumError, |normal| normal.components);
 #[cfg(feature = "glam")]
-crate::tensor::measures::glam_vectors!(ReferenceNormal, |normal| normal.components);
+piola_tensor::internal::glam_vectors!(ReferenceNormal, ContinuumError, |normal| normal.components);

@@ -56,7 +56,7 @@ fn bodies_that_collide_during_a_run_are_named() {
     let mut bodies = Gravitation::new(vec![0.0, 1e-30, 1e-30]).unwrap();
     let mut state = start(&bodies);
     let outcome = Composition::new(Order::Two, 2.0).unwrap().integrate_to(&mut bodies, &mut state, 4.0);
-    let Err(IntegratorsError::Field { time, source }) = outcome else { panic!("{outcome:?}") };
+    let Err(IntegratorsError::Field { t: time, source }) = outcome else { panic!("{outcome:?}") };
     assert_eq!(source, GravitationError::CoincidentBodies { first: 1, second: 2 });
     assert!((time - 1.0).abs() < f64::EPSILON);
     assert!(state.time <= 0.0, "the last good state is kept");

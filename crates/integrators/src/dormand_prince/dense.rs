@@ -61,9 +61,9 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
     }
     /// Whether a time lies within the step.
     #[must_use]
-    pub fn contains(&self, time: f64) -> bool {
+    pub fn contains(&self, t: f64) -> bool {
         let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
-        low <= time && time <= high
+        low <= t && t <= high
     }
     pub(super) const fn evaluations(&self) -> u64 {
         self.evaluations
@@ -77,27 +77,31 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
     ///
     /// # Errors
     /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::Field`] when
-    /// one of the three additional evaluations fails. [`IntegratorsError::DimensionMismatch`].
-    pub fn at(&mut self, time: f64, out: &mut [T]) -> Result<(), IntegratorsError<F::Error>> {
+    /// one of the three additional evaluations fails. [`IntegratorsError::WrongLength`].
+    pub fn at(&mut self, t: f64, out: &mut [T]) -> Result<(), IntegratorsError<F::Error>> {
         if out.len() != self.method.start.len() {
-            return Err(IntegratorsError::DimensionMismatch { expected: self.method.start.len(), found: out.len() });
+            return Err(IntegratorsError::WrongLength {
+                quantity: "out",
+                expected: self.method.start.len(),
+                found: out.len(),
+            });
         }
-        if !self.contains(time) {
-            return Err(IntegratorsError::OutsideStep { time, start: self.start, end: self.end });
+        if !self.contains(t) {
+            return Err(IntegratorsError::OutsideStep { t, start: self.start, end: self.end });
         }
         // At its ends the step is known, to the last bit and without evaluations.
-        if time.to_bits() == self.end.to_bits() {
+        if t.to_bits() == self.end.to_bits() {
             out.copy_from_slice(&self.method.trial);
             return Ok(());
         }
-        if time.to_bits() == self.start.to_bits() {
+        if t.to_bits() == self.start.to_bits() {
             out.copy_from_slice(&self.method.start);
             return Ok(());
         }
         if self.evaluations == 0 {
             self.prepare()?;
         }
-        let theta = T::lit(((time - self.start) / self.step).clamp(0.0, 1.0));
+        let theta = T::lit(((t - self.start) / self.step).clamp(0.0, 1.0));
         let rest = T::one() - theta;
         let n = out.len();
         let [f0, f1, f2, f3, f4, f5, f6] = self.method.interpolant.each_ref().map(|f| &f[..n]);

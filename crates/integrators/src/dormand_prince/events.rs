@@ -57,9 +57,9 @@ impl<'e> Event<'e> {
         Self { function: Box::new(function), crossing, action, last: None, pending: None }
     }
 
-    fn value<E>(&mut self, index: usize, time: f64, values: &[f64]) -> Result<f64, IntegratorsError<E>> {
-        let g = (self.function)(time, values);
-        if g.is_nan() { Err(IntegratorsError::InvalidEvent { event: index, time }) } else { Ok(g) }
+    fn value<E>(&mut self, index: usize, t: f64, values: &[f64]) -> Result<f64, IntegratorsError<E>> {
+        let g = (self.function)(t, values);
+        if g.is_nan() { Err(IntegratorsError::InvalidEvent { event: index, t }) } else { Ok(g) }
     }
 
     fn counts(&self, before: f64) -> bool {

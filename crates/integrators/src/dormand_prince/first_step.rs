@@ -55,7 +55,7 @@ impl<T: Real> DormandPrince853<T> {
             }
             report.evaluations += 1;
             if evaluate(field, state.time + step, &self.trial, &mut self.stages[1]).is_ok()
-                && check_finite::<T, F::Error>(state.time, &self.stages[1]).is_ok()
+                && check_finite::<T, F::Error>("rate", None, &self.stages[1]).is_ok()
             {
                 break;
             }

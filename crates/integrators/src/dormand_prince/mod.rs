@@ -200,7 +200,7 @@ impl<T: Real> DormandPrince853<T> {
 
         evaluate(field, state.time, &state.values, &mut self.stages[0])?;
         report.evaluations += 1;
-        check_finite(state.time, &self.stages[0])?;
+        check_finite("rate", Some(state.time), &self.stages[0])?;
         field.magnitudes(&state.values, &mut self.magnitudes);
         let mut step = match self.first_step {
             Some(step) => step,
@@ -211,7 +211,7 @@ impl<T: Real> DormandPrince853<T> {
         let mut obstacle = None;
         loop {
             if self.most_steps <= report.steps {
-                return Err(IntegratorsError::TooManySteps { time: state.time, steps: report.steps });
+                return Err(IntegratorsError::TooManySteps { t: state.time, steps: report.steps });
             }
             let remaining = (end - state.time) - state.time_carry;
             step = step.min(self.longest_step);
@@ -220,7 +220,7 @@ impl<T: Real> DormandPrince853<T> {
             let h = if last { remaining } else { direction * step };
             let stuck = h.abs() <= 2.0 * f64::EPSILON * state.time.abs();
             if stuck && !last || h.abs() <= 0.0 {
-                return Err(obstacle.unwrap_or(IntegratorsError::StepTooSmall { time: state.time, step: h }));
+                return Err(obstacle.unwrap_or(IntegratorsError::StepTooSmall { t: state.time, step: h }));
             }
 
             let error = match self.try_step(field, state, h, &mut report) {
@@ -301,5 +301,5 @@ fn evaluate<T: Real, F: Field<T>>(
     y: &[T],
     rate: &mut [T],
 ) -> Result<(), IntegratorsError<F::Error>> {
-    field.rate(time, y, rate).map_err(|source| IntegratorsError::Field { time, source })
+    field.rate(time, y, rate).map_err(|source| IntegratorsError::Field { t: time, source })
 }

@@ -41,13 +41,13 @@ impl<T: Real> DormandPrince853<T> {
         stage!(11, c::A12);
         let error = self.finish(field, state, h);
         if error <= 1.0 {
-            field.project(t + h, &mut self.trial).map_err(|source| IntegratorsError::Field { time: t + h, source })?;
+            field.project(t + h, &mut self.trial).map_err(|source| IntegratorsError::Field { t: t + h, source })?;
             report.evaluations += 1;
             evaluate(field, t + h, &self.trial, &mut self.stages[12])?;
-            check_finite(t, &self.stages[12])?;
+            check_finite("rate", Some(t), &self.stages[12])?;
         } else if error.is_nan() {
             for rate in &self.stages[1..12] {
-                check_finite(t, rate)?;
+                check_finite("rate", Some(t), rate)?;
             }
         }
         Ok(error)

@@ -220,7 +220,9 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
         }
         work.increments.copy_from_slice(&work.guess);
     } else {
-        field.rate(time, &state.values, &mut work.rate).map_err(|source| IntegratorsError::Field { time, source })?;
+        field
+            .rate(time, &state.values, &mut work.rate)
+            .map_err(|source| IntegratorsError::Field { t: time, source })?;
         evaluations += 1;
         for (increments, &weight) in work.increments.chunks_mut(n.max(1)).zip(weights) {
             for (increment, &rate) in increments.iter_mut().zip(&work.rate) {
@@ -243,9 +245,9 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
             let stage_time = time + tableau.nodes[i] * h;
             field
                 .rate(stage_time, &work.stage[i * n..(i + 1) * n], &mut work.rate)
-                .map_err(|source| IntegratorsError::Field { time: stage_time, source })?;
+                .map_err(|source| IntegratorsError::Field { t: stage_time, source })?;
             evaluations += 1;
-            check_finite(time, &work.rate)?;
+            check_finite("rate", Some(time), &work.rate)?;
             if i == S - 1 {
                 // A start from rest has no magnitude; where the step leads it has one.
                 field.magnitudes(&work.stage[i * n..], &mut work.magnitudes_at_last_stage);
@@ -278,7 +280,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
             return Ok(evaluations);
         }
         if sweep == MOST_SWEEPS {
-            return Err(IntegratorsError::StagesDiverged { time, step: h, iterations: sweep, change });
+            return Err(IntegratorsError::StagesDiverged { t: time, step: h, iterations: sweep, change });
         }
         // The first change may be out of proportion: it can be relative to a velocity near rest.
         previous = change.min(1.0);

@@ -77,7 +77,7 @@ fn dense_output_outside_the_step_is_refused() {
             for time in [step.time().next_up(), step.start().next_down(), f64::NAN, f64::INFINITY] {
                 assert!(matches!(step.at(time, &mut y), Err(IntegratorsError::OutsideStep { .. })));
             }
-            let expected = IntegratorsError::DimensionMismatch { expected: 1, found: 2 };
+            let expected = IntegratorsError::WrongLength { quantity: "out", expected: 1, found: 2 };
             assert_eq!(step.at(step.time(), &mut [0.0; 2]), Err(expected));
             assert_eq!(y.map(f64::to_bits), [7.0_f64.to_bits()]);
             ControlFlow::Continue(())

@@ -211,7 +211,7 @@ fn event_that_is_nan_is_refused_by_its_index() {
         Event::new(Crossing::Either, EventAction::Report, |t, _y| (1.0 - t).sqrt()),
     ];
     let (report, _) = run(&mut precise(), &mut oscillator(), &mut state, 10.0, &mut events);
-    assert!(matches!(report, Err(IntegratorsError::InvalidEvent { event: 1, time }) if 1.0 < time));
+    assert!(matches!(report, Err(IntegratorsError::InvalidEvent { event: 1, t }) if 1.0 < t));
 }
 
 #[test]
@@ -219,5 +219,5 @@ fn state_of_another_dimension_is_refused_before_events_see_it() {
     let mut state = State::new(0.0, vec![1.0]).unwrap();
     let mut events = [Event::new(Crossing::Either, EventAction::Report, |_t, y| y[1])];
     let (report, _) = run(&mut precise(), &mut oscillator(), &mut state, 10.0, &mut events);
-    assert_eq!(report, Err(IntegratorsError::DimensionMismatch { expected: 2, found: 1 }));
+    assert_eq!(report, Err(IntegratorsError::WrongLength { quantity: "state", expected: 2, found: 1 }));
 }

@@ -185,12 +185,12 @@ fn rate_that_is_nan_leaves_the_last_good_state() {
     let mut rooted = field(1, |_t, y: &[f64], rate: &mut [f64]| rate[0] = (1.0 - y[0]).sqrt() + 1.0);
     let mut state = State::new(0.0, vec![0.0]).unwrap();
     let error = adaptive(1e-9).integrate_to(&mut rooted, &mut state, 10.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::NonFiniteRate { index: 0, .. }), "{error:?}");
+    assert!(matches!(error, IntegratorsError::NotFinite { quantity: "rate", index: 0, t: Some(_), .. }), "{error:?}");
     assert!(0.99 < state.values[0] && state.values[0] <= 1.0);
     let mut rooted = separable(1, |_t, q: &[f64], force: &mut [f64]| force[0] = (1.0 - q[0]).sqrt());
     let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
     let error = Composition::new(Order::Two, 0.1).unwrap().integrate_to(&mut rooted, &mut state, 10.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::NonFiniteRate { index: 0, .. }));
+    assert!(matches!(error, IntegratorsError::NotFinite { quantity: "rate", index: 0, t: Some(_), .. }));
     assert!(0.0 < state.time && state.values.iter().all(|y| y.is_finite()));
 }
 
@@ -213,7 +213,11 @@ fn velocity_that_is_nan_is_refused() {
     }
     let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
     let error = Composition::new(Order::Two, 0.25).unwrap().integrate_to(&mut Broken, &mut state, 10.0).unwrap_err();
-    assert_eq!(error, IntegratorsError::NonFiniteRate { time: 0.75, index: 0 });
+    let IntegratorsError::NotFinite { quantity: "state", index: 0, value, t: Some(t) } = error else {
+        panic!("{error:?}")
+    };
+    assert!(value.is_nan());
+    assert_eq!(t.to_bits(), 0.75_f64.to_bits());
     assert_eq!(state.values, [0.75, 1.0]);
 }
 
@@ -224,9 +228,11 @@ fn nan_in_one_lane_is_not_hidden_by_the_others() {
         field(1, |_t, y: &[Two], rate: &mut [Two]| rate[0] = (Two::lit(1.0) - y[0]).sqrt() + Two::lit(1.0));
     let mut state = State::new(0.0, vec![Two::from([-100.0, 0.0])]).unwrap();
     let error = adaptive(1e-9).integrate_to(&mut rooted, &mut state, 10.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::NonFiniteRate { index: 0, .. }), "{error:?}");
+    assert!(matches!(error, IntegratorsError::NotFinite { quantity: "rate", index: 0, t: Some(_), .. }), "{error:?}");
     let invalid = State::new(0.0, vec![Two::from([0.0, f64::NAN])]);
-    assert!(matches!(invalid, Err(IntegratorsError::NonFiniteState { index: 0, value }) if value.is_nan()));
+    assert!(
+        matches!(invalid, Err(IntegratorsError::NotFinite { quantity: "state", index: 0, value, t: None }) if value.is_nan())
+    );
 }
 
 #[test]
@@ -245,10 +251,7 @@ fn stages_that_diverge_are_refused() {
     let mut stiff = field(1, |_t, y: &[f64], rate: &mut [f64]| rate[0] = -1e6 * y[0]);
     let mut state = State::new(0.0, vec![1.0]).unwrap();
     let error = GaussLegendre::new(Order::Eight, 0.1).unwrap().integrate_to(&mut stiff, &mut state, 1.0).unwrap_err();
-    assert!(
-        matches!(error, IntegratorsError::StagesDiverged { .. } | IntegratorsError::NonFiniteRate { .. }),
-        "{error:?}"
-    );
+    assert!(matches!(error, IntegratorsError::StagesDiverged { .. } | IntegratorsError::NotFinite { .. }), "{error:?}");
     assert_eq!((state.time.to_bits(), state.values[0].to_bits()), (0.0_f64.to_bits(), 1.0_f64.to_bits()));
 }
 
@@ -256,7 +259,7 @@ fn stages_that_diverge_are_refused() {
 fn limit_on_steps_is_kept() {
     let mut state = State::new(0.0, kepler_at(0.9, 0.0).to_vec()).unwrap();
     let error = adaptive(1e-12).with_most_steps(7).integrate_to(&mut kepler(), &mut state, 100.0).unwrap_err();
-    assert_eq!(error, IntegratorsError::TooManySteps { time: state.time, steps: 7 });
+    assert_eq!(error, IntegratorsError::TooManySteps { t: state.time, steps: 7 });
 }
 
 #[test]
@@ -285,25 +288,25 @@ fn bad_input_is_refused_by_name() {
         assert!(adaptive::<f64>(1e-9).with_first_step(step).is_err());
     }
     assert!(adaptive::<f64>(1e-9).with_longest_step(f64::NAN).is_err());
-    assert!(matches!(State::new(f64::NAN, vec![1.0]), Err(IntegratorsError::NonFiniteTime { .. })));
+    assert!(matches!(State::new(f64::NAN, vec![1.0]), Err(IntegratorsError::NotFinite { quantity: "t", .. })));
     assert_eq!(
         State::new(0.0, vec![1.0, f64::NEG_INFINITY]),
-        Err(IntegratorsError::NonFiniteState { index: 1, value: f64::NEG_INFINITY })
+        Err(IntegratorsError::NotFinite { quantity: "state", index: 1, value: f64::NEG_INFINITY, t: None })
     );
     let mut state = State::new(0.0, vec![1.0]).unwrap();
-    let mismatch = IntegratorsError::DimensionMismatch { expected: 4, found: 1 };
+    let mismatch = IntegratorsError::WrongLength { quantity: "state", expected: 4, found: 1 };
     assert_eq!(adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 1.0), Err(mismatch));
     let mut state = State::new(0.0, kepler_at(0.3, 0.0).to_vec()).unwrap();
     for end in [f64::NAN, f64::INFINITY] {
         let error = Composition::new(Order::Two, 0.1).unwrap().integrate_to(&mut kepler(), &mut state, end);
-        assert!(matches!(error, Err(IntegratorsError::NonFiniteTime { .. })));
+        assert!(matches!(error, Err(IntegratorsError::NotFinite { quantity: "end", .. })));
     }
     // Steps that cannot advance the time, or could not be counted.
     let error = Composition::new(Order::Two, 1e-300).unwrap().integrate_to(&mut kepler(), &mut state, 1.0);
     assert!(matches!(error, Err(IntegratorsError::StepTooSmall { .. })));
     state.values[2] = f64::NAN;
     let error = adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 1.0);
-    assert!(matches!(error, Err(IntegratorsError::NonFiniteState { index: 2, .. })));
+    assert!(matches!(error, Err(IntegratorsError::NotFinite { quantity: "state", index: 2, .. })));
 }
 
 #[test]

@@ -4,24 +4,15 @@ use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use piola_numerics::Real;
 
 use crate::attitude::Attitude;
-use crate::error::KinematicsError;
+use crate::error::{KinematicsError, finite};
 
 impl Attitude<f64> {
     /// The attitude of a quaternion (w, x, y, z) of any length but zero, which is scaled to length one.
     ///
     /// # Errors
     /// [`KinematicsError::NotFinite`]; [`KinematicsError::NoDirection`] when its length is zero.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::Attitude;
-    /// assert_eq!(Attitude::from_quaternion([2.0, 0.0, 0.0, 0.0])?, Attitude::identity());
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn from_quaternion(quaternion: [f64; 4]) -> Result<Self, KinematicsError> {
-        if let Some((index, value)) = crate::vector::first_non_finite(&quaternion) {
-            return Err(KinematicsError::NotFinite { quantity: "quaternion", index, value });
-        }
+        finite("quaternion", &quaternion)?;
         // Scaled by the largest component first: the squares of tiny or huge ones leave the range.
         let largest = quaternion.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         if largest <= 0.0 {
@@ -35,19 +26,8 @@ impl Attitude<f64> {
     ///
     /// # Errors
     /// [`KinematicsError::NotFinite`]; [`KinematicsError::NoDirection`] when the axis is zero.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::Attitude;
-    /// let attitude = Attitude::from_axis_angle(&Vector3::new(0.0, 0.0, 2.0), 0.3)?;
-    /// assert_eq!(attitude, Attitude::about_z(0.3));
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn from_axis_angle(axis: &Vector3<f64>, angle: f64) -> Result<Self, KinematicsError> {
-        if let Some((index, value)) = crate::vector::first_non_finite(&[axis.x, axis.y, axis.z, angle]) {
-            return Err(KinematicsError::NotFinite { quantity: "axis and angle", index, value });
-        }
+        finite("axis and angle", &[axis.x, axis.y, axis.z, angle])?;
         let largest = axis.amax();
         if largest <= 0.0 {
             return Err(KinematicsError::NoDirection { quantity: "axis", length: largest });
@@ -63,21 +43,11 @@ impl Attitude<f64> {
     /// [`KinematicsError::NotFinite`]; [`KinematicsError::NotRotation`] when Q Qᵀ deviates from 1 by more
     /// than 10⁻⁹ or det Q < 0. Smaller deviations, as in printed matrices, are taken away.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_kinematics::Attitude;
-    /// assert_eq!(Attitude::from_matrix(&Matrix3::identity())?, Attitude::identity());
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
-    ///
     /// # Source
     /// W(2.22); the choice of the largest component as divisor is Shepperd's (J. Guidance Control 1, 1978).
     pub fn from_matrix(matrix: &Matrix3<f64>) -> Result<Self, KinematicsError> {
         let rows = matrix.transpose();
-        if let Some((index, value)) = crate::vector::first_non_finite(rows.as_slice()) {
-            return Err(KinematicsError::NotFinite { quantity: "rotation matrix", index, value });
-        }
+        finite("rotation matrix", rows.as_slice())?;
         let deviation = (matrix * matrix.transpose() - Matrix3::identity()).amax();
         let determinant = matrix.determinant();
         if ROTATION_TOLERANCE < deviation || determinant < 0.0 {

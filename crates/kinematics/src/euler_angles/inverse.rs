@@ -6,7 +6,7 @@ use piola_numerics::Real;
 use super::sequence::Layout;
 use super::{Canonical, EulerAngles, EulerSequence};
 use crate::attitude::Attitude;
-use crate::error::KinematicsError;
+use crate::error::{KinematicsError, finite};
 
 /// The angles of an attitude, as far as they are determined.
 ///
@@ -48,13 +48,6 @@ pub enum AnglesOfAttitude {
 
 impl AnglesOfAttitude {
     /// The angles, with the choice θ³ = 0 at a gimbal point.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::{Attitude, EulerAngles, EulerSequence};
-    /// let angles = EulerAngles::of_attitude(EulerSequence::Zyz, Attitude::about_y(0.5)).angles();
-    /// assert!((angles.theta[1] - 0.5).abs() <= f64::EPSILON);
-    /// ```
     #[must_use]
     pub fn angles(&self) -> EulerAngles<f64> {
         match *self {
@@ -122,16 +115,6 @@ impl<T: Real> EulerAngles<T> {
     /// θ² to a few ulps of one, for Eulerian sequences of itself also near 0; θ¹ and θ³ to a few ulps ×
     /// `condition_number`, with errors such that the angles together give the attitude to a few ulps.
     ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::{Attitude, EulerAngles, EulerSequence};
-    /// use piola_numerics::Dual;
-    /// // A turn about z at 1 rad/s changes the yaw at that rate.
-    /// let turning = Attitude::about_z(Dual::variable(0.5_f64));
-    /// let [yaw, ..] = EulerAngles::away_from_gimbal(EulerSequence::Zyx, turning).theta;
-    /// assert!((yaw.tangent - 1.0).abs() <= f64::EPSILON);
-    /// ```
-    ///
     /// # Source
     /// W(2.22–2.25), inverted.
     #[must_use]
@@ -165,9 +148,6 @@ impl EulerAngles<f64> {
     /// # Accuracy
     /// A few ulps × `condition_number`.
     ///
-    /// # Example
-    /// See [`EulerRates`].
-    ///
     /// # Source
     /// W(2.28), inverted.
     pub fn rates(&self, angular_velocity_in_body: &Vector3<f64>) -> Result<EulerRates, KinematicsError> {
@@ -184,16 +164,6 @@ impl EulerAngles<f64> {
     ///
     /// # Accuracy
     /// A few ulps × `condition_number`.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::EulerAngles;
-    /// // About e₃: only θ¹ changes.
-    /// let found = EulerAngles::zyz([0.3, 0.5, 0.7]).rates_from_space(&Vector3::z())?;
-    /// assert_eq!(found.rates, [1.0, 0.0, 0.0]);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(2.26), inverted.
@@ -212,17 +182,6 @@ impl EulerAngles<f64> {
     /// # Accuracy
     /// A few ulps × `condition_number`, of the larger of ω̇ and Ẇ θ̇.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::EulerAngles;
-    /// // Steady precession needs ω̇ = θ̇¹ e₃ × θ̇³ f₃.
-    /// let top = EulerAngles::zyz([0.0, std::f64::consts::FRAC_PI_2, 0.0]);
-    /// let found = top.second_rates([2.0, 0.0, 3.0], &Vector3::new(0.0, 6.0, 0.0))?;
-    /// assert_eq!(found.rates, [0.0; 3]);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
-    ///
     /// # Source
     /// W(2.28), differentiated and inverted.
     pub fn second_rates(
@@ -230,9 +189,7 @@ impl EulerAngles<f64> {
         rates: [f64; 3],
         angular_acceleration_in_body: &Vector3<f64>,
     ) -> Result<EulerRates, KinematicsError> {
-        if let Some((index, value)) = crate::vector::first_non_finite(&rates) {
-            return Err(KinematicsError::NotFinite { quantity: "rates", index, value });
-        }
+        finite("rates", &rates)?;
         let condition_number = self.checked("angular acceleration", angular_acceleration_in_body)?;
         let canonical = Canonical::of(self);
         let changing = canonical.changing_in_body(canonical.rates(rates));
@@ -244,9 +201,6 @@ impl EulerAngles<f64> {
     ///
     /// # Accuracy
     /// As [`away_from_gimbal`](EulerAngles::away_from_gimbal).
-    ///
-    /// # Example
-    /// See [`AnglesOfAttitude`].
     ///
     /// # Source
     /// W(2.22–2.25), inverted.
@@ -271,13 +225,6 @@ impl EulerAngles<f64> {
     }
 
     /// The same attitude in the angles of another sequence.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_kinematics::{EulerAngles, EulerSequence};
-    /// let pitched = EulerAngles::zyz([0.0, 0.5, 0.0]).in_sequence(EulerSequence::Zyx).angles();
-    /// assert!((pitched.theta[1] - 0.5).abs() <= f64::EPSILON);
-    /// ```
     #[must_use]
     pub fn in_sequence(&self, sequence: EulerSequence) -> AnglesOfAttitude {
         Self::of_attitude(sequence, self.attitude())
@@ -286,9 +233,7 @@ impl EulerAngles<f64> {
     /// cond W, where everything is finite and it is below 1/ε.
     fn checked(&self, quantity: &'static str, vector: &Vector3<f64>) -> Result<f64, KinematicsError> {
         for (quantity, values) in [("theta", &self.theta[..]), (quantity, vector.as_slice())] {
-            if let Some((index, value)) = crate::vector::first_non_finite(values) {
-                return Err(KinematicsError::NotFinite { quantity, index, value });
-            }
+            finite(quantity, values)?;
         }
         let condition_number = self.condition_number();
         if f64::EPSILON.recip() <= condition_number {

@@ -80,9 +80,6 @@ impl EulerSequence {
     ];
 
     /// The three axes, from 0.
-    ///
-    /// # Example
-    /// See [`EulerSequence`].
     #[must_use]
     pub const fn axes(self) -> [usize; 3] {
         match self {
@@ -104,12 +101,6 @@ impl EulerSequence {
     /// Whether the third axis is the first again; otherwise all three differ (Tait–Bryan).
     ///
     /// An Eulerian sequence is singular at θ² = 0, π, one of Tait and Bryan at θ² = ±π/2.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::EulerSequence;
-    /// assert!(EulerSequence::Zxz.is_eulerian() && !EulerSequence::Zyx.is_eulerian());
-    /// ```
     #[must_use]
     pub const fn is_eulerian(self) -> bool {
         let [first, _, third] = self.axes();
@@ -127,14 +118,6 @@ impl EulerSequence {
     ///
     /// # Accuracy
     /// A few ulps × itself.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::{Attitude, EulerSequence};
-    /// let upright = Attitude::<f64>::identity();
-    /// assert_eq!(EulerSequence::Zyx.condition_number(upright), 1.0);
-    /// assert!(1.0e300 < EulerSequence::Zyz.condition_number(upright));
-    /// ```
     #[must_use]
     pub fn condition_number<T: Real>(self, attitude: Attitude<T>) -> T {
         let (sine, cosine) = Layout::of(self).half_angle(attitude);
@@ -146,13 +129,6 @@ impl EulerSequence {
     /// [`ALL`](Self::ALL).
     ///
     /// Its condition number is below 2: of the three entries `e_i·f_k` in a row of Q one is at most 1/√3.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::{Attitude, EulerSequence};
-    /// // e₁ and f₂ = e₂ stay perpendicular.
-    /// assert_eq!(EulerSequence::best(Attitude::about_y(1.5)), EulerSequence::Xzy);
-    /// ```
     #[must_use]
     pub fn best(attitude: Attitude<f64>) -> Self {
         let mut best = (Self::Zyz, Self::Zyz.condition_number(attitude));

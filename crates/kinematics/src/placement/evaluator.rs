@@ -9,13 +9,14 @@
 //! not depend on time is placed at a constant time.
 
 use nalgebra::Vector3;
-use piola_numerics::{Dual, Jet, Mask, Real};
+use piola_numerics::{Dual, Jet, Real};
 
 use crate::attitude::Attitude;
-use crate::error::KinematicsError;
+use crate::error::{KinematicsError, finite, length};
 use crate::particle::Motion;
 use crate::placement::{Holonomic, PartCount, Placement};
 use crate::rigid_body::{BodyMotion, BodyPose, BodyVelocity, RigidBody};
+use crate::vector::first_non_finite;
 
 /// Evaluates the placement of systems with a given number of coordinates, into the caller's buffers.
 ///
@@ -52,21 +53,12 @@ pub struct PlacementEvaluator<T: Real = f64> {
 
 impl<T: Real> PlacementEvaluator<T> {
     /// An evaluator for systems of `coordinates` generalised coordinates. The only step that allocates.
-    ///
-    /// # Example
-    /// See [`PlacementEvaluator`].
     #[must_use]
     pub fn new(coordinates: usize) -> Self {
         Self { duals: vec![Dual::constant(T::zero()); coordinates], jets: vec![Jet::constant(T::zero()); coordinates] }
     }
 
     /// Number of generalised coordinates.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::placement::PlacementEvaluator;
-    /// assert_eq!(PlacementEvaluator::<f64>::new(3).coordinates(), 3);
-    /// ```
     #[must_use]
     pub fn coordinates(&self) -> usize {
         self.duals.len()
@@ -75,25 +67,8 @@ impl<T: Real> PlacementEvaluator<T> {
     /// Where the parts are at q (m or rad) and t (s).
     ///
     /// # Errors
-    /// [`KinematicsError::Count`] when `q` or a buffer has the wrong length;
+    /// [`KinematicsError::WrongLength`] when `q` or a buffer has the wrong length;
     /// [`KinematicsError::NotFinite`] when q, t or a resulting position is not finite.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{Holonomic, Placement, placement::PlacementEvaluator};
-    /// # use piola_numerics::Real;
-    /// # struct Free;
-    /// # impl Holonomic for Free {
-    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    /// #         bodies.particle(1.0, Vector3::new(q[0], q[1], q[2]));
-    /// #     }
-    /// # }
-    /// let mut position = [Vector3::zeros()];
-    /// PlacementEvaluator::new(3).positions_into(&Free, &[1.0, 2.0, 3.0], 0.0, &mut position, &mut [])?;
-    /// assert_eq!(position[0], Vector3::new(1.0, 2.0, 3.0));
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(3.2), W(3.24).
@@ -118,40 +93,20 @@ impl<T: Real> PlacementEvaluator<T> {
     /// # Errors
     /// As [`positions_into`](Self::positions_into).
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{Holonomic, Placement, placement::PlacementEvaluator};
-    /// # use piola_numerics::Real;
-    /// /// A bead on a rod that turns with 3 rad/s; q = [distance].
-    /// struct Bead;
-    /// impl Holonomic for Bead {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = (T::lit(3.0) * t).sin_cos();
-    ///         bodies.particle(1.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// let mut velocity = [Vector3::zeros()];
-    /// PlacementEvaluator::new(1).velocities_into(&Bead, &[2.0], &[1.0], 0.0, &mut velocity, &mut [])?;
-    /// assert_eq!(velocity[0], Vector3::new(1.0, 6.0, 0.0)); // along the rod, and ω r across
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
-    ///
     /// # Source
     /// W(3.7–3.13), W(3.28–3.31).
     pub fn velocities_into<S: Holonomic>(
         &mut self,
         system: &S,
         q: &[T],
-        qdot: &[T],
+        v: &[T],
         t: T,
         particles: &mut [Vector3<T>],
         bodies: &mut [BodyVelocity<T>],
     ) -> Result<(), KinematicsError> {
-        self.check(&[("coordinates", q), ("generalised velocities", qdot)], t)?;
-        for ((seed, &q), &qdot) in self.duals.iter_mut().zip(q).zip(qdot) {
-            *seed = Dual::new(q, qdot);
+        self.check(&[("coordinates", q), ("generalised velocities", v)], t)?;
+        for ((seed, &q), &v) in self.duals.iter_mut().zip(q).zip(v) {
+            *seed = Dual::new(q, v);
         }
         let t = if S::TIME_DEPENDENT { Dual::variable(t) } else { Dual::constant(t) };
         self.tangents(system, t, particles, bodies)
@@ -163,27 +118,6 @@ impl<T: Real> PlacementEvaluator<T> {
     ///
     /// # Errors
     /// [`KinematicsError::NoSuchDirection`]; as [`positions_into`](Self::positions_into).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{BodyVelocity, Holonomic, Placement, Solid, placement::PlacementEvaluator};
-    /// # use piola_kinematics::{Attitude, RigidBody};
-    /// # use piola_numerics::Real;
-    /// /// A wheel that rolls along x; q = [angle about y].
-    /// struct Wheel { body: RigidBody, radius: f64 }
-    /// impl Holonomic for Wheel {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let centre = Vector3::new(T::lit(self.radius) * q[0], T::zero(), T::lit(self.radius));
-    ///         bodies.body(&self.body, centre, Attitude::about_y(q[0]));
-    ///     }
-    /// }
-    /// let wheel = Wheel { body: Solid::Sphere { radius: 2.0 }.body(1.0)?, radius: 2.0 };
-    /// let mut tangent = [BodyVelocity::at_rest()];
-    /// PlacementEvaluator::new(1).tangent_into(&wheel, &[0.0], 0.0, 0, &mut [], &mut tangent)?;
-    /// assert_eq!((tangent[0].velocity.x, tangent[0].angular_velocity.y), (2.0, 1.0));
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     ///
     /// # Source
     /// W(3.4–3.5).
@@ -214,9 +148,6 @@ impl<T: Real> PlacementEvaluator<T> {
     /// # Errors
     /// As [`positions_into`](Self::positions_into).
     ///
-    /// # Example
-    /// See [`PlacementEvaluator`].
-    ///
     /// # Source
     /// W(3.7–3.13), W(3.28–3.31), differentiated.
     #[expect(clippy::too_many_arguments, reason = "the state and its derivatives, and two kinds of parts")]
@@ -224,15 +155,15 @@ impl<T: Real> PlacementEvaluator<T> {
         &mut self,
         system: &S,
         q: &[T],
-        qdot: &[T],
-        qddot: &[T],
+        v: &[T],
+        a: &[T],
         t: T,
         particles: &mut [Motion<T>],
         bodies: &mut [BodyMotion<T>],
     ) -> Result<(), KinematicsError> {
-        self.check(&[("coordinates", q), ("generalised velocities", qdot), ("generalised accelerations", qddot)], t)?;
+        self.check(&[("coordinates", q), ("generalised velocities", v), ("generalised accelerations", a)], t)?;
         for (index, seed) in self.jets.iter_mut().enumerate() {
-            *seed = Jet { value: q[index], partials: [], rate: qdot[index], second_rate: qddot[index] };
+            *seed = Jet { value: q[index], partials: [], rate: v[index], second_rate: a[index] };
         }
         let t = if S::TIME_DEPENDENT { Jet::time(t) } else { Jet::constant(t) };
         let motion = |particle: &mut Motion<T>, position: Vector3<Jet<T, 0>>| *particle = Motion::from_jet(&position);
@@ -281,17 +212,10 @@ impl<T: Real> PlacementEvaluator<T> {
     /// Lengths and finiteness of the state.
     fn check(&self, state: &[(&'static str, &[T])], t: T) -> Result<(), KinematicsError> {
         for &(quantity, values) in state {
-            if values.len() != self.coordinates() {
-                return Err(KinematicsError::Count { quantity, expected: self.coordinates(), found: values.len() });
-            }
-            if let Some(index) = values.iter().position(|x| !x.is_finite().all()) {
-                return Err(KinematicsError::NotFinite { quantity, index, value: values[index].primal(0) });
-            }
+            length(quantity, values.len(), self.coordinates())?;
+            finite(quantity, values)?;
         }
-        if !t.is_finite().all() {
-            return Err(KinematicsError::NotFinite { quantity: "time", index: 0, value: t.primal(0) });
-        }
-        Ok(())
+        finite("t", &[t])
     }
 }
 
@@ -316,9 +240,8 @@ where
     /// Remembers the first position that is not finite.
     fn inspect(&mut self, quantity: &'static str, index: usize, position: &Vector3<U>) {
         for x in position.iter() {
-            let x = (self.key)(*x);
-            if self.first_bad.is_none() && !x.is_finite().all() {
-                self.first_bad = Some((quantity, index, x.primal(0)));
+            if let (None, Some((_, value))) = (self.first_bad, first_non_finite(&[(self.key)(*x)])) {
+                self.first_bad = Some((quantity, index, value));
             }
         }
     }
@@ -370,13 +293,8 @@ fn collect<T: Real, U: Real, P, B>(
     };
     system.place(q, t, &mut collector);
     let placed = collector.placed;
-    for (quantity, expected, found) in
-        [("particle buffer", placed.particles, room.particles), ("body buffer", placed.bodies, room.bodies)]
-    {
-        if expected != found {
-            return Err(KinematicsError::Count { quantity, expected, found });
-        }
-    }
+    length("particle buffer", room.particles, placed.particles)?;
+    length("body buffer", room.bodies, placed.bodies)?;
     match collector.first_bad {
         Some((quantity, index, value)) => Err(KinematicsError::NotFinite { quantity, index, value }),
         None => Ok(()),

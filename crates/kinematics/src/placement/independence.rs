@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, Vector3};
 use piola_numerics::Dual;
 
 use crate::attitude::Attitude;
-use crate::error::KinematicsError;
+use crate::error::{KinematicsError, finite};
 use crate::placement::{Holonomic, Placement};
 use crate::rigid_body::RigidBody;
 
@@ -56,9 +56,7 @@ pub struct Independence {
 /// W(3.4).
 pub fn independence(system: &impl Holonomic, q: &[f64], t: f64) -> Result<Independence, KinematicsError> {
     let n = q.len();
-    if let Some((index, value)) = crate::vector::first_non_finite(q) {
-        return Err(KinematicsError::NotFinite { quantity: "coordinates", index, value });
-    }
+    finite("coordinates", q)?;
     if n == 0 {
         return Ok(Independence { condition_number: 1.0 });
     }

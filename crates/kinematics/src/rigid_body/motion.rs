@@ -45,18 +45,12 @@ pub struct BodyPose<T: Real> {
 
 impl<T: Real> BodyPose<T> {
     /// At the origin, body axes along the space axes.
-    ///
-    /// # Example
-    /// See [`BodyPose`].
     #[must_use]
     pub fn at_rest() -> Self {
         Self { position: Vector3::zeros(), attitude: Attitude::identity() }
     }
 
     /// Where a point of the body is: `x^p = x^c + yⁱ f_i`, y in body components (m).
-    ///
-    /// # Example
-    /// See [`BodyPose`].
     ///
     /// # Source
     /// W(2.10).
@@ -67,14 +61,6 @@ impl<T: Real> BodyPose<T> {
 
     /// Which point of the body is at the place x of space: yⁱ = (x − x^c)·`f_i`, in body components (m).
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{Attitude, BodyPose};
-    /// let pose = BodyPose { position: Vector3::new(1.0, 0.0, 0.0), attitude: Attitude { w: 0.0, x: 0.0, y: 0.0, z: 1.0 } };
-    /// assert_eq!(pose.point_in_body(&Vector3::zeros()), Vector3::x());
-    /// ```
-    ///
     /// # Source
     /// W(2.10), inverted.
     #[must_use]
@@ -83,28 +69,12 @@ impl<T: Real> BodyPose<T> {
     }
 
     /// The pose in space of something whose pose in this body is `other`.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::BodyPose;
-    /// let step = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
-    /// assert_eq!(step.product(&step).position.x, 2.0);
-    /// ```
     #[must_use]
     pub fn product(&self, other: &Self) -> Self {
         Self { position: self.embedded_point(&other.position), attitude: self.attitude.product(other.attitude) }
     }
 
     /// The pose of space in the body, which undoes this one.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::BodyPose;
-    /// let step = BodyPose { position: Vector3::<f64>::x(), ..BodyPose::at_rest() };
-    /// assert_eq!(step.product(&step.inverse()), BodyPose::at_rest());
-    /// ```
     #[must_use]
     pub fn inverse(&self) -> Self {
         let attitude = self.attitude.conjugate();
@@ -112,14 +82,6 @@ impl<T: Real> BodyPose<T> {
     }
 
     /// A constant pose in another scalar: all derivatives zero, the same in every lane.
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_kinematics::BodyPose;
-    /// use piola_numerics::Dual;
-    /// let pose: BodyPose<Dual<f64>> = BodyPose::constant(&BodyPose::at_rest());
-    /// assert_eq!(pose.position.x.tangent, 0.0);
-    /// ```
     #[must_use]
     pub fn constant(pose: &BodyPose<f64>) -> Self {
         Self { position: pose.position.map(T::lit), attitude: Attitude::constant(pose.attitude) }
@@ -156,9 +118,6 @@ pub struct BodyVelocity<T: Real> {
 
 impl<T: Real> BodyVelocity<T> {
     /// No motion.
-    ///
-    /// # Example
-    /// See [`BodyVelocity`].
     #[must_use]
     pub fn at_rest() -> Self {
         Self { velocity: Vector3::zeros(), angular_velocity: Vector3::zeros() }
@@ -212,9 +171,6 @@ pub struct BodyMotion<T: Real> {
 
 impl<T: Real> BodyMotion<T> {
     /// No motion, at the origin, body axes along the space axes.
-    ///
-    /// # Example
-    /// See [`BodyMotion`].
     #[must_use]
     pub fn at_rest() -> Self {
         let zero = Vector3::zeros();
@@ -234,9 +190,6 @@ impl<T: Real> BodyMotion<T> {
     /// v^p = v^c + ω×r^{cp}
     /// ```
     ///
-    /// # Example
-    /// See [`BodyMotion`].
-    ///
     /// # Source
     /// W(2.19).
     #[must_use]
@@ -248,15 +201,6 @@ impl<T: Real> BodyMotion<T> {
     ///
     /// ```text
     /// a^p = a^c + ω̇×r^{cp} + ω×(ω×r^{cp})
-    /// ```
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_kinematics::BodyMotion;
-    /// let mut wheel = BodyMotion::at_rest();
-    /// wheel.angular_velocity.y = 3.0;
-    /// assert_eq!(wheel.acceleration_of_point(&Vector3::new(0.0, 0.0, 2.0)).z, -18.0); // ω² r inwards
     /// ```
     ///
     /// # Source

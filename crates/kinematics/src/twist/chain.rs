@@ -13,7 +13,7 @@
 
 use piola_numerics::Real;
 
-use crate::error::KinematicsError;
+use crate::error::{KinematicsError, length};
 use crate::rigid_body::BodyPose;
 use crate::twist::SpaceTwist;
 
@@ -27,7 +27,7 @@ use crate::twist::SpaceTwist;
 /// | g(q) | returned | pose | m |
 ///
 /// # Errors
-/// [`KinematicsError::Count`] unless there are as many coordinates as joints.
+/// [`KinematicsError::WrongLength`] unless there are as many coordinates as joints.
 ///
 /// # Example
 /// ```
@@ -48,7 +48,7 @@ pub fn product_of_exponentials<T: Real>(
     q: &[T],
     home: &BodyPose<f64>,
 ) -> Result<BodyPose<T>, KinematicsError> {
-    same_count("coordinates", joints.len(), q.len())?;
+    length("coordinates", q.len(), joints.len())?;
     // From the hand inwards, so that each link is moved once.
     Ok(joints.iter().zip(q).rev().fold(BodyPose::constant(home), |outer, (joint, &q)| {
         SpaceTwist::constant(joint).scaled(q).exponential().product(&outer)
@@ -58,18 +58,7 @@ pub fn product_of_exponentials<T: Real>(
 /// The joints' twists where they are at q: the columns of the chain's Jacobian, `ξ_s = Σ q̇ⁱ columns[i]`.
 ///
 /// # Errors
-/// [`KinematicsError::Count`] unless there are as many coordinates and columns as joints.
-///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_kinematics::{SpaceTwist, twist::joint_twists_into};
-/// let joints = [SpaceTwist::revolute(&Vector3::zeros(), &Vector3::z())?, SpaceTwist::prismatic(&Vector3::x())?];
-/// let mut columns = [SpaceTwist::at_rest(); 2];
-/// joint_twists_into(&joints, &[std::f64::consts::FRAC_PI_2, 0.0], &mut columns)?;
-/// assert!((columns[1].linear - Vector3::y()).amax() <= f64::EPSILON); // the slide has turned along
-/// # Ok::<(), piola_kinematics::KinematicsError>(())
-/// ```
+/// [`KinematicsError::WrongLength`] unless there are as many coordinates and columns as joints.
 ///
 /// # Source
 /// Brockett (1984).
@@ -78,8 +67,8 @@ pub fn joint_twists_into<T: Real>(
     q: &[T],
     columns: &mut [SpaceTwist<T>],
 ) -> Result<(), KinematicsError> {
-    same_count("coordinates", joints.len(), q.len())?;
-    same_count("columns", joints.len(), columns.len())?;
+    length("coordinates", q.len(), joints.len())?;
+    length("columns", columns.len(), joints.len())?;
     let mut reached = BodyPose::at_rest();
     for ((joint, &q), column) in joints.iter().zip(q).zip(columns) {
         let joint = SpaceTwist::constant(joint);
@@ -87,8 +76,4 @@ pub fn joint_twists_into<T: Real>(
         reached = reached.product(&joint.scaled(q).exponential());
     }
     Ok(())
-}
-
-fn same_count(quantity: &'static str, expected: usize, found: usize) -> Result<(), KinematicsError> {
-    if found == expected { Ok(()) } else { Err(KinematicsError::Count { quantity, expected, found }) }
 }

@@ -47,9 +47,6 @@ impl SpaceTwist<f64> {
     ///
     /// # Errors
     /// As [`screw`](Self::screw).
-    ///
-    /// # Example
-    /// See [`Twist`](crate::twist::Twist).
     pub fn revolute(point: &Vector3<f64>, axis: &Vector3<f64>) -> Result<Self, KinematicsError> {
         Self::screw(point, axis, 0.0)
     }
@@ -58,14 +55,6 @@ impl SpaceTwist<f64> {
     ///
     /// # Errors
     /// As [`screw`](Self::screw).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::SpaceTwist;
-    /// assert_eq!(SpaceTwist::prismatic(&(Vector3::z() * 3.0))?.linear, Vector3::z());
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn prismatic(axis: &Vector3<f64>) -> Result<Self, KinematicsError> {
         Ok(Self::new(Vector3::zeros(), direction(axis)?))
     }
@@ -75,17 +64,6 @@ impl SpaceTwist<f64> {
     ///
     /// # Errors
     /// [`KinematicsError::NotFinite`]; [`KinematicsError::NoDirection`] when the axis is zero.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::SpaceTwist;
-    /// use std::f64::consts::TAU;
-    /// // A thread of 2 mm: one turn advances by as much.
-    /// let thread = SpaceTwist::screw(&Vector3::zeros(), &Vector3::z(), 2.0e-3 / TAU)?;
-    /// assert!((thread.scaled(TAU).exponential().position.z - 2.0e-3).abs() <= f64::EPSILON);
-    /// # Ok::<(), piola_kinematics::KinematicsError>(())
-    /// ```
     pub fn screw(point: &Vector3<f64>, axis: &Vector3<f64>, pitch: f64) -> Result<Self, KinematicsError> {
         finite("point", point.as_slice())?;
         finite("pitch", &[pitch])?;

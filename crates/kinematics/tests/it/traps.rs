@@ -77,8 +77,7 @@ fn relative_parts_far_from_the_origin_equal_those_near_it() {
     let there = ParticleSystem::new(&masses, &away, &fast).expect("a system");
     let tol = Tol::ulps(64.0);
     assert_close("E", &[there.kinetic_energy().relative], &[here.kinetic_energy().relative], tol);
-    let (moment, expected) =
-        (there.angular_momentum(&far).relative, here.angular_momentum(&Vector3::zeros()).relative);
+    let (moment, expected) = (there.angular_momentum(&far).relative, here.angular_momentum(&Vector3::zeros()).relative);
     assert_close("H", moment.as_slice(), expected.as_slice(), tol);
     let (inertia, expected) = (there.inertia_about_centre_of_mass(), here.inertia_about_centre_of_mass());
     assert_close("I", inertia.as_slice(), expected.as_slice(), tol);
@@ -184,7 +183,7 @@ fn bad_masses_and_sizes_are_refused_by_name() {
     let zero = [Vector3::<f64>::zeros(); 2];
     assert!(matches!(ParticleSystem::new(&[1.0, 0.0], &zero, &zero), Err(KinematicsError::NonPositiveMass { .. })));
     assert!(matches!(ParticleSystem::<f64>::new(&[], &[], &[]), Err(KinematicsError::NoParticles)));
-    assert!(matches!(ParticleSystem::new(&[1.0], &zero, &zero), Err(KinematicsError::Count { .. })));
+    assert!(matches!(ParticleSystem::new(&[1.0], &zero, &zero), Err(KinematicsError::WrongLength { .. })));
 }
 
 #[test]
@@ -314,14 +313,14 @@ fn wrong_buffers_and_states_are_refused_by_name() {
     let mut evaluator = PlacementEvaluator::new(4);
     let (mut v, mut body) = ([Vector3::zeros(); 2], [BodyVelocity::at_rest()]);
     let refused = evaluator.velocities_into(&system, &[0.1; 4], &[0.0; 4], 0.0, &mut v, &mut body);
-    assert_eq!(refused, Err(KinematicsError::Count { quantity: "particle buffer", expected: 1, found: 2 }));
+    assert_eq!(refused, Err(KinematicsError::WrongLength { quantity: "particle buffer", expected: 1, found: 2 }));
     let refused = evaluator.velocities_into(&system, &[0.1; 3], &[0.0; 4], 0.0, &mut v[..1], &mut body);
-    assert_eq!(refused, Err(KinematicsError::Count { quantity: "coordinates", expected: 4, found: 3 }));
+    assert_eq!(refused, Err(KinematicsError::WrongLength { quantity: "coordinates", expected: 4, found: 3 }));
     let refused =
         evaluator.velocities_into(&system, &[0.1, 0.2, f64::NAN, 0.0], &[0.0; 4], 0.0, &mut v[..1], &mut body);
     assert!(matches!(refused, Err(KinematicsError::NotFinite { quantity: "coordinates", index: 2, .. })));
     let refused = evaluator.velocities_into(&system, &[0.1; 4], &[0.0; 4], f64::INFINITY, &mut v[..1], &mut body);
-    assert!(matches!(refused, Err(KinematicsError::NotFinite { quantity: "time", .. })));
+    assert!(matches!(refused, Err(KinematicsError::NotFinite { quantity: "t", .. })));
 }
 
 #[cfg(feature = "serde")]

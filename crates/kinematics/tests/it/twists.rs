@@ -231,9 +231,9 @@ fn bad_axes_and_counts_are_refused_by_name() {
     let slide = SpaceTwist::prismatic(&z).expect("an axis");
     assert_eq!(slide.screw_axis(), Ok(ScrewAxis::Translation { velocity: z }));
     let refused = product_of_exponentials(&[slide; 2], &[0.0], &BodyPose::at_rest());
-    assert_eq!(refused, Err(KinematicsError::Count { quantity: "coordinates", expected: 2, found: 1 }));
+    assert_eq!(refused, Err(KinematicsError::WrongLength { quantity: "coordinates", expected: 2, found: 1 }));
     let refused = joint_twists_into(&[slide; 2], &[0.0; 2], &mut [SpaceTwist::at_rest(); 3]);
-    assert_eq!(refused, Err(KinematicsError::Count { quantity: "columns", expected: 2, found: 3 }));
+    assert_eq!(refused, Err(KinematicsError::WrongLength { quantity: "columns", expected: 2, found: 3 }));
 }
 
 #[test]

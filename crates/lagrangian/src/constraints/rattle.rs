@@ -156,10 +156,10 @@ impl Rattle {
         let start = state.time;
         if state.values.len() != 2 * n {
             let found = state.values.len();
-            return Err(failed(start, IntegratorsError::DimensionMismatch { expected: 2 * n, found }));
+            return Err(failed(start, IntegratorsError::WrongLength { quantity: "state", expected: 2 * n, found }));
         }
         if !(end - start).is_finite() {
-            return Err(failed(start, IntegratorsError::NonFiniteTime { time: end }));
+            return Err(failed(start, IntegratorsError::NotFinite { quantity: "time", index: 0, value: end, t: None }));
         }
         if (end - start).abs() <= 0.0 {
             return Ok(report);
@@ -167,7 +167,7 @@ impl Rattle {
         let count = ((end - start).abs() / self.step * (1.0 - 4.0 * f64::EPSILON)).ceil().max(1.0);
         let h = (end - start) / count;
         if h.abs() < f64::EPSILON * start.abs().max(end.abs()) {
-            return Err(failed(start, IntegratorsError::StepTooSmall { time: start, step: h }));
+            return Err(failed(start, IntegratorsError::StepTooSmall { t: start, step: h }));
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
         let steps = count as u64;
@@ -175,7 +175,7 @@ impl Rattle {
         self.prepare(2 * n);
         let mut field = system.lagrangian.canonical_motion(n);
         hold(system, &mut self.work, &state.values[..n], &mut self.velocity, start)
-            .map_err(|source| failed(start, IntegratorsError::Field { time: start, source }))?;
+            .map_err(|source| failed(start, IntegratorsError::Field { t: start, source }))?;
         for number in 1..=steps {
             let time = state.time;
             let next = if number == steps { end } else { start + h * number as f64 };
@@ -220,7 +220,7 @@ impl Rattle {
         report: &mut Report,
     ) -> Result<(), IntegratorsError<LagrangianError>> {
         let n = y.len() / 2;
-        let at = |time: f64| move |source: LagrangianError| IntegratorsError::Field { time, source };
+        let at = |t: f64| move |source: LagrangianError| IntegratorsError::Field { t, source };
         let count = system.constraints.count();
         let half = 0.5 * h;
         // The impulse of the last step, along the gradients of this one, is the first guess.
@@ -272,7 +272,7 @@ impl Rattle {
             }
             change = change.max(relative(largest(&self.change), scale_q));
             if !change.is_finite() || sweep == MOST_SWEEPS {
-                return Err(IntegratorsError::StagesDiverged { time: from, step: h, iterations: sweep, change });
+                return Err(IntegratorsError::StagesDiverged { t: from, step: h, iterations: sweep, change });
             }
             // Converged when the next change would be below rounding, or when rounding has stopped the fall.
             let predicted = if previous.is_finite() { change * (change / previous).min(1.0) } else { change };
@@ -304,7 +304,7 @@ impl Rattle {
             }
         }
         if let Some(index) = self.end.iter().position(|x| !x.is_finite()) {
-            return Err(IntegratorsError::NonFiniteRate { time: from, index });
+            return Err(IntegratorsError::NotFinite { quantity: "rate", index, value: self.end[index], t: Some(from) });
         }
         y.copy_from_slice(&self.end);
         Ok(())

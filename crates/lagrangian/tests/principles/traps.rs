@@ -47,7 +47,14 @@ fn non_finite_input_is_refused_by_name() {
     assert!(matches!(found, LagrangianError::NotFinite { quantity: "t", index: 0, .. }), "{found}");
     let mut out = [Reaction::none(); 3];
     let given = (&q[..], &q[..], &[0.0, 0.0, f64::NAN][..]);
-    let found = refusal(system.reactions_at_acceleration_into(&mut Workspace::default(), given.0, given.1, given.2, 0.0, &mut out));
+    let found = refusal(system.reactions_at_acceleration_into(
+        &mut Workspace::default(),
+        given.0,
+        given.1,
+        given.2,
+        0.0,
+        &mut out,
+    ));
     assert!(matches!(found, LagrangianError::NotFinite { quantity: "q̈", index: 2, .. }), "{found}");
     let found = refusal(system.covariant_acceleration(&q, &q, given.2, 0.0));
     assert!(matches!(found, LagrangianError::NotFinite { quantity: "q̈", index: 2, .. }), "{found}");

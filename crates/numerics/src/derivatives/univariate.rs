@@ -2,24 +2,12 @@
 
 use super::UnivariateFunction;
 use crate::error::check_finite;
-use crate::{Dual, NumericsError, Jet, Real};
+use crate::{Dual, Jet, NumericsError, Real};
 
 /// (f, f′) at x.
 ///
 /// # Errors
 /// See [the module](super#errors).
-///
-/// # Example
-/// ```
-/// use piola_numerics::{Real, derivatives::{self, UnivariateFunction}};
-/// struct Square;
-/// impl UnivariateFunction for Square {
-///     fn call<T: Real>(&self, x: T) -> T {
-///         x * x
-///     }
-/// }
-/// assert_eq!(derivatives::first_derivative(&Square, 3.0), Ok((9.0, 6.0)));
-/// ```
 #[inline]
 pub fn first_derivative<T: Real>(f: &impl UnivariateFunction, x: T) -> Result<(T, T), NumericsError> {
     check_finite("x", &[x])?;

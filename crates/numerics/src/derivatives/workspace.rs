@@ -13,13 +13,19 @@ use crate::{Dual, Gradient, Jet, Real};
 /// struct Product;
 /// impl ScalarFunction for Product {
 ///     fn call<T: Real>(&self, x: &[T]) -> T {
-///         x.iter().fold(T::lit(1.0), |product, &x| product * x)
+///         x[0] * x[1]
 ///     }
 /// }
-/// let mut workspace = Workspace::<f64>::new(3);
-/// let mut gradient = [0.0; 3];
-/// let value = derivatives::gradient_into(&Product, &[1.0, 2.0, 3.0], &mut workspace, &mut gradient)?;
-/// assert_eq!((value, gradient), (6.0, [6.0, 3.0, 2.0]));
+/// let (mut work, x, v) = (Workspace::<f64>::new(2), [3.0, 4.0], [1.0, 2.0]);
+/// let (mut gradient, mut hessian, mut product) = ([0.0; 2], [0.0; 4], [0.0; 2]);
+/// assert_eq!(derivatives::gradient_into(&mut work, &Product, &x, &mut gradient)?, 12.0);
+/// derivatives::hessian_into(&mut work, &Product, &x, &mut gradient, &mut hessian)?;
+/// assert_eq!((gradient, hessian), ([4.0, 3.0], [0.0, 1.0, 1.0, 0.0]));
+/// // Along x + s v: (3 + s)(4 + 2s) = 12 + 10 s + 2 s².
+/// assert_eq!(derivatives::directional(&mut work, &Product, &x, &v)?, (12.0, 10.0, 4.0));
+/// assert_eq!(derivatives::mixed(&mut work, &Product, &x, &v, &[0.0, 1.0])?, 1.0);
+/// derivatives::hessian_vector_product_into(&mut work, &Product, &x, &v, &mut product)?;
+/// assert_eq!(product, [2.0, 1.0]);
 /// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
 #[derive(Clone, Debug)]

@@ -19,28 +19,12 @@ impl<T: Element, const N: usize> Lanes<T, N> {
     /// components are by rows always.
     ///
     /// Fastest in a kernel that runs with as many lanes as the registers of its [`Level`](crate::Level) hold.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_numerics::Lanes;
-    /// let mut components = [Lanes([0.0; 2]); 3];
-    /// Lanes::gather::<3, 1>([&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.0]], &mut components);
-    /// assert_eq!(components, [Lanes([1.0, 4.0]), Lanes([2.0, 5.0]), Lanes([3.0, 6.0])]);
-    /// ```
     #[inline(always)]
     pub fn gather<const K: usize, const ROWS: usize>(records: [&[T; K]; N], components: &mut [Self; K]) {
         T::gather::<N, K, ROWS>(records, components);
     }
 
     /// The inverse of [`gather`](Self::gather): the components of each lane to its record.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_numerics::Lanes;
-    /// let mut records = [[0.0; 3]; 2];
-    /// Lanes::scatter::<3, 1>(&[Lanes([1.0, 4.0]), Lanes([2.0, 5.0]), Lanes([3.0, 6.0])], records.each_mut());
-    /// assert_eq!(records, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
-    /// ```
     #[inline(always)]
     pub fn scatter<const K: usize, const ROWS: usize>(components: &[Self; K], records: [&mut [T; K]; N]) {
         T::scatter::<N, K, ROWS>(components, records);

@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use super::{condition, one_norm};
 use crate::error::{check_dimension, check_finite};
 use crate::sums::unit_in_last_place;
-use crate::{NumericsError, Mask, Real};
+use crate::{Mask, NumericsError, Real};
 
 /// Factors an n×n matrix in place: L below the diagonal, U on and above it, and the row that was exchanged
 /// with row k in `exchanges[k]`.
@@ -28,16 +28,6 @@ use crate::{NumericsError, Mask, Real};
 ///
 /// # Accuracy
 /// L U is P A to a few n ulp of the largest entry (growth of the pivots, rare, apart).
-///
-/// # Example
-/// ```
-/// use piola_numerics::linear::lu;
-/// let (mut a, mut exchanges, mut b) = ([0.0, 2.0, 1.0, 0.0], [0; 2], [3.0, 4.0]); // y = 3, 2x = 4
-/// lu::factor_in_place(&mut a, &mut exchanges)?;
-/// lu::solve_in_place(&a, &exchanges, &mut b)?;
-/// assert_eq!(b, [2.0, 3.0]);
-/// # Ok::<(), piola_numerics::NumericsError>(())
-/// ```
 #[inline(always)]
 pub fn factor_in_place<T: Real>(a: &mut [T], exchanges: &mut [usize]) -> Result<(), NumericsError> {
     let n = exchanges.len();
@@ -137,7 +127,11 @@ pub fn solve_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) 
 /// # Errors
 /// [`NumericsError::WrongLength`].
 #[inline(always)]
-pub fn solve_transposed_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), NumericsError> {
+pub fn solve_transposed_in_place<T: Real>(
+    factors: &[T],
+    exchanges: &[usize],
+    b: &mut [T],
+) -> Result<(), NumericsError> {
     let n = exchanges.len();
     check_dimension("factors", factors.len(), n * n)?;
     check_dimension("right-hand side", b.len(), n)?;
@@ -165,14 +159,6 @@ pub fn solve_transposed_in_place<T: Real>(factors: &[T], exchanges: &[usize], b:
 ///
 /// # Errors
 /// As [`factor_in_place`]; entries that are not finite are refused by name.
-///
-/// # Example
-/// ```
-/// use nalgebra::{matrix, vector};
-/// let x = piola_numerics::linear::lu::solve(matrix![0.0, 1.0; 2.0, 0.0], vector![3.0, 4.0])?;
-/// assert_eq!(x, vector![2.0, 3.0]);
-/// # Ok::<(), piola_numerics::NumericsError>(())
-/// ```
 #[inline]
 pub fn solve<T: Real, const N: usize>(
     mut matrix: SMatrix<T, N, N>,
@@ -274,15 +260,6 @@ impl Lu<f64> {
     ///
     /// # Errors
     /// [`NumericsError::WrongLength`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::dmatrix;
-    /// use piola_numerics::linear::lu::Lu;
-    /// let a = dmatrix![2.0, 0.0; 0.0, 0.5];
-    /// assert_eq!(Lu::new(&a)?.condition_estimate(a.as_slice())?, 4.0);
-    /// # Ok::<(), piola_numerics::NumericsError>(())
-    /// ```
     pub fn condition_estimate(&self, matrix: &[f64]) -> Result<f64, NumericsError> {
         check_dimension("matrix", matrix.len(), self.factors.len())?;
         // The vectors have the right length, so that nothing can be refused.

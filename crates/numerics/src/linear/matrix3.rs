@@ -11,15 +11,9 @@ use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
 use crate::error::check_finite;
 use crate::sums::unit_in_last_place;
-use crate::{NumericsError, Mask, Real};
+use crate::{Mask, NumericsError, Real};
 
 /// a × b.
-///
-/// # Example
-/// ```
-/// use piola_numerics::linear::matrix3::cross;
-/// assert_eq!(cross([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]), [0.0, 0.0, 1.0]);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
@@ -27,12 +21,6 @@ pub fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
 }
 
 /// a · b.
-///
-/// # Example
-/// ```
-/// use piola_numerics::linear::matrix3::dot;
-/// assert_eq!(dot([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]), 32.0);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
@@ -43,12 +31,6 @@ pub fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
 ///
 /// # Accuracy
 /// Within 4 ulp of the sum of the six products with all signs positive.
-///
-/// # Example
-/// ```
-/// use piola_numerics::linear::matrix3::determinant;
-/// assert_eq!(determinant([[2.0, 0.0, 1.0], [0.0, 3.0, 0.0], [1.0, 0.0, 1.0]]), 3.0); // 2·3·1 − 1·3·1
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn determinant<T: Real>(rows: [[T; 3]; 3]) -> T {
@@ -59,13 +41,6 @@ pub fn determinant<T: Real>(rows: [[T; 3]; 3]) -> T {
 ///
 /// # Accuracy
 /// Each entry within 2 ulp of the sum of its two products with positive signs.
-///
-/// # Example
-/// ```
-/// use piola_numerics::linear::matrix3::adjugate;
-/// let a = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 0.0]];
-/// assert_eq!(adjugate(a)[2], [0.0, 0.0, 6.0]);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn adjugate<T: Real>(rows: [[T; 3]; 3]) -> [[T; 3]; 3] {
@@ -77,13 +52,6 @@ pub fn adjugate<T: Real>(rows: [[T; 3]; 3]) -> [[T; 3]; 3] {
 ///
 /// # Accuracy
 /// A few ulp × the condition number.
-///
-/// # Example
-/// ```
-/// use piola_numerics::linear::matrix3::inverse_and_determinant;
-/// let (inverse, determinant) = inverse_and_determinant([[2.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 1.0]]);
-/// assert_eq!((inverse[0][0], inverse[1][1], determinant), (0.5, 0.25, 8.0));
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn inverse_and_determinant<T: Real>(rows: [[T; 3]; 3]) -> ([[T; 3]; 3], T) {
@@ -97,13 +65,6 @@ pub fn inverse_and_determinant<T: Real>(rows: [[T; 3]; 3]) -> ([[T; 3]; 3], T) {
 ///
 /// # Accuracy
 /// A few ulp × the condition number.
-///
-/// # Example
-/// ```
-/// use piola_numerics::linear::matrix3::solve_rows;
-/// let a = [[0.0, 2.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 4.0]];
-/// assert_eq!(solve_rows(a, [2.0, 3.0, 8.0]), [3.0, 1.0, 2.0]);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn solve_rows<T: Real>(rows: [[T; 3]; 3], right: [T; 3]) -> [T; 3] {
@@ -165,15 +126,6 @@ pub fn inverse<T: Real>(matrix: &Matrix3<T>) -> Result<Matrix3<T>, NumericsError
 /// # Accuracy
 /// A few ulp × the condition number; the residual is not always as small as elimination makes it, for which
 /// see [`lu::solve`](super::lu::solve).
-///
-/// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_numerics::linear::matrix3;
-/// let a = Matrix3::new(0.0, 2.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 4.0);
-/// assert_eq!(matrix3::solve(&a, &Vector3::new(2.0, 3.0, 8.0))?, Vector3::new(3.0, 1.0, 2.0));
-/// # Ok::<(), piola_numerics::NumericsError>(())
-/// ```
 #[inline]
 pub fn solve<T: Real>(matrix: &Matrix3<T>, right: &Vector3<T>) -> Result<Vector3<T>, NumericsError> {
     check_finite("matrix", matrix.as_slice())?;

@@ -2,6 +2,7 @@
 
 use piola_numerics::derivatives::{self, Workspace};
 use piola_numerics::linear::{ldlt, lu, matrix3};
+use piola_numerics::quadrature::{self, GaussKronrod, Panel, Quadpack};
 use piola_numerics::sums::{compensated_add, compensated_dot, compensated_sum};
 use piola_testkit::allocations_in;
 
@@ -15,13 +16,13 @@ fn derivatives_into_memory_of_the_caller_allocate_nothing() {
     let mut workspace = Workspace::<f64>::with_values(N, N);
     let (mut vector, mut value, mut matrix) = ([0.0; N], [0.0; N], [0.0; N * N]);
     let (count, result) = allocations_in(|| {
-        derivatives::gradient_into(&Coupled, &x, &mut workspace, &mut vector)?;
-        derivatives::hessian_vector_product_into(&Coupled, &x, &v, &mut workspace, &mut vector)?;
-        derivatives::hessian_into(&Coupled, &x, &mut workspace, &mut vector, &mut matrix)?;
-        derivatives::directional(&Coupled, &x, &v, &mut workspace)?;
-        derivatives::mixed(&Coupled, &x, &v, &v, &mut workspace)?;
-        derivatives::jacobian_into(&CoupledGradient, &x, &mut workspace, &mut value, &mut matrix)?;
-        derivatives::jacobian_vector_product_into(&CoupledGradient, &x, &v, &mut workspace, &mut value, &mut vector)
+        derivatives::gradient_into(&mut workspace, &Coupled, &x, &mut vector)?;
+        derivatives::hessian_vector_product_into(&mut workspace, &Coupled, &x, &v, &mut vector)?;
+        derivatives::hessian_into(&mut workspace, &Coupled, &x, &mut vector, &mut matrix)?;
+        derivatives::directional(&mut workspace, &Coupled, &x, &v)?;
+        derivatives::mixed(&mut workspace, &Coupled, &x, &v, &v)?;
+        derivatives::jacobian_into(&mut workspace, &CoupledGradient, &x, &mut value, &mut matrix)?;
+        derivatives::jacobian_vector_product_into(&mut workspace, &CoupledGradient, &x, &v, &mut value, &mut vector)
     });
     assert_eq!((count, result), (0, Ok(())));
 }
@@ -55,5 +56,18 @@ fn compensated_sums_allocate_nothing() {
         compensated_add(&mut y, &mut carry, &[1e-17; 4])?;
         compensated_dot(&y, &carry).map(|dot| dot + compensated_sum(&y))
     });
+    assert_eq!(count, 0);
+}
+
+#[test]
+fn adaptive_integration_on_the_stack_allocates_nothing() {
+    let allowed = |values: &[f64; 1], _: &[f64; 1]| [1e-12 * values[0]];
+    let (count, found) = allocations_in(|| {
+        let method = (&GaussKronrod::POINTS_21, &Quadpack);
+        quadrature::integrate(&mut [Panel::EMPTY; 96], [(0.0, 1.0)], method, &allowed, |_, x: f64| {
+            Ok::<_, core::convert::Infallible>([x.sqrt()])
+        })
+    });
+    assert!(found.is_ok_and(|found| 5 < found.panels));
     assert_eq!(count, 0);
 }

@@ -99,7 +99,7 @@ proptest! {
         let gradient = derivatives::gradient(&Coupled, &x).unwrap();
         assert_close("∇f", gradient.as_slice(), &expected, Tol::ulps(16.0));
         let mut wide = [0.0; 7];
-        let value = derivatives::gradient_into(&Coupled, &x, &mut Workspace::<f64, 8>::new(7), &mut wide).unwrap();
+        let value = derivatives::gradient_into(&mut Workspace::<f64, 8>::new(7), &Coupled, &x, &mut wide).unwrap();
         assert_close("∇f by eights", &wide, gradient.as_slice(), Tol::ulps(2.0));
         assert_eq!(value.to_bits(), ScalarFunction::call::<f64>(&Coupled, &x).to_bits());
     }
@@ -129,17 +129,17 @@ proptest! {
         let tolerance = Tol::ulps(32.0);
         let (mut product, mut value) = ([0.0; 6], [0.0; 6]);
         let slope =
-            derivatives::hessian_vector_product_into(&Coupled, &x, &v, workspace, &mut product).unwrap();
+            derivatives::hessian_vector_product_into(workspace, &Coupled, &x, &v, &mut product).unwrap();
         assert_close_at_scale("(∇²f)v", &product, expected.as_slice(), scale, tolerance);
         assert_close_at_scale("v·∇f", &[slope], &[gradient.dot(&v_column)], gradient.amax(), tolerance);
-        derivatives::jacobian_vector_product_into(&CoupledGradient, &x, &v, workspace, &mut value, &mut product)
+        derivatives::jacobian_vector_product_into(workspace, &CoupledGradient, &x, &v, &mut value, &mut product)
             .unwrap();
         assert_close_at_scale("(∇f)v", &product, expected.as_slice(), scale, tolerance);
-        let mixed = derivatives::mixed(&Coupled, &x, &u, &v, workspace).unwrap();
+        let mixed = derivatives::mixed(workspace, &Coupled, &x, &u, &v).unwrap();
         assert_close_at_scale("u·(∇²f)v", &[mixed], &[u_column.dot(&expected)], scale, tolerance);
-        let swapped = derivatives::mixed(&Coupled, &x, &v, &u, workspace).unwrap();
+        let swapped = derivatives::mixed(workspace, &Coupled, &x, &v, &u).unwrap();
         assert_close_at_scale("u·(∇²f)v = v·(∇²f)u", &[mixed], &[swapped], scale, tolerance);
-        let (_, along, curvature) = derivatives::directional(&Coupled, &x, &v, workspace).unwrap();
+        let (_, along, curvature) = derivatives::directional(workspace, &Coupled, &x, &v).unwrap();
         assert_close_at_scale("v·∇f", &[along], &[slope], gradient.amax(), tolerance);
         assert_close_at_scale("v·(∇²f)v", &[curvature], &[v_column.dot(&expected)], scale, tolerance);
     }

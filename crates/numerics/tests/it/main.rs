@@ -2,6 +2,7 @@
 
 mod alloc;
 mod elementary;
+mod excess;
 mod formulas;
 mod golden;
 mod lanes;
@@ -9,6 +10,7 @@ mod laws;
 mod least_squares;
 mod linear;
 mod peers;
+mod quadrature;
 mod scalars;
 mod sums;
 mod traps;

@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use nalgebra::{Matrix3, dmatrix, dvector};
 use piola_numerics::derivatives::{self, ScalarFunction, UnivariateFunction, VectorFunction, Workspace};
 use piola_numerics::linear::{ldlt, lu, matrix3};
-use piola_numerics::{Dual, NumericsError, Gradient, Jet, Real};
+use piola_numerics::{Dual, Gradient, Jet, NumericsError, Real};
 use piola_testkit::{Tol, assert_close};
 
 /// Value, first and second derivative of a formula through a jet.
@@ -254,9 +254,9 @@ fn input_that_is_not_finite_is_refused_by_name() {
     assert_eq!(derivatives::gradient(&Sum, &bad), Err(refused("x", 1)));
     assert_eq!(derivatives::hessian(&Sum, &bad), Err(refused("x", 1)));
     assert_eq!(derivatives::jacobian(&Sum, &bad), Err(refused("x", 1)));
-    assert_eq!(derivatives::directional(&Sum, &good, &bad, &mut workspace), Err(refused("direction", 1)));
-    assert_eq!(derivatives::mixed(&Sum, &good, &good, &bad, &mut workspace), Err(refused("v", 1)));
-    let result = derivatives::hessian_vector_product_into(&Sum, &good, &bad, &mut workspace, &mut out[..2]);
+    assert_eq!(derivatives::directional(&mut workspace, &Sum, &good, &bad), Err(refused("direction", 1)));
+    assert_eq!(derivatives::mixed(&mut workspace, &Sum, &good, &good, &bad), Err(refused("v", 1)));
+    let result = derivatives::hessian_vector_product_into(&mut workspace, &Sum, &good, &bad, &mut out[..2]);
     assert_eq!(result, Err(refused("v", 1)));
     let matrix = Matrix3::repeat(f64::INFINITY);
     assert_eq!(matrix3::inverse(&matrix), Err(refused("matrix", 0)));
@@ -268,13 +268,13 @@ fn input_that_is_not_finite_is_refused_by_name() {
 
 #[test]
 fn vectors_of_the_wrong_length_are_refused_by_name() {
-    let refused = |quantity, expected, actual| Err(NumericsError::WrongLength { quantity, expected, actual });
+    let refused = |quantity, expected, found| Err(NumericsError::WrongLength { quantity, expected, found });
     let x = [1.0, 2.0];
     let mut workspace = Workspace::<f64>::new(2);
-    assert_eq!(derivatives::gradient_into(&Sum, &[1.0], &mut workspace, &mut [0.0]), refused("x", 2, 1));
-    assert_eq!(derivatives::gradient_into(&Sum, &x, &mut workspace, &mut [0.0]), refused("gradient", 2, 1));
-    let result = derivatives::jacobian_into(&Sum, &x, &mut workspace, &mut [0.0], &mut [0.0; 2]);
-    assert_eq!(result, Err(NumericsError::WrongLength { quantity: "workspace values", expected: 1, actual: 0 }));
+    assert_eq!(derivatives::gradient_into(&mut workspace, &Sum, &[1.0], &mut [0.0]), refused("x", 2, 1));
+    assert_eq!(derivatives::gradient_into(&mut workspace, &Sum, &x, &mut [0.0]), refused("gradient", 2, 1));
+    let result = derivatives::jacobian_into(&mut workspace, &Sum, &x, &mut [0.0], &mut [0.0; 2]);
+    assert_eq!(result, Err(NumericsError::WrongLength { quantity: "workspace values", expected: 1, found: 0 }));
     assert!(ldlt::Ldlt::new(&dmatrix![1.0, 2.0]).is_err(), "a matrix that is not square");
 }
 

@@ -29,14 +29,14 @@ pub(super) fn comparison(measurements: &Measurements, comparison: &Comparison) -
         .map(|(index, test)| {
             let is_curve = test.table().mode().is_some();
             let points: Vec<(f64, f64)> = test.abscissas().zip(test.stresses()).collect();
-            let answers = |fit: &piola_constitutive::fit::Fit| {
+            let answers = |fit: &piola_fit::solids::Fit| {
                 points.iter().zip(&fit.tests[index].residuals).map(|((x, y), residual)| (*x, y + residual)).collect()
             };
             let curves =
                 comparison.fits().map(|(law, fit)| if is_curve { curve(law, fit, test) } else { answers(fit) });
             let curves = curves.collect();
             let abscissa = match test.table().mode() {
-                Some((piola_constitutive::homogeneous::Mode::SimpleShear, _)) => "amount of shear",
+                Some((piola_specimens::homogeneous::Mode::SimpleShear, _)) => "amount of shear",
                 Some(_) => "stretch",
                 None => "largest stretch",
             };

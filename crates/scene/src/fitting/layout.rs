@@ -11,9 +11,9 @@ use std::io::Read as _;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fit::{Component, Data, Measure, Table, Test};
-use piola_constitutive::homogeneous::Mode;
+use piola_solids::SolidsError;
+use piola_fit::solids::{Component, Data, Measure, Table, Test};
+use piola_specimens::homogeneous::Mode;
 
 use super::TableMistake;
 use crate::SceneError;

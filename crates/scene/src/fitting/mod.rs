@@ -4,7 +4,7 @@
 //! |---|---|
 //! | read | [`Measurements::load`]: a CSV table, every mistake with its line |
 //! | ask | [`Request`]: laws, weights, bounds, stability |
-//! | fit | [`compare`]: each law on the same data, by [`piola_constitutive::fit`] |
+//! | fit | [`compare`]: each law on the same data, by [`piola_fit::solids`] |
 //! | write | [`write()`]: `summary.json`, `curves.csv`, `residuals.csv`, `fit.svg` |
 
 mod figure;
@@ -16,12 +16,12 @@ mod tables;
 pub use mistake::{TableMistake, TableReport};
 pub use request::{LawBounds, Request};
 
-pub use piola_constitutive::fit::{Estimate, Fit, Stability, State, Weighting};
+pub use piola_fit::solids::{Estimate, Fit, Stability, State, Weighting};
 
 use std::path::{Path, PathBuf};
 
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fit::{AnyModel, Data, fit};
+use piola_solids::SolidsError;
+use piola_fit::solids::{AnyModel, Data, fit};
 
 use crate::SceneError;
 use crate::output::{Folder, Written};

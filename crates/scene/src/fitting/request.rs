@@ -2,7 +2,7 @@
 
 use core::str::FromStr;
 
-use piola_constitutive::fit::{AnyModel, Data, Options, Stability, Weighting};
+use piola_fit::solids::{AnyModel, Data, Options, Stability, Weighting};
 
 use crate::SceneError;
 

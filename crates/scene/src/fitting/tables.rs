@@ -2,7 +2,7 @@
 
 use core::fmt::Write as _;
 
-use piola_constitutive::fit::{AnyModel, Covariance, Fit, Fitted, Test};
+use piola_fit::solids::{AnyModel, Covariance, Fit, Fitted, Test};
 use serde_json::{Value, json};
 
 use super::{Comparison, Measurements};

@@ -2,8 +2,8 @@
 
 use super::Builder;
 use crate::document::Mistake;
-use piola_gravitation::kepler::{Elements, KeplerMotion};
 use crate::validation::Record;
+use piola_gravitation::kepler::{Elements, KeplerMotion};
 
 /// Bodies about a fixed centre at the origin, without attraction among themselves.
 #[derive(Debug, Clone)]

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 
 use super::{Builder, System, TimeSpan};
 use crate::document::Mistake;
-use piola_gravitation::kepler::KeplerMotion;
 use crate::validation::Record;
 use crate::words;
+use piola_gravitation::kepler::KeplerMotion;
 
 /// A reference with the way of measuring errors against it.
 #[derive(Debug, Clone)]

@@ -3,8 +3,8 @@
 use piola_integrators::Order;
 
 use super::Method;
-use piola_gravitation::kepler::KeplerMotion;
 use crate::model::{Central, Gravitation, Scene, System};
+use piola_gravitation::kepler::KeplerMotion;
 
 /// Steps a method of order 8 takes for each turn of the fastest motion: errors near rounding on mild ellipses.
 const STEPS_PER_TURN: f64 = 100.0;

@@ -4,12 +4,9 @@ use core::fmt;
 use core::fmt::Write as _;
 use core::str::FromStr;
 
-use piola_constitutive::fluids::{
-    Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters,
-    PowerLaw, Sisko, ViscometricFluid,
-};
+use piola_fluids::{Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters, PowerLaw, Sisko, ViscometricFluid};
 use piola_viscometry::ViscometryError;
-use piola_viscometry::fit::{Criteria, FlowData, FluidParameter, Options, Outcome, Weighting, fit_flow};
+use piola_fit::fluids::{Criteria, FlowData, FluidParameter, Options, Outcome, Weighting, fit_flow};
 use piola_viscometry::recover::Noise;
 use serde_json::{Value, json};
 

@@ -5,7 +5,7 @@
 //! | read | [`Measured::load`]: a CSV table with units, its geometry in comments; every mistake with its line |
 //! | recover | [`recover`]: flow curves and normal stresses with bands, by [`piola_viscometry::recover`] |
 //! | correct | [`recover_without_slip`], [`recover_without_ends`]: pipes of several radii, capillaries of several lengths |
-//! | fit | [`compare`]: fluids on the same data, by [`piola_viscometry::fit`] |
+//! | fit | [`compare`]: fluids on the same data, by [`piola_fit::fluids`] |
 //! | write | [`Recovery::write`], [`Comparison::write`]: `summary.json`, CSV tables, a figure |
 //!
 //! ```text
@@ -20,7 +20,7 @@ mod recovery;
 mod table;
 
 pub use fluids::{Candidate, Comparison, FluidName, Request, compare};
-pub use piola_viscometry::fit::Weighting;
+pub use piola_fit::fluids::Weighting;
 pub use piola_viscometry::recover::{Noise, Rise};
 pub use recovery::{
     Correction, Function, Point, RecoveredCurve, Recovery, RecoveryRequest, recover, recover_without_ends,

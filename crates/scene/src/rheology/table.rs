@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 use piola_viscometry::ViscometryError;
-use piola_viscometry::fit::FlowData;
+use piola_fit::fluids::FlowData;
 use piola_viscometry::recover::{ConeGeometry, FlowTable};
 
 use crate::SceneError;

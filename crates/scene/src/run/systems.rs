@@ -4,8 +4,9 @@ use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use nalgebra::Vector3;
-use piola_dynamics::gravitation::{self, Gravitation, SPEED_OF_LIGHT, attraction};
-use piola_dynamics::lagrangian::{Lagrangian, Workspace};
+use piola_gravitation::{Gravitation, SPEED_OF_LIGHT, attraction};
+use piola_gravitation as gravitation;
+use piola_lagrangian::{Lagrangian, Workspace};
 use piola_integrators::{Composition, Field, Separable, State};
 use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
 use piola_numerics::sums::CompensatedSum;
@@ -36,7 +37,7 @@ pub(super) fn gravitation(
     }
 }
 
-fn gravitating(system: &model::Gravitation) -> Result<Gravitation, piola_dynamics::DynamicsError> {
+fn gravitating(system: &model::Gravitation) -> Result<Gravitation, piola_lagrangian::LagrangianError> {
     let bodies =
         Gravitation::new(system.bodies.iter().map(|body| body.gm).collect())?.with_softening(system.softening)?;
     match system.post_newtonian {

@@ -30,14 +30,12 @@ const fn vector(dimension: Dimension) -> Kind {
 }
 
 /// The kinds of scenes.
-pub static SCENE_KINDS: [SceneKind; 7] = [
+pub static SCENE_KINDS: [SceneKind; 5] = [
     motion("gravity", &["body"]),
     motion("mechanism", &["joint", "particle", "rigid_body"]),
     motion("central", &["body"]),
     study("wavefront", &["medium"]),
     study("room", &[]),
-    study("kepler_arcs", &[]),
-    study("henon_heiles", &[]),
 ];
 
 const fn motion(name: &'static str, lists: &'static [&'static str]) -> SceneKind {
@@ -51,7 +49,7 @@ const fn study(name: &'static str, lists: &'static [&'static str]) -> SceneKind 
 /// A whole scene.
 pub static SCENE: Table = Table {
     name: "scene",
-    doc: "A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]` and `[central]` move in time and need `[time]`; `[wavefront]`, `[room]`, `[kepler_arcs]` and `[henon_heiles]` are studies without it.",
+    doc: "A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]` and `[central]` move in time and need `[time]`; `[wavefront]` and `[room]` are studies without it.",
     keys: &[
         key(
             "name",
@@ -65,18 +63,6 @@ pub static SCENE: Table = Table {
         key("central", Kind::Table(&CENTRAL), Absent::Optional, "Bodies about a fixed centre of attraction."),
         key("wavefront", Kind::Table(&studies::WAVEFRONT), Absent::Optional, "Wave fronts and rays in a medium."),
         key("room", Kind::Table(&studies::ROOM), Absent::Optional, "First arrival of a signal in a room."),
-        key(
-            "kepler_arcs",
-            Kind::Table(&studies::KEPLER_ARCS),
-            Absent::Optional,
-            "All arcs between two events about a centre.",
-        ),
-        key(
-            "henon_heiles",
-            Kind::Table(&studies::HENON_HEILES),
-            Absent::Optional,
-            "Sections of the motions of Hénon and Heiles.",
-        ),
         key("body", Kind::Tables(&BODY), Absent::Optional, "The bodies of `[gravity]` or `[central]`."),
         key(
             "joint",

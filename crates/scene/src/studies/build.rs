@@ -39,8 +39,6 @@ impl Builder<'_> {
         let table = record.record(kind.name)?;
         let subject = match kind.name {
             "room" => Subject::Room(self.room(table)?),
-            "kepler_arcs" => Subject::KeplerArcs(self.kepler_arcs(table)?),
-            "henon_heiles" => Subject::HenonHeiles(self.henon_heiles(table)?),
             _ => Subject::Wavefront(self.wavefront(record, table)?),
         };
         Some(Study { name, title: record.text("title").map(str::to_string), subject, output })

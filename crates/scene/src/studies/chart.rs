@@ -1,7 +1,5 @@
 //! Plane figures true to scale, and their colours.
 
-use core::fmt::Write as _;
-
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -57,19 +55,10 @@ impl<'a> Canvas<'a> {
     pub(super) fn metres(
         area: &Area<'a>,
         window: Window,
-        names: (&str, &str),
+        (across, up): (&str, &str),
     ) -> Result<Self, Box<dyn core::error::Error>> {
         let largest = window.low.iter().chain(&window.high).fold(0.0, |m: f64, x| m.max(x.abs()));
         let (name, unit) = length_unit(largest);
-        Self::new(area, window, (name, unit), names)
-    }
-
-    pub(super) fn new(
-        area: &Area<'a>,
-        window: Window,
-        (name, unit): (&str, f64),
-        (across, up): (&str, &str),
-    ) -> Result<Self, Box<dyn core::error::Error>> {
         let (width, height) = area.dim_in_pixel();
         let (wide, tall) =
             (f64::from(width.saturating_sub(100 * FINE).max(1)), f64::from(height.saturating_sub(75 * FINE).max(1)));
@@ -79,7 +68,7 @@ impl<'a> Canvas<'a> {
             let middle = 0.5 * (low[k] + high[k]) / unit;
             middle - 0.5 * grain * pixels..middle + 0.5 * grain * pixels
         };
-        let named = |axis: &str| if name.is_empty() { axis.to_string() } else { format!("{axis} ({name})") };
+        let named = |axis: &str| format!("{axis} ({name})");
         let chart = plane_chart(area, (range(0, wide), range(1, tall)), (named(across), named(up)))?;
         Ok(Self { chart, unit, grain })
     }
@@ -139,32 +128,6 @@ impl<'a> Canvas<'a> {
             }
         }
         Ok(())
-    }
-
-    /// Many small dots as one SVG path, to be put into the figure by [`with_paths`].
-    pub(super) fn dots(&self, points: &[[f64; 2]]) -> String {
-        let mut path = String::new();
-        for [x, y] in points {
-            let (x, y) = self.chart.backend_coord(&(x / self.unit, y / self.unit));
-            let _ = write!(path, "M{x} {y}h0");
-        }
-        path
-    }
-}
-
-/// A figure with further paths of dots, each in a colour, `eighths` of a pixel wide.
-pub(super) fn with_paths(figure: &str, paths: &[(String, RGBColor)], eighths: u32) -> String {
-    let mut drawn = String::new();
-    for (path, RGBColor(red, green, blue)) in paths {
-        let _ = writeln!(
-            drawn,
-            "<path d=\"{path}\" fill=\"none\" stroke=\"#{red:02X}{green:02X}{blue:02X}\" stroke-width=\"{eighths}\" \
-             stroke-linecap=\"round\"/>"
-        );
-    }
-    match figure.rfind("</svg>") {
-        Some(end) => format!("{}{drawn}{}", &figure[..end], &figure[end..]),
-        None => figure.to_string(),
     }
 }
 

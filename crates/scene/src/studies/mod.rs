@@ -2,29 +2,23 @@
 //!
 //! | table | study | with |
 //! |---|---|---|
-//! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_dynamics::hamilton_jacobi`] |
-//! | `[room]` | [`Room`]: first arrival of a signal in a room | [`piola_dynamics::first_order_pde`] |
-//! | `[kepler_arcs]` | [`KeplerArcs`]: all arcs between two events | [`piola_dynamics::hamilton_jacobi`] |
-//! | `[henon_heiles]` | [`HenonHeiles`]: sections and Lyapunov exponents | [`piola_dynamics::hamiltonian`] |
+//! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_hamiltonian::hamilton_jacobi`] |
+//! | `[room]` | [`Room`]: first arrival of a signal in a room | [`piola_characteristics`] |
 //!
 //! They go the way of all scenes: a checked [`Study`] has a [`StudyPlan`], [`run`] makes a [`StudyRun`] of what was found,
 //! and [`StudyRun::write`] leaves the summary, tables and figures. One that fails or is stopped keeps what it had found.
 
-pub mod arcs;
 mod build;
 mod chart;
 mod contour;
 mod plan;
 pub mod room;
 mod run;
-pub mod sections;
 pub mod wavefront;
 
-pub use arcs::KeplerArcs;
 pub use plan::StudyPlan;
 pub use room::Room;
 pub use run::{Findings, StudyRun, run};
-pub use sections::HenonHeiles;
 pub use wavefront::Wavefront;
 
 use crate::model::OutputRequest;
@@ -50,8 +44,4 @@ pub enum Subject {
     Wavefront(Wavefront),
     /// First arrival of a signal in a room.
     Room(Room),
-    /// All arcs between two events about a centre.
-    KeplerArcs(KeplerArcs),
-    /// Sections of the motions of Hénon and Heiles.
-    HenonHeiles(HenonHeiles),
 }

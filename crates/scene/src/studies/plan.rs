@@ -62,8 +62,6 @@ impl StudyPlan {
         let (tables, figures) = match &study.subject {
             Subject::Wavefront(wavefront) => wavefront.plan(&mut plan),
             Subject::Room(room) => room.plan(&mut plan),
-            Subject::KeplerArcs(arcs) => arcs.plan(&mut plan),
-            Subject::HenonHeiles(sections) => sections.plan(&mut plan),
         };
         for (wanted, files, what) in
             [(study.output.tables, tables, "tables"), (study.output.figures, figures, "figures")]

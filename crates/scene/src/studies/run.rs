@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use serde_json::{Map, Value, json};
 
-use super::{Study, StudyPlan, Subject, arcs, room, sections, wavefront};
+use super::{Study, StudyPlan, Subject, room, wavefront};
 use crate::output::{Folder, Written};
 use crate::run::Outcome;
 
@@ -21,10 +21,6 @@ pub enum Findings {
     Wavefront(wavefront::Fronts),
     /// Of a signal in a room.
     Room(room::Arrivals),
-    /// Of arcs between two events.
-    KeplerArcs(arcs::Arcs),
-    /// Of the motions of Hénon and Heiles.
-    HenonHeiles(sections::Sections),
 }
 
 /// A study that was run, however far it came.
@@ -74,14 +70,6 @@ pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> S
             let (found, outcome) = room.run(&mut observer);
             (Findings::Room(found), outcome)
         }
-        Subject::KeplerArcs(arcs) => {
-            let (found, outcome) = arcs.run(&mut observer);
-            (Findings::KeplerArcs(found), outcome)
-        }
-        Subject::HenonHeiles(sections) => {
-            let (found, outcome) = sections.run(&mut observer);
-            (Findings::HenonHeiles(found), outcome)
-        }
     };
     StudyRun { outcome, wall_time: begun.elapsed().as_secs_f64(), findings }
 }
@@ -91,8 +79,6 @@ impl StudyRun {
         let results = match &self.findings {
             Findings::Wavefront(found) => found.results(),
             Findings::Room(found) => found.results(),
-            Findings::KeplerArcs(found) => found.results(),
-            Findings::HenonHeiles(found) => found.results(),
         };
         if let Value::Object(map) = results { map } else { Map::new() }
     }
@@ -158,8 +144,6 @@ impl StudyRun {
             _ if name == "summary.json" => Some(self.summary(plan)),
             (Findings::Wavefront(found), Subject::Wavefront(asked)) => found.file(asked, title, name),
             (Findings::Room(found), Subject::Room(asked)) => found.file(asked, title, name),
-            (Findings::KeplerArcs(found), _) => found.file(title, name),
-            (Findings::HenonHeiles(found), _) => found.file(title, name),
             _ => None,
         };
         Written::of(folder, plan.files.iter().filter_map(|name| Some((name.as_str(), file(name)?))))

@@ -40,12 +40,12 @@ fn names_of_keys_differ_and_everything_is_documented() {
 
 #[test]
 fn documentation_holds_the_generated_tables() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scenes.md");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference/scenes.md");
     // A package that stands alone has no documentation beside it.
     let Ok(documentation) = std::fs::read_to_string(path) else { return };
     assert!(
         documentation.contains(&schema::markdown()),
-        "docs/scenes.md must end with what `piola schema --markdown` prints"
+        "docs/reference/scenes.md must end with what `piola schema --markdown` prints"
     );
 }
 

@@ -5,8 +5,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use piola_numerics::Real;
 use piola_testkit::strategies::{positive_definite, rotation, rotation_matrix, unit_vector};
 use piola_testkit::{
-    CountingAllocator, DoubleDouble, Tol, allocations_in, assert_close, assert_close_at_scale, assert_order,
-    condition_number, golden, relative_error, ulps_between,
+    CountingAllocator, DoubleDouble, Tol, allocations_in, assert_close, assert_close_at_scale, assert_each_close,
+    assert_each_close_at_scales, assert_order, condition_number, golden, relative_error, ulps_between,
 };
 use proptest::prelude::*;
 
@@ -27,6 +27,22 @@ fn numbers_apart_are_not_close() {
     assert!(fails(|| assert_close("one ulp", &[1.0 + f64::EPSILON], &[1.0], Tol::ulps(0.5))));
     assert!(fails(|| assert_close("lengths", &[1.0], &[1.0, 2.0], Tol::ulps(1.0))));
     assert!(fails(|| assert_close("order", &[0.1], &[0.0], Tol::order(0.1, 2))));
+}
+
+#[test]
+fn components_are_compared_each_with_its_own_size() {
+    let (near, far) = ([1e9, 1.0, 0.0], [1e9, 1.0 + 1e-9, 0.0]);
+    assert_close("by the largest", &near, &far, Tol::ulps(8.0));
+    assert!(fails(|| assert_each_close("each", &near, &far, Tol::ulps(8.0))));
+    assert_each_close("each", &near, &far, Tol::stated(1e-9, "the difference"));
+    assert!(fails(|| assert_each_close("zero", &[1e-300], &[0.0], Tol::ulps(64.0))));
+    assert_each_close_at_scales("zero", &[1e-16], &[0.0], &[1.0], Tol::ulps(1.0));
+    assert!(fails(|| assert_each_close_at_scales("scales", &[1.0], &[1.0], &[1.0, 2.0], Tol::ulps(1.0))));
+    assert!(fails(|| assert_each_close("lengths", &[1.0], &[1.0, 2.0], Tol::ulps(1.0))));
+    let wide = Tol::stated(f64::MAX, "anything goes");
+    assert!(fails(|| assert_each_close("NaN", &[f64::NAN], &[1.0], wide)));
+    assert!(fails(|| assert_each_close("infinite", &[1.0], &[f64::INFINITY], wide)));
+    assert_each_close("equal infinities", &[f64::INFINITY], &[f64::INFINITY], Tol::ulps(0.0));
 }
 
 #[test]

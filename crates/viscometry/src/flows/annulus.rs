@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::{Newtonian, ViscometricFluid};
+use piola_fluids::{Newtonian, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
 use super::wall::{check_density, check_rising, duct, entry_length, finite, normal_functions, profile};
@@ -34,7 +34,7 @@ flow_of_numbers! {
     /// # Example
     /// ```
     /// use std::f64::consts::PI;
-    /// use piola_constitutive::fluids::Newtonian;
+    /// use piola_fluids::Newtonian;
     /// use piola_viscometry::Annulus;
     /// let oil = Newtonian::new(0.125)?;
     /// let annulus = Annulus::new(1.0, 2.0, 1.0)?;
@@ -169,7 +169,7 @@ impl Annulus {
     /// The radii, m, between which the fluid moves as a plug; equal without a yield stress, R₁ and R₂ where nothing flows.
     ///
     /// # Errors
-    /// As [`rest_radius`](Self::`rest_radius`).
+    /// As [`rest_radius`](Self::rest_radius).
     pub fn plug<F: ViscometricFluid + ?Sized>(&self, fluid: &F) -> Result<[f64; 2], ViscometryError> {
         Ok(self.rest(fluid)?.map_or([self.inner_radius, self.outer_radius], |rest| {
             rest.plug.map(|place| self.radius(place.clamp(0.0, 1.0)))
@@ -188,7 +188,7 @@ impl Annulus {
     /// dv/dr = ζ(`T_rz`), 1/s.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`).
+    /// As [`shear_stress`](Self::shear_stress).
     pub fn shear_rate<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<f64, ViscometryError> {
         Ok(fluid.shear_rate(self.shear_stress(fluid, r)?)?)
     }
@@ -196,7 +196,7 @@ impl Annulus {
     /// v, m/s, at the distance `r`, m, from the axis.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`).
+    /// As [`shear_stress`](Self::shear_stress).
     pub fn velocity<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<Estimate, ViscometryError> {
         self.check(r)?;
         let Some(rest) = self.rest(fluid)? else { return Ok(self.plug_velocity()) };
@@ -206,7 +206,7 @@ impl Annulus {
     /// v at each of the distances, into `velocities`; the place of rest is sought once.
     ///
     /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::Lengths`].
+    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
     pub fn profile_into<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,
@@ -254,7 +254,7 @@ impl Annulus {
     /// The stresses at the distance `r`, m, from the axis and the height `z`, m.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`).
+    /// As [`shear_stress`](Self::shear_stress).
     pub fn stresses<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,

@@ -1,6 +1,6 @@
 //! Flow along a channel.
 
-use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
+use piola_fluids::{FlowMoment, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
 use super::wall::{Sheared, check_density, duct, entry_length, generalised_reynolds, normal_functions, plug, profile};
@@ -27,7 +27,7 @@ flow_of_numbers! {
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fluids::PowerLaw;
+    /// use piola_fluids::PowerLaw;
     /// use piola_viscometry::Channel;
     /// let paint = PowerLaw::new(2.0, 0.5)?; // ζ = (s/2)²
     /// let channel = Channel::new(1.0, 4.0)?;
@@ -67,7 +67,7 @@ impl Channel {
     /// The flow of a fluid that slips with a given discharge per width, m²/s.
     ///
     /// # Errors
-    /// As [`with_discharge`](Self::`with_discharge`).
+    /// As [`with_discharge`](Self::with_discharge).
     pub fn with_slip_and_discharge<F: ViscometricFluid + ?Sized>(
         half_width: f64,
         slip: WallSlip,
@@ -127,7 +127,7 @@ impl Channel {
     /// dv/dx₁ = ζ(T₁₂), 1/s.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`); what the fluid refuses.
+    /// As [`shear_stress`](Self::shear_stress); what the fluid refuses.
     pub fn shear_rate<F: ViscometricFluid + ?Sized>(&self, fluid: &F, x1: f64) -> Result<f64, ViscometryError> {
         Ok(fluid.shear_rate(self.shear_stress(x1)?)?)
     }
@@ -135,7 +135,7 @@ impl Channel {
     /// v, m/s, at `x1`, m.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn velocity<F: ViscometricFluid + ?Sized>(&self, fluid: &F, x1: f64) -> Result<Estimate, ViscometryError> {
         self.check(x1)?;
         self.sheared().velocity(fluid, (self.half_width - x1.abs()) / self.half_width)
@@ -144,7 +144,7 @@ impl Channel {
     /// v at each of the places x₁, into `velocities`.
     ///
     /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::Lengths`].
+    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
     pub fn profile_into<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,
@@ -178,7 +178,7 @@ impl Channel {
     /// The stresses at `x1`, `x2`, m.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn stresses<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,

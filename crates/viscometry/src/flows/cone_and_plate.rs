@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use piola_constitutive::fluids::ViscometricFluid;
+use piola_fluids::ViscometricFluid;
 
 use super::declaration::flow_of_numbers;
 use super::turning::{Gap, Turning};
@@ -33,7 +33,7 @@ flow_of_numbers! {
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fluids::Newtonian;
+    /// use piola_fluids::Newtonian;
     /// use piola_viscometry::ConeAndPlate;
     /// let oil = Newtonian::new(0.75)?;
     /// let rheometer = ConeAndPlate::new(0.5, 0.0625, 0.75)?;
@@ -134,7 +134,7 @@ impl ConeAndPlate {
     /// T₁₂, Pa, at the distance `r`, m, from the axis; the same everywhere unless the fluid slips, zero at rest.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`); [`ViscometryError::NotIncreasing`] where τ falls; [`ViscometryError::NotFinite`] beyond the
+    /// As [`shear_rate`](Self::shear_rate); [`ViscometryError::NotIncreasing`] where τ falls; [`ViscometryError::NotFinite`] beyond the
     /// range of numbers.
     pub fn shear_stress<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<f64, ViscometryError> {
         self.check(r)?;
@@ -166,7 +166,7 @@ impl ConeAndPlate {
     /// M, N m.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`).
+    /// As [`shear_stress`](Self::shear_stress).
     pub fn torque<F: ViscometricFluid + ?Sized>(&self, fluid: &F) -> Result<Estimate, ViscometryError> {
         if !self.slip.is_none() {
             return self.turning().torque(fluid);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
+use piola_fluids::{FlowMoment, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
 use super::wall::{check_density, finite, normal_functions, profile};
@@ -34,7 +34,7 @@ flow_of_numbers! {
     /// # Example
     /// ```
     /// use std::f64::consts::PI;
-    /// use piola_constitutive::fluids::Newtonian;
+    /// use piola_fluids::Newtonian;
     /// use piola_viscometry::Couette;
     /// let oil = Newtonian::new(0.5)?;
     /// let flow = Couette::new(1.0, 2.0, 8.0 * PI)?;
@@ -178,7 +178,7 @@ impl Couette {
     /// r ω′ = ζ(`T_rθ`), 1/s.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`); what the fluid refuses.
+    /// As [`shear_stress`](Self::shear_stress); what the fluid refuses.
     pub fn shear_rate<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<f64, ViscometryError> {
         Ok(fluid.shear_rate(self.shear_stress(r)?)?)
     }
@@ -186,7 +186,7 @@ impl Couette {
     /// ω, rad/s, of the fluid at the distance `r`, m, from the axis.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn angular_velocity<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,
@@ -200,7 +200,7 @@ impl Couette {
     /// v = r ω, m/s.
     ///
     /// # Errors
-    /// As [`angular_velocity`](Self::`angular_velocity`).
+    /// As [`angular_velocity`](Self::angular_velocity).
     pub fn velocity<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<Estimate, ViscometryError> {
         Ok(self.angular_velocity(fluid, r)?.scaled(r))
     }
@@ -208,7 +208,7 @@ impl Couette {
     /// v at each of the distances, into `velocities`.
     ///
     /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::Lengths`].
+    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
     pub fn profile_into<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,
@@ -237,7 +237,7 @@ impl Couette {
     /// The stresses at the distance `r`, m, from the axis; centrifugal ones where a density is given.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn stresses<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<Stresses, ViscometryError> {
         let shear = self.shear_stress(r)?;
         let mut radial = Estimate::ZERO;

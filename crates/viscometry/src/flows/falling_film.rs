@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
+use piola_fluids::{FlowMoment, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
 use super::wall::{Sheared, generalised_reynolds, normal_functions, plug, profile};
@@ -31,7 +31,7 @@ flow_of_numbers! {
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fluids::Newtonian;
+    /// use piola_fluids::Newtonian;
     /// use piola_viscometry::FallingFilm;
     /// let syrup = Newtonian::new(10.0)?;
     /// let film = FallingFilm::new(0.01, 1000.0, 10.0, std::f64::consts::FRAC_PI_2)?;
@@ -135,7 +135,7 @@ impl FallingFilm {
     /// dv/dx = ζ(T₁₂), 1/s.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`); what the fluid refuses.
+    /// As [`shear_stress`](Self::shear_stress); what the fluid refuses.
     pub fn shear_rate<F: ViscometricFluid + ?Sized>(&self, fluid: &F, x: f64) -> Result<f64, ViscometryError> {
         Ok(fluid.shear_rate(self.shear_stress(x)?)?)
     }
@@ -143,7 +143,7 @@ impl FallingFilm {
     /// v, m/s, at the distance `x`, m, from the wall.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn velocity<F: ViscometricFluid + ?Sized>(&self, fluid: &F, x: f64) -> Result<Estimate, ViscometryError> {
         self.shear_stress(x)?;
         self.sheared().velocity(fluid, x / self.thickness)
@@ -152,7 +152,7 @@ impl FallingFilm {
     /// v at each of the distances, into `velocities`.
     ///
     /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::Lengths`].
+    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
     pub fn profile_into<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,
@@ -186,7 +186,7 @@ impl FallingFilm {
     /// The stresses at the distance `x`, m, from the wall.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn stresses<F: ViscometricFluid + ?Sized>(&self, fluid: &F, x: f64) -> Result<Stresses, ViscometryError> {
         let shear = self.shear_stress(x)?;
         let sigma = if F::NORMAL_STRESSES { normal_functions(fluid, fluid.shear_rate(shear)?) } else { [0.0; 2] };

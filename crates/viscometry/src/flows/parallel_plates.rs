@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::ViscometricFluid;
+use piola_fluids::ViscometricFluid;
 
 use super::declaration::flow_of_numbers;
 use super::turning::{Gap, Turning};
@@ -34,7 +34,7 @@ flow_of_numbers! {
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fluids::Newtonian;
+    /// use piola_fluids::Newtonian;
     /// use piola_viscometry::ParallelPlates;
     /// let oil = Newtonian::new(0.75)?;
     /// let discs = ParallelPlates::new(0.5, 0.125, 0.75)?;
@@ -151,7 +151,7 @@ impl ParallelPlates {
     /// T₁₂, Pa, at the distance `r`, m, from the axis; zero at rest.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`); [`ViscometryError::NotIncreasing`] where τ falls.
+    /// As [`shear_rate`](Self::shear_rate); [`ViscometryError::NotIncreasing`] where τ falls.
     pub fn shear_stress<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<f64, ViscometryError> {
         self.check(r)?;
         let rate = self.nominal(r);
@@ -182,7 +182,7 @@ impl ParallelPlates {
     /// M, N m.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`) at the rim; [`ViscometryError::NotFinite`] beyond the range of numbers.
+    /// As [`shear_stress`](Self::shear_stress) at the rim; [`ViscometryError::NotFinite`] beyond the range of numbers.
     pub fn torque<F: ViscometricFluid + ?Sized>(&self, fluid: &F) -> Result<Estimate, ViscometryError> {
         if !self.slip.is_none() {
             return self.turning().torque(fluid);
@@ -217,7 +217,7 @@ impl ParallelPlates {
     /// The stresses at the distance `r`, m, from the axis.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn stresses<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<Stresses, ViscometryError> {
         let shear = self.shear_stress(fluid, r)?;
         if !F::NORMAL_STRESSES {

@@ -1,6 +1,6 @@
 //! Shear between two walls, one of which moves.
 
-use piola_constitutive::fluids::ViscometricFluid;
+use piola_fluids::ViscometricFluid;
 use piola_numerics::Dual;
 
 use super::declaration::flow_of_numbers;
@@ -25,7 +25,7 @@ flow_of_numbers! {
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fluids::Newtonian;
+    /// use piola_fluids::Newtonian;
     /// use piola_viscometry::{PlaneCouette, WallSlip};
     /// let oil = Newtonian::new(0.5)?;
     /// let flow = PlaneCouette::new(0.25, 1.0)?;
@@ -125,7 +125,7 @@ impl PlaneCouette {
     /// The stresses, everywhere the same; the pressure is counted from T₁₁ = 0.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn stresses<F: ViscometricFluid + ?Sized>(&self, fluid: &F) -> Result<Stresses, ViscometryError> {
         let shear = self.shear_stress(fluid)?;
         let sigma = if F::NORMAL_STRESSES { normal_functions(fluid, self.shear_rate(fluid)?) } else { [0.0; 2] };
@@ -135,7 +135,7 @@ impl PlaneCouette {
     /// τ V, W/m²: the power that is dissipated per area of a wall, at the walls included.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`).
+    /// As [`shear_stress`](Self::shear_stress).
     pub fn dissipation<F: ViscometricFluid + ?Sized>(&self, fluid: &F) -> Result<f64, ViscometryError> {
         Ok(self.shear_stress(fluid)? * self.speed)
     }

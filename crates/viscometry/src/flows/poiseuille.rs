@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
+use piola_fluids::{FlowMoment, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
 use super::wall::{Sheared, check_density, entry_length, normal_functions};
@@ -30,7 +30,7 @@ flow_of_numbers! {
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fluids::Newtonian;
+    /// use piola_fluids::Newtonian;
     /// use piola_viscometry::Poiseuille;
     /// let oil = Newtonian::new(0.5)?;
     /// let pipe = Poiseuille::new(2.0, 3.0)?;
@@ -72,7 +72,7 @@ impl Poiseuille {
     /// The flow of a fluid that slips with a given discharge, m³/s.
     ///
     /// # Errors
-    /// As [`with_discharge`](Self::`with_discharge`).
+    /// As [`with_discharge`](Self::with_discharge).
     pub fn with_slip_and_discharge<F: ViscometricFluid + ?Sized>(
         radius: f64,
         slip: WallSlip,
@@ -98,7 +98,7 @@ impl Poiseuille {
     ///
     /// # Example
     /// ```
-    /// use piola_constitutive::fluids::PowerLaw;
+    /// use piola_fluids::PowerLaw;
     /// use piola_viscometry::Poiseuille;
     /// let fluid = PowerLaw::new(1.0, 0.5)?; // Q = π R³ (c R/2)²/5
     /// let pipe = Poiseuille::with_discharge(2.0, 40.0 * std::f64::consts::PI, &fluid)?;
@@ -143,7 +143,7 @@ impl Poiseuille {
     /// dv/dr = ζ(`T_rz`), 1/s.
     ///
     /// # Errors
-    /// As [`shear_stress`](Self::`shear_stress`); what the fluid refuses.
+    /// As [`shear_stress`](Self::shear_stress); what the fluid refuses.
     pub fn shear_rate<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<f64, ViscometryError> {
         Ok(fluid.shear_rate(self.shear_stress(r)?)?)
     }
@@ -151,7 +151,7 @@ impl Poiseuille {
     /// v, m/s, at the distance `r`, m, from the axis.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn velocity<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<Estimate, ViscometryError> {
         self.check(r)?;
         self.sheared().velocity(fluid, (self.radius - r) / self.radius)
@@ -160,7 +160,7 @@ impl Poiseuille {
     /// v at each of the distances, into `velocities`.
     ///
     /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::Lengths`].
+    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
     pub fn profile_into<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,
@@ -194,7 +194,7 @@ impl Poiseuille {
     /// The stresses at the distance `r`, m, from the axis and the height `z`, m.
     ///
     /// # Errors
-    /// As [`shear_rate`](Self::`shear_rate`).
+    /// As [`shear_rate`](Self::shear_rate).
     pub fn stresses<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,
@@ -235,7 +235,7 @@ impl Poiseuille {
     /// [`ViscometryError::OutOfBounds`] unless 0 < ρ and 0 < length; what the fluid refuses.
     ///
     /// # Source
-    /// A. B. Metzner, J. C. Reed, *`AIChE` J.* 1 (1955) 434.
+    /// A. B. Metzner, J. C. Reed, *AIChE J.* 1 (1955) 434.
     pub fn validity<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,

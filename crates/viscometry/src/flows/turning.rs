@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::ViscometricFluid;
+use piola_fluids::ViscometricFluid;
 
 use super::PlaneCouette;
 use crate::inverse::{Wanted, solve};

@@ -3,7 +3,7 @@
 //! With L that distance and `τ_w` the stress at the wall: v = L m₀ + `v_s` and, over the cross section, V = L mₚ + `v_s`, where mₚ is the
 //! moment ∫ sᵖ ζ ds over `τ_wᵖ⁺¹`.
 
-use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
+use piola_fluids::{FlowMoment, ViscometricFluid};
 use piola_numerics::Dual;
 
 use crate::error::{check_bound, check_finite};
@@ -177,7 +177,8 @@ pub(super) fn profile(
     mut at: impl FnMut(f64) -> Result<Estimate, ViscometryError>,
 ) -> Result<(), ViscometryError> {
     if places.len() != answers.len() {
-        return Err(ViscometryError::Lengths { flow, places: places.len(), answers: answers.len() });
+        let (expected, found) = (places.len(), answers.len());
+        return Err(ViscometryError::WrongLength { flow, quantity: "velocities", expected, found });
     }
     for (place, answer) in places.iter().zip(answers) {
         *answer = at(*place)?;

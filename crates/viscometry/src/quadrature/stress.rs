@@ -1,6 +1,6 @@
 //! Integrals over the shear stress, in the variable in which they are smooth.
 
-use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
+use piola_fluids::{FlowMoment, ViscometricFluid};
 use piola_numerics::Dual;
 
 use super::integrate;
@@ -61,7 +61,7 @@ impl Span {
 ///
 /// # Errors
 /// [`ViscometryError::NotFinite`], [`ViscometryError::OutOfBounds`] unless 0 ≤ top and 0 ≤ share ≤ 1;
-/// [`ViscometryError::Fluid`] where no rate has the stress; [`ViscometryError::NotIncreasing`] where τ falls.
+/// [`ViscometryError::Fluids`] where no rate has the stress; [`ViscometryError::NotIncreasing`] where τ falls.
 ///
 /// # Accuracy
 /// 1e-13 where the fluid has a closed form or τ is smooth but at rest, whatever `share` is; a fluid with a yield stress `τ_y` loses the digits
@@ -69,7 +69,7 @@ impl Span {
 ///
 /// # Example
 /// ```
-/// use piola_constitutive::fluids::{FlowMoment, Newtonian};
+/// use piola_fluids::{FlowMoment, Newtonian};
 /// use piola_viscometry::quadrature;
 /// let water = Newtonian::new(0.5)?;
 /// let discharge = quadrature::moment(&water, FlowMoment::Second, 3.0, 1.0)?; // s⁴/(4 μ)

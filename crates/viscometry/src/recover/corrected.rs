@@ -284,10 +284,10 @@ impl Corrected {
     /// The same with a band.
     ///
     /// # Errors
-    /// [`ViscometryError::Confidence`], [`ViscometryError::NotRecovered`].
+    /// [`ViscometryError::ConfidenceOutOfRange`], [`ViscometryError::NotRecovered`].
     pub(super) fn with_band(mut self, confidence: f64) -> Result<Self, ViscometryError> {
         if !(0.0 < confidence && confidence < 1.0) {
-            return Err(ViscometryError::Confidence { value: confidence });
+            return Err(ViscometryError::ConfidenceOutOfRange { value: confidence });
         }
         let inside = |pair: &[f64]| {
             let [a, b] = [pair[0], pair[1]];

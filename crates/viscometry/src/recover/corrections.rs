@@ -57,7 +57,7 @@ impl SlipCorrection {
     /// independent and normal and the answers lie on Mooney's line.
     ///
     /// # Errors
-    /// [`ViscometryError::Confidence`] unless 0 < `confidence` < 1.
+    /// [`ViscometryError::ConfidenceOutOfRange`] unless 0 < `confidence` < 1.
     pub fn with_band(self, confidence: f64) -> Result<Self, ViscometryError> {
         let tables = self.tables.with_band(confidence)?;
         let point = |point: &SlipPoint| slip_point(&tables, point.wall_stress);
@@ -160,7 +160,7 @@ impl EndCorrection {
     /// if the errors of all rows are independent and normal and the pressures lie on Bagley's line.
     ///
     /// # Errors
-    /// [`ViscometryError::Confidence`] unless 0 < `confidence` < 1.
+    /// [`ViscometryError::ConfidenceOutOfRange`] unless 0 < `confidence` < 1.
     pub fn with_band(self, confidence: f64) -> Result<Self, ViscometryError> {
         let tables = self.tables.with_band(confidence)?;
         let points = self.points.iter().map(|point| end_point(&tables, point.discharge)).collect::<Result<_, _>>()?;

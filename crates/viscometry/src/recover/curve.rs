@@ -292,7 +292,7 @@ impl Recovered {
     /// The same with a band.
     pub(super) fn with_band(mut self, confidence: f64) -> Result<Self, ViscometryError> {
         if !(0.0 < confidence && confidence < 1.0) {
-            return Err(ViscometryError::Confidence { value: confidence });
+            return Err(ViscometryError::ConfidenceOutOfRange { value: confidence });
         }
         let fine: Vec<f64> = self.fine().collect();
         let half = match &self.penalised {

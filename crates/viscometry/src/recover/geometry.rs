@@ -113,12 +113,14 @@ impl CouetteGeometry {
     }
 
     /// δ = 2 ln(R₂/R₁), without cancellation in a narrow gap.
-    pub(crate) fn step(self) -> f64 {
+    #[must_use]
+    pub fn step(self) -> f64 {
         2.0 * ((self.outer_radius - self.inner_radius) / self.inner_radius).ln_1p()
     }
 
-    /// T at the inner cylinder over the torque per length: 1/(2 π R₁²).
-    pub(crate) fn stress_per_torque(self) -> f64 {
+    /// T at the inner cylinder over the torque per length: 1/(2 π R₁²), 1/m².
+    #[must_use]
+    pub fn stress_per_torque(self) -> f64 {
         1.0 / (core::f64::consts::TAU * self.inner_radius * self.inner_radius)
     }
 }

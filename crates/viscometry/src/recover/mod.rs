@@ -116,7 +116,7 @@ macro_rules! recovered_curve {
             /// confidence, if the rows' errors are independent and normal; for exact rows it bounds the error of interpolation.
             ///
             /// # Errors
-            /// [`ViscometryError::Confidence`] unless 0 < `confidence` < 1.
+            /// [`ViscometryError::ConfidenceOutOfRange`] unless 0 < `confidence` < 1.
             pub fn with_band(self, confidence: f64) -> Result<Self, ViscometryError> {
                 Ok(Self { recovered: self.recovered.with_band(confidence)? })
             }

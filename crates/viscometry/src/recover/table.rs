@@ -66,13 +66,13 @@ impl<G> FlowTable<G> {
     /// Of a geometry.
     ///
     /// # Errors
-    /// [`ViscometryError::Row`] for a number that is missing (not a number), infinite, zero or negative,
+    /// [`ViscometryError::RowNotPositive`] for a number that is missing (not a number), infinite, zero or negative,
     /// [`ViscometryError::RowTwice`], [`ViscometryError::RowNotSorted`]; each with its row, from 0.
     pub fn new(geometry: G, rows: &[[f64; 2]]) -> Result<Self, ViscometryError> {
         for (row, &[drive, response]) in rows.iter().enumerate() {
             for (column, value) in [drive, response].into_iter().enumerate() {
                 if !(0.0 < value && value.is_finite()) {
-                    return Err(ViscometryError::Row { row, column, value });
+                    return Err(ViscometryError::RowNotPositive { row, column, value });
                 }
             }
             let previous = if 0 < row { rows[row - 1][0] } else { 0.0 };

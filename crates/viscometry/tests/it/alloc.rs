@@ -1,6 +1,6 @@
 //! Answers allocate nothing.
 
-use piola_constitutive::fluids::CarreauYasuda;
+use piola_fluids::CarreauYasuda;
 use piola_testkit::allocations_in;
 use piola_viscometry::{
     Annulus, Channel, ConeAndPlate, Couette, Estimate, FallingFilm, ParallelPlates, PlaneCouette, Poiseuille,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::{Newtonian, PowerLaw};
+use piola_fluids::{Newtonian, PowerLaw};
 use piola_numerics::Real;
 use piola_testkit::DoubleDouble;
 use piola_viscometry::{Annulus, Estimate};

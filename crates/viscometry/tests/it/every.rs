@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use nalgebra::Matrix3;
-use piola_constitutive::fluids::{
+use piola_continuum::rates::HomogeneousMotion;
+use piola_fluids::{
     AnyFluid, Bingham, CarreauYasuda, Casson, ConstantCoefficients, Cross, Ellis, ExponentialDamping,
     ExponentialPhanThienTanner, Eyring, Giesekus, HerschelBulkley, Kbkz, LinearPhanThienTanner, Modes, Newtonian,
     OldroydB, Papanastasiou, PowerLaw, RationalDamping, ReinerRivlin, Relaxation, SecondOrder, SimpleFluid, Sisko,
     Slipping, UpperConvectedMaxwell, ViscometricFluid,
 };
-use piola_continuum::rates::HomogeneousMotion;
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use piola_viscometry::{
@@ -22,7 +22,7 @@ use super::laws::{Annular, Inverses, Momentum, Odd, ProfilesAdd, Visit};
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// One fluid of each kind whose stress rises with the rate.
-pub(super) fn every() -> Result<Vec<AnyFluid>, piola_constitutive::ConstitutiveError> {
+pub(super) fn every() -> Result<Vec<AnyFluid>, piola_fluids::FluidsError> {
     let memory = || vec![Relaxation { viscosity: 0.5, time: 0.4 }, Relaxation { viscosity: 0.25, time: 0.05 }];
     let oldroyd = OldroydB::new(0.5, 0.75, 0.4)?;
     let giesekus = Giesekus::new(0.25, 0.75, 0.4, 0.3)?;
@@ -318,7 +318,7 @@ fn narrow_annuli_of_every_fluid_equal_channels_and_wide_ones_lie_between_pipes()
             let discharge = match annulus.discharge(&fluid) {
                 Ok(discharge) => discharge,
                 // About a thin wire the fluids whose stress has a greatest value slip away: no steady flow is left.
-                Err(ViscometryError::Fluid(_) | ViscometryError::NotIncreasing { .. }) if is_bounded(&fluid) => {
+                Err(ViscometryError::Fluids(_) | ViscometryError::NotIncreasing { .. }) if is_bounded(&fluid) => {
                     continue;
                 }
                 Err(error) => return Err(format!("{what}, R₁ = {inner:e}: {error}").into()),

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::{
+use piola_fluids::{
     Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, PowerLaw, Sisko,
     ViscometricFluid,
 };

@@ -2,8 +2,8 @@
 
 use std::cell::Cell;
 
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fluids::{FlowMoment, ViscometricFluid};
+use piola_fluids::FluidsError;
+use piola_fluids::{FlowMoment, ViscometricFluid};
 use piola_numerics::Real;
 
 /// A thinning fluid with both normal stress differences, none of them a power: τ = k/(1 + |k|)^½, N₁ = k²/(1 + k²)^½, N₂ = −N₁/4.
@@ -53,7 +53,7 @@ impl<F: ViscometricFluid> ViscometricFluid for Numerical<F> {
         self.0.yield_stress()
     }
 
-    fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, ConstitutiveError> {
+    fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         self.0.shear_rate(shear_stress)
     }
 }
@@ -101,7 +101,7 @@ impl<F: ViscometricFluid> ViscometricFluid for Counted<F> {
         self.fluid.yield_stress()
     }
 
-    fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, ConstitutiveError> {
+    fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         self.rates.set(self.rates.get() + 1);
         self.fluid.shear_rate(shear_stress)
     }

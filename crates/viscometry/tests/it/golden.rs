@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use piola_constitutive::fluids::{Bingham, CarreauYasuda, Newtonian, OldroydB, PowerLaw, ViscometricFluid};
+use piola_fluids::{Bingham, CarreauYasuda, Newtonian, OldroydB, PowerLaw, ViscometricFluid};
 use piola_testkit::golden::{load, number, text};
 use piola_testkit::{Tol, assert_close};
 use piola_viscometry::{

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::{Bingham, CarreauYasuda, HerschelBulkley, Newtonian, ViscometricFluid};
+use piola_fluids::{Bingham, CarreauYasuda, HerschelBulkley, Newtonian, ViscometricFluid};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use piola_viscometry::{Annulus, Channel, ConeAndPlate, ParallelPlates, WallSlip, quadrature};
 

@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_constitutive::fluids::{
-    Bingham, CarreauYasuda, Casson, HerschelBulkley, Newtonian, PowerLaw, ViscometricFluid,
-};
+use piola_fluids::{Bingham, CarreauYasuda, Casson, HerschelBulkley, Newtonian, PowerLaw, ViscometricFluid};
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
 use piola_viscometry::{
@@ -216,13 +214,13 @@ fn places_outside_the_fluid_and_bad_questions_are_refused_by_name() -> Outcome {
     assert!(matches!(Couette::new(1.0, 2.0, 1.0)?.shear_stress(0.5), Err(ViscometryError::OutOfBounds { .. })));
     let mut room = [Estimate::ZERO; 2];
     let outcome = pipe.profile_into(&oil, &[0.1], &mut room);
-    assert!(matches!(outcome, Err(ViscometryError::Lengths { places: 1, answers: 2, .. })));
+    assert!(matches!(outcome, Err(ViscometryError::WrongLength { expected: 1, found: 2, .. })));
     assert!(matches!(pipe.validity(&oil, -1.0, 1.0), Err(ViscometryError::OutOfBounds { quantity: "density", .. })));
     let infinite = Poiseuille::with_discharge(1.0, f64::INFINITY, &oil);
     assert!(matches!(infinite, Err(ViscometryError::NotFinite { quantity: "discharge", .. })));
     let flat = FallingFilm::with_discharge(1.0, 1.0, 9.8, 0.0, &oil);
     assert!(matches!(flat, Err(ViscometryError::NoDrive { .. })));
-    let moment = quadrature::moment(&oil, piola_constitutive::fluids::FlowMoment::First, 1.0, 1.5);
+    let moment = quadrature::moment(&oil, piola_fluids::FlowMoment::First, 1.0, 1.5);
     assert!(matches!(moment, Err(ViscometryError::OutOfBounds { quantity: "share", .. })));
     Ok(())
 }
@@ -274,7 +272,7 @@ fn a_discharge_beyond_the_fluid_is_refused() -> Outcome {
             shear_rate / (T::one() + shear_rate.abs())
         }
     }
-    assert!(matches!(Poiseuille::new(1.0, 3.0)?.discharge(&Bounded), Err(ViscometryError::Fluid(_))));
+    assert!(matches!(Poiseuille::new(1.0, 3.0)?.discharge(&Bounded), Err(ViscometryError::Fluids(_))));
     let half = Poiseuille::with_discharge(1.0, 0.1, &Bounded)?;
     assert_close("discharge", &[half.discharge(&Bounded)?.value], &[0.1], Tol::stated(1e-12, "search"));
     Ok(())

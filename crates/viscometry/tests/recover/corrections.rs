@@ -134,7 +134,7 @@ fn bands_of_corrected_exact_tables_hold_the_fluid_and_are_narrow() {
     let middle = slip.at(2.0).expect("measured");
     assert_close("slip", &[middle.slip_velocity], &[0.3 * 2.0_f64.powf(1.5)], Tol::stated(1e-7, "splines"));
     assert!(matches!(slip.at(1e3), Err(ViscometryError::NotMeasured { .. })));
-    assert_eq!(slip.with_band(1.0), Err(ViscometryError::Confidence { value: 1.0 }));
+    assert_eq!(slip.with_band(1.0), Err(ViscometryError::ConfidenceOutOfRange { value: 1.0 }));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Tables made by the flows of this crate give back the fluid that flowed.
 
-use piola_constitutive::fluids::{
+use piola_fluids::{
     CarreauYasuda, Cross, Ellis, Eyring, HerschelBulkley, PowerLaw, SecondOrder, Sisko, ViscometricFluid,
 };
 use piola_testkit::{Tol, assert_close};

@@ -1,6 +1,6 @@
 //! Fluids whose flows are known over any scalar.
 
-use piola_constitutive::fluids::ViscometricFluid;
+use piola_fluids::ViscometricFluid;
 use piola_numerics::Real;
 use piola_viscometry::recover::MeasuredCurve;
 

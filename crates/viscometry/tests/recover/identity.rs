@@ -3,8 +3,8 @@
 
 use core::f64::consts::{PI, TAU};
 
-use piola_constitutive::ConstitutiveError;
-use piola_constitutive::fluids::{
+use piola_fluids::FluidsError;
+use piola_fluids::{
     Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, Giesekus, HerschelBulkley, LinearPhanThienTanner, Newtonian,
     OldroydB, PowerLaw, SecondOrder, Sisko, ViscometricFluid,
 };
@@ -292,7 +292,7 @@ impl ViscometricFluid for Wave {
         (0..80).fold(shear_rate, |stress, _| stress - T::lit(0.8) * (self.rate(stress) - shear_rate))
     }
 
-    fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, ConstitutiveError> {
+    fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         Ok(self.rate(shear_stress))
     }
 }

@@ -1,6 +1,6 @@
 //! What is recovered from a solved flow is the fluid.
 
-use piola_constitutive::fluids::{Newtonian, PowerLaw, ViscometricFluid};
+use piola_fluids::{Newtonian, PowerLaw, ViscometricFluid};
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
 use piola_viscometry::recover::{

@@ -1,6 +1,7 @@
 //! Rules for the crates and the arrows between them.
 
 use std::collections::BTreeSet;
+use std::path::Path;
 
 use toml::{Table, Value};
 
@@ -11,16 +12,31 @@ use crate::workspace::{Member, Workspace, read};
 /// A new entry is the rarest and most scrutinised change of all; ARCHITECTURE.md shows the same list.
 const ARROWS: &[(&str, &[&str])] = &[
     ("numerics", &[]),
+    ("tensor", &["numerics"]),
     ("kinematics", &["numerics"]),
     ("integrators", &["numerics"]),
-    ("dynamics", &["kinematics", "integrators"]),
-    ("multibody", &["dynamics", "integrators"]),
-    ("continuum", &["numerics"]),
-    ("constitutive", &["continuum", "integrators"]),
-    ("viscometry", &["constitutive"]),
-    ("solutions", &["constitutive", "integrators"]),
-    ("uniformity", &["constitutive", "integrators"]),
-    ("spectral", &["numerics", "continuum"]),
+    ("lagrangian", &["kinematics", "integrators"]),
+    ("hamiltonian", &["lagrangian"]),
+    // Nothing of Hamilton's is used there: characteristics of any equation of first order.
+    ("characteristics", &["integrators"]),
+    // kinematics: bodies go in and come out by its conversions to glam.
+    ("gravitation", &["kinematics", "integrators"]),
+    ("multibody", &["kinematics", "integrators"]),
+    ("continuum", &["tensor"]),
+    ("batch", &["continuum"]),
+    ("fields", &["continuum"]),
+    // batch, by feature: a law is compiled in lanes where it is defined.
+    ("solids", &["continuum", "batch"]),
+    // continuum and integrators for stresses in any motion, fields for the Navier-Stokes equations: by feature.
+    ("fluids", &["tensor", "continuum", "integrators", "fields"]),
+    ("viscometry", &["fluids"]),
+    // fields, by feature: a body made of one law.
+    ("specimens", &["solids", "fields"]),
+    ("fit", &["specimens", "viscometry"]),
+    ("solutions", &["solids", "fields", "integrators"]),
+    ("uniformity", &["solids", "fields", "integrators"]),
+    ("spectral", &["fields"]),
+    ("registration", &["spectral"]),
     ("piola", MECHANICS),
     ("scene", MECHANICS),
     ("cli", &["scene"]),
@@ -30,17 +46,44 @@ const ARROWS: &[(&str, &[&str])] = &[
 /// Everything below the facade and the scenes.
 const MECHANICS: &[&str] = &[
     "numerics",
+    "tensor",
     "kinematics",
     "integrators",
-    "dynamics",
+    "lagrangian",
+    "hamiltonian",
+    "characteristics",
+    "gravitation",
     "multibody",
     "continuum",
-    "constitutive",
+    "batch",
+    "fields",
+    "solids",
+    "specimens",
+    "fluids",
     "viscometry",
+    "fit",
     "solutions",
     "uniformity",
     "spectral",
+    "registration",
 ];
+
+/// Arrows that exist only when a feature asks for them.
+const BY_FEATURE: &[(&str, &str)] = &[
+    ("fluids", "continuum"),
+    ("fluids", "integrators"),
+    ("fluids", "fields"),
+    ("solids", "batch"),
+    ("specimens", "fields"),
+    ("fit", "specimens"),
+    ("fit", "viscometry"),
+];
+
+/// No crate is larger, in lines of `src`: its users must take all of it.
+const MOST_LINES: usize = 12_000;
+
+/// Crates that are larger, with their limit: each is to be cut, none may grow.
+const LARGER: &[(&str, usize)] = &[];
 
 /// The crates that may contain `unsafe`: the dispatcher to wider lanes, and the counting allocator.
 const MAY_BE_UNSAFE: [&str; 2] = ["numerics", "testkit"];
@@ -54,9 +97,45 @@ pub(super) fn check(workspace: &Workspace) -> Vec<String> {
         found.extend(manner_of_dependencies(&member.manifest));
         found.extend(manifest(member));
         found.extend(files(member, &license));
+        found.extend(not_by_feature(&member.folder, &member.manifest));
+        found.extend(size(member));
         problems.extend(found.into_iter().map(|what| format!("crates/{}: {what}", member.folder)));
     }
+    if let Some(facade) = workspace.member("piola") {
+        let table = read(&facade.path.join("README.md")).unwrap_or_default();
+        problems.extend(missing_features(&facade.features(), &table));
+    }
     problems
+}
+
+/// The features of the facade that the table of its README does not name.
+fn missing_features(features: &[String], table: &str) -> Vec<String> {
+    let is_named =
+        |feature: &String| table.lines().any(|line| line.starts_with('|') && line.contains(&format!("`{feature}`")));
+    let missing = features.iter().filter(|feature| !is_named(feature));
+    missing
+        .map(|feature| format!("crates/piola: the table of README.md does not name the feature `{feature}`"))
+        .collect()
+}
+
+fn size(member: &Member) -> Option<String> {
+    let lines = lines_of(&member.path.join("src"));
+    let larger = LARGER.iter().find(|(folder, _)| *folder == member.folder);
+    let limit = larger.map_or(MOST_LINES, |(_, limit)| *limit);
+    (limit < lines).then(|| format!("{lines} lines of src, the limit is {limit}: cut it, or make two crates of it"))
+}
+
+/// The lines of all Rust files in a folder.
+pub(in crate::commands) fn lines_of(folder: &Path) -> usize {
+    let mut lines = 0;
+    for path in std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
+        if path.is_dir() {
+            lines += lines_of(&path);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            lines += read(&path).unwrap_or_default().lines().count();
+        }
+    }
+    lines
 }
 
 /// The folder that a dependency on one of our crates names.
@@ -88,6 +167,17 @@ fn arrows(folder: &str, manifest: &Table) -> Vec<String> {
         }
     }
     problems
+}
+
+/// Dependencies that should be optional and are not.
+fn not_by_feature(folder: &str, manifest: &Table) -> Vec<String> {
+    let is_optional = |entry: &Value| entry.get("optional").and_then(Value::as_bool) == Some(true);
+    let always = entries(manifest, "dependencies").filter(|(_, entry)| !is_optional(entry));
+    always
+        .filter_map(|(package, _)| ours(package))
+        .filter(|below| BY_FEATURE.contains(&(folder, below)))
+        .map(|below| format!("the arrow to `{below}` must be optional"))
+        .collect()
 }
 
 /// Normal internal dependencies inherit; development ones are bare paths, so that publishing ignores them.
@@ -186,15 +276,29 @@ fn entries<'t>(table: &'t Table, key: &str) -> impl Iterator<Item = (&'t str, &'
 
 #[cfg(test)]
 mod tests {
-    use super::{ARROWS, MECHANICS, arrows, manner_of_dependencies, reach};
+    use super::{ARROWS, MECHANICS, arrows, manner_of_dependencies, missing_features, not_by_feature, reach};
 
     #[test]
     fn an_arrow_grants_all_that_it_reaches_and_nothing_else() {
-        let dynamics = reach("dynamics").into_iter().flatten().collect::<Vec<_>>();
-        assert_eq!(dynamics, ["integrators", "kinematics", "numerics"]);
-        assert!(!reach("viscometry").is_some_and(|reached| reached.contains("kinematics")));
+        let lagrangian = reach("lagrangian").into_iter().flatten().collect::<Vec<_>>();
+        assert_eq!(lagrangian, ["integrators", "kinematics", "numerics"]);
+        assert!(!reach("viscometry").is_some_and(|reached| reached.contains("solids")));
+        assert!(!reach("solids").is_some_and(|reached| reached.contains("integrators")));
         assert!(reach("cli").is_some_and(|reached| MECHANICS.iter().all(|crate_| reached.contains(crate_))));
         assert_eq!(reach("drawer"), None);
+    }
+
+    #[test]
+    fn an_arrow_by_feature_is_optional() {
+        let manifest =
+            "[dependencies]\npiola-continuum.workspace = true\npiola-fields = { workspace = true, optional = true }";
+        assert_eq!(not_by_feature("fluids", &manifest.parse().unwrap_or_default()).len(), 1);
+    }
+
+    #[test]
+    fn every_feature_stands_in_the_table() {
+        let features = ["solids".to_owned(), "fluids".to_owned()];
+        assert_eq!(missing_features(&features, "| `solids` | `piola::solids` |\n`fluids`").len(), 1);
     }
 
     #[test]
@@ -206,7 +310,7 @@ mod tests {
 
     #[test]
     fn a_forbidden_arrow_is_found_in_every_table() {
-        let manifest = "[dependencies]\npiola-dynamics.workspace = true\n[dev-dependencies]\npiola-testkit = { path = \"p\" }\n[build-dependencies]\npiola-scene = \"1\"";
+        let manifest = "[dependencies]\npiola-lagrangian.workspace = true\n[dev-dependencies]\npiola-testkit = { path = \"p\" }\n[build-dependencies]\npiola-scene = \"1\"";
         let manifest = manifest.parse().unwrap_or_default();
         assert_eq!(arrows("kinematics", &manifest).len(), 2);
         assert_eq!(arrows("scene", &manifest).len(), 1);

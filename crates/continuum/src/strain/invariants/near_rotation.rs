@@ -7,10 +7,10 @@
 
 use piola_numerics::Real;
 use piola_numerics::sums::unit_in_last_place;
+use piola_tensor::internal::rows::Rows;
 
 use crate::Deformation;
 use crate::deformation::volume::Pair;
-use crate::tensor::rows::Rows;
 
 /// Where the value is below 2¹² ulp of the terms of which it is the sum.
 #[inline(always)]

@@ -12,7 +12,7 @@ mod run;
 
 pub use run::{Arrivals, Loss};
 
-use piola_dynamics::first_order_pde::{FirstOrderPde, InitialManifold};
+use piola_characteristics::{FirstOrderPde, InitialManifold};
 use piola_numerics::Real;
 
 use super::StudyPlan;

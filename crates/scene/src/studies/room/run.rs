@@ -2,10 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use piola_dynamics::DynamicsError;
-use piola_dynamics::first_order_pde::{
-    CauchyProblem, CharacteristicSolution, Grid, Overlap, ParameterInterval, Refinement,
-};
+use piola_lagrangian::LagrangianError;
+use piola_characteristics::{CauchyProblem, CharacteristicSolution, Grid, Overlap, ParameterInterval, Refinement};
 use piola_numerics::Dual;
 use serde_json::{Value, json};
 
@@ -182,8 +180,8 @@ impl Progress<'_, '_> {
 fn caustic(solution: &Solution<'_>) -> Vec<Vec<[f64; 2]>> {
     let mut rays: Vec<_> = solution.rays().iter().collect();
     rays.sort_by(|a, b| a.parameters[0].total_cmp(&b.parameters[0]));
-    let first = |ray: &&piola_dynamics::first_order_pde::Ray| ray.caustic.first().map(|point| [point.x[0], point.x[1]]);
-    let together = |a: &&piola_dynamics::first_order_pde::Ray, b: &&piola_dynamics::first_order_pde::Ray| {
+    let first = |ray: &&piola_characteristics::Ray| ray.caustic.first().map(|point| [point.x[0], point.x[1]]);
+    let together = |a: &&piola_characteristics::Ray, b: &&piola_characteristics::Ray| {
         first(a).is_some() == first(b).is_some()
     };
     let pieces = rays.chunk_by(together).map(|piece| piece.iter().filter_map(first).collect::<Vec<_>>());

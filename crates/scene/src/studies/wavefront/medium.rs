@@ -1,6 +1,6 @@
 //! Media: laws of the refractive index.
 
-use piola_dynamics::hamiltonian::PhaseFunction;
+use piola_hamiltonian::PhaseFunction;
 use piola_numerics::Real;
 
 /// A medium of refractive index n(x, y), the product of those of its parts.

@@ -12,7 +12,7 @@ mod run;
 pub use medium::{Medium, MediumPart};
 pub use run::{CausticMark, Front, Fronts};
 
-use piola_dynamics::hamilton_jacobi::InitialFront;
+use piola_hamiltonian::hamilton_jacobi::InitialFront;
 use piola_numerics::Real;
 
 use super::StudyPlan;

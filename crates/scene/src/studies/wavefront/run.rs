@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use piola_dynamics::DynamicsError;
-use piola_dynamics::hamilton_jacobi::{FrontRay, WaveFront};
+use piola_lagrangian::LagrangianError;
+use piola_hamiltonian::hamilton_jacobi::{FrontRay, WaveFront};
 use serde_json::{Value, json};
 
 use super::{Medium, MediumPart, Source, Wavefront};

@@ -1,7 +1,0 @@
-//! Homogeneous tests of bodies with internal constraints and of bodies with memory.
-
-mod contradictions;
-mod incompressible;
-mod reactions;
-mod refusals;
-mod viscoelastic;

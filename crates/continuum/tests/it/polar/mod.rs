@@ -1,0 +1,9 @@
+//! Tests of the polar decomposition and of its derivatives.
+
+mod alloc;
+mod cases;
+mod derivatives;
+mod golden;
+mod laws;
+mod scalars;
+mod traps;

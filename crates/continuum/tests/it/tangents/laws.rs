@@ -1,0 +1,30 @@
+//! Push-forward and pull-back.
+
+use piola_continuum::deformation::transport;
+use piola_numerics::linear::matrix3::from_rows;
+use piola_testkit::{Tol, assert_close_at_scale};
+use proptest::prelude::*;
+
+use super::cases::{deformation, nine, rows, skew, symmetric};
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(10_000))]
+
+    #[test]
+    fn push_forwards_and_pull_backs_undo_one_another(d in deformation(), a in symmetric(), w in skew(), g in rows()) {
+        let v = w.axial_vector();
+        let close = |what: &str, x: &[f64], y: &[f64]| assert_close_at_scale(what, x, y, 1.0, Tol::ulps(2048.0));
+        close("vector", transport::pull_vector(&d, &transport::push_vector(&d, &v)).as_slice(), v.as_slice());
+        close("covector", transport::pull_covector(&d, &transport::push_covector(&d, &v)).as_slice(), v.as_slice());
+        let there = transport::push_contravariant(&d, &a);
+        close("contravariant", &nine(&transport::pull_contravariant(&d, &there)), &nine(&a));
+        let covariant = transport::push_covariant(&d, &a);
+        close("covariant", &nine(&transport::pull_covariant(&d, &covariant)), &nine(&a));
+        let g = from_rows(g);
+        close("mixed", transport::pull_mixed(&d, &transport::push_mixed(&d, &g)).as_slice(), g.as_slice());
+        // Products of unlike tensors do not change.
+        close("A : A", &[there.double_contraction(&covariant)], &[a.double_contraction(&a)]);
+        let product = transport::push_vector(&d, &v).dot(&transport::push_covector(&d, &v));
+        close("v · v", &[product], &[v.dot(&v)]);
+    }
+}

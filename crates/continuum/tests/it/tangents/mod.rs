@@ -1,0 +1,12 @@
+//! The tests of tangents and of transport.
+
+mod alloc;
+mod cases;
+mod energies;
+mod golden;
+mod laws;
+mod rates;
+mod scalars;
+mod tangents;
+#[cfg(feature = "serde")]
+mod written;

@@ -1,0 +1,191 @@
+//! What cannot be fitted: each variant names the violated condition.
+
+/// A violated condition of a fit.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// There is no test to fit to.
+    #[error("there is no test to fit to")]
+    NoTests,
+    /// A test has no points.
+    #[error("test `{test}` has no points")]
+    EmptyTest {
+        /// The test.
+        test: String,
+    },
+    /// Two tests have the same name.
+    #[error("there are two tests `{test}`")]
+    TestTwice {
+        /// Their name.
+        test: String,
+    },
+    /// A stretch of a test is not positive and finite (an amount of shear: not finite).
+    #[error("test `{test}`, point {index}: the stretch {value} is not positive and finite")]
+    StretchNotPositive {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The stretch.
+        value: f64,
+    },
+    /// A stretch of a test, or an amount of shear, is so small or large that no law has a stress there.
+    #[error("test `{test}`, point {index}: at the stretch {value:e} no law has a stress: valid are 1e-30 to 1e30")]
+    StretchOutOfRange {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The stretch.
+        value: f64,
+    },
+    /// A stress of a test is not finite.
+    #[error("test `{test}`, point {index}: the stress {value} is not finite")]
+    StressNotFinite {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The stress.
+        value: f64,
+    },
+    /// A deformation of a test changes the volume of a material that is incompressible.
+    #[error("test `{test}`, point {index}: det F = {determinant} of an incompressible material is not 1")]
+    NotIsochoric {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// det F.
+        determinant: f64,
+    },
+    /// An index of a component or axis is not 0, 1 or 2.
+    #[error("test `{test}`, point {index}: {value} is none of the axes 0, 1 and 2")]
+    NoSuchComponent {
+        /// The test.
+        test: String,
+        /// The point, from 0.
+        index: usize,
+        /// The index.
+        value: usize,
+    },
+    /// The weight of a test is not positive and finite.
+    #[error("test `{test}`: the weight {value} is not positive and finite")]
+    WeightNotPositive {
+        /// The test.
+        test: String,
+        /// The weight.
+        value: f64,
+    },
+    /// A model to fit has a name that is not known.
+    #[error(
+        "no model is called `{name}`: there are neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n"
+    )]
+    UnknownModel {
+        /// The name.
+        name: String,
+    },
+    /// A series has no terms, or too many.
+    #[error("a series of {value} terms: valid are 1 to 6")]
+    SeriesLength {
+        /// The number of terms.
+        value: usize,
+    },
+    /// Nothing is deformed in any test, where every law has the same stress.
+    #[error(
+        "test `{test}`: all its stretches are {value}, at which nothing is deformed, and no other test has one that is not: \
+         the data say nothing of the parameters"
+    )]
+    NothingDeformed {
+        /// The first test.
+        test: String,
+        /// Its first stretch: 1, or 0 for an amount of shear.
+        value: f64,
+    },
+    /// A model or fluid has more parameters than there are points.
+    #[error("{model}: {points} measured points cannot determine {parameters} parameters")]
+    TooFewPoints {
+        /// The model or fluid.
+        model: String,
+        /// Points of all tests.
+        points: usize,
+        /// Its parameters.
+        parameters: usize,
+    },
+    /// Bounds are given for a parameter that a model or fluid does not have.
+    #[error("{model} has no parameter `{parameter}`")]
+    UnknownParameter {
+        /// The model or fluid.
+        model: String,
+        /// The parameter.
+        parameter: String,
+    },
+    /// A parameter of a model is to have the sign of one that it cannot.
+    #[error(
+        "{model}: `{parameter}` is to have the sign of parameter {index}, which the model does not have or is a factor"
+    )]
+    NoSuchSign {
+        /// The model.
+        model: String,
+        /// The parameter.
+        parameter: String,
+        /// The number of the other, from 0.
+        index: usize,
+    },
+    /// A model is given more or fewer values than it has parameters.
+    #[error("{model} has {parameters} parameters: {values} values are given")]
+    NumberOfValues {
+        /// The model.
+        model: String,
+        /// Its parameters.
+        parameters: usize,
+        /// The values.
+        values: usize,
+    },
+    /// No value is within the bounds of a parameter.
+    #[error("{model}: no value of `{parameter}` is at least {lower:e} and at most {upper:e}")]
+    ImpossibleBounds {
+        /// The model.
+        model: String,
+        /// The parameter.
+        parameter: String,
+        /// The least value, that of the model included.
+        lower: f64,
+        /// The greatest value, that of the model included.
+        upper: f64,
+    },
+    /// Bounds of a fluid's parameter are not finite, or leave nothing between them.
+    #[error("nothing lies between the bounds {lower:e} and {upper:e} of `{parameter}`, or they are not finite")]
+    EmptyInterval {
+        /// The parameter.
+        parameter: String,
+        /// Its least value.
+        lower: f64,
+        /// Its greatest value.
+        upper: f64,
+    },
+    /// A probability of intervals is not between 0 and 1.
+    #[error("the confidence {value} is not between 0 and 1")]
+    ConfidenceOutOfRange {
+        /// The confidence.
+        value: f64,
+    },
+    /// A model or fluid has finite answers at no start of the search.
+    #[error("{model}: at no start of the search are the answers finite and the bounds kept")]
+    NoStart {
+        /// The model or fluid.
+        model: String,
+    },
+    /// The law of a solid refuses its parameters.
+    #[cfg(feature = "solids")]
+    #[error(transparent)]
+    Solids(#[from] piola_solids::SolidsError),
+    /// The fluid refuses its parameters, or has no shear rate at a stress.
+    #[cfg(feature = "fluids")]
+    #[error(transparent)]
+    Fluids(#[from] piola_fluids::FluidsError),
+    /// A table of measured flows is refused.
+    #[cfg(feature = "fluids")]
+    #[error(transparent)]
+    Viscometry(#[from] piola_viscometry::ViscometryError),
+}

@@ -1,0 +1,131 @@
+//! The search of Levenberg and Marquardt over unbounded coordinates of bounded parameters.
+
+use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
+use nalgebra::DMatrix;
+use nalgebra_0_34 as searched;
+
+use crate::Outcome;
+
+/// Where a parameter may be, and how it is searched for there.
+///
+/// ```text
+/// low ≤ θ ≤ high    θ = low + ½ (high − low) (1 + sin x)
+/// low ≤ θ           θ = low + eˣ
+/// θ ≤ high          θ = high − eˣ
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Range {
+    /// The least and the greatest value; infinite where there is none.
+    pub(crate) bounds: [f64; 2],
+    /// The least distance from a single bound at which a search starts, 0 < least.
+    pub(crate) least: f64,
+}
+
+impl Range {
+    /// 0 < θ.
+    #[cfg(feature = "fluids")]
+    pub(crate) const POSITIVE: Self = Self { bounds: [0.0, f64::INFINITY], least: f64::MIN_POSITIVE };
+
+    /// The unbounded coordinate of a parameter.
+    pub(crate) fn inward(self, value: f64) -> f64 {
+        match self.bounds {
+            [low, high] if low.is_finite() && high.is_finite() => {
+                let half = 0.5 * (high - low);
+                if 0.0 < half { ((value - low) / half - 1.0).clamp(-0.999, 0.999).asin() } else { 0.0 }
+            }
+            [low, _] if low.is_finite() => (value - low).max(self.least).ln(),
+            [_, high] if high.is_finite() => (high - value).max(self.least).ln(),
+            _ => value,
+        }
+    }
+
+    /// The parameter of an unbounded coordinate, and its derivative.
+    pub(crate) fn outward(self, x: f64) -> [f64; 2] {
+        match self.bounds {
+            [low, high] if low.is_finite() && high.is_finite() => {
+                let half = 0.5 * (high - low);
+                [low + half * (1.0 + x.sin()), half * x.cos()]
+            }
+            [low, _] if low.is_finite() => [low + x.exp(), x.exp()],
+            [_, high] if high.is_finite() => [high - x.exp(), -x.exp()],
+            _ => [x, 1.0],
+        }
+    }
+}
+
+/// A sum of squares that is minimised.
+pub(crate) trait Misfit {
+    /// What is known where the residuals are finite.
+    type State;
+
+    /// The number of residuals.
+    fn rows(&self) -> usize;
+    /// Moves to the coordinates x; nothing where a residual is not finite.
+    fn visit(&mut self, x: &[f64]) -> Option<Self::State>;
+    /// The residuals.
+    fn residuals<'s>(&self, state: &'s Self::State) -> &'s [f64];
+    /// The derivatives of the residuals with respect to x, a row for each.
+    fn jacobian(&self, state: &Self::State, x: &[f64]) -> DMatrix<f64>;
+}
+
+/// Where a search has come to.
+pub(crate) struct End<M: Misfit> {
+    pub(crate) misfit: M,
+    pub(crate) state: M::State,
+    pub(crate) outcome: Outcome,
+}
+
+/// Searches from the coordinates `start`; nothing if no residuals are finite there, or at the end.
+pub(crate) fn minimise<M: Misfit>(misfit: M, start: Vec<f64>, patience: usize) -> Option<End<M>> {
+    let x = searched::DVector::from_vec(start);
+    let mut walk = Walk { misfit, x: x.clone(), state: None };
+    walk.set_params(&x);
+    walk.state.as_ref()?;
+    let search = LevenbergMarquardt::new().with_ftol(1e-14).with_xtol(1e-12).with_gtol(1e-12).with_patience(patience);
+    let (mut end, report) = search.minimize(walk);
+    let x = end.x.clone();
+    end.set_params(&x);
+    let outcome = match report.termination {
+        TerminationReason::ResidualsZero => Outcome::ExactFit,
+        TerminationReason::Orthogonal => Outcome::GradientZero,
+        TerminationReason::Converged { .. } | TerminationReason::NoImprovementPossible(_) => Outcome::NoFurtherDecrease,
+        TerminationReason::LostPatience => Outcome::OutOfPatience,
+        _ => Outcome::NotFinite,
+    };
+    Some(End { state: end.state?, misfit: end.misfit, outcome })
+}
+
+/// One walk of a search.
+struct Walk<M: Misfit> {
+    misfit: M,
+    x: searched::DVector<f64>,
+    state: Option<M::State>,
+}
+
+impl<M: Misfit> LeastSquaresProblem<f64, searched::Dyn, searched::Dyn> for Walk<M> {
+    type ResidualStorage = searched::Owned<f64, searched::Dyn>;
+    type JacobianStorage = searched::Owned<f64, searched::Dyn, searched::Dyn>;
+    type ParameterStorage = searched::Owned<f64, searched::Dyn>;
+
+    fn set_params(&mut self, x: &searched::DVector<f64>) {
+        self.x.copy_from(x);
+        self.state = self.misfit.visit(self.x.as_slice());
+    }
+
+    fn params(&self) -> searched::DVector<f64> {
+        self.x.clone()
+    }
+
+    fn residuals(&self) -> Option<searched::DVector<f64>> {
+        Some(match &self.state {
+            Some(state) => searched::DVector::from_column_slice(self.misfit.residuals(state)),
+            // A step to where there is no answer is taken back.
+            None => searched::DVector::from_element(self.misfit.rows(), 1e100),
+        })
+    }
+
+    fn jacobian(&self) -> Option<searched::DMatrix<f64>> {
+        let jacobian = self.misfit.jacobian(self.state.as_ref()?, self.x.as_slice());
+        Some(searched::DMatrix::from_column_slice(jacobian.nrows(), jacobian.ncols(), jacobian.as_slice()))
+    }
+}

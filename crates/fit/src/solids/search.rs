@@ -1,0 +1,329 @@
+//! The search for the parameters: Levenberg and Marquardt's, with the linear ones eliminated.
+//!
+//! ```text
+//! S(θ) = Σ wᵢ² (Pᵢ(θ) − P̂ᵢ)²        θ = (c, α),   P = Φ(α) c
+//! c(α) = argmin |W (Φ c − P̂)|  between bounds        J = (1 − Φ Φ⁺) W ∂P/∂α
+//! ```
+//! The gradient by that J is exact (G. H. Golub, V. Pereyra, 1973; L. Kaufman, 1975). What is searched for is only α.
+
+use core::cell::Cell;
+
+use nalgebra::{DMatrix, DVector};
+use piola_numerics::Gradient;
+
+use super::model::Fitted;
+use super::{Data, Model, Outcome, Parameter, Role, StableSign, linear, stability};
+use crate::search::{End, Misfit, Range, minimise};
+
+/// Parameters of one evaluation.
+const CHUNK: usize = 4;
+
+/// Everything that a search knows.
+pub(super) struct Problem<'a, M> {
+    pub(super) model: &'a M,
+    pub(super) data: &'a Data,
+    pub(super) parameters: Vec<Parameter>,
+    /// wᵢ.
+    pub(super) weights: Vec<f64>,
+    /// The largest stress of all.
+    pub(super) stress: f64,
+    /// Whether the signs that make terms stable are kept.
+    pub(super) signs: bool,
+    pub(super) patience: usize,
+    evaluations: Cell<usize>,
+}
+
+/// Where a search has come to.
+#[derive(Clone, Debug)]
+pub(super) struct Best {
+    pub(super) parameters: Vec<f64>,
+    /// S.
+    pub(super) squares: f64,
+    pub(super) outcome: Outcome,
+}
+
+impl<'a, M: Model> Problem<'a, M> {
+    pub(super) fn new(
+        model: &'a M,
+        data: &'a Data,
+        parameters: Vec<Parameter>,
+        weights: Vec<f64>,
+        signs: bool,
+        patience: usize,
+    ) -> Self {
+        let stress = data.tests().iter().map(super::Test::largest_stress).fold(0.0, f64::max);
+        Self { model, data, parameters, weights, stress, signs, patience, evaluations: Cell::new(0) }
+    }
+
+    /// Evaluations of all stresses so far.
+    pub(super) fn evaluations(&self) -> usize {
+        self.evaluations.get()
+    }
+
+    fn places(&self, role: Role) -> Vec<usize> {
+        (0..self.parameters.len()).filter(|&k| self.parameters[k].role == role).collect()
+    }
+
+    fn observed(&self) -> DVector<f64> {
+        let stresses = self.data.tests().iter().flat_map(super::Test::stresses);
+        DVector::from_iterator(self.weights.len(), stresses.zip(&self.weights).map(|(stress, weight)| stress * weight))
+    }
+
+    /// wᵢ Pᵢ and their derivatives.
+    pub(super) fn stresses(&self, theta: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
+        self.evaluations.set(self.evaluations.get() + 1);
+        let rows = self.weights.len();
+        let mut values = DVector::zeros(rows);
+        let mut slopes = DMatrix::zeros(rows, theta.len());
+        for begin in (0..theta.len()).step_by(CHUNK) {
+            let lifted = theta.iter().enumerate().map(|(k, x)| {
+                // Those of other chunks have a direction that no chunk has.
+                Gradient::<f64, CHUNK>::variable(*x, if k < begin { CHUNK } else { k - begin })
+            });
+            let law = Fitted::trusted(self.model, lifted);
+            let mut row = 0;
+            for test in self.data.tests() {
+                for point in 0..test.len() {
+                    let stress = test.answer(point, &law);
+                    values[row] = self.weights[row] * stress.value;
+                    for k in begin..theta.len().min(begin + CHUNK) {
+                        slopes[(row, k)] = self.weights[row] * stress.partials[k - begin];
+                    }
+                    row += 1;
+                }
+            }
+        }
+        (values, slopes)
+    }
+
+    /// The bounds of a parameter, those of stability included.
+    pub(super) fn bounds(&self, k: usize, theta: &[f64]) -> [f64; 2] {
+        let [low, high] = self.parameters[k].bounds;
+        let (positive, negative) = ([low.max(0.0), high], [low, high.min(0.0)]);
+        match self.parameters[k].stable {
+            StableSign::NotNegative if self.signs => positive,
+            StableSign::SameAs(j) if self.signs => {
+                if 0.0 < theta[j] {
+                    positive
+                } else {
+                    negative
+                }
+            }
+            _ => [low, high],
+        }
+    }
+
+    /// Sets the linear parameters to the best; the columns of those that no bound holds are an orthonormal basis.
+    fn eliminate(&self, theta: &mut [f64], observed: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        let places = self.places(Role::Linear);
+        if places.is_empty() {
+            let (values, _) = self.stresses(theta);
+            return Some((values - observed, DMatrix::zeros(observed.len(), 0)));
+        }
+        let bounds: Vec<[f64; 2]> = places.iter().map(|&k| self.bounds(k, theta)).collect();
+        if bounds.iter().any(|[low, high]| high < low) {
+            return None;
+        }
+        for &k in &places {
+            theta[k] = 1.0;
+        }
+        let columns = self.stresses(theta).1.select_columns(&places);
+        if columns.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        let (solution, free) = linear::solve(&columns, observed, &bounds);
+        for (&k, value) in places.iter().zip(solution.iter()) {
+            theta[k] = *value;
+        }
+        Some((&columns * solution - observed, linear::range(&columns, &free)))
+    }
+
+    /// The best over all starts, and how many starts came to it; nothing if no start has finite stresses.
+    pub(super) fn search(&self, starts: &[Vec<f64>]) -> Option<(Best, usize)> {
+        let searched = self.places(Role::Nonlinear);
+        let observed = self.observed();
+        let starts = if searched.is_empty() { vec![Vec::new()] } else { starts.to_vec() };
+        let mut found: Vec<Best> = Vec::new();
+        for start in &starts {
+            let mut theta = vec![1.0; self.parameters.len()];
+            for (&k, value) in searched.iter().zip(start) {
+                theta[k] = value.clamp(self.parameters[k].bounds[0], self.parameters[k].bounds[1]);
+            }
+            if searched.is_empty() {
+                let (residuals, _) = self.eliminate(&mut theta, &observed)?;
+                let outcome = Outcome::LinearSolution;
+                found.push(Best { parameters: theta, squares: residuals.norm_squared(), outcome });
+                continue;
+            }
+            let x = searched.iter().map(|&k| self.range(k).inward(theta[k])).collect();
+            let target = Separable { problem: self, searched: &searched, observed: &observed, theta };
+            let end = minimise(target, x, self.patience);
+            found.extend(end.map(Best::from).filter(|best| best.squares.is_finite()));
+        }
+        let best = found.iter().min_by(|a, b| a.squares.total_cmp(&b.squares))?.clone();
+        let agree = found.iter().filter(|other| other.squares <= best.squares * (1.0 + 1e-6)).count();
+        Some((best, agree))
+    }
+
+    /// Whether every factor is zero, and the law with them.
+    pub(super) fn has_no_stiffness(&self, best: &Best) -> bool {
+        let places = self.places(Role::Linear);
+        !places.is_empty() && places.into_iter().all(|k| best.parameters[k].abs() <= 0.0)
+    }
+
+    /// A search over all parameters at once, with what Drucker's condition lacks added to the residuals.
+    pub(super) fn stabilise(&self, best: &Best, fan: &[[f64; 3]]) -> Option<Best> {
+        let observed = self.observed();
+        let mut theta = best.parameters.clone();
+        let mut found = None;
+        // From soft to hard, until nothing is lacking.
+        for power in 0..7 {
+            let hardness = 10_f64.powi(power);
+            let x = (0..theta.len()).map(|k| self.range(k).inward(theta[k])).collect();
+            let target = Penalised { problem: self, observed: &observed, fan, hardness, theta: theta.clone() };
+            let reached = Best::from(minimise(target, x, self.patience)?);
+            let (values, _) = self.stresses(&reached.parameters);
+            let squares = (values - &observed).norm_squared();
+            theta.clone_from(&reached.parameters);
+            let lacking = fan.iter().any(|point| stability::least_modulus(self.model, *point, &theta) <= 0.0);
+            found = Some(Best { squares, ..reached });
+            if !lacking {
+                break;
+            }
+        }
+        found
+    }
+
+    /// Where a parameter is searched for.
+    fn range(&self, k: usize) -> Range {
+        let least = 1e-6 * if self.parameters[k].is_stress { self.stress } else { 1.0 };
+        Range { bounds: self.parameters[k].bounds, least }
+    }
+}
+
+impl<M: Parametric> From<End<M>> for Best {
+    fn from(end: End<M>) -> Self {
+        let squares = end.state.0.norm_squared();
+        Self { parameters: end.misfit.into_parameters(), squares, outcome: end.outcome }
+    }
+}
+
+/// A misfit of parameters, with residuals and their derivatives or what these follow from.
+trait Parametric: Misfit<State = (DVector<f64>, DMatrix<f64>)> {
+    fn into_parameters(self) -> Vec<f64>;
+}
+
+/// The search for α alone.
+struct Separable<'p, 'a, M> {
+    problem: &'p Problem<'a, M>,
+    searched: &'p [usize],
+    observed: &'p DVector<f64>,
+    theta: Vec<f64>,
+}
+
+impl<M: Model> Parametric for Separable<'_, '_, M> {
+    fn into_parameters(self) -> Vec<f64> {
+        self.theta
+    }
+}
+
+impl<M: Model> Misfit for Separable<'_, '_, M> {
+    /// Residuals, and the basis of what the linear parameters can change.
+    type State = (DVector<f64>, DMatrix<f64>);
+
+    fn rows(&self) -> usize {
+        self.observed.len()
+    }
+
+    fn visit(&mut self, x: &[f64]) -> Option<Self::State> {
+        for (&k, &x) in self.searched.iter().zip(x) {
+            self.theta[k] = self.problem.range(k).outward(x)[0];
+        }
+        self.problem.eliminate(&mut self.theta, self.observed)
+    }
+
+    fn residuals<'s>(&self, (residuals, _): &'s Self::State) -> &'s [f64] {
+        residuals.as_slice()
+    }
+
+    fn jacobian(&self, (_, basis): &Self::State, x: &[f64]) -> DMatrix<f64> {
+        let mut slopes = self.problem.stresses(&self.theta).1.select_columns(self.searched);
+        for (index, (&k, &x)) in self.searched.iter().zip(x).enumerate() {
+            slopes.column_mut(index).scale_mut(self.problem.range(k).outward(x)[1]);
+        }
+        let within = basis.tr_mul(&slopes);
+        slopes - basis * within
+    }
+}
+
+/// The search for all parameters under a penalty.
+struct Penalised<'p, 'a, M> {
+    problem: &'p Problem<'a, M>,
+    observed: &'p DVector<f64>,
+    fan: &'p [[f64; 3]],
+    hardness: f64,
+    theta: Vec<f64>,
+}
+
+impl<M: Model> Penalised<'_, '_, M> {
+    /// The least modulus that is asked for, as a part of the largest stress.
+    const MARGIN: f64 = 1e-3;
+}
+
+impl<M: Model> Parametric for Penalised<'_, '_, M> {
+    fn into_parameters(self) -> Vec<f64> {
+        self.theta
+    }
+}
+
+impl<M: Model> Misfit for Penalised<'_, '_, M> {
+    /// Residuals of the data, then of Drucker's condition, and their derivatives.
+    type State = (DVector<f64>, DMatrix<f64>);
+
+    fn rows(&self) -> usize {
+        self.observed.len() + self.fan.len()
+    }
+
+    fn visit(&mut self, x: &[f64]) -> Option<Self::State> {
+        for (k, &x) in x.iter().enumerate() {
+            self.theta[k] = self.problem.range(k).outward(x)[0];
+        }
+        let (values, slopes) = self.problem.stresses(&self.theta);
+        let (rows, unknowns) = (values.len(), self.theta.len());
+        let mut residuals = DVector::zeros(rows + self.fan.len());
+        let mut jacobian = DMatrix::zeros(rows + self.fan.len(), unknowns);
+        residuals.rows_mut(0, rows).copy_from(&(values - self.observed));
+        jacobian.rows_mut(0, rows).copy_from(&slopes);
+        for begin in (0..unknowns).step_by(CHUNK) {
+            let lifted: Vec<_> = self
+                .theta
+                .iter()
+                .enumerate()
+                .map(|(k, x)| Gradient::<f64, CHUNK>::variable(*x, if k < begin { CHUNK } else { k - begin }))
+                .collect();
+            for (index, point) in self.fan.iter().enumerate() {
+                let modulus = stability::least_modulus(self.problem.model, *point, &lifted);
+                let lacking = Self::MARGIN - modulus.value / self.problem.stress;
+                if lacking.is_nan() || 0.0 < lacking {
+                    residuals[rows + index] = self.hardness * lacking;
+                    for k in begin..unknowns.min(begin + CHUNK) {
+                        let slope = modulus.partials[k - begin] / self.problem.stress;
+                        jacobian[(rows + index, k)] = -self.hardness * slope;
+                    }
+                }
+            }
+        }
+        for k in 0..unknowns {
+            jacobian.column_mut(k).scale_mut(self.problem.range(k).outward(x[k])[1]);
+        }
+        residuals.iter().all(|x| x.is_finite()).then_some((residuals, jacobian))
+    }
+
+    fn residuals<'s>(&self, (residuals, _): &'s Self::State) -> &'s [f64] {
+        residuals.as_slice()
+    }
+
+    fn jacobian(&self, (_, jacobian): &Self::State, _: &[f64]) -> DMatrix<f64> {
+        jacobian.clone()
+    }
+}

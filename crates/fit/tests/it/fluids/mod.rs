@@ -1,0 +1,5 @@
+//! Fits of fluids.
+
+mod golden;
+mod refusals;
+mod statistics;

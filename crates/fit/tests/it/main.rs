@@ -1,0 +1,6 @@
+//! Fits: recovered parameters, statistics, ties and refusals.
+
+#[cfg(feature = "fluids")]
+mod fluids;
+#[cfg(feature = "solids")]
+mod solids;

@@ -1,0 +1,8 @@
+//! Fits of solids.
+
+mod freedom;
+mod recovery;
+mod refusals;
+mod rubber;
+mod statistics;
+mod ties;

@@ -1,0 +1,23 @@
+//! A fluid's parameters as a list, and its shear stress as a formula of them, for fits.
+
+/// A fluid of `N` numbers whose shear stress is one formula of them and of the shear rate.
+///
+/// Fits evaluate it over differentiable parameters; the fluid's own [`shear_stress`](super::ViscometricFluid::shear_stress) is the same
+/// function at its own.
+pub trait Parameters<const N: usize>: Sized {
+    /// The names of the parameters, in order.
+    const NAMES: [&'static str; N];
+
+    /// The parameters, in order.
+    fn parameters(&self) -> [f64; N];
+
+    /// From the parameters, in order, within their bounds.
+    ///
+    /// # Errors
+    /// [`FluidsError::NotFinite`](crate::FluidsError::NotFinite),
+    /// [`FluidsError::OutOfBounds`](crate::FluidsError::OutOfBounds).
+    fn from_parameters(parameters: [f64; N]) -> Result<Self, crate::FluidsError>;
+
+    /// τ, Pa, of parameters that may carry derivatives, for 0 ≤ `shear_rate`, 1/s.
+    fn shear_stress_of<T: piola_numerics::Real>(parameters: [T; N], shear_rate: T) -> T;
+}

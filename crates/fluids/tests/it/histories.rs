@@ -1,0 +1,241 @@
+//! Histories: what every simple fluid says to other observers, from other references and in a plane; motions of constant stretch
+//! history and viscometric ones.
+
+use nalgebra::{Matrix3, Vector3};
+use piola_continuum::rates::{ExponentialMotion, HomogeneousMotion};
+use piola_continuum::{DeformationGradient, Symmetric};
+use piola_fluids::{
+    AnyFluid, ConstantStretchHistory, FluidsError, SecondOrder, SimpleFluid, ViscometricFluid, fluid_indifference,
+    plane_history, reference_indifference, steady_turn, stretch_history, viscometric_motion,
+};
+use piola_numerics::Real;
+use piola_testkit::{Tol, strategies};
+use proptest::prelude::*;
+
+use super::elastic::{all, elastic};
+
+/// A motion of everything: F is a product of shears and a stretch that change with time, det F = 1; in the plane of 1 and 2 where
+/// `across` is zero.
+#[derive(Clone, Debug)]
+struct Wandering {
+    shears: [f64; 3],
+    rates: [f64; 3],
+    across: f64,
+}
+
+impl HomogeneousMotion for Wandering {
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+        let at = |i: usize| T::lit(self.shears[i]) * (T::lit(self.rates[i]) * t).sin();
+        let one = Matrix3::from_diagonal_element(T::one());
+        let (mut first, mut second, mut third) = (one, one, one);
+        first[(1, 0)] = at(0);
+        second[(0, 1)] = at(1);
+        third[(0, 2)] = T::lit(self.across) * at(1);
+        third[(2, 1)] = T::lit(self.across) * at(0);
+        third[(2, 2)] = T::one() + third[(2, 1)] * T::zero();
+        let stretch = at(2).exp();
+        let diagonal = Matrix3::from_diagonal(&Vector3::new(stretch, stretch.recip(), T::one()));
+        first * diagonal * second * third
+    }
+}
+
+fn wandering(across: f64) -> impl Strategy<Value = Wandering> {
+    let numbers = || proptest::array::uniform3(-0.8..0.8_f64);
+    (numbers(), proptest::array::uniform3(0.3..1.5_f64)).prop_map(move |(shears, rates)| Wandering {
+        shears,
+        rates,
+        across,
+    })
+}
+
+/// What a fluid may differ by: followed and integrated ones by their tolerance.
+fn tolerance(fluid: &AnyFluid) -> f64 {
+    // What is barely thinning at rest knows the stress of a rate of 1e-16 badly.
+    if fluid.viscosity(0.0_f64).is_finite() { 1e-7 } else { 1e-6 }
+}
+
+/// The other fluids, cheap.
+fn instant() -> Vec<AnyFluid> {
+    all().into_iter().filter(|fluid| !elastic().contains(fluid)).collect()
+}
+
+fn integrated() -> Vec<AnyFluid> {
+    elastic()
+}
+
+/// Each of the three statements of a fluid.
+fn fluid_statements(
+    fluids: &[AnyFluid],
+    motion: &Wandering,
+    flat: &Wandering,
+    spin: &Vector3<f64>,
+    reference: &Matrix3<f64>,
+    time: f64,
+) -> Result<(), TestCaseError> {
+    let observer = steady_turn(spin).expect("finite");
+    for fluid in fluids {
+        let what = fluid.name();
+        // The second-order fluid of samples is a steady one, but of motions any.
+        let seen = fluid_indifference(fluid, motion.clone(), observer, time, 1e-10).expect("runs");
+        prop_assert!(seen <= tolerance(fluid), "{what} seen by others: {seen:e}");
+        let referred = reference_indifference(fluid, motion.clone(), reference, time, 1e-10).expect("runs");
+        prop_assert!(referred <= tolerance(fluid), "{what} from another reference: {referred:e}");
+        let plane = plane_history(fluid, flat, &Vector3::new(0.0, 0.0, 2.0), time, 1e-10).expect("runs");
+        prop_assert!(plane.history < 1e-14 && plane.stress < 1e-9, "{what} in a plane: {plane:?}");
+    }
+    Ok(())
+}
+
+fn unimodular(entries: &[f64]) -> Matrix3<f64> {
+    let mut lower = Matrix3::identity();
+    let mut upper = Matrix3::identity();
+    (lower[(1, 0)], lower[(2, 0)], lower[(2, 1)]) = (entries[0], entries[1], entries[2]);
+    (upper[(0, 1)], upper[(0, 2)], upper[(1, 2)]) = (entries[3], entries[4], entries[5]);
+    lower * upper
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+    #[test]
+    fn fluids_of_the_present_rate_are_simple_fluids(
+        motion in wandering(0.5), flat in wandering(0.0), spin in strategies::vector(3, -2.0..2.0),
+        entries in strategies::vector(6, -1.0..1.0), time in 0.2..2.0_f64,
+    ) {
+        fluid_statements(&instant(), &motion, &flat, &Vector3::from_column_slice(&spin), &unimodular(&entries), time)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn fluids_with_memory_are_simple_fluids(
+        motion in wandering(0.5), flat in wandering(0.0), spin in strategies::vector(3, -2.0..2.0),
+        entries in strategies::vector(6, -1.0..1.0), time in 0.2..2.0_f64,
+    ) {
+        fluid_statements(&integrated(), &motion, &flat, &Vector3::from_column_slice(&spin), &unimodular(&entries), time)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1_000))]
+
+    #[test]
+    fn turned_exponential_motions_have_constant_stretch_histories_and_others_none(
+        entries in strategies::vector(9, -1.0..1.0), spin in strategies::vector(3, -2.0..2.0),
+        h in strategies::vector(6, -1.0..1.0), motion in wandering(0.5),
+    ) {
+        let mut generator = Matrix3::from_row_slice(&entries);
+        generator -= Matrix3::from_diagonal_element(generator.trace() / 3.0);
+        let turning = steady_turn(&Vector3::from_column_slice(&spin)).expect("finite");
+        let constant = ConstantStretchHistory { turning, reference: unimodular(&h), generator };
+        let times = [0.0, 0.3, 1.0];
+        let change = stretch_history(&constant, &times, 1.0).expect("a motion");
+        // cond H and exp(K) to the third power, of each of three factors.
+        prop_assert!(change < 1e-8, "{change:e}");
+        let shape = motion.shears.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        prop_assume!(0.3 < shape);
+        let other = stretch_history(&motion, &times, 1.0).expect("a motion");
+        prop_assert!(1e-4 < other, "{other:e} of {motion:?}");
+    }
+
+    #[test]
+    fn turned_shears_are_viscometric_and_their_stress_is_that_of_the_functions(
+        log in -3.0..3.0_f64, spin in strategies::vector(3, -2.0..2.0), q in strategies::rotation(), time in 0.0..3.0_f64,
+    ) {
+        let k = 10.0_f64.powf(log);
+        let r = strategies::rotation_matrix(q);
+        let axes = Matrix3::from_fn(|i, j| r[i][j]);
+        let shear = Matrix3::new(0.0, 0.0, 0.0, k, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let turning = steady_turn(&(Vector3::from_column_slice(&spin) * k)).expect("finite");
+        let motion = ConstantStretchHistory {
+            turning, reference: axes.transpose(), generator: Matrix3::zeros(),
+        };
+        // H exp(K t) with K = H⁻¹ shear H is the shear along turned axes.
+        let motion = ConstantStretchHistory { generator: axes * shear * axes.transpose(), ..motion };
+        let found = viscometric_motion(&motion, time / k).expect("a motion").expect("it flows");
+        let tolerance = Tol::ulps(4096.0).value() * (1.0 + time).powi(4);
+        prop_assert!((found.shear_rate / k - 1.0).abs() < tolerance, "{found:?}");
+        prop_assert!(found.residual < tolerance, "{found:?}");
+        // A₁ = k (e₁e₂ + e₂e₁) with e₁ in the turned gradient.
+        let turn = motion.turning.gradient(time / k);
+        prop_assert!((found.axes[0].dot(&(turn * Vector3::x())).abs() - 1.0).abs() < tolerance);
+    }
+
+    #[test]
+    fn stretching_motions_are_not_viscometric(
+        entries in strategies::vector(9, -1.0..1.0),
+    ) {
+        let mut l = Matrix3::from_row_slice(&entries);
+        l -= Matrix3::from_diagonal_element(l.trace() / 3.0);
+        // det of a nilpotent L, and the sum of its principal minors, are zero.
+        let (d, second) = (l.determinant(), -0.5 * (l * l).trace());
+        prop_assume!(0.05 < d.abs() || 0.05 < second.abs());
+        let motion = ExponentialMotion::new(l, Matrix3::identity()).expect("a motion");
+        let found = viscometric_motion(&motion, 0.5).expect("a motion").expect("it flows");
+        prop_assert!(1e-4 < found.residual, "{found:?}");
+    }
+}
+
+/// A functional of the whole of F, as solids have: refuted.
+struct Solid;
+impl SimpleFluid for Solid {
+    fn response_to_motion(
+        &self,
+        motion: &impl HomogeneousMotion,
+        time: f64,
+        _tolerance: f64,
+    ) -> Result<Symmetric, FluidsError> {
+        let deformation: DeformationGradient = motion.deformation(time)?;
+        let f = deformation.matrix();
+        Symmetric::from_matrix(&(f * f.transpose() - Matrix3::identity()))
+            .map_err(|error| FluidsError::from(piola_continuum::ContinuumError::from(error)))
+    }
+    fn response_to_steady(&self, _: &piola_continuum::rates::VelocityGradient) -> Result<Symmetric, FluidsError> {
+        Ok(Symmetric::zero())
+    }
+    fn response_to_samples(&self, _: &[(f64, DeformationGradient)], _: f64) -> Result<Symmetric, FluidsError> {
+        Ok(Symmetric::zero())
+    }
+    fn response_to_start(&self, _: f64, _: f64, _: f64) -> Result<piola_fluids::ShearStresses, FluidsError> {
+        Ok(piola_fluids::ShearStresses::default())
+    }
+    fn response_to_stop(&self, _: f64, _: f64, _: f64) -> Result<piola_fluids::ShearStresses, FluidsError> {
+        Ok(piola_fluids::ShearStresses::default())
+    }
+    fn response_to_small_oscillation(&self, _: f64) -> Result<piola_fluids::Moduli, FluidsError> {
+        Ok(piola_fluids::Moduli::default())
+    }
+    fn response_to_oscillation(
+        &self,
+        _: f64,
+        _: f64,
+        _: usize,
+        _: f64,
+    ) -> Result<piola_fluids::Oscillation, FluidsError> {
+        Err(FluidsError::WrongLength { quantity: "harmonics", expected: 0, found: 1 })
+    }
+    fn response_to_extension(&self, _: piola_fluids::Extension, _: f64) -> Result<f64, FluidsError> {
+        Ok(0.0)
+    }
+}
+
+#[test]
+fn solids_are_refuted_as_fluids_and_anisotropic_stress_in_a_plane() {
+    let motion = Wandering { shears: [0.5, -0.3, 0.2], rates: [1.0, 0.5, 0.7], across: 0.5 };
+    let observer = steady_turn(&Vector3::new(0.5, 1.0, -0.25)).expect("finite");
+    // An isotropic solid looks the same to all observers, but it remembers its reference.
+    assert!(fluid_indifference(&Solid, motion.clone(), observer, 1.0, 0.0).expect("runs") < 1e-12);
+    let other = unimodular(&[0.5, 0.0, 0.1, 0.2, 0.0, 0.3]);
+    assert!(0.1 < reference_indifference(&Solid, motion.clone(), &other, 1.0, 0.0).expect("runs"));
+    let volume = Matrix3::from_diagonal_element(2.0);
+    assert!(reference_indifference(&Solid, motion.clone(), &volume, 1.0, 0.0).is_err());
+    // Out of the plane the history has no common proper vector, and neither has the stress.
+    let fluid = SecondOrder::new(1.0, -0.5, 0.25).expect("bounds");
+    let report = plane_history(&fluid, &motion, &Vector3::z(), 1.0, 0.0).expect("runs");
+    assert!(1e-2 < report.history && 1e-2 < report.stress, "{report:?}");
+    assert!(plane_history(&fluid, &motion, &Vector3::zeros(), 1.0, 0.0).is_err());
+    assert!(stretch_history(&motion, &[0.0], 1.0).is_err());
+    assert!(viscometric_motion(&observer, 1.0).expect("a motion").is_none());
+}

@@ -1,0 +1,151 @@
+//! What may be asked of a law: its tangent, whole, by half, or in one direction.
+
+use nalgebra::Matrix3;
+use piola_batch::{Point, Quantity, Refusal, Request};
+use piola_continuum::stress::tangents::FirstPiolaTangent;
+use piola_continuum::{Deformation, FirstPiola};
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::from_rows;
+
+use super::requests::{answered, flat, quantities};
+use crate::Hyperelastic;
+
+/// The entries (r, s) with r ≤ s of the 9×9 array, by rows.
+#[inline(always)]
+pub(super) fn upper<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 45] {
+    let [a, b, c, d, e, f, g, h, i] = tangent.0.components;
+    [
+        a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7], a[8], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8], c[2],
+        c[3], c[4], c[5], c[6], c[7], c[8], d[3], d[4], d[5], d[6], d[7], d[8], e[4], e[5], e[6], e[7], e[8], f[5],
+        f[6], f[7], f[8], g[6], g[7], g[8], h[7], h[8], i[8],
+    ]
+}
+
+#[inline(always)]
+fn square<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 81] {
+    let mut entries = [T::zero(); 81];
+    let mut r = 0;
+    while r < 9 {
+        let mut s = 0;
+        while s < 9 {
+            entries[9 * r + s] = tangent.0.components[r][s];
+            s += 1;
+        }
+        r += 1;
+    }
+    entries
+}
+
+quantities! {
+    /// The 45 entries of ∂P/∂F that major symmetry leaves: those of row r and column s with r ≤ s, by rows, where the
+    /// pair iA has the number r = 3 i + A.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_solids::batch;
+    /// use piola_solids::SaintVenantKirchhoff;
+    /// use piola_continuum::DeformationGradient;
+    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+    /// let (f, mut a) = ([DeformationGradient::identity(); 7], [[0.0; 45]; 7]);
+    /// batch::evaluate(&f[..], batch::first_piola_tangent(&law, &mut a[..]))?;
+    /// assert_eq!(a[6][..5], [5.0, 0.0, 0.0, 0.0, 1.0]); // λ + 2μ at (11, 11), λ at (11, 22)
+    /// # Ok::<(), piola_solids::SolidsError>(())
+    /// ```
+    pub first_piola_tangent FirstPiolaTangentOf [45 knows] FirstPiolaTangentOf<'static, ()>, |law, point| upper(&law.first_piola_tangent(point));
+    /// All 81 entries of ∂P/∂F: see [`Hyperelastic::first_piola_tangent`].
+    pub first_piola_tangent_square FirstPiolaTangentSquareOf [81 knows] FirstPiolaTangent,
+        |law, point| square(&law.first_piola_tangent(point));
+    /// The 21 components of ∂S/∂E, the upper triangle by rows of the 6×6 array over the pairs 11, 22, 33, 12, 23, 13 without
+    /// factors for shears, as in [`MajorSymmetric`](piola_tensor::MajorSymmetric): see
+    /// [`Hyperelastic::material_tangent`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_solids::batch;
+    /// use piola_solids::SaintVenantKirchhoff;
+    /// use piola_continuum::DeformationGradient;
+    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+    /// let (f, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [[0.0; 21]; 7]);
+    /// batch::evaluate(&f[..], batch::material_tangent(&law, &mut c[..]))?;
+    /// assert_eq!(c[6][..4], [5.0, 1.0, 1.0, 0.0]); // λ + 2μ at (11, 11), λ at (11, 22) at every deformation
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub material_tangent MaterialTangentOf [21] MaterialTangentOf<'static, ()>,
+        |law, point| law.material_tangent(point).0.components;
+    /// The 21 components of c/J, which takes D to the Truesdell rate of T, in the order of [`material_tangent`]: see
+    /// [`Hyperelastic::truesdell_tangent`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_solids::batch;
+    /// use piola_solids::SaintVenantKirchhoff;
+    /// use piola_continuum::DeformationGradient;
+    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+    /// let (f, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [[0.0; 21]; 7]);
+    /// batch::evaluate(&f[..], batch::truesdell_tangent(&law, &mut c[..]))?;
+    /// assert_eq!(c[6][..2], [40.0, 2.0]); // F₁₁⁴ (λ + 2μ)/J and F₁₁² λ/J
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub truesdell_tangent TruesdellTangentOf [21] TruesdellTangentOf<'static, ()>,
+        |law, point| law.truesdell_tangent(point).0.components;
+}
+
+/// (∂P/∂F) : δF of a direction δF at each point: see [`Hyperelastic::first_piola_derivative`].
+///
+/// A direction so large that the answer is beyond the range of numbers is not refused: the answer is then not finite.
+///
+/// # Example
+/// ```
+/// use nalgebra::Matrix3;
+/// use piola_solids::batch;
+/// use piola_solids::SaintVenantKirchhoff;
+/// use piola_continuum::{DeformationGradient, FirstPiola};
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+/// let (f, mut q) = ([DeformationGradient::identity(); 7], [FirstPiola::zero(); 7]);
+/// let direction = [Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); 7];
+/// batch::evaluate(&f[..], batch::first_piola_derivative(&law, &direction[..], &mut q[..]))?;
+/// assert_eq!((q[6].0[(0, 1)], q[6].0[(1, 0)]), (2.0, 2.0)); // μ (δF + δFᵀ)
+/// # Ok::<(), piola_solids::SolidsError>(())
+/// ```
+#[must_use]
+pub fn first_piola_derivative<L: Hyperelastic + Sync, S, V>(
+    law: &L,
+    direction: S,
+    to: V,
+) -> Request<FirstPiolaDerivativeOf<'_, L>, S, V, 9, 9> {
+    Request::new(FirstPiolaDerivativeOf(law), direction, to)
+}
+
+/// The output of [`first_piola_derivative`].
+#[derive(Debug)]
+pub struct FirstPiolaDerivativeOf<'a, L>(&'a L);
+
+impl<L> Clone for FirstPiolaDerivativeOf<'_, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<L> Copy for FirstPiolaDerivativeOf<'_, L> {}
+
+impl<L: Hyperelastic + Sync> Quantity<9, 9> for FirstPiolaDerivativeOf<'_, L> {
+    type Input = Matrix3<f64>;
+    type Output = FirstPiola;
+    const NEEDS_STRETCH: bool = false;
+    const INPUT: &'static str = "direction of the derivative";
+
+    #[inline(always)]
+    fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, direction: [T; 9]) -> [T; 9] {
+        let [a, b, c, d, e, f, g, h, i] = direction;
+        flat(&self.0.first_piola_derivative(point, &from_rows([[a, b, c], [d, e, f], [g, h, i]])))
+    }
+
+    #[inline(always)]
+    fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, value: &[T; 9]) -> T::Mask {
+        answered(self.0, point, value)
+    }
+
+    fn check<T: Real, D: Deformation<T>>(&self, deformation: &D) -> Result<(), Refusal> {
+        self.0.check(deformation).map_err(Refusal::new)
+    }
+}

@@ -1,0 +1,249 @@
+//! What may be asked of a law together: what several answers share is computed once, each goes to a destination of its own.
+
+use piola_batch::{BatchScalar, Destination, Point, Quantity, Refusal, Request};
+use piola_continuum::{CauchyStress, Deformation, FirstPiola, SecondPiola};
+use piola_numerics::{Lanes, Real};
+
+use super::requests::{EnergyOf, flat, quantities};
+use super::tangents::{FirstPiolaTangentOf, MaterialTangentOf, TruesdellTangentOf, upper};
+use crate::Hyperelastic;
+
+quantities! {
+    /// P to the first destination and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent) to the second: see
+    /// [`Hyperelastic::first_piola_and_tangent`].
+    shared FirstPiolaAndTangentOf [54 knows] FirstPiolaAndTangentOf<'static, ()>, |law, point| law.first_piola_and_upper_triangle(point);
+    /// W to the first destination and P to the second: see [`Hyperelastic::energy_and_first_piola`].
+    shared_energy EnergyAndFirstPiolaOf [10] EnergyAndFirstPiolaOf<'static, ()>, |law, point| {
+        let (energy, stress) = law.energy_and_first_piola(point);
+        let [a, b, c, d, e, f, g, h, i] = flat(&stress);
+        [energy, a, b, c, d, e, f, g, h, i]
+    };
+    /// S to the first destination and ∂S/∂E to the second: see [`Hyperelastic::second_piola_and_tangent`].
+    shared_material SecondPiolaAndTangentOf [27] SecondPiolaAndTangentOf<'static, ()>, |law, point| {
+        let (stress, tangent) = law.second_piola_and_tangent(point);
+        with_tangent(&stress.0.components, &tangent.0.components)
+    };
+    /// T to the first destination and c/J to the second: see [`Hyperelastic::cauchy_and_tangent`].
+    shared_spatial CauchyAndTangentOf [27] CauchyAndTangentOf<'static, ()>, |law, point| {
+        let (stress, tangent) = law.cauchy_and_tangent(point);
+        with_tangent(&stress.0.components, &tangent.0.components)
+    };
+    /// W, P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent) to three destinations: see
+    /// [`Hyperelastic::energy_first_piola_and_tangent`].
+    shared_all EnergyFirstPiolaAndTangentOf [55] EnergyFirstPiolaAndTangentOf<'static, ()>, |law, point| {
+        let (energy, stress, tangent) = law.energy_first_piola_and_tangent(point);
+        energy_before(energy, &flat(&stress), &upper(&tangent))
+    };
+}
+
+/// W, P and 45 entries, one after the other.
+#[inline(always)]
+fn energy_before<T: Real>(energy: T, stress: &[T; 9], tangent: &[T; 45]) -> [T; 55] {
+    let mut all = [energy; 55];
+    let mut k = 0;
+    while k < 9 {
+        all[k + 1] = stress[k];
+        k += 1;
+    }
+    while k < 54 {
+        all[k + 1] = tangent[k - 9];
+        k += 1;
+    }
+    all
+}
+
+/// Six components and 21, one after the other.
+#[inline(always)]
+fn with_tangent<T: Real>(stress: &[T; 6], tangent: &[T; 21]) -> [T; 27] {
+    let mut all = [stress[0]; 27];
+    let mut k = 1;
+    while k < 6 {
+        all[k] = stress[k];
+        k += 1;
+    }
+    while k < 27 {
+        all[k] = tangent[k - 6];
+        k += 1;
+    }
+    all
+}
+
+/// S and the 21 components of [`material_tangent`](super::material_tangent), what they share computed once: what a total Lagrangian formulation asks
+/// for.
+///
+/// # Example
+/// ```
+/// use piola_solids::batch;
+/// use piola_solids::SaintVenantKirchhoff;
+/// use piola_continuum::{DeformationGradient, SecondPiola};
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+/// let (f, mut s, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [SecondPiola::zero(); 7], [[0.0; 21]; 7]);
+/// batch::evaluate(&f[..], batch::second_piola_and_tangent(&law, &mut s[..], &mut c[..]))?;
+/// assert_eq!((s[6].0.components[0], c[6][0]), (7.5, 5.0)); // (λ + 2μ) E₁₁, λ + 2μ
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn second_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
+    law: &L,
+    stress: V,
+    tangent: W,
+) -> Request<SecondPiolaAndTangentOf<'_, L>, (), Together<V, W>, 0, 27> {
+    shared_material(law, Together(stress, tangent))
+}
+
+/// T and the 21 components of [`truesdell_tangent`](super::truesdell_tangent), what they share computed once: what an updated Lagrangian formulation asks
+/// for.
+///
+/// # Example
+/// ```
+/// use piola_solids::batch;
+/// use piola_solids::SaintVenantKirchhoff;
+/// use piola_continuum::{CauchyStress, DeformationGradient};
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+/// let (f, mut t, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [CauchyStress::zero(); 7], [[0.0; 21]; 7]);
+/// batch::evaluate(&f[..], batch::cauchy_and_tangent(&law, &mut t[..], &mut c[..]))?;
+/// assert_eq!((t[6].0.components[0], c[6][0]), (15.0, 40.0)); // F₁₁² S₁₁/J, F₁₁⁴ (λ + 2μ)/J
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn cauchy_and_tangent<L: Hyperelastic + Sync, V, W>(
+    law: &L,
+    stress: V,
+    tangent: W,
+) -> Request<CauchyAndTangentOf<'_, L>, (), Together<V, W>, 0, 27> {
+    shared_spatial(law, Together(stress, tangent))
+}
+
+/// W(F) − W(1) and P, what they share computed once: what a line search asks for.
+///
+/// # Example
+/// ```
+/// use piola_solids::batch;
+/// use piola_solids::SaintVenantKirchhoff;
+/// use piola_continuum::{DeformationGradient, FirstPiola};
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+/// let (f, mut w, mut p) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [0.0; 7], [FirstPiola::zero(); 7]);
+/// batch::evaluate(&f[..], batch::energy_and_first_piola(&law, &mut w[..], &mut p[..]))?;
+/// assert_eq!((w[6], p[6].0[(0, 0)]), (5.625, 15.0)); // ½ (λ + 2μ) E₁₁², 2 (λ + 2μ) E₁₁
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn energy_and_first_piola<L: Hyperelastic + Sync, V, W>(
+    law: &L,
+    energy: V,
+    stress: W,
+) -> Request<EnergyAndFirstPiolaOf<'_, L>, (), Together<V, W>, 0, 10> {
+    shared_energy(law, Together(energy, stress))
+}
+
+/// W(F) − W(1), P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent), what they share computed once: what a step of Newton's method
+/// with a line search asks for.
+///
+/// # Example
+/// ```
+/// use piola_solids::batch;
+/// use piola_solids::SaintVenantKirchhoff;
+/// use piola_continuum::{DeformationGradient, FirstPiola};
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+/// let f = [DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7];
+/// let (mut w, mut p, mut a) = ([0.0; 7], [FirstPiola::zero(); 7], [[0.0; 45]; 7]);
+/// batch::evaluate(&f[..], batch::energy_first_piola_and_tangent(&law, &mut w[..], &mut p[..], &mut a[..]))?;
+/// assert_eq!((w[6], p[6].0[(0, 0)], a[6][0]), (5.625, 15.0, 27.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn energy_first_piola_and_tangent<L: Hyperelastic + Sync, U, V, W>(
+    law: &L,
+    energy: U,
+    stress: V,
+    tangent: W,
+) -> Request<EnergyFirstPiolaAndTangentOf<'_, L>, (), Together<U, Together<V, W>>, 0, 55> {
+    shared_all(law, Together(energy, Together(stress, tangent)))
+}
+
+/// P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent), what they share computed once: see
+/// [`Hyperelastic::first_piola_and_tangent`].
+///
+/// # Example
+/// ```
+/// use piola_solids::batch;
+/// use piola_solids::SaintVenantKirchhoff;
+/// use piola_continuum::{DeformationGradient, FirstPiola};
+/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+/// let (f, mut p, mut a) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [FirstPiola::zero(); 7], [[0.0; 45]; 7]);
+/// batch::evaluate(&f[..], batch::first_piola_and_tangent(&law, &mut p[..], &mut a[..]))?;
+/// assert_eq!((p[6].0[(0, 0)], a[6][0]), (15.0, 27.5));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn first_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
+    law: &L,
+    stress: V,
+    tangent: W,
+) -> Request<FirstPiolaAndTangentOf<'_, L>, (), Together<V, W>, 0, 54> {
+    shared(law, Together(stress, tangent))
+}
+
+/// Two destinations of one request.
+#[derive(Clone, Copy, Debug)]
+pub struct Together<V, W>(V, W);
+
+/// Of `$whole` numbers `$first` go to the first destination, `$second` to the second.
+macro_rules! together {
+    ($output:ty, $whole:literal = $first_output:ty, $first:literal + $second_output:ty, $second:literal) => {
+        impl<T, V, W> Destination<$output, T, $whole> for Together<V, W>
+        where
+            T: BatchScalar,
+            V: Destination<$first_output, T, $first>,
+            W: Destination<$second_output, T, $second>,
+        {
+            const IN_LANES: bool = V::IN_LANES && W::IN_LANES;
+            const RECORDS: bool = V::RECORDS && W::RECORDS;
+            fn count(&self) -> usize {
+                // Both are checked: no batch is as long as a pair of unlike lengths.
+                let (first, second) = (self.0.count(), self.1.count());
+                if first == second { first } else { usize::MAX }
+            }
+            #[inline(always)]
+            fn split(self, middle: usize) -> (Self, Self) {
+                let ((a, b), (c, d)) = (self.0.split(middle), self.1.split(middle));
+                (Self(a, c), Self(b, d))
+            }
+            #[inline(always)]
+            fn put(&mut self, index: usize, components: [T; $whole]) {
+                let (mut first, mut second) = ([components[0]; $first], [components[0]; $second]);
+                let mut k = 0;
+                while k < $first {
+                    first[k] = components[k];
+                    k += 1;
+                }
+                while k < $whole {
+                    second[k - $first] = components[k];
+                    k += 1;
+                }
+                self.0.put(index, first);
+                self.1.put(index, second);
+            }
+            #[inline(always)]
+            fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; $whole]) {
+                if let (Some(head), Some(tail)) = (values.first_chunk(), values.last_chunk()) {
+                    self.0.store(first, count, head);
+                    self.1.store(first, count, tail);
+                }
+            }
+            #[inline(always)]
+            fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; $whole]) {
+                if let (Some(head), Some(tail)) = (values.first_chunk(), values.last_chunk()) {
+                    self.0.scatter(first, count, head);
+                    self.1.scatter(first, count, tail);
+                }
+            }
+        }
+    };
+}
+
+together!(FirstPiolaAndTangentOf<'static, ()>, 54 = FirstPiola, 9 + FirstPiolaTangentOf<'static, ()>, 45);
+together!(SecondPiolaAndTangentOf<'static, ()>, 27 = SecondPiola, 6 + MaterialTangentOf<'static, ()>, 21);
+together!(CauchyAndTangentOf<'static, ()>, 27 = CauchyStress, 6 + TruesdellTangentOf<'static, ()>, 21);
+together!(EnergyAndFirstPiolaOf<'static, ()>, 10 = EnergyOf<'static, ()>, 1 + FirstPiola, 9);
+together!(EnergyFirstPiolaAndTangentOf<'static, ()>, 55 = EnergyOf<'static, ()>, 1 + FirstPiolaAndTangentOf<'static, ()>, 54);

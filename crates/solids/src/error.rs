@@ -1,0 +1,178 @@
+//! Violated conditions of laws of solids: each variant names one.
+
+#[cfg(feature = "batch")]
+use piola_batch::BatchError;
+use piola_continuum::ContinuumError;
+use piola_tensor::TensorError;
+
+/// A violated condition of a law of a solid or of a constraint.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolidsError {
+    /// A parameter is infinite or NaN.
+    #[error("{law}: {parameter} = {value} is not finite")]
+    NotFinite {
+        /// The law.
+        law: &'static str,
+        /// The parameter.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A parameter is outside its bounds.
+    #[error("{law}: {parameter} = {value:e} violates {bound}")]
+    OutOfBounds {
+        /// The law.
+        law: &'static str,
+        /// The parameter.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would be valid, such as `0 < μ`.
+        bound: &'static str,
+    },
+    /// The deformation is beyond what the law can answer.
+    #[error("{law}: {quantity} = {value:e} is not below its limit {limit:e}")]
+    BeyondLimit {
+        /// The law.
+        law: &'static str,
+        /// What is limited.
+        quantity: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it must be below.
+        limit: f64,
+    },
+    /// The law has no limit here, but its answer is beyond the range of the scalar.
+    #[error("the answer `{answer}` is beyond the range of the scalar; valid are deformations at which it is finite")]
+    Overflow {
+        /// What was asked for.
+        answer: &'static str,
+    },
+    /// A constraint is not the same for all observers: its reaction is not symmetric.
+    #[error("the reaction of the constraint has a skew part {skew:e} beside {size:e}: it depends on the observer")]
+    ConstraintDependsOnObserver {
+        /// The largest entry of the skew part of F (∂μ/∂F)ᵀ.
+        skew: f64,
+        /// The largest entry of F (∂μ/∂F)ᵀ.
+        size: f64,
+    },
+    /// A constraint follows from others.
+    #[error("constraint {index} is redundant: rank {rank} of {count} (independent part {share:e})")]
+    RedundantConstraint {
+        /// The constraint, from 0.
+        index: usize,
+        /// How many are independent.
+        rank: usize,
+        /// How many there are.
+        count: usize,
+        /// What is left of its reaction without the others', as a share of it.
+        share: f64,
+    },
+    /// Constraints contradict one another.
+    #[error("constraint {index} contradicts the others by {residual:e}")]
+    InconsistentConstraints {
+        /// The constraint, from 0.
+        index: usize,
+        /// Its value less the one that follows from the others.
+        residual: f64,
+    },
+    /// The deformation violates a constraint.
+    #[error("the deformation violates constraint {index}: {value:e} is not zero to {tolerance:e}")]
+    ConstraintViolated {
+        /// The constraint, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+        /// The largest modulus allowed.
+        tolerance: f64,
+    },
+    /// Conditions on the stress do not determine the multiplier of a constraint.
+    #[error("the conditions do not determine the multiplier of constraint {index}: only {rank} of {count}")]
+    UndeterminedMultiplier {
+        /// The constraint, from 0.
+        index: usize,
+        /// How many multipliers they determine.
+        rank: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// No multipliers satisfy a condition on the stress.
+    #[error("no reaction satisfies condition {index}: {residual:e} remains")]
+    ImpossibleCondition {
+        /// The condition, from 0.
+        index: usize,
+        /// What its left side has beyond its right, Pa.
+        residual: f64,
+    },
+    /// Points of a batch are bad; the outputs of all others are computed.
+    #[cfg(feature = "batch")]
+    #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
+    BadPoints {
+        /// All bad points, in order.
+        points: Vec<BadPoint>,
+        /// The number of points of the batch.
+        count: usize,
+        /// How many good points took the slow path of the analysis of the stretches.
+        slow_path: usize,
+    },
+    /// The deformation or stress itself is refused.
+    #[error(transparent)]
+    Continuum(#[from] ContinuumError),
+    /// A view of a batch is refused.
+    #[cfg(feature = "batch")]
+    #[error(transparent)]
+    Batch(BatchError),
+}
+
+impl From<TensorError> for SolidsError {
+    fn from(error: TensorError) -> Self {
+        ContinuumError::from(error).into()
+    }
+}
+
+#[cfg(feature = "batch")]
+impl From<BatchError> for SolidsError {
+    fn from(error: BatchError) -> Self {
+        match error {
+            BatchError::Continuum(error) => error.into(),
+            BatchError::NotFinite { quantity, index, value } => {
+                ContinuumError::NotFinite { quantity, index, value }.into()
+            }
+            other => Self::Batch(other),
+        }
+    }
+}
+
+#[cfg(feature = "batch")]
+/// A point of a batch at which something is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadPoint {
+    /// Which point, from 0.
+    pub index: usize,
+    /// What is wrong, as the law or the constructor of a single deformation says it.
+    pub error: SolidsError,
+}
+
+/// The first bad point in words.
+#[cfg(feature = "batch")]
+fn first_of(points: &[BadPoint]) -> String {
+    points.first().map_or_else(String::new, |point| format!("at point {}, {}", point.index, point.error))
+}
+
+/// Refuses a parameter that is not finite.
+pub(crate) fn check_finite(law: &'static str, parameter: &'static str, value: f64) -> Result<(), SolidsError> {
+    if value.is_finite() { Ok(()) } else { Err(SolidsError::NotFinite { law, parameter, value }) }
+}
+
+/// Refuses a parameter that is not finite or for which `holds` is false.
+pub(crate) fn check_bound(
+    law: &'static str,
+    parameter: &'static str,
+    value: f64,
+    bound: &'static str,
+    holds: bool,
+) -> Result<(), SolidsError> {
+    check_finite(law, parameter, value)?;
+    if holds { Ok(()) } else { Err(SolidsError::OutOfBounds { law, parameter, value, bound }) }
+}

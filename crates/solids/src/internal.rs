@@ -1,0 +1,10 @@
+//! What only our other crates need.
+
+pub use crate::internal_constraints::orthogonal::{outside_of_columns, rank_of_columns};
+pub use crate::isochoric::arruda_boyce::arruda_boyce;
+pub use crate::isochoric::gent::gent;
+pub use crate::isochoric::mooney_rivlin::mooney_rivlin;
+pub use crate::isochoric::neo_hookean::neo_hookean;
+pub use crate::isochoric::rivlin::rivlin_term;
+pub use crate::isochoric::yeoh::yeoh;
+pub use crate::ogden::terms::ogden_term;

@@ -1,0 +1,26 @@
+//! Evaluations allocate nothing.
+
+use piola_continuum::DisplacementGradient;
+use piola_solids::Hyperelastic;
+use piola_solids::SolidsError;
+use piola_testkit::allocations_in;
+
+use super::answers;
+use super::zoo::{self, Visitor};
+
+struct Counted(DisplacementGradient);
+
+impl Visitor for Counted {
+    fn visit<L: Hyperelastic>(&mut self, name: &str, law: &L) {
+        let f = &self.0;
+        let (count, _) = allocations_in(|| {
+            (answers::energy(law, f), answers::second_piola(law, f), answers::first_piola_and_tangent(law, f))
+        });
+        assert_eq!(count, 0, "{name}");
+    }
+}
+
+#[test]
+fn allocations_of_an_evaluation_equal_zero() -> Result<(), SolidsError> {
+    zoo::stress_free(&mut Counted(DisplacementGradient::simple_shear(0.5).expect("finite")))
+}

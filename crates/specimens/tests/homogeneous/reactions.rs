@@ -1,0 +1,135 @@
+//! Reactions of internal constraints that faces free of traction determine.
+
+use piola_continuum::{Deformation, DisplacementGradient};
+use piola_numerics::Real;
+use piola_solids::internal_constraints::{
+    Combination, Constraints, Incompressibility, Inextensibility, InternalConstraint, Rigidity, StressCondition,
+};
+use piola_solids::{Fibre, Hyperelastic, MooneyRivlin, Pressurised};
+use piola_specimens::homogeneous::{Control, Controls, constrained_equilibrium, equilibrium};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale};
+
+const NEWTON: Tol = Tol::stated(1e-11, "end of the iteration");
+
+fn rubber() -> MooneyRivlin {
+    MooneyRivlin::stress_free(0.37, 0.11, 2.0).expect("parameters")
+}
+
+fn cord(direction: [f64; 3]) -> Inextensibility {
+    Inextensibility::along(Fibre::new(direction).expect("direction"))
+}
+
+/// The faces across axis 3 keep their area: by exact differentiation alone.
+struct AreaOfPlane;
+
+impl InternalConstraint for AreaOfPlane {
+    fn value<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
+        let [x, y, z] = deformation.cofactor_rows().map(|row| row[2]);
+        x * x + y * y + z * z - T::one()
+    }
+}
+
+#[test]
+fn incompressible_sheet_under_a_force_equals_the_law_with_a_pressure() {
+    let controls = Controls::axial([Control::Nominal(0.8), Control::HELD, Control::FREE]).expect("controls");
+    let start = DisplacementGradient::zero();
+    let found = constrained_equilibrium(&rubber(), &Incompressibility, &controls, &start).expect("state");
+    let expected = equilibrium(&Pressurised::new(rubber()), &controls, &start).expect("state");
+    let (f, g) = (found.state.deformation.matrix(), expected.deformation.matrix());
+    assert_close("∇u", f.as_slice(), g.as_slice(), NEWTON);
+    let pressure = Incompressibility::pressure(found.multipliers[0], &found.state.deformation);
+    assert_close("p", &[pressure], &[expected.pressure], NEWTON);
+    assert_close_at_scale(
+        "N",
+        &found.reaction.0.components,
+        &[-pressure, -pressure, -pressure, 0.0, 0.0, 0.0],
+        1.0,
+        NEWTON,
+    );
+    // The multiplier is the one that the same conditions give where the deformation is known.
+    let at = &found.state.deformation;
+    let combination = Combination::new([Incompressibility.at(at).expect("finite")]).expect("one");
+    let face = StressCondition::traction_free([0.0, 0.0, 1.0]).expect("normal");
+    let multipliers = combination.multipliers(&rubber().cauchy(at), &face).expect("determined");
+    assert_close("λ", &multipliers, &found.multipliers, NEWTON);
+}
+
+#[test]
+fn cord_takes_the_force_and_the_rest_is_sheared() {
+    // A sheet with cords at an angle, pulled along 1, sides free: it shears until the cords have turned.
+    let constraints = cord([1.0, 0.5, 0.0]);
+    let (free, held) = (Control::FREE, Control::HELD);
+    let pulled = Control::Nominal(0.5);
+    let controls = Controls::new([[pulled, free, held], [held, free, held], [held, held, free]]).expect("controls");
+    let found = constrained_equilibrium(&rubber(), &constraints, &controls, &DisplacementGradient::zero());
+    let found = found.expect("state");
+    let at = &found.state.deformation;
+    assert_close_at_scale("μ", &[constraints.value(at)], &[0.0], 1.0, Tol::ulps(64.0));
+    let stress = found.state.first_piola.0;
+    let given = [stress[(0, 0)], stress[(0, 1)], stress[(1, 1)], stress[(2, 2)]];
+    assert_close_at_scale("tractions", &given, &[0.5, 0.0, 0.0, 0.0], 1.0, NEWTON);
+    assert!(1e-3 < at.matrix()[(0, 1)].abs(), "it shears");
+    // T = law + N.
+    let sum = rubber().cauchy(at).0 + found.reaction.0;
+    assert_close("T", &found.state.cauchy.0.components, &sum.components, Tol::stated(1e-12, "sum of two stresses"));
+}
+
+#[test]
+fn incompressible_body_with_a_cord_has_both_reactions() {
+    let constraints = (Incompressibility, cord([1.0, 0.0, 0.0]));
+    // Force along the cord; the faces across 2 are pressed: λ₁ = 1, λ₂ λ₃ = 1.
+    let controls = Controls::axial([Control::Nominal(2.0), Control::Nominal(-0.6), Control::FREE]).expect("controls");
+    let found = constrained_equilibrium(&rubber(), &constraints, &controls, &DisplacementGradient::zero());
+    let found = found.expect("state");
+    let f = found.state.deformation.gradient_rows();
+    assert_close("λ₁, λ₂ λ₃", &[f[0][0], f[1][1] * f[2][2]], &[1.0, 1.0], Tol::ulps(64.0));
+    // Pure shear in the plane 23: −P = 2 (C₁₀ + C₀₁)(λ⁻³ − λ).
+    let x = f[1][1];
+    assert_close("P₂₂", &[2.0 * 0.48 * (x - x.powi(-3))], &[-0.6], NEWTON);
+    assert!(found.values_vanish(&constraints));
+}
+
+trait Vanish<C> {
+    fn values_vanish(&self, constraints: &C) -> bool;
+}
+
+impl<C: Constraints<N>, const N: usize> Vanish<C> for piola_specimens::homogeneous::ConstrainedState<N> {
+    fn values_vanish(&self, constraints: &C) -> bool {
+        constraints.values(&self.state.deformation).iter().all(|x| x.abs() <= 64.0 * f64::EPSILON)
+    }
+}
+
+#[test]
+fn constraint_of_ones_own_needs_no_derivatives() {
+    let controls = Controls::axial([Control::Nominal(0.7), Control::FREE, Control::FREE]).expect("controls");
+    let found = constrained_equilibrium(&rubber(), &AreaOfPlane, &controls, &DisplacementGradient::zero());
+    let found = found.expect("state");
+    assert!(found.values_vanish(&AreaOfPlane) && found.state.residual <= 1e-12, "{found:?}");
+    let f = found.state.deformation.gradient_rows();
+    assert_close("λ₁ λ₂", &[f[0][0] * f[1][1]], &[1.0], Tol::ulps(64.0));
+}
+
+#[test]
+fn rigid_body_carries_any_load_unmoved() {
+    let controls = Controls::new([
+        [Control::Nominal(1.0), Control::Nominal(0.3), Control::Nominal(0.1)],
+        [Control::HELD, Control::Nominal(-2.0), Control::Nominal(0.2)],
+        [Control::HELD, Control::HELD, Control::Nominal(0.5)],
+    ])
+    .expect("controls");
+    let found = constrained_equilibrium(&rubber(), &Rigidity, &controls, &DisplacementGradient::zero());
+    let found = found.expect("state");
+    assert_close_at_scale("∇u", found.state.deformation.matrix().as_slice(), &[0.0; 9], 1.0, Tol::ulps(64.0));
+    let expected = [1.0, -2.0, 0.5, 0.3, 0.2, 0.1];
+    assert_close("N", &found.reaction.0.components, &expected, Tol::ulps(64.0));
+}
+
+#[test]
+fn start_that_violates_a_constraint_is_brought_back() {
+    let swollen = DisplacementGradient::diagonal([0.2, 0.1, 0.3]).expect("F");
+    let controls = Controls::uniaxial(2.0).expect("controls");
+    let found = constrained_equilibrium(&rubber(), &Incompressibility, &controls, &swollen).expect("state");
+    let expected = constrained_equilibrium(&rubber(), &Incompressibility, &controls, &DisplacementGradient::zero());
+    let expected = expected.expect("state");
+    assert_close("P", &[found.state.first_piola.0[(0, 0)]], &[expected.state.first_piola.0[(0, 0)]], NEWTON);
+}

@@ -1,0 +1,6 @@
+//! Principal frames and functions of tensors.
+
+mod cases;
+mod derivatives;
+mod laws;
+mod traps;
