@@ -251,16 +251,6 @@ pub fn require_canonical(
 /// # Errors
 /// As [`image_and_jacobian`].
 ///
-/// # Example
-/// A frame that turns takes Ω times the angular momentum off the Hamiltonian:
-/// ```
-/// use piola_hamiltonian::{PhaseMap, RotatingFrame, contact_test};
-/// let frame = RotatingFrame::new(0.5)?;
-/// assert!(contact_test(&frame, &[1.0, 2.0], &[3.0, 5.0], 0.25)?.relative < 1e-15);
-/// assert_eq!(frame.excess(&[1.0, 2.0], &[3.0, 5.0], 0.25)?, -0.5 * (1.0 * 5.0 - 2.0 * 3.0));
-/// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
-/// ```
-///
 /// # Source
 /// W(10.20–10.25).
 pub fn contact_test(map: &impl PhaseMap, q: &[f64], p: &[f64], t: f64) -> Result<CanonicalTest, HamiltonianError> {

@@ -38,7 +38,7 @@ impl<T: Real> Energies<T> {
 /// The parts of E = ½ g q̇ q̇ + b·q̇ + E₀ of a time-dependent placement.
 ///
 /// # Example
-/// See [`Lagrangian::kinetic_energy_parts`].
+/// See [`Lagrangian::energies`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct KineticEnergyParts<T: Real = f64> {
     /// b_Δ = Σ m ∂x/∂t·∂x/∂q^Δ + …: zero without time dependence.
@@ -65,15 +65,21 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # use nalgebra::Vector3;
     /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
     /// # use piola_numerics::Real;
-    /// struct Stone; // 2 kg on a vertical line
-    /// impl Holonomic for Stone {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0]));
+    /// struct Lift; // 2 kg; q is the height above a floor that rises with 3 m/s
+    /// impl Holonomic for Lift {
+    ///     const TIME_DEPENDENT: bool = true;
+    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
+    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0] + T::lit(3.0) * t));
     ///     }
     /// }
-    /// let energies = Lagrangian::of(Stone).with_gravity(10.0).energies(&[5.0], &[3.0], 0.0)?;
-    /// assert_eq!((energies.kinetic, energies.potential), (9.0, 100.0));
-    /// assert_eq!((energies.total(), energies.lagrangian()), (109.0, -91.0)); // E + V and E − V
+    /// let (lift, q, v) = (Lagrangian::of(Lift).with_gravity(10.0), [5.0], [1.0]);
+    /// let energies = lift.energies(&q, &v, 0.0)?;
+    /// assert_eq!((energies.kinetic, energies.potential), (16.0, 100.0)); // ½·2 (q̇ + 3)² = q̇² + 6 q̇ + 9
+    /// assert_eq!((energies.total(), energies.lagrangian()), (116.0, -84.0)); // E + V and E − V
+    /// let parts = lift.kinetic_energy_parts(&q, 0.0);
+    /// assert_eq!((parts.linear[0], parts.constant), (6.0, 9.0));
+    /// assert_eq!(lift.jacobi_integral(&q, &v, 0.0)?, 92.0); // q̇² − 9 + V, which is not E + V
+    /// assert_eq!(lift.time_derivative(&q, &v, 0.0)?, -60.0); // ∂L/∂t: it is lifted with 3 m/s against 20 N
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -116,26 +122,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 
     /// The linear and constant parts of the kinetic energy in the velocities; the quadratic part is the
     /// inertia metric.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Lift; // 2 kg on a slope of 45° that rises with 3 m/s; q = [distance along the ground]
-    /// impl Holonomic for Lift {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(q[0], T::zero(), q[0] + T::lit(3.0) * t));
-    ///     }
-    /// }
-    /// // E = ½·2 (q̇² + (q̇ + 3)²) = ½·4 q̇² + 6 q̇ + 9
-    /// let lift = Lagrangian::of(Lift).with_gravity(10.0);
-    /// let parts = lift.kinetic_energy_parts(&[0.0], 0.0);
-    /// assert_eq!((parts.linear[0], parts.constant), (6.0, 9.0));
-    /// assert_eq!(lift.time_derivative(&[0.0], &[0.0], 0.0)?, -60.0); // ∂L/∂t: it is lifted with 3 m/s against 20 N
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(3.32).
@@ -240,26 +226,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Bead; // 2 kg on a rod that turns with 3 rad/s; q = [distance]
-    /// impl Holonomic for Bead {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = (T::lit(3.0) * t).sin_cos();
-    ///         bodies.particle(2.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// // L = ½·2 (q̇² + 9 q²) does not depend on time: h = q̇² − 9 q² is kept, E = q̇² + 9 q² is not.
-    /// let bead = Lagrangian::of(Bead);
-    /// assert_eq!(bead.jacobi_integral(&[1.0], &[5.0], 0.0)?, 16.0);
-    /// assert_eq!(bead.energies(&[1.0], &[5.0], 0.0)?.total(), 34.0);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(7.19–7.22).

@@ -33,7 +33,7 @@ impl<S: Holonomic> Holonomic for Still<'_, S> {
 /// Geodesics as a field over arc length, y = (q, dq/ds): for any integrator.
 ///
 /// # Example
-/// See [`Lagrangian::geodesic_motion`].
+/// See [`Lagrangian::geodesic`], which follows it.
 #[derive(Clone, Debug)]
 pub struct GeodesicMotion<'a, S, T = f64> {
     lagrangian: Lagrangian<Still<'a, S>, NoPotential, NoForces>,
@@ -194,28 +194,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 
     /// Geodesics of the inertia metric as a field in (q, dq/ds), over the arc length or, what is the same, the
     /// motion without forces over time, on the constraint surface held still at `t`.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// use piola_integrators::{DormandPrince853, State, Tolerance};
-    /// struct Plane; // q = [r, φ]
-    /// impl Holonomic for Plane {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(1.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// // Straight up from the point (3, 0): after 4 m at (3, 4), which is r = 5.
-    /// let plane = Lagrangian::of(Plane);
-    /// let mut state = State::new(0.0, vec![3.0, 0.0, 0.0, 1.0 / 3.0])?;
-    /// let mut method = DormandPrince853::new(Tolerance::relative(1e-13)?);
-    /// method.integrate_to(&mut plane.geodesic_motion(2, 0.0), &mut state, 4.0)?;
-    /// assert!((state.values[0] - 5.0).abs() < 1e-12);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     ///
     /// # Source
     /// W(6.10) with Q = 0.

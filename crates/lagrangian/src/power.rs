@@ -65,7 +65,7 @@ impl<T: Real> PowerBalance<T> {
 /// Q_{n+1}: the component along the time of the generalised force, W.
 ///
 /// # Example
-/// See [`Lagrangian::force_along_time`].
+/// See [`Lagrangian::power_balance`].
 ///
 /// # Source
 /// W(5.15).
@@ -124,7 +124,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// A bead of 2 kg slides out on a rod that is turned with 3 rad/s: at 1 m, with 5 m/s along the rod.
     /// ```
     /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
     /// # use piola_numerics::Real;
     /// struct Bead;
     /// impl Holonomic for Bead {
@@ -142,6 +142,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// // Kept from sliding faster, r̈ = 0, it takes up half of them: a brake on it would take the rest.
     /// let even = bead.power_balance_at_acceleration(&mut Workspace::default(), &[1.0], &[5.0], &[0.0], 0.0)?;
     /// assert_eq!((even.kinetic_energy_rate, even.residual()), (90.0, -90.0));
+    /// let along_time = bead.force_along_time(&[1.0], &[5.0], 0.0)?;
+    /// assert_eq!((along_time.external, along_time.constraint, along_time.total()), (0.0, 180.0, 180.0));
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -270,25 +272,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// A pendulum of 2 kg at rest hangs from a point that rises with 3 m/s.
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Rising;
-    /// impl Holonomic for Rising {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[0].sin_cos();
-    ///         bodies.particle(2.0, Vector3::new(s, T::zero(), T::lit(3.0) * t - c));
-    ///     }
-    /// }
-    /// let force = Lagrangian::of(Rising).with_gravity(10.0).force_along_time(&[0.0], &[0.0], 0.0)?;
-    /// assert_eq!((force.external, force.constraint, force.total()), (-60.0, 60.0, 0.0)); // weight and rod at 3 m/s
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(5.15).

@@ -204,7 +204,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// A pendulum of 3 kg passes its lowest point: the rod holds its weight and bends its path.
     /// ```
     /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
     /// # use piola_numerics::Real;
     /// struct Pendulum; // 3 kg on 2 m
     /// impl Holonomic for Pendulum {

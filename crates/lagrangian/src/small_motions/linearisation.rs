@@ -74,6 +74,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// A pendulum of 3 kg and 2 m hanging under 10 m/s²: M = m l² = 12, K = m g l = 60.
     /// ```
     /// use nalgebra::Vector3;
+    /// use piola_lagrangian::small_motions::Stability;
     /// use piola_lagrangian::{Holonomic, Lagrangian, Placement};
     /// use piola_numerics::Real;
     /// struct Pendulum;
@@ -87,6 +88,10 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// assert_eq!((hanging.mass_matrix[(0, 0)], hanging.stiffness[(0, 0)]), (12.0, 60.0));
     /// let frequency = hanging.normal_modes()?.angular_frequencies()[0];
     /// assert!((frequency - 5.0_f64.sqrt()).abs() < 1e-15); // √(g/l)
+    /// // Blown at by a horizontal force of its own weight it hangs at 45°.
+    /// let found = Lagrangian::of(Pendulum).with_uniform_gravity([10.0, 0.0, -10.0]).equilibrium(&[0.0], 0.0)?;
+    /// assert!((found.coordinates[0] - std::f64::consts::FRAC_PI_4).abs() < 1e-15);
+    /// assert_eq!(found.stability, Stability::Stable);
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///

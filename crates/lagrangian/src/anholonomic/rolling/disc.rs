@@ -34,6 +34,9 @@ use crate::{Holonomic, Lagrangian, Placement};
 /// let contact = disc.part_reactions(&q, &w, 0.0)?[0];
 /// assert!((contact.force().z - 20.0).abs() < 1e-14);
 /// assert!(disc.reactions(&q, &w, 0.0)?.amax() < 1e-14);
+/// // Inclined, it goes round evenly if it spins as fast as this.
+/// let spin = RollingDisc::homogeneous(2.0, 0.5)?.steady_spin(1.0, 3.0, 10.0)?;
+/// assert!(disc.acceleration(&[0.0, 0.0, 0.0, 1.0, 0.0], &[3.0, 0.0, spin], 0.0)?.amax() < 1e-13);
 /// # Ok::<(), piola_lagrangian::LagrangianError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,17 +114,6 @@ impl RollingDisc {
     ///
     /// # Errors
     /// [`LagrangianError::NotFinite`] for Ω sin θ² = 0.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::anholonomic::rolling::RollingDisc;
-    /// let disc = RollingDisc::homogeneous(2.0, 0.5)?;
-    /// let (theta, turn) = (1.0, 3.0);
-    /// let spin = disc.steady_spin(theta, turn, 10.0)?;
-    /// let rates = disc.on_plane([0.0, 0.0, -10.0]).acceleration(&[0.0, 0.0, 0.0, theta, 0.0], &[turn, 0.0, spin], 0.0)?;
-    /// assert!(rates.amax() < 1e-13);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn steady_spin(&self, inclination: f64, turn: f64, gravity: f64) -> Result<f64, LagrangianError> {
         let (s, c) = inclination.sin_cos();
         let (inertia, mass, radius) = (self.body.inertia().matrix(), self.body.mass(), self.radius);
