@@ -143,8 +143,8 @@ impl<'a, P: FirstOrderPde, M: InitialManifold> CauchyProblem<'a, P, M> {
     /// to rounding as the zero of its derivative.
     ///
     /// # Errors
-    /// [`CharacteristicsError::WrongLength`], [`CharacteristicsError::NotFinite`], [`StripError::DependentParameters`](crate::StripError::DependentParameters),
-    /// [`StripError::NoInitialCovector`](crate::StripError::NoInitialCovector); [`StripError::NotAStrip`](crate::StripError::NotAStrip) for a given ξ.
+    /// [`CharacteristicsError::WrongLength`], [`CharacteristicsError::NotFinite`], [`StripError::DependentParameters`],
+    /// [`StripError::NoInitialCovector`]; [`StripError::NotAStrip`] for a given ξ.
     ///
     /// # Source
     /// W(A.21), W(A.32), W(A.40).
@@ -195,8 +195,8 @@ impl<'a, P: FirstOrderPde, M: InitialManifold> CauchyProblem<'a, P, M> {
     /// ```
     ///
     /// # Errors
-    /// As [`initial_point`](Self::initial_point); [`StripError::Characteristic`](crate::StripError::Characteristic),
-    /// [`StripError::Monge`](crate::StripError::Monge) or [`StripError::Degenerate`](crate::StripError::Degenerate) where the manifold is not transversal;
+    /// As [`initial_point`](Self::initial_point); [`StripError::Characteristic`],
+    /// [`StripError::Monge`] or [`StripError::Degenerate`] where the manifold is not transversal;
     /// [`CharacteristicsError::Run`].
     ///
     /// # Accuracy

@@ -12,7 +12,7 @@
 //! Forces and linear accelerations have space components; moments, angular velocities and angular accelerations
 //! have body components.
 //!
-//! [`rigid_motion`](crate::rigid_motion) integrates them; [`lagrangian`](crate::lagrangian) gives the same motions
+//! [`rigid_motion`](crate::rigid_motion) integrates them; [`Lagrangian`](crate::Lagrangian) gives the same motions
 //! in generalised coordinates, and the [reactions](crate::Lagrangian::reactions) that make a
 //! constrained body obey these laws as if it were free.
 

@@ -73,7 +73,7 @@ impl<S, P, F, W> InFrame<S, P, F, W> {
     /// Holds the quasi-velocities of the given indices at zero.
     ///
     /// # Errors
-    /// [`AnholonomicError::HeldTwice`](crate::AnholonomicError::HeldTwice). An index beyond the last quasi-velocity is refused at evaluation, when
+    /// [`AnholonomicError::HeldTwice`]. An index beyond the last quasi-velocity is refused at evaluation, when
     /// their number is known.
     pub fn holding(self, held: &[usize]) -> Result<Nonholonomic<S, P, F, W>, LagrangianError> {
         let held: Vec<(usize, f64)> = held.iter().map(|&index| (index, 0.0)).collect();
@@ -83,7 +83,7 @@ impl<S, P, F, W> InFrame<S, P, F, W> {
     /// Holds quasi-velocities at constant values: a motor that keeps its speed.
     ///
     /// # Errors
-    /// [`AnholonomicError::HeldTwice`](crate::AnholonomicError::HeldTwice), [`LagrangianError::NotFinite`].
+    /// [`AnholonomicError::HeldTwice`], [`LagrangianError::NotFinite`].
     pub fn holding_at(self, held: &[(usize, f64)]) -> Result<Nonholonomic<S, P, F, W>, LagrangianError> {
         let mut sorted = held.to_vec();
         sorted.sort_by_key(|&(index, _)| index);
@@ -140,7 +140,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// All quasi-velocities u: the free ones and those held, each in its place.
     ///
     /// # Errors
-    /// [`LagrangianError::WrongLength`], [`AnholonomicError::NoSuchQuasiVelocity`](crate::AnholonomicError::NoSuchQuasiVelocity).
+    /// [`LagrangianError::WrongLength`], [`AnholonomicError::NoSuchQuasiVelocity`].
     pub fn quasi_velocities<T: Real>(&self, q: &[T], w: &[T]) -> Result<DVector<T>, LagrangianError> {
         let mut work = Workspace::default();
         self.spread(&mut work, q, w)?;
@@ -173,7 +173,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// | ẇ | returned | n − m | those of w / s |
     ///
     /// # Errors
-    /// As [`InFrame::acceleration`]; [`AnholonomicError::NoSuchQuasiVelocity`](crate::AnholonomicError::NoSuchQuasiVelocity).
+    /// As [`InFrame::acceleration`]; [`AnholonomicError::NoSuchQuasiVelocity`].
     pub fn acceleration<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut work = Workspace::default();
         self.solve(&mut work, q, w, t)?;

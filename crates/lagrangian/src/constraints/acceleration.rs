@@ -30,7 +30,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`]; [`LagrangianError::SingularMetric`],
-    /// which names a motion without inertia that the constraints leave; [`ConstraintError::Redundant`](crate::ConstraintError::Redundant)
+    /// which names a motion without inertia that the constraints leave; [`ConstraintError::Redundant`]
     /// if so [asked](Redundancy::Refused).
     ///
     /// # Accuracy

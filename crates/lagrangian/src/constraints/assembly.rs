@@ -52,8 +52,8 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// As [`check`](Self::check) and [`acceleration`](Self::acceleration);
-    /// [`ConstraintError::Inconsistent`](crate::ConstraintError::Inconsistent), where a constraint contradicts others on which its gradient
-    /// depends; [`ConstraintError::NotAssembled`](crate::ConstraintError::NotAssembled) where no such position is found near the guess.
+    /// [`ConstraintError::Inconsistent`], where a constraint contradicts others on which its gradient
+    /// depends; [`ConstraintError::NotAssembled`] where no such position is found near the guess.
     ///
     /// # Accuracy
     /// Residuals of a few ulp: they are returned.

@@ -92,7 +92,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// As [`Lagrangian::check`](crate::Lagrangian::check);
-    /// [`ConstraintError::UndeclaredTimeDependence`](crate::ConstraintError::UndeclaredTimeDependence).
+    /// [`ConstraintError::UndeclaredTimeDependence`].
     pub fn check(&self, q: &[f64], v: &[f64], t: f64) -> Result<(), LagrangianError> {
         self.lagrangian.check(q, v, t)?;
         let mut work = Workspace::default();

@@ -17,7 +17,7 @@ use crate::{Forces, Potential};
 /// The independent constraints are chosen where the constraints are satisfied, at the start and after every
 /// projection, and kept in between: a loop that is not quite closed at a stage of a step may seem to have one
 /// condition more. A position where their number changes is singular: the motion may branch there, and the run
-/// ends with [`ConstraintError::Singular`](crate::ConstraintError::Singular).
+/// ends with [`ConstraintError::Singular`].
 ///
 /// # Example
 /// See [`Constrained::integrate`].

@@ -205,7 +205,7 @@ impl Linearisation {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`] unless all matrices are n×n; [`LagrangianError::SingularMetric`],
-    /// [`LagrangianError::NotFinite`], [`SmallMotionsError::NoEigenvalues`](crate::SmallMotionsError::NoEigenvalues).
+    /// [`LagrangianError::NotFinite`], [`SmallMotionsError::NoEigenvalues`].
     ///
     /// # Accuracy
     /// Each λ to its `uncertainty`: 8n ulp of |λ|² + |λ||D| + |K| over the rate at which the pencil changes

@@ -47,8 +47,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// in the forces: the bead at rest on a hoop that turns steadily.
     ///
     /// # Errors
-    /// [`SmallMotionsError::SingularStiffness`](crate::SmallMotionsError::SingularStiffness) when the equilibrium is not isolated, or no force answers a
-    /// displacement that the search needs; it names the direction. [`SmallMotionsError::NoEquilibrium`](crate::SmallMotionsError::NoEquilibrium) when the
+    /// [`SmallMotionsError::SingularStiffness`] when the equilibrium is not isolated, or no force answers a
+    /// displacement that the search needs; it names the direction. [`SmallMotionsError::NoEquilibrium`] when the
     /// forces do not get smaller any more. [`LagrangianError::NotFinite`] and what [`check`](Self::check) finds
     /// wrong at the guess.
     ///

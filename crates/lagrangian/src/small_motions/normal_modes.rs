@@ -112,7 +112,7 @@ impl Linearisation {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`] unless all matrices are n×n; [`LagrangianError::SingularMetric`],
-    /// [`LagrangianError::NotFinite`], [`SmallMotionsError::NoEigenvalues`](crate::SmallMotionsError::NoEigenvalues).
+    /// [`LagrangianError::NotFinite`], [`SmallMotionsError::NoEigenvalues`].
     ///
     /// # Accuracy
     /// Each ω² to a few n ulp of Σ|φ_i||K_ij||φ_j|, which `uncertainties` holds; shapes to some n ulp ×
