@@ -94,10 +94,8 @@ impl<'a, P: FirstOrderPde> Watch<'a, P> {
     /// Ends a run whose steps vanish where ξ is not needed.
     fn after<T: Real>(&mut self, from: f64, to: f64, y: &[T]) -> ControlFlow<()> {
         let reached = (self.end - to).abs() <= 0.0;
-        self.stopped = !P::QUASILINEAR
-            && !reached
-            && (to - from).abs() < VANISHING_STEP * self.end.abs()
-            && self.is_linear(y);
+        self.stopped =
+            !P::QUASILINEAR && !reached && (to - from).abs() < VANISHING_STEP * self.end.abs() && self.is_linear(y);
         if self.stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 

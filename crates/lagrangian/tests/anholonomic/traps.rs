@@ -150,5 +150,11 @@ fn metric_of_a_lagrangian_function_is_refused_and_its_mass_matrix_is_given() {
     let framed = free.in_frame(Unit);
     assert_eq!(framed.inertia_metric(&q, 0.0).unwrap_err(), LagrangianError::NoParts);
     // The equations are those of the function: r̈ = u₂²/r.
-    assert_close_at_scale("u̇", framed.acceleration(&q, &[0.0, 6.0], 0.0).unwrap().as_slice(), &[12.0, 0.0], 12.0, Tol::ulps(8.0));
+    assert_close_at_scale(
+        "u̇",
+        framed.acceleration(&q, &[0.0, 6.0], 0.0).unwrap().as_slice(),
+        &[12.0, 0.0],
+        12.0,
+        Tol::ulps(8.0),
+    );
 }
