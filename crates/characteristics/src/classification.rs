@@ -134,7 +134,7 @@ impl<P: FirstOrderPde, M: InitialManifold> CauchyProblem<'_, P, M> {
     /// let problem = CauchyProblem::new(&Eikonal, &Ray, 2)?.near(&[1.0, 0.5])?;
     /// let line = [ParameterInterval { from: 0.0, to: 1.0, parts: 4 }];
     /// assert!(matches!(problem.classify(&line)?, Classification::InfinitelyMany { .. }));
-    /// assert!(matches!(problem.characteristic(&[0.5], 1.0), Err(piola_dynamics::CharacteristicsError::Strip(piola_characteristics::StripError::Characteristic { .. }))));
+    /// assert!(matches!(problem.characteristic(&[0.5], 1.0), Err(CharacteristicsError::Strip(StripError::Characteristic { .. }))));
     /// # Ok::<(), piola_characteristics::CharacteristicsError>(())
     /// ```
     ///

@@ -18,18 +18,7 @@ use piola_numerics::Real;
 /// Φ = ∂u/∂t + …, the parameter of the characteristics is the time.
 ///
 /// # Example
-/// ```
-/// use piola_characteristics::FirstOrderPde;
-/// use piola_numerics::Real;
-/// /// The eikonal equation |∇u| = n in the form (|ξ|² − n²)/2 = 0, whose characteristics have the speed n.
-/// struct Eikonal { index: f64 }
-/// impl FirstOrderPde for Eikonal {
-///     fn value<T: Real>(&self, _x: &[T], _u: T, xi: &[T]) -> T {
-///         T::lit(0.5) * (xi[0] * xi[0] + xi[1] * xi[1] - T::lit(self.index * self.index))
-///     }
-/// }
-/// assert_eq!(Eikonal { index: 5.0 }.value(&[0.0, 0.0], 0.0, &[3.0, 4.0]), 0.0);
-/// ```
+/// See [`CauchyProblem`](crate::CauchyProblem).
 ///
 /// # Source
 /// W(A.1), W(A.34).

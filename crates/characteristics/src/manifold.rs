@@ -28,20 +28,7 @@ pub enum Covector {
 /// | ξ | `xi` | m, written by `covector` unless [`COVECTOR`](Self::COVECTOR) is [`Covector::Sought`] |
 ///
 /// # Example
-/// ```
-/// use piola_characteristics::InitialManifold;
-/// use piola_numerics::Real;
-/// struct Circle; // u = 0 on the unit circle
-/// impl InitialManifold for Circle {
-///     fn place<T: Real>(&self, tau: &[T], x: &mut [T]) -> T {
-///         (x[1], x[0]) = tau[0].sin_cos();
-///         T::zero()
-///     }
-/// }
-/// let mut x = [0.0; 2];
-/// assert_eq!(Circle.place(&[0.0], &mut x), 0.0);
-/// assert_eq!(x, [1.0, 0.0]);
-/// ```
+/// See [`CauchyProblem`](crate::CauchyProblem).
 ///
 /// # Source
 /// W(A.21), W(A.39).

@@ -9,11 +9,7 @@ use crate::check::check_length;
 /// The interval of one parameter of an initial manifold, cut into equal parts to begin with.
 ///
 /// # Example
-/// ```
-/// use piola_characteristics::ParameterInterval;
-/// let turn = ParameterInterval { from: 0.0, to: std::f64::consts::TAU, parts: 12 };
-/// assert_eq!(turn.parts, 12);
-/// ```
+/// See [`CauchyProblem::solve`](crate::CauchyProblem::solve).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ParameterInterval {

@@ -22,7 +22,7 @@ const ON_CONE: f64 = 1e-9;
 ///
 /// # Example
 /// ```
-/// use piola_characteristics::{FirstOrderPde, MongeCone};
+/// use piola_characteristics::{FirstOrderPde, MongeCone, Search};
 /// use piola_numerics::Real;
 /// struct Eikonal; // (|ξ|² − 1)/2 = 0: the cone of all directions of slope ±1
 /// impl FirstOrderPde for Eikonal {
@@ -33,6 +33,10 @@ const ON_CONE: f64 = 1e-9;
 /// let cone = MongeCone::new(&Eikonal, &[0.0, 0.0], 0.0)?;
 /// let generator = cone.generator_over(&[3.0, 4.0], &[1.0, 0.0])?;
 /// assert!((generator.covector[0] - 0.6).abs() < 1e-14 && (generator.u_rate - 1.0).abs() < 1e-14);
+/// // All of them along a line of ξ: at ±(0.6, 0.8).
+/// let search = Search { from: -10.0, to: 10.0, parts: 20 };
+/// let found = cone.generators_along(&[0.0, 0.0], &[0.6, 0.8], search)?;
+/// assert!(found.len() == 2 && (found[1].covector[1] - 0.8).abs() < 1e-14);
 /// # Ok::<(), piola_characteristics::CharacteristicsError>(())
 /// ```
 ///
@@ -132,24 +136,6 @@ impl<'a, P: FirstOrderPde> MongeCone<'a, P> {
     ///
     /// # Errors
     /// As [`generator`](Self::generator); [`CharacteristicsError::TooFewSamples`] for a search in no parts.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_characteristics::{FirstOrderPde, MongeCone, Search};
-    /// use piola_numerics::Real;
-    /// struct Product; // ξ₁ ξ₂ − u = 0
-    /// impl FirstOrderPde for Product {
-    ///     fn value<T: Real>(&self, _x: &[T], u: T, xi: &[T]) -> T {
-    ///         xi[0] * xi[1] - u
-    ///     }
-    /// }
-    /// let cone = MongeCone::new(&Product, &[0.0, 0.0], 9.0)?;
-    /// let search = Search { from: -10.0, to: 10.0, parts: 20 };
-    /// let found = cone.generators_along(&[0.0, 0.0], &[1.0, 1.0], search)?;
-    /// assert_eq!(found.len(), 2);
-    /// assert!((found[1].covector[0] - 3.0).abs() < 1e-14); // ξ = ±(3, 3)
-    /// # Ok::<(), piola_characteristics::CharacteristicsError>(())
-    /// ```
     pub fn generators_along(
         &self,
         base: &[f64],

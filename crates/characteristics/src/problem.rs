@@ -35,6 +35,7 @@ const TOLERANCE: f64 = 1e-13;
 ///     }
 /// }
 /// let problem = CauchyProblem::new(&Eikonal, &Parabola, 2)?.near(&[0.0, 1.0])?;
+/// assert_eq!(problem.initial_point(&[0.0])?.xi[1], 1.0);
 /// let ray = problem.characteristic(&[0.0], 0.75)?;
 /// assert!((ray.u - 0.75).abs() < 1e-14 && (ray.x[1] - 0.75).abs() < 1e-14);
 /// let caustic = problem.caustic_points(&[0.0], 0.0, 2.0)?; // the centre of curvature
@@ -142,30 +143,8 @@ impl<'a, P: FirstOrderPde, M: InitialManifold> CauchyProblem<'a, P, M> {
     /// to rounding as the zero of its derivative.
     ///
     /// # Errors
-    /// [`CharacteristicsError::WrongLength`], [`CharacteristicsError::NotFinite`], [`StripError::DependentParameters`](crate::StripError::DependentParameters),
-    /// [`StripError::NoInitialCovector`](crate::StripError::NoInitialCovector); [`StripError::NotAStrip`](crate::StripError::NotAStrip) for a given ξ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_characteristics::{CauchyProblem, FirstOrderPde, InitialManifold, StripKind};
-    ///     /// struct Product; // ξ₁ ξ₂ − u = 0
-    /// impl FirstOrderPde for Product {
-    ///     fn value<T: Real>(&self, _x: &[T], u: T, xi: &[T]) -> T {
-    ///         xi[0] * xi[1] - u
-    ///     }
-    /// }
-    /// struct Line; // u = y² on x = 0
-    /// impl InitialManifold for Line {
-    ///     fn place<T: Real>(&self, tau: &[T], x: &mut [T]) -> T {
-    ///         (x[0], x[1]) = (T::zero(), tau[0]);
-    ///         tau[0] * tau[0]
-    ///     }
-    /// }
-    /// let point = CauchyProblem::new(&Product, &Line, 2)?.initial_point(&[3.0])?;
-    /// assert_eq!((point.xi[0], point.xi[1]), (1.5, 6.0)); // (τ/2, 2τ)
-    /// assert_eq!(point.kind, StripKind::Transversal);
-    /// # Ok::<(), piola_characteristics::CharacteristicsError>(())
-    /// ```
+    /// [`CharacteristicsError::WrongLength`], [`CharacteristicsError::NotFinite`], [`StripError::DependentParameters`],
+    /// [`StripError::NoInitialCovector`]; [`StripError::NotAStrip`] for a given ξ.
     ///
     /// # Source
     /// W(A.21), W(A.32), W(A.40).
@@ -216,8 +195,8 @@ impl<'a, P: FirstOrderPde, M: InitialManifold> CauchyProblem<'a, P, M> {
     /// ```
     ///
     /// # Errors
-    /// As [`initial_point`](Self::initial_point); [`StripError::Characteristic`](crate::StripError::Characteristic),
-    /// [`StripError::Monge`](crate::StripError::Monge) or [`StripError::Degenerate`](crate::StripError::Degenerate) where the manifold is not transversal;
+    /// As [`initial_point`](Self::initial_point); [`StripError::Characteristic`],
+    /// [`StripError::Monge`] or [`StripError::Degenerate`] where the manifold is not transversal;
     /// [`CharacteristicsError::Run`].
     ///
     /// # Accuracy

@@ -8,11 +8,7 @@ use crate::check::check_finite;
 /// Two zeros closer than a part may be missed unless Φ has an extremum that touches or crosses zero there.
 ///
 /// # Example
-/// ```
-/// use piola_characteristics::Search;
-/// let search = Search { from: -10.0, to: 10.0, parts: 64 };
-/// assert_eq!(search.parts, 64);
-/// ```
+/// See [`MongeCone`](crate::MongeCone).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Search {

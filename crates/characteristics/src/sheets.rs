@@ -96,34 +96,6 @@ impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<
     ///
     /// # Errors
     /// As [`sheets_at`](Self::sheets_at): the first point that is refused.
-    ///
-    /// # Example
-    /// The distance from a plane in space, on a line of points across it.
-    /// ```
-    /// use piola_characteristics::*;
-    /// use piola_numerics::Real;
-    /// struct Eikonal; // |ξ|² = 1
-    /// impl FirstOrderPde for Eikonal {
-    ///     fn value<T: Real>(&self, _x: &[T], _u: T, xi: &[T]) -> T {
-    ///         xi.iter().fold(-T::one(), |sum, &xi| sum + xi * xi)
-    ///     }
-    /// }
-    /// struct Floor; // u = 0 on z = 0
-    /// impl InitialManifold for Floor {
-    ///     fn place<T: Real>(&self, tau: &[T], x: &mut [T]) -> T {
-    ///         (x[0], x[1], x[2]) = (tau[0], tau[1], T::zero());
-    ///         T::zero()
-    ///     }
-    /// }
-    /// let problem = CauchyProblem::new(&Eikonal, &Floor, 3)?.near(&[0.0, 0.0, 1.0])?;
-    /// let side = ParameterInterval { from: -1.0, to: 1.0, parts: 2 };
-    /// let solution = problem.solve(&[side; 2], (0.0, 1.0), Refinement::to(1e-2))?;
-    /// let points: Vec<Vec<f64>> = (0..4).map(|i| vec![0.3, -0.2, 0.7 * f64::from(i)]).collect();
-    /// let sheets = solution.at_points(&points, Overlap::FirstArrival)?;
-    /// assert!((sheets[1].as_ref().ok_or("covered")?.point.u - 0.7).abs() < 1e-13);
-    /// assert!(sheets[3].is_none()); // rays end at z = 2, where s = 1
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn at_points(&self, points: &[Vec<f64>], overlap: Overlap) -> Result<Vec<Option<Sheet>>, CharacteristicsError> {
         let single = |x: &Vec<f64>| -> Result<Option<Sheet>, CharacteristicsError> {
             let sheets = self.sheets_at(x)?;

@@ -11,10 +11,7 @@ use crate::CharacteristicsError;
 /// How finely a solution is resolved.
 ///
 /// # Example
-/// ```
-/// use piola_characteristics::Refinement;
-/// assert_eq!(Refinement::to(1e-3).resolution, 1e-3);
-/// ```
+/// See [`CauchyProblem::solve`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Refinement {

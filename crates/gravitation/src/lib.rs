@@ -98,14 +98,6 @@ impl Gravitation {
     /// # Errors
     /// [`GravitationError::NoSuchBody`], [`GravitationError::MasslessCentre`], and
     /// [`GravitationError::InvalidSpeedOfLight`] unless 0 < c < ∞.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_gravitation::{Gravitation, PostNewtonian};
-    /// let sun_and_mercury = Gravitation::new(vec![1.327e20, 2.2e13])?.with_post_newtonian(PostNewtonian::of(0))?;
-    /// assert!(sun_and_mercury.with_post_newtonian(PostNewtonian::of(2)).is_err()); // there is no third body
-    /// # Ok::<(), piola_gravitation::GravitationError>(())
-    /// ```
     pub fn with_post_newtonian(mut self, term: PostNewtonian) -> Result<Self, GravitationError> {
         if !(0.0 < term.speed_of_light && term.speed_of_light < f64::INFINITY) {
             return Err(GravitationError::InvalidSpeedOfLight { value: term.speed_of_light });
@@ -196,15 +188,6 @@ impl Gravitation {
     }
 
     /// The first two bodies in one place of which at least one attracts, if there are any.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_gravitation::Gravitation;
-    /// let soft = Gravitation::new(vec![1.0, 2.0, 3.0])?.with_softening(0.1)?;
-    /// let state = soft.state(&[[0.0; 3], [1.0; 3], [0.0; 3]], &[[0.0; 3]; 3])?;
-    /// assert_eq!(soft.coincident(&state), Some((0, 2)));
-    /// # Ok::<(), piola_gravitation::GravitationError>(())
-    /// ```
     #[must_use]
     pub fn coincident(&self, state: &[f64]) -> Option<(usize, usize)> {
         // Both zeros are one place; NaN is none.
@@ -255,16 +238,6 @@ impl Gravitation {
     ///
     /// # Accuracy
     /// A few ulp of the sum of the magnitudes of the terms.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_gravitation::Gravitation;
-    /// let mut pair = Gravitation::new(vec![4.0, 8.0])?;
-    /// let mut accelerations = [0.0; 6];
-    /// pair.accelerations_into(&[0.0, 2.0, 0.0, 0.0, 0.0, 0.0], &mut accelerations)?; // 2 m apart along x
-    /// assert_eq!(accelerations[..2], [2.0, -1.0]); // 8/2², 4/2²
-    /// # Ok::<(), piola_gravitation::GravitationError>(())
-    /// ```
     pub fn accelerations_into(&mut self, positions: &[f64], accelerations: &mut [f64]) -> Result<(), GravitationError> {
         self.check_lengths(positions, accelerations)?;
         self.summation.run(&self.parameters, self.softening * self.softening, positions, accelerations);

@@ -73,7 +73,7 @@ fn bracket_at_once<T: Real, const D: usize>(
 /// # Example
 /// The components of the angular momentum: {L₁, L₂} = L₃.
 /// ```
-/// use piola_hamiltonian::{PhaseFunction, poisson_bracket};
+/// use piola_hamiltonian::{PhaseFunction, poisson_bracket, rate_along};
 /// use piola_numerics::Real;
 /// struct Moment(usize);
 /// impl PhaseFunction for Moment {
@@ -84,6 +84,7 @@ fn bracket_at_once<T: Real, const D: usize>(
 /// }
 /// let (q, p) = ([1.0, 2.0, 3.0], [4.0, 5.0, 7.0]);
 /// assert_eq!(poisson_bracket(&Moment(0), &Moment(1), &q, &p, 0.0)?, 1.0 * 5.0 - 2.0 * 4.0);
+/// assert_eq!(rate_along(&Moment(0), &Moment(1), &q, &p, 0.0)?, -3.0); // L₂ as the Hamiltonian
 /// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
 /// ```
 ///
@@ -151,27 +152,6 @@ impl<K: PhaseFunction, H: PhaseFunction> PhaseFunction for Bracket<K, H> {
 ///
 /// # Errors
 /// As [`poisson_bracket`].
-///
-/// # Example
-/// q − t p/m stays what it is in free flight:
-/// ```
-/// use piola_hamiltonian::{PhaseFunction, rate_along};
-/// use piola_numerics::Real;
-/// struct Start; // K = q − t p, unit mass
-/// impl PhaseFunction for Start {
-///     fn value<T: Real>(&self, q: &[T], p: &[T], t: T) -> T {
-///         q[0] - t * p[0]
-///     }
-/// }
-/// struct Free; // H = p²/2
-/// impl PhaseFunction for Free {
-///     fn value<T: Real>(&self, _q: &[T], p: &[T], _t: T) -> T {
-///         T::lit(0.5) * p[0] * p[0]
-///     }
-/// }
-/// assert_eq!(rate_along(&Start, &Free, &[1.0], &[3.0], 5.0)?, 0.0);
-/// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
-/// ```
 ///
 /// # Source
 /// W(10.17–10.19).

@@ -227,9 +227,6 @@ fn symplecticity(jacobian: &DMatrix<f64>) -> CanonicalTest {
 /// # Errors
 /// [`HamiltonianError::NotCanonical`] with the worst entry; what [`image_and_jacobian`] refuses.
 ///
-/// # Example
-/// See [`canonical_test`].
-///
 /// # Source
 /// W(9.16).
 pub fn require_canonical(
@@ -253,16 +250,6 @@ pub fn require_canonical(
 ///
 /// # Errors
 /// As [`image_and_jacobian`].
-///
-/// # Example
-/// A frame that turns takes Ω times the angular momentum off the Hamiltonian:
-/// ```
-/// use piola_hamiltonian::{PhaseMap, RotatingFrame, contact_test};
-/// let frame = RotatingFrame::new(0.5)?;
-/// assert!(contact_test(&frame, &[1.0, 2.0], &[3.0, 5.0], 0.25)?.relative < 1e-15);
-/// assert_eq!(frame.excess(&[1.0, 2.0], &[3.0, 5.0], 0.25)?, -0.5 * (1.0 * 5.0 - 2.0 * 3.0));
-/// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
-/// ```
 ///
 /// # Source
 /// W(10.20–10.25).

@@ -124,9 +124,6 @@ impl<W: GeneratingFunction, C: Identities> DegenerateGenerated<W, C> {
     ///
     /// # Errors
     /// As [`DegenerateGenerated`].
-    ///
-    /// # Example
-    /// See [`DegenerateGenerated`].
     pub fn multipliers<T: Real>(&self, q: &[T], p: &[T], t: T) -> Result<Vec<T>, HamiltonianError> {
         let mut unknown = vec![T::zero(); self.guess.len()];
         self.find((q, p, t), &mut unknown)?;

@@ -115,7 +115,7 @@ pub(crate) fn check_result<T: Real>(
 ///
 /// # Example
 /// ```
-/// use piola_hamiltonian::{PhaseFunction, differential, symplectic_gradient};
+/// use piola_hamiltonian::{PhaseFunction, differential, hessian, symplectic_gradient, time_derivative};
 /// use piola_numerics::Real;
 /// struct Product; // K = q p²
 /// impl PhaseFunction for Product {
@@ -125,6 +125,8 @@ pub(crate) fn check_result<T: Real>(
 /// }
 /// assert_eq!(differential(&Product, &[3.0], &[2.0], 0.0)?.as_slice(), [4.0, 12.0]);
 /// assert_eq!(symplectic_gradient(&Product, &[3.0], &[2.0], 0.0)?.as_slice(), [12.0, -4.0]);
+/// assert_eq!(hessian(&Product, &[3.0], &[2.0], 0.0)?.as_slice(), [0.0, 4.0, 4.0, 6.0]);
+/// assert_eq!(time_derivative(&Product, &[3.0], &[2.0], 7.0)?, 0.0);
 /// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
 /// ```
 ///
@@ -148,9 +150,6 @@ pub fn differential<T: Real>(
 /// # Errors
 /// As [`differential`].
 ///
-/// # Example
-/// See [`differential`].
-///
 /// # Source
 /// W(9.13), W p. 57.
 pub fn symplectic_gradient<T: Real>(
@@ -171,20 +170,6 @@ pub fn symplectic_gradient<T: Real>(
 /// # Errors
 /// As [`differential`].
 ///
-/// # Example
-/// ```
-/// use piola_hamiltonian::{PhaseFunction, time_derivative};
-/// use piola_numerics::Real;
-/// struct Drifting; // K = q − p t
-/// impl PhaseFunction for Drifting {
-///     fn value<T: Real>(&self, q: &[T], p: &[T], t: T) -> T {
-///         q[0] - p[0] * t
-///     }
-/// }
-/// assert_eq!(time_derivative(&Drifting, &[3.0], &[2.0], 7.0)?, -2.0);
-/// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
-/// ```
-///
 /// # Source
 /// W(10.16).
 pub fn time_derivative<T: Real>(function: &impl PhaseFunction, q: &[T], p: &[T], t: T) -> Result<T, HamiltonianError> {
@@ -198,20 +183,6 @@ pub fn time_derivative<T: Real>(function: &impl PhaseFunction, q: &[T], p: &[T],
 ///
 /// # Errors
 /// As [`differential`].
-///
-/// # Example
-/// ```
-/// use piola_hamiltonian::{PhaseFunction, hessian};
-/// use piola_numerics::Real;
-/// struct Product; // K = q p²
-/// impl PhaseFunction for Product {
-///     fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
-///         q[0] * p[0] * p[0]
-///     }
-/// }
-/// assert_eq!(hessian(&Product, &[3.0], &[2.0], 0.0)?.as_slice(), [0.0, 4.0, 4.0, 6.0]);
-/// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
-/// ```
 ///
 /// # Source
 /// The linearisation of W(9.10).

@@ -146,7 +146,9 @@ impl TwoForm for CanonicalTwoForm {
 /// # Example
 /// Along a motion it is the Lagrangian: θ̃ = (p·q̇ − H) dt.
 /// ```
-/// use piola_hamiltonian::{ExtendedOneForm, OneForm, PhaseFunction};
+/// use piola_hamiltonian::{
+///     Differential, ExtendedOneForm, ExtendedTwoForm, OneForm, PhaseFunction, SymplecticGradient, TwoForm, VectorField,
+/// };
 /// use piola_numerics::Real;
 /// struct Oscillator; // H = (p² + q²)/2
 /// impl PhaseFunction for Oscillator {
@@ -157,6 +159,15 @@ impl TwoForm for CanonicalTwoForm {
 /// let mut theta = [0.0; 3];
 /// ExtendedOneForm(Oscillator).components(&[1.0, 3.0, 0.0], &mut theta);
 /// assert_eq!(theta, [3.0, 0.0, -5.0]);
+/// // ω̃ vanishes on the motion, the symplectic gradient of H with dt = 1.
+/// let (mut omega, mut motion) = ([0.0; 9], [0.0; 3]);
+/// ExtendedTwoForm(Oscillator).entries(&[1.0, 3.0, 0.0], &mut omega);
+/// SymplecticGradient(Oscillator).components(&[1.0, 3.0, 0.0], &mut motion);
+/// assert_eq!(motion, [3.0, -1.0, 1.0]);
+/// assert!((0..3).all(|i| (0..3).map(|j| omega[i + 3 * j] * motion[j]).sum::<f64>() == 0.0));
+/// let mut differential = [0.0; 3];
+/// Differential(Oscillator).components(&[1.0, 3.0, 0.0], &mut differential);
+/// assert_eq!(differential, [1.0, 3.0, 0.0]);
 /// ```
 ///
 /// # Source
@@ -182,22 +193,7 @@ impl<H: PhaseFunction> OneForm for ExtendedOneForm<H> {
 /// Its one null direction is that of the motion: ω̃(·, (H_p, −H_q, 1)) = 0.
 ///
 /// # Example
-/// ```
-/// use piola_hamiltonian::{ExtendedTwoForm, PhaseFunction, TwoForm};
-/// use piola_numerics::Real;
-/// struct Oscillator; // H = (p² + q²)/2
-/// impl PhaseFunction for Oscillator {
-///     fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
-///         T::lit(0.5) * (p[0] * p[0] + q[0] * q[0])
-///     }
-/// }
-/// let mut omega = [0.0; 9];
-/// ExtendedTwoForm(Oscillator).entries(&[1.0, 3.0, 0.0], &mut omega);
-/// let motion = [3.0, -1.0, 1.0];
-/// for i in 0..3 {
-///     assert_eq!((0..3).map(|j| omega[i + 3 * j] * motion[j]).sum::<f64>(), 0.0);
-/// }
-/// ```
+/// See [`ExtendedOneForm`].
 ///
 /// # Source
 /// W(10.11).
@@ -242,19 +238,7 @@ pub trait VectorField {
 /// component 1 along t where x = (q, p, t).
 ///
 /// # Example
-/// ```
-/// use piola_hamiltonian::{PhaseFunction, SymplecticGradient, VectorField};
-/// use piola_numerics::Real;
-/// struct Product; // K = q p²
-/// impl PhaseFunction for Product {
-///     fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
-///         q[0] * p[0] * p[0]
-///     }
-/// }
-/// let mut extended = [0.0; 3];
-/// SymplecticGradient(Product).components(&[3.0, 2.0, 0.5], &mut extended);
-/// assert_eq!(extended, [12.0, -4.0, 1.0]);
-/// ```
+/// See [`ExtendedOneForm`].
 ///
 /// # Source
 /// W(9.13), W(10.12), W(10.15).
@@ -279,19 +263,7 @@ impl<K: PhaseFunction> VectorField for SymplecticGradient<K> {
 /// dK on x = (q, p) at the time 0, or on x = (q, p, t), as a form of degree one.
 ///
 /// # Example
-/// ```
-/// use piola_hamiltonian::{Differential, OneForm, PhaseFunction};
-/// use piola_numerics::Real;
-/// struct Growing; // K = q t
-/// impl PhaseFunction for Growing {
-///     fn value<T: Real>(&self, q: &[T], _p: &[T], t: T) -> T {
-///         q[0] * t
-///     }
-/// }
-/// let mut out = [0.0; 3];
-/// Differential(Growing).components(&[3.0, 2.0, 5.0], &mut out);
-/// assert_eq!(out, [5.0, 0.0, 3.0]);
-/// ```
+/// See [`ExtendedOneForm`].
 ///
 /// # Source
 /// W(8.8), W(9.14).
@@ -423,13 +395,6 @@ pub fn closedness_residual(form: &impl TwoForm, x: &[f64]) -> Result<f64, Hamilt
 ///
 /// # Errors
 /// [`HamiltonianError::WrongLength`] where the covector has no even number of components.
-///
-/// # Example
-/// ```
-/// use piola_hamiltonian::raise;
-/// assert_eq!(raise(&[4.0, 12.0])?.as_slice(), [12.0, -4.0]);
-/// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
-/// ```
 ///
 /// # Source
 /// W(9.21).

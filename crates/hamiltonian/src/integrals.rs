@@ -59,9 +59,6 @@ impl PhasePoint {
     ///
     /// # Errors
     /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`PhasePoint`].
     pub fn new(q: &[f64], p: &[f64], t: f64) -> Result<Self, HamiltonianError> {
         check_length("p", q.len(), p.len())?;
         check_finite("q", q)?;
@@ -92,25 +89,7 @@ impl PhasePoint {
 /// Several functions on phase space at once, written for any scalar: a set of integrals, or candidates for them.
 ///
 /// # Example
-/// ```
-/// use piola_hamiltonian::PhaseFunctions;
-/// use piola_numerics::Real;
-/// struct Moment; // L = q × p
-/// impl PhaseFunctions for Moment {
-///     fn count(&self) -> usize {
-///         3
-///     }
-///     fn values<T: Real>(&self, q: &[T], p: &[T], _t: T, out: &mut [T]) {
-///         for i in 0..3 {
-///             let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-///             out[i] = q[j] * p[k] - q[k] * p[j];
-///         }
-///     }
-/// }
-/// let mut moment = [0.0; 3];
-/// Moment.values(&[1.0, 0.0, 0.0], &[0.0, 2.0, 0.0], 0.0, &mut moment);
-/// assert_eq!(moment, [0.0, 0.0, 2.0]);
-/// ```
+/// See [`involution_test`].
 ///
 /// # Source
 /// W(9.23).

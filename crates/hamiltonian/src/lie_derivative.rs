@@ -54,28 +54,6 @@ fn moving<T: Real>(x: &[T], k: &[T]) -> Vec<Dual<T>> {
 /// # Accuracy
 /// The derivative is exact to rounding: a few ulp of Σ |f_{,i} k^i| beside what f and k lose themselves.
 ///
-/// # Example
-/// Friction takes c p² off the energy of an oscillator, and a flow that is not Hamiltonian has no bracket for that:
-/// ```
-/// use piola_hamiltonian::{PhaseFunction, VectorField, lie_derivative_of_function};
-/// use piola_numerics::Real;
-/// struct Damped(f64); // q̇ = p, ṗ = −q − c p
-/// impl VectorField for Damped {
-///     fn components<T: Real>(&self, x: &[T], out: &mut [T]) {
-///         out[0] = x[1];
-///         out[1] = -x[0] - T::lit(self.0) * x[1];
-///     }
-/// }
-/// struct Energy; // (p² + q²)/2
-/// impl PhaseFunction for Energy {
-///     fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
-///         T::lit(0.5) * (p[0] * p[0] + q[0] * q[0])
-///     }
-/// }
-/// assert_eq!(lie_derivative_of_function(&Damped(0.25), &Energy, &[3.0, 2.0])?, -0.25 * 2.0 * 2.0);
-/// # Ok::<(), piola_hamiltonian::HamiltonianError>(())
-/// ```
-///
 /// # Source
 /// W(9.14), W(9.17).
 pub fn lie_derivative_of_function<T: Real>(
@@ -144,9 +122,6 @@ pub fn lie_derivative_of_one_form<T: Real>(
 ///
 /// # Accuracy
 /// Derivatives are exact to rounding.
-///
-/// # Example
-/// See [`locally_hamiltonian_test`].
 ///
 /// # Source
 /// W(9.15), W(10.13).

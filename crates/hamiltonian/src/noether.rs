@@ -184,10 +184,7 @@ const LOCALLY_HAMILTONIAN: f64 = 1e-10;
 ///
 /// # Errors
 /// [`HamiltonianError::NotLocallyHamiltonian`] with the worst entry of L_k ω; [`HamiltonianError::WrongLength`];
-/// [`HamiltonianError::NotFinite`]; [`HamiltonianError::QuadratureNotConverged`].
-///
-/// # Example
-/// See [`Generator`].
+/// [`HamiltonianError::NotFinite`]; [`LagrangianError::QuadratureNotConverged`](piola_lagrangian::LagrangianError::QuadratureNotConverged).
 ///
 /// # Source
 /// W(9.16), W p. 58.

@@ -73,9 +73,6 @@ impl<'a, H: PhaseFunction, S: PhaseFunction> PoincareSection<'a, H, S> {
     ///
     /// # Errors
     /// [`HamiltonianError::NotFinite`]; [`HamiltonianError::Run`] when the motion cannot be followed.
-    ///
-    /// # Example
-    /// See [`PoincareSection`].
     pub fn follow_into(
         &self,
         start: &PhasePoint,

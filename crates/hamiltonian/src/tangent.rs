@@ -75,9 +75,6 @@ impl<T: Real, const N: usize> TangentVector<T, N> {
     ///
     /// # Errors
     /// [`HamiltonianError::Numerics`] where the change of coordinates is singular; [`HamiltonianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`TangentVector`].
     pub fn to_new(self, change: &impl ChangeOfCoordinates<N>, new: &[T; N], t: T) -> Result<Self, HamiltonianError> {
         check_finite("v", &self.0)?;
         check_finite("q̄", new)?;
@@ -130,9 +127,6 @@ impl<T: Real, const N: usize> CotangentVector<T, N> {
     ///
     /// # Errors
     /// [`HamiltonianError::Numerics`] where the change of coordinates is singular; [`HamiltonianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`CotangentVector`].
     pub fn to_old(self, change: &impl ChangeOfCoordinates<N>, new: &[T; N], t: T) -> Result<Self, HamiltonianError> {
         check_finite("p", &self.0)?;
         check_finite("q̄", new)?;

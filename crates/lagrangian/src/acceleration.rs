@@ -48,9 +48,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// coordinates themselves would change too. The difference is noticed by the pivots of the metric, at no
     /// cost. Where the potential is not linear in the velocities, the metric is used throughout.
     ///
-    /// # Example
-    /// See [`Lagrangian`].
-    ///
     /// # Source
     /// W(5.31), W(6.3).
     pub fn acceleration<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -155,26 +152,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Accuracy
     /// A few ulp of the terms summed.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
-    /// # use piola_numerics::Real;
-    /// struct Pendulum; // 3 kg on 2 m
-    /// impl Holonomic for Pendulum {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[0].sin_cos();
-    ///         bodies.particle(3.0, Vector3::new(T::lit(2.0) * s, T::zero(), T::lit(-2.0) * c));
-    ///     }
-    /// }
-    /// let (mut mass_matrix, mut forcing) = ([0.0], [0.0]);
-    /// let q = [std::f64::consts::FRAC_PI_2];
-    /// let pendulum = Lagrangian::of(Pendulum).with_gravity(10.0);
-    /// pendulum.equations_into(&mut Workspace::default(), &q, &[0.0], 0.0, &mut mass_matrix, &mut forcing)?;
-    /// assert_eq!((mass_matrix, forcing), ([12.0], [-60.0])); // m l² and −m g l
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(5.31), W(6.3), W(7.3).

@@ -23,23 +23,7 @@ use crate::check::{check_finite, check_length};
 /// A path q(t) in the coordinates, written once for any scalar.
 ///
 /// # Example
-/// ```
-/// use piola_lagrangian::Path;
-/// use piola_numerics::Real;
-/// /// A throw straight up.
-/// struct Throw { speed: f64 }
-/// impl Path for Throw {
-///     fn freedom(&self) -> usize {
-///         1
-///     }
-///     fn at<T: Real>(&self, t: T, q: &mut [T]) {
-///         q[0] = T::lit(self.speed) * t - T::lit(5.0) * t * t;
-///     }
-/// }
-/// let mut height = [0.0];
-/// Throw { speed: 10.0 }.at(1.0, &mut height);
-/// assert_eq!(height, [5.0]);
-/// ```
+/// See [`Lagrangian::action`].
 pub trait Path {
     /// The number of coordinates.
     fn freedom(&self) -> usize;
@@ -50,22 +34,7 @@ pub trait Path {
 /// q(t) + ε η(t): a path varied. Each evaluation allocates room for η.
 ///
 /// # Example
-/// ```
-/// use piola_lagrangian::{Path, Varied};
-/// use piola_numerics::Real;
-/// struct Line(f64);
-/// impl Path for Line {
-///     fn freedom(&self) -> usize {
-///         1
-///     }
-///     fn at<T: Real>(&self, t: T, q: &mut [T]) {
-///         q[0] = T::lit(self.0) * t;
-///     }
-/// }
-/// let mut q = [0.0];
-/// Varied { path: &Line(3.0), variation: &Line(1.0), amount: 0.5 }.at(2.0, &mut q);
-/// assert_eq!(q, [7.0]);
-/// ```
+/// See [`Lagrangian::action`].
 ///
 /// # Source
 /// W(7.11).
@@ -112,7 +81,7 @@ pub struct Action {
 /// The first variation of an action, J s per unit of the variation, and its two parts.
 ///
 /// # Example
-/// See [`Lagrangian::first_variation`].
+/// See [`Lagrangian::action`].
 ///
 /// # Source
 /// W(7.18).
@@ -149,7 +118,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// A stone of 2 kg thrown up with 10 m/s under 10 m/s²: L = v² − 20 z, ∫₀² = 200/3 − 400/3 J s.
     /// ```
     /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Path, Placement};
+    /// # use piola_lagrangian::{Holonomic, Lagrangian, Path, Placement, Varied};
     /// # use piola_numerics::Real;
     /// use piola_integrators::Tolerance;
     /// # struct Stone;
@@ -170,6 +139,22 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// let stone = Lagrangian::of(Stone).with_gravity(10.0);
     /// let action = stone.action(&Throw, 0.0..2.0, Tolerance::relative(1e-13)?)?;
     /// assert!((action.value + 200.0 / 3.0).abs() < 1e-12 && action.error < 1e-10);
+    ///
+    /// struct Shift; // by one metre: δI = [m v] = 2·(−10 − 10)
+    /// impl Path for Shift {
+    ///     fn freedom(&self) -> usize {
+    ///         1
+    ///     }
+    ///     fn at<T: Real>(&self, _t: T, eta: &mut [T]) {
+    ///         eta[0] = T::one();
+    ///     }
+    /// }
+    /// let variation = stone.first_variation(&Throw, &Shift, 0.0..2.0, [0.0; 2], Tolerance::relative(1e-13)?)?;
+    /// assert!((variation.value + 40.0).abs() < 1e-12 && (variation.end_points + 40.0).abs() < 1e-12);
+    /// assert!(variation.interior.abs() < 1e-12); // the throw obeys Lagrange's equations
+    /// let mut height = [0.0];
+    /// Varied { path: &Throw, variation: &Shift, amount: 0.5 }.at(1.0, &mut height);
+    /// assert_eq!(height, [5.5]);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -206,45 +191,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`],
     /// [`LagrangianError::QuadratureNotConverged`].
-    ///
-    /// # Example
-    /// The throw of a stone of 2 kg is varied by a shift of one metre: δI = [m v] = 2·(−10 − 10).
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Path, Placement};
-    /// # use piola_numerics::Real;
-    /// use piola_integrators::Tolerance;
-    /// # struct Stone;
-    /// # impl Holonomic for Stone {
-    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    /// #         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0]));
-    /// #     }
-    /// # }
-    /// # struct Throw;
-    /// # impl Path for Throw {
-    /// #     fn freedom(&self) -> usize {
-    /// #         1
-    /// #     }
-    /// #     fn at<T: Real>(&self, t: T, q: &mut [T]) {
-    /// #         q[0] = T::lit(10.0) * t - T::lit(5.0) * t * t;
-    /// #     }
-    /// # }
-    /// struct Shift;
-    /// impl Path for Shift {
-    ///     fn freedom(&self) -> usize {
-    ///         1
-    ///     }
-    ///     fn at<T: Real>(&self, _t: T, eta: &mut [T]) {
-    ///         eta[0] = T::one();
-    ///     }
-    /// }
-    /// let stone = Lagrangian::of(Stone).with_gravity(10.0);
-    /// let tolerance = Tolerance::relative(1e-13)?;
-    /// let variation = stone.first_variation(&Throw, &Shift, 0.0..2.0, [0.0; 2], tolerance)?;
-    /// assert!((variation.value + 40.0).abs() < 1e-12 && (variation.end_points + 40.0).abs() < 1e-12);
-    /// assert!(variation.interior.abs() < 1e-12); // the throw obeys Lagrange's equations
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     ///
     /// # Source
     /// W(7.16–7.18).

@@ -64,9 +64,6 @@ pub trait ChangeOfCoordinates<const N: usize> {
 
     /// ∂q^Γ/∂q̄^Δ at fixed time, for all Γ.
     ///
-    /// # Example
-    /// See [`InCoordinates`].
-    ///
     /// # Source
     /// W(3.20).
     fn tangent<T: Real>(&self, new: &[T], t: T, direction: usize) -> [T; N] {
@@ -99,6 +96,7 @@ impl<C: ChangeOfCoordinates<N>, const N: usize> ChangeOfCoordinates<N> for &C {
 ///         bodies.particle(4.0, Vector3::new(q[0], q[1], T::zero()));
 ///     }
 /// }
+/// #[derive(Clone)]
 /// struct Polar; // q̄ = [r, φ]
 /// impl ChangeOfCoordinates<2> for Polar {
 ///     fn old_coordinates<T: Real>(&self, new: &[T], _t: T) -> [T; 2] {
@@ -111,6 +109,9 @@ impl<C: ChangeOfCoordinates<N>, const N: usize> ChangeOfCoordinates<N> for &C {
 /// let metric = Lagrangian::of(seen).inertia_metric(&[3.0, 0.0], 0.0);
 /// assert_eq!((metric[(0, 0)], metric[(0, 1)], metric[(1, 1)]), (4.0, 0.0, 36.0));
 /// assert_eq!(Polar.tangent(&[3.0, 0.0], 0.0, 1), [0.0, 3.0]); // ∂x/∂φ, ∂y/∂φ
+/// let whole = Lagrangian::of(Cartesian).in_coordinates(Polar); // with what acts on it
+/// assert_eq!(whole.acceleration(&[3.0, 0.0], &[0.0, 2.0], 0.0)?[0], 12.0); // r̈ = r φ̇²
+/// # Ok::<(), piola_lagrangian::LagrangianError>(())
 /// ```
 ///
 /// # Source
@@ -123,25 +124,16 @@ pub struct InCoordinates<S, C, const N: usize> {
 
 impl<S, C: ChangeOfCoordinates<N>, const N: usize> InCoordinates<S, C, N> {
     /// The thing `old` seen through the change.
-    ///
-    /// # Example
-    /// See [`InCoordinates`].
     pub const fn new(old: S, change: C) -> Self {
         Self { old, change }
     }
 
     /// What is seen.
-    ///
-    /// # Example
-    /// See [`InCoordinates`].
     pub const fn old(&self) -> &S {
         &self.old
     }
 
     /// The change.
-    ///
-    /// # Example
-    /// See [`InCoordinates`].
     pub const fn change(&self) -> &C {
         &self.change
     }
@@ -210,36 +202,6 @@ impl<F: Forces, C: ChangeOfCoordinates<N>, const N: usize> Forces for InCoordina
 
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The same system with all that acts on it, in new coordinates q̄ with q = c(q̄, t).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_lagrangian::{ChangeOfCoordinates, Holonomic, Lagrangian, Placement, Potential};
-    /// use piola_numerics::Real;
-    /// struct Line; // 2 kg
-    /// impl Holonomic for Line {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(q[0], T::zero(), T::zero()));
-    ///     }
-    /// }
-    /// struct Spring; // 8 N/m
-    /// impl Potential for Spring {
-    ///     fn potential<T: Real>(&self, q: &[T], _v: &[T], _t: T) -> T {
-    ///         T::lit(4.0) * q[0] * q[0]
-    ///     }
-    /// }
-    /// #[derive(Clone)]
-    /// struct Logarithm; // x = eᑫ
-    /// impl ChangeOfCoordinates<1> for Logarithm {
-    ///     fn old_coordinates<T: Real>(&self, new: &[T], _t: T) -> [T; 1] {
-    ///         [new[0].exp()]
-    ///     }
-    /// }
-    /// let spring = Lagrangian::of(Line).with_potential(Spring).in_coordinates(Logarithm);
-    /// // ẍ = −4 x is q̄̈ + q̄̇² = −4.
-    /// assert_eq!(spring.acceleration(&[0.0], &[1.0], 0.0)?[0], -5.0);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(3.17–3.22), W(5.11–5.12).

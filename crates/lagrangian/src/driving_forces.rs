@@ -34,24 +34,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Accuracy
     /// A few ulp of the terms summed.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Arm; // 3 kg on 2 m
-    /// impl Holonomic for Arm {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[0].sin_cos();
-    ///         bodies.particle(3.0, Vector3::new(T::lit(2.0) * c, T::zero(), T::lit(2.0) * s));
-    ///     }
-    /// }
-    /// // To raise the level arm with 1 rad/s² the motor gives m l² q̈ + m g l = 12 + 60 N m.
-    /// let moment = Lagrangian::of(Arm).with_gravity(10.0).driving_forces(&[0.0], &[0.0], &[1.0], 0.0)?;
-    /// assert_eq!(moment[0], 72.0);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(5.31), W(7.3).
     pub fn driving_forces<T: Real>(&self, q: &[T], v: &[T], a: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -65,12 +47,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`driving_forces`](Self::driving_forces).
-    ///
-    /// # Example
-    /// See [`driving_forces`](Self::driving_forces).
-    ///
-    /// # Source
-    /// W(5.31).
     pub fn driving_forces_into<T: Real>(
         &self,
         work: &mut Workspace<T>,

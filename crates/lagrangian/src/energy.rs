@@ -26,16 +26,10 @@ pub struct Energies<T = f64> {
 
 impl<T: Real> Energies<T> {
     /// E + V.
-    ///
-    /// # Example
-    /// See [`Lagrangian::energies`].
     pub fn total(self) -> T {
         self.kinetic + self.potential
     }
     /// L = E − V.
-    ///
-    /// # Example
-    /// See [`Lagrangian::energies`].
     pub fn lagrangian(self) -> T {
         self.kinetic - self.potential
     }
@@ -44,7 +38,7 @@ impl<T: Real> Energies<T> {
 /// The parts of E = ½ g q̇ q̇ + b·q̇ + E₀ of a time-dependent placement.
 ///
 /// # Example
-/// See [`Lagrangian::kinetic_energy_parts`].
+/// See [`Lagrangian::energies`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct KineticEnergyParts<T: Real = f64> {
     /// b_Δ = Σ m ∂x/∂t·∂x/∂q^Δ + …: zero without time dependence.
@@ -71,15 +65,21 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # use nalgebra::Vector3;
     /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
     /// # use piola_numerics::Real;
-    /// struct Stone; // 2 kg on a vertical line
-    /// impl Holonomic for Stone {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0]));
+    /// struct Lift; // 2 kg; q is the height above a floor that rises with 3 m/s
+    /// impl Holonomic for Lift {
+    ///     const TIME_DEPENDENT: bool = true;
+    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
+    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0] + T::lit(3.0) * t));
     ///     }
     /// }
-    /// let energies = Lagrangian::of(Stone).with_gravity(10.0).energies(&[5.0], &[3.0], 0.0)?;
-    /// assert_eq!((energies.kinetic, energies.potential), (9.0, 100.0));
-    /// assert_eq!((energies.total(), energies.lagrangian()), (109.0, -91.0)); // E + V and E − V
+    /// let (lift, q, v) = (Lagrangian::of(Lift).with_gravity(10.0), [5.0], [1.0]);
+    /// let energies = lift.energies(&q, &v, 0.0)?;
+    /// assert_eq!((energies.kinetic, energies.potential), (16.0, 100.0)); // ½·2 (q̇ + 3)² = q̇² + 6 q̇ + 9
+    /// assert_eq!((energies.total(), energies.lagrangian()), (116.0, -84.0)); // E + V and E − V
+    /// let parts = lift.kinetic_energy_parts(&q, 0.0);
+    /// assert_eq!((parts.linear[0], parts.constant), (6.0, 9.0));
+    /// assert_eq!(lift.jacobi_integral(&q, &v, 0.0)?, 92.0); // q̇² − 9 + V, which is not E + V
+    /// assert_eq!(lift.time_derivative(&q, &v, 0.0)?, -60.0); // ∂L/∂t: it is lifted with 3 m/s against 20 N
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -93,9 +93,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`energies`](Self::energies).
-    ///
-    /// # Example
-    /// See [`energies`](Self::energies).
     pub fn energies_with<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -125,24 +122,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 
     /// The linear and constant parts of the kinetic energy in the velocities; the quadratic part is the
     /// inertia metric.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Lift; // 2 kg on a slope of 45° that rises with 3 m/s; q = [distance along the ground]
-    /// impl Holonomic for Lift {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(q[0], T::zero(), q[0] + T::lit(3.0) * t));
-    ///     }
-    /// }
-    /// // E = ½·2 (q̇² + (q̇ + 3)²) = ½·4 q̇² + 6 q̇ + 9
-    /// let parts = Lagrangian::of(Lift).kinetic_energy_parts(&[0.0], 0.0);
-    /// assert_eq!((parts.linear[0], parts.constant), (6.0, 9.0));
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(3.32).
@@ -183,8 +162,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///     }
     /// }
     /// // m ṙ and m r² φ̇, at r = 2 with 3 m/s and 0.5 rad/s.
-    /// let momenta = Lagrangian::of(Polar).momenta(&[2.0, 0.0], &[3.0, 0.5], 0.0)?;
-    /// assert_eq!(momenta.as_slice(), [12.0, 8.0]);
+    /// let (polar, q, v) = (Lagrangian::of(Polar), [2.0, 0.0], [3.0, 0.5]);
+    /// assert_eq!(polar.momenta(&q, &v, 0.0)?.as_slice(), [12.0, 8.0]);
+    /// assert_eq!(polar.coordinate_gradient(&q, &v, 0.0)?.as_slice(), [2.0, 0.0]); // m r φ̇²: the centrifugal force
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -200,9 +180,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`momenta`](Self::momenta).
-    ///
-    /// # Example
-    /// See [`momenta`](Self::momenta).
     pub fn momenta_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -222,24 +199,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Polar; // q = [r, φ], 4 kg
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// // ∂L/∂r = m r φ̇²: the centrifugal force.
-    /// let gradient = Lagrangian::of(Polar).coordinate_gradient(&[2.0, 0.0], &[3.0, 0.5], 0.0)?;
-    /// assert_eq!(gradient.as_slice(), [2.0, 0.0]);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(7.3).
     pub fn coordinate_gradient<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -255,24 +214,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Hoist; // 2 kg on a rope of which q is unwound, hauled in with 3 m/s² from rest
-    /// impl Holonomic for Hoist {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), T::lit(1.5) * t * t - q[0]));
-    ///     }
-    /// }
-    /// // L = (3 t − q̇)² − 20 (1.5 t² − q): ∂L/∂t = 6 (3 t − q̇) − 60 t = −54 at t = 1, q̇ = 2.
-    /// let rate = Lagrangian::of(Hoist).with_gravity(10.0).time_derivative(&[0.0], &[2.0], 1.0)?;
-    /// assert_eq!(rate, -54.0);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(7.20).
     pub fn time_derivative<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<T, LagrangianError> {
@@ -285,26 +226,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Bead; // 2 kg on a rod that turns with 3 rad/s; q = [distance]
-    /// impl Holonomic for Bead {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = (T::lit(3.0) * t).sin_cos();
-    ///         bodies.particle(2.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// // L = ½·2 (q̇² + 9 q²) does not depend on time: h = q̇² − 9 q² is kept, E = q̇² + 9 q² is not.
-    /// let bead = Lagrangian::of(Bead);
-    /// assert_eq!(bead.jacobi_integral(&[1.0], &[5.0], 0.0)?, 16.0);
-    /// assert_eq!(bead.energies(&[1.0], &[5.0], 0.0)?.total(), 34.0);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(7.19–7.22).
@@ -320,32 +241,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// # use piola_lagrangian::Forces;
-    /// struct Polar; // q = [r, φ], 4 kg
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// struct Wind; // 5 N along y
-    /// impl Forces for Wind {
-    ///     const ON_PARTS: bool = true;
-    ///     fn on_part<T: Real>(&self, _part: usize, _x: [T; 3], _v: [T; 3], _t: T) -> [T; 3] {
-    ///         [T::zero(), T::lit(5.0), T::zero()]
-    ///     }
-    /// }
-    /// // At φ = 0 it is across the ray: a moment r f about the origin.
-    /// let forces = Lagrangian::of(Polar).with_forces(Wind).generalised_forces(&[2.0, 0.0], &[0.0, 0.0], 0.0)?;
-    /// assert_eq!(forces.as_slice(), [0.0, 10.0]);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(5.9).

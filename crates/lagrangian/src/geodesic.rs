@@ -33,7 +33,7 @@ impl<S: Holonomic> Holonomic for Still<'_, S> {
 /// Geodesics as a field over arc length, y = (q, dq/ds): for any integrator.
 ///
 /// # Example
-/// See [`Lagrangian::geodesic_motion`].
+/// See [`Lagrangian::geodesic`], which follows it.
 #[derive(Clone, Debug)]
 pub struct GeodesicMotion<'a, S, T = f64> {
     lagrangian: Lagrangian<Still<'a, S>, NoPotential, NoForces>,
@@ -102,24 +102,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Accuracy
     /// A few ulp of the larger of q̈ and Γ q̇ q̇, times the condition number of the metric scaled to unit diagonal.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Polar; // q = [r, φ]
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// // Once around in a circle of radius 2 with 3 rad/s: r̈ − r φ̇² = −18 m/s².
-    /// let covariant = Lagrangian::of(Polar).covariant_acceleration(&[2.0, 0.0], &[0.0, 3.0], &[0.0, 0.0], 0.0)?;
-    /// assert_eq!(covariant.as_slice(), [-18.0, 0.0]);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(6.8–6.10).
     pub fn covariant_acceleration<T: Real>(
@@ -139,12 +121,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`covariant_acceleration`](Self::covariant_acceleration).
-    ///
-    /// # Example
-    /// See [`covariant_acceleration`](Self::covariant_acceleration).
-    ///
-    /// # Source
-    /// W(6.8–6.10).
     pub fn covariant_acceleration_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -173,26 +149,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Accuracy
     /// A few ulp times the condition number of the metric scaled to unit diagonal.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Polar; // q = [r, φ]
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// let polar = Lagrangian::of(Polar);
-    /// // g = diag(4, 16) at r = 2: a moment of 32 N m turns with 2 rad/s².
-    /// let raised = polar.raise(&[2.0, 0.0], &[8.0, 32.0], 0.0)?;
-    /// assert_eq!(raised.as_slice(), [2.0, 2.0]);
-    /// assert_eq!(polar.lower(&[2.0, 0.0], raised.as_slice(), 0.0)?.as_slice(), [8.0, 32.0]);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(6.8).
     pub fn raise<T: Real>(&self, q: &[T], covector: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -205,12 +161,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`raise`](Self::raise).
-    ///
-    /// # Example
-    /// See [`raise`](Self::raise).
-    ///
-    /// # Source
-    /// W(6.8).
     pub fn raise_in_place<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -229,9 +179,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
     ///
-    /// # Example
-    /// See [`raise`](Self::raise).
-    ///
     /// # Source
     /// W(6.8).
     pub fn lower<T: Real>(&self, q: &[T], vector: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -247,28 +194,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 
     /// Geodesics of the inertia metric as a field in (q, dq/ds), over the arc length or, what is the same, the
     /// motion without forces over time, on the constraint surface held still at `t`.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// use piola_integrators::{DormandPrince853, State, Tolerance};
-    /// struct Plane; // q = [r, φ]
-    /// impl Holonomic for Plane {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(1.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// // Straight up from the point (3, 0): after 4 m at (3, 4), which is r = 5.
-    /// let plane = Lagrangian::of(Plane);
-    /// let mut state = State::new(0.0, vec![3.0, 0.0, 0.0, 1.0 / 3.0])?;
-    /// let mut method = DormandPrince853::new(Tolerance::relative(1e-13)?);
-    /// method.integrate_to(&mut plane.geodesic_motion(2, 0.0), &mut state, 4.0)?;
-    /// assert!((state.values[0] - 5.0).abs() < 1e-12);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     ///
     /// # Source
     /// W(6.10) with Q = 0.

@@ -41,9 +41,6 @@ impl SampledMotion {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`]; [`LagrangianError::TimesNotIncreasing`].
-    ///
-    /// # Example
-    /// See [`SampledMotion`].
     pub fn new(
         freedom: usize,
         times: Vec<f64>,
@@ -67,26 +64,6 @@ impl SampledMotion {
     ///
     /// # Errors
     /// [`LagrangianError::TimesNotIncreasing`] for a run backwards.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, SampledMotion};
-    /// # use piola_numerics::Real;
-    /// use piola_integrators::Tolerance;
-    /// # struct Stone;
-    /// # impl Holonomic for Stone {
-    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    /// #         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0]));
-    /// #     }
-    /// # }
-    /// // A stone of 2 kg thrown up with 10 m/s under 10 m/s²: I = −200/3 J s.
-    /// let stone = Lagrangian::of(Stone).with_gravity(10.0);
-    /// let run = stone.integrate(&[0.0], &[10.0], 0.0..2.0, Tolerance::relative(1e-12)?)?;
-    /// let action = stone.action_of_samples(&SampledMotion::of_run(&run)?)?;
-    /// assert!((action.value + 200.0 / 3.0).abs() < 1e-10);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn of_run(run: &Run) -> Result<Self, LagrangianError> {
         let freedom = run.last().0.len();
         let steps = 0..run.times().len();
@@ -96,18 +73,12 @@ impl SampledMotion {
     }
 
     /// The times, s.
-    ///
-    /// # Example
-    /// See [`SampledMotion`].
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
     /// The coordinates of a sample; empty beyond the last.
-    ///
-    /// # Example
-    /// See [`SampledMotion`].
     #[must_use]
     pub fn coordinates(&self, sample: usize) -> &[f64] {
         let n = self.freedom;
@@ -115,9 +86,6 @@ impl SampledMotion {
     }
 
     /// The velocities of a sample; empty beyond the last.
-    ///
-    /// # Example
-    /// See [`SampledMotion`].
     #[must_use]
     pub fn velocities(&self, sample: usize) -> &[f64] {
         let n = self.freedom;
@@ -176,26 +144,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// The error estimate is the difference to every second sample. It falls with the fourth power of the spacing,
     /// and with the sixth along a motion without applied forces: there the action is stationary, and the errors of
     /// the cubic enter by their squares.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// use piola_lagrangian::SampledMotion;
-    /// # struct Stone;
-    /// # impl Holonomic for Stone {
-    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    /// #         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0]));
-    /// #     }
-    /// # }
-    /// // A stone of 2 kg thrown up with 10 m/s under 10 m/s²: I = −200/3 J s; the cubic is exact.
-    /// let stone = Lagrangian::of(Stone).with_gravity(10.0);
-    /// let samples = SampledMotion::new(1, vec![0.0, 1.0, 2.0], vec![0.0, 5.0, 0.0], vec![10.0, 0.0, -10.0])?;
-    /// let action = stone.action_of_samples(&samples)?;
-    /// assert!((action.value + 200.0 / 3.0).abs() < 1e-12 && action.error < 1e-12);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(7.10).
@@ -260,6 +208,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// // Thrown, it is: the parabola satisfies the discrete equations exactly.
     /// let thrown = SampledMotion::new(1, vec![0.0, 1.0, 2.0], vec![0.0, 5.0, 0.0], vec![10.0, 0.0, -10.0])?;
     /// assert_eq!(stone.stationarity_of_samples(&thrown)?.worst, 0.0);
+    /// let action = stone.action_of_samples(&thrown)?; // the cubic is exact
+    /// assert!((action.value + 200.0 / 3.0).abs() < 1e-12 && action.error < 1e-12);
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///

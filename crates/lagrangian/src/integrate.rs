@@ -21,26 +21,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// What [`check`](Self::check) refuses; [`LagrangianError::Unfinished`] when the run fails: it holds the steps
     /// made until then.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// use piola_integrators::Tolerance;
-    /// # struct Pendulum { mass: f64, length: f64 }
-    /// # impl Holonomic for Pendulum {
-    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    /// #         let (s, c) = q[0].sin_cos();
-    /// #         let length = T::lit(self.length);
-    /// #         bodies.particle(self.mass, Vector3::new(length * s, T::zero(), -length * c));
-    /// #     }
-    /// # }
-    /// let pendulum = Lagrangian::of(Pendulum { mass: 1.0, length: 1.0 }).with_gravity(9.80665);
-    /// let run = pendulum.integrate(&[1.0], &[0.0], 0.0..60.0, Tolerance::relative(1e-10)?)?;
-    /// assert!(run.energy_drift() < 1e-8 && run.error_estimate() < 1e-7);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn integrate(
         &self,
         q: &[f64],

@@ -36,23 +36,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Accuracy
     /// A few ulp times the condition number of ∂²L/∂q̇∂q̇ scaled to unit diagonal.
     ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::{Lagrangian, LagrangianFunction, Workspace};
-    /// use piola_numerics::Real;
-    /// struct Relativistic; // unit mass, unit speed of light
-    /// impl LagrangianFunction for Relativistic {
-    ///     fn lagrangian<T: Real>(&self, _q: &[T], v: &[T], _t: T) -> T {
-    ///         -(T::one() - v[0] * v[0]).sqrt()
-    ///     }
-    /// }
-    /// let mut velocity = [0.0_f64];
-    /// let particle = Lagrangian::from_function(Relativistic);
-    /// particle.velocities_into(&mut Workspace::default(), &[0.0], &[0.75], 0.0, &mut velocity)?;
-    /// assert!((velocity[0] - 0.6).abs() < 1e-15); // p = v/√(1 − v²) = 0.6/0.8
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(9.4).
     pub fn velocities_into<T: Real>(

@@ -104,7 +104,8 @@ use crate::check::{check_finite, check_length};
 /// A pendulum of length 2 m, held horizontally: it starts with q̈ = −g/l.
 /// ```
 /// use nalgebra::Vector3;
-/// use piola_lagrangian::{Holonomic, Lagrangian, Placement};
+/// use piola_integrators::Tolerance;
+/// use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
 /// use piola_numerics::Real;
 ///
 /// struct Pendulum { mass: f64, length: f64 }
@@ -121,7 +122,19 @@ use crate::check::{check_finite, check_length};
 /// let horizontal = std::f64::consts::FRAC_PI_2;
 /// let acceleration = pendulum.acceleration(&[horizontal], &[0.0], 0.0)?;
 /// assert!((acceleration[0] + 5.0).abs() < 1e-15);
-/// # Ok::<(), piola_lagrangian::LagrangianError>(())
+/// // M q̈ = f with m l² and −m g l; a motor that raises it with 1 rad/s² gives m l² q̈ + m g l.
+/// let (mut mass_matrix, mut forcing) = ([0.0], [0.0]);
+/// let mut work = Workspace::default();
+/// pendulum.equations_into(&mut work, &[horizontal], &[0.0], 0.0, &mut mass_matrix, &mut forcing)?;
+/// assert_eq!((mass_matrix, forcing), ([12.0], [-60.0]));
+/// assert_eq!(pendulum.driving_forces(&[horizontal], &[0.0], &[1.0], 0.0)?[0], 72.0);
+/// // Hanging, with 2 rad/s: momentum m l q̇ along x and angular momentum −m l² q̇ about y.
+/// let sums = pendulum.system_momentum(&[0.0], &[2.0], 0.0, &Vector3::zeros())?;
+/// assert_eq!((sums.momentum.x, sums.angular_momentum.y), (12.0, -24.0));
+///
+/// let run = pendulum.integrate(&[1.0], &[0.0], 0.0..60.0, Tolerance::relative(1e-10)?)?;
+/// assert!(run.energy_drift() < 1e-8 && run.error_estimate() < 1e-7);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Lagrangian<S, P = NoPotential, F = NoForces> {

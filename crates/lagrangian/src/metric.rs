@@ -39,8 +39,17 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
     ///     }
     /// }
-    /// let g = Lagrangian::of(Polar).inertia_metric(&[2.0, 0.0], 0.0);
+    /// let (polar, q) = (Lagrangian::of(Polar), [2.0, 0.0]);
+    /// let g = polar.inertia_metric(&q, 0.0);
     /// assert_eq!((g[(0, 0)], g[(1, 1)], g[(0, 1)]), (4.0, 16.0, 0.0)); // m dr² + m r² dφ²
+    /// let (first, second) = (polar.christoffel_first(&q, 0.0), polar.christoffel_second(&q, 0.0)?);
+    /// assert_eq!((first[0][(1, 1)], first[1][(0, 1)]), (-8.0, 8.0)); // [φφ,r] = −m r and [rφ,φ] = m r
+    /// assert_eq!((second[0][(1, 1)], second[1][(0, 1)]), (-2.0, 0.5)); // Γ^r_φφ = −r and Γ^φ_rφ = 1/r
+    /// // Once around with 3 rad/s: r̈ − r φ̇² = −18 m/s²; and a moment of 32 N m turns with 2 rad/s².
+    /// assert_eq!(polar.covariant_acceleration(&q, &[0.0, 3.0], &[0.0, 0.0], 0.0)?.as_slice(), [-18.0, 0.0]);
+    /// assert_eq!(polar.raise(&q, &[8.0, 32.0], 0.0)?.as_slice(), [2.0, 2.0]);
+    /// assert_eq!(polar.lower(&q, &[2.0, 2.0], 0.0)?.as_slice(), [8.0, 32.0]);
+    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
     /// # Source
@@ -116,24 +125,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Accuracy
     /// The metric is differentiated exactly: a few ulp of the largest of the three terms.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Polar; // q = [r, φ], 4 kg
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// let symbols = Lagrangian::of(Polar).christoffel_first(&[2.0, 0.0], 0.0);
-    /// // [φφ,r] = −m r and [rφ,φ] = m r
-    /// assert_eq!((symbols[0][(1, 1)], symbols[1][(0, 1)]), (-8.0, 8.0));
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(6.5).
     pub fn christoffel_first<T: Real>(&self, q: &[T], t: T) -> Vec<DMatrix<T>> {
@@ -165,24 +156,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Accuracy
     /// A few ulp times the condition number of the metric.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Polar; // q = [r, φ], 4 kg
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// let symbols = Lagrangian::of(Polar).christoffel_second(&[2.0, 0.0], 0.0)?;
-    /// // r̈ − r φ̇² and φ̈ + (2/r) ṙ φ̇: Γ^r_φφ = −r, Γ^φ_rφ = 1/r
-    /// assert_eq!((symbols[0][(1, 1)], symbols[1][(0, 1)]), (-2.0, 0.5));
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(6.6).

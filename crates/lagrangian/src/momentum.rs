@@ -19,7 +19,7 @@ use crate::check::{check_finite, check_length};
 /// Momentum and angular momentum, space components.
 ///
 /// # Example
-/// See [`Lagrangian::system_momentum`].
+/// See [`Lagrangian`].
 ///
 /// # Source
 /// W(1.18), W(2.35).
@@ -88,23 +88,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Circle; // 4 kg on a circle of 3 m
-    /// impl Holonomic for Circle {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[0].sin_cos();
-    ///         bodies.particle(4.0, Vector3::new(T::lit(3.0) * c, T::lit(3.0) * s, T::zero()));
-    ///     }
-    /// }
-    /// let sums = Lagrangian::of(Circle).system_momentum(&[0.0], &[2.0], 0.0, &Vector3::zeros())?;
-    /// assert_eq!((sums.momentum.y, sums.angular_momentum.z), (24.0, 72.0)); // m r q̇, m r² q̇
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
     /// # Source
     /// W(1.18), W(2.35), W(4.6).
     #[doc(alias = "moment of momentum")]
@@ -122,12 +105,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`system_momentum`](Self::system_momentum).
-    ///
-    /// # Source
-    /// W(1.18), W(2.35).
     pub fn system_momentum_with<T: Real>(
         &self,
         work: &mut Workspace<T>,

@@ -12,7 +12,7 @@
 //! Forces and linear accelerations have space components; moments, angular velocities and angular accelerations
 //! have body components.
 //!
-//! [`rigid_motion`](crate::rigid_motion) integrates them; [`lagrangian`](crate::lagrangian) gives the same motions
+//! [`rigid_motion`](crate::rigid_motion) integrates them; [`Lagrangian`](crate::Lagrangian) gives the same motions
 //! in generalised coordinates, and the [reactions](crate::Lagrangian::reactions) that make a
 //! constrained body obey these laws as if it were free.
 
@@ -121,6 +121,12 @@ pub fn principal_angular_acceleration<T: Real>(
 /// let still = Vector3::zeros();
 /// assert_eq!(laws.acceleration(&Vector3::new(7.0 - 2.0, 0.0, 0.0)).x, 2.5);
 /// assert_eq!(laws.angular_acceleration(&Vector3::new(0.0, 0.5 * 2.0, 0.0), &still).y, 2.0);
+/// assert_eq!(laws.force(&Vector3::new(0.0, 0.0, 10.0)).z, 20.0);
+///
+/// // Turned evenly about an axis that is none of its own, a body wants to throw itself over: (I₁ − I₃) ω³ ω¹.
+/// let uneven = RigidBody::new(1.0, Inertia::principal([2.0, 3.0, 4.0])?)?;
+/// let moment = NewtonEuler::of(&uneven)?.moment(&Vector3::new(1.0, 0.0, 1.0), &still);
+/// assert_eq!(moment, Vector3::new(0.0, -2.0, 0.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -134,26 +140,17 @@ impl<'a> NewtonEuler<'a> {
     ///
     /// # Errors
     /// [`LagrangianError::Numerics`] when the inertia tensor cannot be inverted.
-    ///
-    /// # Example
-    /// See [`NewtonEuler`].
     pub fn of(body: &'a RigidBody) -> Result<Self, LagrangianError> {
         Ok(Self { body, inverse: matrix3::inverse(&body.inertia().matrix())? })
     }
 
     /// The body.
-    ///
-    /// # Example
-    /// See [`NewtonEuler`].
     #[must_use]
     pub const fn body(&self) -> &'a RigidBody {
         self.body
     }
 
     /// The acceleration of the centre of mass, m/s²: a^c = F/M.
-    ///
-    /// # Example
-    /// See [`NewtonEuler`].
     ///
     /// # Source
     /// W(4.5).
@@ -165,18 +162,6 @@ impl<'a> NewtonEuler<'a> {
     ///
     /// # Accuracy
     /// A few ulp of the larger of the two terms, times the condition number of I.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_lagrangian::newton_euler::NewtonEuler;
-    /// use piola_kinematics::{Inertia, RigidBody};
-    /// let body = RigidBody::new(1.0, Inertia::principal([2.0, 3.0, 4.0])?)?;
-    /// let free = Vector3::<f64>::zeros();
-    /// let rate = NewtonEuler::of(&body)?.angular_acceleration(&free, &Vector3::new(1.0, 0.0, 1.0));
-    /// assert!((rate.y - 2.0 / 3.0).abs() < 1e-15); // (I₃ − I₁) ω³ ω¹/I₂
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     ///
     /// # Source
     /// W(4.8–4.9).
@@ -190,16 +175,6 @@ impl<'a> NewtonEuler<'a> {
 
     /// The force that an acceleration of the centre of mass needs, N: F = M a^c.
     ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::newton_euler::NewtonEuler;
-    /// # use piola_kinematics::{Inertia, RigidBody};
-    /// let body = RigidBody::new(2.0, Inertia::principal([1.0; 3])?)?;
-    /// assert_eq!(NewtonEuler::of(&body)?.force(&Vector3::new(0.0, 0.0, 10.0)).z, 20.0);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
     /// # Source
     /// W(4.5).
     pub fn force<T: Real>(&self, acceleration: &Vector3<T>) -> Vector3<T> {
@@ -207,18 +182,6 @@ impl<'a> NewtonEuler<'a> {
     }
 
     /// The moment about the centre of mass that a rotation needs, N m: G = I ω̇ + ω×Iω.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::newton_euler::NewtonEuler;
-    /// # use piola_kinematics::{Inertia, RigidBody};
-    /// let body = RigidBody::new(1.0, Inertia::principal([2.0, 3.0, 4.0])?)?;
-    /// // Turned evenly about an axis that is none of its own, it wants to throw itself over: (I₁ − I₃) ω³ ω¹.
-    /// let moment = NewtonEuler::of(&body)?.moment(&Vector3::new(1.0, 0.0, 1.0), &Vector3::zeros());
-    /// assert_eq!(moment, Vector3::new(0.0, -2.0, 0.0));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     ///
     /// # Source
     /// W(4.8–4.9).
@@ -239,20 +202,6 @@ impl<'a> NewtonEuler<'a> {
     /// A few ulp of the terms times the condition numbers of I and of the
     /// [chart](EulerAngles::condition_number).
     ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_lagrangian::newton_euler::NewtonEuler;
-    /// use piola_kinematics::{EulerAngles, Inertia, RigidBody};
-    /// let ball = RigidBody::new(1.0, Inertia::principal([2.0; 3])?)?;
-    /// // With θ² = π/2 the second angle turns about f₂ when θ³ = 0: 6 N m give 3 rad/s².
-    /// let angles = EulerAngles::zyz([0.0, std::f64::consts::FRAC_PI_2, 0.0]);
-    /// let moment = Vector3::new(0.0, 6.0, 0.0);
-    /// let rates = NewtonEuler::of(&ball)?.eulerian_accelerations(&angles, [0.0; 3], &moment)?;
-    /// assert_eq!(rates[1], 3.0);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    ///
     /// # Source
     /// W(4.12).
     pub fn eulerian_accelerations(
@@ -269,14 +218,6 @@ impl<'a> NewtonEuler<'a> {
 
 /// The moment about a fixed origin of a force at the centre of mass and a moment about it, N m, space components:
 /// r^c×F + G, the rate of the angular momentum about that origin.
-///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_lagrangian::newton_euler::moment_about_origin;
-/// let (arm, force, couple) = (Vector3::new(2.0, 0.0, 0.0), Vector3::new(0.0, 5.0, 0.0), Vector3::new(0.0, 0.0, 1.0));
-/// assert_eq!(moment_about_origin(&arm, &force, &couple).z, 11.0);
-/// ```
 ///
 /// # Source
 /// W(4.6).

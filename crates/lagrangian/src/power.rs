@@ -41,9 +41,6 @@ pub struct PowerBalance<T = f64> {
 impl<T: Real> PowerBalance<T> {
     /// P, W: the power of all that acts. Along the motion it is dE/dt.
     ///
-    /// # Example
-    /// See [`Lagrangian::power_balance`].
-    ///
     /// # Source
     /// W(5.17).
     pub fn total(self) -> T {
@@ -53,9 +50,6 @@ impl<T: Real> PowerBalance<T> {
     /// The power that leaves or enters the system, W: of the applied forces, the moving constraint, and the time in
     /// the potential. Along the motion it is d/dt (E + V − q̇·∂V/∂q̇), gravity's energy included.
     ///
-    /// # Example
-    /// See [`Lagrangian::power_balance`].
-    ///
     /// # Source
     /// W(5.17), W(7.9).
     pub fn energy_rate(self) -> T {
@@ -63,9 +57,6 @@ impl<T: Real> PowerBalance<T> {
     }
 
     /// dE/dt − P, W: zero to rounding along a motion that obeys Lagrange's equations.
-    ///
-    /// # Example
-    /// See [`Lagrangian::power_balance_at_acceleration`].
     pub fn residual(self) -> T {
         self.kinetic_energy_rate - self.total()
     }
@@ -74,7 +65,7 @@ impl<T: Real> PowerBalance<T> {
 /// Q_{n+1}: the component along the time of the generalised force, W.
 ///
 /// # Example
-/// See [`Lagrangian::force_along_time`].
+/// See [`Lagrangian::power_balance`].
 ///
 /// # Source
 /// W(5.15).
@@ -89,9 +80,6 @@ pub struct ForceAlongTime<T = f64> {
 
 impl<T: Real> ForceAlongTime<T> {
     /// Q_{n+1}, W.
-    ///
-    /// # Example
-    /// See [`Lagrangian::force_along_time`].
     ///
     /// # Source
     /// W(5.15).
@@ -136,7 +124,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// A bead of 2 kg slides out on a rod that is turned with 3 rad/s: at 1 m, with 5 m/s along the rod.
     /// ```
     /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
     /// # use piola_numerics::Real;
     /// struct Bead;
     /// impl Holonomic for Bead {
@@ -146,10 +134,16 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///         bodies.particle(2.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
     ///     }
     /// }
-    /// let balance = Lagrangian::of(Bead).power_balance(&[1.0], &[5.0], 0.0)?;
+    /// let bead = Lagrangian::of(Bead);
+    /// let balance = bead.power_balance(&[1.0], &[5.0], 0.0)?;
     /// // The rod pushes with 2 m Ω ṙ = 60 N across, at Ω r = 3 m/s.
     /// assert_eq!(balance.moving_constraint, 180.0);
     /// assert_eq!((balance.kinetic_energy_rate, balance.total(), balance.energy_rate()), (180.0, 180.0, 180.0));
+    /// // Kept from sliding faster, r̈ = 0, it takes up half of them: a brake on it would take the rest.
+    /// let even = bead.power_balance_at_acceleration(&mut Workspace::default(), &[1.0], &[5.0], &[0.0], 0.0)?;
+    /// assert_eq!((even.kinetic_energy_rate, even.residual()), (90.0, -90.0));
+    /// let along_time = bead.force_along_time(&[1.0], &[5.0], 0.0)?;
+    /// assert_eq!((along_time.external, along_time.constraint, along_time.total()), (0.0, 180.0, 180.0));
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -163,12 +157,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`power_balance`](Self::power_balance).
-    ///
-    /// # Example
-    /// See [`power_balance`](Self::power_balance).
-    ///
-    /// # Source
-    /// W(5.13–5.17).
     pub fn power_balance_with<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -184,24 +172,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
-    /// # use piola_numerics::Real;
-    /// struct Lift; // 2 kg on a vertical line
-    /// impl Holonomic for Lift {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0]));
-    ///     }
-    /// }
-    /// let lift = Lagrangian::of(Lift).with_gravity(10.0);
-    /// // Rising evenly with 3 m/s: gravity takes 60 W, and nothing gives them.
-    /// let balance = lift.power_balance_at_acceleration(&mut Workspace::default(), &[0.0], &[3.0], &[0.0], 0.0)?;
-    /// assert_eq!((balance.gravity, balance.residual()), (-60.0, 60.0));
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn power_balance_at_acceleration<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -302,25 +272,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// A pendulum of 2 kg at rest hangs from a point that rises with 3 m/s.
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Rising;
-    /// impl Holonomic for Rising {
-    ///     const TIME_DEPENDENT: bool = true;
-    ///     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[0].sin_cos();
-    ///         bodies.particle(2.0, Vector3::new(s, T::zero(), T::lit(3.0) * t - c));
-    ///     }
-    /// }
-    /// let force = Lagrangian::of(Rising).with_gravity(10.0).force_along_time(&[0.0], &[0.0], 0.0)?;
-    /// assert_eq!((force.external, force.constraint, force.total()), (-60.0, 60.0, 0.0)); // weight and rod at 3 m/s
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(5.15).

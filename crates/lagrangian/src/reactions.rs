@@ -47,12 +47,6 @@ pub struct PartForce<T: Real = f64> {
 
 impl<T: Real> PartForce<T> {
     /// A force without moment.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::PartForce;
-    /// assert_eq!(PartForce::force([1.0, 2.0, 3.0]).moment.x, 0.0);
-    /// ```
     pub fn force(force: [T; 3]) -> Self {
         Self { force: force.into(), moment: [T::zero(); 3].into() }
     }
@@ -110,12 +104,6 @@ pub enum Reaction<T: Real = f64> {
 
 impl<T: Real> Reaction<T> {
     /// No force on a particle at the origin: what buffers are filled with.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::Reaction;
-    /// assert_eq!(Reaction::<f64>::none().force().z, 0.0);
-    /// ```
     #[must_use]
     pub fn none() -> Self {
         let zero: Vector3<T> = [T::zero(); 3].into();
@@ -123,9 +111,6 @@ impl<T: Real> Reaction<T> {
     }
 
     /// Where the force acts: the particle or the centre of mass, m.
-    ///
-    /// # Example
-    /// See [`Reaction`].
     #[must_use]
     pub const fn position(&self) -> &Vector3<T> {
         match self {
@@ -134,9 +119,6 @@ impl<T: Real> Reaction<T> {
     }
 
     /// f_c or F_c, N, space components.
-    ///
-    /// # Example
-    /// See [`Reaction`].
     ///
     /// # Source
     /// W(5.1–5.2).
@@ -148,9 +130,6 @@ impl<T: Real> Reaction<T> {
     }
 
     /// G_c about the centre of mass, N m, body components; zero for a particle.
-    ///
-    /// # Example
-    /// See [`Reaction`].
     ///
     /// # Source
     /// W(5.3).
@@ -164,9 +143,6 @@ impl<T: Real> Reaction<T> {
 
     /// G_c about the centre of mass, N m, space components; zero for a particle.
     ///
-    /// # Example
-    /// See [`Reaction`].
-    ///
     /// # Source
     /// W(5.3).
     #[must_use]
@@ -178,9 +154,6 @@ impl<T: Real> Reaction<T> {
     }
 
     /// The moment about a point fixed in space, N m, space components: (x − o)×f_c + G_c.
-    ///
-    /// # Example
-    /// See [`Reaction`].
     ///
     /// # Source
     /// W(4.6).
@@ -231,7 +204,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// A pendulum of 3 kg passes its lowest point: the rod holds its weight and bends its path.
     /// ```
     /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
+    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
     /// # use piola_numerics::Real;
     /// struct Pendulum; // 3 kg on 2 m
     /// impl Holonomic for Pendulum {
@@ -240,8 +213,13 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///         bodies.particle(3.0, Vector3::new(T::lit(2.0) * s, T::zero(), T::lit(-2.0) * c));
     ///     }
     /// }
-    /// let reactions = Lagrangian::of(Pendulum).with_gravity(10.0).reactions(&[0.0], &[4.0], 0.0)?;
+    /// let pendulum = Lagrangian::of(Pendulum).with_gravity(10.0);
+    /// let reactions = pendulum.reactions(&[0.0], &[4.0], 0.0)?;
     /// assert_eq!(reactions[0].force(), &Vector3::new(0.0, 0.0, 126.0)); // m g + m l q̇² = 30 + 96
+    /// // The same, driven with q̈ = 1 rad/s²: m l q̈ along x.
+    /// let mut held = [reactions[0]; 1];
+    /// pendulum.reactions_at_acceleration_into(&mut Workspace::default(), &[0.0], &[4.0], &[1.0], 0.0, &mut held)?;
+    /// assert_eq!(held[0].force(), &Vector3::new(6.0, 0.0, 126.0));
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -254,12 +232,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// The number of particles and bodies.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::{Lagrangian, NoParts};
-    /// assert_eq!(Lagrangian::of(NoParts).parts(&[1.0], 0.0), 0);
-    /// ```
     pub fn parts<T: Real>(&self, q: &[T], t: T) -> usize {
         let count = piola_kinematics::placement::count(&self.system, q, t);
         count.particles + count.bodies
@@ -270,12 +242,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// As [`acceleration`](Self::acceleration); [`LagrangianError::WrongLength`] when `out` does not have one
     /// place for each [part](Self::parts).
-    ///
-    /// # Example
-    /// See [`reactions`](Self::reactions).
-    ///
-    /// # Source
-    /// W(5.1–5.3).
     pub fn reactions_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -293,28 +259,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// # Errors
     /// [`LagrangianError::WrongLength`]; [`LagrangianError::NotFinite`], which names the part where an applied
     /// force is not finite.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement, Reaction, Workspace};
-    /// # use piola_numerics::Real;
-    /// struct Lift; // 2 kg on a vertical line
-    /// impl Holonomic for Lift {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(2.0, Vector3::new(T::zero(), T::zero(), q[0]));
-    ///     }
-    /// }
-    /// let mut held = [Reaction::none()];
-    /// let lift = Lagrangian::of(Lift).with_gravity(10.0);
-    /// // Accelerated upwards with 3 m/s²: m (g + a).
-    /// lift.reactions_at_acceleration_into(&mut Workspace::default(), &[0.0], &[1.0], &[3.0], 0.0, &mut held)?;
-    /// assert_eq!(held[0].force().z, 26.0);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
-    ///
-    /// # Source
-    /// W(5.1–5.3).
     pub fn reactions_at_acceleration_into<T: Real>(
         &self,
         work: &mut Workspace<T>,

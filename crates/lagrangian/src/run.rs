@@ -7,7 +7,7 @@ use piola_integrators::Report;
 /// A state is (q, q̇); of a system of which some quasi-velocities are held, (q, the free quasi-velocities).
 ///
 /// # Example
-/// See [`Lagrangian::integrate`](crate::Lagrangian::integrate).
+/// See [`Lagrangian`](crate::Lagrangian).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
     pub(super) coordinates: usize,

@@ -57,9 +57,6 @@ pub enum ConstraintVerdict {
 impl IdealConstraintTest {
     /// Σ f_c·h_Δ for each coordinate: N where the coordinate is a length, N m where it is an angle.
     ///
-    /// # Example
-    /// See [`Lagrangian::ideal_constraint_test`].
-    ///
     /// # Source
     /// W(5.8).
     #[must_use]
@@ -68,9 +65,6 @@ impl IdealConstraintTest {
     }
 
     /// The sums of the magnitudes of the terms, against which the powers are small when the constraint is ideal.
-    ///
-    /// # Example
-    /// See [`Lagrangian::ideal_constraint_test`].
     #[must_use]
     pub fn scales(&self) -> &[f64] {
         &self.scales
@@ -78,9 +72,6 @@ impl IdealConstraintTest {
 
     /// The coordinate along which the power is largest against its scale, and that ratio, which lies in [0, 1].
     /// `None` for a system without coordinates.
-    ///
-    /// # Example
-    /// See [`Lagrangian::ideal_constraint_test`].
     #[must_use]
     pub fn worst(&self) -> Option<(usize, f64)> {
         let ratio = |(power, scale): (&f64, &f64)| if 0.0 < *scale { power.abs() / scale } else { 0.0 };
@@ -93,9 +84,6 @@ impl IdealConstraintTest {
 
     /// The verdict: ideal when no power exceeds `tolerance` times its scale. A few dozen ulp times the condition
     /// number of the metric, scaled to unit diagonal, are what the reactions of an ideal constraint need.
-    ///
-    /// # Example
-    /// See [`Lagrangian::ideal_constraint_test`].
     ///
     /// # Source
     /// W(5.5).
@@ -212,12 +200,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`virtual_work`](Self::virtual_work).
-    ///
-    /// # Example
-    /// See [`virtual_work`](Self::virtual_work).
-    ///
-    /// # Source
-    /// W(5.9).
     pub fn virtual_work_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -301,23 +283,6 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// A particle in free fall: no reaction, whatever rounding leaves of m a − m g.
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::{ConstraintVerdict, Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Free;
-    /// impl Holonomic for Free {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         bodies.particle(0.3, Vector3::new(q[0], q[1], q[2]));
-    ///     }
-    /// }
-    /// let test = Lagrangian::of(Free).with_gravity(10.0).reaction_test(&[0.0; 3], &[1.0; 3], 0.0)?;
-    /// assert_eq!((test.scales(), test.verdict(1e-15)), (&[0.0, 0.0, 6.0][..], ConstraintVerdict::Ideal)); // 2 m g
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(5.5–5.8).

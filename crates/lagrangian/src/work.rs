@@ -35,9 +35,6 @@ pub struct Works<T = f64> {
 
 impl<T: Real> Works<T> {
     /// What entered the system, J.
-    ///
-    /// # Example
-    /// See [`Lagrangian::work_account`].
     pub fn total(self) -> T {
         self.applied + self.moving_constraint + self.potential_by_time
     }
@@ -60,9 +57,6 @@ impl<S: Holonomic, P: Potential, F: Forces, T: Real> MotionWithWork<'_, S, P, F,
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`].
-    ///
-    /// # Example
-    /// See [`Lagrangian::motion_with_work`].
     pub fn works(&self, y: &[T]) -> Result<Works<T>, LagrangianError> {
         check_length("y", Field::<T>::dimension(self), y.len())?;
         let works = &y[2 * self.coordinates..];
@@ -124,9 +118,6 @@ pub struct WorkAccount {
 
 impl WorkAccount {
     /// The energy that the works do not explain, relative to the energies met: the error of the run.
-    ///
-    /// # Example
-    /// See [`Lagrangian::work_account`].
     #[must_use]
     pub fn imbalance(&self) -> f64 {
         let scale = self.energy_scale.max(self.works.total().abs());

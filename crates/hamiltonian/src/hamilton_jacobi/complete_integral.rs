@@ -185,9 +185,9 @@ impl<'a, H: PhaseFunction, U: CompleteIntegral> Constants<'a, H, U> {
     /// from a guess, then P = −∂U/∂Q.
     ///
     /// # Errors
-    /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`]; [`HamiltonJacobiError::IncompleteIntegral`](crate::HamiltonJacobiError::IncompleteIntegral)
-    /// where det ∂²U/∂q∂Q = 0; [`HamiltonJacobiError::NotFound`](crate::HamiltonJacobiError::NotFound) when the iteration does not converge;
-    /// [`HamiltonJacobiError::NoSolution`](crate::HamiltonJacobiError::NoSolution) when U does not solve the Hamilton–Jacobi equation there.
+    /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`]; [`HamiltonJacobiError::IncompleteIntegral`]
+    /// where det ∂²U/∂q∂Q = 0; [`HamiltonJacobiError::NotFound`] when the iteration does not converge;
+    /// [`HamiltonJacobiError::NoSolution`] when U does not solve the Hamilton–Jacobi equation there.
     pub fn through(
         hamiltonian: &'a H,
         integral: &'a U,
@@ -237,8 +237,8 @@ impl<'a, H: PhaseFunction, U: CompleteIntegral> Constants<'a, H, U> {
     /// for −∂U/∂Q = P, continued in time as far as is needed.
     ///
     /// # Errors
-    /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`]; [`HamiltonJacobiError::IncompleteIntegral`](crate::HamiltonJacobiError::IncompleteIntegral) and
-    /// [`HamiltonJacobiError::NotFound`](crate::HamiltonJacobiError::NotFound) where U ends, as at a turning point of one of its branches.
+    /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`]; [`HamiltonJacobiError::IncompleteIntegral`] and
+    /// [`HamiltonJacobiError::NotFound`] where U ends, as at a turning point of one of its branches.
     pub fn at(&self, t: f64, (q, known): (&[f64], f64)) -> Result<(Vec<f64>, Vec<f64>), HamiltonianError> {
         let n = self.values.len();
         check_length("q", n, q.len())?;

@@ -53,7 +53,7 @@ impl SearchRegion {
     /// The box lower ≤ p₀ ≤ upper, with `resolution` starts along each side, at least one.
     ///
     /// # Errors
-    /// [`HamiltonianError::WrongLength`], [`HamiltonJacobiError::InvalidRegion`](crate::HamiltonJacobiError::InvalidRegion).
+    /// [`HamiltonianError::WrongLength`], [`HamiltonJacobiError::InvalidRegion`].
     pub fn new(lower: &[f64], upper: &[f64], resolution: usize) -> Result<Self, HamiltonianError> {
         check_length("upper", lower.len(), upper.len())?;
         for (index, (&lower, &upper)) in lower.iter().zip(upper).enumerate() {

@@ -131,8 +131,8 @@ impl<'a, H: PhaseFunction> GeodeticDistance<'a, H> {
     /// [`all_between`](Self::all_between).
     ///
     /// # Errors
-    /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`], [`HamiltonJacobiError::EventsAtOneTime`](crate::HamiltonJacobiError::EventsAtOneTime);
-    /// [`HamiltonJacobiError::NoExtremal`](crate::HamiltonJacobiError::NoExtremal) with the best miss; [`HamiltonJacobiError::ConjugateEvents`](crate::HamiltonJacobiError::ConjugateEvents).
+    /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`], [`HamiltonJacobiError::EventsAtOneTime`];
+    /// [`HamiltonJacobiError::NoExtremal`] with the best miss; [`HamiltonJacobiError::ConjugateEvents`].
     pub fn between(&self, from: &Event, to: &Event, momenta: &[f64]) -> Result<Extremal, HamiltonianError> {
         check_events(from, to, momenta.len())?;
         check_finite("p", momenta)?;

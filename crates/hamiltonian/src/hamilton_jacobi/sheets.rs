@@ -37,7 +37,7 @@ impl<H: PhaseFunction> GeodeticDistance<'_, H> {
     /// is found is refined to the tolerance.
     ///
     /// # Errors
-    /// As [`between`](Self::between); [`HamiltonJacobiError::ConjugateEvents`](crate::HamiltonJacobiError::ConjugateEvents) also when only one of the sheets found ends
+    /// As [`between`](Self::between); [`HamiltonJacobiError::ConjugateEvents`] also when only one of the sheets found ends
     /// in a conjugate point, since its number of neighbours is then not defined.
     ///
     /// # Example

@@ -163,8 +163,8 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
     /// The transversal that starts at an event; where values are given, at their time whatever `t` is.
     ///
     /// # Errors
-    /// [`HamiltonianError::NotFinite`]; [`HamiltonJacobiError::NotFound`](crate::HamiltonJacobiError::NotFound) when there is no λ near the guess;
-    /// [`HamiltonJacobiError::NotTransversal`](crate::HamiltonJacobiError::NotTransversal) where the extremal touches the manifold.
+    /// [`HamiltonianError::NotFinite`]; [`HamiltonJacobiError::NotFound`] when there is no λ near the guess;
+    /// [`HamiltonJacobiError::NotTransversal`] where the extremal touches the manifold.
     pub fn start(&self, q: &[f64], t: f64) -> Result<Transversal, HamiltonianError> {
         check_finite("q", q)?;
         let n = q.len();
@@ -277,8 +277,8 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
     /// is the one that is regular down to the manifold.
     ///
     /// # Errors
-    /// As [`start`](Self::start) and [`follow`](Self::follow); [`HamiltonJacobiError::OnCaustic`](crate::HamiltonJacobiError::OnCaustic);
-    /// [`HamiltonJacobiError::NoExtremal`](crate::HamiltonJacobiError::NoExtremal) with the least miss when no transversal was brought to the event.
+    /// As [`start`](Self::start) and [`follow`](Self::follow); [`HamiltonJacobiError::OnCaustic`];
+    /// [`HamiltonJacobiError::NoExtremal`] with the least miss when no transversal was brought to the event.
     pub fn solution(&self, event: &Event, guess: &Event) -> Result<TransversalPoint, HamiltonianError> {
         let n = event.coordinates.len();
         check_length("guess", n, guess.coordinates.len())?;

@@ -77,9 +77,6 @@ impl Delaunay {
     ///
     /// # Errors
     /// [`HamiltonianError::NotFinite`]; [`HamiltonianError::NotPositive`].
-    ///
-    /// # Example
-    /// See [`Delaunay`].
     pub fn new(mass: f64, gravitational_parameter: f64) -> Result<Self, HamiltonianError> {
         for (quantity, value) in [("mass", mass), ("gravitational parameter", gravitational_parameter)] {
             check_finite(quantity, &[value])?;

@@ -55,9 +55,6 @@ impl OscillatorActionAngle {
     ///
     /// # Errors
     /// [`HamiltonianError::NotFinite`]; [`HamiltonianError::NotPositive`].
-    ///
-    /// # Example
-    /// See [`OscillatorActionAngle`].
     pub fn new(mass: f64, angular_frequency: f64) -> Result<Self, HamiltonianError> {
         for (quantity, value) in [("mass", mass), ("angular frequency", angular_frequency)] {
             check_finite(quantity, &[value])?;

@@ -41,9 +41,6 @@ impl RotatingFrame {
     ///
     /// # Errors
     /// [`HamiltonianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`RotatingFrame`].
     pub fn new(angular_velocity: f64) -> Result<Self, HamiltonianError> {
         check_finite("angular velocity", &[angular_velocity])?;
         Ok(Self { angular_velocity })

@@ -14,7 +14,7 @@ use crate::{Forces, Potential};
 /// The terms of the Boltzmann–Hamel equations along a motion, one entry for each vector of the frame.
 ///
 /// # Example
-/// See [`InFrame::boltzmann_hamel`].
+/// See [`InFrame`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoltzmannHamel {
     /// d/dt(∂L̄/∂u^A).
@@ -29,9 +29,6 @@ pub struct BoltzmannHamel {
 
 impl BoltzmannHamel {
     /// What is left over: zero along a free motion, the reactions along a constrained one.
-    ///
-    /// # Example
-    /// See [`InFrame::boltzmann_hamel`].
     #[must_use]
     pub fn residual(&self) -> DVector<f64> {
         &self.momentum_rate - &self.lagrangian_derivative + &self.structure_term - &self.force
@@ -58,30 +55,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Accuracy
     /// A few ulp of the terms, times the condition number of the frame.
-    ///
-    /// # Example
-    /// A particle of 2 kg in the plane by u = (ṙ, r φ̇). Its transverse equation reads m (u̇₂ + u₁u₂/r) = 0.
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::anholonomic::AnholonomicFrame;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// # struct Polar;
-    /// # impl Holonomic for Polar {
-    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    /// #         let (s, c) = q[1].sin_cos();
-    /// #         bodies.particle(2.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    /// #     }
-    /// # }
-    /// # impl AnholonomicFrame for Polar {
-    /// #     fn frame<T: Real>(&self, q: &[T], _t: T, rows: &mut [T]) {
-    /// #         rows.copy_from_slice(&[T::one(), T::zero(), T::zero(), q[0].recip()]);
-    /// #     }
-    /// # }
-    /// let terms = Lagrangian::of(Polar).in_frame(Polar).boltzmann_hamel(&[0.5, 0.0], &[1.0, 3.0], &[18.0, -6.0], 0.0)?;
-    /// assert_eq!((terms.momentum_rate[1], terms.structure_term[1], terms.residual()[1]), (-12.0, 12.0, 0.0));
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(6.13), W(6.21), W(6.29).

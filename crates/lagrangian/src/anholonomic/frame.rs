@@ -12,21 +12,7 @@ use piola_numerics::Real;
 /// u = 0: that of a moving floor, say.
 ///
 /// # Example
-/// Polar components of the velocity in the plane: u¹ = ṙ along k₁ = ∂_r, u² = r φ̇ along k₂ = ∂_φ / r.
-/// ```
-/// use piola_lagrangian::anholonomic::AnholonomicFrame;
-/// use piola_numerics::Real;
-/// struct Polar;
-/// impl AnholonomicFrame for Polar {
-///     fn frame<T: Real>(&self, q: &[T], _t: T, rows: &mut [T]) {
-///         let zero = T::zero();
-///         rows.copy_from_slice(&[T::one(), zero, zero, q[0].recip()]);
-///     }
-/// }
-/// let mut rows = [0.0; 4];
-/// Polar.frame(&[2.0, 0.3], 0.0, &mut rows);
-/// assert_eq!(rows[3], 0.5);
-/// ```
+/// See [`InFrame`](super::InFrame).
 ///
 /// # Source
 /// W(6.12).
@@ -50,21 +36,7 @@ pub trait AnholonomicFrame {
 /// Rolling conditions come as rows of A: what slips. The frame is the inverse matrix.
 ///
 /// # Example
-/// Along and across a blade at the angle φ, and the rate of turn: coordinates x, y, φ.
-/// ```
-/// use piola_lagrangian::anholonomic::Coframe;
-/// use piola_numerics::Real;
-/// struct Blade;
-/// impl Coframe for Blade {
-///     fn coframe<T: Real>(&self, q: &[T], _t: T, rows: &mut [T]) {
-///         let ((s, c), zero) = (q[2].sin_cos(), T::zero());
-///         rows.copy_from_slice(&[c, s, zero, -s, c, zero, zero, zero, T::one()]);
-///     }
-/// }
-/// let mut rows = [0.0; 9];
-/// Blade.coframe(&[0.0; 3], 0.0, &mut rows);
-/// assert_eq!(rows[..3], [1.0, 0.0, 0.0]);
-/// ```
+/// See [`Nonholonomic`](super::Nonholonomic).
 ///
 /// # Source
 /// W(6.15).

@@ -48,6 +48,8 @@ use crate::{Energies, Forces, Lagrangian, Potential};
 /// assert_eq!(particle.momenta(&q, &u, 0.0)?.as_slice(), [2.0, 6.0]);
 /// assert_eq!(particle.generalised_forces(&q, &u, 0.0)?.as_slice(), [0.0, 0.0]);
 /// assert_eq!(particle.energies(&q, &u, 0.0)?.kinetic, 10.0);
+/// let terms = particle.boltzmann_hamel(&q, &u, &[18.0, -6.0], 0.0)?; // m (u̇₂ + u₁u₂/r) = 0
+/// assert_eq!((terms.momentum_rate[1], terms.structure_term[1], terms.residual()[1]), (-12.0, 12.0, 0.0));
 /// # Ok::<(), piola_lagrangian::LagrangianError>(())
 /// ```
 ///
@@ -61,17 +63,11 @@ pub struct InFrame<S, P, F, W> {
 
 impl<S, P, F> Lagrangian<S, P, F> {
     /// The system in the quasi-velocities of a frame.
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub const fn in_frame<K: AnholonomicFrame>(self, frame: K) -> InFrame<S, P, F, ByFrame<K>> {
         InFrame { lagrangian: self, map: ByFrame(frame) }
     }
 
     /// The system in quasi-velocities that are given themselves.
-    ///
-    /// # Example
-    /// See [`Nonholonomic`](super::Nonholonomic).
     pub const fn in_coframe<C: Coframe>(self, coframe: C) -> InFrame<S, P, F, ByCoframe<C>> {
         InFrame { lagrangian: self, map: ByCoframe(coframe) }
     }
@@ -79,16 +75,10 @@ impl<S, P, F> Lagrangian<S, P, F> {
 
 impl<S, P, F, W> InFrame<S, P, F, W> {
     /// The Lagrangian.
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub const fn lagrangian(&self) -> &Lagrangian<S, P, F> {
         &self.lagrangian
     }
     /// The quasi-velocities.
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub const fn map(&self) -> &W {
         &self.map
     }
@@ -145,22 +135,6 @@ pub fn structure_coefficients<W: QuasiVelocities, T: Real>(
 ///
 /// # Errors
 /// As [`structure_coefficients`].
-///
-/// # Example
-/// ```
-/// use piola_lagrangian::anholonomic::{AnholonomicFrame, ByFrame, drift_coefficients};
-/// use piola_numerics::Real;
-/// struct Stretching; // one vector eᵗ ∂_q
-/// impl AnholonomicFrame for Stretching {
-///     const TIME_DEPENDENT: bool = true;
-///     fn frame<T: Real>(&self, _q: &[T], t: T, rows: &mut [T]) {
-///         rows[0] = t.exp();
-///     }
-/// }
-/// // [eᵗ ∂_q, ∂_t] = −eᵗ ∂_q
-/// assert_eq!(drift_coefficients(&ByFrame(Stretching), &[1.0], 0.0)?[(0, 0)], -1.0);
-/// # Ok::<(), piola_lagrangian::LagrangianError>(())
-/// ```
 pub fn drift_coefficients<W: QuasiVelocities, T: Real>(map: &W, q: &[T], t: T) -> Result<DMatrix<T>, LagrangianError> {
     let n = q.len();
     let all = structure(map, q, t)?;
@@ -184,9 +158,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`]; [`AnholonomicError::SingularFrame`](crate::AnholonomicError::SingularFrame) where
     /// a coframe has no inverse.
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub fn velocities<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut out = DVector::from_element(q.len(), T::zero());
         self.velocities_into(&mut Workspace::default(), q, u, t, out.as_mut_slice())?;
@@ -197,9 +168,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// As [`velocities`](Self::velocities).
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub fn velocities_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -223,9 +191,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`]; [`AnholonomicError::SingularFrame`](crate::AnholonomicError::SingularFrame) where
     /// the frame does not span the velocities.
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub fn quasi_velocities<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         check_length("q̇", q.len(), v.len())?;
         for (quantity, values) in [("q", q), ("q̇", v), ("t", &[t])] {
@@ -243,9 +208,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// [`LagrangianError::NotFinite`]; [`AnholonomicError::SingularFrame`](crate::AnholonomicError::SingularFrame) where a coframe has no inverse.
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub fn frame_matrix<T: Real>(&self, q: &[T], t: T) -> Result<DMatrix<T>, LagrangianError> {
         let n = q.len();
         check_finite("q", q)?;
@@ -259,9 +221,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// [`LagrangianError::NotFinite`], [`AnholonomicError::SingularFrame`](crate::AnholonomicError::SingularFrame).
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub fn coframe_matrix<T: Real>(&self, q: &[T], t: T) -> Result<DMatrix<T>, LagrangianError> {
         let n = q.len();
         check_finite("q", q)?;
@@ -293,9 +252,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// # Errors
     /// As [`velocities`](Self::velocities).
     ///
-    /// # Example
-    /// See [`InFrame`].
-    ///
     /// # Source
     /// W(6.29).
     pub fn momenta<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -309,9 +265,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// # Errors
     /// As [`velocities`](Self::velocities).
     ///
-    /// # Example
-    /// See [`InFrame`].
-    ///
     /// # Source
     /// W(6.21).
     pub fn generalised_forces<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -324,9 +277,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// As [`velocities`](Self::velocities).
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub fn energies<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<Energies<T>, LagrangianError> {
         let v = self.velocities(q, u, t)?;
         self.lagrangian.energies(q, v.as_slice(), t)
@@ -355,9 +305,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// # Accuracy
     /// A few ulp times the condition number of ḡ, scaled to unit diagonal, times that of the frame.
     ///
-    /// # Example
-    /// See [`InFrame`].
-    ///
     /// # Source
     /// W(6.29).
     pub fn acceleration<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -370,9 +317,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub fn acceleration_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -395,9 +339,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// See [`InFrame`].
     pub fn coordinate_acceleration<T: Real>(&self, q: &[T], u: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut work = Workspace::default();
         let mut rates = vec![T::zero(); q.len()];
@@ -407,9 +348,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     }
 
     /// The motion of n coordinates as a field in y = (q, u).
-    ///
-    /// # Example
-    /// See [`Nonholonomic::motion`](super::Nonholonomic::motion).
     pub fn motion<T: Real>(&self, coordinates: usize) -> QuasiMotion<'_, S, P, F, W, T> {
         QuasiMotion { system: self, coordinates, work: Workspace::default() }
     }
@@ -418,7 +356,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
 /// The motion in coordinates and quasi-velocities, y = (q, u).
 ///
 /// # Example
-/// See [`InFrame::motion`].
+/// See [`Nonholonomic::motion`](super::Nonholonomic::motion).
 #[derive(Clone, Debug)]
 pub struct QuasiMotion<'a, S, P, F, W, T = f64> {
     system: &'a InFrame<S, P, F, W>,

@@ -73,11 +73,8 @@ impl<S, P, F, W> InFrame<S, P, F, W> {
     /// Holds the quasi-velocities of the given indices at zero.
     ///
     /// # Errors
-    /// [`AnholonomicError::HeldTwice`](crate::AnholonomicError::HeldTwice). An index beyond the last quasi-velocity is refused at evaluation, when
+    /// [`AnholonomicError::HeldTwice`]. An index beyond the last quasi-velocity is refused at evaluation, when
     /// their number is known.
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     pub fn holding(self, held: &[usize]) -> Result<Nonholonomic<S, P, F, W>, LagrangianError> {
         let held: Vec<(usize, f64)> = held.iter().map(|&index| (index, 0.0)).collect();
         self.holding_at(&held)
@@ -86,32 +83,7 @@ impl<S, P, F, W> InFrame<S, P, F, W> {
     /// Holds quasi-velocities at constant values: a motor that keeps its speed.
     ///
     /// # Errors
-    /// [`AnholonomicError::HeldTwice`](crate::AnholonomicError::HeldTwice), [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::anholonomic::Coframe;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// struct Polar; // 2 kg in the plane
-    /// impl Holonomic for Polar {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[1].sin_cos();
-    ///         bodies.particle(2.0, Vector3::new(q[0] * c, q[0] * s, T::zero()));
-    ///     }
-    /// }
-    /// impl Coframe for Polar { // u = q̇
-    ///     fn coframe<T: Real>(&self, _q: &[T], _t: T, rows: &mut [T]) {
-    ///         rows.copy_from_slice(&[T::one(), T::zero(), T::zero(), T::one()]);
-    ///     }
-    /// }
-    /// // A tube is turned at 3 rad/s: r̈ = r Ω², by the moment 2 m r ṙ Ω = 6 N m at ṙ = 1 m/s, r = 0.5 m.
-    /// let tube = Lagrangian::of(Polar).in_coframe(Polar).holding_at(&[(1, 3.0)])?;
-    /// assert_eq!(tube.acceleration(&[0.5, 0.0], &[1.0], 0.0)?[0], 4.5);
-    /// assert_eq!(tube.reactions(&[0.5, 0.0], &[1.0], 0.0)?[0], 6.0);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
+    /// [`AnholonomicError::HeldTwice`], [`LagrangianError::NotFinite`].
     pub fn holding_at(self, held: &[(usize, f64)]) -> Result<Nonholonomic<S, P, F, W>, LagrangianError> {
         let mut sorted = held.to_vec();
         sorted.sort_by_key(|&(index, _)| index);
@@ -130,16 +102,10 @@ impl<S, P, F, W> Nonholonomic<S, P, F, W> {
         Self { system, held: held.to_vec(), values: vec![0.0; held.len()] }
     }
     /// The system with all its quasi-velocities.
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     pub const fn unconstrained(&self) -> &InFrame<S, P, F, W> {
         &self.system
     }
     /// The indices held, increasing: the order of [`reactions`](Self::reactions).
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     #[must_use]
     pub fn held(&self) -> &[usize] {
         &self.held
@@ -174,10 +140,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// All quasi-velocities u: the free ones and those held, each in its place.
     ///
     /// # Errors
-    /// [`LagrangianError::WrongLength`], [`AnholonomicError::NoSuchQuasiVelocity`](crate::AnholonomicError::NoSuchQuasiVelocity).
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
+    /// [`LagrangianError::WrongLength`], [`AnholonomicError::NoSuchQuasiVelocity`].
     pub fn quasi_velocities<T: Real>(&self, q: &[T], w: &[T]) -> Result<DVector<T>, LagrangianError> {
         let mut work = Workspace::default();
         self.spread(&mut work, q, w)?;
@@ -188,9 +151,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`quasi_velocities`](Self::quasi_velocities) and [`InFrame::velocities`].
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     pub fn velocities<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         self.system.velocities(q, self.quasi_velocities(q, w)?.as_slice(), t)
     }
@@ -199,9 +159,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`velocities`](Self::velocities).
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     pub fn energies<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<Energies<T>, LagrangianError> {
         self.system.energies(q, self.quasi_velocities(q, w)?.as_slice(), t)
     }
@@ -216,13 +173,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// | ẇ | returned | n − m | those of w / s |
     ///
     /// # Errors
-    /// As [`InFrame::acceleration`]; [`AnholonomicError::NoSuchQuasiVelocity`](crate::AnholonomicError::NoSuchQuasiVelocity).
-    ///
-    /// # Accuracy
-    /// As [`InFrame::acceleration`], with the metric of the free quasi-velocities.
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
+    /// As [`InFrame::acceleration`]; [`AnholonomicError::NoSuchQuasiVelocity`].
     pub fn acceleration<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut work = Workspace::default();
         self.solve(&mut work, q, w, t)?;
@@ -261,9 +212,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     pub fn coordinate_acceleration<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut work = Workspace::default();
         self.solve(&mut work, q, w, t)?;
@@ -278,9 +226,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
     ///
-    /// # Example
-    /// See [`Nonholonomic`].
-    ///
     /// # Source
     /// W(6.29).
     pub fn reactions<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
@@ -293,9 +238,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     pub fn reactions_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -316,9 +258,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     pub fn coordinate_reactions<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut work = Workspace::default();
         self.solve(&mut work, q, w, t)?;
@@ -335,9 +274,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
     ///
-    /// # Example
-    /// See [`rolling`](super::rolling).
-    ///
     /// # Source
     /// W(5.1–5.3).
     pub fn part_reactions<T: Real>(&self, q: &[T], w: &[T], t: T) -> Result<Vec<Reaction<T>>, LagrangianError> {
@@ -352,9 +288,6 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> Nonholonomic<S, 
     /// # Errors
     /// As [`part_reactions`](Self::part_reactions); [`LagrangianError::WrongLength`] when `out` does not have
     /// one place for each part.
-    ///
-    /// # Example
-    /// See [`Nonholonomic`].
     pub fn part_reactions_into<T: Real>(
         &self,
         work: &mut Workspace<T>,

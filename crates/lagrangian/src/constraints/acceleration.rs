@@ -30,15 +30,12 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`]; [`LagrangianError::SingularMetric`],
-    /// which names a motion without inertia that the constraints leave; [`ConstraintError::Redundant`](crate::ConstraintError::Redundant)
+    /// which names a motion without inertia that the constraints leave; [`ConstraintError::Redundant`]
     /// if so [asked](Redundancy::Refused).
     ///
     /// # Accuracy
     /// A few ulp times the condition numbers of M, scaled to unit diagonal, and of the independent gradients in
     /// units of their lengths in M.
-    ///
-    /// # Example
-    /// See [`Constrained`].
     pub fn acceleration<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut out = DVector::from_element(q.len(), T::zero());
         self.acceleration_into(&mut Workspace::default(), q, v, t, out.as_mut_slice())?;
@@ -91,12 +88,6 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Accuracy
-    /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// See [`Constrained`]; λ is in units of force, by those of φ, times m.
     pub fn multipliers<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut out = DVector::from_element(self.constraints.count(), T::zero());
         let mut acceleration = vec![T::zero(); q.len()];
@@ -129,12 +120,6 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Accuracy
-    /// As [`acceleration`](Self::acceleration).
-    ///
-    /// # Example
-    /// See [`Constrained`].
     pub fn reactions<T: Real>(&self, q: &[T], v: &[T], t: T) -> Result<DVector<T>, LagrangianError> {
         let mut out = DVector::from_element(q.len(), T::zero());
         self.reactions_into(&mut Workspace::default(), q, v, t, out.as_mut_slice())?;

@@ -16,7 +16,7 @@ use crate::{Forces, Potential};
 /// A state that satisfies the constraints, and how well.
 ///
 /// # Example
-/// See [`Constrained::assemble`].
+/// See [`Constrained::integrate`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Assembly {
@@ -52,39 +52,11 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// As [`check`](Self::check) and [`acceleration`](Self::acceleration);
-    /// [`ConstraintError::Inconsistent`](crate::ConstraintError::Inconsistent), where a constraint contradicts others on which its gradient
-    /// depends; [`ConstraintError::NotAssembled`](crate::ConstraintError::NotAssembled) where no such position is found near the guess.
+    /// [`ConstraintError::Inconsistent`], where a constraint contradicts others on which its gradient
+    /// depends; [`ConstraintError::NotAssembled`] where no such position is found near the guess.
     ///
     /// # Accuracy
     /// Residuals of a few ulp: they are returned.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::constraints::Constraints;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// # struct Bead;
-    /// # impl Holonomic for Bead {
-    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    /// #         bodies.particle(2.0, Vector3::new(q[0], q[1], T::zero()));
-    /// #     }
-    /// # }
-    /// # struct Circle;
-    /// # impl Constraints for Circle {
-    /// #     fn count(&self) -> usize {
-    /// #         1
-    /// #     }
-    /// #     fn residuals<T: Real>(&self, q: &[T], _t: T, out: &mut [T]) {
-    /// #         out[0] = q[0] * q[0] + q[1] * q[1] - T::lit(25.0);
-    /// #     }
-    /// # }
-    /// let bead = Lagrangian::of(Bead).with_constraints(Circle); // |x| = 5 m
-    /// let start = bead.assemble(&[6.0, 8.0], &[1.0, 1.0], 0.0)?;
-    /// assert!((start.coordinates[0] - 3.0).abs() < 1e-15 && (start.coordinates[1] - 4.0).abs() < 1e-15);
-    /// assert!((start.velocities[0] - 0.16).abs() < 1e-15 && (start.velocities[1] + 0.12).abs() < 1e-15);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn assemble(&self, q: &[f64], v: &[f64], t: f64) -> Result<Assembly, LagrangianError> {
         self.check(q, v, t)?;
         let (mut coordinates, mut velocities) = (q.to_vec(), v.to_vec());

@@ -62,9 +62,6 @@ impl<S, P, F, C: Constraints> Constrained<S, P, F, C> {
 
 impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F, C> {
     /// The residuals φ(q, t).
-    ///
-    /// # Example
-    /// See [`Constraints`].
     pub fn residuals<T: Real>(&self, q: &[T], t: T) -> DVector<T> {
         let mut out = DVector::from_element(self.constraints.count(), T::zero());
         self.constraints.residuals(q, t, out.as_mut_slice());
@@ -95,7 +92,7 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// As [`Lagrangian::check`](crate::Lagrangian::check);
-    /// [`ConstraintError::UndeclaredTimeDependence`](crate::ConstraintError::UndeclaredTimeDependence).
+    /// [`ConstraintError::UndeclaredTimeDependence`].
     pub fn check(&self, q: &[f64], v: &[f64], t: f64) -> Result<(), LagrangianError> {
         self.lagrangian.check(q, v, t)?;
         let mut work = Workspace::default();

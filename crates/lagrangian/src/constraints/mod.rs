@@ -150,9 +150,6 @@ const LEAST_SHARE: f64 = 1e-7;
 
 impl<S, P, F> Lagrangian<S, P, F> {
     /// The system with constraints φ(q, t) = 0.
-    ///
-    /// # Example
-    /// See [`Constrained`].
     pub fn with_constraints<C: Constraints>(self, constraints: C) -> Constrained<S, P, F, C> {
         Constrained { lagrangian: self, constraints, redundancy: Redundancy::Handled, least_share: LEAST_SHARE }
     }

@@ -17,10 +17,10 @@ use crate::{Forces, Potential};
 /// The independent constraints are chosen where the constraints are satisfied, at the start and after every
 /// projection, and kept in between: a loop that is not quite closed at a stage of a step may seem to have one
 /// condition more. A position where their number changes is singular: the motion may branch there, and the run
-/// ends with [`ConstraintError::Singular`](crate::ConstraintError::Singular).
+/// ends with [`ConstraintError::Singular`].
 ///
 /// # Example
-/// See [`Constrained::motion`].
+/// See [`Constrained::integrate`].
 #[derive(Clone, Debug)]
 pub struct ConstrainedMotion<'a, S, P, F, C> {
     system: &'a Constrained<S, P, F, C>,
@@ -37,36 +37,6 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// [`DormandPrince853`](piola_integrators::DormandPrince853) projects every accepted step ([`Field::project`]); with other methods the residuals
     /// grow slowly, by the error of each step.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_lagrangian::constraints::Constraints;
-    /// # use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// # use piola_numerics::Real;
-    /// use piola_integrators::{DormandPrince853, State, Tolerance};
-    /// # struct Bead;
-    /// # impl Holonomic for Bead {
-    /// #     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    /// #         bodies.particle(2.0, Vector3::new(q[0], q[1], T::zero()));
-    /// #     }
-    /// # }
-    /// # struct Circle;
-    /// # impl Constraints for Circle {
-    /// #     fn count(&self) -> usize {
-    /// #         1
-    /// #     }
-    /// #     fn residuals<T: Real>(&self, q: &[T], _t: T, out: &mut [T]) {
-    /// #         out[0] = q[0] * q[0] + q[1] * q[1] - T::lit(25.0);
-    /// #     }
-    /// # }
-    /// let bead = Lagrangian::of(Bead).with_constraints(Circle); // |x| = 5 m, at 10 m/s: 2 rad/s
-    /// let mut state = State::new(0.0, vec![5.0, 0.0, 0.0, 10.0])?;
-    /// DormandPrince853::new(Tolerance::relative(1e-12)?).integrate_to(&mut bead.motion(2), &mut state, 1.0)?;
-    /// assert!((state.values[0] - 5.0 * 2.0_f64.cos()).abs() < 1e-11);
-    /// assert!(bead.residuals(&state.values[..2], 1.0)[0].abs() < 1e-14);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn motion(&self, coordinates: usize) -> ConstrainedMotion<'_, S, P, F, C> {
         ConstrainedMotion { system: self, coordinates, work: Workspace::default(), rank: None, order: Vec::new() }
     }
@@ -103,7 +73,11 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     /// #         out[0] = q[0] * q[0] + q[1] * q[1] - T::lit(25.0);
     /// #     }
     /// # }
-    /// let bead = Lagrangian::of(Bead).with_constraints(Circle);
+    /// let bead = Lagrangian::of(Bead).with_constraints(Circle); // |x| = 5 m
+    /// let start = bead.assemble(&[6.0, 8.0], &[1.0, 1.0], 0.0)?;
+    /// assert!((start.coordinates[0] - 3.0).abs() < 1e-15 && (start.coordinates[1] - 4.0).abs() < 1e-15);
+    /// assert!((start.velocities[0] - 0.16).abs() < 1e-15 && (start.velocities[1] + 0.12).abs() < 1e-15);
+    /// // At 10 m/s: 2 rad/s.
     /// let run = bead.integrate(&[5.0, 0.0], &[0.0, 10.0], 0.0..10.0, Tolerance::relative(1e-11)?)?;
     /// assert!((run.last().0[0] - 5.0 * 20.0_f64.cos()).abs() < 1e-8);
     /// assert!(run.residual() < 1e-15 && run.error_estimate() < 1e-8);

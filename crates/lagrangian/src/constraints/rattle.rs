@@ -350,9 +350,6 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// As [`assemble`](Self::assemble).
-    ///
-    /// # Example
-    /// See [`Rattle`].
     pub fn canonical_state(&self, q: &[f64], v: &[f64], t: f64) -> Result<State, LagrangianError> {
         let assembly = self.assemble(q, v, t)?;
         let momenta = self.lagrangian.momenta(&assembly.coordinates, &assembly.velocities, t)?;

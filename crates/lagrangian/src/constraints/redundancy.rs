@@ -76,9 +76,6 @@ impl<S: Holonomic, P: Potential, F: Forces, C: Constraints> Constrained<S, P, F,
     ///
     /// # Errors
     /// As [`dependencies`](Self::dependencies).
-    ///
-    /// # Example
-    /// See [`Constrained`].
     pub fn degrees_of_freedom(&self, q: &[f64], t: f64) -> Result<usize, LagrangianError> {
         let mut work = Workspace::default();
         self.choose_at(&mut work, q, t)?;

@@ -31,25 +31,16 @@ pub struct ComplexMode {
 
 impl ComplexMode {
     /// |Im λ|, rad/s.
-    ///
-    /// # Example
-    /// See [`ComplexModes`].
     #[must_use]
     pub fn angular_frequency(&self) -> f64 {
         self.eigenvalue.im
     }
     /// Re λ, 1/s: negative where the motion decays.
-    ///
-    /// # Example
-    /// See [`ComplexModes`].
     #[must_use]
     pub fn growth_rate(&self) -> f64 {
         self.eigenvalue.re
     }
     /// ζ = −Re λ/|λ|: one at and beyond critical damping, negative for growth, zero for λ = 0.
-    ///
-    /// # Example
-    /// See [`ComplexModes`].
     #[must_use]
     pub fn damping_ratio(&self) -> f64 {
         let size = self.eigenvalue.norm();
@@ -91,9 +82,6 @@ pub struct ComplexModes {
 impl ComplexModes {
     /// The verdict of the real parts, each against its uncertainty; [`Linearisation::stability`] looks at
     /// energies first.
-    ///
-    /// # Example
-    /// See [`ComplexModes`].
     #[must_use]
     pub fn stability(&self) -> Stability {
         if self.modes.iter().any(|mode| mode.uncertainty < mode.eigenvalue.re) {
@@ -217,14 +205,11 @@ impl Linearisation {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`] unless all matrices are n×n; [`LagrangianError::SingularMetric`],
-    /// [`LagrangianError::NotFinite`], [`SmallMotionsError::NoEigenvalues`](crate::SmallMotionsError::NoEigenvalues).
+    /// [`LagrangianError::NotFinite`], [`SmallMotionsError::NoEigenvalues`].
     ///
     /// # Accuracy
     /// Each λ to its `uncertainty`: 8n ulp of |λ|² + |λ||D| + |K| over the rate at which the pencil changes
     /// with λ, and no better than the square root of that where two modes merge.
-    ///
-    /// # Example
-    /// See [`ComplexModes`].
     pub fn complex_modes(&self) -> Result<ComplexModes, LagrangianError> {
         let n = self.coordinates();
         self.check()?;

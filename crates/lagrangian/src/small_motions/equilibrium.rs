@@ -18,7 +18,7 @@ const HALVINGS: usize = 40;
 /// A place where the system stays at rest, with what shows that it is one.
 ///
 /// # Example
-/// See [`Lagrangian::equilibrium`].
+/// See [`Lagrangian::linearise`].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "Unchecked"))]
 pub struct Equilibrium {
@@ -47,34 +47,13 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// in the forces: the bead at rest on a hoop that turns steadily.
     ///
     /// # Errors
-    /// [`SmallMotionsError::SingularStiffness`](crate::SmallMotionsError::SingularStiffness) when the equilibrium is not isolated, or no force answers a
-    /// displacement that the search needs; it names the direction. [`SmallMotionsError::NoEquilibrium`](crate::SmallMotionsError::NoEquilibrium) when the
+    /// [`SmallMotionsError::SingularStiffness`] when the equilibrium is not isolated, or no force answers a
+    /// displacement that the search needs; it names the direction. [`SmallMotionsError::NoEquilibrium`] when the
     /// forces do not get smaller any more. [`LagrangianError::NotFinite`] and what [`check`](Self::check) finds
     /// wrong at the guess.
     ///
     /// # Accuracy
     /// See [`Equilibrium::residual`] and [`Equilibrium::condition`].
-    ///
-    /// # Example
-    /// A pendulum, blown at by a horizontal force of its own weight, hangs at 45°.
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_lagrangian::{Holonomic, Lagrangian, Placement};
-    /// use piola_lagrangian::small_motions::Stability;
-    /// use piola_numerics::Real;
-    /// struct Pendulum;
-    /// impl Holonomic for Pendulum {
-    ///     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
-    ///         let (s, c) = q[0].sin_cos();
-    ///         bodies.particle(3.0, Vector3::new(s, T::zero(), -c));
-    ///     }
-    /// }
-    /// let blown = Lagrangian::of(Pendulum).with_uniform_gravity([10.0, 0.0, -10.0]);
-    /// let found = blown.equilibrium(&[0.0], 0.0)?;
-    /// assert!((found.coordinates[0] - std::f64::consts::FRAC_PI_4).abs() < 1e-15);
-    /// assert_eq!(found.stability, Stability::Stable);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     ///
     /// # Source
     /// W(6.3) at rest.

@@ -74,6 +74,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// A pendulum of 3 kg and 2 m hanging under 10 m/s²: M = m l² = 12, K = m g l = 60.
     /// ```
     /// use nalgebra::Vector3;
+    /// use piola_lagrangian::small_motions::Stability;
     /// use piola_lagrangian::{Holonomic, Lagrangian, Placement};
     /// use piola_numerics::Real;
     /// struct Pendulum;
@@ -87,6 +88,10 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// assert_eq!((hanging.mass_matrix[(0, 0)], hanging.stiffness[(0, 0)]), (12.0, 60.0));
     /// let frequency = hanging.normal_modes()?.angular_frequencies()[0];
     /// assert!((frequency - 5.0_f64.sqrt()).abs() < 1e-15); // √(g/l)
+    /// // Blown at by a horizontal force of its own weight it hangs at 45°.
+    /// let found = Lagrangian::of(Pendulum).with_uniform_gravity([10.0, 0.0, -10.0]).equilibrium(&[0.0], 0.0)?;
+    /// assert!((found.coordinates[0] - std::f64::consts::FRAC_PI_4).abs() < 1e-15);
+    /// assert_eq!(found.stability, Stability::Stable);
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     ///
@@ -204,18 +209,12 @@ impl<T: Real> Linearisation<T> {
     }
 
     /// The number of coordinates, n.
-    ///
-    /// # Example
-    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn coordinates(&self) -> usize {
         self.mass_matrix.nrows()
     }
 
     /// C + G, what multiplies δq̇.
-    ///
-    /// # Example
-    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn velocity_matrix(&self) -> DMatrix<T> {
         let n = self.coordinates();
@@ -223,9 +222,6 @@ impl<T: Real> Linearisation<T> {
     }
 
     /// K + N, what multiplies δq.
-    ///
-    /// # Example
-    /// See [`Linearisation::state_matrix`].
     #[must_use]
     pub fn position_matrix(&self) -> DMatrix<T> {
         let n = self.coordinates();
@@ -263,6 +259,8 @@ impl<T: Real> Linearisation<T> {
     /// assert_eq!(spring_and_damper.position_matrix(), dmatrix![8.0]);
     /// assert_eq!(spring_and_damper.velocity_matrix(), dmatrix![6.0]);
     /// assert_eq!(spring_and_damper.coordinates(), 1);
+    /// // 1 N moves 2 kg with 0.5 m/s².
+    /// assert_eq!(spring_and_damper.input_matrix(&dmatrix![1.0])?, dmatrix![0.0; 0.5]);
     /// # Ok::<(), piola_lagrangian::LagrangianError>(())
     /// ```
     pub fn state_matrix(&self) -> Result<DMatrix<T>, LagrangianError> {
@@ -299,23 +297,6 @@ impl<T: Real> Linearisation<T> {
     /// # Errors
     /// [`LagrangianError::WrongLength`] unless W has n rows and all matrices are n×n; [`LagrangianError::NotFinite`];
     /// [`LagrangianError::SingularMetric`].
-    ///
-    /// # Example
-    /// ```
-    /// # use piola_lagrangian::small_motions::Linearisation;
-    /// # use nalgebra::{dmatrix, dvector};
-    /// let zero = dmatrix![0.0];
-    /// let mass = Linearisation {
-    ///     acceleration: dvector![0.0],
-    ///     mass_matrix: dmatrix![2.0],
-    ///     damping: zero.clone(),
-    ///     gyroscopic: zero.clone(),
-    ///     stiffness: zero.clone(),
-    ///     circulatory: zero,
-    /// };
-    /// assert_eq!(mass.input_matrix(&dmatrix![1.0])?, dmatrix![0.0; 0.5]); // 1 N moves 2 kg with 0.5 m/s²
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn input_matrix(&self, inputs: &DMatrix<T>) -> Result<DMatrix<T>, LagrangianError> {
         self.check()?;
         let n = self.coordinates();

@@ -79,9 +79,6 @@ pub enum ModeMotion {
 
 impl NormalModes {
     /// How mode number `mode` moves; `None` beyond the last.
-    ///
-    /// # Example
-    /// See [`NormalModes`].
     #[must_use]
     pub fn motion(&self, mode: usize) -> Option<ModeMotion> {
         let (&square, &uncertainty) = (self.squares.get(mode)?, self.uncertainties.get(mode)?);
@@ -95,9 +92,6 @@ impl NormalModes {
     }
 
     /// ω of the modes that oscillate, rad/s, rising.
-    ///
-    /// # Example
-    /// See [`NormalModes`].
     #[must_use]
     pub fn angular_frequencies(&self) -> Vec<f64> {
         let oscillating = |mode| match self.motion(mode) {
@@ -118,14 +112,11 @@ impl Linearisation {
     ///
     /// # Errors
     /// [`LagrangianError::WrongLength`] unless all matrices are n×n; [`LagrangianError::SingularMetric`],
-    /// [`LagrangianError::NotFinite`], [`SmallMotionsError::NoEigenvalues`](crate::SmallMotionsError::NoEigenvalues).
+    /// [`LagrangianError::NotFinite`], [`SmallMotionsError::NoEigenvalues`].
     ///
     /// # Accuracy
     /// Each ω² to a few n ulp of Σ|φ_i||K_ij||φ_j|, which `uncertainties` holds; shapes to some n ulp ×
     /// (condition number of M scaled to unit diagonal) × (largest ω²)/(distance to the nearest other ω²).
-    ///
-    /// # Example
-    /// See [`NormalModes`].
     pub fn normal_modes(&self) -> Result<NormalModes, LagrangianError> {
         let n = self.coordinates();
         self.check()?;

@@ -10,7 +10,7 @@ use crate::{LagrangianError, SmallMotionsError};
 /// What becomes of a small disturbance.
 ///
 /// # Example
-/// See [`Linearisation::stability`].
+/// See [`ComplexModes`](super::ComplexModes).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -36,24 +36,6 @@ impl Linearisation {
     ///
     /// # Errors
     /// As [`complex_modes`](Self::complex_modes).
-    ///
-    /// # Example
-    /// A pendulum upright: K < 0.
-    /// ```
-    /// use nalgebra::{dmatrix, dvector};
-    /// use piola_lagrangian::small_motions::{Linearisation, Stability};
-    /// let zero = dmatrix![0.0];
-    /// let upright = Linearisation {
-    ///     acceleration: dvector![0.0],
-    ///     mass_matrix: dmatrix![1.0],
-    ///     damping: zero.clone(),
-    ///     gyroscopic: zero.clone(),
-    ///     stiffness: dmatrix![-9.8],
-    ///     circulatory: zero,
-    /// };
-    /// assert_eq!(upright.stability()?, Stability::Unstable);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn stability(&self) -> Result<Stability, LagrangianError> {
         self.check()?;
         let n = self.coordinates();

@@ -35,9 +35,6 @@ impl<H: PhaseFunction + Sync, C: InitialFront<2, 1> + Sync> WaveFront<'_, H, C, 
     /// Crossings are those of the polyline, exact to the square of its spacing; [`refine`](WaveFront::refine) first. A
     /// loop without any caustic in it, where two distant arms of one front cross, is kept: which of its sides came
     /// first the front alone does not tell.
-    ///
-    /// # Example
-    /// See [`WaveFront`].
     #[must_use]
     pub fn first_arrival(&self) -> Vec<ArrivedPiece> {
         let closed = matches!(self.mesh, Mesh::Polyline { period: Some(_) });

@@ -31,7 +31,7 @@ impl<H: PhaseFunction + Sync, C: InitialFront<2, 1> + Sync> WaveFront<'_, H, C, 
     /// ray's: where Huygens' principle holds it lies on the front advanced by ΔS, at the end of the ray.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::NotFound`](crate::HamiltonJacobiError::NotFound) where the determinant has no change of sign in that range, as at a caustic;
+    /// [`HamiltonJacobiError::NotFound`] where the determinant has no change of sign in that range, as at a caustic;
     /// [`HamiltonianError::NotFinite`]; [`HamiltonianError::WrongLength`] when there is no such ray.
     ///
     /// # Accuracy

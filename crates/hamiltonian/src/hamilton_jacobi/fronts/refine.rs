@@ -22,7 +22,7 @@ impl<H: PhaseFunction + Sync, C: InitialFront<N, M> + Sync, const N: usize, cons
     /// halved together, so that meshes stay without gaps.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::InvalidLength`](crate::HamiltonJacobiError::InvalidLength) unless 0 < longest < ∞; those of the start of a front and of
+    /// [`HamiltonJacobiError::InvalidLength`] unless 0 < longest < ∞; those of the start of a front and of
     /// [`advance`](Self::advance). The front then stays as it was.
     pub fn refine(&mut self, longest: f64) -> Result<usize, HamiltonianError> {
         if !(0.0 < longest && longest < f64::INFINITY) {

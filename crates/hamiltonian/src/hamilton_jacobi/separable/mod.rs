@@ -105,7 +105,7 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
     /// The motion through a state (q₀, p₀) at t₀.
     ///
     /// # Errors
-    /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`]; [`HamiltonJacobiError::ForbiddenCoordinate`](crate::HamiltonJacobiError::ForbiddenCoordinate)
+    /// [`HamiltonianError::WrongLength`], [`HamiltonianError::NotFinite`]; [`HamiltonJacobiError::ForbiddenCoordinate`]
     /// where a separated square is negative there.
     pub fn through(system: &'a S, (q, p, time): (&[f64], &[f64], f64)) -> Result<Self, HamiltonianError> {
         let n = system.freedom();
@@ -142,8 +142,8 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
     /// The state at a time.
     ///
     /// # Errors
-    /// [`HamiltonianError::NotFinite`]; [`HamiltonianError::QuadratureNotConverged`]; [`HamiltonJacobiError::NotFound`](crate::HamiltonJacobiError::NotFound) when the
-    /// equations of the motion could not be solved, as behind a collision; [`HamiltonJacobiError::IncompleteIntegral`](crate::HamiltonJacobiError::IncompleteIntegral).
+    /// [`HamiltonianError::NotFinite`]; [`LagrangianError::QuadratureNotConverged`](piola_lagrangian::LagrangianError::QuadratureNotConverged); [`HamiltonJacobiError::NotFound`] when the
+    /// equations of the motion could not be solved, as behind a collision; [`HamiltonJacobiError::IncompleteIntegral`].
     pub fn at(&self, t: f64) -> Result<(Vec<f64>, Vec<f64>), HamiltonianError> {
         check_finite("t", &[t])?;
         let n = self.start.len();
@@ -220,9 +220,9 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
     /// may begin and end at turning points.
     ///
     /// # Errors
-    /// [`HamiltonJacobiError::ForbiddenCoordinate`](crate::HamiltonJacobiError::ForbiddenCoordinate) when an end lies beyond the turning points of the motion;
+    /// [`HamiltonJacobiError::ForbiddenCoordinate`] when an end lies beyond the turning points of the motion;
     /// [`HamiltonianError::WrongLength`] when there is no such coordinate;
-    /// [`HamiltonianError::QuadratureNotConverged`]; [`HamiltonianError::NotFinite`].
+    /// [`LagrangianError::QuadratureNotConverged`](piola_lagrangian::LagrangianError::QuadratureNotConverged); [`HamiltonianError::NotFinite`].
     ///
     /// # Example
     /// ```
@@ -265,7 +265,7 @@ impl<'a, S: Separable> SeparableMotion<'a, S> {
     /// there are not two.
     ///
     /// # Errors
-    /// [`HamiltonianError::QuadratureNotConverged`].
+    /// [`LagrangianError::QuadratureNotConverged`](piola_lagrangian::LagrangianError::QuadratureNotConverged).
     pub fn loop_integral(&self, coordinate: usize) -> Result<Option<f64>, HamiltonianError> {
         match self.turning_points(coordinate) {
             (Some(a), Some(b)) => Ok(Some(2.0 * self.integral(coordinate, (a, b))?.action)),

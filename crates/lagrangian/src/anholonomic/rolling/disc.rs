@@ -34,6 +34,9 @@ use crate::{Holonomic, Lagrangian, Placement};
 /// let contact = disc.part_reactions(&q, &w, 0.0)?[0];
 /// assert!((contact.force().z - 20.0).abs() < 1e-14);
 /// assert!(disc.reactions(&q, &w, 0.0)?.amax() < 1e-14);
+/// // Inclined, it goes round evenly if it spins as fast as this.
+/// let spin = RollingDisc::homogeneous(2.0, 0.5)?.steady_spin(1.0, 3.0, 10.0)?;
+/// assert!(disc.acceleration(&[0.0, 0.0, 0.0, 1.0, 0.0], &[3.0, 0.0, spin], 0.0)?.amax() < 1e-13);
 /// # Ok::<(), piola_lagrangian::LagrangianError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,9 +54,6 @@ impl RollingDisc {
     ///
     /// # Errors
     /// [`AnholonomicError::InvalidLength`](crate::AnholonomicError::InvalidLength).
-    ///
-    /// # Example
-    /// See [`RollingDisc`].
     pub fn new(body: RigidBody, radius: f64) -> Result<Self, LagrangianError> {
         Ok(Self { body, radius: check_length("radius", radius)? })
     }
@@ -62,9 +62,6 @@ impl RollingDisc {
     ///
     /// # Errors
     /// [`AnholonomicError::InvalidLength`](crate::AnholonomicError::InvalidLength); [`LagrangianError::Kinematics`] for a mass that is not positive.
-    ///
-    /// # Example
-    /// See [`RollingDisc`].
     pub fn homogeneous(mass: f64, radius: f64) -> Result<Self, LagrangianError> {
         let moment = 0.25 * mass * check_length("radius", radius)?.powi(2);
         Self::new(RigidBody::new(mass, Inertia::principal([moment, moment, 2.0 * moment])?)?, radius)
@@ -74,22 +71,12 @@ impl RollingDisc {
     ///
     /// # Errors
     /// As [`homogeneous`](Self::homogeneous).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::anholonomic::rolling::RollingDisc;
-    /// assert_eq!(RollingDisc::hoop(2.0, 0.5)?.body().inertia().matrix()[(2, 2)], 0.5); // M R²
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn hoop(mass: f64, radius: f64) -> Result<Self, LagrangianError> {
         let moment = 0.5 * mass * check_length("radius", radius)?.powi(2);
         Self::new(RigidBody::new(mass, Inertia::principal([moment, moment, 2.0 * moment])?)?, radius)
     }
 
     /// The disc on its plane under uniform gravity (m/s², any direction).
-    ///
-    /// # Example
-    /// See [`RollingDisc`].
     #[must_use]
     pub fn on_plane(self, gravity: [f64; 3]) -> OnPlane<Self> {
         let free = Lagrangian::of(self).with_uniform_gravity(gravity).in_frame(self);
@@ -97,18 +84,12 @@ impl RollingDisc {
     }
 
     /// The body.
-    ///
-    /// # Example
-    /// See [`hoop`](Self::hoop).
     #[must_use]
     pub const fn body(&self) -> &RigidBody {
         &self.body
     }
 
     /// The radius, m.
-    ///
-    /// # Example
-    /// See [`RollingDisc`].
     #[must_use]
     pub const fn radius(&self) -> f64 {
         self.radius
@@ -133,17 +114,6 @@ impl RollingDisc {
     ///
     /// # Errors
     /// [`LagrangianError::NotFinite`] for Ω sin θ² = 0.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::anholonomic::rolling::RollingDisc;
-    /// let disc = RollingDisc::homogeneous(2.0, 0.5)?;
-    /// let (theta, turn) = (1.0, 3.0);
-    /// let spin = disc.steady_spin(theta, turn, 10.0)?;
-    /// let rates = disc.on_plane([0.0, 0.0, -10.0]).acceleration(&[0.0, 0.0, 0.0, theta, 0.0], &[turn, 0.0, spin], 0.0)?;
-    /// assert!(rates.amax() < 1e-13);
-    /// # Ok::<(), piola_lagrangian::LagrangianError>(())
-    /// ```
     pub fn steady_spin(&self, inclination: f64, turn: f64, gravity: f64) -> Result<f64, LagrangianError> {
         let (s, c) = inclination.sin_cos();
         let (inertia, mass, radius) = (self.body.inertia().matrix(), self.body.mass(), self.radius);

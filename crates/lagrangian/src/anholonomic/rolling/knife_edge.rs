@@ -46,9 +46,6 @@ impl KnifeEdge {
     ///
     /// # Errors
     /// [`LagrangianError::Kinematics`] for mass or moment that are not positive, [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`KnifeEdge`].
     pub fn new(mass: f64, moment: f64, ahead: f64) -> Result<Self, LagrangianError> {
         // Only the moment about the vertical plays a role.
         Self::of_body(RigidBody::new(mass, Inertia::principal([moment; 3])?)?, ahead)
@@ -58,18 +55,12 @@ impl KnifeEdge {
     ///
     /// # Errors
     /// [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`KnifeEdge`].
     pub fn of_body(body: RigidBody, ahead: f64) -> Result<Self, LagrangianError> {
         check_finite("distance of the centre of mass", &[ahead])?;
         Ok(Self { body, ahead })
     }
 
     /// The body on its plane under uniform gravity (m/s², any direction).
-    ///
-    /// # Example
-    /// See [`KnifeEdge`].
     #[must_use]
     pub fn on_plane(self, gravity: [f64; 3]) -> OnPlane<Self> {
         let free = Lagrangian::of(self).with_uniform_gravity(gravity).in_frame(self);

@@ -50,9 +50,6 @@ impl RollingSphere {
     ///
     /// # Errors
     /// [`AnholonomicError::InvalidLength`](crate::AnholonomicError::InvalidLength).
-    ///
-    /// # Example
-    /// See [`RollingSphere`].
     pub fn new(body: RigidBody, radius: f64) -> Result<Self, LagrangianError> {
         Ok(Self { body, radius: check_length("radius", radius)?, table_rate: 0.0 })
     }
@@ -61,9 +58,6 @@ impl RollingSphere {
     ///
     /// # Errors
     /// [`AnholonomicError::InvalidLength`](crate::AnholonomicError::InvalidLength); [`LagrangianError::Kinematics`] for a mass that is not positive.
-    ///
-    /// # Example
-    /// See [`RollingSphere`].
     pub fn homogeneous(mass: f64, radius: f64) -> Result<Self, LagrangianError> {
         let moment = 0.4 * mass * check_length("radius", radius)?.powi(2);
         Self::new(RigidBody::new(mass, Inertia::principal([moment; 3])?)?, radius)
@@ -73,9 +67,6 @@ impl RollingSphere {
     ///
     /// # Errors
     /// [`LagrangianError::NotFinite`].
-    ///
-    /// # Example
-    /// See [`RollingSphere`].
     pub fn on_turntable(mut self, rate: f64) -> Result<Self, LagrangianError> {
         crate::check::check_finite("rate of the table", &[rate])?;
         self.table_rate = rate;
@@ -83,9 +74,6 @@ impl RollingSphere {
     }
 
     /// The sphere on its plane under uniform gravity (m/s², any direction).
-    ///
-    /// # Example
-    /// See [`RollingSphere`].
     #[must_use]
     pub fn on_plane(self, gravity: [f64; 3]) -> OnPlane<Self> {
         let free = Lagrangian::of(self).with_uniform_gravity(gravity).in_frame(self);
@@ -93,21 +81,12 @@ impl RollingSphere {
     }
 
     /// The coordinates of a sphere at (x, y) whose axes are those of space.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_lagrangian::anholonomic::rolling::RollingSphere;
-    /// assert_eq!(RollingSphere::coordinates(2.0, 3.0), [2.0, 3.0, 1.0, 0.0, 0.0, 0.0]);
-    /// ```
     #[must_use]
     pub const fn coordinates(x: f64, y: f64) -> [f64; 6] {
         [x, y, 1.0, 0.0, 0.0, 0.0]
     }
 
     /// The radius, m.
-    ///
-    /// # Example
-    /// See [`RollingSphere`].
     #[must_use]
     pub const fn radius(&self) -> f64 {
         self.radius
