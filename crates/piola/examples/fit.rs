@@ -1,10 +1,10 @@
 //! Parameters from measurements: a law of rubber from a bar that was pulled, a fluid from its flow curve.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use piola::fit::solids::{AnyModel, Data, Measure, Options, Table, Test, fit};
-use piola::fluids::PowerLaw;
 use piola::fit::fluids as flow;
 use piola::fit::fluids::{FlowData, fit_flow};
+use piola::fit::solids::{AnyModel, Data, Measure, Options, Table, Test, fit};
+use piola::fluids::PowerLaw;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Nominal stresses 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ) of C₁₀ = 0.3, C₀₁ = 0.1 MPa, rounded to four decimals.

@@ -10,8 +10,8 @@
 use core::f64::consts::TAU;
 
 use nalgebra::Vector2;
-use piola::hamiltonian::hamilton_jacobi::{Event, GeodeticDistance};
 use piola::hamiltonian::PhaseFunction;
+use piola::hamiltonian::hamilton_jacobi::{Event, GeodeticDistance};
 use piola::numerics::Real;
 
 /// H = ½ p² − 1/r in the plane: μ = 1.

@@ -2,8 +2,8 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use nalgebra::Vector3;
-use piola::lagrangian::{Forces, Holonomic, Lagrangian, Placement};
 use piola::integrators::Tolerance;
+use piola::lagrangian::{Forces, Holonomic, Lagrangian, Placement};
 use piola::numerics::Real;
 
 /// 0.2 kg on a hoop of 0.5 m, started from rest: it turns by ½ α t² about its vertical diameter.

@@ -2,8 +2,8 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use nalgebra::Vector3;
-use piola::lagrangian::{Holonomic, Lagrangian, Placement};
 use piola::integrators::{Crossing, DormandPrince853, Event, EventAction, State, Tolerance};
+use piola::lagrangian::{Holonomic, Lagrangian, Placement};
 use piola::numerics::Real;
 use std::ops::ControlFlow::Continue;
 

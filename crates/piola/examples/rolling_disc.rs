@@ -1,8 +1,8 @@
 //! A coin set rolling on a table: the path of its point of contact, the force there, and how well energy is kept.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use piola::lagrangian::anholonomic::rolling::RollingDisc;
 use piola::integrators::{DormandPrince853, State, Tolerance};
+use piola::lagrangian::anholonomic::rolling::RollingDisc;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // 5.7 g, 24 mm across: a coin. It knows its placement (one body), its frame (what rolls and what would slip),

@@ -1,9 +1,9 @@
 //! Rubber: stress and tangent of a law in shear, and the stress of a bar that is pulled.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use piola::specimens::homogeneous::{Mode, nominal_stress};
-use piola::solids::{Hyperelastic, MooneyRivlin};
 use piola::continuum::DeformationGradient;
+use piola::solids::{Hyperelastic, MooneyRivlin};
+use piola::specimens::homogeneous::{Mode, nominal_stress};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (c10, c01) = (0.3e6, 0.1e6);

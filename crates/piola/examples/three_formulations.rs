@@ -9,10 +9,10 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use nalgebra::Vector3;
-use piola::lagrangian::{ChangeOfCoordinates, Holonomic, Lagrangian, LagrangianFunction, Placement};
-use piola::lagrangian::newton_euler::particle_acceleration;
 use piola::kinematics::particle::Motion;
 use piola::kinematics::placement::PlacementEvaluator;
+use piola::lagrangian::newton_euler::particle_acceleration;
+use piola::lagrangian::{ChangeOfCoordinates, Holonomic, Lagrangian, LagrangianFunction, Placement};
 use piola::numerics::Real;
 
 const MASS: [f64; 2] = [1.0, 0.5];

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use piola_solids::SolidsError;
+use piola_fit::FitError;
 use piola_viscometry::ViscometryError;
 
 use crate::document::Report;
@@ -88,7 +88,7 @@ pub enum SceneError {
     },
     /// A law or its data are refused.
     #[error(transparent)]
-    Constitutive(#[from] ConstitutiveError),
+    Fit(#[from] FitError),
     /// A fluid or its data are refused.
     #[error(transparent)]
     Viscometry(#[from] ViscometryError),

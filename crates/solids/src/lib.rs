@@ -18,6 +18,30 @@ macro_rules! rows_of_upper_triangle {
     };
 }
 
+/// Reads a law through the constructor that checks it; a field `as "old"` is also read by its older name.
+macro_rules! read_with {
+    ($constructor:ident of $law:ident<$($generic:ident: $bound:ident),*> {
+        $($(#[$about:meta])* $field:ident $(as $old:literal)?: $type:ty),+ $(,)?
+    }) => {
+        /// What is written of the law.
+        #[cfg(feature = "serde")]
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Written<$($generic),*> {
+            $($(#[$about])* $(#[serde(alias = $old)])? $field: $type,)+
+        }
+
+        #[cfg(feature = "serde")]
+        impl<$($generic: $bound),*> TryFrom<Written<$($generic),*>> for $law<$($generic),*> {
+            type Error = $crate::SolidsError;
+
+            fn try_from(written: Written<$($generic),*>) -> Result<Self, $crate::SolidsError> {
+                Self::$constructor($(written.$field),+)
+            }
+        }
+    };
+}
+
 mod anisotropic;
 mod any;
 #[cfg(feature = "batch")]

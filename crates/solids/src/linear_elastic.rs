@@ -57,8 +57,10 @@ impl LinearElastic {
     /// # Errors
     /// [`SolidsError::OutOfBounds`] where ν = ½: strain does not determine the stress.
     pub fn new(constants: ElasticConstants) -> Result<Self, SolidsError> {
-        let Some(lambda) = constants.lame() else {
-            return Err(SolidsError::OutOfBounds { law: LAW, parameter: "nu", value: 0.5, bound: "ν < ½" });
+        let Some(lambda) = constants.first_lame_parameter() else {
+            return Err(SolidsError::OutOfBounds {
+                law: LAW, parameter: "poisson_ratio", value: 0.5, bound: "ν < ½"
+            });
         };
         Ok(Self { constants, lambda })
     }

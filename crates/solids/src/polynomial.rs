@@ -150,7 +150,8 @@ impl Polynomial {
     ///
     /// # Source
     /// B(4.67).
-    pub fn saint_venant_kirchhoff(lambda: f64, mu: f64) -> Result<Self, SolidsError> {
+    pub fn saint_venant_kirchhoff(first_lame_parameter: f64, shear_modulus: f64) -> Result<Self, SolidsError> {
+        let (lambda, mu) = (first_lame_parameter, shear_modulus);
         let term = |first, second, coefficient| PolynomialTerm { first, second, third: 0, coefficient };
         Self::stress_free(vec![term(1, 0, mu), term(2, 0, 0.125 * (lambda + 2.0 * mu)), term(0, 1, -0.5 * mu)])
     }

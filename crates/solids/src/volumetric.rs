@@ -118,7 +118,7 @@ parameters! {
     /// ```
     pub struct Quadratic("quadratic volumetric energy") {
         /// κ, Pa.
-        kappa: "0 ≤ κ" => 0.0 <= kappa,
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
     }
 }
 
@@ -127,19 +127,19 @@ impl Volumetric for Quadratic {
 
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, _jacobian: T) -> T {
-        T::lit(0.5 * self.kappa) * (change * change)
+        T::lit(0.5 * self.bulk_modulus) * (change * change)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * change)
+        T::lit(self.bulk_modulus) * (jacobian * change)
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, _change: T, _jacobian: T) -> T {
-        T::lit(self.kappa)
+        T::lit(self.bulk_modulus)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * (jacobian + change))
+        T::lit(self.bulk_modulus) * (jacobian * (jacobian + change))
     }
 }
 
@@ -157,7 +157,7 @@ parameters! {
     /// ```
     pub struct Logarithmic("logarithmic volumetric energy") {
         /// κ, Pa.
-        kappa: "0 ≤ κ" => 0.0 <= kappa,
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
     }
 }
 
@@ -167,20 +167,20 @@ impl Volumetric for Logarithmic {
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let logarithm = change.ln_1p_given(jacobian);
-        T::lit(0.5 * self.kappa) * (logarithm * logarithm)
+        T::lit(0.5 * self.bulk_modulus) * (logarithm * logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * change.ln_1p_given(jacobian)
+        T::lit(self.bulk_modulus) * change.ln_1p_given(jacobian)
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
-        T::lit(self.kappa) * (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal)
+        T::lit(self.bulk_modulus) * (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, _change: T, _jacobian: T) -> T {
-        T::lit(self.kappa)
+        T::lit(self.bulk_modulus)
     }
 }
 
@@ -199,7 +199,7 @@ parameters! {
     /// ```
     pub struct Lame("volumetric energy of Lamé's λ") {
         /// λ, Pa.
-        lambda: "finite" => true,
+        first_lame_parameter as "lambda": "finite" => true,
     }
 }
 
@@ -210,20 +210,20 @@ impl Volumetric for Lame {
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let logarithm = change.ln_1p_given(jacobian);
-        T::lit(0.5 * self.lambda) * (logarithm * logarithm)
+        T::lit(0.5 * self.first_lame_parameter) * (logarithm * logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.lambda) * change.ln_1p_given(jacobian)
+        T::lit(self.first_lame_parameter) * change.ln_1p_given(jacobian)
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
-        T::lit(self.lambda) * (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal)
+        T::lit(self.first_lame_parameter) * (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, _change: T, _jacobian: T) -> T {
-        T::lit(self.lambda)
+        T::lit(self.first_lame_parameter)
     }
 }
 
@@ -242,7 +242,7 @@ parameters! {
     /// ```
     pub struct QuadraticLogarithmic("quadratic–logarithmic volumetric energy") {
         /// κ, Pa.
-        kappa: "0 ≤ κ" => 0.0 <= kappa,
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
     }
 }
 
@@ -252,21 +252,21 @@ impl Volumetric for QuadraticLogarithmic {
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let logarithm = change.ln_1p_given(jacobian);
-        T::lit(0.25 * self.kappa) * (change * change + logarithm * logarithm)
+        T::lit(0.25 * self.bulk_modulus) * (change * change + logarithm * logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(0.5 * self.kappa) * (jacobian * change + change.ln_1p_given(jacobian))
+        T::lit(0.5 * self.bulk_modulus) * (jacobian * change + change.ln_1p_given(jacobian))
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         let beyond = (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal);
-        T::lit(0.5 * self.kappa) * (T::one() + beyond)
+        T::lit(0.5 * self.bulk_modulus) * (T::one() + beyond)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(0.5 * self.kappa) * (jacobian * (jacobian + change) + T::one())
+        T::lit(0.5 * self.bulk_modulus) * (jacobian * (jacobian + change) + T::one())
     }
 }
 
@@ -284,7 +284,7 @@ parameters! {
     /// ```
     pub struct SimoTaylor("Simo–Taylor volumetric energy") {
         /// κ, Pa.
-        kappa: "0 ≤ κ" => 0.0 <= kappa,
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
     }
 }
 
@@ -294,20 +294,20 @@ impl Volumetric for SimoTaylor {
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         // J² − 1 − 2 ln J = (J − 1)² + 2 (J − 1 − ln J).
-        T::lit(0.25 * self.kappa) * (change * change + T::lit(2.0) * volume_excess(change, jacobian))
+        T::lit(0.25 * self.bulk_modulus) * (change * change + T::lit(2.0) * volume_excess(change, jacobian))
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {
-        T::lit(0.5 * self.kappa) * (change * (change + T::lit(2.0)))
+        T::lit(0.5 * self.bulk_modulus) * (change * (change + T::lit(2.0)))
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
-        T::lit(0.5 * self.kappa) * (T::one() + reciprocal * reciprocal)
+        T::lit(0.5 * self.bulk_modulus) * (T::one() + reciprocal * reciprocal)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, _change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * jacobian)
+        T::lit(self.bulk_modulus) * (jacobian * jacobian)
     }
 }
 
@@ -325,7 +325,7 @@ parameters! {
     /// ```
     pub struct Liu("Liu volumetric energy") {
         /// κ, Pa.
-        kappa: "0 ≤ κ" => 0.0 <= kappa,
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
     }
 }
 
@@ -335,19 +335,19 @@ impl Volumetric for Liu {
     /// With z = 1/J − 1 it is κ J (z − ln(1 + z)).
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * excess(-change / jacobian, -change.ln_1p_given(jacobian)))
+        T::lit(self.bulk_modulus) * (jacobian * excess(-change / jacobian, -change.ln_1p_given(jacobian)))
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * change.ln_1p_given(jacobian))
+        T::lit(self.bulk_modulus) * (jacobian * change.ln_1p_given(jacobian))
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
-        T::lit(self.kappa) / jacobian
+        T::lit(self.bulk_modulus) / jacobian
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (jacobian * (T::one() + change.ln_1p_given(jacobian)))
+        T::lit(self.bulk_modulus) * (jacobian * (T::one() + change.ln_1p_given(jacobian)))
     }
 }
 
@@ -365,7 +365,7 @@ parameters! {
     /// ```
     pub struct Miehe("Miehe volumetric energy") {
         /// κ, Pa.
-        kappa: "0 ≤ κ" => 0.0 <= kappa,
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
     }
 }
 
@@ -374,20 +374,20 @@ impl Volumetric for Miehe {
 
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * volume_excess(change, jacobian)
+        T::lit(self.bulk_modulus) * volume_excess(change, jacobian)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {
-        T::lit(self.kappa) * change
+        T::lit(self.bulk_modulus) * change
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
-        T::lit(self.kappa) * (reciprocal * reciprocal)
+        T::lit(self.bulk_modulus) * (reciprocal * reciprocal)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, _change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * jacobian
+        T::lit(self.bulk_modulus) * jacobian
     }
 }
 
@@ -406,9 +406,9 @@ parameters! {
     /// ```
     pub struct OgdenVolumetric("Ogden volumetric energy") {
         /// κ, Pa.
-        kappa: "0 ≤ κ" => 0.0 <= kappa,
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
         /// β.
-        beta: "0 < |β|, κ/β² finite" => 0.0 < beta.abs() && (kappa / (beta * beta)).is_finite(),
+        exponent as "beta": "0 < |β|, κ/β² finite" => 0.0 < exponent.abs() && (bulk_modulus / (exponent * exponent)).is_finite(),
     }
 }
 
@@ -416,7 +416,7 @@ impl OgdenVolumetric {
     /// J^(−β) − 1.
     #[inline(always)]
     fn power<T: Real>(&self, change: T, jacobian: T) -> T {
-        (T::lit(-self.beta) * change.ln_1p_given(jacobian)).exp_m1()
+        (T::lit(-self.exponent) * change.ln_1p_given(jacobian)).exp_m1()
     }
 }
 
@@ -425,22 +425,22 @@ impl Volumetric for OgdenVolumetric {
 
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
-        let logarithm = T::lit(-self.beta) * change.ln_1p_given(jacobian);
-        T::lit(self.kappa / (self.beta * self.beta)) * excess(logarithm.exp_m1(), logarithm)
+        let logarithm = T::lit(-self.exponent) * change.ln_1p_given(jacobian);
+        T::lit(self.bulk_modulus / (self.exponent * self.exponent)) * excess(logarithm.exp_m1(), logarithm)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(-self.kappa / self.beta) * self.power(change, jacobian)
+        T::lit(-self.bulk_modulus / self.exponent) * self.power(change, jacobian)
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
-        let slope = T::one() + T::lit((self.beta + 1.0) / self.beta) * self.power(change, jacobian);
-        T::lit(self.kappa) * slope * (reciprocal * reciprocal)
+        let slope = T::one() + T::lit((self.exponent + 1.0) / self.exponent) * self.power(change, jacobian);
+        T::lit(self.bulk_modulus) * slope * (reciprocal * reciprocal)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
-        T::lit(self.kappa) * (T::lit(-self.beta) * change.ln_1p_given(jacobian)).exp()
+        T::lit(self.bulk_modulus) * (T::lit(-self.exponent) * change.ln_1p_given(jacobian)).exp()
     }
 }
 
@@ -459,7 +459,7 @@ parameters! {
     /// ```
     pub struct HartmannNeff("Hartmann–Neff volumetric energy") {
         /// κ, Pa.
-        kappa: "0 ≤ κ" => 0.0 <= kappa,
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
     }
 }
 
@@ -479,22 +479,22 @@ impl Volumetric for HartmannNeff {
     #[inline(always)]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let (less_one, fifth) = Self::powers(change, jacobian);
-        T::lit(0.02 * self.kappa) * (less_one * less_one / fifth)
+        T::lit(0.02 * self.bulk_modulus) * (less_one * less_one / fifth)
     }
     #[inline(always)]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         let (less_one, fifth) = Self::powers(change, jacobian);
-        T::lit(0.1 * self.kappa) * (less_one * (T::one() + fifth.recip()))
+        T::lit(0.1 * self.bulk_modulus) * (less_one * (T::one() + fifth.recip()))
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         let square = jacobian * jacobian;
         let seventh = square * square * square * jacobian;
-        T::lit(0.2 * self.kappa) * (T::lit(2.0) * (square * jacobian) + T::lit(3.0) / seventh)
+        T::lit(0.2 * self.bulk_modulus) * (T::lit(2.0) * (square * jacobian) + T::lit(3.0) / seventh)
     }
     #[inline(always)]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
         let (_, fifth) = Self::powers(change, jacobian);
-        T::lit(0.5 * self.kappa) * (fifth + fifth.recip())
+        T::lit(0.5 * self.bulk_modulus) * (fifth + fifth.recip())
     }
 }

@@ -98,8 +98,8 @@ impl<'a, F: DifferentialFluid<Mode: StressRate>> Following<'a, F> {
             }
         });
         self.method.integrate_to(&mut field, &mut self.state, time)?;
-        let stretching = VelocityGradient::from_rows(gradient(time))?.rate_of_deformation().0;
-        Ok(self.polymer_stress() + stretching * (2.0 * self.fluid.total_solvent_viscosity()))
+        let deforming = VelocityGradient::from_rows(gradient(time))?.rate_of_deformation().0;
+        Ok(self.polymer_stress() + deforming * (2.0 * self.fluid.total_solvent_viscosity()))
     }
 }
 

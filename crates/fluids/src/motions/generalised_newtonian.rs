@@ -55,8 +55,8 @@ impl<F: ViscometricFluid> GeneralisedNewtonian<F> {
 impl<F: ViscometricFluid> ViscousFluid for GeneralisedNewtonian<F> {
     #[inline(always)]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
-        let stretching = velocity_gradient.rate_of_deformation().0;
-        let largest = stretching.components.iter().fold(T::zero(), |largest, x| largest.max(x.abs())).frozen();
+        let rate = velocity_gradient.rate_of_deformation().0;
+        let largest = rate.components.iter().fold(T::zero(), |largest, x| largest.max(x.abs())).frozen();
         let rest = largest.at_most(T::zero());
         let scale = T::select(rest, T::one(), largest);
         // D in units of its largest component; 2 η D = 2 D τ/k. At rest any direction serves.

@@ -64,7 +64,7 @@ impl LinearViscous {
 impl ViscousFluid for LinearViscous {
     #[inline(always)]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
-        let stretching = velocity_gradient.rate_of_deformation().0;
+        let rate = velocity_gradient.rate_of_deformation().0;
         let volume = T::lit(self.second_viscosity) * velocity_gradient.divergence();
         rate * T::lit(2.0 * self.shear_viscosity) + Symmetric::identity() * volume
     }

@@ -10,10 +10,10 @@ use crate::{ReinerRivlin, ReinerRivlinCoefficients};
 impl<C: ReinerRivlinCoefficients> ViscousFluid for ReinerRivlin<C> {
     #[inline(always)]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
-        let stretching = velocity_gradient.rate_of_deformation().0;
-        let trace = stretching.trace();
-        let second = T::lit(0.5) * (trace * trace - stretching.double_contraction(&stretching));
-        let invariants = [trace, second, stretching.determinant()];
-        stretching * self.0.first(invariants) + stretching.square() * self.0.second(invariants)
+        let d = velocity_gradient.rate_of_deformation().0;
+        let trace = d.trace();
+        let second = T::lit(0.5) * (trace * trace - d.double_contraction(&d));
+        let invariants = [trace, second, d.determinant()];
+        d * self.0.first(invariants) + d.square() * self.0.second(invariants)
     }
 }

@@ -34,6 +34,15 @@ const SMALL: usize = 8;
 ///
 /// # Accuracy
 /// L D Lᵀ is A to n ulp of √(aᵢᵢ aⱼⱼ) in entry (i, j).
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::ldlt;
+/// let mut a = [4.0, 2.0, 2.0, 3.0];
+/// ldlt::factor_in_place(&mut a, 2)?;
+/// assert_eq!((a[0], a[1], a[3]), (4.0, 0.5, 2.0)); // d₁ = 4, l₂₁ = 1/2, d₂ = 3 − 4/4
+/// # Ok::<(), piola_numerics::NumericsError>(())
+/// ```
 #[inline(always)]
 pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), NumericsError> {
     factor_and_grade_in_place(a, n, 0.0).map(|_| ())
@@ -52,6 +61,15 @@ pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), NumericsErr
 ///
 /// # Errors
 /// As [`factor_in_place`].
+///
+/// # Example
+/// ```
+/// use piola_numerics::linear::ldlt;
+/// let mut a = [1.0, 0.99, 0.99, 1.0]; // d₂ = 1 − 0.99² = 0.0199
+/// assert!(ldlt::factor_and_grade_in_place(&mut a.clone(), 2, 0.01)?);
+/// assert!(!ldlt::factor_and_grade_in_place(&mut a, 2, 0.02)?);
+/// # Ok::<(), piola_numerics::NumericsError>(())
+/// ```
 #[inline(always)]
 pub fn factor_and_grade_in_place<T: Real>(a: &mut [T], n: usize, share: f64) -> Result<T::Mask, NumericsError> {
     check_dimension("matrix", a.len(), n * n)?;
@@ -203,6 +221,14 @@ pub fn null_direction_into<T: Real>(
 ///
 /// # Errors
 /// As [`factor_in_place`]; entries that are not finite are refused by name.
+///
+/// # Example
+/// ```
+/// use nalgebra::{matrix, vector};
+/// let x = piola_numerics::linear::ldlt::solve(matrix![4.0, 2.0; 2.0, 3.0], vector![8.0, 8.0])?;
+/// assert_eq!(x, vector![1.0, 2.0]);
+/// # Ok::<(), piola_numerics::NumericsError>(())
+/// ```
 #[inline]
 pub fn solve<T: Real, const N: usize>(
     mut matrix: SMatrix<T, N, N>,
@@ -296,6 +322,16 @@ impl Ldlt<f64> {
     ///
     /// # Errors
     /// [`NumericsError::WrongLength`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::dmatrix;
+    /// use piola_numerics::linear::ldlt::Ldlt;
+    /// let a = dmatrix![1.0, 0.0; 0.0, 1e-8];
+    /// let condition = Ldlt::new(&a)?.condition_estimate(a.as_slice())?;
+    /// assert!((condition - 1e8).abs() < 1.0);
+    /// # Ok::<(), piola_numerics::NumericsError>(())
+    /// ```
     pub fn condition_estimate(&self, matrix: &[f64]) -> Result<f64, NumericsError> {
         check_dimension("matrix", matrix.len(), self.n * self.n)?;
         let solve = |x: &mut [f64]| {
@@ -315,6 +351,17 @@ impl Ldlt<f64> {
     ///
     /// # Errors
     /// [`NumericsError::WrongLength`].
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::dmatrix;
+    /// use piola_numerics::linear::ldlt::Ldlt;
+    /// let a = dmatrix![4.0, 2.0; 2.0, 3.0];
+    /// let (b, mut x, mut scratch) = ([8.0, 8.0], [1.1, 1.9], [0.0; 2]);
+    /// Ldlt::new(&a)?.refine(a.as_slice(), &b, &mut x, &mut scratch)?;
+    /// assert_eq!(x, [1.0, 2.0]);
+    /// # Ok::<(), piola_numerics::NumericsError>(())
+    /// ```
     pub fn refine(
         &self,
         matrix: &[f64],

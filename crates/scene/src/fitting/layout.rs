@@ -11,7 +11,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
-use piola_solids::SolidsError;
+use piola_fit::FitError;
 use piola_fit::solids::{Component, Data, Measure, Table, Test};
 use piola_specimens::homogeneous::Mode;
 
@@ -100,8 +100,7 @@ pub(super) fn parse(text: &str) -> Read {
             return Err(vec![TableMistake::new(header.line, what, valid)]);
         }
     };
-    let refused =
-        |error: ConstitutiveError| vec![TableMistake::new(header.line, error.to_string(), "tests of a material")];
+    let refused = |error: FitError| vec![TableMistake::new(header.line, error.to_string(), "tests of a material")];
     Ok((Data::new(tests).map_err(refused)?, unit))
 }
 
@@ -231,13 +230,13 @@ fn point(table: &Table, index: usize) -> Table {
 }
 
 /// What is wrong with the point of a line, and what would be valid.
-fn refused(line: u64, error: &ConstitutiveError) -> TableMistake {
+fn refused(line: u64, error: &FitError) -> TableMistake {
     match error {
-        ConstitutiveError::StretchOutOfRange { value, .. } => {
+        FitError::StretchOutOfRange { value, .. } => {
             let what = format!("at the stretch {value:e} no law has a stress");
             TableMistake::new(line, what, "a stretch or amount of shear of 1e-30 to 1e30")
         }
-        ConstitutiveError::NotIsochoric { determinant, .. } => TableMistake::new(
+        FitError::NotIsochoric { determinant, .. } => TableMistake::new(
             line,
             format!("det F is {determinant}, or F has no inverse"),
             "det F = 1, the material is incompressible",

@@ -20,7 +20,7 @@ pub use piola_fit::solids::{Estimate, Fit, Stability, State, Weighting};
 
 use std::path::{Path, PathBuf};
 
-use piola_solids::SolidsError;
+use piola_fit::FitError;
 use piola_fit::solids::{AnyModel, Data, fit};
 
 use crate::SceneError;
@@ -86,7 +86,7 @@ pub struct Candidate {
     /// The law.
     pub law: AnyModel,
     /// Its fit, or why there is none.
-    pub fit: Result<Fit, ConstitutiveError>,
+    pub fit: Result<Fit, FitError>,
 }
 
 /// Laws on the same data.
@@ -104,7 +104,7 @@ impl Comparison {
     }
 
     /// Why laws have no fit.
-    pub fn refusals(&self) -> impl Iterator<Item = &ConstitutiveError> {
+    pub fn refusals(&self) -> impl Iterator<Item = &FitError> {
         self.candidates.iter().filter_map(|candidate| candidate.fit.as_ref().err())
     }
 

@@ -4,9 +4,12 @@ use core::fmt;
 use core::fmt::Write as _;
 use core::str::FromStr;
 
-use piola_fluids::{Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters, PowerLaw, Sisko, ViscometricFluid};
-use piola_viscometry::ViscometryError;
+use piola_fit::FitError;
 use piola_fit::fluids::{Criteria, FlowData, FluidParameter, Options, Outcome, Weighting, fit_flow};
+use piola_fluids::{
+    Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters,
+    PowerLaw, Sisko, ViscometricFluid,
+};
 use piola_viscometry::recover::Noise;
 use serde_json::{Value, json};
 
@@ -75,7 +78,7 @@ fn fitted<F: Parameters<N> + ViscometricFluid, const N: usize>(
     data: &[FlowData],
     starts: &[[f64; N]],
     options: &Options,
-) -> Result<FittedFluid, ViscometryError> {
+) -> Result<FittedFluid, FitError> {
     let fit = fit_flow::<F, N>(data, starts, options)?;
     let rates = measured.rows().iter().map(|row| measured.flow.apparent(*row)[1]);
     let (low, high) = rates.fold((f64::INFINITY, 0.0_f64), |(low, high), rate| (low.min(rate), high.max(rate)));
@@ -103,12 +106,12 @@ macro_rules! fluids {
                 data: &[FlowData],
                 look: &Look,
                 options: &Options,
-            ) -> Result<FittedFluid, ViscometryError> {
+            ) -> Result<FittedFluid, FitError> {
                 $(if self.0 == $name {
                     let $look = look;
                     return fitted::<$fluid, $count>(measured, data, &$starts, options);
                 })+
-                Err(ViscometryError::NoStart { fluid: self.0 })
+                Err(FitError::NoStart { model: self.0.to_owned() })
             }
         }
     };
@@ -192,7 +195,7 @@ pub struct Candidate {
     /// The fluid.
     pub fluid: FluidName,
     /// Its fit, or why there is none.
-    pub fit: Result<FittedFluid, ViscometryError>,
+    pub fit: Result<FittedFluid, FitError>,
 }
 
 /// Fluids on the same data.
@@ -229,7 +232,10 @@ pub fn compare(measured: &Measured, request: &Request) -> Result<Comparison, Sce
     }
     let checked = |data: FlowData| data.check_rising().map(|()| [data]);
     let data = measured.data().and_then(|data| data.with_noise(request.noise)).and_then(checked);
-    let data = data.map_err(|error| measured.refused(error))?;
+    let data = data.map_err(|error| match error {
+        FitError::Viscometry(error) => measured.refused(error),
+        error => SceneError::Fit(error),
+    })?;
     let look = Look::at(measured);
     let options = Options { weighting: request.weighting, confidence: request.confidence, ..Options::default() };
     let candidate = |&fluid: &FluidName| Candidate { fluid, fit: fluid.fit(measured, &data, &look, &options) };
@@ -243,7 +249,7 @@ impl Comparison {
     }
 
     /// Why fluids have no fit.
-    pub fn refusals(&self) -> impl Iterator<Item = (FluidName, &ViscometryError)> {
+    pub fn refusals(&self) -> impl Iterator<Item = (FluidName, &FitError)> {
         self.candidates.iter().filter_map(|candidate| Some((candidate.fluid, candidate.fit.as_ref().err()?)))
     }
 

@@ -4,8 +4,9 @@ use core::str::FromStr;
 use std::path::{Path, PathBuf};
 
 use csv::{ReaderBuilder, StringRecord, Trim};
-use piola_viscometry::ViscometryError;
+use piola_fit::FitError;
 use piola_fit::fluids::FlowData;
+use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{ConeGeometry, FlowTable};
 
 use crate::SceneError;
@@ -374,7 +375,7 @@ impl Measured {
     }
 
     /// The [`rows`](Self::rows) as data of a fit.
-    pub(super) fn data(&self) -> Result<FlowData, ViscometryError> {
+    pub(super) fn data(&self) -> Result<FlowData, FitError> {
         let rows = self.rows();
         Ok(match self.flow {
             Flow::Pipe { radius } => FlowData::pipe(&FlowTable::pipe(radius, rows)?),
@@ -401,7 +402,7 @@ impl Measured {
     fn mistake(&self, error: &ViscometryError) -> TableMistake {
         let line = |row: usize| self.lines.get(row).copied().unwrap_or(1);
         let (row, valid) = match error {
-            ViscometryError::Row { row, .. } => (Some(*row), "positive numbers"),
+            ViscometryError::RowNotPositive { row, .. } => (Some(*row), "positive numbers"),
             ViscometryError::RowTwice { row, .. } => (Some(*row), "each value of the first column once"),
             ViscometryError::RowNotSorted { row, .. } => (Some(*row), "rows that rise in the first column"),
             ViscometryError::ResponseFalls { row, .. } => (Some(*row), "a second column that rises with the first"),
@@ -416,7 +417,7 @@ impl Measured {
     /// An error of viscometry, with the line where it has one.
     pub(super) fn refused(&self, error: ViscometryError) -> SceneError {
         match error {
-            ViscometryError::Row { .. }
+            ViscometryError::RowNotPositive { .. }
             | ViscometryError::RowTwice { .. }
             | ViscometryError::RowNotSorted { .. }
             | ViscometryError::ResponseFalls { .. } => {

@@ -4,11 +4,11 @@ use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use nalgebra::Vector3;
-use piola_gravitation::{Gravitation, SPEED_OF_LIGHT, attraction};
 use piola_gravitation as gravitation;
-use piola_lagrangian::{Lagrangian, Workspace};
+use piola_gravitation::{Gravitation, SPEED_OF_LIGHT, attraction};
 use piola_integrators::{Composition, Field, Separable, State};
 use piola_kinematics::{Attitude, Holonomic, Placement, RigidBody};
+use piola_lagrangian::{Lagrangian, Workspace};
 use piola_numerics::sums::CompensatedSum;
 
 use super::drive::{Driver, Reading};
@@ -37,7 +37,7 @@ pub(super) fn gravitation(
     }
 }
 
-fn gravitating(system: &model::Gravitation) -> Result<Gravitation, piola_lagrangian::LagrangianError> {
+fn gravitating(system: &model::Gravitation) -> Result<Gravitation, piola_gravitation::GravitationError> {
     let bodies =
         Gravitation::new(system.bodies.iter().map(|body| body.gm).collect())?.with_softening(system.softening)?;
     match system.post_newtonian {

@@ -36,7 +36,7 @@ const LAW: &str = "incompressible Ogden";
 /// use piola_specimens::homogeneous::{Mode, nominal_stress};
 /// use piola_solids::{Hyperelastic, IncompressibleOgden, OgdenTerm};
 /// use piola_continuum::DeformationGradient;
-/// let rubber = IncompressibleOgden::new(&[OgdenTerm { mu: 2.0, alpha: 2.0 }])?;
+/// let rubber = IncompressibleOgden::new(&[OgdenTerm { modulus: 2.0, exponent: 2.0 }])?;
 /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
 /// assert!((stress - 2.0 * 1.75).abs() < 1e-14); // μ (λ^(α−1) − λ^(−α/2−1))
 /// let sheared = rubber.at_pressure(0.5)?.cauchy(&DeformationGradient::simple_shear(1.0)?).0.components;

@@ -92,7 +92,7 @@ fn limits_of_the_chains_are_kept_on_the_way() {
 
 #[test]
 fn bulk_modulus_of_a_pressurised_law_says_nothing() {
-    let terms = [OgdenTerm { mu: 0.63, alpha: 1.3 }, OgdenTerm { mu: -0.01, alpha: -2.0 }];
+    let terms = [OgdenTerm { modulus: 0.63, exponent: 1.3 }, OgdenTerm { modulus: -0.01, exponent: -2.0 }];
     let expected = IncompressibleOgden::new(&terms).expect("terms");
     for kappa in [0.1, 2.0, 1e4] {
         let law = Pressurised::new(Ogden::new(&terms, kappa).expect("terms"));

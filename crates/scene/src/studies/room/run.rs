@@ -2,7 +2,7 @@
 
 use core::f64::consts::TAU;
 
-use piola_lagrangian::LagrangianError;
+use piola_characteristics::CharacteristicsError;
 use piola_characteristics::{CauchyProblem, CharacteristicSolution, Grid, Overlap, ParameterInterval, Refinement};
 use piola_numerics::Dual;
 use serde_json::{Value, json};
@@ -86,7 +86,7 @@ impl Room {
         Grid { origin, spacing: [spacing; 2], points }
     }
 
-    fn solve(&self, found: &mut Arrivals, observer: &mut Observer<'_>) -> Result<bool, DynamicsError> {
+    fn solve(&self, found: &mut Arrivals, observer: &mut Observer<'_>) -> Result<bool, CharacteristicsError> {
         let start = self.circle.unwrap_or(self.outline);
         let [a, b] = self.outline.semi_axes;
         // (side along the outward normal, the longest time that a first arrival can take)
@@ -181,9 +181,8 @@ fn caustic(solution: &Solution<'_>) -> Vec<Vec<[f64; 2]>> {
     let mut rays: Vec<_> = solution.rays().iter().collect();
     rays.sort_by(|a, b| a.parameters[0].total_cmp(&b.parameters[0]));
     let first = |ray: &&piola_characteristics::Ray| ray.caustic.first().map(|point| [point.x[0], point.x[1]]);
-    let together = |a: &&piola_characteristics::Ray, b: &&piola_characteristics::Ray| {
-        first(a).is_some() == first(b).is_some()
-    };
+    let together =
+        |a: &&piola_characteristics::Ray, b: &&piola_characteristics::Ray| first(a).is_some() == first(b).is_some();
     let pieces = rays.chunk_by(together).map(|piece| piece.iter().filter_map(first).collect::<Vec<_>>());
     pieces.filter(|piece| !piece.is_empty()).collect()
 }
@@ -209,7 +208,7 @@ impl Arrivals {
     }
 
     /// Compares some points with the characteristics through them.
-    fn compare(&mut self, solution: &Solution<'_>, side: f64, room: &Room) -> Result<(), DynamicsError> {
+    fn compare(&mut self, solution: &Solution<'_>, side: f64, room: &Room) -> Result<(), CharacteristicsError> {
         let start = room.circle.unwrap_or(room.outline);
         let known: Vec<_> = self
             .arrival

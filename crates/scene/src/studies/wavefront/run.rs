@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use piola_lagrangian::LagrangianError;
+use piola_hamiltonian::HamiltonianError;
 use piola_hamiltonian::hamilton_jacobi::{FrontRay, WaveFront};
 use serde_json::{Value, json};
 
@@ -92,7 +92,7 @@ impl Wavefront {
         (found, outcome)
     }
 
-    fn follow(&self, found: &mut Fronts, observer: &mut Observer<'_>) -> Result<bool, DynamicsError> {
+    fn follow(&self, found: &mut Fronts, observer: &mut Observer<'_>) -> Result<bool, HamiltonianError> {
         let start = if self.source.closed() { WaveFront::closed } else { WaveFront::open };
         let mut front = start(&self.medium, &self.source, 1.0, 1.0, self.source.range(), self.rays as usize)?;
         let every = (self.rays as usize / DRAWN).max(1);
@@ -167,7 +167,7 @@ fn refine(
     closed: bool,
     spacing: f64,
     most: usize,
-) -> Result<f64, DynamicsError> {
+) -> Result<f64, HamiltonianError> {
     let mut widest = distances(front, closed).fold(0.0, f64::max);
     while spacing < widest {
         let goal = spacing.max(0.75 * widest);
