@@ -14,7 +14,7 @@
 //! | the inertia metric, Christoffel symbols | [`Lagrangian::inertia_metric`], [`Lagrangian::christoffel_first`], [`Lagrangian::christoffel_second`] |
 //! | covariant acceleration, raised and lowered indices, geodesics | [`Lagrangian::covariant_acceleration`], [`Lagrangian::raise`], [`Lagrangian::lower`], [`Lagrangian::geodesic`] |
 //! | energies, momenta, the Jacobi integral | [`Lagrangian::energies`], [`Lagrangian::momenta`], [`Lagrangian::jacobi_integral`] |
-//! | velocities from momenta, and what vouches for them | [`Lagrangian::velocities_into`], [`Lagrangian::legendre_certificate`] |
+//! | the inverse Legendre map, with a certificate (residual, conditioning) | [`Lagrangian::velocities_into`], [`Lagrangian::legendre_certificate`] |
 //! | the motion in time | [`Lagrangian::integrate`], or a field for any integrator: [`Lagrangian::motion`], [`Lagrangian::canonical_motion`] |
 //! | the force and moment by which a constraint holds each part | [`Lagrangian::reactions`] |
 //! | whether a constraint is ideal; the virtual work of any forces | [`Lagrangian::ideal_constraint_test`], [`Lagrangian::virtual_work`] |

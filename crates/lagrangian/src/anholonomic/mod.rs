@@ -1,4 +1,4 @@
-//! Quasi-velocities: the motion told by the components of the velocity in a frame that follows no coordinates.
+//! Equations of motion in quasi-velocities: velocity components in a non-coordinate frame.
 //!
 //! ```text
 //! q̇ = k_A u^A + d                                            W(6.12), W(6.15)

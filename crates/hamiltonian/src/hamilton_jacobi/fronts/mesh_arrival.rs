@@ -1,6 +1,6 @@
-//! What of a folded mesh has arrived first.
+//! The part of a folded mesh that has arrived first.
 //!
-//! The sheets behind a caustic are late, and so is what hangs together with them up to where the mesh cuts through itself.
+//! Triangles past a caustic arrive late; so does everything connected to them up to the self-intersection.
 
 use std::collections::BTreeMap;
 
