@@ -263,9 +263,10 @@ impl Plan {
     }
 }
 
-/// Samples and instants of the reference, ascending, each once.
+/// Samples and instants of the reference in the order of the run, each once.
 pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
-    let (start, end) = (scene.time.start, scene.time.end);
+    let time = scene.time;
+    let (start, end) = (time.start, time.end);
     let last = f64::from(scene.output.samples - 1);
     let mut instants: Vec<f64> = (0..scene.output.samples)
         .map(|i| if i + 1 == scene.output.samples { end } else { start + (end - start) * (f64::from(i) / last) })
@@ -273,15 +274,14 @@ pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
     if let Some(Comparison::Table(table)) = scene.reference.as_ref().map(|reference| &reference.comparison) {
         instants.extend(&table.times);
     }
-    instants.sort_by(f64::total_cmp);
+    instants.sort_by(|a, b| time.order(*a, *b));
     // Two instants that differ by rounding alone are one; an instant of the reference is the one that stays.
     let wanted = reference_times(scene);
-    let slack = 1e-12 * (end - start);
     let mut merged: Vec<f64> = Vec::with_capacity(instants.len());
     for t in instants {
         match merged.last_mut() {
-            Some(last) if t - *last <= slack => {
-                if wanted.binary_search_by(|probe| probe.total_cmp(&t)).is_ok() {
+            Some(last) if (t - *last).abs() <= time.slack() => {
+                if wanted.binary_search_by(|probe| time.order(*probe, t)).is_ok() {
                     *last = t;
                 }
             }
@@ -295,11 +295,11 @@ pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
 fn steps(instants: &[f64], step: f64) -> u64 {
     // As the integrators count: an interval that is a whole number of steps but for rounding is not given one more.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, and the cast saturates")]
-    let count = |pair: &[f64]| ((pair[1] - pair[0]) / step * (1.0 - 4.0 * f64::EPSILON)).ceil() as u64;
+    let count = |pair: &[f64]| ((pair[1] - pair[0]).abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil() as u64;
     instants.windows(2).map(count).sum()
 }
 
-/// The instants of a reference table, ascending.
+/// The instants of a reference table in the order of the run.
 pub(crate) fn reference_times(scene: &Scene) -> &[f64] {
     match scene.reference.as_ref().map(|reference| &reference.comparison) {
         Some(Comparison::Table(table)) => &table.times,

@@ -55,8 +55,8 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
             .zip(&table.positions)
             .filter_map(|(t, known)| {
                 // Recorded instants stand within rounding of the reference's.
-                let slack = 1e-12 * (scene.time.end - scene.time.start);
-                let record = history.times.partition_point(|time| *time < t - slack);
+                let (near, slack) = (t - scene.time.direction() * scene.time.slack(), scene.time.slack());
+                let record = history.times.partition_point(|time| scene.time.order(*time, near).is_lt());
                 history.times.get(record).filter(|time| (*time - t).abs() <= slack)?;
                 Some((record, known.clone()))
             })

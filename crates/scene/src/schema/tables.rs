@@ -324,7 +324,7 @@ static TIME: Table = Table {
     doc: "The span of time. It ends at `end`, or after `revolutions` of the first body of `[central]`.",
     keys: &[
         key("start", quantity(Dimension::TIME, Range::Any), Absent::Default("0.0"), "Time at the start."),
-        key("end", quantity(Dimension::TIME, Range::Any), Absent::Optional, "Time at the end, after the start."),
+        key("end", quantity(Dimension::TIME, Range::Any), Absent::Optional, "Time at the end; before the start for a run backwards in time."),
         key(
             "revolutions",
             quantity(Dimension::NONE, Range::Positive),
