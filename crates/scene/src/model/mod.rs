@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub use central::{Central, Orbiter};
 pub use gravitation::{Gravitation, MassPoint, NEWTONIAN_CONSTANT, PostNewtonian};
 pub use mechanism::{JointTree, Mechanism, PartName};
-pub use reference::{ClosedForm, Comparison, Reference, ReferenceTable};
+pub use reference::{ClosedForm, Reference, ReferenceKind, ReferenceTable};
 
 use crate::document::{Document, Mistake};
 use crate::schema::{SCENE_KINDS, SceneKind};
@@ -303,7 +303,7 @@ impl<'d> Builder<'d> {
             return Some(TimeSpan { start, end });
         }
         self.wrong(
-            Mistake::new(table.place_of("end"), format!("the end, {end} s, is the start"))
+            Mistake::new(table.place_of("end"), format!("the end, {} s, is the start", words::number(end)))
                 .valid("a time after the start, or before it for a run backwards in time"),
         );
         None

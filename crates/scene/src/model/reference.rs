@@ -16,14 +16,14 @@ pub struct Reference {
     /// What it is called.
     pub label: String,
     /// The reference itself.
-    pub comparison: Comparison,
+    pub kind: ReferenceKind,
     /// Index of the body from which distances are measured.
     pub relative_to: Option<usize>,
 }
 
 /// Kinds of references.
 #[derive(Debug, Clone)]
-pub enum Comparison {
+pub enum ReferenceKind {
     /// Positions at listed instants.
     Table(ReferenceTable),
     /// Positions at any instant.
@@ -86,12 +86,12 @@ impl Builder<'_> {
         Some(Some(match file {
             Some((path, text)) => Reference {
                 label: label(&path.file_stem().unwrap_or_default().to_string_lossy()),
-                comparison: Comparison::Table(self.reference_table(table, path, &text, &names, time?)?),
+                kind: ReferenceKind::Table(self.reference_table(table, path, &text, &names, time?)?),
                 relative_to,
             },
             None => Reference {
                 label: label("closed form"),
-                comparison: Comparison::ClosedForm(self.closed_form(table, system)?),
+                kind: ReferenceKind::ClosedForm(self.closed_form(table, system)?),
                 relative_to,
             },
         }))
@@ -160,7 +160,12 @@ impl Builder<'_> {
             self.wrong(
                 Mistake::new(
                     table.place_of("file"),
-                    format!("no instant of `{}` is between {} s and {} s", path.display(), time.start, time.end),
+                    format!(
+                        "no instant of `{}` is between {} s and {} s",
+                        path.display(),
+                        words::number(time.start),
+                        words::number(time.end)
+                    ),
                 )
                 .valid("a table that overlaps the span of time"),
             );
