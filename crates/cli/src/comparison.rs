@@ -15,7 +15,7 @@ pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> Str
         let _ = write!(text, "{:>14}", shortened(test.name()));
     }
     let _ = writeln!(text, "{:>10}{:>10}  {:<8}search", "AICc", "above", "stable");
-    let least = comparison.best().and_then(|fit| fit.criteria.aicc);
+    let least = comparison.best().and_then(|(_, fit)| fit.criteria.aicc);
     for (law, fit) in comparison.fits() {
         let _ = write!(text, "{:<16}{:>3}", law.to_string(), fit.parameters.len());
         for test in &fit.tests {

@@ -15,6 +15,7 @@
 //! measurements.
 #![forbid(unsafe_code)]
 
+pub mod comparison;
 pub mod document;
 mod error;
 pub mod fitting;

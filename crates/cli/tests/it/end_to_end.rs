@@ -227,7 +227,7 @@ fn fit_of_bad_tables_laws_or_bounds_exits_with_2_and_writes_nothing() {
         (&["none.csv"], "cannot read `none.csv`"),
         (&["rubber.csv", "--law", "odgen:3"], "no model is called `odgen:3`"),
         (&["rubber.csv", "--law", "gent", "--bound", "gent.Jm=0..5"], "no value of `Jm`"),
-        (&["rubber.csv", "--law", "gent", "--bound", "gent.Jm"], "`gent.Jm` cannot be read"),
+        (&["rubber.csv", "--law", "gent", "--bound", "gent.Jm"], "`gent.Jm` is not accepted"),
         (&["rubber.csv", "--law", "gent", "--mode-weights", "shear=2"], "no test is called `shear`"),
         (&["rubber.csv", "--law", "gent", "--confidence", "2"], "the confidence 2 is not between 0 and 1"),
     ];
@@ -369,15 +369,15 @@ fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
         ),
         (
             &["recover", "pipe.csv", "pipe.csv", "--flow", "pipe"],
-            "`2 files` cannot be read; valid: one file, or several",
+            "`2 files` is not accepted; valid: one file, or several",
         ),
         (&["recover", "pipe.csv", "pipe.csv", "--flow", "pipe", "--slip"], "radius 1e0 of all tables is the same"),
         (&["fit-flow", "pipe.csv", "--flow", "capillary"], "length is not given"),
-        (&["recover", "pipe.csv", "--flow", "hose"], "`hose` cannot be read; valid: pipe, capillary, channel"),
+        (&["recover", "pipe.csv", "--flow", "hose"], "`hose` is not accepted; valid: pipe, capillary, channel"),
         (&["recover", "pipe.csv", "--flow", "channel"], "half_width is not given"),
-        (&["recover", "pipe.csv", "--flow", "pipe", "--radius", "1kg"], "`radius = 1kg` cannot be read"),
+        (&["recover", "pipe.csv", "--flow", "pipe", "--radius", "1kg"], "`radius = 1kg` is not accepted"),
         (&["recover", "pipe.csv", "--flow", "pipe", "--confidence", "2"], "the confidence 2"),
-        (&["fit-flow", "pipe.csv", "--flow", "pipe", "--fluid", "water"], "`water` cannot be read; valid: newtonian"),
+        (&["fit-flow", "pipe.csv", "--flow", "pipe", "--fluid", "water"], "`water` is not accepted; valid: newtonian"),
     ];
     for (arguments, expected) in cases {
         let output = folder.piola(arguments);

@@ -1,6 +1,7 @@
 //! The tree of a scene: tables, lists and values, each with its place.
 
 use super::Place;
+use crate::words;
 
 /// A value with its place.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,7 +70,7 @@ impl Value {
             Self::Text(text) if text.chars().count() <= 40 => format!("the text \"{text}\""),
             Self::Text(text) => format!("a text of {} characters", text.chars().count()),
             Self::Number { value, whole: true } => format!("the number {value}"),
-            Self::Number { value, .. } if value.is_finite() => format!("the number {value:?}"),
+            Self::Number { value, .. } if value.is_finite() => format!("the number {}", words::number(*value)),
             Self::Number { value, .. } => {
                 if value.is_nan() {
                     "nan".to_string()

@@ -2,8 +2,9 @@
 
 use super::Builder;
 use crate::document::Mistake;
+use crate::kepler::{Elements, KeplerMotion};
 use crate::validation::Record;
-use piola_gravitation::kepler::{Elements, KeplerMotion};
+use crate::words;
 
 /// Bodies about a fixed centre at the origin, without attraction among themselves.
 #[derive(Debug, Clone)]
@@ -94,7 +95,7 @@ impl Builder<'_> {
         let eccentricity = record.number("eccentricity");
         if let Some(e) = eccentricity.filter(|e| 1.0 <= *e) {
             self.wrong(
-                Mistake::new(record.place_of("eccentricity"), format!("the eccentricity {e} is of no ellipse"))
+                Mistake::new(record.place_of("eccentricity"), format!("the eccentricity {} is of no ellipse", words::number(e)))
                     .valid("a number from 0 to less than 1; give position and velocity of an escaping body"),
             );
             return None;

@@ -9,12 +9,13 @@ mod independence;
 mod mechanism;
 mod reference;
 
+use core::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
 pub use central::{Central, Orbiter};
 pub use gravitation::{Gravitation, MassPoint, NEWTONIAN_CONSTANT, PostNewtonian};
 pub use mechanism::{JointTree, Mechanism, PartName};
-pub use reference::{ClosedForm, Comparison, Reference, ReferenceTable};
+pub use reference::{ClosedForm, Reference, ReferenceKind, ReferenceTable};
 
 use crate::document::{Document, Mistake};
 use crate::schema::{SCENE_KINDS, SceneKind};
@@ -51,13 +52,45 @@ pub enum System {
     Central(Central),
 }
 
-/// From `start` to `end`, s.
+/// From `start` to `end`, s; backwards in time if `end < start`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeSpan {
     /// Start, s.
     pub start: f64,
-    /// End, s; `start < end`.
+    /// End, s; not the start.
     pub end: f64,
+}
+
+impl TimeSpan {
+    /// |end − start|, s.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        (self.end - self.start).abs()
+    }
+
+    /// 1 for a run forward in time, −1 for one backwards.
+    #[must_use]
+    pub fn direction(&self) -> f64 {
+        (self.end - self.start).signum()
+    }
+
+    /// The order of two instants in the run.
+    pub(crate) fn order(&self, a: f64, b: f64) -> Ordering {
+        // Adding zero makes −0 equal to 0.
+        let along = |t: f64| self.direction() * t + 0.0;
+        along(a).total_cmp(&along(b))
+    }
+
+    /// Whether an instant lies in the span, or outside it by rounding alone.
+    pub(crate) fn holds(&self, t: f64) -> bool {
+        let slack = self.slack();
+        self.start.min(self.end) - slack <= t && t <= self.start.max(self.end) + slack
+    }
+
+    /// Instants nearer to each other than this, s, differ by rounding alone.
+    pub(crate) fn slack(&self) -> f64 {
+        1e-12 * self.length()
+    }
 }
 
 /// What a scene asks of the integrator; the planner fills in the rest.
@@ -252,26 +285,26 @@ impl<'d> Builder<'d> {
         if table.has("revolutions") && !record.has("central") {
             self.wrong(
                 Mistake::new(table.place_of("revolutions"), "`revolutions` without [central]")
-                    .valid("end = a time after the start"),
+                    .valid("end = a time"),
             );
             return None;
         }
         if table.has("end") == table.has("revolutions") {
             let what = if table.has("end") { "[time] has both `end` and `revolutions`" } else { "[time] has no `end`" };
             let place = if table.has("end") { table.place_of("revolutions") } else { table.place.clone() };
-            self.wrong(Mistake::new(place, what).valid("end = a time after the start, as end = \"10 d\""));
+            self.wrong(Mistake::new(place, what).valid("end = a time, as end = \"10 d\""));
             return None;
         }
         if let (Some(revolutions), Some(period)) = (table.number("revolutions"), period) {
             return Some(TimeSpan { start, end: start + revolutions * period });
         }
         let end = table.number("end")?;
-        if start < end {
+        if start < end || end < start {
             return Some(TimeSpan { start, end });
         }
         self.wrong(
-            Mistake::new(table.place_of("end"), format!("the end, {end} s, is not after the start, {start} s"))
-                .valid(format!("a time after {start} s")),
+            Mistake::new(table.place_of("end"), format!("the end, {} s, is the start", words::number(end)))
+                .valid("a time after the start, or before it for a run backwards in time"),
         );
         None
     }

@@ -110,7 +110,7 @@ fn automatic(scene: &Scene) -> (Method, String) {
 
 /// The step asked for, or one made from the fastest motion at the start.
 fn step(scene: &Scene, order: Order) -> (f64, String) {
-    let span = scene.time.end - scene.time.start;
+    let span = scene.time.length();
     if let Some(step) = scene.integrator.step {
         return (step.min(span), "the step is integrator.step".to_string());
     }

@@ -4,7 +4,7 @@ use core::fmt::Write as _;
 
 use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{
-    self, BelowSmallest, Capillary, EndCorrection, FlowCurve, FlowTable, Monotonicity, Noise, NormalStressCurve,
+    self, BelowSmallest, Capillary, Criterion, EndCorrection, FlowCurve, FlowTable, Monotonicity, Noise, NormalStressCurve,
     Options, PipeGeometry, Rise, SlipCorrection, Smoothing, StressCurve,
 };
 use serde_json::{Map, Value, json};
@@ -180,6 +180,19 @@ macro_rules! told {
             confidence: $request.confidence,
         })
     }};
+}
+
+/// What is taken to hold below the smallest torque of coaxial cylinders, in words.
+fn assumption(below: BelowSmallest) -> Option<String> {
+    let speed = "the speed difference is";
+    match below {
+        BelowSmallest::Newtonian => Some(format!("{speed} proportional to the torque")),
+        BelowSmallest::PowerLaw { exponent } => Some(format!("{speed} proportional to the power {exponent:.4} of the torque")),
+        BelowSmallest::Powers { mean, variance } => Some(format!(
+            "{speed} a sum of powers of the torque, with exponents of mean {mean:.4} and variance {variance:.4}"
+        )),
+        _ => None,
+    }
 }
 
 /// The lines of the rows around the stretch on which a curve falls.
@@ -451,14 +464,15 @@ impl RecoveredCurve {
         let mut text = String::new();
         for (index, smoothing) in self.smoothing.iter().enumerate() {
             let which = if 1 < self.smoothing.len() { format!("table {}: ", index + 1) } else { String::new() };
-            let (criterion, noise) = (smoothing.criterion, smoothing.noise);
-            let _ = writeln!(text, "{which}smoothed by {criterion:?}, noise {noise:.1e} of the response");
+            let criterion = match smoothing.criterion {
+                Criterion::Interpolation => "interpolated between all rows",
+                Criterion::KnownNoise => "smoothed for the stated noise",
+                _ => "smoothed by generalised cross-validation",
+            };
+            let _ = writeln!(text, "{which}{criterion}, noise {:.1e} of the response", smoothing.noise);
         }
-        match self.below_smallest {
-            BelowSmallest::NotNeeded => {}
-            assumed => {
-                let _ = writeln!(text, "assumed below the smallest drive: {assumed:?}");
-            }
+        if let Some(assumed) = assumption(self.below_smallest) {
+            let _ = writeln!(text, "assumed below the smallest torque: {assumed}");
         }
         let [(abscissa, unit), (value, other)] = self.function.axes();
         if let Monotonicity::Falling { from, to } = self.monotonicity {
@@ -596,8 +610,7 @@ impl Recovery {
     pub fn table(&self, tables: &[Measured]) -> String {
         let mut text = String::new();
         for measured in tables {
-            let (rows, kind) = (measured.rows().len(), measured.flow.kind().name());
-            let _ = writeln!(text, "{}: {rows} rows of {kind}", measured.name());
+            let _ = writeln!(text, "{}", measured.heading());
         }
         for curve in &self.curves {
             text.push_str(&curve.table());

@@ -81,6 +81,17 @@ impl FlowKind {
         }
     }
 
+    /// Its name in a sentence.
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Couette => "coaxial cylinders",
+            Self::Plates => "parallel plates",
+            Self::Cone => "cone and plate",
+            Self::Curve => "flow curve",
+            Self::Pipe | Self::Capillary | Self::Channel => self.name(),
+        }
+    }
+
     /// The column of what is set.
     pub(super) const fn drive(self) -> Named {
         match self {
@@ -351,6 +362,11 @@ impl Measured {
     #[must_use]
     pub fn name(&self) -> String {
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// "ketchup: 31 rows, coaxial cylinders".
+    pub(super) fn heading(&self) -> String {
+        format!("{}: {} rows, {}", self.name(), self.rows().len(), self.flow.kind().words())
     }
 
     /// What was set and what answered: the first column that is not of normal stresses, if there is one.

@@ -25,6 +25,32 @@ pub struct SceneKind {
     pub lists: &'static [&'static str],
 }
 
+/// Declares a [`Table`]: each key with its documentation, `key: kind, absent;` or `key: kind, absent, only_for types;`.
+macro_rules! table {
+    (
+        $(#[doc = $about:literal])+
+        $visibility:vis static $table:ident = $header:literal {
+            $($(#[doc = $doc:literal])+ $key:ident: $kind:expr, $absent:expr $(, only_for $types:expr)?;)+
+        }
+    ) => {
+        $(#[doc = $about])+
+        $visibility static $table: $crate::schema::Table = $crate::schema::Table {
+            name: $header,
+            doc: concat!($($about),+).trim_ascii(),
+            keys: &[$($crate::schema::Key {
+                name: stringify!($key),
+                kind: $kind,
+                absent: $absent,
+                only_for: $crate::schema::table!(@types $($types)?),
+                doc: concat!($($doc),+).trim_ascii(),
+            }),+],
+        };
+    };
+    (@types) => { &[] };
+    (@types $types:expr) => { $types };
+}
+use table;
+
 /// A table of a scene.
 #[derive(Debug)]
 pub struct Table {

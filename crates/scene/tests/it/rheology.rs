@@ -145,7 +145,7 @@ fn wrong_units_columns_and_geometries_are_named_with_their_line() {
     assert_eq!(given(&[("outer_radius", "1 cm")]), format!("flow.csv:5: {crossed}"));
     assert_eq!(
         given(&[("inner_radius", "2 cm"), ("outer_radius", "15 mm")]),
-        "`inner_radius = 2 cm, outer_radius = 15 mm` cannot be read; valid: inner_radius < outer_radius"
+        "`inner_radius = 2 cm, outer_radius = 15 mm` is not accepted; valid: inner_radius < outer_radius"
     );
     assert_eq!(given(&[("outer_radius", "3 cm")]), "");
     assert_eq!(sentences("", FlowKind::Curve)[0].split(';').next(), Some("flow.csv:1: the table is empty"));
@@ -343,7 +343,7 @@ fn pipes_of_several_radii_and_capillaries_of_several_lengths_are_corrected() -> 
     let same = recover_without_slip(&[pipes[0].clone(), pipes[0].clone()], &request);
     assert_eq!(sentence(same), "the radius 5e-1 of all tables is the same");
     let other = sentence(recover_without_slip(&capillaries, &request));
-    assert_eq!(other, "`--slip with --flow capillary` cannot be read; valid: --flow pipe");
+    assert_eq!(other, "`--slip with --flow capillary` is not accepted; valid: --flow pipe");
     Ok(())
 }
 
@@ -368,7 +368,7 @@ fn mistakes_in_tables_with_several_columns_are_named_with_their_line() {
     let given = [("angle".to_owned(), "100 deg".to_owned())];
     let given = Measured::parse("flow.csv", &format!("{head}1,2,3\n"), FlowKind::Cone, &given);
     let given = given.map_or_else(|error| error.to_string(), |_| String::new());
-    assert_eq!(given, "`angle = 100 deg` cannot be read; valid: an angle below 90 deg");
+    assert_eq!(given, "`angle = 100 deg` is not accepted; valid: an angle below 90 deg");
     let unit = sentences(&format!("{}1,2,3\n", head.replace("N*m", "N")), FlowKind::Cone);
     assert_eq!(unit, ["flow.csv:3: `N` is no unit of torque; valid: a unit such as N m"]);
     let column = sentences(&format!("{}1,2,3\n", head.replace("thrust", "push")), FlowKind::Cone);

@@ -6,6 +6,7 @@ use std::path::Path;
 use piola_scene::output::{self, Folder, Summary};
 use piola_scene::run::{self, Outcome, Run};
 use piola_scene::{Plan, Scene};
+use piola_testkit::{Tol, assert_close};
 
 use crate::support::{ORBIT, PAIR, TOP, replaced, scene};
 
@@ -102,6 +103,83 @@ fn symplectic_and_adaptive_mechanisms_agree() {
         assert!((a - b).abs() < 1e-10 * (1.0 + b.abs()), "{a} {b}");
     }
     assert!(energy_drift(&fixed) < 1e-12);
+}
+
+#[test]
+fn bodies_run_forward_and_then_backwards_are_where_they_started() {
+    for method in ["auto", "composition-8", "gauss-legendre-8"] {
+        let there = format!("{PAIR}[integrator]\nmethod = \"{method}\"\n");
+        let forward = complete(&scene(&there));
+        let (Some(places), Some(velocities)) = (forward.history.positions.last(), forward.history.velocities.last())
+        else {
+            panic!("{method}: nothing was recorded")
+        };
+        let mut back = replaced(&there, "end = \"10 s\"", "start = \"10 s\"\nend = \"0 s\"");
+        for (old, new) in ["[1.0, 0.0, 0.0]", "[-1.0, 0.0, 0.0]"].into_iter().zip(places) {
+            back = replaced(&back, old, &format!("{new:?}"));
+        }
+        for (old, new) in ["[0.0, 0.5, 0.0]", "[0.0, -0.5, 0.0]"].into_iter().zip(velocities) {
+            back = replaced(&back, old, &format!("{new:?}"));
+        }
+        let scene = scene(&back);
+        let plan = Plan::of(&scene);
+        let backwards = complete(&scene);
+        // With a fixed step the steps are those of the way there.
+        assert!(plan.steps.is_none_or(|steps| steps == backwards.steps && steps == forward.steps), "{method}");
+        assert_eq!(backwards.history.times.len(), forward.history.times.len());
+        assert!(backwards.history.times.is_sorted_by(|a, b| b < a), "{method}");
+        let last = backwards.history.positions.last().map(|places| places.concat()).unwrap_or_default();
+        let tolerance = Tol::stated(1e-10, "the tolerance 1e-12 of each of some fifty steps there and back");
+        assert_close(method, &last, &[1.0, 0.0, 0.0, -1.0, 0.0, 0.0], tolerance);
+    }
+}
+
+#[test]
+fn top_run_forward_and_then_backwards_is_where_it_started() {
+    for integrator in ["", "[integrator]\nstep = \"1 ms\"\n"] {
+        let there = format!("{TOP}{integrator}");
+        let forward = complete(&scene(&there));
+        let (first, last) = (&forward.history.coordinates[0], forward.history.coordinates.last());
+        let (angles, rates) = last.map(|last| last.split_at(3)).unwrap_or_default();
+        let back = replaced(&there, "\"[0, 30, 0] deg\"", &format!("{angles:?}"));
+        let back = replaced(&back, "\"[0, 0, 60] rad/s\"", &format!("{rates:?}"));
+        let back = replaced(&back, "end = \"1 s\"", "start = \"1 s\"\nend = \"0 s\"");
+        let backwards = complete(&scene(&back));
+        let last = backwards.history.coordinates.last().cloned().unwrap_or_default();
+        // Angles in rad up to 60 and rates in rad/s up to 60 are known alike.
+        assert_close(integrator, &last, first, Tol::stated(1e-11, "1e-15 a step times the turns of 60 rad"));
+    }
+}
+
+#[test]
+fn run_before_the_start_equals_the_closed_form_and_is_written() {
+    let text = replaced(ORBIT, "revolutions = 2", "end = \"-10 s\"");
+    let scene = scene(&format!("{text}[output]\nsamples = 5\n"));
+    let plan = Plan::of(&scene);
+    let mut done = 0.0;
+    let run = run::run(&scene, &plan, |progress| {
+        assert!(done < progress.fraction && progress.fraction <= 1.0 && progress.time < 0.0);
+        done = progress.fraction;
+        ControlFlow::Continue(())
+    });
+    assert_eq!((&run.outcome, run.time), (&Outcome::Completed, -10.0));
+    assert_eq!(run.history.times, [0.0, -2.5, -5.0, -7.5, -10.0]);
+    let errors = run.errors.as_ref().map_or(f64::NAN, |errors| errors.largest_relative);
+    assert_close("error of places", &[errors], &[0.0], Tol::stated(1e-11, "as forward in time"));
+    let folder = folder("before");
+    let written = output::write(&folder, &scene, &plan, &run, &Summary::of(&scene, &plan, &run));
+    assert!(written.failures.is_empty());
+    // What was written is a reference for the same run.
+    let text = replaced(&text, "closed_form = \"kepler\"", "file = \"trajectory.csv\"");
+    std::fs::write(folder.path().join("scene.toml"), text).unwrap_or_else(|error| panic!("{error}"));
+    let again = Scene::load(&folder.path().join("scene.toml"), &[]).unwrap_or_else(|error| panic!("{error}"));
+    let run = complete(&again);
+    assert!(run.errors.as_ref().is_some_and(|errors| errors.bodies[0].at.len() == 5), "{:?}", run.errors);
+    let figure = output::write(&folder, &again, &Plan::of(&again), &run, &Summary::of(&again, &Plan::of(&again), &run));
+    assert!(figure.failures.is_empty());
+    let svg = std::fs::read_to_string(folder.path().join("error.svg")).unwrap_or_default();
+    assert!(!svg.contains("could not be drawn") && !svg.contains("NaN") && svg.contains("<circle"), "{svg}");
+    let _ = std::fs::remove_dir_all(folder.path());
 }
 
 fn folder(name: &str) -> Folder {
