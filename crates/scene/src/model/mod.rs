@@ -284,8 +284,7 @@ impl<'d> Builder<'d> {
         let start = table.number("start")?;
         if table.has("revolutions") && !record.has("central") {
             self.wrong(
-                Mistake::new(table.place_of("revolutions"), "`revolutions` without [central]")
-                    .valid("end = a time"),
+                Mistake::new(table.place_of("revolutions"), "`revolutions` without [central]").valid("end = a time"),
             );
             return None;
         }

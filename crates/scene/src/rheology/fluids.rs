@@ -4,15 +4,18 @@ use core::fmt;
 use core::fmt::Write as _;
 use core::str::FromStr;
 
-use piola_fluids::{Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters, PowerLaw, Sisko, ViscometricFluid};
 use piola_fit::FitError;
 use piola_fit::fluids::{Criteria, FlowData, FluidParameter, Options, Outcome, Weighting, fit_flow};
+use piola_fluids::{
+    Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters,
+    PowerLaw, Sisko, ViscometricFluid,
+};
 use piola_viscometry::recover::Noise;
 use serde_json::{Value, json};
 
 use super::{Flow, Measured, figure};
-use crate::comparison::{self, Judged};
 use crate::SceneError;
+use crate::comparison::{self, Judged};
 use crate::output::{Folder, Written};
 
 /// Points of a curve.

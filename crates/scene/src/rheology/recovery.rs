@@ -4,8 +4,8 @@ use core::fmt::Write as _;
 
 use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{
-    self, BelowSmallest, Capillary, Criterion, EndCorrection, FlowCurve, FlowTable, Monotonicity, Noise, NormalStressCurve,
-    Options, PipeGeometry, Rise, SlipCorrection, Smoothing, StressCurve,
+    self, BelowSmallest, Capillary, Criterion, EndCorrection, FlowCurve, FlowTable, Monotonicity, Noise,
+    NormalStressCurve, Options, PipeGeometry, Rise, SlipCorrection, Smoothing, StressCurve,
 };
 use serde_json::{Map, Value, json};
 
@@ -187,7 +187,9 @@ fn assumption(below: BelowSmallest) -> Option<String> {
     let speed = "the speed difference is";
     match below {
         BelowSmallest::Newtonian => Some(format!("{speed} proportional to the torque")),
-        BelowSmallest::PowerLaw { exponent } => Some(format!("{speed} proportional to the power {exponent:.4} of the torque")),
+        BelowSmallest::PowerLaw { exponent } => {
+            Some(format!("{speed} proportional to the power {exponent:.4} of the torque"))
+        }
         BelowSmallest::Powers { mean, variance } => Some(format!(
             "{speed} a sum of powers of the torque, with exponents of mean {mean:.4} and variance {variance:.4}"
         )),
