@@ -30,9 +30,9 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant};
 
 use super::TetrahedralMesh;
-use super::integrand::{Integrand, RunningIntegral};
 use super::quadrature::Quadrature;
 use crate::FieldsError;
+use crate::integrand::{Integrand, RunningIntegral};
 use piola_continuum::ContinuumError;
 use piola_continuum::DisplacementGradient;
 use piola_tensor::internal::rows::Rows;
