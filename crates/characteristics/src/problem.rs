@@ -21,7 +21,8 @@ const TOLERANCE: f64 = 1e-13;
 /// # Example
 /// ```
 /// use piola_characteristics::{CauchyProblem, FirstOrderPde, InitialManifold};
-/// /// struct Eikonal; // (|ξ|² − 1)/2 = 0
+/// use piola_numerics::Real;
+/// struct Eikonal; // (|ξ|² − 1)/2 = 0
 /// impl FirstOrderPde for Eikonal {
 ///     fn value<T: Real>(&self, _x: &[T], _u: T, xi: &[T]) -> T {
 ///         T::lit(0.5) * (xi[0] * xi[0] + xi[1] * xi[1] - T::one())

@@ -26,8 +26,6 @@
 //! ```
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
-#![expect(clippy::doc_markdown, reason = "symbols with indices, as g_ΔΓ, are not code")]
-#![expect(clippy::needless_range_loop, reason = "the indices are those of the equations")]
 
 mod attraction;
 mod check;

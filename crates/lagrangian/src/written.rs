@@ -43,6 +43,9 @@ pub mod matrix {
     use crate::check::check_length;
 
     /// Writes the rows.
+    ///
+    /// # Errors
+    /// Those of the serializer.
     pub fn serialize<N: Scalar + Serialize, S: Serializer>(
         matrix: &DMatrix<N>,
         serializer: S,
@@ -50,7 +53,10 @@ pub mod matrix {
         serializer.collect_seq(matrix.row_iter().map(|row| row.iter().cloned().collect::<Vec<_>>()))
     }
 
-    /// Reads the rows, which must be of one length.
+    /// Reads the rows.
+    ///
+    /// # Errors
+    /// Those of the deserializer; rows of different lengths.
     pub fn deserialize<'de, N: Scalar + Deserialize<'de>, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<DMatrix<N>, D::Error> {

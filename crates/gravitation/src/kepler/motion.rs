@@ -100,10 +100,10 @@ impl KeplerMotion {
         (TURN / self.mean_motion).value()
     }
 
-    /// The position (m) at a time (s) after that of the state.
+    /// The position (m) at t seconds after the state.
     #[must_use]
-    pub fn position(&self, time: f64) -> [f64; 3] {
-        let advanced = self.mean_motion * Twofold::of(time);
+    pub fn position(&self, t: f64) -> [f64; 3] {
+        let advanced = self.mean_motion * Twofold::of(t);
         let mean = self.mean_anomaly + advanced;
         let turns = Twofold::of((mean.high / TURN.high).round());
         let mean = (mean - TURN * turns).value();
