@@ -1,4 +1,4 @@
-//! Internal constraints: what a material cannot do, and the stress that sees to it.
+//! Internal constraints and their reaction stresses.
 //!
 //! ```text
 //! μ(F) = 0        T = N + what the law gives        N = λ F (∂μ/∂F)ᵀ        tr(N L) = 0
@@ -15,8 +15,8 @@
 //! | your own μ(F) | [`InternalConstraint`] | by exact differentiation |
 //! | your own μ̂(C) | [`MetricConstraint`] in [`OfMetric`] | the same, six directions instead of nine |
 //!
-//! Several are combined in a [`Combination`], which names those that say the same or contradict one another, and finds
-//! multipliers from [`StressCondition`]s. Where the deformation is not known either:
+//! Several are combined in a [`Combination`], which refuses redundant and inconsistent ones and finds multipliers from
+//! [`StressCondition`]s. Where the deformation is not known either:
 //! `piola_specimens::homogeneous::constrained_equilibrium`.
 //!
 //! # Example
