@@ -2,9 +2,9 @@
 
 use super::Builder;
 use crate::document::Mistake;
-use crate::kepler::{Elements, KeplerMotion};
 use crate::validation::Record;
 use crate::words;
+use piola_gravitation::kepler::{Elements, KeplerMotion};
 
 /// Bodies about a fixed centre at the origin, without attraction among themselves.
 #[derive(Debug, Clone)]
