@@ -5,8 +5,6 @@
 pub mod batch;
 pub mod checks;
 mod error;
-#[cfg(feature = "fit")]
-pub mod fit;
 pub mod homogeneous;
 pub mod internal_constraints;
 pub mod memory;
