@@ -93,25 +93,7 @@ where
 /// A few ulp of the scale of the residual.
 ///
 /// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_fluids::{LinearViscous, navier_stokes_residual};
-/// use piola_fields::{Cartesian, Field, Flow, Uniform};
-/// use piola_numerics::Real;
-/// struct Channel; // v₂ = 1 − x₁²
-/// impl Field for Channel {
-///     type Value = Vector3<f64>;
-///     fn at<T: Real>(&self, x: &Vector3<T>, _time: T) -> Vector3<T> {
-///         Vector3::new(T::zero(), T::one() - x[0] * x[0], T::zero())
-///     }
-/// }
-/// let flow = Flow { coordinates: Cartesian, density: Uniform(1000.0), velocity: Channel };
-/// let fluid = LinearViscous::new(0.25, 0.5)?;
-/// let (pressure, force) = (Uniform(5.0), Uniform(Vector3::new(0.0, 1.0, 0.0)));
-/// let residual = navier_stokes_residual(&fluid, &flow, &pressure, &force, &Vector3::new(0.25, 0.0, 0.0), 0.0)?;
-/// assert_eq!(residual.value.y, 0.0); // −f + 2 μ
-/// # Ok::<(), piola_fluids::FluidsError>(())
-/// ```
+/// See [`ViscousStress`].
 ///
 /// # Source
 /// B(4.84).

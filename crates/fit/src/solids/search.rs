@@ -18,7 +18,7 @@ use crate::search::{End, Misfit, Range, minimise};
 /// Parameters of one evaluation.
 const CHUNK: usize = 4;
 
-/// Everything that a search knows.
+/// The model, data and bounds of a search.
 pub(super) struct Problem<'a, M> {
     pub(super) model: &'a M,
     pub(super) data: &'a Data,
@@ -33,7 +33,7 @@ pub(super) struct Problem<'a, M> {
     evaluations: Cell<usize>,
 }
 
-/// Where a search has come to.
+/// The end of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Best {
     pub(super) parameters: Vec<f64>,

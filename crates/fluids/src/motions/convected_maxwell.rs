@@ -19,7 +19,7 @@ use crate::{DifferentialFluid, FluidsError, Integral, LinearMode, Mode, Viscomet
 ///
 /// # Example
 /// ```
-/// use piola_fluids::{ConvectedMaxwell, DifferentialFluid, OldroydB};
+/// use piola_fluids::{ConvectedMaxwell, OldroydB, SteadyStress};
 /// use piola_continuum::rates::VelocityGradient;
 /// let fluid = OldroydB::new(0.25, 1.5, 0.75)?;
 /// let shear = VelocityGradient::from_rows([[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]])?;

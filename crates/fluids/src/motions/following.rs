@@ -10,7 +10,7 @@ use super::stress_rate::StressRate;
 use crate::error::check_bound;
 use crate::{DifferentialFluid, FluidsError, Mode, ViscometricFluid};
 
-/// A motion that is followed: the stresses that a differential fluid remembers, and the time.
+/// Integration along a motion: the stresses of the modes of a differential fluid, and the time.
 ///
 /// # Accuracy
 /// The tolerance times a few, in units of the largest stress.
@@ -116,14 +116,7 @@ impl<'a, F: DifferentialFluid<Mode: StressRate>> Following<'a, F> {
 /// The tolerance times a few, in units of the largest stress.
 ///
 /// # Example
-/// ```
-/// use piola_fluids::{ConvectedMaxwell, UpperConvectedMaxwell, follow};
-/// let fluid = UpperConvectedMaxwell::new(2.0, 0.5)?;
-/// let stress = follow(&fluid, |_| [[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]], &[0.25], 1e-12)?[0];
-/// let exact = fluid.start_up(3.0, 0.25)?;
-/// assert!((stress.components[3] / exact.shear - 1.0).abs() < 1e-11);
-/// # Ok::<(), piola_fluids::FluidsError>(())
-/// ```
+/// See [`Following`].
 pub fn follow<F: DifferentialFluid<Mode: StressRate>>(
     fluid: &F,
     gradient: impl Fn(f64) -> [[f64; 3]; 3],

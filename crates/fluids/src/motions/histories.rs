@@ -1,4 +1,4 @@
-//! Histories: how they look to other observers and from other references, and what of them every simple fluid forgets.
+//! Histories seen by other observers and from other references, and theorems of simple fluids on them.
 
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::Symmetric;
@@ -83,13 +83,13 @@ impl<Q: HomogeneousMotion> HomogeneousMotion for ConstantStretchHistory<Q> {
     }
 }
 
-/// How much of a violation beside how much: 0 where nothing is.
+/// A violation relative to a size; 0 where both are.
 fn ratio(violation: f64, size: f64) -> f64 {
     if 0.0 < size { violation / size } else { violation }
 }
 
-/// By how much the stress of an observer who turns with Q(t) differs from the turned stress, W(19.11) and W(19.13), beside the
-/// stress: zero for a simple fluid.
+/// Relative violation of objectivity, W(19.11) and W(19.13): the difference between the stress seen by an observer who turns with Q(t)
+/// and the turned stress, over the stress. Zero for a simple fluid.
 ///
 /// A constant Q, which may be improper, tries the isotropy of the functional.
 ///
@@ -124,8 +124,8 @@ pub fn fluid_indifference<M: HomogeneousMotion, Q: HomogeneousMotion>(
     Ok(ratio((seen - turn * stress * turn.transpose()).norm(), stress.norm()))
 }
 
-/// By how much the stress differs where the same motion is described from another reference of the same density, F(t) H with
-/// det H = 1, W(19.6) and W(19.10), beside the stress: zero for a fluid.
+/// Relative change of the stress where the same motion is described from another reference of the same density, F(t) H with
+/// det H = 1, W(19.6) and W(19.10): zero for a fluid.
 ///
 /// # Errors
 /// As [`SimpleFluid::response_to_motion`]; [`FluidsError::OutOfBounds`] unless det H = 1 to rounding.
@@ -147,7 +147,7 @@ pub fn reference_indifference<M: HomogeneousMotion>(
     Ok(ratio((seen - stress).norm(), stress.norm()))
 }
 
-/// What is left of a common proper vector f: of the history, and of the stress.
+/// Deviations of a vector f from a proper vector of the history and of the stress.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneHistory {
     /// The largest |Cₜ(t − s) f − (f·Cₜ f) f| beside |Cₜ|, at times since the start: zero for a plane history.
@@ -165,17 +165,7 @@ pub struct PlaneHistory {
 /// As [`fluid_indifference`].
 ///
 /// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_fluids::{Giesekus, plane_history};
-/// use piola_continuum::rates::ExponentialMotion;
-/// let fluid = Giesekus::new(0.1, 2.0, 0.5, 0.25)?;
-/// let l = Matrix3::new(0.5, 1.0, 0.0, -0.25, -0.25, 0.0, 0.0, 0.0, -0.25); // in the plane of 1 and 2
-/// let motion = ExponentialMotion::new(l, Matrix3::identity())?;
-/// let report = plane_history(&fluid, &motion, &Vector3::z(), 1.5, 1e-10)?;
-/// assert!(report.history < 1e-15 && report.stress < 1e-15);
-/// # Ok::<(), piola_fluids::FluidsError>(())
-/// ```
+/// See [`fluid_indifference`].
 pub fn plane_history(
     fluid: &impl SimpleFluid,
     motion: &impl HomogeneousMotion,
@@ -199,7 +189,7 @@ pub fn plane_history(
     Ok(PlaneHistory { history, stress })
 }
 
-/// By how much a motion fails to have a constant stretch history, W(22.33): the largest change, from the first of the `times` to
+/// Deviation of a motion from a constant stretch history, W(22.33): the largest change, from the first of the `times` to
 /// the others, of an invariant of the tensors Cₜ(t − s) − 1 within the last `horizon` seconds, beside the invariant's size.
 ///
 /// The invariants are the traces of products of up to three of Cₜ(t − s) − 1 at eight s: where the histories at two times differ by
@@ -244,7 +234,7 @@ pub fn stretch_history(motion: &impl HomogeneousMotion, times: &[f64], horizon: 
     Ok(worst)
 }
 
-/// The shear that a motion is, for whoever turns with it.
+/// A motion as a shear, seen by an observer who turns with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscometric {
     /// k, 1/s.
@@ -256,8 +246,8 @@ pub struct Viscometric {
     pub residual: f64,
 }
 
-/// Whether a motion is, at the time t, s, a steady shear for an observer who turns with it: from its Rivlin–Ericksen tensors,
-/// which determine a constant stretch history.
+/// The steady shear that a motion is at the time t, s, for an observer who turns with it, from its Rivlin–Ericksen tensors, which
+/// determine a constant stretch history.
 ///
 /// ```text
 /// A₁ = k (e₁e₂ + e₂e₁)      A₂ = 2 k² e₁e₁      A₃ = 0

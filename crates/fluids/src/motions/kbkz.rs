@@ -257,17 +257,6 @@ impl<H: Damping> Kbkz<H> {
     ///
     /// # Accuracy
     /// That of quadrature, 1e-12; harmonics beyond the 63rd are taken for lower ones.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fluids::{ExponentialDamping, Kbkz, Relaxation};
-    /// let memory = vec![Relaxation { viscosity: 3.0, time: 1.0 }];
-    /// let melt = Kbkz::new(memory, ExponentialDamping::new(0.0, 1.0)?)?;
-    /// let response = melt.oscillation(5.0, 2.0, 2)?;
-    /// assert!((response.shear[0][0] - melt.storage_modulus(2.0)).abs() < 1e-11); // linear without damping
-    /// assert!((response.shear[0][1] - melt.loss_modulus(2.0)).abs() < 1e-11);
-    /// # Ok::<(), piola_fluids::FluidsError>(())
-    /// ```
     pub fn oscillation(
         &self,
         amplitude: f64,

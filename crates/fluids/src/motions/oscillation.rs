@@ -18,7 +18,7 @@ pub struct Oscillation {
     pub shear: Vec<[f64; 2]>,
     /// (nₘ′, nₘ″), Pa, of m = 0, 2, 4, ….
     pub first_normal: Vec<[f64; 2]>,
-    /// What is known of the error, beside the largest harmonic of T₁₂. Of fluids that are integrated: the largest harmonic that
+    /// Estimate of the error relative to the largest harmonic of T₁₂. Of fluids that are integrated: the largest harmonic that
     /// is forbidden, of even n, which is what is left of the start and the error of the integration. Of others: the difference
     /// between two rules of quadrature.
     pub residual: f64,

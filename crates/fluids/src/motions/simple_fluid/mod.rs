@@ -1,4 +1,4 @@
-//! What every fluid answers to: steady motions, histories, the start and the stop of shear, oscillations, extension.
+//! Responses of every fluid: to steady motions, histories, start and stop of shear, oscillations, extension.
 
 mod differential;
 mod integral;
@@ -29,20 +29,27 @@ pub struct Moduli {
 /// ```text
 /// T = −p 1 + G(Cₜ(t − s), s ≥ 0)      Q G(Cₜ) Qᵀ = G(Q Cₜ Qᵀ)
 /// ```
-/// | the response to | is, of fluids of the present rate | of differential fluids | of K-BKZ fluids |
-/// |---|---|---|---|
-/// | a [steady motion](Self::response_to_steady) | a formula | six equations; a formula in shear and extension | quadrature |
-/// | a [motion](Self::response_to_motion) | a formula | integrated | quadrature |
-/// | [samples](Self::response_to_samples) of one | a formula | integrated; of Maxwell's and Oldroyd's fluids a formula | quadrature |
-/// | the [start](Self::response_to_start) of shear | a formula | the same | quadrature |
-/// | its [stop](Self::response_to_stop) | a formula | the same | quadrature |
-/// | a [small oscillation](Self::response_to_small_oscillation) | a formula | a formula | a formula |
-/// | a [large one](Self::response_to_oscillation) | quadrature; a formula of the second-order fluid | integrated | quadrature |
-/// | [steady extension](Self::response_to_extension) | a formula | a formula; of [`Slipping`](crate::Slipping) and Phan-Thien–Tanner one root | quadrature |
+/// How each fluid responds to a [steady motion](Self::response_to_steady), a [motion](Self::response_to_motion),
+/// [samples](Self::response_to_samples) of one, the [start](Self::response_to_start) and the [stop](Self::response_to_stop) of
+/// shear, a [small](Self::response_to_small_oscillation) and a [large](Self::response_to_oscillation) oscillation, and steady
+/// [extension](Self::response_to_extension): by a formula ●, the root of one equation ○, six equations ◐, quadrature with an error ∫,
+/// or integration to a tolerance →.
 ///
-/// Without a tolerance the answer is exact to rounding, or to 1e-11 by quadrature; where one is asked for, it is that of what
-/// is integrated, and formulas do not look at it. Solids at small stresses, and power laws without a viscosity at rest, have no
-/// response to a small oscillation. An [`EulerianFluid`](crate::EulerianFluid) remembers nothing and has no T + p 1.
+/// | fluid | steady | motion | samples | start, stop | small | large | extension |
+/// |---|---|---|---|---|---|---|---|
+/// | generalised Newtonian (for Ellis ○), Reiner–Rivlin, [`LinearViscous`](crate::LinearViscous) | ● | ● | ● | ● | ● ¹ | ∫ | ● |
+/// | [`SecondOrder`](crate::SecondOrder) | ● | ● | ● | ● | ● | ● | ● |
+/// | [`UpperConvectedMaxwell`](crate::UpperConvectedMaxwell), [`OldroydB`](crate::OldroydB) | ◐ ² | → ³ | ● | ● | ● | → | ● ² |
+/// | [`Giesekus`](crate::Giesekus) | ◐ | → | → | → | ● | → | ● |
+/// | Phan-Thien–Tanner, [`Slipping`](crate::Slipping) networks | ◐ | → | → | → | ● | → | ○ ² |
+/// | [`Modes`](crate::Modes) of these | as one | → | → | → ³ | ● | → | as one |
+/// | [`Kbkz`](crate::Kbkz) | ∫ ² | ∫ | ∫ | ∫ | ● | ∫ | ∫ ² |
+///
+/// ¹ An error where the viscosity at rest is infinite: with a yield stress, and of powers below 1. ² An error where the stress would
+/// grow without end: 2 λ ε̇ ≥ 1 without anything that limits it. ³ By formulas through [`ConvectedMaxwell`](crate::ConvectedMaxwell).
+///
+/// Formulas are exact to rounding and quadratures to 1e-11, whatever the tolerance. An [`EulerianFluid`](crate::EulerianFluid) has a
+/// pressure of the present density and no T + p 1.
 ///
 /// # Example
 /// ```

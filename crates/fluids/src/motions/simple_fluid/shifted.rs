@@ -32,7 +32,7 @@ impl<M: HomogeneousMotion> HomogeneousMotion for Rescaled<'_, M> {
     }
 }
 
-/// What it answers at the reference temperature, by the fluid's own clock; accuracy and refusals are those of that answer.
+/// The response at the reference temperature, by the fluid's own clock, with its accuracy and errors.
 impl<F: ViscometricFluid + SimpleFluid> SimpleFluid for Shifted<F> {
     fn response_to_steady(&self, velocity_gradient: &VelocityGradient) -> Result<Symmetric, FluidsError> {
         self.fluid().response_to_steady(&VelocityGradient::new(velocity_gradient.0 * self.factor())?)
