@@ -27,18 +27,6 @@ impl Kinematics {
 }
 
 /// The acoustic tensor `Q_ij = A_iAjB N_A N_B` of ∂P/∂F in the direction N of the reference, Pa.
-///
-/// # Example
-/// ```
-/// use piola_specimens::checks::acoustic_tensor;
-/// use piola_solids::{Hyperelastic, MooneyRivlin};
-/// use piola_continuum::DeformationGradient;
-/// let solid = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?; // μ = 1, λ = 4
-/// let tangent = solid.first_piola_tangent(&DeformationGradient::<f64>::identity());
-/// let q = acoustic_tensor(&tangent, [1.0, 0.0, 0.0]);
-/// assert_eq!([q[0][0], q[1][1], q[2][2]], [6.0, 1.0, 1.0]); // λ + 2μ, μ, μ
-/// # Ok::<(), piola_specimens::SpecimensError>(())
-/// ```
 #[must_use]
 pub fn acoustic_tensor<T: Real>(tangent: &FirstPiolaTangent<T>, normal: [T; 3]) -> Rows<T> {
     core::array::from_fn(|i| {

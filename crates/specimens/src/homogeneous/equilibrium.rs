@@ -286,16 +286,6 @@ fn undetermined<const N: usize>(
 ///
 /// # Errors
 /// As [`equilibrium`]; [`SpecimensError::OutOfBounds`] unless 0 < λ.
-///
-/// # Example
-/// ```
-/// use piola_solids::MooneyRivlin;
-/// use piola_specimens::homogeneous;
-/// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-/// let bar = homogeneous::uniaxial(&rubber, 2.0)?;
-/// assert!(bar.cauchy.0.components[1].abs() < 1e-14);
-/// # Ok::<(), piola_specimens::SpecimensError>(())
-/// ```
 pub fn uniaxial(law: &impl Response, stretch: f64) -> Result<HomogeneousState, SpecimensError> {
     check_stretches(&[stretch])?;
     equilibrium(law, &Controls::uniaxial(stretch)?, &DisplacementGradient::zero())
