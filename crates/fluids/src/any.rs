@@ -226,6 +226,3 @@ impl ViscometricFluid for AnyFluid {
         chosen!(self, fluid => fluid.flow_moment(moment, from, to))
     }
 }
-
-#[cfg(feature = "motions")]
-pub(crate) use chosen;

@@ -313,8 +313,8 @@ impl<M: Model> Misfit for Penalised<'_, '_, M> {
                 }
             }
         }
-        for k in 0..unknowns {
-            jacobian.column_mut(k).scale_mut(self.problem.range(k).outward(x[k])[1]);
+        for (k, &unknown) in x.iter().enumerate().take(unknowns) {
+            jacobian.column_mut(k).scale_mut(self.problem.range(k).outward(unknown)[1]);
         }
         residuals.iter().all(|x| x.is_finite()).then_some((residuals, jacobian))
     }

@@ -124,6 +124,8 @@ fn linear_and_angular_momentum_are_kept_to_rounding() {
     }
 }
 
+const TOP: Tol = Tol::ulps_because(256.0, "two thousand steps, whose roundings walk at random");
+
 #[test]
 fn collocation_keeps_both_quadratic_integrals_of_the_free_top() {
     // Euler's equations: the energy and the square of the angular momentum are quadratic in ω.
@@ -138,7 +140,6 @@ fn collocation_keeps_both_quadratic_integrals_of_the_free_top() {
         [sum(1), sum(2)]
     };
     let start = [0.5, -0.25, 1.5];
-    const TOP: Tol = Tol::ulps_because(256.0, "two thousand steps, whose roundings walk at random");
     for order in Order::ALL {
         let mut state = State::new(0.0, start.to_vec()).unwrap();
         GaussLegendre::new(order, 0.05).unwrap().integrate_to(&mut top, &mut state, 100.0).unwrap();
