@@ -34,7 +34,7 @@ const INTEGRALS: [(Solid, f64, f64, [f64; 3]); 10] = [
     (Solid::Sphere { radius: 1.25 }, 8.181_230_868_723_42, 0.0, [1.875; 3]),
     (Solid::SphericalShell { radius: 1.25 }, 8.181_230_868_723_42, 0.0, [3.125; 3]),
     (Solid::Cone { radius: 0.75, height: 2.0 }, 1.178_097_245_096_172_5, 1.5, [0.703_125, 0.703_125, 0.506_25]),
-    (Solid::Ellipsoid { semi_axes: [0.5, 1.0, 1.5] }, core::f64::consts::PI, 0.0, [1.95, 1.5, 0.75]),
+    (Solid::Ellipsoid { semi_axes: [0.5, 1.0, 1.5] }, PI, 0.0, [1.95, 1.5, 0.75]),
     (Solid::Disc { radius: 0.75 }, 0.0, 0.0, [0.421_875, 0.421_875, 0.843_75]),
 ];
 

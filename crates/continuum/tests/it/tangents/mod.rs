@@ -7,6 +7,6 @@ mod golden;
 mod laws;
 mod rates;
 mod scalars;
-mod tangents;
+mod of_stress;
 #[cfg(feature = "serde")]
 mod written;
