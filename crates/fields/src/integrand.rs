@@ -217,7 +217,7 @@ impl<V: FieldValue, T: Real> FieldIntegral<V, T> {
 #[cold]
 fn not_finite<T: Real>(component: usize, value: T, position: &Vector3<T>) -> FieldsError {
     let lane = (0..T::LANES).find(|&lane| !value.primal(lane).is_finite()).unwrap_or(0);
-    FieldsError::NonFiniteIntegrand {
+    FieldsError::IntegrandNotFinite {
         position: [position.x.primal(lane), position.y.primal(lane), position.z.primal(lane)],
         component,
         value: value.primal(lane),

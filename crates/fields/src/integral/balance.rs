@@ -49,7 +49,7 @@ impl IntegralBalance {
     /// | o | `pole` | m |
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     ///
     /// # Example
     /// ```
@@ -140,7 +140,7 @@ fn residual_of(momentum: &Vector3<Dual<f64>>, body: &Vector3<f64>, surface: &Vec
 /// ∫ P : Ḟ dV, the power of the stress, W.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
 ///
 /// # Example
 /// See [`IntegralBalance`].

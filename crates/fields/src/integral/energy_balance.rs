@@ -53,7 +53,7 @@ pub trait StoredEnergy {
 /// With a time that is a dual variable it carries its rate.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
 ///
 /// # Example
 /// See [`EnergyBalance`].
@@ -137,7 +137,7 @@ impl EnergyBalance {
     /// The terms for the part `region`.
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     pub fn of(
         quadrature: &Quadrature,
         region: &impl Region<f64>,

@@ -48,7 +48,7 @@ impl MassBalance {
     /// Of the part `region` with a density given in space.
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     pub fn of<R: Region<f64> + Region<Dual<f64>>>(
         quadrature: &Quadrature,
         region: &R,

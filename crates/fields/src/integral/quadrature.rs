@@ -94,7 +94,7 @@ impl Quadrature {
     /// | ∫ f dV | returned | the same | that of f × m³ |
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`] with the place; [`FieldsError::NotFinite`] for an integral beyond the
+    /// [`FieldsError::IntegrandNotFinite`] with the place; [`FieldsError::NotFinite`] for an integral beyond the
     /// range of numbers; what the region refuses.
     pub fn volume_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,

@@ -61,7 +61,7 @@ impl<T: Real> Resultants<T> {
     /// With a time that is a dual variable, the results carry their rates, exact to rounding.
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     ///
     /// # Example
     /// ```
@@ -106,7 +106,7 @@ impl<T: Real> Resultants<T> {
     /// The region of a body in motion is a [`MovedRegion`](super::MovedRegion).
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the region refuses.
     pub fn in_space(
         quadrature: &Quadrature,
         region: &impl Region<T>,
@@ -178,7 +178,7 @@ impl ForceResultants {
     /// Of body forces b(X, t) per unit mass.
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     ///
     /// # Example
     /// ```
@@ -214,7 +214,7 @@ impl ForceResultants {
     /// Of the tractions P N of a stress P(X, t) on the boundary.
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     pub fn of_tractions(
         quadrature: &Quadrature,
         region: &impl Region<f64>,

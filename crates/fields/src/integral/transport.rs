@@ -82,7 +82,7 @@ pub struct Sides<V> {
 /// The motion need not be that of matter: with that of any moving boundary it is Reynolds' theorem.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
 ///
 /// # Example
 /// See [`Transport`].
@@ -141,7 +141,7 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
 /// integrates `ρ_κ` (∂Φ/∂t + grad Φ·v) over the reference configuration.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
 ///
 /// # Example
 /// The height Φ of a body that rises at 2 m/s: the mass times that.
@@ -214,7 +214,7 @@ fn place_variables(place: &Vector3<f64>) -> Vector3<Gradient<f64, 4>> {
 /// Both sides of the divergence theorem for a vector field, ∫ div g dv and ∮ g·n da.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the region refuses.
 pub fn divergence_theorem(
     quadrature: &Quadrature,
     region: &impl Region<f64>,
@@ -234,7 +234,7 @@ pub fn divergence_theorem(
 /// With [`FirstPiola`](piola_continuum::FirstPiola) on a region of the reference configuration it is ∫ Div P dV = ∮ P N dA.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the region refuses.
 pub fn tensor_divergence_theorem<V: TensorValue>(
     quadrature: &Quadrature,
     region: &impl Region<f64>,

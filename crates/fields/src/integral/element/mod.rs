@@ -208,7 +208,7 @@ impl<const N: usize> TetrahedralElements<N> {
     /// displacement.
     ///
     /// # Errors
-    /// [`FieldsError::WrongLength`], [`FieldsError::NonFiniteIntegrand`], the integrand's own.
+    /// [`FieldsError::WrongLength`], [`FieldsError::IntegrandNotFinite`], the integrand's own.
     pub fn integral<T: Real, V: Integrand<Scalar = T>>(
         &self,
         field: &[T],
