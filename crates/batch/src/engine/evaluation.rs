@@ -67,8 +67,8 @@ const SMALLEST_PART: usize = 1 << 12;
 ///
 /// # Accuracy
 /// That of the one-point functions, whose formulas run in [`Lanes`]. The results are theirs to the last bit, except that
-/// elementary functions (ln) are those of [`Lanes`], within 2 ulp of the standard library's; and they are bit-identical
-/// for every place in a batch, number of threads and machine.
+/// logarithms are those of [`Lanes`], within 2 ulp of the standard library's relative to the logarithm itself. They are
+/// bit-identical for every place in a batch, number of threads and machine.
 ///
 /// # Example
 /// ```

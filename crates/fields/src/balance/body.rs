@@ -196,7 +196,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
 
     /// Div P + f, N/m³ of the reference configuration: statics, B(4.59).
     ///
-    /// The motion is not asked for anything but its domain.
+    /// Only the domain of the motion is evaluated.
     ///
     /// # Errors
     /// See [the type](Body#errors).

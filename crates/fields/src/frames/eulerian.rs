@@ -10,7 +10,7 @@ use crate::field::{Field, ValueOf, finite, local_rate, value_and_partials};
 use crate::motion::{Motion, kernels};
 use crate::value::{FieldValue, map};
 
-/// A motion whose quantities are asked for at places x: each question inverts the motion first.
+/// A motion evaluated at places x: each method inverts the motion first.
 ///
 /// # Errors
 /// Every method: as [`Inversion::preimage_near`], and [`FieldsError::NotFinite`] for a result.

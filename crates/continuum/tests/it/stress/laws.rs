@@ -282,7 +282,7 @@ proptest! {
     }
 
     #[test]
-    fn force_on_a_deformed_area_equals_traction(t in stress(), f in deformation(), n in direction()) {
+    fn force_on_a_deformed_area_equals_nominal_traction(t in stress(), f in deformation(), n in direction()) {
         let reference = ReferenceNormal::new(n).expect("a direction");
         let area = reference.deformed(&f);
         let force = t.traction(&area.normal) * area.ratio;
