@@ -5,9 +5,9 @@ use piola_numerics::{Lanes, Mask, Real};
 use piola_tensor::internal::check_finite;
 
 use super::destinations::{Destination, scatter};
-use super::evaluation::BatchScalar;
 use super::point::Point;
 use super::refusal::Refusal;
+use super::scalar::BatchScalar;
 use super::sources::{Source, fill};
 use crate::BatchError;
 
@@ -124,8 +124,8 @@ impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
     /// use piola_batch as batch;
     /// use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola};
     /// let (f, stress) = (DeformationGradient::diagonal([2.0, 0.5, 0.5])?, [CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?]);
-    /// let mut nominal = [FirstPiola::zero()];
-    /// let request = batch::cauchy_to_first_piola(&stress[..], &mut nominal[..]);
+    /// let mut converted = [FirstPiola::zero()];
+    /// let request = batch::cauchy_to_first_piola(&stress[..], &mut converted[..]);
     /// assert_eq!(request.at(&f, 0)[0], 2.0); // by rows
     /// # Ok::<(), piola_batch::BatchError>(())
     /// ```

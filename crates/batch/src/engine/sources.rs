@@ -7,8 +7,8 @@ use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Element, Lanes, Real};
 use piola_tensor::Symmetric;
 
-use super::evaluation::BatchScalar;
 use super::records::gather;
+use super::scalar::BatchScalar;
 use super::views::{AllEntries, ColumnMajor, Components, LaneBlocks, Strided};
 use crate::BatchError;
 

@@ -38,17 +38,6 @@ quantity! {
         all
     };
     /// The second derivative of ln U along two directions of F: see [`HenckyStrain::second_derivative`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_batch as batch;
-    /// use piola_continuum::DeformationGradient;
-    /// let (f, mut out) = ([DeformationGradient::diagonal([2.0, 0.5, 0.5])?; 3], [[0.0_f64; 6]; 3]);
-    /// let along = [[[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]; 3];
-    /// batch::evaluate(&f[..], batch::hencky_second_derivative(&along[..], &along[..], &mut out[..]))?;
-    /// assert!((out[2][0] + 0.25).abs() < 1e-14); // −1/λ₁²
-    /// # Ok::<(), piola_batch::BatchError>(())
-    /// ```
     hencky_second_derivative(first: A, second: B)
         HenckySecondDerivative: (Matrix3<f64>, Matrix3<f64>) [18] => Self [6], "directions",
         |point, input| {
