@@ -19,9 +19,9 @@ parameters! {
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | μ | `mu` | Pa | 0 < μ (the shear modulus) |
-    /// | ν | `nu` | 1 | 0 ≤ ν < ½ (Poisson's ratio) |
-    /// | f | `share` | 1 | 0 ≤ f ≤ 1: 0 foam, 1 solid |
+    /// | μ | `shear_modulus` | Pa | 0 < μ |
+    /// | ν | `poisson_ratio` | 1 | 0 ≤ ν < ½ |
+    /// | f | `solid_fraction` | 1 | 0 ≤ f ≤ 1: 0 foam, 1 solid |
     ///
     /// `check` refuses changes of volume whose power J^(±2β) leaves the range of the scalar, as it soon does near ν = ½;
     /// without it energy, stresses and tangents are NaN there.
@@ -46,11 +46,11 @@ parameters! {
     /// Blatz & Ko 1962.
     pub struct BlatzKo("Blatz–Ko") {
         /// μ, Pa.
-        mu: "0 < μ" => 0.0 < mu,
+        shear_modulus as "mu": "0 < μ" => 0.0 < shear_modulus,
         /// ν.
-        nu: "0 ≤ ν < ½" => 0.0 <= nu && nu < 0.5,
+        poisson_ratio as "nu": "0 ≤ ν < ½" => 0.0 <= poisson_ratio && poisson_ratio < 0.5,
         /// f.
-        share: "0 ≤ f ≤ 1" => 0.0 <= share && share <= 1.0,
+        solid_fraction as "share": "0 ≤ f ≤ 1" => 0.0 <= solid_fraction && solid_fraction <= 1.0,
     }
 }
 
@@ -59,25 +59,26 @@ impl BlatzKo {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn foam(mu: f64) -> Result<Self, SolidsError> {
-        Self::new(mu, 0.25, 0.0)
+    pub fn foam(shear_modulus: f64) -> Result<Self, SolidsError> {
+        Self::new(shear_modulus, 0.25, 0.0)
     }
 
     /// β = ν/(1 − 2 ν).
+    #[doc(alias = "beta")]
     #[must_use]
-    pub fn beta(&self) -> f64 {
-        self.nu / (1.0 - 2.0 * self.nu)
+    pub fn exponent(&self) -> f64 {
+        self.poisson_ratio / (1.0 - 2.0 * self.poisson_ratio)
     }
 
     /// μ f and μ (1 − f).
     fn moduli(&self) -> (f64, f64) {
-        (self.mu * self.share, self.mu * (1.0 - self.share))
+        (self.shear_modulus * self.solid_fraction, self.shear_modulus * (1.0 - self.solid_fraction))
     }
 
     /// J^(−2β) − 1 and J^(2β) − 1.
     #[inline(always)]
     fn powers<T: Real>(&self, logarithm: T) -> (T, T) {
-        let exponent = T::lit(2.0 * self.beta()) * logarithm;
+        let exponent = T::lit(2.0 * self.exponent()) * logarithm;
         let exponent = within(exponent.abs(), T::lit(self.limit::<T>()), exponent);
         ((-exponent).exp_m1(), exponent.exp_m1())
     }
@@ -85,7 +86,7 @@ impl BlatzKo {
     /// What |2 β ln J| is below, so that the tangent is within the range of the scalar.
     #[inline(always)]
     fn limit<T: Real>(&self) -> f64 {
-        largest_exponent::<T>(4.0 * self.mu * (1.0 + self.beta()))
+        largest_exponent::<T>(4.0 * self.shear_modulus * (1.0 + self.exponent()))
     }
 }
 
@@ -100,11 +101,11 @@ impl InvariantEnergy for BlatzKo {
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         let (jacobian, limit) = (deformation.jacobian(), self.limit::<T>());
         // |2 β ln J| < 60.
-        let small = self.beta() <= 10.0 && 60.0 <= limit;
+        let small = self.exponent() <= 10.0 && 60.0 <= limit;
         if small && (T::lit(0.05).less_than(jacobian) & jacobian.less_than(T::lit(20.0))).all() {
             return Ok(());
         }
-        let exponent = (T::lit(2.0 * self.beta()) * deformation.ln_jacobian()).abs();
+        let exponent = (T::lit(2.0 * self.exponent()) * deformation.ln_jacobian()).abs();
         check_below(Self::NAME, "2 β |ln J|", exponent, limit)
     }
 
@@ -113,7 +114,7 @@ impl InvariantEnergy for BlatzKo {
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let (solid, foam) = self.moduli();
         let (down, up) = self.powers(deformation.ln_jacobian());
-        let beta = self.beta();
+        let beta = self.exponent();
         let exponent = T::lit(2.0 * beta) * deformation.ln_jacobian();
         let reciprocal = if 0.0 < beta { T::lit(beta.recip()) } else { T::zero() };
         T::lit(0.5 * solid) * (first_excess(deformation) + reciprocal * excess_over_given(down, -exponent))
@@ -141,7 +142,7 @@ impl InvariantEnergy for BlatzKo {
     #[inline(always)]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let (solid, foam) = self.moduli();
-        let (one, beta) = (T::one(), self.beta());
+        let (one, beta) = (T::one(), self.exponent());
         let (down, up) = self.powers(invariants.change.ln_1p_given(invariants.jacobian));
         let reciprocal = invariants.jacobian.recip();
         let square = reciprocal * reciprocal;

@@ -30,6 +30,9 @@ pub enum PoissonSign {
 /// an incompressible solid: λ, K and M are then `None`, not infinite, and what needs the pressure takes it as an argument,
 /// see [`MixedLinearElastic`](super::MixedLinearElastic).
 ///
+/// # Errors
+/// Each pair: [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`] beyond the bounds it states.
+///
 /// # Accuracy
 /// A few ulp × the condition number of the pair, which is that of 1 − 2ν near ν = ½: sums that would cancel are
 /// rationalised.
@@ -38,7 +41,7 @@ pub enum PoissonSign {
 /// ```
 /// use piola_solids::ElasticConstants;
 /// let steel = ElasticConstants::from_young_poisson(200e9, 0.25)?;
-/// assert_eq!((steel.shear_modulus(), steel.lame()), (80e9, Some(80e9)));
+/// assert_eq!((steel.shear_modulus(), steel.first_lame_parameter()), (80e9, Some(80e9)));
 /// let rubber = ElasticConstants::from_young_poisson(3e6, 0.5)?;
 /// assert_eq!((rubber.shear_modulus(), rubber.bulk_modulus(), rubber.compressibility()), (1e6, None, 0.0));
 /// # Ok::<(), piola_solids::SolidsError>(())
@@ -59,48 +62,42 @@ fn check_positive(parameter: &'static str, value: f64, bound: &'static str) -> R
 }
 
 fn check_poisson(nu: f64) -> Result<(), SolidsError> {
-    check_bound(LAW, "nu", nu, "−1 < ν ≤ ½", -1.0 < nu && nu <= 0.5)
+    check_bound(LAW, "poisson_ratio", nu, "−1 < ν ≤ ½", -1.0 < nu && nu <= 0.5)
 }
 
 fn check_compressible(nu: f64) -> Result<(), SolidsError> {
-    check_bound(LAW, "nu", nu, "−1 < ν < ½", -1.0 < nu && nu < 0.5)
+    check_bound(LAW, "poisson_ratio", nu, "−1 < ν < ½", -1.0 < nu && nu < 0.5)
 }
 
+#[expect(clippy::missing_errors_doc, reason = "they are those of all pairs, said at the type")]
 impl ElasticConstants {
     /// From λ and μ that have been checked.
     /// A pair can overflow them: near ν = ½ λ is as large as the number allows.
     fn of(lambda: f64, mu: f64) -> Result<Self, SolidsError> {
-        check_finite(LAW, "lambda", lambda)?;
-        check_positive("mu", mu, "0 < μ")?;
+        check_finite(LAW, "first_lame_parameter", lambda)?;
+        check_positive("shear_modulus", mu, "0 < μ")?;
         check_finite(LAW, "3 λ + 2 μ", 3.0 * lambda + 2.0 * mu)?;
         Ok(Self { mu, lambda: Some(lambda) })
     }
 
     /// λ and μ: 0 < μ, 0 < 3 λ + 2 μ.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`]; so of all pairs.
-    pub fn from_lame(lambda: f64, mu: f64) -> Result<Self, SolidsError> {
-        check_positive("mu", mu, "0 < μ")?;
-        check_bound(LAW, "lambda", lambda, "0 < 3 λ + 2 μ", 0.0 < 3.0 * lambda + 2.0 * mu)?;
+    pub fn from_lame(first_lame_parameter: f64, shear_modulus: f64) -> Result<Self, SolidsError> {
+        let (lambda, mu) = (first_lame_parameter, shear_modulus);
+        check_positive("shear_modulus", mu, "0 < μ")?;
+        check_bound(LAW, "first_lame_parameter", lambda, "0 < 3 λ + 2 μ", 0.0 < 3.0 * lambda + 2.0 * mu)?;
         Self::of(lambda, mu)
     }
 
     /// An incompressible solid: ν = ½.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn incompressible(mu: f64) -> Result<Self, SolidsError> {
-        check_positive("mu", mu, "0 < μ")?;
-        Ok(Self { mu, lambda: None })
+    pub fn incompressible(shear_modulus: f64) -> Result<Self, SolidsError> {
+        check_positive("shear_modulus", shear_modulus, "0 < μ")?;
+        Ok(Self { mu: shear_modulus, lambda: None })
     }
 
     /// E and ν: 0 < E, −1 < ν ≤ ½.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_young_poisson(young: f64, nu: f64) -> Result<Self, SolidsError> {
-        check_positive("E", young, "0 < E")?;
+    pub fn from_young_poisson(young_modulus: f64, poisson_ratio: f64) -> Result<Self, SolidsError> {
+        let (young, nu) = (young_modulus, poisson_ratio);
+        check_positive("young_modulus", young, "0 < E")?;
         check_poisson(nu)?;
         let mu = 0.5 * young / (1.0 + nu);
         let beyond = 1.0 - 2.0 * nu;
@@ -108,66 +105,54 @@ impl ElasticConstants {
     }
 
     /// G and ν: 0 < G, −1 < ν ≤ ½.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_shear_poisson(mu: f64, nu: f64) -> Result<Self, SolidsError> {
-        check_positive("G", mu, "0 < G")?;
+    pub fn from_shear_poisson(shear_modulus: f64, poisson_ratio: f64) -> Result<Self, SolidsError> {
+        let (mu, nu) = (shear_modulus, poisson_ratio);
+        check_positive("shear_modulus", mu, "0 < G")?;
         check_poisson(nu)?;
         let beyond = 1.0 - 2.0 * nu;
         if 0.0 < beyond { Self::of(2.0 * mu * nu / beyond, mu) } else { Ok(Self { mu, lambda: None }) }
     }
 
     /// E and G: 0 < E ≤ 3 G, incompressible where they are equal.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_young_shear(young: f64, mu: f64) -> Result<Self, SolidsError> {
-        check_positive("G", mu, "0 < G")?;
-        check_bound(LAW, "E", young, "0 < E ≤ 3 G", 0.0 < young && young <= 3.0 * mu)?;
+    pub fn from_young_shear(young_modulus: f64, shear_modulus: f64) -> Result<Self, SolidsError> {
+        let (young, mu) = (young_modulus, shear_modulus);
+        check_positive("shear_modulus", mu, "0 < G")?;
+        check_bound(LAW, "young_modulus", young, "0 < E ≤ 3 G", 0.0 < young && young <= 3.0 * mu)?;
         let beyond = 3.0 * mu - young;
         if 0.0 < beyond { Self::of(mu * (young - 2.0 * mu) / beyond, mu) } else { Ok(Self { mu, lambda: None }) }
     }
 
     /// K and G: 0 < K, 0 < G.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_bulk_shear(bulk: f64, mu: f64) -> Result<Self, SolidsError> {
-        check_positive("K", bulk, "0 < K")?;
-        check_positive("G", mu, "0 < G")?;
+    pub fn from_bulk_shear(bulk_modulus: f64, shear_modulus: f64) -> Result<Self, SolidsError> {
+        let (bulk, mu) = (bulk_modulus, shear_modulus);
+        check_positive("bulk_modulus", bulk, "0 < K")?;
+        check_positive("shear_modulus", mu, "0 < G")?;
         Self::of(bulk - 2.0 / 3.0 * mu, mu)
     }
 
     /// K and ν: 0 < K, −1 < ν < ½. At ½ a finite K would be that of a fluid.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_bulk_poisson(bulk: f64, nu: f64) -> Result<Self, SolidsError> {
-        check_positive("K", bulk, "0 < K")?;
+    pub fn from_bulk_poisson(bulk_modulus: f64, poisson_ratio: f64) -> Result<Self, SolidsError> {
+        let (bulk, nu) = (bulk_modulus, poisson_ratio);
+        check_positive("bulk_modulus", bulk, "0 < K")?;
         check_compressible(nu)?;
         let share = 3.0 * bulk / (1.0 + nu);
         Self::of(share * nu, 0.5 * share * (1.0 - 2.0 * nu))
     }
 
     /// K and E: 0 < K, 0 < E < 9 K.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_bulk_young(bulk: f64, young: f64) -> Result<Self, SolidsError> {
-        check_positive("K", bulk, "0 < K")?;
-        check_bound(LAW, "E", young, "0 < E < 9 K", 0.0 < young && young < 9.0 * bulk)?;
+    pub fn from_bulk_young(bulk_modulus: f64, young_modulus: f64) -> Result<Self, SolidsError> {
+        let (bulk, young) = (bulk_modulus, young_modulus);
+        check_positive("bulk_modulus", bulk, "0 < K")?;
+        check_bound(LAW, "young_modulus", young, "0 < E < 9 K", 0.0 < young && young < 9.0 * bulk)?;
         let share = 3.0 * bulk / (9.0 * bulk - young);
         Self::of(share * (3.0 * bulk - young), share * young)
     }
 
     /// λ and E: 0 < E, any λ.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_lame_young(lambda: f64, young: f64) -> Result<Self, SolidsError> {
-        check_positive("E", young, "0 < E")?;
-        check_bound(LAW, "lambda", lambda, "finite", true)?;
+    pub fn from_lame_young(first_lame_parameter: f64, young_modulus: f64) -> Result<Self, SolidsError> {
+        let (lambda, young) = (first_lame_parameter, young_modulus);
+        check_positive("young_modulus", young, "0 < E")?;
+        check_bound(LAW, "first_lame_parameter", lambda, "finite", true)?;
         // 2 μ² + (3 λ − E) μ − λ E = 0; the root with the sum that does not cancel.
         let root = (young * young + 9.0 * lambda * lambda + 2.0 * young * lambda).sqrt();
         let linear = 3.0 * lambda - young;
@@ -176,82 +161,64 @@ impl ElasticConstants {
     }
 
     /// λ and ν, both of one sign and not zero: 0 < λ/ν, −1 < ν < ½.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_lame_poisson(lambda: f64, nu: f64) -> Result<Self, SolidsError> {
+    pub fn from_lame_poisson(first_lame_parameter: f64, poisson_ratio: f64) -> Result<Self, SolidsError> {
+        let (lambda, nu) = (first_lame_parameter, poisson_ratio);
         check_compressible(nu)?;
-        check_bound(LAW, "lambda", lambda, "0 < λ/ν", 0.0 < lambda / nu)?;
+        check_bound(LAW, "first_lame_parameter", lambda, "0 < λ/ν", 0.0 < lambda / nu)?;
         Self::of(lambda, 0.5 * (lambda / nu) * (1.0 - 2.0 * nu))
     }
 
     /// λ and K: 0 < K, λ < K.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_lame_bulk(lambda: f64, bulk: f64) -> Result<Self, SolidsError> {
-        check_positive("K", bulk, "0 < K")?;
-        check_bound(LAW, "lambda", lambda, "λ < K", lambda < bulk)?;
+    pub fn from_lame_bulk(first_lame_parameter: f64, bulk_modulus: f64) -> Result<Self, SolidsError> {
+        let (lambda, bulk) = (first_lame_parameter, bulk_modulus);
+        check_positive("bulk_modulus", bulk, "0 < K")?;
+        check_bound(LAW, "first_lame_parameter", lambda, "λ < K", lambda < bulk)?;
         Self::of(lambda, 1.5 * (bulk - lambda))
     }
 
     /// λ and M: λ < M, 0 < 2 λ + M.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_lame_uniaxial(lambda: f64, uniaxial: f64) -> Result<Self, SolidsError> {
-        check_positive("M", uniaxial, "0 < M")?;
+    pub fn from_lame_uniaxial(first_lame_parameter: f64, uniaxial_modulus: f64) -> Result<Self, SolidsError> {
+        let (lambda, uniaxial) = (first_lame_parameter, uniaxial_modulus);
+        check_positive("uniaxial_modulus", uniaxial, "0 < M")?;
         let holds = lambda < uniaxial && 0.0 < 2.0 * lambda + uniaxial;
-        check_bound(LAW, "lambda", lambda, "−½ M < λ < M", holds)?;
+        check_bound(LAW, "first_lame_parameter", lambda, "−½ M < λ < M", holds)?;
         Self::of(lambda, 0.5 * (uniaxial - lambda))
     }
 
     /// G and M: 0 < G, 4/3 G < M.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_shear_uniaxial(mu: f64, uniaxial: f64) -> Result<Self, SolidsError> {
-        check_positive("G", mu, "0 < G")?;
-        check_bound(LAW, "M", uniaxial, "4/3 G < M", 4.0 * mu < 3.0 * uniaxial)?;
+    pub fn from_shear_uniaxial(shear_modulus: f64, uniaxial_modulus: f64) -> Result<Self, SolidsError> {
+        let (mu, uniaxial) = (shear_modulus, uniaxial_modulus);
+        check_positive("shear_modulus", mu, "0 < G")?;
+        check_bound(LAW, "uniaxial_modulus", uniaxial, "4/3 G < M", 4.0 * mu < 3.0 * uniaxial)?;
         Self::of(uniaxial - 2.0 * mu, mu)
     }
 
     /// K and M: 0 < K < M.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_bulk_uniaxial(bulk: f64, uniaxial: f64) -> Result<Self, SolidsError> {
-        check_positive("K", bulk, "0 < K")?;
-        check_bound(LAW, "M", uniaxial, "K < M", bulk < uniaxial)?;
+    pub fn from_bulk_uniaxial(bulk_modulus: f64, uniaxial_modulus: f64) -> Result<Self, SolidsError> {
+        let (bulk, uniaxial) = (bulk_modulus, uniaxial_modulus);
+        check_positive("bulk_modulus", bulk, "0 < K")?;
+        check_bound(LAW, "uniaxial_modulus", uniaxial, "K < M", bulk < uniaxial)?;
         Self::of(0.5 * (3.0 * bulk - uniaxial), 0.75 * (uniaxial - bulk))
     }
 
     /// ν and M: −1 < ν < ½, 0 < M.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn from_poisson_uniaxial(nu: f64, uniaxial: f64) -> Result<Self, SolidsError> {
-        check_positive("M", uniaxial, "0 < M")?;
+    pub fn from_poisson_uniaxial(poisson_ratio: f64, uniaxial_modulus: f64) -> Result<Self, SolidsError> {
+        let (nu, uniaxial) = (poisson_ratio, uniaxial_modulus);
+        check_positive("uniaxial_modulus", uniaxial, "0 < M")?;
         check_compressible(nu)?;
         let share = uniaxial / (1.0 - nu);
         Self::of(share * nu, 0.5 * share * (1.0 - 2.0 * nu))
     }
 
     /// E and M: 0 < E ≤ M. Two solids have them; the sign of ν chooses.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::{ElasticConstants, PoissonSign};
-    /// let steel = ElasticConstants::from_young_uniaxial(200e9, 240e9, PoissonSign::NonNegative)?;
-    /// assert!((steel.poisson_ratio() - 0.25).abs() < 1e-15);
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
-    pub fn from_young_uniaxial(young: f64, uniaxial: f64, sign: PoissonSign) -> Result<Self, SolidsError> {
-        check_positive("M", uniaxial, "0 < M")?;
-        check_bound(LAW, "E", young, "0 < E ≤ M", 0.0 < young && young <= uniaxial)?;
+    pub fn from_young_uniaxial(
+        young_modulus: f64,
+        uniaxial_modulus: f64,
+        sign: PoissonSign,
+    ) -> Result<Self, SolidsError> {
+        let (young, uniaxial) = (young_modulus, uniaxial_modulus);
+        check_positive("uniaxial_modulus", uniaxial, "0 < M")?;
+        check_bound(LAW, "young_modulus", young, "0 < E ≤ M", 0.0 < young && young <= uniaxial)?;
         // S² = (E − M)(E − 9 M); in each branch the root without a difference.
         let beyond = uniaxial - young;
         let root = (beyond * (9.0 * uniaxial - young)).sqrt();
@@ -273,8 +240,9 @@ impl ElasticConstants {
     }
 
     /// λ, Pa; none of an incompressible solid.
+    #[doc(alias = "lambda")]
     #[must_use]
-    pub const fn lame(&self) -> Option<f64> {
+    pub const fn first_lame_parameter(&self) -> Option<f64> {
         self.lambda
     }
 
@@ -315,14 +283,15 @@ impl ElasticConstants {
     }
 }
 
-/// The constants as they are written: `mu` alone is an incompressible solid.
+/// The constants as they are written: the shear modulus alone is an incompressible solid.
 #[cfg(feature = "serde")]
 #[derive(serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
-    mu: f64,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    lambda: Option<f64>,
+    #[serde(alias = "mu")]
+    shear_modulus: f64,
+    #[serde(alias = "lambda", default, skip_serializing_if = "Option::is_none")]
+    first_lame_parameter: Option<f64>,
 }
 
 #[cfg(feature = "serde")]
@@ -330,9 +299,9 @@ impl TryFrom<Written> for ElasticConstants {
     type Error = SolidsError;
 
     fn try_from(written: Written) -> Result<Self, SolidsError> {
-        match written.lambda {
-            Some(lambda) => Self::from_lame(lambda, written.mu),
-            None => Self::incompressible(written.mu),
+        match written.first_lame_parameter {
+            Some(lambda) => Self::from_lame(lambda, written.shear_modulus),
+            None => Self::incompressible(written.shear_modulus),
         }
     }
 }
@@ -340,6 +309,6 @@ impl TryFrom<Written> for ElasticConstants {
 #[cfg(feature = "serde")]
 impl From<ElasticConstants> for Written {
     fn from(constants: ElasticConstants) -> Self {
-        Self { mu: constants.mu, lambda: constants.lambda }
+        Self { shear_modulus: constants.mu, first_lame_parameter: constants.lambda }
     }
 }

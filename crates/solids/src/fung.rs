@@ -21,7 +21,7 @@ const LAW: &str = "Fung";
 ///
 /// | symbol | parameter | unit | bounds |
 /// |---|---|---|---|
-/// | c | `c` | Pa | 0 < c |
+/// | c | `modulus` | Pa | 0 < c |
 /// | A | `exponents` | – | positive definite |
 ///
 /// The stiffness of the reference is c A. [`check`](super::Hyperelastic::check) refuses Q at which c e^Q (1 + 2 Q) |A| |F|²
@@ -44,11 +44,12 @@ const LAW: &str = "Fung";
 /// Y. C. Fung, K. Fronek and P. Patitucci, Am. J. Physiol. 237 (1979) H620–H631.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Written", into = "Written"))]
+#[cfg_attr(feature = "serde", serde(try_from = "Written"))]
 pub struct Fung {
-    c: f64,
+    modulus: f64,
     exponents: Stiffness,
     /// c · max(9 |A|, 1), |A| the largest component.
+    #[cfg_attr(feature = "serde", serde(skip))]
     size: f64,
 }
 
@@ -57,16 +58,17 @@ impl Fung {
     ///
     /// # Errors
     /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn new(c: f64, exponents: Stiffness) -> Result<Self, SolidsError> {
-        check_bound(LAW, "c", c, "0 < c", 0.0 < c)?;
+    pub fn new(modulus: f64, exponents: Stiffness) -> Result<Self, SolidsError> {
+        check_bound(LAW, "modulus", modulus, "0 < c", 0.0 < modulus)?;
         let largest = exponents.tensor().components.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        Ok(Self { c, exponents, size: c * (9.0 * largest).max(1.0) })
+        Ok(Self { modulus, exponents, size: modulus * (9.0 * largest).max(1.0) })
     }
 
     /// c, Pa.
+    #[doc(alias = "c")]
     #[must_use]
-    pub const fn c(&self) -> f64 {
-        self.c
+    pub const fn modulus(&self) -> f64 {
+        self.modulus
     }
 
     /// A.
@@ -104,7 +106,7 @@ impl Fung {
     /// S and ∂S/∂E of A : E and e^Q.
     #[inline(always)]
     fn scaled<T: Real>(&self, image: &Symmetric<T>, power: T) -> (Symmetric<T>, MajorSymmetric<T>) {
-        let scale = T::lit(self.c) * power;
+        let scale = T::lit(self.modulus) * power;
         let whole = constant_tangent(self.exponents.tensor()) + MajorSymmetric::dyad(image) * T::lit(2.0);
         (*image * scale, whole * scale)
     }
@@ -130,7 +132,7 @@ impl StrainEnergy for Fung {
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let strain = GreenStrain::of(deformation).0;
         let q = self.exponent(&strain).1;
-        T::lit(0.5 * self.c) * self.growth(&strain, q)
+        T::lit(0.5 * self.modulus) * self.growth(&strain, q)
     }
     #[inline(always)]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
@@ -161,7 +163,7 @@ impl StrainEnergy for Fung {
         let (image, q) = self.exponent(&strain);
         let growth = self.growth(&strain, q);
         let (stress, tangent) = self.scaled(&image, T::one() + growth);
-        (T::lit(0.5 * self.c) * growth, stress, tangent)
+        (T::lit(0.5 * self.modulus) * growth, stress, tangent)
     }
     #[inline(always)]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
@@ -173,27 +175,4 @@ impl StrainEnergy for Fung {
 
 hyperelastic_of_strain!(Fung);
 
-/// The parameters as they are written.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    c: f64,
-    exponents: Stiffness,
-}
-
-#[cfg(feature = "serde")]
-impl TryFrom<Written> for Fung {
-    type Error = SolidsError;
-
-    fn try_from(Written { c, exponents }: Written) -> Result<Self, SolidsError> {
-        Self::new(c, exponents)
-    }
-}
-
-#[cfg(feature = "serde")]
-impl From<Fung> for Written {
-    fn from(Fung { c, exponents, .. }: Fung) -> Self {
-        Self { c, exponents }
-    }
-}
+read_with!(new of Fung<> { modulus as "c": f64, exponents: Stiffness });

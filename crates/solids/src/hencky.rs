@@ -17,8 +17,8 @@ const LAW: &str = "Hencky";
 ///
 /// | symbol | parameter | unit | bounds |
 /// |---|---|---|---|
-/// | λ | `lambda`, U″(1) of `volumetric` | Pa | 0 < λ + ⅔ μ (the bulk modulus) |
-/// | μ | `mu` | Pa | 0 < μ (the shear modulus) |
+/// | λ | `first_lame_parameter`, U″(1) of `volumetric` | Pa | 0 < λ + ⅔ μ (the bulk modulus) |
+/// | μ | `shear_modulus` | Pa | 0 < μ (the shear modulus) |
 ///
 /// With U = ½ λ (ln J)², for principal stretches from 0.2116 to e^⅓ = 1.3956 the law is elliptic whatever λ ≥ 0 and μ (Bruhns,
 /// Xiao and Meyers, Proc. R. Soc. Lond. A 457 (2001) 2207–2226); beyond it need not be.
@@ -44,16 +44,12 @@ const LAW: &str = "Hencky";
 /// H. Hencky, Z. techn. Physik 9 (1928) 215–220.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Written<U>", into = "Written<U>"))]
 #[cfg_attr(
     feature = "serde",
-    serde(bound(
-        serialize = "U: Volumetric + Clone + serde::Serialize",
-        deserialize = "U: Volumetric + serde::Deserialize<'de>"
-    ))
+    serde(try_from = "Written<U>", bound(deserialize = "U: Volumetric + serde::Deserialize<'de>"))
 )]
 pub struct Hencky<U = Lame> {
-    mu: f64,
+    shear_modulus: f64,
     volumetric: U,
 }
 
@@ -62,16 +58,18 @@ impl Hencky {
     ///
     /// # Errors
     /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn new(lambda: f64, mu: f64) -> Result<Self, SolidsError> {
-        check_bound(LAW, "mu", mu, "0 < mu", 0.0 < mu)?;
-        check_bound(LAW, "lambda", lambda, "0 < lambda + 2/3 mu", 0.0 < lambda + 2.0 / 3.0 * mu)?;
-        Ok(Self { mu, volumetric: Lame::new(lambda)? })
+    pub fn new(first_lame_parameter: f64, shear_modulus: f64) -> Result<Self, SolidsError> {
+        let (lambda, mu) = (first_lame_parameter, shear_modulus);
+        check_bound(LAW, "shear_modulus", mu, "0 < μ", 0.0 < mu)?;
+        check_bound(LAW, "first_lame_parameter", lambda, "0 < λ + ⅔ μ", 0.0 < lambda + 2.0 / 3.0 * mu)?;
+        Ok(Self { shear_modulus, volumetric: Lame::new(lambda)? })
     }
 
     /// λ, Pa.
+    #[doc(alias = "lambda")]
     #[must_use]
-    pub const fn lambda(&self) -> f64 {
-        self.volumetric.lambda()
+    pub const fn first_lame_parameter(&self) -> f64 {
+        self.volumetric.first_lame_parameter()
     }
 }
 
@@ -80,22 +78,23 @@ impl<U: Volumetric> Hencky<U> {
     ///
     /// # Errors
     /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn with_volumetric(mu: f64, volumetric: U) -> Result<Self, SolidsError> {
-        check_bound(LAW, "mu", mu, "0 < mu", 0.0 < mu)?;
+    pub fn with_volumetric(shear_modulus: f64, volumetric: U) -> Result<Self, SolidsError> {
+        check_bound(LAW, "shear_modulus", shear_modulus, "0 < μ", 0.0 < shear_modulus)?;
         let lambda = volumetric.bulk_modulus();
-        check_bound(LAW, "U″(1)", lambda, "0 < U″(1) + 2/3 mu", 0.0 < lambda + 2.0 / 3.0 * mu)?;
-        Ok(Self { mu, volumetric })
+        check_bound(LAW, "U″(1)", lambda, "0 < U″(1) + ⅔ μ", 0.0 < lambda + 2.0 / 3.0 * shear_modulus)?;
+        Ok(Self { shear_modulus, volumetric })
     }
 
     /// The same with U in another form.
     pub(super) fn map<V>(self, volumetric: impl FnOnce(U) -> V) -> Hencky<V> {
-        Hencky { mu: self.mu, volumetric: volumetric(self.volumetric) }
+        Hencky { shear_modulus: self.shear_modulus, volumetric: volumetric(self.volumetric) }
     }
 
     /// μ, Pa.
+    #[doc(alias = "mu")]
     #[must_use]
-    pub const fn mu(&self) -> f64 {
-        self.mu
+    pub const fn shear_modulus(&self) -> f64 {
+        self.shear_modulus
     }
 
     /// U.
@@ -110,19 +109,19 @@ impl<U: Volumetric> StretchEnergy for Hencky<U> {
 
     #[inline(always)]
     fn part<T: Real>(&self, x: T) -> T {
-        T::lit(self.mu) * (x * x)
+        T::lit(self.shear_modulus) * (x * x)
     }
     #[inline(always)]
     fn slope<T: Real>(&self, x: T) -> T {
-        T::lit(2.0 * self.mu) * x
+        T::lit(2.0 * self.shear_modulus) * x
     }
     #[inline(always)]
     fn curvature<T: Real>(&self, _x: T) -> T {
-        T::lit(2.0 * self.mu)
+        T::lit(2.0 * self.shear_modulus)
     }
     #[inline(always)]
     fn secant<T: Real>(&self, _x: T, _y: T) -> T {
-        T::lit(2.0 * self.mu)
+        T::lit(2.0 * self.shear_modulus)
     }
     #[inline(always)]
     fn volume_energy<T: Real>(&self, volume: &Volume<T>) -> T {
@@ -140,27 +139,4 @@ impl<U: Volumetric> StretchEnergy for Hencky<U> {
 
 hyperelastic_of_stretches!([U: Volumetric] Hencky<U>);
 
-/// The parameters as they are written.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written<U> {
-    mu: f64,
-    volumetric: U,
-}
-
-#[cfg(feature = "serde")]
-impl<U: Volumetric> TryFrom<Written<U>> for Hencky<U> {
-    type Error = SolidsError;
-
-    fn try_from(Written { mu, volumetric }: Written<U>) -> Result<Self, SolidsError> {
-        Self::with_volumetric(mu, volumetric)
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<U> From<Hencky<U>> for Written<U> {
-    fn from(Hencky { mu, volumetric }: Hencky<U>) -> Self {
-        Self { mu, volumetric }
-    }
-}
+read_with!(with_volumetric of Hencky<U: Volumetric> { shear_modulus as "mu": f64, volumetric: U });

@@ -3,7 +3,7 @@
 use piola_continuum::internal::strain as kernels;
 use piola_continuum::strain::invariants;
 use piola_continuum::{Deformation, Symmetric};
-use piola_numerics::{Mask, Real};
+use piola_numerics::{Mask, Real, parameters};
 use piola_tensor::MajorSymmetric;
 
 use super::Fibre;
@@ -11,120 +11,68 @@ use super::exponent_range::check_exponent;
 use super::isochoric_factor::Unimodular;
 use super::strain_energy::{StrainEnergy, constant, hyperelastic_of_strain, inverse_metric};
 use crate::SolidsError;
-use crate::error::check_bound;
 
-const LAW: &str = "Holzapfel–Gasser–Ogden";
-
-/// A soft matrix with two families of dispersed fibres that stiffen exponentially and bear tension only.
-///
-/// ```text
-/// W = ½ μ (Ī₁ − 3) + ½ κ (J − 1)² + k₁/(2 k₂) Σₐ (e^(k₂ ⟨Eₐ⟩²) − 1)
-/// Eₐ = d (Ī₁ − 3) + (1 − 3 d)(Ī₄ₐ − 1)        Ī₄ₐ = J^(−2/3) aₐ · C aₐ        ⟨E⟩ = max(E, 0)
-/// ```
-///
-/// | symbol | parameter | unit | bounds |
-/// |---|---|---|---|
-/// | μ | `mu` | Pa | 0 < μ (the shear modulus of the matrix) |
-/// | κ | `kappa` | Pa | 0 ≤ κ (the bulk modulus) |
-/// | k₁ | `k1` | Pa | 0 ≤ k₁ |
-/// | k₂ | `k2` | – | 0 < k₂ |
-/// | d | `dispersion` | – | 0 ≤ d ≤ ⅓: aligned … without direction |
-/// | aₐ | `fibres` | – | unit vectors, normalised |
-///
-/// A family answers where Eₐ is positive: without dispersion, where it is longer than in the reference. The stress is
-/// continuous there; the tangent jumps by 4 k₁ h ⊗ h, h = ∂Eₐ/∂C. At the jump itself the tangent is that of fibres at rest.
-/// [`check`](super::Hyperelastic::check) refuses k₂ Eₐ² at which the tangent leaves the range of the scalar: some 700 in
-/// double precision, 80 in single.
-///
-/// # Accuracy
-/// Stresses relative 1e-13 down to ∇u = 1e-16 beside the jump.
-///
-/// # Example
-/// ```
-/// use piola_solids::{Fibre, HolzapfelGasserOgden, Hyperelastic};
-/// use piola_continuum::DeformationGradient;
-/// let fibres = [Fibre::new([1.0, 0.0, 0.0])?, Fibre::new([0.0, 1.0, 0.0])?];
-/// let wall = HolzapfelGasserOgden::new(1.0, 50.0, 2.0, 3.0, 0.0, fibres)?;
-/// // Along the third axis both families are shortened: only the matrix answers, μ (λ² − 1/λ) less the pressure.
-/// let pulled = DeformationGradient::diagonal([0.5, 0.5, 4.0])?;
-/// let stress = wall.cauchy(&pulled).0.components;
-/// assert!((stress[2] - stress[0] - 15.75_f64).abs() < 1e-13); // λ² − 1/λ = 16 − 1/4
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-///
-/// # Source
-/// T. C. Gasser, R. W. Ogden and G. A. Holzapfel, J. R. Soc. Interface 3 (2006) 15–35; without dispersion Holzapfel, Gasser
-/// and Ogden, J. Elasticity 61 (2000) 1–48.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Written", into = "Written"))]
-pub struct HolzapfelGasserOgden {
-    mu: f64,
-    kappa: f64,
-    k1: f64,
-    k2: f64,
-    dispersion: f64,
-    fibres: [Fibre; 2],
+parameters! {
+    SolidsError;
+    /// A soft matrix with two families of dispersed fibres that stiffen exponentially and bear tension only.
+    ///
+    /// ```text
+    /// W = ½ μ (Ī₁ − 3) + ½ κ (J − 1)² + k₁/(2 k₂) Σₐ (e^(k₂ ⟨Eₐ⟩²) − 1)
+    /// Eₐ = d (Ī₁ − 3) + (1 − 3 d)(Ī₄ₐ − 1)        Ī₄ₐ = J^(−2/3) aₐ · C aₐ        ⟨E⟩ = max(E, 0)
+    /// ```
+    ///
+    /// | symbol | parameter | unit | bounds |
+    /// |---|---|---|---|
+    /// | μ | `shear_modulus` | Pa | 0 < μ (the shear modulus of the matrix) |
+    /// | κ | `bulk_modulus` | Pa | 0 ≤ κ (the bulk modulus) |
+    /// | k₁ | `fibre_modulus` | Pa | 0 ≤ k₁ |
+    /// | k₂ | `fibre_exponent` | – | 0 < k₂ |
+    /// | d | `dispersion` | – | 0 ≤ d ≤ ⅓: aligned … without direction |
+    /// | aₐ | `fibres` | – | unit vectors, normalised |
+    ///
+    /// A family answers where Eₐ is positive: without dispersion, where it is longer than in the reference. The stress is
+    /// continuous there; the tangent jumps by 4 k₁ h ⊗ h, h = ∂Eₐ/∂C. At the jump itself the tangent is that of fibres at rest.
+    /// [`check`](super::Hyperelastic::check) refuses k₂ Eₐ² at which the tangent leaves the range of the scalar: some 700 in
+    /// double precision, 80 in single.
+    ///
+    /// # Accuracy
+    /// Stresses relative 1e-13 down to ∇u = 1e-16 beside the jump.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_solids::{Fibre, HolzapfelGasserOgden, Hyperelastic};
+    /// use piola_continuum::DeformationGradient;
+    /// let fibres = [Fibre::new([1.0, 0.0, 0.0])?, Fibre::new([0.0, 1.0, 0.0])?];
+    /// let wall = HolzapfelGasserOgden::new(1.0, 50.0, 2.0, 3.0, 0.0, fibres)?;
+    /// // Along the third axis both families are shortened: only the matrix answers, μ (λ² − 1/λ) less the pressure.
+    /// let pulled = DeformationGradient::diagonal([0.5, 0.5, 4.0])?;
+    /// let stress = wall.cauchy(&pulled).0.components;
+    /// assert!((stress[2] - stress[0] - 15.75_f64).abs() < 1e-13); // λ² − 1/λ = 16 − 1/4
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Source
+    /// T. C. Gasser, R. W. Ogden and G. A. Holzapfel, J. R. Soc. Interface 3 (2006) 15–35; without dispersion Holzapfel, Gasser
+    /// and Ogden, J. Elasticity 61 (2000) 1–48.
+    pub struct HolzapfelGasserOgden("Holzapfel–Gasser–Ogden") {
+        /// μ of the matrix, Pa.
+        shear_modulus as "mu": "0 < μ" => 0.0 < shear_modulus,
+        /// κ, Pa.
+        bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
+        /// k₁, Pa.
+        fibre_modulus as "k1": "0 ≤ k1" => 0.0 <= fibre_modulus,
+        /// k₂.
+        fibre_exponent as "k2": "0 < k2" => 0.0 < fibre_exponent,
+        /// d.
+        dispersion: "0 ≤ dispersion ≤ 1/3" => (0.0..=1.0 / 3.0).contains(&dispersion),
+    }
+    with {
+        /// The two families.
+        fibres: [Fibre; 2],
+    }
 }
 
 impl HolzapfelGasserOgden {
-    /// From the parameters.
-    ///
-    /// # Errors
-    /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn new(
-        mu: f64,
-        kappa: f64,
-        k1: f64,
-        k2: f64,
-        dispersion: f64,
-        fibres: [Fibre; 2],
-    ) -> Result<Self, SolidsError> {
-        check_bound(LAW, "mu", mu, "0 < mu", 0.0 < mu)?;
-        check_bound(LAW, "kappa", kappa, "0 ≤ kappa", 0.0 <= kappa)?;
-        check_bound(LAW, "k1", k1, "0 ≤ k1", 0.0 <= k1)?;
-        check_bound(LAW, "k2", k2, "0 < k2", 0.0 < k2)?;
-        let inside = (0.0..=1.0 / 3.0).contains(&dispersion);
-        check_bound(LAW, "dispersion", dispersion, "0 ≤ dispersion ≤ 1/3", inside)?;
-        Ok(Self { mu, kappa, k1, k2, dispersion, fibres })
-    }
-
-    /// μ of the matrix, Pa.
-    #[must_use]
-    pub const fn mu(&self) -> f64 {
-        self.mu
-    }
-
-    /// κ, Pa.
-    #[must_use]
-    pub const fn kappa(&self) -> f64 {
-        self.kappa
-    }
-
-    /// k₁, Pa.
-    #[must_use]
-    pub const fn k1(&self) -> f64 {
-        self.k1
-    }
-
-    /// k₂.
-    #[must_use]
-    pub const fn k2(&self) -> f64 {
-        self.k2
-    }
-
-    /// d.
-    #[must_use]
-    pub const fn dispersion(&self) -> f64 {
-        self.dispersion
-    }
-
-    /// The two families.
-    #[must_use]
-    pub const fn fibres(&self) -> &[Fibre; 2] {
-        &self.fibres
-    }
-
     /// H = d 1 + (1 − 3 d) a ⊗ a, tr H = 1: Eₐ = J^(−2/3) C : H − 1.
     #[inline(always)]
     fn structure(&self, family: usize) -> Symmetric {
@@ -140,7 +88,7 @@ impl HolzapfelGasserOgden {
         let taut = T::zero().less_than(strain);
         let tension = T::select(taut, strain, T::zero());
         let answers = T::select(taut, T::one(), T::zero());
-        (tension, answers, T::lit(self.k2) * (tension * tension))
+        (tension, answers, T::lit(self.fibre_exponent) * (tension * tension))
     }
 
     /// S and ∂S/∂E; e^x of each family's exponent is given.
@@ -152,19 +100,19 @@ impl HolzapfelGasserOgden {
         powers: [T; 2],
     ) -> (Symmetric<T>, MajorSymmetric<T>) {
         let [jacobian, change] = volume;
-        let kappa = T::lit(self.kappa);
+        let kappa = T::lit(self.bulk_modulus);
         let mean = kappa * (jacobian * change);
         let matrix = metric.invariant(&Symmetric::identity(), WHOLE);
-        let mut stress = matrix.slope * T::lit(self.mu) + metric.inverse * mean;
-        let mut tangent = metric.curvature(&matrix, WHOLE) * T::lit(2.0 * self.mu)
+        let mut stress = matrix.slope * T::lit(self.shear_modulus) + metric.inverse * mean;
+        let mut tangent = metric.curvature(&matrix, WHOLE) * T::lit(2.0 * self.shear_modulus)
             + MajorSymmetric::dyad(&metric.inverse) * (kappa * (jacobian * (jacobian + change)))
             - MajorSymmetric::square_dyad(&metric.inverse) * (T::lit(2.0) * mean);
         for (family, power) in powers.into_iter().enumerate() {
             let fibres = metric.invariant(&self.structure(family), 1.0);
             let (tension, answers, exponent) = self.tension(fibres.excess);
-            let slope = T::lit(2.0 * self.k1) * (tension * power);
+            let slope = T::lit(2.0 * self.fibre_modulus) * (tension * power);
             let rate = T::one() + T::lit(2.0) * exponent;
-            let curvature = T::lit(4.0 * self.k1) * (answers * power * rate);
+            let curvature = T::lit(4.0 * self.fibre_modulus) * (answers * power * rate);
             stress += fibres.slope * slope;
             tangent = tangent
                 + MajorSymmetric::dyad(&fibres.slope) * curvature
@@ -182,9 +130,9 @@ impl HolzapfelGasserOgden {
     /// W of e^x − 1 of each family's exponent.
     #[inline(always)]
     fn parts<T: Real>(&self, deformation: &impl Deformation<T>, change: T, growth: [T; 2]) -> T {
-        T::lit(0.5 * self.mu) * invariants::isochoric_first_minus_three(deformation)
-            + T::lit(0.5 * self.kappa) * (change * change)
-            + T::lit(0.5 * self.k1 / self.k2) * (growth[0] + growth[1])
+        T::lit(0.5 * self.shear_modulus) * invariants::isochoric_first_minus_three(deformation)
+            + T::lit(0.5 * self.bulk_modulus) * (change * change)
+            + T::lit(0.5 * self.fibre_modulus / self.fibre_exponent) * (growth[0] + growth[1])
     }
 }
 
@@ -324,41 +272,15 @@ impl StrainEnergy for HolzapfelGasserOgden {
         for family in 0..2 {
             let (_, _, exponent) = self.tension(metric.excess(&self.structure(family), 1.0));
             let growth = T::one() + T::lit(2.0) * exponent;
-            check_exponent(LAW, "k2 E²", exponent, T::lit(4.0 * self.k1 + self.k1 / self.k2) * (growth * size))?;
+            check_exponent(
+                Self::NAME,
+                "k2 E²",
+                exponent,
+                T::lit(4.0 * self.fibre_modulus + self.fibre_modulus / self.fibre_exponent) * (growth * size),
+            )?;
         }
         Ok(())
     }
 }
 
 hyperelastic_of_strain!(HolzapfelGasserOgden);
-
-/// The parameters as they are written.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    mu: f64,
-    kappa: f64,
-    k1: f64,
-    k2: f64,
-    dispersion: f64,
-    fibres: [Fibre; 2],
-}
-
-#[cfg(feature = "serde")]
-impl TryFrom<Written> for HolzapfelGasserOgden {
-    type Error = SolidsError;
-
-    fn try_from(written: Written) -> Result<Self, SolidsError> {
-        let Written { mu, kappa, k1, k2, dispersion, fibres } = written;
-        Self::new(mu, kappa, k1, k2, dispersion, fibres)
-    }
-}
-
-#[cfg(feature = "serde")]
-impl From<HolzapfelGasserOgden> for Written {
-    fn from(law: HolzapfelGasserOgden) -> Self {
-        let HolzapfelGasserOgden { mu, kappa, k1, k2, dispersion, fibres } = law;
-        Self { mu, kappa, k1, k2, dispersion, fibres }
-    }
-}

@@ -18,6 +18,40 @@ macro_rules! rows_of_upper_triangle {
     };
 }
 
+/// Writes inlined methods of a law and a deformation: the name, the type and the body of each.
+macro_rules! answers {
+    (|$law:ident, $deformation:ident| $($method:ident -> $result:ty { $($body:tt)* })+) => { $(
+        #[inline(always)]
+        fn $method<T: piola_numerics::Real>(&$law, $deformation: &impl piola_continuum::Deformation<T>) -> $result {
+            $($body)*
+        }
+    )+ };
+}
+
+/// Reads a law through the constructor that checks it; a field `as "old"` is also read by its older name.
+macro_rules! read_with {
+    ($constructor:ident of $law:ident<$($generic:ident: $bound:ident),*> {
+        $($(#[$about:meta])* $field:ident $(as $old:literal)?: $type:ty),+ $(,)?
+    }) => {
+        /// What is written of the law.
+        #[cfg(feature = "serde")]
+        #[derive(serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Written<$($generic),*> {
+            $($(#[$about])* $(#[serde(alias = $old)])? $field: $type,)+
+        }
+
+        #[cfg(feature = "serde")]
+        impl<$($generic: $bound),*> TryFrom<Written<$($generic),*>> for $law<$($generic),*> {
+            type Error = $crate::SolidsError;
+
+            fn try_from(written: Written<$($generic),*>) -> Result<Self, $crate::SolidsError> {
+                Self::$constructor($(written.$field),+)
+            }
+        }
+    };
+}
+
 mod anisotropic;
 mod any;
 #[cfg(feature = "batch")]

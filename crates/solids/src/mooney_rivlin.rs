@@ -23,8 +23,8 @@ const LAW: &str = "Mooney–Rivlin";
 /// | symbol | parameter | unit | bounds |
 /// |---|---|---|---|
 /// | C₁₀, C₀₁ | `c10`, `c01` | Pa | 0 < C₁₀ + C₀₁ (half the shear modulus) |
-/// | c | `c` | Pa | 0 ≤ c |
-/// | d | `d` | Pa | – |
+/// | c | `square_coefficient` | Pa | 0 ≤ c |
+/// | d | `logarithm_coefficient` | Pa | – |
 ///
 /// # Accuracy
 /// P, S, τ relative 1e-13 down to ∇u = 1e-16 where the reference is free of stress; tangents a few ulp of their norm.
@@ -34,7 +34,7 @@ const LAW: &str = "Mooney–Rivlin";
 /// use piola_solids::{Hyperelastic, MooneyRivlin};
 /// use piola_continuum::DeformationGradient;
 /// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-/// assert_eq!(rubber.d(), 4.0);
+/// assert_eq!(rubber.logarithm_coefficient(), 4.0);
 /// let shear = DeformationGradient::simple_shear(0.5)?;
 /// assert_eq!(rubber.cauchy(&shear).0.components[3], 0.75); // μ k with μ = 2 (C₁₀ + C₀₁)
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -48,8 +48,8 @@ const LAW: &str = "Mooney–Rivlin";
 pub struct MooneyRivlin {
     c10: f64,
     c01: f64,
-    c: f64,
-    d: f64,
+    square_coefficient: f64,
+    logarithm_coefficient: f64,
     /// 2 C₁₀ + 4 C₀₁ + 2 c − d, Pa: zero to the last bit where it is meant to be.
     residual: f64,
 }
@@ -60,10 +60,10 @@ impl MooneyRivlin {
     ///
     /// # Errors
     /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn new(c10: f64, c01: f64, c: f64, d: f64) -> Result<Self, SolidsError> {
-        check_finite(LAW, "d", d)?;
-        let residual = 2.0 * c10 + 4.0 * c01 + 2.0 * c - d;
-        Self { c10, c01, c, d, residual }.checked()
+    pub fn new(c10: f64, c01: f64, square_coefficient: f64, logarithm_coefficient: f64) -> Result<Self, SolidsError> {
+        check_finite(LAW, "logarithm_coefficient", logarithm_coefficient)?;
+        let residual = 2.0 * c10 + 4.0 * c01 + 2.0 * square_coefficient - logarithm_coefficient;
+        Self { c10, c01, square_coefficient, logarithm_coefficient, residual }.checked()
     }
 
     /// d = 2 (C₁₀ + 2 C₀₁ + c), so that the reference is free of stress.
@@ -71,21 +71,22 @@ impl MooneyRivlin {
     /// # Errors
     /// As [`new`](Self::new); and unless the bulk modulus λ + ⅔ μ of the reference is positive and 0 ≤ d, without which
     /// W would fall without bound as J → 0.
-    pub fn stress_free(c10: f64, c01: f64, c: f64) -> Result<Self, SolidsError> {
-        let law = Self { c10, c01, c, d: 2.0 * (c10 + 2.0 * c01 + c), residual: 0.0 }.checked()?;
+    pub fn stress_free(c10: f64, c01: f64, square_coefficient: f64) -> Result<Self, SolidsError> {
+        let (c, d) = (square_coefficient, 2.0 * (c10 + 2.0 * c01 + square_coefficient));
+        let law = Self { c10, c01, square_coefficient, logarithm_coefficient: d, residual: 0.0 }.checked()?;
         // λ = 4 (c + C₀₁), μ = 2 (C₁₀ + C₀₁).
         let bulk = 4.0 * (c + c01) + 4.0 / 3.0 * (c10 + c01);
-        check_bound(LAW, "c", c, "0 < λ + ⅔ μ = 4 (c + C01) + 4/3 (C10 + C01)", 0.0 < bulk)?;
-        check_bound(LAW, "d", law.d, "0 ≤ d = 2 (C10 + 2 C01 + c)", 0.0 <= law.d)?;
+        check_bound(LAW, "square_coefficient", c, "0 < λ + ⅔ μ = 4 (c + C01) + 4/3 (C10 + C01)", 0.0 < bulk)?;
+        check_bound(LAW, "logarithm_coefficient", d, "0 ≤ d = 2 (C10 + 2 C01 + c)", 0.0 <= d)?;
         Ok(law)
     }
 
     fn checked(self) -> Result<Self, SolidsError> {
         check_finite(LAW, "C01", self.c01)?;
         check_bound(LAW, "C10", self.c10, "0 < C10 + C01", 0.0 < self.c10 + self.c01)?;
-        check_bound(LAW, "c", self.c, "0 ≤ c", 0.0 <= self.c)?;
+        check_bound(LAW, "square_coefficient", self.square_coefficient, "0 ≤ c", 0.0 <= self.square_coefficient)?;
         // Sums of finite parameters can overflow.
-        check_finite(LAW, "d", self.d)?;
+        check_finite(LAW, "logarithm_coefficient", self.logarithm_coefficient)?;
         check_finite(LAW, "2 C10 + 4 C01 + 2 c − d", self.residual)?;
         check_finite(LAW, "C10 + C01", self.c10 + self.c01)?;
         Ok(self)
@@ -104,15 +105,17 @@ impl MooneyRivlin {
     }
 
     /// c, Pa.
+    #[doc(alias = "c")]
     #[must_use]
-    pub const fn c(&self) -> f64 {
-        self.c
+    pub const fn square_coefficient(&self) -> f64 {
+        self.square_coefficient
     }
 
     /// d, Pa.
+    #[doc(alias = "d")]
     #[must_use]
-    pub const fn d(&self) -> f64 {
-        self.d
+    pub const fn logarithm_coefficient(&self) -> f64 {
+        self.logarithm_coefficient
     }
 
     /// The shear modulus 2 (C₁₀ + C₀₁), Pa.
@@ -133,12 +136,12 @@ impl InvariantEnergy for MooneyRivlin {
         let (change, excess) = (deformation.volume_change(), volume_excess(deformation));
         let energy = T::lit(self.c10) * first_excess_beside(deformation, excess)
             + T::lit(self.c01) * second_excess_beside(deformation, excess)
-            + T::lit(self.c) * (change * change + T::lit(2.0) * excess);
+            + T::lit(self.square_coefficient) * (change * change + T::lit(2.0) * excess);
         if self.residual == 0.0 { energy } else { energy + T::lit(self.residual) * deformation.ln_jacobian() }
     }
 
     fn reference_energy(&self) -> f64 {
-        self.c
+        self.square_coefficient
     }
 
     #[inline(always)]
@@ -148,15 +151,18 @@ impl InvariantEnergy for MooneyRivlin {
             first: T::lit(self.c10),
             second: T::lit(self.c01),
             // 2 c (J² − 1), and what a reference with stress has.
-            residual: T::lit(2.0 * self.c) * (change * (change + T::lit(2.0))) + T::lit(self.residual),
-            volume: T::lit(2.0 * self.c) * (invariants.jacobian * invariants.jacobian) - T::lit(self.d),
+            residual: T::lit(2.0 * self.square_coefficient) * (change * (change + T::lit(2.0))) + T::lit(self.residual),
+            volume: T::lit(2.0 * self.square_coefficient) * (invariants.jacobian * invariants.jacobian)
+                - T::lit(self.logarithm_coefficient),
         }
     }
 
     #[inline(always)]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let reciprocal = invariants.jacobian.recip();
-        Curvatures::of_volume(T::lit(2.0 * self.c) + T::lit(self.d) * (reciprocal * reciprocal))
+        Curvatures::of_volume(
+            T::lit(2.0 * self.square_coefficient) + T::lit(self.logarithm_coefficient) * (reciprocal * reciprocal),
+        )
     }
 }
 
@@ -169,28 +175,30 @@ hyperelastic_of_invariants!(MooneyRivlin);
 struct Written {
     c10: f64,
     c01: f64,
-    c: f64,
+    #[serde(alias = "c")]
+    square_coefficient: f64,
     /// That of a stress-free reference when it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    d: Option<f64>,
+    #[serde(alias = "d", default, skip_serializing_if = "Option::is_none")]
+    logarithm_coefficient: Option<f64>,
 }
 
 #[cfg(feature = "serde")]
 impl TryFrom<Written> for MooneyRivlin {
     type Error = SolidsError;
 
-    fn try_from(Written { c10, c01, c, d }: Written) -> Result<Self, SolidsError> {
-        match d {
-            Some(d) => Self::new(c10, c01, c, d),
-            None => Self::stress_free(c10, c01, c),
+    fn try_from(written: Written) -> Result<Self, SolidsError> {
+        let Written { c10, c01, square_coefficient, logarithm_coefficient } = written;
+        match logarithm_coefficient {
+            Some(d) => Self::new(c10, c01, square_coefficient, d),
+            None => Self::stress_free(c10, c01, square_coefficient),
         }
     }
 }
 
 #[cfg(feature = "serde")]
 impl From<MooneyRivlin> for Written {
-    fn from(law: MooneyRivlin) -> Self {
-        let free = law.residual.to_bits() == 0.0_f64.to_bits();
-        Self { c10: law.c10, c01: law.c01, c: law.c, d: if free { None } else { Some(law.d) } }
+    fn from(MooneyRivlin { c10, c01, square_coefficient, logarithm_coefficient: d, residual }: MooneyRivlin) -> Self {
+        let free = residual.to_bits() == 0.0_f64.to_bits();
+        Self { c10, c01, square_coefficient, logarithm_coefficient: (!free).then_some(d) }
     }
 }

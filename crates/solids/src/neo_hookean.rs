@@ -23,7 +23,7 @@ const LAW: &str = "neo-Hookean";
 ///
 /// | symbol | parameter | unit | bounds |
 /// |---|---|---|---|
-/// | μ | `mu` | Pa | 0 < μ |
+/// | μ | `shear_modulus` | Pa | 0 < μ |
 /// | λ | U″(1) of `volumetric` | Pa | 0 < λ + ⅔ μ (the bulk modulus) |
 ///
 /// At small strain it is Hooke's law with Lamé's constants λ and μ.
@@ -46,16 +46,12 @@ const LAW: &str = "neo-Hookean";
 /// B(4.65) with C₀₁ = 0 and another Γ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Written<U>", into = "Written<U>"))]
 #[cfg_attr(
     feature = "serde",
-    serde(bound(
-        serialize = "U: Volumetric + Clone + serde::Serialize",
-        deserialize = "U: Volumetric + serde::Deserialize<'de>"
-    ))
+    serde(try_from = "Written<U>", bound(deserialize = "U: Volumetric + serde::Deserialize<'de>"))
 )]
 pub struct NeoHookean<U> {
-    mu: f64,
+    shear_modulus: f64,
     volumetric: U,
 }
 
@@ -70,22 +66,23 @@ impl<U: Volumetric> NeoHookean<U> {
     ///
     /// # Errors
     /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn new(mu: f64, volumetric: U) -> Result<Self, SolidsError> {
-        check_bound(LAW, "mu", mu, "0 < μ", 0.0 < mu)?;
+    pub fn new(shear_modulus: f64, volumetric: U) -> Result<Self, SolidsError> {
+        check_bound(LAW, "shear_modulus", shear_modulus, "0 < μ", 0.0 < shear_modulus)?;
         let lambda = volumetric.bulk_modulus();
-        check_bound(LAW, "U″(1)", lambda, "0 < U″(1) + ⅔ μ", 0.0 < lambda + 2.0 / 3.0 * mu)?;
-        Ok(Self { mu, volumetric })
+        check_bound(LAW, "U″(1)", lambda, "0 < U″(1) + ⅔ μ", 0.0 < lambda + 2.0 / 3.0 * shear_modulus)?;
+        Ok(Self { shear_modulus, volumetric })
     }
 
     /// The same with U in another form.
     pub(super) fn map<V>(self, volumetric: impl FnOnce(U) -> V) -> NeoHookean<V> {
-        NeoHookean { mu: self.mu, volumetric: volumetric(self.volumetric) }
+        NeoHookean { shear_modulus: self.shear_modulus, volumetric: volumetric(self.volumetric) }
     }
 
-    /// μ, Pa: the shear modulus.
+    /// μ, Pa.
+    #[doc(alias = "mu")]
     #[must_use]
-    pub const fn mu(&self) -> f64 {
-        self.mu
+    pub const fn shear_modulus(&self) -> f64 {
+        self.shear_modulus
     }
 
     /// U.
@@ -100,8 +97,8 @@ impl NeoHookeanLogarithmic {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn with_constants(mu: f64, lambda: f64) -> Result<Self, SolidsError> {
-        Self::new(mu, Logarithmic::new(lambda)?)
+    pub fn with_constants(shear_modulus: f64, first_lame_parameter: f64) -> Result<Self, SolidsError> {
+        Self::new(shear_modulus, Logarithmic::new(first_lame_parameter)?)
     }
 }
 
@@ -110,8 +107,8 @@ impl NeoHookeanCiarlet {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    pub fn with_constants(mu: f64, lambda: f64) -> Result<Self, SolidsError> {
-        Self::new(mu, SimoTaylor::new(lambda)?)
+    pub fn with_constants(shear_modulus: f64, first_lame_parameter: f64) -> Result<Self, SolidsError> {
+        Self::new(shear_modulus, SimoTaylor::new(first_lame_parameter)?)
     }
 }
 
@@ -122,47 +119,29 @@ impl<U: Volumetric> InvariantEnergy for NeoHookean<U> {
 
     #[inline(always)]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
-        T::lit(0.5 * self.mu) * first_excess(deformation)
+        T::lit(0.5 * self.shear_modulus) * first_excess(deformation)
             + self.volumetric.energy(deformation.volume_change(), deformation.jacobian())
     }
 
     #[inline(always)]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let residual = self.volumetric.mean_kirchhoff(invariants.change, invariants.jacobian);
-        Slopes { first: T::lit(0.5 * self.mu), second: T::zero(), residual, volume: residual - T::lit(self.mu) }
+        Slopes {
+            first: T::lit(0.5 * self.shear_modulus),
+            second: T::zero(),
+            residual,
+            volume: residual - T::lit(self.shear_modulus),
+        }
     }
 
     #[inline(always)]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let reciprocal = invariants.jacobian.recip();
         let volume = self.volumetric.curvature(invariants.change, invariants.jacobian);
-        Curvatures::of_volume(T::lit(self.mu) * (reciprocal * reciprocal) + volume)
+        Curvatures::of_volume(T::lit(self.shear_modulus) * (reciprocal * reciprocal) + volume)
     }
 }
 
 hyperelastic_of_invariants!([U: Volumetric] NeoHookean<U>);
 
-/// The parameters as they are written.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written<U> {
-    mu: f64,
-    volumetric: U,
-}
-
-#[cfg(feature = "serde")]
-impl<U: Volumetric> TryFrom<Written<U>> for NeoHookean<U> {
-    type Error = SolidsError;
-
-    fn try_from(written: Written<U>) -> Result<Self, SolidsError> {
-        Self::new(written.mu, written.volumetric)
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<U> From<NeoHookean<U>> for Written<U> {
-    fn from(law: NeoHookean<U>) -> Self {
-        Self { mu: law.mu, volumetric: law.volumetric }
-    }
-}
+read_with!(new of NeoHookean<U: Volumetric> { shear_modulus as "mu": f64, volumetric: U });

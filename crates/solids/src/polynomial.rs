@@ -41,7 +41,7 @@ pub struct PolynomialTerm {
 ///
 /// The reference is free of stress if C₁₀₀ + 2 C₀₁₀ + C₀₀₁ = 0, which [`stress_free`](Self::stress_free) asks for; the
 /// shear modulus is 2 (C₁₀₀ + C₀₁₀) then, which is positive, and the bulk modulus is not negative. Whether the law is stable
-/// elsewhere is for the [checkers](crate::checks).
+/// elsewhere is for the checks in `piola_specimens`.
 ///
 /// # Accuracy
 /// P, S, τ relative 1e-13 down to ∇u = 1e-16 where the reference is free of stress; tangents a few ulp of their
@@ -150,7 +150,8 @@ impl Polynomial {
     ///
     /// # Source
     /// B(4.67).
-    pub fn saint_venant_kirchhoff(lambda: f64, mu: f64) -> Result<Self, SolidsError> {
+    pub fn saint_venant_kirchhoff(first_lame_parameter: f64, shear_modulus: f64) -> Result<Self, SolidsError> {
+        let (lambda, mu) = (first_lame_parameter, shear_modulus);
         let term = |first, second, coefficient| PolynomialTerm { first, second, third: 0, coefficient };
         Self::stress_free(vec![term(1, 0, mu), term(2, 0, 0.125 * (lambda + 2.0 * mu)), term(0, 1, -0.5 * mu)])
     }

@@ -21,8 +21,8 @@ parameters! {
     /// ```
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | λ | `lambda` | Pa | 0 < 3 λ + 2 μ |
-    /// | μ | `mu` | Pa | 0 < μ |
+    /// | λ | `first_lame_parameter` | Pa | 0 < 3 λ + 2 μ |
+    /// | μ | `shear_modulus` | Pa | 0 < μ |
     ///
     /// For large rotations at small strain. In compression it loses ellipticity: a bar of λ = 0 under axial
     /// compression yields where the stretch is √⅓, and W stays finite as J → 0.
@@ -45,9 +45,10 @@ parameters! {
     /// B(4.67–4.69).
     pub struct SaintVenantKirchhoff("St. Venant–Kirchhoff") {
         /// λ, Pa.
-        lambda: "0 < 3 λ + 2 μ" => 0.0 < 3.0 * lambda + 2.0 * mu,
+        first_lame_parameter as "lambda":
+            "0 < 3 λ + 2 μ" => 0.0 < 3.0 * first_lame_parameter + 2.0 * shear_modulus,
         /// μ, Pa.
-        mu: "0 < μ" => 0.0 < mu,
+        shear_modulus as "mu": "0 < μ" => 0.0 < shear_modulus,
     }
 }
 
@@ -56,15 +57,16 @@ impl SaintVenantKirchhoff {
     #[inline(always)]
     fn stress<T: Real>(&self, displacement: Rows<T>) -> Symmetric<T> {
         let strain = kernels::green(displacement);
-        Symmetric::identity() * (T::lit(self.lambda) * strain.trace()) + strain * T::lit(2.0 * self.mu)
+        Symmetric::identity() * (T::lit(self.first_lame_parameter) * strain.trace())
+            + strain * T::lit(2.0 * self.shear_modulus)
     }
 
     /// `δ_ij S_AB + λ F_iA F_jB + μ (F_iB F_jA + B_ij δ_AB)`.
     #[inline(always)]
     fn tangent<T: Real>(&self, stress: &Symmetric<T>, f: Rows<T>) -> [[T; 9]; 9] {
-        let mu = T::lit(self.mu);
+        let mu = T::lit(self.shear_modulus);
         let (s, b) = (stress.rows(), (kernels::left_cauchy_green(f) * mu).rows());
-        let (l, m) = (scaled(f, T::lit(self.lambda)), scaled(f, mu));
+        let (l, m) = (scaled(f, T::lit(self.first_lame_parameter)), scaled(f, mu));
         let mut entries = [[T::zero(); 9]; 9];
         // Written out: in a loop the compiler would decide at run time which terms an entry has.
         macro_rules! row {
@@ -103,7 +105,8 @@ impl Hyperelastic for SaintVenantKirchhoff {
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let strain = kernels::green(deformation.displacement_rows());
         let trace = strain.trace();
-        T::lit(0.5 * self.lambda) * (trace * trace) + T::lit(self.mu) * strain.double_contraction(&strain)
+        T::lit(0.5 * self.first_lame_parameter) * (trace * trace)
+            + T::lit(self.shear_modulus) * strain.double_contraction(&strain)
     }
 
     #[inline(always)]
@@ -154,7 +157,7 @@ impl Hyperelastic for SaintVenantKirchhoff {
 
     #[inline(always)]
     fn material_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MaterialTangent<T> {
-        MaterialTangent(MajorSymmetric::isotropic(T::lit(self.lambda), T::lit(self.mu)))
+        MaterialTangent(MajorSymmetric::isotropic(T::lit(self.first_lame_parameter), T::lit(self.shear_modulus)))
     }
 
     #[inline(always)]

@@ -125,9 +125,10 @@ impl Stiffness {
     ///
     /// # Errors
     /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn isotropic(lambda: f64, mu: f64) -> Result<Self, SolidsError> {
-        check_bound(LAW, "mu", mu, "0 < mu", 0.0 < mu)?;
-        check_bound(LAW, "lambda", lambda, "0 < lambda + 2/3 mu", 0.0 < lambda + 2.0 / 3.0 * mu)?;
+    pub fn isotropic(first_lame_parameter: f64, shear_modulus: f64) -> Result<Self, SolidsError> {
+        let (lambda, mu) = (first_lame_parameter, shear_modulus);
+        check_bound(LAW, "shear_modulus", mu, "0 < μ", 0.0 < mu)?;
+        check_bound(LAW, "first_lame_parameter", lambda, "0 < λ + ⅔ μ", 0.0 < lambda + 2.0 / 3.0 * mu)?;
         Ok(Self { tensor: MajorSymmetric::isotropic(lambda, mu) })
     }
 

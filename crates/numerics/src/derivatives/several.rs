@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{ScalarFunction, VectorFunction, Workspace};
 use crate::error::{check_dimension, check_finite};
-use crate::{Dual, NumericsError, Gradient, Jet, Real};
+use crate::{Dual, Gradient, Jet, NumericsError, Real};
 
 /// Refuses a point that does not fit the workspace or is not finite.
 fn check_point<T: Real, const D: usize>(x: &[T], workspace: &Workspace<T, D>) -> Result<(), NumericsError> {

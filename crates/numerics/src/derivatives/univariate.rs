@@ -2,7 +2,7 @@
 
 use super::UnivariateFunction;
 use crate::error::check_finite;
-use crate::{Dual, NumericsError, Jet, Real};
+use crate::{Dual, Jet, NumericsError, Real};
 
 /// (f, f′) at x.
 ///

@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use super::{condition, one_norm};
 use crate::error::{check_dimension, check_finite};
 use crate::sums::{CompensatedSum, unit_in_last_place};
-use crate::{NumericsError, Mask, Real};
+use crate::{Mask, NumericsError, Real};
 
 /// Up to this order the loops of a factorisation are left to be unrolled.
 const SMALL: usize = 8;
@@ -189,11 +189,20 @@ pub fn solve_in_place<T: Real>(factors: &[T], n: usize, b: &mut [T]) -> Result<(
 /// assert_eq!(z, [-2.0, 1.0]); // row 2 − 2 · row 1 = 0
 /// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
-pub fn null_direction_into<T: Real>(factors: &[T], n: usize, pivot: usize, direction: &mut [T]) -> Result<(), NumericsError> {
+pub fn null_direction_into<T: Real>(
+    factors: &[T],
+    n: usize,
+    pivot: usize,
+    direction: &mut [T],
+) -> Result<(), NumericsError> {
     check_dimension("factors", factors.len(), n * n)?;
     check_dimension("direction", direction.len(), n)?;
     if n <= pivot {
-        return Err(NumericsError::WrongLength { quantity: "factors", expected: (pivot + 1) * (pivot + 1), found: n * n });
+        return Err(NumericsError::WrongLength {
+            quantity: "factors",
+            expected: (pivot + 1) * (pivot + 1),
+            found: n * n,
+        });
     }
     direction.fill(T::zero());
     direction[pivot] = T::one();
@@ -353,7 +362,13 @@ impl Ldlt<f64> {
     /// assert_eq!(x, [1.0, 2.0]);
     /// # Ok::<(), piola_numerics::NumericsError>(())
     /// ```
-    pub fn refine(&self, matrix: &[f64], right: &[f64], x: &mut [f64], residual: &mut [f64]) -> Result<f64, NumericsError> {
+    pub fn refine(
+        &self,
+        matrix: &[f64],
+        right: &[f64],
+        x: &mut [f64],
+        residual: &mut [f64],
+    ) -> Result<f64, NumericsError> {
         let n = self.n;
         check_dimension("matrix", matrix.len(), n * n)?;
         check_dimension("right-hand side", right.len(), n)?;

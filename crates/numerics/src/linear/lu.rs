@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use super::{condition, one_norm};
 use crate::error::{check_dimension, check_finite};
 use crate::sums::unit_in_last_place;
-use crate::{NumericsError, Mask, Real};
+use crate::{Mask, NumericsError, Real};
 
 /// Factors an n×n matrix in place: L below the diagonal, U on and above it, and the row that was exchanged
 /// with row k in `exchanges[k]`.
@@ -137,7 +137,11 @@ pub fn solve_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) 
 /// # Errors
 /// [`NumericsError::WrongLength`].
 #[inline(always)]
-pub fn solve_transposed_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), NumericsError> {
+pub fn solve_transposed_in_place<T: Real>(
+    factors: &[T],
+    exchanges: &[usize],
+    b: &mut [T],
+) -> Result<(), NumericsError> {
     let n = exchanges.len();
     check_dimension("factors", factors.len(), n * n)?;
     check_dimension("right-hand side", b.len(), n)?;

@@ -11,7 +11,7 @@ use nalgebra::{ArrayStorage, Matrix3, Vector3};
 
 use crate::error::check_finite;
 use crate::sums::unit_in_last_place;
-use crate::{NumericsError, Mask, Real};
+use crate::{Mask, NumericsError, Real};
 
 /// a × b.
 ///

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use piola_numerics::linear::ldlt;
 use piola_numerics::linear::least_squares::LeastSquares;
-use piola_numerics::{Dual, NumericsError, Lanes, Real};
+use piola_numerics::{Dual, Lanes, NumericsError, Real};
 use piola_testkit::strategies::vector;
 use piola_testkit::{Tol, allocations_in, assert_close};
 use proptest::prelude::*;

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3, dmatrix, dvector};
 use piola_numerics::linear::{ldlt, lu, matrix3};
-use piola_numerics::{Dual, NumericsError, Gradient, Lanes, Real};
+use piola_numerics::{Dual, Gradient, Lanes, NumericsError, Real};
 use piola_testkit::strategies::{positive_definite, vector};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
@@ -192,8 +192,14 @@ fn pivots_are_judged_in_the_units_of_their_coordinate() {
 #[test]
 fn indefinite_singular_and_nan_matrices_are_refused_with_the_pivot() {
     let refused = |a: [f64; 4]| ldlt::factor_in_place(&mut a.clone(), 2).unwrap_err();
-    assert_eq!(refused([1.0, 2.0, 2.0, 1.0]), NumericsError::NotPositiveDefinite { pivot: 1, value: -3.0, diagonal: 1.0 });
-    assert_eq!(refused([-1.0, 0.0, 0.0, 1.0]), NumericsError::NotPositiveDefinite { pivot: 0, value: -1.0, diagonal: -1.0 });
+    assert_eq!(
+        refused([1.0, 2.0, 2.0, 1.0]),
+        NumericsError::NotPositiveDefinite { pivot: 1, value: -3.0, diagonal: 1.0 }
+    );
+    assert_eq!(
+        refused([-1.0, 0.0, 0.0, 1.0]),
+        NumericsError::NotPositiveDefinite { pivot: 0, value: -1.0, diagonal: -1.0 }
+    );
     assert_eq!(refused([0.0; 4]), NumericsError::NotPositiveDefinite { pivot: 0, value: 0.0, diagonal: 0.0 });
     assert!(matches!(refused([1.0, f64::NAN, 0.0, 1.0]), NumericsError::NotPositiveDefinite { pivot: 1, .. }));
     let error = lu::Lu::new(&dmatrix![1.0, 2.0; 2.0, 4.0]).unwrap_err();

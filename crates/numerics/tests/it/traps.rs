@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use nalgebra::{Matrix3, dmatrix, dvector};
 use piola_numerics::derivatives::{self, ScalarFunction, UnivariateFunction, VectorFunction, Workspace};
 use piola_numerics::linear::{ldlt, lu, matrix3};
-use piola_numerics::{Dual, NumericsError, Gradient, Jet, Real};
+use piola_numerics::{Dual, Gradient, Jet, NumericsError, Real};
 use piola_testkit::{Tol, assert_close};
 
 /// Value, first and second derivative of a formula through a jet.

@@ -13,7 +13,7 @@ parameters! {
     ///
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | μ | `mu` | Pa | 0 < μ |
+    /// | μ | `shear_modulus` | Pa | 0 < μ |
     /// | Jₘ | `limit` | 1 | 0 < Jₘ; Ī₁ − 3 stays below it |
     ///
     /// # Errors
@@ -37,7 +37,7 @@ parameters! {
     /// Gent 1996.
     pub struct Gent("Gent") {
         /// μ, Pa.
-        mu: "0 < μ" => 0.0 < mu,
+        shear_modulus as "mu": "0 < μ" => 0.0 < shear_modulus,
         /// Jₘ.
         limit: "0 < Jm" => 0.0 < limit,
     }
@@ -56,19 +56,19 @@ impl Isochoric for Gent {
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
-        gent(T::lit(self.mu), T::lit(self.limit), first)
+        gent(T::lit(self.shear_modulus), T::lit(self.limit), first)
     }
 
     #[inline(always)]
     fn slopes<T: Real>(&self, first: T, _second: T) -> [T; 2] {
-        let slope = T::lit(0.5 * self.mu * self.limit) / (T::lit(self.limit) - first);
+        let slope = T::lit(0.5 * self.shear_modulus * self.limit) / (T::lit(self.limit) - first);
         [within(first, T::lit(self.limit), slope), T::zero()]
     }
 
     #[inline(always)]
     fn curvatures<T: Real>(&self, first: T, _second: T) -> [T; 3] {
         let reciprocal = (T::lit(self.limit) - first).recip();
-        let curvature = T::lit(0.5 * self.mu * self.limit) * (reciprocal * reciprocal);
+        let curvature = T::lit(0.5 * self.shear_modulus * self.limit) * (reciprocal * reciprocal);
         [within(first, T::lit(self.limit), curvature), T::zero(), T::zero()]
     }
 

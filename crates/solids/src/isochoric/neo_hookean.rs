@@ -11,7 +11,7 @@ parameters! {
     ///
     /// | symbol | parameter | unit | bounds |
     /// |---|---|---|---|
-    /// | μ | `mu` | Pa | 0 < μ |
+    /// | μ | `shear_modulus` | Pa | 0 < μ |
     ///
     /// # Example
     /// ```
@@ -26,7 +26,7 @@ parameters! {
     /// B(4.66) with C₀₁ = 0.
     pub struct NeoHookean("isochoric neo-Hookean") {
         /// μ, Pa.
-        mu: "0 < μ" => 0.0 < mu,
+        shear_modulus as "mu": "0 < μ" => 0.0 < shear_modulus,
     }
 }
 
@@ -44,12 +44,12 @@ impl Isochoric for NeoHookean {
 
     #[inline(always)]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
-        neo_hookean(T::lit(self.mu), first)
+        neo_hookean(T::lit(self.shear_modulus), first)
     }
 
     #[inline(always)]
     fn slopes<T: Real>(&self, _first: T, _second: T) -> [T; 2] {
-        [T::lit(0.5 * self.mu), T::zero()]
+        [T::lit(0.5 * self.shear_modulus), T::zero()]
     }
 
     #[inline(always)]

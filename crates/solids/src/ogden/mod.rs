@@ -26,7 +26,7 @@ use terms::{Series, parts_of_series};
 /// | symbol | parameter | unit | bounds |
 /// |---|---|---|---|
 /// | μₚ, αₚ | `terms`, 1 to 8 of them | Pa, – | αₚ ≠ 0, 0 < ½ Σ μₚ αₚ |
-/// | λ | `lambda`, U″(1) of `volumetric` | Pa | 0 < λ + ⅓ Σ μₚ αₚ |
+/// | λ | `first_lame_parameter`, U″(1) of `volumetric` | Pa | 0 < λ + ⅓ Σ μₚ αₚ |
 ///
 /// Terms with 0 < μₚ αₚ each make the law stable in the sense of Baker and Ericksen; others may.
 ///
@@ -37,7 +37,7 @@ use terms::{Series, parts_of_series};
 /// ```
 /// use piola_solids::{Hyperelastic, Ogden, OgdenTerm, volumetric::SimoTaylor};
 /// use piola_continuum::DeformationGradient;
-/// let terms = [OgdenTerm { mu: 1.0, alpha: 2.0 }];
+/// let terms = [OgdenTerm { modulus: 1.0, exponent: 2.0 }];
 /// let bar = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
 /// let law = Ogden::new(&terms, 0.0)?;
 /// assert!((law.kirchhoff(&bar).0.components[0] - 3.0_f64).abs() < 4e-15); // μ (λ² − 1)
@@ -68,17 +68,19 @@ impl Ogden {
     ///
     /// # Errors
     /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn new(terms: &[OgdenTerm], lambda: f64) -> Result<Self, SolidsError> {
+    pub fn new(terms: &[OgdenTerm], first_lame_parameter: f64) -> Result<Self, SolidsError> {
         let series = Series::new(LAW, terms)?;
+        let lambda = first_lame_parameter;
         let bulk = lambda + 2.0 / 3.0 * series.shear_modulus();
-        check_bound(LAW, "lambda", lambda, "0 < lambda + ⅓ Σ mu alpha", 0.0 < bulk)?;
+        check_bound(LAW, "first_lame_parameter", lambda, "0 < λ + ⅓ Σ μ α", 0.0 < bulk)?;
         Ok(Self { series, volumetric: Lame::new(lambda)? })
     }
 
     /// λ, Pa.
+    #[doc(alias = "lambda")]
     #[must_use]
-    pub const fn lambda(&self) -> f64 {
-        self.volumetric.lambda()
+    pub const fn first_lame_parameter(&self) -> f64 {
+        self.volumetric.first_lame_parameter()
     }
 }
 
@@ -93,7 +95,7 @@ impl<U: Volumetric> Ogden<U> {
         let series = Series::new(LAW, terms)?;
         let lambda = volumetric.bulk_modulus();
         let bulk = lambda + 2.0 / 3.0 * series.shear_modulus();
-        check_bound(LAW, "U″(1)", lambda, "0 < U″(1) + ⅓ Σ mu alpha", 0.0 < bulk)?;
+        check_bound(LAW, "U″(1)", lambda, "0 < U″(1) + ⅓ Σ μ α", 0.0 < bulk)?;
         Ok(Self { series, volumetric })
     }
 }
@@ -109,7 +111,7 @@ impl<U: Volumetric> Ogden<U> {
 /// | symbol | parameter | unit | bounds |
 /// |---|---|---|---|
 /// | μₚ, αₚ | `terms`, 1 to 8 of them | Pa, – | αₚ ≠ 0, 0 < ½ Σ μₚ αₚ |
-/// | κ | `kappa`, U″(1) of `volumetric` | Pa | 0 ≤ κ (the bulk modulus) |
+/// | κ | `bulk_modulus`, U″(1) of `volumetric` | Pa | 0 ≤ κ (the bulk modulus) |
 ///
 /// # Accuracy
 /// Stresses relative 1e-13 down to ∇u = 1e-16, tangents a few ulp of their norm, for equal and nearly equal stretches too.
@@ -119,7 +121,7 @@ impl<U: Volumetric> Ogden<U> {
 /// ```
 /// use piola_solids::{Hyperelastic, IsochoricOgden, OgdenTerm, volumetric::Miehe};
 /// use piola_continuum::DeformationGradient;
-/// let terms = [OgdenTerm { mu: 1.0, alpha: 2.0 }];
+/// let terms = [OgdenTerm { modulus: 1.0, exponent: 2.0 }];
 /// let ball = DeformationGradient::dilatation(2.0)?;
 /// let law = IsochoricOgden::new(&terms, 10.0)?;
 /// assert!((law.cauchy(&ball).0.components[0] - 70.0_f64).abs() < 1e-13); // κ (J − 1), J = 8
@@ -153,16 +155,17 @@ impl IsochoricOgden {
     ///
     /// # Errors
     /// [`SolidsError::NotFinite`], [`SolidsError::OutOfBounds`].
-    pub fn new(terms: &[OgdenTerm], kappa: f64) -> Result<Self, SolidsError> {
+    pub fn new(terms: &[OgdenTerm], bulk_modulus: f64) -> Result<Self, SolidsError> {
         let series = Series::new(ISOCHORIC, terms)?;
-        check_bound(ISOCHORIC, "kappa", kappa, "0 ≤ kappa", 0.0 <= kappa)?;
-        Ok(Self { series, volumetric: Quadratic::new(kappa)? })
+        check_bound(ISOCHORIC, "bulk_modulus", bulk_modulus, "0 ≤ κ", 0.0 <= bulk_modulus)?;
+        Ok(Self { series, volumetric: Quadratic::new(bulk_modulus)? })
     }
 
     /// κ, Pa.
+    #[doc(alias = "kappa")]
     #[must_use]
-    pub const fn kappa(&self) -> f64 {
-        self.volumetric.kappa()
+    pub const fn bulk_modulus(&self) -> f64 {
+        self.volumetric.bulk_modulus()
     }
 }
 

@@ -20,16 +20,20 @@ const CAPACITY: usize = 8;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct OgdenTerm {
     /// μ, Pa.
-    pub mu: f64,
-    /// The exponent α, not zero.
-    pub alpha: f64,
+    #[doc(alias = "mu")]
+    #[cfg_attr(feature = "serde", serde(alias = "mu"))]
+    pub modulus: f64,
+    /// α, not zero.
+    #[doc(alias = "alpha")]
+    #[cfg_attr(feature = "serde", serde(alias = "alpha"))]
+    pub exponent: f64,
 }
 
 /// The sum of an expression over the terms. A macro and not a function of a closure, which cannot be forced inline.
 macro_rules! sum_of {
     ($series:expr, |$mu:ident, $alpha:ident| $term:expr) => {{
         let mut sum = T::zero();
-        for &OgdenTerm { mu: $mu, alpha: $alpha } in $series.terms() {
+        for &OgdenTerm { modulus: $mu, exponent: $alpha } in $series.terms() {
             sum += $term;
         }
         sum
@@ -48,14 +52,14 @@ impl Series {
         let count = given.len();
         check_bound(law, "terms", count as f64, "1 ≤ number of terms ≤ 8", (1..=CAPACITY).contains(&count))?;
         for term in given {
-            check_finite(law, "mu", term.mu)?;
-            check_bound(law, "alpha", term.alpha, "alpha ≠ 0", 0.0 < term.alpha.abs())?;
+            check_finite(law, "modulus", term.modulus)?;
+            check_bound(law, "exponent", term.exponent, "α ≠ 0", 0.0 < term.exponent.abs())?;
         }
         let mut terms = [OgdenTerm::default(); CAPACITY];
         terms[..count].copy_from_slice(given);
         let series = Self { terms, count };
         let modulus = series.shear_modulus();
-        check_bound(law, "½ Σ mu alpha", modulus, "0 < ½ Σ mu alpha", 0.0 < modulus)?;
+        check_bound(law, "½ Σ μ α", modulus, "0 < ½ Σ μ α", 0.0 < modulus)?;
         Ok(series)
     }
 
@@ -64,12 +68,12 @@ impl Series {
     }
 
     pub(super) fn shear_modulus(&self) -> f64 {
-        0.5 * self.terms().iter().map(|term| term.mu * term.alpha).sum::<f64>()
+        0.5 * self.terms().iter().map(|term| term.modulus * term.exponent).sum::<f64>()
     }
 
     /// Σ μₚ, Pa.
     pub(super) fn moduli(&self) -> f64 {
-        self.terms().iter().map(|term| term.mu).sum()
+        self.terms().iter().map(|term| term.modulus).sum()
     }
 
     /// Refuses stretches whose powers leave the range of the scalar.
@@ -81,7 +85,7 @@ impl Series {
         isochoric: bool,
     ) -> Result<(), SolidsError> {
         let (mut steepest, mut stiffest) = (0.0_f64, 0.0_f64);
-        for OgdenTerm { mu, alpha } in self.terms() {
+        for OgdenTerm { modulus: mu, exponent: alpha } in self.terms() {
             steepest = steepest.max(alpha.abs());
             stiffest = stiffest.max((mu * alpha).abs());
         }
@@ -111,13 +115,13 @@ impl Series {
         let logarithms = StretchAnalysis::of(deformation).log_principal_stretches();
         let mean = if isochoric { deformation.ln_jacobian() * T::lit(1.0 / 3.0) } else { T::zero() };
         let mut exponent = T::zero();
-        for OgdenTerm { alpha, .. } in self.terms() {
+        for OgdenTerm { exponent: alpha, .. } in self.terms() {
             for logarithm in logarithms {
                 exponent = exponent.max(T::lit(*alpha) * (logarithm - mean));
             }
         }
         let two = T::lit(2.0);
-        check_exponent(law, "2 alpha ln λ", two * exponent, factor * factor)
+        check_exponent(law, "2 α ln λ", two * exponent, factor * factor)
     }
 
     #[inline(always)]

@@ -24,7 +24,7 @@ fn compressible(
 }
 
 fn terms() -> [OgdenTerm; 3] {
-    [(0.63, 1.3), (0.0012, 5.0), (-0.01, -2.0)].map(|(mu, alpha)| OgdenTerm { mu, alpha })
+    [(0.63, 1.3), (0.0012, 5.0), (-0.01, -2.0)].map(|(mu, alpha)| OgdenTerm { modulus: mu, exponent: alpha })
 }
 
 pub(super) fn artery(dispersion: f64) -> Result<HolzapfelGasserOgden, SolidsError> {
@@ -79,7 +79,8 @@ fn of_all_volumes() -> Result<Vec<AnySolid>, SolidsError> {
         BlatzKo::new(0.8, 0.0, 0.5)?.into(),
         SaintVenantKirchhoff::new(1.5, 0.75)?.into(),
         LinearElastic::new(ElasticConstants::from_lame(1.5, 0.75)?)?.into(),
-        Ogden::new(&[OgdenTerm { mu: 1.2, alpha: 1.3 }, OgdenTerm { mu: -0.3, alpha: -2.0 }], 4.0)?.into(),
+        Ogden::new(&[OgdenTerm { modulus: 1.2, exponent: 1.3 }, OgdenTerm { modulus: -0.3, exponent: -2.0 }], 4.0)?
+            .into(),
         Ogden::with_volumetric(&terms(), SimoTaylor::new(2.0)?)?.into(),
         IsochoricOgden::new(&terms(), 10.0)?.into(),
         IsochoricOgden::with_volumetric(&terms(), HartmannNeff::new(5.0)?)?.into(),

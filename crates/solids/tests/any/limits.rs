@@ -71,7 +71,7 @@ fn points_of_a_batch_beyond_the_limit_are_named_and_have_no_stress() -> Result<(
 #[test]
 fn change_of_volume_of_incompressible_laws_is_refused() -> Result<(), SolidsError> {
     let ball = DeformationGradient::dilatation(1.1).expect("positive");
-    let ogden: AnySolid = IncompressibleOgden::new(&[OgdenTerm { mu: 1.0, alpha: 2.0 }])?.into();
+    let ogden: AnySolid = IncompressibleOgden::new(&[OgdenTerm { modulus: 1.0, exponent: 2.0 }])?.into();
     for law in [ogden, IncompressibleSolid::new(Gent::new(1.0, 3.0)?).into()] {
         let refused = law.check(&ball);
         assert!(matches!(refused, Err(SolidsError::BeyondLimit { quantity: "|J − 1|", .. })), "{refused:?}");

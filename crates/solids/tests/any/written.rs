@@ -66,7 +66,7 @@ fn names_and_parameters_are_written_as_the_documentation_says() {
         ("mu = 1.0", "missing field `law`"),
         ("law = 'blatz_ko'\nmu = 1.0\nnu = 0.2\nshare = 0.5\nextra = 1.0", "unknown field `extra`"),
         ("law = 'fung'\nc = 1.0", "missing field `exponents`"),
-        ("law = 'hencky'\nmu = 1.0\nvolumetric = { law = 'lame', lambda = -1.0 }", "0 < U″(1) + 2/3 mu"),
+        ("law = 'hencky'\nmu = 1.0\nvolumetric = { law = 'lame', lambda = -1.0 }", "0 < U″(1) + ⅔ μ"),
         ("law = 'incompressible_ogden'\nterms = []", "1 ≤ number of terms ≤ 8"),
         ("law = 'linear_elastic'\nmu = 1.0", "ν < ½"),
     ] {

@@ -100,7 +100,8 @@ fn compare_all<T: BatchScalar, L: Hyperelastic + Sync>(
 fn laws_of_each_kind_on_all_cores_equal_themselves_at_their_points() -> Result<(), SolidsError> {
     let f = deformations::<f64>(MANY);
     let ulps = Tol::ulps(8.0);
-    let terms = [(0.63, 1.3), (0.0012, 5.0), (-0.01, -2.0)].map(|(mu, alpha)| OgdenTerm { mu, alpha });
+    let terms =
+        [(0.63, 1.3), (0.0012, 5.0), (-0.01, -2.0)].map(|(mu, alpha)| OgdenTerm { modulus: mu, exponent: alpha });
     let tissue = EngineeringConstants { young: [0.9, 0.5, 0.4], poisson: [0.3, 0.2, 0.25], shear: [0.2, 0.15, 0.3] };
     let fibres = [Fibre::in_plane(0.6)?, Fibre::in_plane(-0.6)?];
     compare("Gent", &Compressible::new(Gent::new(0.8, 30.0)?, SimoTaylor::new(5.0)?), &f, ulps);

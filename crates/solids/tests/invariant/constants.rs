@@ -12,8 +12,8 @@ type Result<T> = core::result::Result<T, SolidsError>;
 /// What every pair makes of the constants of a compressible solid.
 fn pairs(of: &ElasticConstants) -> Result<Vec<(&'static str, ElasticConstants)>> {
     let (mu, young, nu) = (of.shear_modulus(), of.young_modulus(), of.poisson_ratio());
-    let [lambda, bulk, uniaxial] =
-        [of.lame(), of.bulk_modulus(), of.uniaxial_modulus()].map(|modulus| modulus.expect("compressible"));
+    let [lambda, bulk, uniaxial] = [of.first_lame_parameter(), of.bulk_modulus(), of.uniaxial_modulus()]
+        .map(|modulus| modulus.expect("compressible"));
     let sign = if nu < 0.0 { PoissonSign::Negative } else { PoissonSign::NonNegative };
     Ok(vec![
         ("λ μ", ElasticConstants::from_lame(lambda, mu)?),
@@ -45,11 +45,11 @@ proptest! {
     ) {
         let nu = if auxetic { -size } else { size };
         let constants = ElasticConstants::from_shear_poisson(mu, nu).expect("bounds");
-        let lambda = constants.lame().expect("compressible");
+        let lambda = constants.first_lame_parameter().expect("compressible");
         for (pair, other) in pairs(&constants).expect("bounds") {
             // E and M hardly tell ν from 0; E and G, K and E hardly tell ν from ½.
             let condition = 1.0 / (nu * nu) / (1.0 - 2.0 * nu);
-            let actual = [other.lame().expect("compressible"), other.shear_modulus()];
+            let actual = [other.first_lame_parameter().expect("compressible"), other.shear_modulus()];
             assert_close(pair, &actual, &[lambda, mu], Tol::ulps(4.0).times(condition));
         }
     }
@@ -75,7 +75,7 @@ fn half_of_poisson_equals_the_incompressible_solid() -> Result<()> {
         assert_eq!(same, rubber);
     }
     assert!(rubber.is_incompressible());
-    assert_eq!((rubber.lame(), rubber.bulk_modulus(), rubber.uniaxial_modulus()), (None, None, None));
+    assert_eq!((rubber.first_lame_parameter(), rubber.bulk_modulus(), rubber.uniaxial_modulus()), (None, None, None));
     assert_eq!((rubber.young_modulus(), rubber.poisson_ratio(), rubber.compressibility()), (6.0, 0.5, 0.0));
     assert!(matches!(LinearElastic::new(rubber), Err(SolidsError::OutOfBounds { bound: "ν < ½", .. })));
     // Towards ½ the mixed form turns into it without a jump.
@@ -116,14 +116,14 @@ fn impossible_constants_are_refused_by_name() {
         Err(SolidsError::OutOfBounds { parameter, bound, .. }) => (parameter, bound),
         other => panic!("{other:?}"),
     };
-    assert_eq!(refused(ElasticConstants::from_young_poisson(1.0, 0.6)), ("nu", "−1 < ν ≤ ½"));
-    assert_eq!(refused(ElasticConstants::from_young_poisson(-1.0, 0.3)), ("E", "0 < E"));
-    assert_eq!(refused(ElasticConstants::from_bulk_poisson(1.0, 0.5)), ("nu", "−1 < ν < ½"));
-    assert_eq!(refused(ElasticConstants::from_young_shear(3.1, 1.0)), ("E", "0 < E ≤ 3 G"));
-    assert_eq!(refused(ElasticConstants::from_bulk_young(1.0, 9.0)), ("E", "0 < E < 9 K"));
-    assert_eq!(refused(ElasticConstants::from_lame(-1.0, 1.0)), ("lambda", "0 < 3 λ + 2 μ"));
-    assert_eq!(refused(ElasticConstants::from_lame_poisson(1.0, -0.1)), ("lambda", "0 < λ/ν"));
+    assert_eq!(refused(ElasticConstants::from_young_poisson(1.0, 0.6)), ("poisson_ratio", "−1 < ν ≤ ½"));
+    assert_eq!(refused(ElasticConstants::from_young_poisson(-1.0, 0.3)), ("young_modulus", "0 < E"));
+    assert_eq!(refused(ElasticConstants::from_bulk_poisson(1.0, 0.5)), ("poisson_ratio", "−1 < ν < ½"));
+    assert_eq!(refused(ElasticConstants::from_young_shear(3.1, 1.0)), ("young_modulus", "0 < E ≤ 3 G"));
+    assert_eq!(refused(ElasticConstants::from_bulk_young(1.0, 9.0)), ("young_modulus", "0 < E < 9 K"));
+    assert_eq!(refused(ElasticConstants::from_lame(-1.0, 1.0)), ("first_lame_parameter", "0 < 3 λ + 2 μ"));
+    assert_eq!(refused(ElasticConstants::from_lame_poisson(1.0, -0.1)), ("first_lame_parameter", "0 < λ/ν"));
     assert_eq!(refused(ElasticConstants::from_bulk_uniaxial(1.0, 1.0)), ("M", "K < M"));
     let infinite = ElasticConstants::from_young_poisson(f64::INFINITY, 0.3);
-    assert!(matches!(infinite, Err(SolidsError::NotFinite { parameter: "E", .. })));
+    assert!(matches!(infinite, Err(SolidsError::NotFinite { parameter: "young_modulus", .. })));
 }

@@ -82,7 +82,7 @@ fn compressible_mooney_rivlin_equals_reference() {
 
 fn ogden_terms(case: &Value) -> Vec<OgdenTerm> {
     let list = |name: &str| golden::vector(&case["params"][name]);
-    list("mu").into_iter().zip(list("alpha")).map(|(mu, alpha)| OgdenTerm { mu, alpha }).collect()
+    list("mu").into_iter().zip(list("alpha")).map(|(mu, alpha)| OgdenTerm { modulus: mu, exponent: alpha }).collect()
 }
 
 #[test]

@@ -10,7 +10,7 @@ use piola_solids::{
 };
 use piola_testkit::{Tol, assert_close};
 
-const TERMS: [OgdenTerm; 2] = [OgdenTerm { mu: 0.6, alpha: 1.3 }, OgdenTerm { mu: -0.02, alpha: -2.0 }];
+const TERMS: [OgdenTerm; 2] = [OgdenTerm { modulus: 0.6, exponent: 1.3 }, OgdenTerm { modulus: -0.02, exponent: -2.0 }];
 
 /// ∇u of single precision, the same numbers in double.
 #[expect(clippy::cast_possible_truncation, reason = "that is what single precision is")]

@@ -23,7 +23,7 @@ pub(super) trait Visitor {
 }
 
 fn term(mu: f64, alpha: f64) -> OgdenTerm {
-    OgdenTerm { mu, alpha }
+    OgdenTerm { modulus: mu, exponent: alpha }
 }
 
 pub(super) fn ogden() -> Ogden {

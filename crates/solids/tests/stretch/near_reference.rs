@@ -47,7 +47,7 @@ proptest! {
         let rows = core::array::from_fn(|i| core::array::from_fn(|j| size * entries[3 * i + j]));
         let mut visitor = RoundingIsSmall(rows);
         all(&mut visitor);
-        let terms = [(0.63, 1.3), (0.0012, 5.0), (-0.01, -2.0)].map(|(mu, alpha)| OgdenTerm { mu, alpha });
+        let terms = [(0.63, 1.3), (0.0012, 5.0), (-0.01, -2.0)].map(|(mu, alpha)| OgdenTerm { modulus: mu, exponent: alpha });
         visitor.visit("incompressible Ogden", &IncompressibleOgden::new(&terms).expect("parameters"), Group::All);
         visitor.visit("incompressible Hencky", &Pressurised::new(hencky()), Group::All);
     }

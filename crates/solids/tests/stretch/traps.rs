@@ -90,7 +90,7 @@ fn tangent_of_a_fibre_jumps_where_its_stress_is_continuous() {
     let stiff = |f: &DeformationGradient| law.first_piola_derivative(f, &along).0.dot(&along);
     // k₁ (∂Eₐ)² of each family, ∂Eₐ = 2 (aₐ · a₁)² − ⅔: the first becomes taut and the second slack.
     let across = (law.fibres()[1].direction()[0] * x + law.fibres()[1].direction()[1] * y).powi(2);
-    let expected = law.k1() * ((4.0_f64 / 3.0).powi(2) - (2.0 * across - 2.0 / 3.0).powi(2));
+    let expected = law.fibre_modulus() * ((4.0_f64 / 3.0).powi(2) - (2.0 * across - 2.0 / 3.0).powi(2));
     let tolerance = Tol::stated(1e-6, "the jump between elongations of ±1e-9");
     assert_close_at_scale("jump", &[stiff(&taut) - stiff(&slack)], &[expected], 0.0, tolerance);
 }
@@ -105,18 +105,18 @@ fn bound_of<T>(result: Result<T, SolidsError>) -> (&'static str, &'static str) {
 
 #[test]
 fn impossible_parameters_are_refused_by_name_and_bound() {
-    let term = |mu: f64, alpha: f64| OgdenTerm { mu, alpha };
+    let term = |mu: f64, alpha: f64| OgdenTerm { modulus: mu, exponent: alpha };
     assert_eq!(bound_of(Ogden::new(&[], 1.0)), ("terms", "1 ≤ number of terms ≤ 8"));
     assert_eq!(bound_of(Ogden::new(&[term(1.0, 2.0); 9], 1.0)).0, "terms");
-    assert_eq!(bound_of(Ogden::new(&[term(1.0, 0.0)], 1.0)), ("alpha", "alpha ≠ 0"));
-    assert_eq!(bound_of(Ogden::new(&[term(1.0, -2.0)], 1.0)).1, "0 < ½ Σ mu alpha");
-    assert_eq!(bound_of(Ogden::new(&[term(1.0, 2.0)], -1.0)).0, "lambda");
-    assert_eq!(bound_of(IsochoricOgden::new(&[term(1.0, 2.0)], -1.0)), ("kappa", "0 ≤ kappa"));
-    assert_eq!(bound_of(Hencky::new(-1.0, 1.0)), ("lambda", "0 < lambda + 2/3 mu"));
-    assert_eq!(bound_of(Hencky::new(1.0, 0.0)), ("mu", "0 < mu"));
+    assert_eq!(bound_of(Ogden::new(&[term(1.0, 0.0)], 1.0)), ("exponent", "α ≠ 0"));
+    assert_eq!(bound_of(Ogden::new(&[term(1.0, -2.0)], 1.0)).1, "0 < ½ Σ μ α");
+    assert_eq!(bound_of(Ogden::new(&[term(1.0, 2.0)], -1.0)).0, "first_lame_parameter");
+    assert_eq!(bound_of(IsochoricOgden::new(&[term(1.0, 2.0)], -1.0)), ("bulk_modulus", "0 ≤ κ"));
+    assert_eq!(bound_of(Hencky::new(-1.0, 1.0)), ("first_lame_parameter", "0 < λ + ⅔ μ"));
+    assert_eq!(bound_of(Hencky::new(1.0, 0.0)), ("shear_modulus", "0 < μ"));
     assert_eq!(bound_of(Fibre::new([0.0; 3])), ("direction", "0 < |direction|"));
     let fibre = Fibre::new([1.0, 0.0, 0.0]).expect("direction");
-    assert_eq!(bound_of(ReinforcedNeoHookean::new(1.0, 1.0, -1.0, fibre)), ("k", "0 ≤ k"));
+    assert_eq!(bound_of(ReinforcedNeoHookean::new(1.0, 1.0, -1.0, fibre)), ("fibre_modulus", "0 ≤ k"));
     let dispersed = HolzapfelGasserOgden::new(1.0, 1.0, 1.0, 1.0, 0.4, [fibre; 2]);
     assert_eq!(bound_of(dispersed), ("dispersion", "0 ≤ dispersion ≤ 1/3"));
     let axes = Matrix3::identity();
@@ -126,7 +126,10 @@ fn impossible_parameters_are_refused_by_name_and_bound() {
     assert_eq!(bound_of(Stiffness::orthotropic(&all, &axes)).0, "determinant of the compliance");
     let soft = nalgebra::Matrix6::from_diagonal(&[1.0, 1.0, 1.0, 1.0, -1.0, 1.0].into());
     assert_eq!(bound_of(Stiffness::from_matrix(&soft)), ("pivot of C", "0 < A : C : A"));
-    assert!(matches!(Hencky::new(f64::NAN, 1.0), Err(SolidsError::NotFinite { parameter: "lambda", .. })));
+    assert!(matches!(
+        Hencky::new(f64::NAN, 1.0),
+        Err(SolidsError::NotFinite { parameter: "first_lame_parameter", .. })
+    ));
 }
 
 #[test]
@@ -167,7 +170,7 @@ fn laws_written_and_read_equal_themselves() {
     round(&isochoric_ogden());
     round(&hencky());
     let refused = serde_json::from_str::<Hencky>(r#"{"mu": -1.0, "volumetric": {"lambda": 1.0}}"#).expect_err("mu < 0");
-    assert!(refused.to_string().contains("0 < mu"), "{refused}");
+    assert!(refused.to_string().contains("0 < μ"), "{refused}");
     assert!(serde_json::from_str::<Ogden>(r#"{"terms": [], "volumetric": {"lambda": 1.0}}"#).is_err());
 }
 

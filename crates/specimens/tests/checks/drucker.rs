@@ -114,7 +114,7 @@ fn laws_that_keep_the_condition_pass() {
     assert!(scan.passes() && scan.samples == 200, "{scan:?}");
     assert!(scan.worst.increment.trace().abs() < 1e-14, "{scan:?}");
     // W = Σ (μ/α) Σ λᵢ^α is convex in ln λᵢ where 0 < μ α.
-    let terms = [OgdenTerm { mu: 0.6, alpha: 1.3 }, OgdenTerm { mu: -0.02, alpha: -2.0 }];
+    let terms = [OgdenTerm { modulus: 0.6, exponent: 1.3 }, OgdenTerm { modulus: -0.02, exponent: -2.0 }];
     let ogden = Ogden::new(&terms, 4.0).expect("terms");
     assert!(drucker_scan(&ogden, &wide, Kinematics::Isochoric).passes());
     // A falling stress in equibiaxial tension does not.

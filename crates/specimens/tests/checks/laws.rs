@@ -17,7 +17,7 @@ trait Visitor {
     fn visit<L: Hyperelastic>(&mut self, name: &str, law: &L);
 }
 
-const TERMS: [OgdenTerm; 2] = [OgdenTerm { mu: 0.6, alpha: 1.3 }, OgdenTerm { mu: -0.02, alpha: -2.0 }];
+const TERMS: [OgdenTerm; 2] = [OgdenTerm { modulus: 0.6, exponent: 1.3 }, OgdenTerm { modulus: -0.02, exponent: -2.0 }];
 
 /// One of each kind of closed form.
 fn some(visitor: &mut impl Visitor) -> Result<(), SolidsError> {

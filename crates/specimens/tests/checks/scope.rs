@@ -47,7 +47,7 @@ fn isotropic_law_passes(what: &str, law: &impl Hyperelastic, search: &Search) {
 #[test]
 fn incompressible_laws_are_tested_at_deformations_that_they_can_have() {
     let search = Search { samples: 40, strain: 0.35, ..Search::default() };
-    let terms = [OgdenTerm { mu: 0.6, alpha: 1.3 }, OgdenTerm { mu: -0.02, alpha: -2.0 }];
+    let terms = [OgdenTerm { modulus: 0.6, exponent: 1.3 }, OgdenTerm { modulus: -0.02, exponent: -2.0 }];
     isotropic_law_passes("Mooney–Rivlin", &IncompressibleSolid::new(mooney()), &search);
     let pressed = IncompressibleSolid::new(mooney()).at_pressure(0.7).expect("p");
     let report = noll(&pressed, &search);

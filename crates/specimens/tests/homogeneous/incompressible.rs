@@ -92,7 +92,7 @@ fn limits_of_the_chains_are_kept_on_the_way() {
 
 #[test]
 fn bulk_modulus_of_a_pressurised_law_says_nothing() {
-    let terms = [OgdenTerm { mu: 0.63, alpha: 1.3 }, OgdenTerm { mu: -0.01, alpha: -2.0 }];
+    let terms = [OgdenTerm { modulus: 0.63, exponent: 1.3 }, OgdenTerm { modulus: -0.01, exponent: -2.0 }];
     let expected = IncompressibleOgden::new(&terms).expect("terms");
     for kappa in [0.1, 2.0, 1e4] {
         let law = Pressurised::new(Ogden::new(&terms, kappa).expect("terms"));
@@ -169,4 +169,11 @@ fn slope_of_an_anisotropic_bar_equals_differences_of_its_stress() {
         // Across a bar that is pressed fibres are stretched: the curvature of their energy does not jump here.
         assert_close("dP/dλ", &[slope], &[expected], Tol::stated(1e-8, "differences of fourth order, h = 1e-3"));
     }
+}
+
+#[test]
+fn a_sheet_held_along_one_axis_equals_planar_tension() {
+    let rubber = piola_solids::MooneyRivlin::stress_free(0.5, 0.25, 1.0).expect("parameters");
+    let sheet = IncompressibleState::biaxial(&rubber, [2.0, 1.0]).expect("stretches");
+    assert_eq!(sheet, IncompressibleState::of(&rubber, Mode::Planar, 2.0).expect("a stretch"));
 }
