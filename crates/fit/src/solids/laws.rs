@@ -151,7 +151,7 @@ impl AnyModel {
                 isochoric::Rivlin::new(series.powers().zip(p).map(term).collect())?.into()
             }
             Self::Ogden(_) => {
-                let terms = p.chunks_exact(2).map(|term| OgdenTerm { mu: term[0], alpha: term[1] });
+                let terms = p.chunks_exact(2).map(|term| OgdenTerm { modulus: term[0], exponent: term[1] });
                 return Ok(Shape::Stretches(terms.collect()));
             }
         }))
