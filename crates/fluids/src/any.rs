@@ -226,3 +226,6 @@ impl ViscometricFluid for AnyFluid {
         chosen!(self, fluid => fluid.flow_moment(moment, from, to))
     }
 }
+
+#[cfg(feature = "motions")]
+pub(crate) use chosen as chosen_fluid;

@@ -207,8 +207,8 @@ impl<H: Damping> Kbkz<H> {
 
     /// ∫ m ds from s to ∞, Pa: the modulus of relaxation after a small strain.
     #[must_use]
-    pub fn relaxation_modulus(&self, time: f64) -> f64 {
-        self.memory.iter().map(|term| term.viscosity / term.time * (-time / term.time).exp()).sum()
+    pub fn relaxation_modulus(&self, t: f64) -> f64 {
+        self.memory.iter().map(|term| term.viscosity / term.time * (-t / term.time).exp()).sum()
     }
 
     /// m(s), Pa/s.

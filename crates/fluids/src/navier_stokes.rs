@@ -68,11 +68,11 @@ where
 {
     type Value = CauchyStress;
 
-    fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> CauchyStress<T> {
-        let gradient = self.coordinates.vector_gradient(&self.velocity, place, time);
+    fn at<T: Real>(&self, place: &Vector3<T>, t: T) -> CauchyStress<T> {
+        let gradient = self.coordinates.vector_gradient(&self.velocity, place, t);
         let l = gradient
             .map_or_else(|_| VelocityGradient(nalgebra::Matrix3::from_element(T::lit(f64::NAN))), VelocityGradient);
-        self.fluid.cauchy(self.pressure.at(place, time), &l)
+        self.fluid.cauchy(self.pressure.at(place, t), &l)
     }
 }
 
@@ -103,7 +103,7 @@ pub fn navier_stokes_residual<C, R, V, T>(
     pressure: &impl Field<Value = f64>,
     force: &impl Field<Value = Vector3<f64>>,
     place: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<VectorResidual<T>, FluidsError>
 where
     C: CartesianCoordinates,
@@ -111,16 +111,16 @@ where
     V: Field<Value = Vector3<f64>>,
     T: Real,
 {
-    let acceleration = flow.acceleration(place, time)?;
-    let density = flow.density.at(place, time);
+    let acceleration = flow.acceleration(place, t)?;
+    let density = flow.density.at(place, t);
     // Second derivatives: partials of partials.
     let q = Vector3::from_fn(|i, _| Gradient::<Gradient<T, 3>, 3> {
         value: Gradient::variable(place[i], i),
         partials: core::array::from_fn(|j| if i == j { Gradient::lit(1.0) } else { Gradient::lit(0.0) }),
     });
-    let v: ValueOf<V, _> = flow.velocity.at(&q, Gradient::constant(Gradient::constant(time)));
-    let slopes = pressure.at(&q.map(|x| x.value), Gradient::constant(time)).partials;
-    let force = force.at(place, time);
+    let v: ValueOf<V, _> = flow.velocity.at(&q, Gradient::constant(Gradient::constant(t)));
+    let slopes = pressure.at(&q.map(|x| x.value), Gradient::constant(t)).partials;
+    let force = force.at(place, t);
     let (mu, both) = (T::lit(fluid.shear_viscosity()), T::lit(fluid.second_viscosity() + fluid.shear_viscosity()));
     let residual = core::array::from_fn(|i| {
         let mut residual = Residual::zero().plus(density * acceleration[i]).plus(-force[i]).plus(slopes[i]);

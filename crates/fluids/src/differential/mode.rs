@@ -121,8 +121,8 @@ pub trait DifferentialFluid {
 
     /// G(t), Pa, 0 < t: the shear stress after a small step of shear, divided by it; the solvent's impulse at t = 0 apart.
     #[must_use]
-    fn relaxation_modulus(&self, time: f64) -> f64 {
-        sum_of(self.modes(), |mode| (-time / mode.time()).exp())
+    fn relaxation_modulus(&self, t: f64) -> f64 {
+        sum_of(self.modes(), |mode| (-t / mode.time()).exp())
     }
 
     /// G′(ω), Pa: in phase with a small oscillating shear.

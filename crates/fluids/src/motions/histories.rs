@@ -23,8 +23,8 @@ pub struct SeenFrom<M, Q> {
 }
 
 impl<M: HomogeneousMotion, Q: HomogeneousMotion> HomogeneousMotion for SeenFrom<M, Q> {
-    fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-        self.observer.gradient(time) * self.motion.gradient(time)
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+        self.observer.gradient(t) * self.motion.gradient(t)
     }
 }
 
@@ -41,8 +41,8 @@ pub struct Referred<M> {
 }
 
 impl<M: HomogeneousMotion> HomogeneousMotion for Referred<M> {
-    fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-        self.motion.gradient(time) * self.reference.map(T::lit)
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+        self.motion.gradient(t) * self.reference.map(T::lit)
     }
 }
 
@@ -75,11 +75,11 @@ pub struct ConstantStretchHistory<Q> {
 }
 
 impl<Q: HomogeneousMotion> HomogeneousMotion for ConstantStretchHistory<Q> {
-    fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
         let generator: Matrix3<T> = self.generator.map(T::lit);
-        let rows = piola_continuum::rates::exponential_rows(rows_of(&(generator * time)));
+        let rows = piola_continuum::rates::exponential_rows(rows_of(&(generator * t)));
         let exponential = Matrix3::from_fn(|i, j| rows[i][j]);
-        self.turning.gradient(time) * self.reference.map(T::lit) * exponential
+        self.turning.gradient(t) * self.reference.map(T::lit) * exponential
     }
 }
 
@@ -115,12 +115,12 @@ pub fn fluid_indifference<M: HomogeneousMotion, Q: HomogeneousMotion>(
     fluid: &impl SimpleFluid,
     motion: M,
     observer: Q,
-    time: f64,
+    t: f64,
     tolerance: f64,
 ) -> Result<f64, FluidsError> {
-    let turn = observer.gradient(time);
-    let stress = fluid.response_to_motion(&motion, time, tolerance)?.matrix();
-    let seen = fluid.response_to_motion(&SeenFrom { motion, observer }, time, tolerance)?.matrix();
+    let turn = observer.gradient(t);
+    let stress = fluid.response_to_motion(&motion, t, tolerance)?.matrix();
+    let seen = fluid.response_to_motion(&SeenFrom { motion, observer }, t, tolerance)?.matrix();
     Ok(ratio((seen - turn * stress * turn.transpose()).norm(), stress.norm()))
 }
 
@@ -136,14 +136,14 @@ pub fn reference_indifference<M: HomogeneousMotion>(
     fluid: &impl SimpleFluid,
     motion: M,
     reference: &Matrix3<f64>,
-    time: f64,
+    t: f64,
     tolerance: f64,
 ) -> Result<f64, FluidsError> {
     let determinant = reference.determinant();
     let unimodular = (determinant - 1.0).abs() <= 1e-12 * (1.0 + reference.norm().powi(3));
     check_bound("change of reference", "det H", determinant, "det H = 1", unimodular)?;
-    let stress = fluid.response_to_motion(&motion, time, tolerance)?.matrix();
-    let seen = fluid.response_to_motion(&Referred { motion, reference: *reference }, time, tolerance)?.matrix();
+    let stress = fluid.response_to_motion(&motion, t, tolerance)?.matrix();
+    let seen = fluid.response_to_motion(&Referred { motion, reference: *reference }, t, tolerance)?.matrix();
     Ok(ratio((seen - stress).norm(), stress.norm()))
 }
 
@@ -170,7 +170,7 @@ pub fn plane_history(
     fluid: &impl SimpleFluid,
     motion: &impl HomogeneousMotion,
     normal: &Vector3<f64>,
-    time: f64,
+    t: f64,
     tolerance: f64,
 ) -> Result<PlaneHistory, FluidsError> {
     let size = normal.norm();
@@ -182,10 +182,10 @@ pub fn plane_history(
     };
     let mut history = 0.0_f64;
     for i in 1..=16 {
-        let relative = motion.relative(time, -time * f64::from(i) / 16.0)?;
+        let relative = motion.relative(t, -t * f64::from(i) / 16.0)?;
         history = history.max(across(&relative.right_cauchy_green()));
     }
-    let stress = across(&fluid.response_to_motion(motion, time, tolerance)?);
+    let stress = across(&fluid.response_to_motion(motion, t, tolerance)?);
     Ok(PlaneHistory { history, stress })
 }
 
@@ -205,19 +205,19 @@ pub fn stretch_history(motion: &impl HomogeneousMotion, times: &[f64], horizon: 
     let count = times.len() as f64;
     check_bound("stretch history", "number of times", count, "2 ≤ number", 2.0 <= count)?;
     check_bound("stretch history", "horizon", horizon, "0 < horizon", 0.0 < horizon)?;
-    let at = |time: f64| -> Result<[Matrix3<f64>; 8], FluidsError> {
-        check_finite("stretch history", "time", time)?;
+    let at = |t: f64| -> Result<[Matrix3<f64>; 8], FluidsError> {
+        check_finite("stretch history", "time", t)?;
         let mut tensors = [Matrix3::zeros(); 8];
         for (i, tensor) in (1..=8).zip(&mut tensors) {
             let lapse = -horizon * f64::from(i) / 8.0;
-            *tensor = motion.relative(time, lapse)?.right_cauchy_green_change().matrix();
+            *tensor = motion.relative(t, lapse)?.right_cauchy_green_change().matrix();
         }
         Ok(tensors)
     };
     let first = at(times[0])?;
     let mut worst = 0.0_f64;
-    for &time in &times[1..] {
-        let other = at(time)?;
+    for &t in &times[1..] {
+        let other = at(t)?;
         for i in 0..8 {
             worst = worst.max(ratio((first[i].trace() - other[i].trace()).abs(), first[i].norm()));
             for j in i..8 {
@@ -277,12 +277,12 @@ pub struct Viscometric {
 ///
 /// # Source
 /// W(22.29–22.33), W(23.10); C.-C. Wang, Arch. Rational Mech. Anal. 20 (1965) 329.
-pub fn viscometric_motion(motion: &impl HomogeneousMotion, time: f64) -> Result<Option<Viscometric>, FluidsError> {
+pub fn viscometric_motion(motion: &impl HomogeneousMotion, t: f64) -> Result<Option<Viscometric>, FluidsError> {
     type Third = Dual<Dual<Dual<f64>>>;
-    motion.deformation(time)?;
+    motion.deformation(t)?;
     let one = Dual::lit(1.0);
     let lapse: Third = Dual { value: Dual { value: Dual::variable(0.0), tangent: one }, tangent: Dual::lit(1.0) };
-    let change = motion.relative_displacement(Third::lit(time), lapse);
+    let change = motion.relative_displacement(Third::lit(t), lapse);
     let strain = change + change.transpose() + change.transpose() * change;
     let part = |of: fn(&Third) -> f64| Symmetric::symmetric_part(rows_of(&strain.map(|x| of(&x))));
     let first = RivlinEricksen(part(|x| x.tangent.value.value));

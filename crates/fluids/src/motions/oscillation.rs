@@ -32,10 +32,10 @@ pub(super) const POINTS: i32 = 64;
 /// The start is given `cycles` of the oscillation to be forgotten.
 ///
 /// # Errors
-/// [`FluidsError::OutOfBounds`] unless 0 < γ₀, 0 < ω, 1 ≤ `harmonics` ≤ 15; and as [`follow`].
+/// [`FluidsError::OutOfBounds`] unless 0 < γ₀, 0 < ω, 1 ≤ `harmonics` ≤ 15; and as [`follow`](crate::follow).
 ///
 /// # Accuracy
-/// That of [`follow`]; harmonics beyond the 63rd are taken for lower ones, and the start is forgotten to exp(−2 π cycles/(λ ω)).
+/// That of [`follow`](crate::follow); harmonics beyond the 63rd are taken for lower ones, and the start is forgotten to exp(−2 π cycles/(λ ω)).
 ///
 /// # Example
 /// ```

@@ -200,7 +200,7 @@ impl Poiseuille {
     /// [`ViscometryError::OutOfBounds`] unless 0 < ρ and 0 < length; what the fluid refuses.
     ///
     /// # Source
-    /// A. B. Metzner, J. C. Reed, *`AIChE` J.* 1 (1955) 434.
+    /// A. B. Metzner, J. C. Reed, *A. I. Ch. E. Journal* 1 (1955) 434.
     pub fn validity<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,

@@ -10,7 +10,7 @@ use piola_continuum::{DeformationGradient, Symmetric};
 
 use super::oscillation::Oscillation;
 use super::shear_stresses::ShearStresses;
-use crate::any::chosen;
+use crate::any::chosen_fluid;
 use crate::error::{check_bound, check_finite};
 use crate::{AnyFluid, Extension, FluidsError};
 
@@ -84,7 +84,7 @@ pub trait SimpleFluid {
     fn response_to_motion(
         &self,
         motion: &impl HomogeneousMotion,
-        time: f64,
+        t: f64,
         tolerance: f64,
     ) -> Result<Symmetric, FluidsError>;
 
@@ -104,13 +104,13 @@ pub trait SimpleFluid {
     ///
     /// # Errors
     /// [`FluidsError::NotFinite`]; [`FluidsError::OutOfBounds`] unless 0 ≤ t; [`FluidsError::Integration`].
-    fn response_to_start(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError>;
+    fn response_to_start(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError>;
 
     /// The stresses at the time t, s, after the end of a long steady shear at the rate k, 1/s.
     ///
     /// # Errors
     /// As [`response_to_start`](Self::response_to_start).
-    fn response_to_stop(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError>;
+    fn response_to_stop(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError>;
 
     /// G′ and G″ at the angular frequency ω, 1/s.
     ///
@@ -156,9 +156,9 @@ fn extensional_viscosity(stress: &Symmetric, extension: Extension, rate: f64) ->
 }
 
 /// Refuses rates that are not finite and times before the start.
-fn check_flow(name: &'static str, shear_rate: f64, time: f64) -> Result<(), FluidsError> {
+fn check_flow(name: &'static str, shear_rate: f64, t: f64) -> Result<(), FluidsError> {
     check_finite(name, "shear rate", shear_rate)?;
-    check_bound(name, "time", time, "0 ≤ time", 0.0 <= time)
+    check_bound(name, "time", t, "0 ≤ time", 0.0 <= t)
 }
 
 /// Refuses too few samples, and times that do not grow.
@@ -174,25 +174,25 @@ fn check_samples(name: &'static str, samples: &[(f64, DeformationGradient)]) -> 
 /// The velocity gradient that leads from one sample to the next.
 fn gradient_between(
     (before, first): &(f64, DeformationGradient),
-    (time, second): &(f64, DeformationGradient),
+    (t, second): &(f64, DeformationGradient),
 ) -> Result<VelocityGradient, FluidsError> {
     let step = RelativeDeformation::of(first, second)?;
-    Ok(VelocityGradient::new(logarithm(step.displacement.matrix())? / (time - before))?)
+    Ok(VelocityGradient::new(logarithm(step.displacement.matrix())? / (t - before))?)
 }
 
 /// Each fluid's own.
 impl SimpleFluid for AnyFluid {
     fn response_to_steady(&self, velocity_gradient: &VelocityGradient) -> Result<Symmetric, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_steady(velocity_gradient))
+        chosen_fluid!(self, fluid => fluid.response_to_steady(velocity_gradient))
     }
 
     fn response_to_motion(
         &self,
         motion: &impl HomogeneousMotion,
-        time: f64,
+        t: f64,
         tolerance: f64,
     ) -> Result<Symmetric, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_motion(motion, time, tolerance))
+        chosen_fluid!(self, fluid => fluid.response_to_motion(motion, t, tolerance))
     }
 
     fn response_to_samples(
@@ -200,19 +200,19 @@ impl SimpleFluid for AnyFluid {
         samples: &[(f64, DeformationGradient)],
         tolerance: f64,
     ) -> Result<Symmetric, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_samples(samples, tolerance))
+        chosen_fluid!(self, fluid => fluid.response_to_samples(samples, tolerance))
     }
 
-    fn response_to_start(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_start(shear_rate, time, tolerance))
+    fn response_to_start(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        chosen_fluid!(self, fluid => fluid.response_to_start(shear_rate, t, tolerance))
     }
 
-    fn response_to_stop(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_stop(shear_rate, time, tolerance))
+    fn response_to_stop(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        chosen_fluid!(self, fluid => fluid.response_to_stop(shear_rate, t, tolerance))
     }
 
     fn response_to_small_oscillation(&self, angular_frequency: f64) -> Result<Moduli, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_small_oscillation(angular_frequency))
+        chosen_fluid!(self, fluid => fluid.response_to_small_oscillation(angular_frequency))
     }
 
     fn response_to_oscillation(
@@ -222,10 +222,10 @@ impl SimpleFluid for AnyFluid {
         harmonics: usize,
         tolerance: f64,
     ) -> Result<Oscillation, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_oscillation(amplitude, angular_frequency, harmonics, tolerance))
+        chosen_fluid!(self, fluid => fluid.response_to_oscillation(amplitude, angular_frequency, harmonics, tolerance))
     }
 
     fn response_to_extension(&self, extension: Extension, rate: f64) -> Result<f64, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_extension(extension, rate))
+        chosen_fluid!(self, fluid => fluid.response_to_extension(extension, rate))
     }
 }
