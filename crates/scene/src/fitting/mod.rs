@@ -23,8 +23,8 @@ use std::path::{Path, PathBuf};
 use piola_constitutive::ConstitutiveError;
 use piola_constitutive::fit::{AnyModel, Data, fit};
 
-use crate::comparison::{self, Judged};
 use crate::SceneError;
+use crate::comparison::{self, Judged};
 use crate::output::{Folder, Written};
 
 /// Measured stresses of one material.

@@ -95,8 +95,11 @@ impl Builder<'_> {
         let eccentricity = record.number("eccentricity");
         if let Some(e) = eccentricity.filter(|e| 1.0 <= *e) {
             self.wrong(
-                Mistake::new(record.place_of("eccentricity"), format!("the eccentricity {} is of no ellipse", words::number(e)))
-                    .valid("a number from 0 to less than 1; give position and velocity of an escaping body"),
+                Mistake::new(
+                    record.place_of("eccentricity"),
+                    format!("the eccentricity {} is of no ellipse", words::number(e)),
+                )
+                .valid("a number from 0 to less than 1; give position and velocity of an escaping body"),
             );
             return None;
         }

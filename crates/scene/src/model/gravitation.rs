@@ -111,7 +111,12 @@ impl Builder<'_> {
                 self.wrong(
                     Mistake::new(
                         records[second].place_of("position"),
-                        format!("`{}` and `{}` are in one place, {} m", one.name, other.name, words::numbers(&one.position)),
+                        format!(
+                            "`{}` and `{}` are in one place, {} m",
+                            one.name,
+                            other.name,
+                            words::numbers(&one.position)
+                        ),
                     )
                     .see(records[first].place_of("position"), format!("`{}` is here", one.name))
                     .valid("places apart, or gravity.softening greater than zero"),
