@@ -78,7 +78,7 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
     ended(&run.outcome, &written, &end)
 }
 
-/// Says what went wrong.
+/// Prints the errors of a run and gives its exit code.
 fn ended(outcome: &Outcome, written: &Written, end: &str) -> Exit {
     for failure in &written.failures {
         note(&format!("error: {failure}"));
@@ -179,7 +179,7 @@ fn request(arguments: &FitArguments) -> Result<Request, SceneError> {
     Ok(request)
 }
 
-/// Where the results are.
+/// The folder and the files of the results.
 pub(crate) fn listing(folder: &Folder, written: &Written) -> String {
     let names: Vec<_> = written.files.iter().filter_map(|path| path.file_name()?.to_str()).collect();
     format!("written to {}: {}\n", folder.path().display(), names.join(", "))

@@ -69,7 +69,7 @@ fn parameter(estimate: &Estimate, unit: Option<&str>) -> String {
     line
 }
 
-/// Where a law that is not stable is not.
+/// The stretches at which a law is unstable.
 fn violations(text: &mut String, fit: &Fit) {
     let conditions = [("Drucker", fit.stability.drucker), ("Baker-Ericksen", fit.stability.baker_ericksen)];
     for (name, worst) in conditions {
@@ -80,7 +80,7 @@ fn violations(text: &mut String, fit: &Fit) {
     }
 }
 
-/// Five digits.
+/// A number with five digits.
 fn short(x: f64) -> String {
     let size = x.abs();
     if size < f64::MIN_POSITIVE {

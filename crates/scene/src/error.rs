@@ -75,7 +75,7 @@ pub enum SceneError {
     Argument {
         /// The argument.
         argument: String,
-        /// What would be valid.
+        /// The valid arguments in words.
         valid: &'static str,
     },
     /// A weight is given to a test that is not in the data.

@@ -8,11 +8,11 @@ use crate::words;
 pub struct Node {
     /// Where it stands; for a table with a header, the header.
     pub place: Place,
-    /// What it is.
+    /// The value.
     pub value: Value,
 }
 
-/// What can stand in a scene.
+/// A value of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// A table, entries in the order of the text.
@@ -60,7 +60,7 @@ impl Node {
 }
 
 impl Value {
-    /// What it is, in words, for "found …".
+    /// The value in words, for "found …".
     #[must_use]
     pub fn describe(&self) -> String {
         match self {

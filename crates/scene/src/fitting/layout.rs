@@ -229,7 +229,7 @@ fn point(table: &Table, index: usize) -> Table {
     }
 }
 
-/// What is wrong with the point of a line, and what would be valid.
+/// The mistake in the point of a line, with a valid value.
 fn refused(line: u64, error: &FitError) -> TableMistake {
     match error {
         FitError::StretchOutOfRange { value, .. } => {

@@ -29,15 +29,15 @@ pub struct Scene {
     pub name: String,
     /// Title of figures.
     pub title: Option<String>,
-    /// What moves.
+    /// The bodies and the forces between them.
     pub system: System,
     /// The span of time.
     pub time: TimeSpan,
-    /// What was asked of the integrator.
+    /// The method, step and tolerance that were asked for.
     pub integrator: IntegratorRequest,
-    /// What is to be written.
+    /// The files to write.
     pub output: OutputRequest,
-    /// What the result is compared with.
+    /// The reference for the result.
     pub reference: Option<Reference>,
 }
 
@@ -52,7 +52,7 @@ pub enum System {
     Central(Central),
 }
 
-/// From `start` to `end`, s; backwards in time if `end < start`.
+/// A span of time, s. The run goes backwards in time if `end < start`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeSpan {
     /// Start, s.
@@ -93,7 +93,7 @@ impl TimeSpan {
     }
 }
 
-/// What a scene asks of the integrator; the planner fills in the rest.
+/// The method, step and tolerance of a scene. The planner fills in those that are absent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntegratorRequest {
     /// One of [`METHODS`](crate::schema::METHODS).
@@ -104,7 +104,7 @@ pub struct IntegratorRequest {
     pub tolerance: Option<f64>,
 }
 
-/// What a scene asks to be written.
+/// The files that a scene asks for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputRequest {
     /// Folder, relative to the current one.
@@ -165,7 +165,7 @@ impl Scene {
     }
 }
 
-/// What collects mistakes while the model is built.
+/// Builds the model and collects mistakes.
 pub(crate) struct Builder<'d> {
     document: &'d Document,
     mistakes: Vec<Mistake>,
@@ -176,7 +176,7 @@ impl<'d> Builder<'d> {
         Self { document, mistakes }
     }
 
-    /// What was built, if there is no mistake.
+    /// The model, if there is no mistake.
     pub(crate) fn finish<T>(self, built: Option<T>) -> Result<T, SceneError> {
         match built {
             Some(built) if self.mistakes.is_empty() => Ok(built),
@@ -382,7 +382,7 @@ impl<'d> Builder<'d> {
     }
 }
 
-/// What is to be written.
+/// The files to write.
 pub(crate) fn output(record: &Record, name: &str) -> OutputRequest {
     let table = record.record("output");
     let folder = table.and_then(|table| table.text("folder")).map(PathBuf::from);

@@ -1,4 +1,4 @@
-//! What a result is compared with.
+//! References: tables of positions and closed forms.
 
 use std::collections::HashMap;
 use std::io::Read as _;
@@ -13,7 +13,7 @@ use piola_gravitation::kepler::KeplerMotion;
 /// A reference with the way of measuring errors against it.
 #[derive(Debug, Clone)]
 pub struct Reference {
-    /// What it is called.
+    /// Name in figures and on the terminal.
     pub label: String,
     /// The reference itself.
     pub kind: ReferenceKind,

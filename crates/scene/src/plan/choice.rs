@@ -10,7 +10,7 @@ use piola_gravitation::kepler::KeplerMotion;
 const STEPS_PER_TURN: f64 = 100.0;
 /// Relative tolerance when none is asked for.
 const TOLERANCE: f64 = 1e-12;
-/// The same where rounding is to be reached: below it, since the estimate of a step's error is pessimistic (on an ellipse of
+/// Relative tolerance for errors near rounding. It is below rounding because the error estimate is pessimistic (on an ellipse of
 /// eccentricity 0.99 the error still falls fivefold from 1e-16 to 1e-18, and little from there on).
 const FINE_TOLERANCE: f64 = 1e-18;
 /// Tolerance of mechanisms, whose evaluations cost more.

@@ -1,4 +1,4 @@
-//! What will be computed, by which method and step, and what is skipped, each with its reason.
+//! The plan of a run: method and step, computed and skipped quantities, each with its reason.
 
 mod choice;
 
@@ -52,9 +52,9 @@ pub struct Plan {
     pub steps: Option<u64>,
     /// Instants at which the state is recorded.
     pub instants: usize,
-    /// What is computed besides the motion.
+    /// Quantities computed besides the motion.
     pub computed: Vec<Item>,
-    /// What is not computed.
+    /// Quantities not computed.
     pub skipped: Vec<Item>,
     /// Folder of the results.
     pub folder: String,
@@ -66,9 +66,9 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Item {
-    /// What.
+    /// The quantity.
     pub what: String,
-    /// Why, or how.
+    /// The reason, or the method.
     pub why: String,
 }
 

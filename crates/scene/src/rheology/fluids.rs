@@ -25,7 +25,7 @@ const POINTS: u32 = 120;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FluidName(&'static str);
 
-/// What the data look like: where searches start.
+/// Magnitudes of the data, from which searches start.
 struct Look {
     /// The least and the greatest apparent viscosity, Pa s.
     viscosity: [f64; 2],
@@ -58,7 +58,7 @@ impl Look {
     }
 }
 
-/// What came of the fit of a fluid, whatever its type.
+/// The fit of a fluid of any type.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FittedFluid {
@@ -173,16 +173,16 @@ impl FromStr for FluidName {
 pub struct Request {
     /// The fluids.
     pub fluids: Vec<FluidName>,
-    /// What residuals are divided by.
+    /// The scale of residuals.
     pub weighting: Weighting,
     /// The probability of the intervals.
     pub confidence: f64,
-    /// What is known of the noise: what answers may fall by so much.
+    /// The noise of the measurements. A response may fall by this much.
     pub noise: Noise,
 }
 
 impl Request {
-    /// Of some fluids, errors in proportion to each answer.
+    /// A request for some fluids, with errors in proportion to each measured response.
     #[must_use]
     pub fn of(fluids: Vec<FluidName>) -> Self {
         Self { fluids, weighting: Weighting::Relative, confidence: 0.95, noise: Noise::Estimated }
@@ -204,7 +204,7 @@ impl Judged for FittedFluid {
 /// Fits each fluid that is asked for.
 ///
 /// # Errors
-/// [`SceneError::Table`] with the line of a row that viscometry refuses, or at which what answers falls by more than noise explains;
+/// [`SceneError::Table`] with the line of a row that viscometry refuses, or at which the response falls by more than the noise;
 /// [`SceneError::Argument`] for capillaries, whose ends are not known, and thrusts alone. The refusal of a single fluid stands in its
 /// [`Candidate`](crate::comparison::Candidate).
 ///

@@ -22,9 +22,9 @@ const POINTS: u32 = 160;
 pub struct RecoveryRequest {
     /// The probability that the band holds the whole curve.
     pub confidence: f64,
-    /// What is known of the noise.
+    /// The noise of the measurements.
     pub noise: Noise,
-    /// What to do about a curve that does not rise.
+    /// The treatment of a curve that does not rise.
     pub rise: Rise,
 }
 
@@ -34,7 +34,7 @@ impl Default for RecoveryRequest {
     }
 }
 
-/// What a recovered curve gives over what.
+/// The quantities of a recovered curve: ordinate over abscissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Function {
@@ -98,9 +98,9 @@ pub struct Point {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct RecoveredCurve {
-    /// What it gives over what.
+    /// Its ordinate and abscissa.
     pub function: Function,
-    /// The column it comes of; none where several tables tell it.
+    /// The column it was recovered from; none if it comes from several tables.
     pub answering: Option<Answering>,
     /// Its points at the rows.
     pub rows: Vec<Point>,
@@ -110,9 +110,9 @@ pub struct RecoveredCurve {
     pub residuals: Vec<f64>,
     /// How each table was smoothed.
     pub smoothing: Vec<Smoothing>,
-    /// What is taken to hold below the smallest drive.
+    /// The assumption below the smallest drive.
     pub below_smallest: BelowSmallest,
-    /// Whether it rises.
+    /// Whether the curve rises.
     pub monotonicity: Monotonicity,
     /// The lines of the table between which it falls, if it does and one table tells it.
     pub falls_between_lines: Option<[u64; 2]>,
@@ -132,13 +132,13 @@ pub enum Correction {
     Ends(EndCorrection),
 }
 
-/// What is recovered from a table, or from several.
+/// Curves recovered from one table or several.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Recovery {
     /// One curve for each answering column.
     pub curves: Vec<RecoveredCurve>,
-    /// What several tables were corrected for.
+    /// The correction of several tables.
     pub correction: Option<Correction>,
 }
 
@@ -182,7 +182,7 @@ macro_rules! told {
     }};
 }
 
-/// What is taken to hold below the smallest torque of coaxial cylinders, in words.
+/// The assumption below the smallest torque of coaxial cylinders, in words.
 fn assumption(below: BelowSmallest) -> Option<String> {
     let speed = "the speed difference is";
     match below {
@@ -210,7 +210,7 @@ fn closely(low: f64, high: f64) -> impl Iterator<Item = f64> {
     (0..=POINTS).map(move |k| (low * (high / low).powf(f64::from(k) / f64::from(POINTS))).clamp(low, high))
 }
 
-/// What a table of one geometry tells: a curve for each column that answers.
+/// Recovers a curve from each measured column of a table.
 ///
 /// | flow | column | curve |
 /// |---|---|---|
@@ -398,7 +398,7 @@ pub fn recover_without_ends(tables: &[Measured], request: &RecoveryRequest) -> R
     Ok(Recovery { curves: vec![curve], correction: Some(Correction::Ends(ends)) })
 }
 
-/// What viscometry refuses of several tables: a row's line in the only table in which that row is wrong.
+/// The error of several tables, with the line of the row in the one table where that row is wrong.
 fn of_several(error: ViscometryError, tables: &[Measured]) -> SceneError {
     let ViscometryError::ResponseFalls { row, value, .. } = error else { return SceneError::Viscometry(error) };
     let wrong =

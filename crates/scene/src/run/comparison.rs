@@ -7,7 +7,7 @@ use crate::model::{ClosedForm, ReferenceKind, Scene};
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Errors {
-    /// What the reference is called.
+    /// Name of the reference.
     pub label: String,
     /// The largest relative error of any body.
     pub largest_relative: f64,

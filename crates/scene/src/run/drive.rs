@@ -14,7 +14,7 @@ use super::{History, Invariants, Progress};
 use crate::model::{Scene, TimeSpan};
 use crate::plan::{self, Method, Plan};
 
-/// What a system makes of a state: everything that is recorded.
+/// Reads everything that is recorded out of a state.
 pub(super) trait Reading {
     /// Adds positions, velocities and coordinates of a state.
     fn record(&mut self, time: f64, values: &[f64], history: &mut History);

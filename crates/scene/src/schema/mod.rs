@@ -56,7 +56,7 @@ use table;
 pub struct Table {
     /// Header as written: `gravity`, `body`.
     pub name: &'static str,
-    /// What the table is for.
+    /// Purpose of the table.
     pub doc: &'static str,
     /// Its keys.
     pub keys: &'static [Key],
@@ -67,17 +67,17 @@ pub struct Table {
 pub struct Key {
     /// The key as written.
     pub name: &'static str,
-    /// What may stand there.
+    /// Kind of its value.
     pub kind: Kind,
-    /// What holds when it is absent.
+    /// The rule when it is absent.
     pub absent: Absent,
     /// Values of the table's `type` for which the key exists; empty for all.
     pub only_for: &'static [&'static str],
-    /// What it means.
+    /// Meaning.
     pub doc: &'static str,
 }
 
-/// What may stand at a key.
+/// The kind of a key's value.
 #[derive(Debug, Clone, Copy)]
 pub enum Kind {
     /// A name of letters, digits, `_`, `-` and spaces.
@@ -129,7 +129,7 @@ pub struct Word {
     pub doc: &'static str,
 }
 
-/// What holds when a key is absent.
+/// The rule for an absent key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Absent {
     /// It may not be absent.
@@ -165,7 +165,7 @@ impl Range {
 }
 
 impl Kind {
-    /// What is valid, in words: "a length such as "2 m"".
+    /// The valid values in words: "a length such as "2 m"".
     #[must_use]
     pub fn describe(&self) -> String {
         match self {

@@ -45,7 +45,7 @@ table! {
         rays: Kind::Count { least: 3, most: 20_000 }, Default("401");
         /// Largest distance of neighbours on a front, beyond which rays are added; 1/200 of the length when absent.
         spacing: quantity(D::LENGTH, Positive), Optional;
-        /// What is kept of fronts that fold.
+        /// The sheets that are kept of a front that folds.
         keep: Kind::Choice(&KEPT), Default("\"all\"");
     }
 }

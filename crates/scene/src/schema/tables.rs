@@ -67,9 +67,9 @@ table! {
         time: Kind::Table(&TIME), Optional;
         /// How the equations are solved; chosen by the planner when absent.
         integrator: Kind::Table(&INTEGRATOR), Optional;
-        /// What is written.
+        /// The files that are written.
         output: Kind::Table(&OUTPUT), Optional;
-        /// What the result is compared with.
+        /// The reference for the result.
         reference: Kind::Table(&REFERENCE), Optional;
     }
 }
@@ -156,7 +156,7 @@ table! {
         name: Name, Required;
         /// Joint whose frame carries this one.
         parent: Name, Default("\"ground\"");
-        /// What it lets move.
+        /// The freedom it gives.
         type: Kind::Choice(&JOINT_TYPES), Required;
         /// Place of the joint in its parent's frame.
         offset: vector(D::LENGTH), Default("[0.0, 0.0, 0.0]");
@@ -256,7 +256,7 @@ table! {
 }
 
 table! {
-    /// What is written. The summary always is.
+    /// The files that are written. The summary always is.
     static OUTPUT = "output" {
         /// Folder of the results, relative to the current folder; `out/NAME` when absent.
         folder: Text, Optional;
@@ -275,14 +275,14 @@ static CLOSED_FORMS: [Word; 1] =
     [word("kepler", "elliptic motion about a fixed centre, by Kepler's equation from the rounded initial state")];
 
 table! {
-    /// What the result is compared with: a table of positions, or a closed form.
+    /// The reference for the result: a table of positions, or a closed form.
     static REFERENCE = "reference" {
         /// Table with the columns `time_s`, `body`, `x_m`, `y_m`, `z_m`; lines that begin with `#` say where it comes
         /// from.
         file: Path, Optional;
         /// Closed form, instead of `file`.
         closed_form: Kind::Choice(&CLOSED_FORMS), Optional;
-        /// What the reference is called in figures and on the terminal.
+        /// Name of the reference in figures and on the terminal.
         label: Text, Optional;
         /// Body from which positions are measured: the relative error is that of the position relative to this body,
         /// over its distance from it. When absent, errors are divided by the largest distance of the reference from the
