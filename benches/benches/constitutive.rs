@@ -55,7 +55,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     group.warm_up_time(Duration::from_millis(30)).measurement_time(Duration::from_millis(120));
     let mut notes = Notes::of("constitutive");
     let rubber = laws::mooney_rivlin()?;
-    let printed = Printed { c10: rubber.c10(), c01: rubber.c01(), c: rubber.c(), d: rubber.d() };
+    let printed = Printed {
+        c10: rubber.c10(),
+        c01: rubber.c01(),
+        c: rubber.square_coefficient(),
+        d: rubber.logarithm_coefficient(),
+    };
     group.throughput(Throughput::Elements(1));
     let f = ordinary_deformations(8)[7];
     laws::each(&mut Single { group: &mut group, f, notes: &mut notes })?;

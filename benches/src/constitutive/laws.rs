@@ -54,7 +54,7 @@ pub fn mooney_rivlin_isochoric() -> Result<MooneyRivlinIsochoric, Box<dyn Error>
 /// # Errors
 /// None: its parameters are within bounds.
 pub fn ogden_isochoric() -> Result<IsochoricOgden, Box<dyn Error>> {
-    let term = |mu, alpha| OgdenTerm { mu, alpha };
+    let term = |modulus, exponent| OgdenTerm { modulus, exponent };
     Ok(IsochoricOgden::new(&[term(0.63, 1.3), term(0.0012, 5.0), term(-0.01, -2.0)], 10.0)?)
 }
 
@@ -87,7 +87,7 @@ pub fn each(visit: &mut impl Visit) -> Result<(), Box<dyn Error>> {
     visit.law("fung", None, &Fung::new(1.0, Stiffness::isotropic(1.0, 2.0)?)?)?;
     let artery = HolzapfelGasserOgden::new(1.0, 20.0, 2.0, 0.8, 0.1, [fibre(0.6, 0.8)?, fibre(0.6, -0.8)?])?;
     visit.law("holzapfel_gasser_ogden", None, &artery)?;
-    let term = |mu, alpha| OgdenTerm { mu, alpha };
+    let term = |modulus, exponent| OgdenTerm { modulus, exponent };
     visit.law("ogden", Some("ogden_log"), &Ogden::new(&[term(1.2, 1.3), term(-0.3, -2.0)], 4.0)?)?;
     visit.law("ogden_isochoric", Some("ogden_isochoric"), &ogden_isochoric()?)?;
     visit.law("hencky", Some("hencky"), &Hencky::new(2.0, 0.9)?)?;
@@ -115,7 +115,7 @@ pub fn each(visit: &mut impl Visit) -> Result<(), Box<dyn Error>> {
 /// Those of the visitor.
 pub fn each_incompressible(visit: &mut impl Visit) -> Result<(), Box<dyn Error>> {
     visit.law("incompressible_mooney_rivlin", None, &incompressible_mooney_rivlin()?.at_excess_pressure(0.25)?)?;
-    let term = |mu, alpha| OgdenTerm { mu, alpha };
+    let term = |modulus, exponent| OgdenTerm { modulus, exponent };
     let three = IncompressibleOgden::new(&[term(0.63, 1.3), term(0.0012, 5.0), term(-0.01, -2.0)])?;
     visit.law("incompressible_ogden", None, &three.at_excess_pressure(0.25)?)?;
     visit.law("pressurised_hencky", None, &Pressurised::new(Hencky::new(2.0, 0.9)?).at_pressure(0.25)?)

@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Run a scene; write its summary, tables and figures.
     Run(RunArguments),
-    /// Say what a run would compute, by which method and step, and what it would skip.
+    /// Show the plan of a run: its method and step, computed and skipped quantities.
     Plan(SceneArguments),
     /// Look for mistakes in a scene and show all of them.
     Check(SceneArguments),
@@ -75,7 +75,7 @@ pub(crate) struct FitArguments {
     /// Suppose errors of one size in all tests, instead of a part of each test's largest stress.
     #[arg(long)]
     pub(crate) equal_errors: bool,
-    /// Let laws be unstable; whether they are is reported all the same.
+    /// Allow unstable laws. Their instability is still reported.
     #[arg(long)]
     pub(crate) allow_unstable: bool,
     /// The probability of the intervals.
@@ -92,7 +92,7 @@ pub(crate) struct FitArguments {
 /// How viscometric measurements were made.
 #[derive(Debug, Args)]
 pub(crate) struct FlowArguments {
-    /// What was measured: pipe, channel, couette, plates or cone; capillary (recover only); curve (fit-flow only).
+    /// The kind of measurement: pipe, channel, couette, plates or cone; capillary (recover only); curve (fit-flow only).
     #[arg(long)]
     pub(crate) flow: String,
     /// Radius of the pipe, the plates or the cone, as 2mm, instead of the file's.
@@ -113,7 +113,7 @@ pub(crate) struct FlowArguments {
     /// Angle between cone and plate, as 2deg, instead of the file's.
     #[arg(long, value_name = "ANGLE")]
     pub(crate) angle: Option<String>,
-    /// Relative standard deviation of what answers; 0 for exact data. Without it, it is estimated.
+    /// Relative standard deviation of the measured responses; 0 for exact data. Estimated if absent.
     #[arg(long, value_name = "SHARE")]
     pub(crate) noise: Option<f64>,
     /// The probability of the band or the intervals.

@@ -78,7 +78,7 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
     ended(&run.outcome, &written, &end)
 }
 
-/// Says what went wrong.
+/// Prints the errors of a run and gives its exit code.
 fn ended(outcome: &Outcome, written: &Written, end: &str) -> Exit {
     for failure in &written.failures {
         note(&format!("error: {failure}"));
@@ -132,7 +132,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     let prepared = Measurements::load(&arguments.data).and_then(|measurements| {
         let request = request(arguments)?;
         let fitted = fitting::compare(&measurements, &request)?;
-        if let (None, Some(refused)) = (fitted.fits().next(), fitted.refusals().next()) {
+        if let (None, Some((_, refused))) = (fitted.fits().next(), fitted.refusals().next()) {
             return Err(refused.clone().into());
         }
         let beside = || Path::new("out").join(format!("fit-{}", measurements.name()));
@@ -143,9 +143,9 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
         Ok(prepared) => prepared,
         Err(error) => return invalid(&error, arguments.json),
     };
-    let written = fitting::write(&folder, &measurements, &fitted);
+    let written = fitted.write(&folder, &measurements);
     if arguments.json {
-        print(&fitting::summary(&measurements, &fitted));
+        print(&fitted.summary(&measurements));
     } else {
         print(&comparison::table(&measurements, &fitted));
         print(&listing(&folder, &written));
@@ -153,7 +153,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     for failure in &written.failures {
         note(&format!("error: {failure}"));
     }
-    for refusal in fitted.refusals() {
+    for (_, refusal) in fitted.refusals() {
         note(&format!("error: {refusal}"));
     }
     if fitted.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
@@ -179,7 +179,7 @@ fn request(arguments: &FitArguments) -> Result<Request, SceneError> {
     Ok(request)
 }
 
-/// Where the results are.
+/// The folder and the files of the results.
 pub(crate) fn listing(folder: &Folder, written: &Written) -> String {
     let names: Vec<_> = written.files.iter().filter_map(|path| path.file_name()?.to_str()).collect();
     format!("written to {}: {}\n", folder.path().display(), names.join(", "))

@@ -15,7 +15,7 @@ pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> Str
         let _ = write!(text, "{:>14}", shortened(test.name()));
     }
     let _ = writeln!(text, "{:>10}{:>10}  {:<8}search", "AICc", "above", "stable");
-    let least = comparison.best().and_then(|fit| fit.criteria.aicc);
+    let least = comparison.best().and_then(|(_, fit)| fit.criteria.aicc);
     for (law, fit) in comparison.fits() {
         let _ = write!(text, "{:<16}{:>3}", law.to_string(), fit.parameters.len());
         for test in &fit.tests {
@@ -69,7 +69,7 @@ fn parameter(estimate: &Estimate, unit: Option<&str>) -> String {
     line
 }
 
-/// Where a law that is not stable is not.
+/// The stretches at which a law is unstable.
 fn violations(text: &mut String, fit: &Fit) {
     let conditions = [("Drucker", fit.stability.drucker), ("Baker-Ericksen", fit.stability.baker_ericksen)];
     for (name, worst) in conditions {
@@ -80,7 +80,7 @@ fn violations(text: &mut String, fit: &Fit) {
     }
 }
 
-/// Five digits.
+/// A number with five digits.
 fn short(x: f64) -> String {
     let size = x.abs();
     if size < f64::MIN_POSITIVE {

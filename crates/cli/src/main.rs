@@ -20,9 +20,9 @@ use arguments::{Arguments, Command};
 /// How the program ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Exit {
-    /// 0: what was asked is done.
+    /// 0: the command succeeded.
     Done,
-    /// 1: the run failed or was interrupted, or a result could not be written. What there is, is written.
+    /// 1: the run failed or was interrupted, or a result could not be written. Partial results are written.
     Failed,
     /// 2: the arguments, the scene or the output folder are not valid. Nothing was run.
     Invalid,

@@ -23,7 +23,7 @@ pub(crate) struct ProgressLine {
 }
 
 impl ProgressLine {
-    /// Of a run of this name, shown at every so many updates.
+    /// The display of a run of this name, refreshed every `stride` updates.
     pub(crate) fn new(name: &str, stride: u64) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(10_000);
@@ -38,7 +38,7 @@ impl ProgressLine {
         Self { name: name.to_string(), bar, begun: now, shown: now, stride, seen: 0 }
     }
 
-    /// Shows the part that is done, if it is time to.
+    /// Shows the finished part of the run, if a refresh is due.
     pub(crate) fn update(&mut self, fraction: f64) {
         self.seen += 1;
         if !self.seen.is_multiple_of(self.stride) {

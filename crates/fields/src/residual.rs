@@ -20,7 +20,7 @@ use piola_numerics::Real;
     feature = "serde",
     serde(bound(
         serialize = "T: serde::Serialize",
-        deserialize = "T: crate::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
+        deserialize = "T: crate::integrand::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct Residual<T = f64> {

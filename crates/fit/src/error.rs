@@ -1,4 +1,4 @@
-//! What cannot be fitted: each variant names the violated condition.
+//! Violated conditions of fits: each variant names one.
 
 /// A violated condition of a fit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

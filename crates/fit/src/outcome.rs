@@ -29,7 +29,7 @@ impl Outcome {
         !matches!(self, Self::OutOfPatience | Self::NotFinite | Self::NoStiffness)
     }
 
-    /// It in words.
+    /// The outcome in words.
     #[must_use]
     pub const fn reason(self) -> &'static str {
         match self {

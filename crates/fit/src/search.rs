@@ -6,7 +6,7 @@ use nalgebra_0_34 as searched;
 
 use crate::Outcome;
 
-/// Where a parameter may be, and how it is searched for there.
+/// The range of a parameter, and its unbounded coordinate.
 ///
 /// ```text
 /// low ≤ θ ≤ high    θ = low + ½ (high − low) (1 + sin x)
@@ -55,7 +55,7 @@ impl Range {
 
 /// A sum of squares that is minimised.
 pub(crate) trait Misfit {
-    /// What is known where the residuals are finite.
+    /// The state at a point with finite residuals.
     type State;
 
     /// The number of residuals.
@@ -68,7 +68,7 @@ pub(crate) trait Misfit {
     fn jacobian(&self, state: &Self::State, x: &[f64]) -> DMatrix<f64>;
 }
 
-/// Where a search has come to.
+/// The end of a search.
 pub(crate) struct End<M: Misfit> {
     pub(crate) misfit: M,
     pub(crate) state: M::State,

@@ -1,4 +1,4 @@
-//! What the residuals say of the parameters.
+//! Errors of the parameters and criteria for choosing between laws, from the residuals.
 //!
 //! ```text
 //! s² = S/(m − k)      Cov = s² (JᵀJ)⁻¹      θ ± t √Cov      J = W ∂P/∂θ,   t of Student with m − k degrees
@@ -26,7 +26,7 @@ pub struct Criteria {
 }
 
 impl Criteria {
-    /// Of a fit of so many parameters to so many numbers that leaves a sum of squares. Zero counts as the smallest positive
+    /// Criteria of a fit of so many parameters to so many numbers that leaves a sum of squares. Zero counts as the smallest positive
     /// number.
     ///
     /// # Example
@@ -70,7 +70,14 @@ impl Covariance {
         &self.correlation
     }
 
-    /// Of J for the parameters `free`, less those that no measurement depends on or that cannot be told apart.
+    /// The standard error of a parameter that is determined.
+    #[cfg(any(feature = "fluids", feature = "solids"))]
+    pub(crate) fn standard_error(&self, parameter: usize) -> Option<f64> {
+        let place = self.parameters.iter().position(|&other| other == parameter)?;
+        Some(self.matrix[place][place].sqrt())
+    }
+
+    /// The covariance from J for the parameters `free`, less those that no measurement depends on or that cannot be told apart.
     ///
     /// | symbol | argument |
     /// |---|---|
@@ -135,22 +142,8 @@ pub fn student(confidence: f64, degrees: usize) -> Option<f64> {
     t.is_finite().then_some(t)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::student;
-
-    #[test]
-    fn quantiles_of_student_equal_closed_forms() {
-        let close = |degrees, expected: f64| {
-            let t = student(0.95, degrees).unwrap_or(f64::NAN);
-            assert!((t / expected - 1.0).abs() < 1e-9, "{degrees}: {t} {expected}");
-        };
-        // One degree: tan(0.475 π); two: with q = 0.95, q √(2/(1 − q²)).
-        close(1, (0.475 * core::f64::consts::PI).tan());
-        close(2, 0.95 * (2.0_f64 / (1.0 - 0.9025)).sqrt());
-        // Forty, of tables; many: the normal law.
-        close(40, 2.021_075_390_306_273);
-        let far = student(0.95, 100_000_000).unwrap_or(f64::NAN);
-        assert!((far - 1.959_963_985).abs() < 1e-7, "{far}");
-    }
+/// value ± t error.
+#[cfg(any(feature = "fluids", feature = "solids"))]
+pub(crate) fn interval(value: f64, standard_error: Option<f64>, quantile: Option<f64>) -> Option<[f64; 2]> {
+    standard_error.zip(quantile).map(|(error, t)| [value - t * error, value + t * error])
 }

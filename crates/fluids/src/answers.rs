@@ -1,4 +1,4 @@
-//! What the formulas of several fluids share: signs, rates that must be finite, moments of powers.
+//! Helpers shared by the formulas of fluids: signs, finite rates, moments of powers, roots of growing relations.
 
 use piola_numerics::{Dual, Mask, Real};
 
@@ -11,7 +11,7 @@ pub(super) fn signed<T: Real>(k: T, size: T) -> T {
     T::select(k.less_than(T::zero()), -size, T::select(T::zero().less_than(k), size, T::zero()))
 }
 
-/// k, or one where it is zero: what a quotient or a power may be formed of before the limit is put in its place.
+/// k, or 1 where it is zero, so that a quotient or power of it exists before the limit replaces it.
 #[inline(always)]
 pub(super) fn moving<T: Real>(k: T) -> (T::Mask, T) {
     let size = k.abs();
@@ -26,7 +26,7 @@ pub(super) fn viscosity_with_limit<F: ViscometricFluid, T: Real>(fluid: &F, k: T
     T::select(rest, T::lit(limit), fluid.shear_stress(k) / k)
 }
 
-/// What exceeds the yield stress of a stress; zero below. Exact: the difference of two numbers less than a factor of two
+/// The part of a stress beyond the yield stress; zero below. Exact: the difference of two numbers less than a factor of two
 /// apart has no rounding.
 #[inline(always)]
 pub(super) fn beyond<T: Real>(stress: T, yield_stress: T) -> T {

@@ -228,4 +228,4 @@ impl ViscometricFluid for AnyFluid {
 }
 
 #[cfg(feature = "motions")]
-pub(crate) use chosen;
+pub(crate) use chosen as chosen_fluid;

@@ -1,4 +1,4 @@
-//! Viscometric functions at many shear rates: in lanes, only what is asked for.
+//! Viscometric functions at many shear rates, in lanes.
 //!
 //! ```
 //! use piola_fluids::{CarreauYasuda, batch};
@@ -39,7 +39,7 @@ use piola_numerics::{LaneKernel, Lanes, Mask, Real, dispatch_lanes};
 use super::viscometric::ViscometricFluid;
 use crate::FluidsError;
 
-/// What is computed.
+/// A quantity to compute.
 trait Quantity {
     /// It, of one entry or of lanes.
     fn of<F: ViscometricFluid + ?Sized, T: Real>(fluid: &F, entry: T) -> Result<T, FluidsError>;

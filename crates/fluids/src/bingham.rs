@@ -4,7 +4,7 @@ use piola_numerics::internal::excess_over_logarithm;
 use piola_numerics::{Real, parameters};
 
 use super::answers::{beyond, finite_rate, moment_of_power, shifted_power, signed, viscosity_with_limit};
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::FluidsError;
 
@@ -46,21 +46,9 @@ parameters! {
     }
 }
 
-impl Parameters<2> for Bingham {
-    const NAMES: [&'static str; 2] = ["yield_stress", "plastic_viscosity"];
-
-    fn parameters(&self) -> [f64; 2] {
-        [self.yield_stress, self.plastic_viscosity]
-    }
-
-    fn from_parameters([yield_stress, viscosity]: [f64; 2]) -> Result<Self, FluidsError> {
-        Self::new(yield_stress, viscosity)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([yield_stress, viscosity]: [T; 2], shear_rate: T) -> T {
-        yield_stress + viscosity * shear_rate
-    }
+listed! {
+    Bingham<2>: yield_stress, plastic_viscosity;
+    |[yield_stress, viscosity], shear_rate| yield_stress + viscosity * shear_rate
 }
 
 impl ViscometricFluid for Bingham {

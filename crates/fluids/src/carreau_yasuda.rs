@@ -3,9 +3,8 @@
 use piola_numerics::{Mask, Real, parameters};
 
 use super::answers::moving;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::viscometric::ViscometricFluid;
-use crate::FluidsError;
 
 parameters! {
     FluidsError;
@@ -72,20 +71,9 @@ fn viscosity_of<T: Real>([zero, infinite, time, exponent, transition]: [T; 5], r
     infinite + (zero - infinite) * T::select(slow, T::one(), share)
 }
 
-impl Parameters<5> for CarreauYasuda {
-    const NAMES: [&'static str; 5] =
-        ["zero_rate_viscosity", "infinite_rate_viscosity", "time", "exponent", "transition"];
-
-    fn parameters(&self) -> [f64; 5] {
-        [self.zero_rate_viscosity, self.infinite_rate_viscosity, self.time, self.exponent, self.transition]
-    }
-
-    fn from_parameters([zero, infinite, time, exponent, transition]: [f64; 5]) -> Result<Self, FluidsError> {
-        Self::new(zero, infinite, time, exponent, transition)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>(parameters: [T; 5], shear_rate: T) -> T {
+listed! {
+    CarreauYasuda<5>: zero_rate_viscosity, infinite_rate_viscosity, time, exponent, transition;
+    |parameters, shear_rate| {
         let (rest, rate) = moving(shear_rate);
         shear_rate * T::select(rest, parameters[0], viscosity_of(parameters, rate))
     }

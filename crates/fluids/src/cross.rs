@@ -3,9 +3,8 @@
 use piola_numerics::{Real, parameters};
 
 use super::answers::moving;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::viscometric::ViscometricFluid;
-use crate::FluidsError;
 
 parameters! {
     FluidsError;
@@ -62,19 +61,9 @@ fn viscosity_of<T: Real>([zero, infinite, time, exponent]: [T; 4], rate: T) -> T
     infinite + (zero - infinite) / (T::one() + T::select(slow, T::zero(), x.powf(exponent)))
 }
 
-impl Parameters<4> for Cross {
-    const NAMES: [&'static str; 4] = ["zero_rate_viscosity", "infinite_rate_viscosity", "time", "exponent"];
-
-    fn parameters(&self) -> [f64; 4] {
-        [self.zero_rate_viscosity, self.infinite_rate_viscosity, self.time, self.exponent]
-    }
-
-    fn from_parameters([zero, infinite, time, exponent]: [f64; 4]) -> Result<Self, FluidsError> {
-        Self::new(zero, infinite, time, exponent)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>(parameters: [T; 4], shear_rate: T) -> T {
+listed! {
+    Cross<4>: zero_rate_viscosity, infinite_rate_viscosity, time, exponent;
+    |parameters, shear_rate| {
         let (rest, rate) = moving(shear_rate);
         shear_rate * T::select(rest, parameters[0], viscosity_of(parameters, rate))
     }

@@ -3,7 +3,7 @@
 use piola_numerics::{Dual, Real, parameters};
 
 use super::answers::{Relation, finite_rate, moment_of_power, moving, solve_from_above};
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::FluidsError;
 
@@ -59,19 +59,9 @@ impl<T: Real> Relation<T> for Flow<T> {
     }
 }
 
-impl Parameters<3> for Ellis {
-    const NAMES: [&'static str; 3] = ["zero_rate_viscosity", "half_stress", "exponent"];
-
-    fn parameters(&self) -> [f64; 3] {
-        [self.zero_rate_viscosity, self.half_stress, self.exponent]
-    }
-
-    fn from_parameters([zero, half, exponent]: [f64; 3]) -> Result<Self, FluidsError> {
-        Self::new(zero, half, exponent)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([zero, half, exponent]: [T; 3], shear_rate: T) -> T {
+listed! {
+    Ellis<3>: zero_rate_viscosity, half_stress, exponent;
+    |[zero, half, exponent], shear_rate| {
         let x = zero * shear_rate / half;
         let (rest, size) = moving(x);
         // y ≤ x and y^α ≤ x.

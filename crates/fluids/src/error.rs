@@ -1,4 +1,4 @@
-//! What can be wrong with a fluid or with what is asked of it: each variant names the violated condition.
+//! Violated conditions of laws of fluids: each variant names one.
 
 /// A violated condition of a law of a fluid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -23,7 +23,7 @@ pub enum FluidsError {
         parameter: &'static str,
         /// Its value.
         value: f64,
-        /// What would be valid, such as `0 < μ`.
+        /// The condition, such as `0 < μ`.
         bound: &'static str,
     },
     /// The motion is beyond what the law can answer.
@@ -31,11 +31,11 @@ pub enum FluidsError {
     BeyondLimit {
         /// The law.
         law: &'static str,
-        /// What is limited.
+        /// The limited quantity.
         quantity: &'static str,
-        /// What it is.
+        /// Its value.
         value: f64,
-        /// What it must be below.
+        /// Its limit.
         limit: f64,
     },
     /// No shear rate has this shear stress.
@@ -45,7 +45,7 @@ pub enum FluidsError {
         fluid: &'static str,
         /// The shear stress, Pa.
         stress: f64,
-        /// By how much the best rate's stress is off, Pa.
+        /// The difference of the stress at the best rate, Pa.
         residual: f64,
     },
     /// Entries of a batch of shear rates or stresses have no answer; theirs are NaN, all others are computed.
@@ -57,7 +57,7 @@ pub enum FluidsError {
         index: usize,
         /// Its value, 1/s or Pa.
         value: f64,
-        /// How many there are.
+        /// The number of such entries.
         count: usize,
     },
     /// A batch has not one answer for each entry.

@@ -3,7 +3,7 @@
 use piola_numerics::{Real, parameters};
 
 use super::answers::{finite_rate, inverse_sinh};
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::FluidsError;
 
@@ -44,21 +44,9 @@ parameters! {
     }
 }
 
-impl Parameters<2> for Eyring {
-    const NAMES: [&'static str; 2] = ["stress", "time"];
-
-    fn parameters(&self) -> [f64; 2] {
-        [self.stress, self.time]
-    }
-
-    fn from_parameters([stress, time]: [f64; 2]) -> Result<Self, FluidsError> {
-        Self::new(stress, time)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([stress, time]: [T; 2], shear_rate: T) -> T {
-        stress * inverse_sinh(time * shear_rate)
-    }
+listed! {
+    Eyring<2>: stress, time;
+    |[stress, time], shear_rate| stress * inverse_sinh(time * shear_rate)
 }
 
 impl ViscometricFluid for Eyring {

@@ -3,7 +3,7 @@
 use piola_numerics::{Real, parameters};
 
 use super::answers::{beyond, finite_rate, moment_of_power, moving, shifted_power, signed, viscosity_with_limit};
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::power_law::odd_power;
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::FluidsError;
@@ -48,21 +48,9 @@ parameters! {
     }
 }
 
-impl Parameters<3> for HerschelBulkley {
-    const NAMES: [&'static str; 3] = ["yield_stress", "consistency", "exponent"];
-
-    fn parameters(&self) -> [f64; 3] {
-        [self.yield_stress, self.consistency, self.exponent]
-    }
-
-    fn from_parameters([yield_stress, consistency, exponent]: [f64; 3]) -> Result<Self, FluidsError> {
-        Self::new(yield_stress, consistency, exponent)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([yield_stress, consistency, exponent]: [T; 3], shear_rate: T) -> T {
-        yield_stress + consistency * odd_power(shear_rate, exponent)
-    }
+listed! {
+    HerschelBulkley<3>: yield_stress, consistency, exponent;
+    |[yield_stress, consistency, exponent], shear_rate| yield_stress + consistency * odd_power(shear_rate, exponent)
 }
 
 impl ViscometricFluid for HerschelBulkley {

@@ -1,6 +1,6 @@
 //! An integral with an error bound.
 
-/// An integral and what is known of its error.
+/// An integral with a bound of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Integral<T = f64> {
@@ -8,6 +8,6 @@ pub struct Integral<T = f64> {
     pub value: T,
     /// A bound of the modulus of the error of any component, estimated from a coarser rule.
     pub bound: f64,
-    /// How often the integrand was evaluated.
+    /// Evaluations of the integrand.
     pub evaluations: usize,
 }

@@ -5,7 +5,7 @@ use piola_numerics::{Real, parameters};
 use crate::error::check_bound;
 use crate::{FluidsError, Integral, ViscometricFluid};
 
-/// How much less a large strain is remembered than a small one: h, with h = 1 at no strain.
+/// Damping function h of the memory: h = 1 without strain, less for large strains.
 pub trait Damping {
     /// The name of its fluid in errors.
     const NAME: &'static str;
@@ -165,12 +165,12 @@ impl<H> From<Kbkz<H>> for Written<H> {
 /// The step of u in s = s₀ e^(u − e^(−u)), where s₀ is about the shorter of λ and 1/k: the integrands vanish double exponentially downwards
 /// and are analytic nearly within ±π/2 of the real axis, so that the error is about e^(−π²/step).
 const STEP: f64 = 0.2;
-/// How far below zero u begins: s² counts e⁻⁴⁶ there.
+/// The distance of the first u below zero: s² counts e⁻⁴⁶ there.
 const DEPTH: f64 = 3.0;
 /// ln of the s/λ beyond which nothing is remembered in steady shear: e^(−e^3.9).
 const FARTHEST: f64 = 3.9;
 
-/// How many steps there are from s₀ = e^`start` λ; at most 4000.
+/// The number of steps from s₀ = e^`start` λ; at most 4000.
 #[inline(always)]
 fn steps(start: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 30 and 4000")]
@@ -207,8 +207,8 @@ impl<H: Damping> Kbkz<H> {
 
     /// ∫ m ds from s to ∞, Pa: the modulus of relaxation after a small strain.
     #[must_use]
-    pub fn relaxation_modulus(&self, time: f64) -> f64 {
-        self.memory.iter().map(|term| term.viscosity / term.time * (-time / term.time).exp()).sum()
+    pub fn relaxation_modulus(&self, t: f64) -> f64 {
+        self.memory.iter().map(|term| term.viscosity / term.time * (-t / term.time).exp()).sum()
     }
 
     /// m(s), Pa/s.

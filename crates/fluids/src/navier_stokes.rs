@@ -68,11 +68,11 @@ where
 {
     type Value = CauchyStress;
 
-    fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> CauchyStress<T> {
-        let gradient = self.coordinates.vector_gradient(&self.velocity, place, time);
+    fn at<T: Real>(&self, place: &Vector3<T>, t: T) -> CauchyStress<T> {
+        let gradient = self.coordinates.vector_gradient(&self.velocity, place, t);
         let l = gradient
             .map_or_else(|_| VelocityGradient(nalgebra::Matrix3::from_element(T::lit(f64::NAN))), VelocityGradient);
-        self.fluid.cauchy(self.pressure.at(place, time), &l)
+        self.fluid.cauchy(self.pressure.at(place, t), &l)
     }
 }
 
@@ -93,25 +93,7 @@ where
 /// A few ulp of the scale of the residual.
 ///
 /// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_fluids::{LinearViscous, navier_stokes_residual};
-/// use piola_fields::{Cartesian, Field, Flow, Uniform};
-/// use piola_numerics::Real;
-/// struct Channel; // v₂ = 1 − x₁²
-/// impl Field for Channel {
-///     type Value = Vector3<f64>;
-///     fn at<T: Real>(&self, x: &Vector3<T>, _time: T) -> Vector3<T> {
-///         Vector3::new(T::zero(), T::one() - x[0] * x[0], T::zero())
-///     }
-/// }
-/// let flow = Flow { coordinates: Cartesian, density: Uniform(1000.0), velocity: Channel };
-/// let fluid = LinearViscous::new(0.25, 0.5)?;
-/// let (pressure, force) = (Uniform(5.0), Uniform(Vector3::new(0.0, 1.0, 0.0)));
-/// let residual = navier_stokes_residual(&fluid, &flow, &pressure, &force, &Vector3::new(0.25, 0.0, 0.0), 0.0)?;
-/// assert_eq!(residual.value.y, 0.0); // −f + 2 μ
-/// # Ok::<(), piola_fluids::FluidsError>(())
-/// ```
+/// See [`ViscousStress`].
 ///
 /// # Source
 /// B(4.84).
@@ -121,7 +103,7 @@ pub fn navier_stokes_residual<C, R, V, T>(
     pressure: &impl Field<Value = f64>,
     force: &impl Field<Value = Vector3<f64>>,
     place: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<VectorResidual<T>, FluidsError>
 where
     C: CartesianCoordinates,
@@ -129,16 +111,16 @@ where
     V: Field<Value = Vector3<f64>>,
     T: Real,
 {
-    let acceleration = flow.acceleration(place, time)?;
-    let density = flow.density.at(place, time);
+    let acceleration = flow.acceleration(place, t)?;
+    let density = flow.density.at(place, t);
     // Second derivatives: partials of partials.
     let q = Vector3::from_fn(|i, _| Gradient::<Gradient<T, 3>, 3> {
         value: Gradient::variable(place[i], i),
         partials: core::array::from_fn(|j| if i == j { Gradient::lit(1.0) } else { Gradient::lit(0.0) }),
     });
-    let v: ValueOf<V, _> = flow.velocity.at(&q, Gradient::constant(Gradient::constant(time)));
-    let slopes = pressure.at(&q.map(|x| x.value), Gradient::constant(time)).partials;
-    let force = force.at(place, time);
+    let v: ValueOf<V, _> = flow.velocity.at(&q, Gradient::constant(Gradient::constant(t)));
+    let slopes = pressure.at(&q.map(|x| x.value), Gradient::constant(t)).partials;
+    let force = force.at(place, t);
     let (mu, both) = (T::lit(fluid.shear_viscosity()), T::lit(fluid.second_viscosity() + fluid.shear_viscosity()));
     let residual = core::array::from_fn(|i| {
         let mut residual = Residual::zero().plus(density * acceleration[i]).plus(-force[i]).plus(slopes[i]);

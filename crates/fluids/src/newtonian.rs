@@ -3,7 +3,7 @@
 use piola_numerics::{Real, parameters};
 
 use super::answers::finite_rate;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::FluidsError;
 
@@ -37,21 +37,9 @@ parameters! {
     }
 }
 
-impl Parameters<1> for Newtonian {
-    const NAMES: [&'static str; 1] = ["viscosity_coefficient"];
-
-    fn parameters(&self) -> [f64; 1] {
-        [self.viscosity_coefficient]
-    }
-
-    fn from_parameters([mu]: [f64; 1]) -> Result<Self, FluidsError> {
-        Self::new(mu)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([mu]: [T; 1], shear_rate: T) -> T {
-        mu * shear_rate
-    }
+listed! {
+    Newtonian<1>: viscosity_coefficient;
+    |[mu], shear_rate| mu * shear_rate
 }
 
 impl ViscometricFluid for Newtonian {

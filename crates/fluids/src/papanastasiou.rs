@@ -3,10 +3,9 @@
 use piola_numerics::{Real, parameters};
 
 use super::answers::viscosity_with_limit;
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::power_law::odd_power;
 use super::viscometric::ViscometricFluid;
-use crate::FluidsError;
 
 parameters! {
     FluidsError;
@@ -50,21 +49,10 @@ parameters! {
     }
 }
 
-impl Parameters<4> for Papanastasiou {
-    const NAMES: [&'static str; 4] = ["apparent_yield_stress", "consistency", "exponent", "growth_time"];
-
-    fn parameters(&self) -> [f64; 4] {
-        [self.apparent_yield_stress, self.consistency, self.exponent, self.growth_time]
-    }
-
-    fn from_parameters([yield_stress, consistency, exponent, time]: [f64; 4]) -> Result<Self, FluidsError> {
-        Self::new(yield_stress, consistency, exponent, time)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([yield_stress, consistency, exponent, time]: [T; 4], shear_rate: T) -> T {
+listed! {
+    Papanastasiou<4>: apparent_yield_stress, consistency, exponent, growth_time;
+    |[yield_stress, consistency, exponent, time], shear_rate|
         consistency * odd_power(shear_rate, exponent) - yield_stress * (-(time * shear_rate)).exp_m1()
-    }
 }
 
 impl ViscometricFluid for Papanastasiou {

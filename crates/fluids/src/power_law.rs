@@ -3,7 +3,7 @@
 use piola_numerics::{Real, parameters};
 
 use super::answers::{finite_rate, moment_of_power, moving};
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::FluidsError;
 
@@ -41,21 +41,9 @@ parameters! {
     }
 }
 
-impl Parameters<2> for PowerLaw {
-    const NAMES: [&'static str; 2] = ["consistency", "exponent"];
-
-    fn parameters(&self) -> [f64; 2] {
-        [self.consistency, self.exponent]
-    }
-
-    fn from_parameters([consistency, exponent]: [f64; 2]) -> Result<Self, FluidsError> {
-        Self::new(consistency, exponent)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([consistency, exponent]: [T; 2], shear_rate: T) -> T {
-        consistency * odd_power(shear_rate, exponent)
-    }
+listed! {
+    PowerLaw<2>: consistency, exponent;
+    |[consistency, exponent], shear_rate| consistency * odd_power(shear_rate, exponent)
 }
 
 /// |x|ⁿ sign x.

@@ -2,10 +2,9 @@
 
 use piola_numerics::{Real, parameters};
 
-use super::parameters::Parameters;
+use super::parameters::{Parameters, listed};
 use super::power_law::odd_power;
 use super::viscometric::{FlowMoment, ViscometricFluid};
-use crate::FluidsError;
 
 parameters! {
     FluidsError;
@@ -48,21 +47,10 @@ parameters! {
     }
 }
 
-impl Parameters<3> for Sisko {
-    const NAMES: [&'static str; 3] = ["infinite_rate_viscosity", "consistency", "exponent"];
-
-    fn parameters(&self) -> [f64; 3] {
-        [self.infinite_rate_viscosity, self.consistency, self.exponent]
-    }
-
-    fn from_parameters([infinite, consistency, exponent]: [f64; 3]) -> Result<Self, FluidsError> {
-        Self::new(infinite, consistency, exponent)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([infinite, consistency, exponent]: [T; 3], shear_rate: T) -> T {
+listed! {
+    Sisko<3>: infinite_rate_viscosity, consistency, exponent;
+    |[infinite, consistency, exponent], shear_rate|
         infinite * shear_rate + consistency * odd_power(shear_rate, exponent)
-    }
 }
 
 impl ViscometricFluid for Sisko {

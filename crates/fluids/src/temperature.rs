@@ -9,7 +9,7 @@ use crate::error::check_bound;
 /// The molar gas constant R, J/(mol K), exact by the definition of the unit.
 const GAS_CONSTANT: f64 = 8.314_462_618_153_24;
 
-/// How the times of a fluid depend on its temperature.
+/// Shift of the times of a fluid with its temperature.
 pub trait TemperatureShift {
     /// Its name in errors.
     const NAME: &'static str;

@@ -4,7 +4,7 @@ use piola_numerics::{Dual, Mask, Real};
 
 use crate::FluidsError;
 
-/// Which moment of the shear rate is wanted between two shear stresses, ∫ sᵖ ζ(s) ds.
+/// Moments of the shear rate between two shear stresses, ∫ sᵖ ζ(s) ds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FlowMoment {

@@ -97,6 +97,7 @@ const MOST_STAGES: usize = 17;
 /// assert!((state.values[0] - 1.0).abs() < 1e-12);
 /// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
+#[doc(alias("Verlet", "leapfrog", "Yoshida", "symplectic"))]
 #[derive(Clone, Debug)]
 pub struct Composition<T = f64> {
     order: Order,

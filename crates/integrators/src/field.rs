@@ -7,6 +7,7 @@ use piola_numerics::Real;
 /// A first-order system ẏ = f(t, y) over any scalar.
 ///
 /// Any `FnMut(f64, &[f64], &mut [f64])` with a dimension is one: see [`field`].
+#[doc(alias("right-hand side", "ODE", "vector field"))]
 pub trait Field<T: Real = f64> {
     /// Why an evaluation can fail; [`Infallible`] when it cannot.
     type Error;
@@ -125,13 +126,6 @@ pub struct FunctionField<F> {
 impl<F> FunctionField<F> {
     /// Declares that y = (q, v) and that the function writes q̇ = v: implicit methods then need about half as
     /// many evaluations.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_integrators::{Field, field};
-    /// let oscillator = field(2, |_t, y: &[f64], rate: &mut [f64]| (rate[0], rate[1]) = (y[1], -y[0]));
-    /// assert!(Field::<f64>::is_second_order(&oscillator.of_second_order()));
-    /// ```
     #[must_use]
     pub fn of_second_order(mut self) -> Self {
         self.second_order = true;
@@ -140,16 +134,6 @@ impl<F> FunctionField<F> {
 }
 
 /// Makes a field of a function f(t, y, rate).
-///
-/// # Example
-/// ```
-/// use piola_integrators::{DormandPrince853, State, Tolerance, field};
-/// let mut decay = field(1, |_t, y: &[f64], rate: &mut [f64]| rate[0] = -y[0]);
-/// let mut state = State::new(0.0, vec![1.0])?;
-/// DormandPrince853::new(Tolerance::relative(1e-12)?).integrate_to(&mut decay, &mut state, 1.0)?;
-/// assert!((state.values[0] - (-1.0_f64).exp()).abs() < 1e-12);
-/// # Ok::<(), piola_integrators::IntegratorsError>(())
-/// ```
 pub fn field<F: FnMut(f64, &[T], &mut [T]), T: Real>(dimension: usize, function: F) -> FunctionField<F> {
     FunctionField { dimension, second_order: false, function }
 }
@@ -170,18 +154,6 @@ impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Field<T> for FunctionField<F> {
 }
 
 /// Makes a separable system of n degrees of freedom with q̇ = p and ṗ = f(t, q).
-///
-/// # Example
-/// ```
-/// use piola_integrators::{Composition, Order, State, separable};
-/// // A harmonic oscillator for one period: it comes back.
-/// let mut oscillator = separable(1, |_t, q: &[f64], force: &mut [f64]| force[0] = -q[0]);
-/// let mut state = State::new(0.0, vec![1.0, 0.0])?;
-/// let period = 2.0 * std::f64::consts::PI;
-/// Composition::new(Order::Eight, period / 16.0)?.integrate_to(&mut oscillator, &mut state, period)?;
-/// assert!((state.values[0] - 1.0).abs() < 1e-7);
-/// # Ok::<(), piola_integrators::IntegratorsError>(())
-/// ```
 pub fn separable<F: FnMut(f64, &[T], &mut [T]), T: Real>(freedom: usize, force: F) -> FunctionField<F> {
     FunctionField { dimension: freedom, second_order: false, function: force }
 }

@@ -98,6 +98,7 @@ impl Derivatives {
 ///
 /// # Source
 /// W(1.10–1.12).
+#[doc(alias = "Serret")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Frenet {
     /// v = 0: neither tangent nor normal.

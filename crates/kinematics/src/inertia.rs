@@ -33,6 +33,7 @@ use crate::vector::constant_matrix_times;
 ///
 /// # Source
 /// W(2.33–2.34).
+#[doc(alias("moment of inertia", "inertia tensor"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "[[f64; 3]; 3]", into = "[[f64; 3]; 3]"))]
@@ -194,6 +195,7 @@ impl Inertia {
     ///
     /// # Source
     /// W(2.33), parallel axes.
+    #[doc(alias("parallel axis theorem", "Steiner"))]
     #[must_use]
     pub fn about_offset_point(&self, mass: f64, offset: &Vector3<f64>) -> Matrix3<f64> {
         self.matrix + point_inertia(mass, offset)

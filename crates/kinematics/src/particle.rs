@@ -90,6 +90,7 @@ impl<T: Real> Motion<T> {
 ///
 /// # Source
 /// W(1.9).
+#[doc(alias("rotating frame", "non-inertial frame"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MovingFrame<T: Real> {
     /// o, v°, a°.
@@ -220,6 +221,7 @@ fn combine<T: Real>(basis: &[Vector3<T>; 3], x: &Vector3<T>) -> Vector3<T> {
 ///
 /// # Source
 /// W(1.13).
+#[doc(alias = "linear momentum")]
 #[inline]
 #[must_use]
 pub fn momentum<T: Real>(mass: f64, velocity: &Vector3<T>) -> Vector3<T> {
@@ -230,6 +232,7 @@ pub fn momentum<T: Real>(mass: f64, velocity: &Vector3<T>) -> Vector3<T> {
 ///
 /// # Source
 /// W(1.13).
+#[doc(alias = "moment of momentum")]
 #[inline]
 #[must_use]
 pub fn angular_momentum<T: Real>(mass: f64, r: &Vector3<T>, velocity: &Vector3<T>) -> Vector3<T> {
@@ -260,6 +263,7 @@ pub fn momentum_rate<T: Real>(mass: f64, acceleration: &Vector3<T>) -> Vector3<T
 ///
 /// # Source
 /// W(1.14).
+#[doc(alias("torque", "moment of force"))]
 #[inline]
 #[must_use]
 pub fn angular_momentum_rate<T: Real>(mass: f64, r: &Vector3<T>, acceleration: &Vector3<T>) -> Vector3<T> {
@@ -270,6 +274,7 @@ pub fn angular_momentum_rate<T: Real>(mass: f64, r: &Vector3<T>, acceleration: &
 ///
 /// # Source
 /// W(1.14).
+#[doc(alias = "power")]
 #[inline]
 #[must_use]
 pub fn kinetic_energy_rate<T: Real>(mass: f64, velocity: &Vector3<T>, acceleration: &Vector3<T>) -> T {

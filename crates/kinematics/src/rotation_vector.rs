@@ -40,6 +40,7 @@ use crate::vector::{cross, dot, scaled};
 ///
 /// # Source
 /// W(2.13).
+#[doc(alias("axis-angle", "exponential coordinates", "SO(3)"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(transparent, bound(deserialize = "T: Real + serde::Deserialize<'de>")))]

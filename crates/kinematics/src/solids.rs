@@ -46,6 +46,7 @@ use crate::system::ParticleSystem;
 #[non_exhaustive]
 pub enum Solid {
     /// A rectangular block.
+    #[doc(alias("box", "rectangular block"))]
     Cuboid {
         /// Lengths of the edges along x, y, z.
         edges: [f64; 3],
@@ -81,11 +82,13 @@ pub enum Solid {
         tube_radius: f64,
     },
     /// A ball.
+    #[doc(alias = "ball")]
     Sphere {
         /// Radius.
         radius: f64,
     },
     /// A sphere of negligible thickness, its mass on the surface.
+    #[doc(alias = "hollow sphere")]
     SphericalShell {
         /// Radius.
         radius: f64,

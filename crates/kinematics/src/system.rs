@@ -66,6 +66,7 @@ struct Mean<T: Real> {
 ///
 /// # Source
 /// W(1.22), W(1.24): König's theorems.
+#[doc(alias("Koenig", "König"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Split<Q> {
     /// What the whole mass, moving with the centre of mass, would have.
@@ -145,6 +146,7 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     }
 
     /// r^c (m).
+    #[doc(alias("center of mass", "barycentre", "centre of gravity"))]
     #[must_use]
     pub fn centre_of_mass(&self) -> Vector3<T> {
         self.position.rounded()
@@ -191,6 +193,7 @@ impl<'a, T: Real> ParticleSystem<'a, T> {
     ///
     /// # Source
     /// W(1.22).
+    #[doc(alias = "moment of momentum")]
     #[must_use]
     pub fn angular_momentum(&self, about: &Vector3<T>) -> Split<Vector3<T>> {
         let relative = self.sum_vector(|index, m| {

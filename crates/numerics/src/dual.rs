@@ -16,6 +16,7 @@ use crate::Real;
 /// let x = Dual::variable(0.0_f64);
 /// assert_eq!((x * x.exp()).tangent, 1.0); // (x eˣ)′ = 1 at 0
 /// ```
+#[doc(alias("automatic differentiation", "forward mode"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Dual<T> {

@@ -21,6 +21,7 @@ use crate::Real;
 /// let x = angle.cos();
 /// assert_eq!((x.value, x.rate, x.second_rate), (1.0, 0.0, -4.0));
 /// ```
+#[doc(alias = "Taylor")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jet<T, const N: usize> {
     /// The value a.

@@ -88,6 +88,7 @@ pub fn unit_in_last_place<T: Real>() -> f64 {
 /// }
 /// assert_eq!(sum.value(), 2.0); // the plain sum is 0
 /// ```
+#[doc(alias("Kahan", "Neumaier"))]
 #[derive(Clone, Copy, Debug)]
 pub struct CompensatedSum<T> {
     sum: T,

@@ -1,5 +1,6 @@
 //! A block sheared by one: stretches, strains, rotation, area, and the stresses of Piola beside that of Cauchy.
 #![expect(clippy::print_stdout, reason = "an example prints")]
+#![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 use piola::continuum::polar::StretchAnalysis;
 use piola::continuum::strain::GreenStrain;

@@ -70,12 +70,12 @@ pub enum SceneError {
     /// A table of measurements has mistakes; all of them.
     #[error("{0}")]
     Table(TableReport),
-    /// An argument of a fit cannot be read.
-    #[error("`{argument}` cannot be read; valid: {valid}")]
+    /// An argument of a fit is not accepted.
+    #[error("`{argument}` is not accepted; valid: {valid}")]
     Argument {
         /// The argument.
         argument: String,
-        /// What would be valid.
+        /// The valid arguments in words.
         valid: &'static str,
     },
     /// A weight is given to a test that is not in the data.

@@ -9,12 +9,13 @@
 //! | run | [`run`](mod@run) | plan → history, drift of invariants, errors against the reference ([`kepler`](piola_gravitation::kepler) or a table) |
 //! | write | [`output`] | run → `summary.json`, CSV tables, SVG figures |
 //!
-//! A file whose scene has no motion in time is a [study](studies) and goes the same way; [`SceneFile`] tells the two apart.
+//! A file whose scene has no motion in time is a [study](studies) and goes the same way. [`SceneFile`] reads both.
 //!
 //! Beside scenes: [`fitting`], parameters of laws from tables of measured stresses; [`rheology`], fluids from viscometric
-//! measurements.
+//! measurements. Both rank what they fit in a [`comparison`].
 #![forbid(unsafe_code)]
 
+pub mod comparison;
 pub mod document;
 mod error;
 pub mod fitting;

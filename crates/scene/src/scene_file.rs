@@ -6,7 +6,7 @@ use crate::document::Document;
 use crate::model::Builder;
 use crate::{Scene, SceneError, Study, validation};
 
-/// What a scene file holds.
+/// A checked scene file: a motion or a study.
 #[derive(Debug, Clone)]
 pub enum SceneFile {
     /// A motion in time.

@@ -1,4 +1,4 @@
-//! Lists and suggestions in messages.
+//! Numbers, lists and suggestions in messages.
 
 /// How many valid names a message lists at most.
 const LISTED: usize = 24;
@@ -34,4 +34,15 @@ pub(crate) fn nearest<'a>(wrong: &str, names: impl Iterator<Item = &'a str>) -> 
         .filter(|(distance, _)| *distance <= most)
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, name)| name)
+}
+
+/// A number with the fewest digits that read back as the same: `60`, `0.5`, `1e300`.
+pub(crate) fn number(x: f64) -> String {
+    let shown = format!("{x:?}");
+    shown.strip_suffix(".0").map_or_else(|| shown.clone(), str::to_string)
+}
+
+/// `[0, 0, -9.80665]`.
+pub(crate) fn numbers(list: &[f64]) -> String {
+    format!("[{}]", list.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", "))
 }

@@ -1,4 +1,4 @@
-//! What a homogeneous test asks of a body.
+//! Stress and tangent of a body at a deformation, whatever it remembers.
 
 use piola_continuum::stress::tangents::FirstPiolaTangent;
 use piola_continuum::{DisplacementGradient, FirstPiola};
@@ -6,11 +6,32 @@ use piola_continuum::{DisplacementGradient, FirstPiola};
 use crate::Hyperelastic;
 use crate::SolidsError;
 
-/// What a body answers to a deformation, whatever it remembers: the stress and its exact derivative.
+/// The stress of a body at a deformation and its exact derivative, whatever the body remembers.
 ///
-/// Every [`Hyperelastic`] law is one, and so is [a step of a viscoelastic solid](crate::memory::Viscoelastic::response). A law of
-/// your own that has no energy, an update of a plastic solid say, is pulled and sheared by
-/// `piola_specimens::homogeneous::equilibrium` once it says these.
+/// Every [`Hyperelastic`] law is one, and so is [a step of a viscoelastic solid](crate::memory::Viscoelastic::response). A law
+/// of your own without an energy, such as an update of a plastic solid, implements this trait; equilibrium of its specimens
+/// is then found by `piola_specimens::homogeneous::equilibrium`.
+///
+/// # Example
+/// P = 3 ∇u: its tangent is 3 in all nine components.
+/// ```
+/// use piola_continuum::stress::tangents::FirstPiolaTangent;
+/// use piola_continuum::{DisplacementGradient, FirstPiola};
+/// use piola_solids::{Response, SolidsError};
+/// use piola_tensor::FourthOrder;
+/// struct Springs;
+/// impl Response for Springs {
+///     fn admits(&self, _: &DisplacementGradient) -> Result<(), SolidsError> {
+///         Ok(())
+///     }
+///     fn stress_and_tangent(&self, deformation: &DisplacementGradient) -> (FirstPiola, FirstPiolaTangent) {
+///         let tangent = FourthOrder::from_fn(|i, a, j, b| if (i, a) == (j, b) { 3.0 } else { 0.0 });
+///         (FirstPiola(*deformation.matrix() * 3.0), FirstPiolaTangent(tangent))
+///     }
+/// }
+/// assert_eq!(Springs.stress(&DisplacementGradient::simple_shear(0.5)?).0[(0, 1)], 1.5);
+/// # Ok::<(), piola_continuum::ContinuumError>(())
+/// ```
 pub trait Response {
     /// Refuses deformations at which the body has no answer.
     ///
@@ -18,10 +39,10 @@ pub trait Response {
     /// Those of its laws.
     fn admits(&self, deformation: &DisplacementGradient) -> Result<(), SolidsError>;
 
-    /// Whether the body keeps its volume: its pressure is then sought beside the deformation.
+    /// True if the body keeps its volume: its pressure is then an unknown beside the deformation.
     ///
-    /// On the way the volume may change. [`admits`](Self::admits) is then asked about the change of shape, J^(−⅓) F, while stress
-    /// and tangent are asked for at F itself.
+    /// During the iteration the volume may change: [`admits`](Self::admits) is then called with J^(−⅓) F, stress and tangent
+    /// with F itself.
     fn keeps_volume(&self) -> bool {
         false
     }

@@ -88,15 +88,6 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
     ///
     /// # Errors
     /// [`SolidsError::OutOfBounds`] where U″(1), the bulk modulus, is negative: W̄ does not resist a change of volume.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::{Compressible, isochoric::NeoHookean, volumetric::Lame};
-    /// assert!(Compressible::checked(NeoHookean::new(2.0)?, Lame::new(5.0)?).is_ok());
-    /// let error = Compressible::checked(NeoHookean::new(2.0)?, Lame::new(-5.0)?).unwrap_err();
-    /// assert_eq!(error.to_string(), "compressible: U″(1) = -5e0 violates 0 ≤ U″(1)");
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub fn checked(isochoric: I, volumetric: U) -> Result<Self, SolidsError> {
         let bulk = volumetric.bulk_modulus();
         check_bound("compressible", "U″(1)", bulk, "0 ≤ U″(1)", 0.0 <= bulk)?;
@@ -230,20 +221,4 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
 
 hyperelastic_of_invariants!([I: Isochoric, U: Volumetric] Compressible<I, U>);
 
-/// The parts as they are written.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written<I, U> {
-    isochoric: I,
-    volumetric: U,
-}
-
-#[cfg(feature = "serde")]
-impl<I: Isochoric, U: Volumetric> TryFrom<Written<I, U>> for Compressible<I, U> {
-    type Error = SolidsError;
-
-    fn try_from(Written { isochoric, volumetric }: Written<I, U>) -> Result<Self, SolidsError> {
-        Self::checked(isochoric, volumetric)
-    }
-}
+read_with!(checked of Compressible<I: Isochoric, U: Volumetric> { isochoric: I, volumetric: U });

@@ -56,11 +56,11 @@ use crate::{SolidsError, packed};
 /// # Source
 /// W(20.8–20.13), B(4.60).
 pub trait Hyperelastic {
-    /// Whether no component of energy, stress and tangent is finite wherever [`check`](Self::check) refuses: batches then ask
-    /// it only where the answer is not finite.
+    /// True if every result is NaN or ∞ wherever [`check`](Self::check) fails. Batches then call `check` only after a
+    /// non-finite result.
     const REFUSED_IS_NOT_FINITE: bool = false;
-    /// Whether the first components of P and ∂P/∂F are not finite wherever F is no deformation: batches, whose F may be
-    /// anything, then form no det F to find out.
+    /// True if the first components of P and ∂P/∂F are NaN or ∞ wherever 0 < det F fails. Batches then do not compute
+    /// det F to find out.
     const KNOWS_DEFORMATIONS: bool = false;
 
     /// W(F) − W(1), J per m³ of the reference configuration.
@@ -82,8 +82,8 @@ pub trait Hyperelastic {
         Ok(())
     }
 
-    /// Whether the body keeps its volume: then [`check`](Self::check) refuses changes of volume, and the law answers with a
-    /// pressure that is given, to which an equilibrium or a face free of traction adds what is missing.
+    /// True if the body keeps its volume: [`check`](Self::check) then refuses changes of volume, and stresses contain a
+    /// given pressure, which equilibrium or a free face completes.
     #[must_use]
     fn is_incompressible(&self) -> bool {
         false

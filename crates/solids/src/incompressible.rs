@@ -144,16 +144,6 @@ impl<I: Isochoric> IncompressibleSolid<I> {
     }
 
     /// The stress that the deformation determines, 2 W₁ B − 2 W₂ B⁻¹.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::{IncompressibleSolid, isochoric::MooneyRivlin};
-    /// use piola_continuum::{DeformationGradient, Symmetric};
-    /// let rubber = IncompressibleSolid::new(MooneyRivlin::new(0.5, 0.25)?);
-    /// let stress = rubber.extra_stress(&DeformationGradient::identity());
-    /// assert_eq!(stress.0, Symmetric::identity() * 0.5);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn extra_stress<T: Real>(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {

@@ -18,6 +18,16 @@ macro_rules! rows_of_upper_triangle {
     };
 }
 
+/// Writes inlined methods of a law and a deformation: the name, the type and the body of each.
+macro_rules! answers {
+    (|$law:ident, $deformation:ident| $($method:ident -> $result:ty { $($body:tt)* })+) => { $(
+        #[inline(always)]
+        fn $method<T: piola_numerics::Real>(&$law, $deformation: &impl piola_continuum::Deformation<T>) -> $result {
+            $($body)*
+        }
+    )+ };
+}
+
 /// Reads a law through the constructor that checks it; a field `as "old"` is also read by its older name.
 macro_rules! read_with {
     ($constructor:ident of $law:ident<$($generic:ident: $bound:ident),*> {

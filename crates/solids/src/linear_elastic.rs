@@ -82,17 +82,6 @@ impl LinearElastic {
     }
 
     /// ε of T, the inverse.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::{ElasticConstants, LinearElastic};
-    /// use piola_continuum::{CauchyStress, Symmetric};
-    /// let steel = LinearElastic::new(ElasticConstants::from_young_poisson(200e9, 0.25)?)?;
-    /// let pulled = steel.strain(&CauchyStress(Symmetric::diagonal([200e6, 0.0, 0.0])));
-    /// assert!((pulled.0.components[0] - 1e-3_f64).abs() < 1e-18);
-    /// assert!((pulled.0.components[1] + 0.25e-3_f64).abs() < 1e-18);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn strain<T: Real>(&self, stress: &CauchyStress<T>) -> LinearStrain<T> {

@@ -16,15 +16,6 @@
 //! push the plate against itself, and no load would be in equilibrium with a wave u = a sin(k · X), whose energy grows with
 //! |a|. The sign here is that of the energy. The factors ½ are ours: without them τ and D are doubled.
 //!
-//! # What they answer
-//! | | membrane | plate |
-//! |---|---|---|
-//! | energy | [`energy_density`](Membrane::energy_density) of ∇u | [`energy_density`](ThinPlate::energy_density) of ∇∇u |
-//! | what is conjugate | [`stress`](Membrane::stress) τ ∇u | [`moment`](ThinPlate::moment) D ∇∇u |
-//! | tangent | [`tangent`](Membrane::tangent) τ δᵢₖ δⱼₗ | [`tangent`](ThinPlate::tangent) D, of the identity of ∇∇u |
-//! | in equilibrium | [`residual`](Membrane::residual), [`symbol`](Membrane::symbol) | [`residual`](ThinPlate::residual), [`symbol`](ThinPlate::symbol) |
-//! | S, T | none: they depend on the observer | none: the energy is not one of F |
-//!
 //! Both are energies of a displacement and linear: τ ∇u is not symmetric and changes with a rotation of the body, so that
 //! neither S = F⁻¹ P nor T = P Fᵀ/J of it means the stress of a solid.
 
@@ -79,14 +70,6 @@ impl Membrane {
     }
 
     /// ∂(τ ∇u)/∂∇u = τ δᵢₖ δⱼₗ, Pa, the same everywhere.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::Membrane;
-    /// let tangent = Membrane::new(2.0)?.tangent::<f64>();
-    /// assert_eq!([tangent.entry(0, 1, 0, 1), tangent.entry(0, 1, 1, 0)], [2.0, 0.0]);
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     #[must_use]
     pub fn tangent<T: Real>(&self) -> FirstPiolaTangent<T> {
         let mut components = [[T::zero(); 9]; 9];

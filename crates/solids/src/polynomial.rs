@@ -41,7 +41,7 @@ pub struct PolynomialTerm {
 ///
 /// The reference is free of stress if C₁₀₀ + 2 C₀₁₀ + C₀₀₁ = 0, which [`stress_free`](Self::stress_free) asks for; the
 /// shear modulus is 2 (C₁₀₀ + C₀₁₀) then, which is positive, and the bulk modulus is not negative. Whether the law is stable
-/// elsewhere is for the [checkers](crate::checks).
+/// elsewhere is for the checks in `piola_specimens`.
 ///
 /// # Accuracy
 /// P, S, τ relative 1e-13 down to ∇u = 1e-16 where the reference is free of stress; tangents a few ulp of their

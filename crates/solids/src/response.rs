@@ -73,16 +73,6 @@ impl<T: Real> IsotropicResponse<T> {
     /// ```text
     /// α₀ = ∂W/∂J      α₁ = 2 J⁻¹ (W₁ + I₁ W₂)      α₂ = −2 J⁻¹ W₂
     /// ```
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::{IsotropicResponse, MooneyRivlin};
-    /// use piola_continuum::DeformationGradient;
-    /// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-    /// let response = IsotropicResponse::of(&rubber, &DeformationGradient::<f64>::identity());
-    /// assert_eq!(response.coefficients, [-2.0, 2.5, -0.5]);
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of<L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> Self {

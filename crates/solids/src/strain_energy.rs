@@ -178,43 +178,29 @@ pub(super) fn linear_numbers<T: Real>(stress: &Symmetric<T>, tangent: &MajorSymm
 /// Pairs of answers of a law in which stress and strain are linear: tangents share nothing with stresses, and W = ½ σ : ε.
 macro_rules! linear_pairs {
     () => {
-        #[inline(always)]
-        fn energy_and_first_piola<T: piola_numerics::Real>(
-            &self,
-            deformation: &impl piola_continuum::Deformation<T>,
-        ) -> (T, piola_continuum::FirstPiola<T>) {
-            let stress = self.second_piola(deformation).0;
-            let strain = piola_continuum::strain::LinearStrain::of(deformation).0;
-            (T::lit(0.5) * stress.double_contraction(&strain), piola_continuum::FirstPiola(stress.matrix()))
-        }
-        #[inline(always)]
-        fn energy_first_piola_and_tangent<T: piola_numerics::Real>(
-            &self,
-            deformation: &impl piola_continuum::Deformation<T>,
-        ) -> (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
-            let (energy, stress) = self.energy_and_first_piola(deformation);
-            (energy, stress, self.first_piola_tangent(deformation))
-        }
-        #[inline(always)]
-        fn first_piola_and_tangent<T: piola_numerics::Real>(
-            &self,
-            deformation: &impl piola_continuum::Deformation<T>,
-        ) -> (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
-            (self.first_piola(deformation), self.first_piola_tangent(deformation))
-        }
-        #[inline(always)]
-        fn second_piola_and_tangent<T: piola_numerics::Real>(
-            &self,
-            deformation: &impl piola_continuum::Deformation<T>,
-        ) -> (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
-            (self.second_piola(deformation), self.material_tangent(deformation))
-        }
-        #[inline(always)]
-        fn cauchy_and_tangent<T: piola_numerics::Real>(
-            &self,
-            deformation: &impl piola_continuum::Deformation<T>,
-        ) -> (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
-            (self.cauchy(deformation), self.truesdell_tangent(deformation))
+        answers! { |self, deformation|
+            energy_and_first_piola -> (T, piola_continuum::FirstPiola<T>) {
+                let stress = self.second_piola(deformation).0;
+                let strain = piola_continuum::strain::LinearStrain::of(deformation).0;
+                (T::lit(0.5) * stress.double_contraction(&strain), piola_continuum::FirstPiola(stress.matrix()))
+            }
+            energy_first_piola_and_tangent ->
+                (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+                let (energy, stress) = self.energy_and_first_piola(deformation);
+                (energy, stress, self.first_piola_tangent(deformation))
+            }
+            first_piola_and_tangent ->
+                (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+                (self.first_piola(deformation), self.first_piola_tangent(deformation))
+            }
+            second_piola_and_tangent ->
+                (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
+                (self.second_piola(deformation), self.material_tangent(deformation))
+            }
+            cauchy_and_tangent ->
+                (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
+                (self.cauchy(deformation), self.truesdell_tangent(deformation))
+            }
         }
     };
 }
@@ -226,104 +212,55 @@ macro_rules! hyperelastic_of_strain {
         impl $crate::Hyperelastic for $law {
             const REFUSED_IS_NOT_FINITE: bool = <$law as $crate::strain_energy::StrainEnergy>::REFUSED_IS_NOT_FINITE;
 
-            #[inline(always)]
-            fn energy<T: piola_numerics::Real>(&self, deformation: &impl piola_continuum::Deformation<T>) -> T {
-                $crate::strain_energy::StrainEnergy::energy(self, deformation)
-            }
-            #[inline(always)]
-            fn check<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> Result<(), $crate::SolidsError> {
-                $crate::strain_energy::StrainEnergy::check(self, deformation)
-            }
-            #[inline(always)]
-            fn first_piola<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::FirstPiola<T> {
-                $crate::strain_energy::StrainEnergy::first_piola(self, deformation)
-            }
-            #[inline(always)]
-            fn energy_and_first_piola<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (T, piola_continuum::FirstPiola<T>) {
-                let (energy, stress, _) = self.energy_stress_and_tangent(deformation);
-                (energy, $crate::strain_energy::nominal(&stress, deformation))
-            }
-            #[inline(always)]
-            fn energy_first_piola_and_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
-                let (energy, stress, tangent) = self.energy_stress_and_tangent(deformation);
-                let f = deformation.gradient_rows();
-                let numbers = $crate::strain_energy::nominal_numbers(f, &stress, &tangent);
-                let (stress, tangent) = $crate::packed::both(numbers);
-                (energy, stress, tangent)
-            }
-            #[inline(always)]
-            fn second_piola<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::SecondPiola<T> {
-                piola_continuum::SecondPiola(self.stress(deformation))
-            }
-            #[inline(always)]
-            fn kirchhoff<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::KirchhoffStress<T> {
-                piola_continuum::KirchhoffStress(self.stress(deformation).congruence(deformation.gradient_rows()))
-            }
-            #[inline(always)]
-            fn first_piola_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::stress::tangents::FirstPiolaTangent<T> {
-                self.first_piola_and_tangent(deformation).1
-            }
-            #[inline(always)]
-            fn first_piola_and_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
-                $crate::packed::both(self.upper_triangle(deformation))
-            }
-            #[inline(always)]
-            fn first_piola_and_upper_triangle<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> [T; 54] {
-                self.upper_triangle(deformation)
-            }
-            #[inline(always)]
-            fn material_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::stress::tangents::MaterialTangent<T> {
-                piola_continuum::stress::tangents::MaterialTangent(self.tangent(deformation))
-            }
-            #[inline(always)]
-            fn second_piola_and_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
-                let (stress, tangent) = self.stress_and_tangent(deformation);
-                (piola_continuum::SecondPiola(stress), piola_continuum::stress::tangents::MaterialTangent(tangent))
-            }
-            #[inline(always)]
-            fn cauchy_and_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
-                let (stress, tangent) = self.stress_and_tangent(deformation);
-                let spatial = stress.congruence(deformation.gradient_rows());
-                (
-                    piola_continuum::KirchhoffStress(spatial).cauchy(deformation),
-                    piola_continuum::stress::tangents::MaterialTangent(tangent).truesdell(deformation),
-                )
+            answers! { |self, deformation|
+                energy -> T { $crate::strain_energy::StrainEnergy::energy(self, deformation) }
+                check -> Result<(), $crate::SolidsError> { $crate::strain_energy::StrainEnergy::check(self, deformation) }
+                first_piola -> piola_continuum::FirstPiola<T> {
+                    $crate::strain_energy::StrainEnergy::first_piola(self, deformation)
+                }
+                energy_and_first_piola -> (T, piola_continuum::FirstPiola<T>) {
+                    let (energy, stress, _) = self.energy_stress_and_tangent(deformation);
+                    (energy, $crate::strain_energy::nominal(&stress, deformation))
+                }
+                energy_first_piola_and_tangent ->
+                    (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+                    let (energy, stress, tangent) = self.energy_stress_and_tangent(deformation);
+                    let f = deformation.gradient_rows();
+                    let numbers = $crate::strain_energy::nominal_numbers(f, &stress, &tangent);
+                    let (stress, tangent) = $crate::packed::both(numbers);
+                    (energy, stress, tangent)
+                }
+                second_piola -> piola_continuum::SecondPiola<T> {
+                    piola_continuum::SecondPiola(self.stress(deformation))
+                }
+                kirchhoff -> piola_continuum::KirchhoffStress<T> {
+                    piola_continuum::KirchhoffStress(self.stress(deformation).congruence(deformation.gradient_rows()))
+                }
+                first_piola_tangent -> piola_continuum::stress::tangents::FirstPiolaTangent<T> {
+                    self.first_piola_and_tangent(deformation).1
+                }
+                first_piola_and_tangent ->
+                    (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+                    $crate::packed::both(self.upper_triangle(deformation))
+                }
+                first_piola_and_upper_triangle -> [T; 54] { self.upper_triangle(deformation) }
+                material_tangent -> piola_continuum::stress::tangents::MaterialTangent<T> {
+                    piola_continuum::stress::tangents::MaterialTangent(self.tangent(deformation))
+                }
+                second_piola_and_tangent ->
+                    (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
+                    let (stress, tangent) = self.stress_and_tangent(deformation);
+                    (piola_continuum::SecondPiola(stress), piola_continuum::stress::tangents::MaterialTangent(tangent))
+                }
+                cauchy_and_tangent ->
+                    (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
+                    let (stress, tangent) = self.stress_and_tangent(deformation);
+                    let spatial = stress.congruence(deformation.gradient_rows());
+                    (
+                        piola_continuum::KirchhoffStress(spatial).cauchy(deformation),
+                        piola_continuum::stress::tangents::MaterialTangent(tangent).truesdell(deformation),
+                    )
+                }
             }
         }
     };

@@ -18,11 +18,27 @@
 //!
 //! All are computed from J − 1, so that no digits cancel near the reference. Where which one is to be read from a file:
 //! [`AnyVolumetric`](super::AnyVolumetric).
-
-use piola_numerics::Real;
+//!
+//! # Example
+//! The mean Kirchhoff stress J U′ and other numbers at J = 2.
+//! ```
+//! use piola_solids::volumetric::{HartmannNeff, Lame, Liu, Logarithmic, Miehe, OgdenVolumetric};
+//! use piola_solids::volumetric::{Quadratic, QuadraticLogarithmic, SimoTaylor, Volumetric};
+//! let (change, jacobian, ln2) = (1.0, 2.0, 2.0_f64.ln()); // J − 1 and J
+//! assert_eq!(Quadratic::new(8.0)?.energy(0.5, 1.5), 1.0); // ½ κ (J − 1)²
+//! assert_eq!(Logarithmic::new(8.0)?.mean_kirchhoff(change, jacobian), 8.0 * ln2);
+//! assert_eq!(Lame::new(-8.0)?.mean_kirchhoff(change, jacobian), -8.0 * ln2);
+//! assert_eq!(QuadraticLogarithmic::new(2.0)?.mean_kirchhoff(change, jacobian), 2.0 + ln2); // ½ κ (J (J − 1) + ln J)
+//! assert_eq!(SimoTaylor::new(2.0)?.mean_kirchhoff(change, jacobian), 3.0); // ½ κ (J² − 1)
+//! assert_eq!(Liu::new(3.0)?.curvature(change, jacobian), 1.5); // κ/J
+//! assert_eq!(Miehe::new(3.0)?.mean_kirchhoff(change, jacobian), 3.0); // κ (J − 1)
+//! assert!((OgdenVolumetric::new(4.0, 1.0)?.mean_kirchhoff(change, jacobian) - 2.0_f64).abs() < 1e-15); // κ/β (1 − J^(−β))
+//! assert!((HartmannNeff::new(50.0)?.energy(change, jacobian) - 961.0_f64 / 32.0).abs() < 1e-13); // (J⁵ − 1)²/J⁵
+//! # Ok::<(), piola_solids::SolidsError>(())
+//! ```
 
 use piola_numerics::internal::{excess_over_given as excess, volume_excess};
-use piola_numerics::parameters;
+use piola_numerics::{Real, parameters};
 
 /// An energy of the change of volume, zero with its first derivative at J = 1.
 ///
@@ -109,13 +125,6 @@ parameters! {
     /// U = ½ κ (J − 1)².
     ///
     /// κ in Pa, 0 ≤ κ. Volume may vanish at the finite cost ½ κ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{Quadratic, Volumetric};
-    /// assert_eq!(Quadratic::new(8.0)?.energy(0.5, 1.5), 1.0);
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct Quadratic("quadratic volumetric energy") {
         /// κ, Pa.
         bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
@@ -148,13 +157,6 @@ parameters! {
     /// U = ½ κ ln² J.
     ///
     /// κ in Pa, 0 ≤ κ. The pressure falls again where e < J.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{Logarithmic, Volumetric};
-    /// assert_eq!(Logarithmic::new(8.0)?.mean_kirchhoff(1.0, 2.0), 8.0 * 2.0_f64.ln());
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct Logarithmic("logarithmic volumetric energy") {
         /// κ, Pa.
         bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
@@ -190,13 +192,6 @@ parameters! {
     ///
     /// λ in Pa. The bulk modulus is that of the whole law, λ + ⅔ μ for [`Hencky`](super::Hencky) and
     /// [`Ogden`](super::Ogden), which see that it is positive.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{Lame, Volumetric};
-    /// assert_eq!(Lame::new(-8.0)?.mean_kirchhoff(1.0, 2.0), -8.0 * 2.0_f64.ln());
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct Lame("volumetric energy of Lamé's λ") {
         /// λ, Pa.
         first_lame_parameter as "lambda": "finite" => true,
@@ -232,14 +227,6 @@ parameters! {
     /// U = ¼ κ ((J − 1)² + ln² J).
     ///
     /// κ in Pa, 0 ≤ κ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{QuadraticLogarithmic, Volumetric};
-    /// let half = QuadraticLogarithmic::new(2.0)?.mean_kirchhoff(1.0, 2.0);
-    /// assert_eq!(half, 2.0 + 2.0_f64.ln()); // ½ κ (J (J − 1) + ln J)
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct QuadraticLogarithmic("quadratic–logarithmic volumetric energy") {
         /// κ, Pa.
         bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
@@ -275,13 +262,6 @@ parameters! {
     /// U = ¼ κ (J² − 1 − 2 ln J).
     ///
     /// κ in Pa, 0 ≤ κ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{SimoTaylor, Volumetric};
-    /// assert_eq!(SimoTaylor::new(2.0)?.mean_kirchhoff(1.0, 2.0), 3.0); // ½ κ (J² − 1)
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct SimoTaylor("Simo–Taylor volumetric energy") {
         /// κ, Pa.
         bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
@@ -316,13 +296,6 @@ parameters! {
     /// U = κ (J ln J − J + 1).
     ///
     /// κ in Pa, 0 ≤ κ. The pressure is −κ ln J; volume may vanish at the finite cost κ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{Liu, Volumetric};
-    /// assert_eq!(Liu::new(3.0)?.curvature(1.0, 2.0), 1.5); // κ/J
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct Liu("Liu volumetric energy") {
         /// κ, Pa.
         bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
@@ -356,13 +329,6 @@ parameters! {
     /// U = κ (J − 1 − ln J).
     ///
     /// κ in Pa, 0 ≤ κ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{Miehe, Volumetric};
-    /// assert_eq!(Miehe::new(3.0)?.mean_kirchhoff(1.0, 2.0), 3.0); // κ (J − 1)
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct Miehe("Miehe volumetric energy") {
         /// κ, Pa.
         bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
@@ -396,14 +362,6 @@ parameters! {
     /// U = κ β⁻² (J^(−β) − 1 + β ln J).
     ///
     /// κ in Pa, 0 ≤ κ; β ≠ 0, κ/β² finite. β = 9 is Ogden's value for rubber, β = −2 is [`SimoTaylor`]'s energy.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{OgdenVolumetric, Volumetric};
-    /// let mean: f64 = OgdenVolumetric::new(4.0, 1.0)?.mean_kirchhoff(1.0, 2.0);
-    /// assert!((mean - 2.0).abs() < 1e-15); // κ/β (1 − J^(−β))
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct OgdenVolumetric("Ogden volumetric energy") {
         /// κ, Pa.
         bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,
@@ -449,14 +407,6 @@ parameters! {
     /// U = κ (J⁵ + J⁻⁵ − 2)/50.
     ///
     /// κ in Pa, 0 ≤ κ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::volumetric::{HartmannNeff, Volumetric};
-    /// let energy: f64 = HartmannNeff::new(50.0)?.energy(1.0, 2.0);
-    /// assert!((energy - 961.0 / 32.0).abs() < 1e-13); // (J⁵ − 1)²/J⁵
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub struct HartmannNeff("Hartmann–Neff volumetric energy") {
         /// κ, Pa.
         bulk_modulus as "kappa": "0 ≤ κ" => 0.0 <= bulk_modulus,

@@ -119,6 +119,9 @@ pub enum TensorError {
 }
 
 /// The first number that is infinite or NaN in any lane, by name and position.
+///
+/// # Errors
+/// `NotFinite`.
 #[inline]
 pub fn check_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), TensorError> {
     for (index, value) in values.iter().enumerate() {
@@ -131,6 +134,9 @@ pub fn check_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(),
 }
 
 /// 0 ≤ value ≤ largest, to an ulp of that, in every lane.
+///
+/// # Errors
+/// `OutOfRange`.
 pub fn check_range<T: Real>(quantity: &'static str, value: T, largest: f64) -> Result<(), TensorError> {
     let slack = largest.min(1.0) * piola_numerics::sums::unit_in_last_place::<T>();
     let within = |x: f64| 0.0 <= x && x <= largest + slack;

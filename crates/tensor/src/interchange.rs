@@ -49,6 +49,9 @@ macro_rules! glam_vectors {
 }
 
 /// Writes the rows in brackets.
+///
+/// # Errors
+/// Those of the formatter.
 pub fn write_rows<T: core::fmt::Display>(rows: &Rows<T>, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
     f.write_str("[")?;
     for (i, row) in rows.iter().enumerate() {

@@ -28,6 +28,9 @@ pub fn is_rotation<T: Real>(q: Rows<T>) -> T::Mask {
 }
 
 /// Refuses a matrix that is not a rotation to 64 ulp, in any lane.
+///
+/// # Errors
+/// `NotFinite`, `NotARotation`.
 pub fn check_rotation<T: Real>(rotation: &Matrix3<T>) -> Result<(), TensorError> {
     let q = rows_of(rotation);
     check_finite("rotation", q.as_flattened())?;

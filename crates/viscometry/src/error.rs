@@ -1,4 +1,4 @@
-//! What can be wrong with a flow or with what is asked of it: each variant names the violated condition.
+//! Violated conditions of flows and of recovery from data: each variant names one.
 
 use piola_fluids::FluidsError;
 
@@ -11,7 +11,7 @@ pub enum ViscometryError {
     NotFinite {
         /// The flow.
         flow: &'static str,
-        /// What the number is.
+        /// The name of the number.
         quantity: &'static str,
         /// Its value.
         value: f64,
@@ -21,11 +21,11 @@ pub enum ViscometryError {
     OutOfBounds {
         /// The flow.
         flow: &'static str,
-        /// What the number is.
+        /// The name of the number.
         quantity: &'static str,
         /// Its value.
         value: f64,
-        /// What would be valid, such as `0 < R`.
+        /// The condition, such as `0 < R`.
         bound: &'static str,
     },
     /// τ falls where the flow passes: no steady shear is stable there.
@@ -51,9 +51,9 @@ pub enum ViscometryError {
     NoDrive {
         /// The flow.
         flow: &'static str,
-        /// What is wanted.
+        /// The wanted quantity.
         quantity: &'static str,
-        /// How much of it.
+        /// Its wanted value.
         value: f64,
     },
     /// There is not one answer for each place.
@@ -111,7 +111,7 @@ pub enum ViscometryError {
     TooFewRows {
         /// Its rows.
         rows: usize,
-        /// How many are needed.
+        /// The number needed.
         least: usize,
     },
     /// Drives of a table are too close together for a curve.
@@ -120,7 +120,7 @@ pub enum ViscometryError {
         /// Its rows.
         rows: usize,
     },
-    /// What is recovered is not positive: noise is stronger than the flow.
+    /// A recovered value is not positive: noise is stronger than the flow.
     #[error("nothing positive is recovered at {at:e}: noise is stronger than the flow")]
     NotRecovered {
         /// Where, in the unit of the abscissa.
@@ -155,7 +155,7 @@ pub enum ViscometryError {
         torque: f64,
         /// Its terms.
         terms: usize,
-        /// What it is still off, in the unit of its value.
+        /// Its error, in the unit of its value.
         error: f64,
     },
     /// A correction needs more tables.
@@ -163,13 +163,13 @@ pub enum ViscometryError {
     TooFewTables {
         /// The tables.
         tables: usize,
-        /// How many are needed.
+        /// The number needed.
         least: usize,
     },
     /// A correction needs geometries that differ.
     #[error("the {quantity} {value:e} of all tables is the same")]
     SameGeometry {
-        /// What does not differ.
+        /// The quantity that does not differ.
         quantity: &'static str,
         /// Its value, m.
         value: f64,
@@ -177,7 +177,7 @@ pub enum ViscometryError {
     /// A correction needs geometries that agree.
     #[error("the {quantity} of tables differs: {} and {}", values[0], values[1])]
     DifferentGeometry {
-        /// What differs.
+        /// The quantity that differs.
         quantity: &'static str,
         /// Two of its values, m.
         values: [f64; 2],

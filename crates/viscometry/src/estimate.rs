@@ -1,9 +1,9 @@
 //! A number with the bound of its error.
 
-/// A number and what it may be off by.
+/// A number with a bound of its error.
 ///
 /// The error is that of the quadrature (the difference of two rules on every panel, in the manner of QUADPACK) and of rounding; where
-/// a closed form serves it is of rounding alone. What the inputs are off by is not in it.
+/// a closed form serves it is of rounding alone. Errors of the inputs are not in it.
 ///
 /// # Example
 /// ```

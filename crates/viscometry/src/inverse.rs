@@ -1,8 +1,8 @@
-//! The drive that has a wanted answer.
+//! The drive for a wanted answer.
 
 use crate::{Estimate, ViscometryError};
 
-/// What cannot be had, for errors.
+/// The wanted answer, for errors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wanted {
     pub(crate) flow: &'static str,
@@ -73,10 +73,9 @@ pub(crate) fn solve(
     Err(refused.unwrap_or(ViscometryError::NoDrive { flow: wanted.flow, quantity: wanted.quantity, value: target }))
 }
 
-/// By how much a drive may be off that was sought for a wanted answer: what the answer to it misses and may be off, over its slope.
+/// Error bound of a drive found for a wanted answer: (residual of the answer + its error)/slope; infinite where the answer does not rise.
 ///
-/// `least` is the drive below which nothing is sheared; `answer` is that to a drive 0 < d. Where the answer does not rise, as below a yield
-/// stress, it tells nothing of the drive: the error is infinite.
+/// `least` is the drive below which nothing is sheared; `answer` is the answer to a drive 0 < d.
 pub(crate) fn drive_error(
     drive: f64,
     least: f64,

@@ -1,4 +1,4 @@
-//! Where the solution of a flow can be trusted.
+//! Validity of the solution of a flow.
 
 use std::fmt;
 

@@ -49,7 +49,9 @@ fn page(workspace: &Workspace) -> (String, usize) {
     let mut files: Vec<_> = workspace.files();
     files.retain(|path| {
         let place = workspace.relative(path).to_string();
-        place.starts_with("crates/") && place.contains("/src/") && place.ends_with(".rs")
+        place.starts_with("crates/")
+            && place.contains("/src/")
+            && path.extension().is_some_and(|extension| extension == "rs")
     });
     for path in files {
         for (name, errors) in enums(&read(&path).unwrap_or_default()) {
@@ -81,12 +83,14 @@ fn enums(source: &str) -> Vec<(String, Vec<(String, String)>)> {
                 attribute.push_str(next);
             }
             message = Some(said(attribute.trim_end_matches(")]")));
-        } else if !line.starts_with("//") && !line.starts_with('#') && !line.is_empty() {
-            if let Some(message) = message.take() {
-                match enums.last_mut().filter(|(last, _)| *last == name) {
-                    Some((_, errors)) => errors.push((word(line), message)),
-                    None => enums.push((name.clone(), vec![(word(line), message)])),
-                }
+        } else if !line.starts_with("//")
+            && !line.starts_with('#')
+            && !line.is_empty()
+            && let Some(message) = message.take()
+        {
+            match enums.last_mut().filter(|(last, _)| *last == name) {
+                Some((_, errors)) => errors.push((word(line), message)),
+                None => enums.push((name.clone(), vec![(word(line), message)])),
             }
         }
     }

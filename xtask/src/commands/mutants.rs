@@ -87,7 +87,7 @@ fn try_them(shell: &Shell, workspace: &Workspace, package: &str, target: &Path, 
     Err(missed.into_iter().map(|survivor| format!("survives: {survivor}")).chain([line]).collect())
 }
 
-/// `count` of the names, by a generator of its own (SplitMix64), so that a seed means the same everywhere.
+/// `count` of the names, by a generator of its own (`SplitMix64`), so that a seed means the same everywhere.
 fn draw(mut names: Vec<String>, count: u64, seed: u64) -> Vec<String> {
     let mut state = seed;
     let mut next = || {

@@ -68,7 +68,7 @@ fn weigh(shell: &Shell, workspace: &Workspace, target: &Path, only: &[String], p
         rows.push(row);
     }
     let table = table(&rows, &heaviest(shell, workspace, target, only));
-    println!("{table}");
+    eprintln!("{table}");
     if page {
         let file = workspace.root.join("docs/measurements/weight.md");
         std::fs::write(&file, table).map_err(|error| vec![format!("{}: {error}", file.display())])?;

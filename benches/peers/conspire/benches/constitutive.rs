@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     beside(&mut group, &mut notes, names, &ours, &theirs, ROUNDING)?;
     let (ours, theirs) = (Hencky::new(11.0, 3.0)?, TheirHencky { bulk_modulus, shear_modulus });
     beside(&mut group, &mut notes, ["hencky_rubber", "conspire_hencky"], &ours, &theirs, ROUNDING)?;
-    let term = |mu, alpha| OgdenTerm { mu, alpha };
+    let term = |modulus, exponent| OgdenTerm { modulus, exponent };
     let terms = [term(0.63, 1.3), term(0.0012, 5.0), term(-0.01, -2.0)];
     let ours = IsochoricOgden::with_volumetric(&terms, bulk)?;
     let theirs = Ogden {

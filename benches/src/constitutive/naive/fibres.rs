@@ -16,14 +16,16 @@ impl Naive for ReinforcedNeoHookean {
         let a = Vector3::from(self.fibre().direction());
         let (g, logarithm, along) = (inverse_transposed(f), f.determinant().ln(), f * a);
         let excess = along.norm_squared() - 1.0;
-        (f - g) * self.mu() + g * (self.lambda() * logarithm) + along * a.transpose() * (2.0 * self.k() * excess)
+        (f - g) * self.shear_modulus()
+            + g * (self.first_lame_parameter() * logarithm)
+            + along * a.transpose() * (2.0 * self.fibre_modulus() * excess)
     }
 
     #[inline]
     fn first_piola_tangent(&self, f: &Matrix3<f64>) -> Tangent {
         let (one, a) = (Matrix3::<f64>::identity(), Vector3::from(self.fibre().direction()));
         let (g, logarithm, along) = (inverse_transposed(f), f.determinant().ln(), f * a);
-        let (lambda, mu, k4) = (self.lambda(), self.mu(), self.k());
+        let (lambda, mu, k4) = (self.first_lame_parameter(), self.shear_modulus(), self.fibre_modulus());
         let excess = along.norm_squared() - 1.0;
         by_entries(|i, p, k, q| {
             mu * one[(i, k)] * one[(p, q)]
@@ -106,7 +108,7 @@ impl Artery {
     /// ∂W/∂E and ∂²W/∂E² of a family, Pa: k₁ E e^(k₂ E²) and k₁ (1 + 2 k₂ E²) e^(k₂ E²) where E is positive.
     #[inline]
     fn tension(&self, family: &Invariant) -> [f64; 2] {
-        let (k1, k2, strain) = (self.law.k1(), self.law.k2(), family.value - 1.0);
+        let (k1, k2, strain) = (self.law.fibre_modulus(), self.law.fibre_exponent(), family.value - 1.0);
         if strain <= 0.0 {
             return [0.0; 2];
         }
@@ -120,7 +122,8 @@ impl Naive for Artery {
     fn first_piola(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
         let (g, j) = (inverse_transposed(f), f.determinant());
         let (matrix, families) = self.invariants(f, &g, j);
-        let mut stress = matrix.slope * (0.5 * self.law.mu()) + g * (self.law.kappa() * (j - 1.0) * j);
+        let mut stress =
+            matrix.slope * (0.5 * self.law.shear_modulus()) + g * (self.law.bulk_modulus() * (j - 1.0) * j);
         for family in &families {
             stress += family.slope * self.tension(family)[0];
         }
@@ -131,7 +134,7 @@ impl Naive for Artery {
     fn first_piola_tangent(&self, f: &Matrix3<f64>) -> Tangent {
         let (g, j) = (inverse_transposed(f), f.determinant());
         let (matrix, families) = self.invariants(f, &g, j);
-        let (mu, kappa) = (self.law.mu(), self.law.kappa());
+        let (mu, kappa) = (self.law.shear_modulus(), self.law.bulk_modulus());
         let tensions = families.each_ref().map(|family| self.tension(family));
         by_entries(|i, p, k, q| {
             let mut entry = 0.5 * mu * matrix.curvature(&g, i, p, k, q)

@@ -99,12 +99,19 @@ impl Energy for MooneyRivlin {
 
     #[inline]
     fn slopes(&self, _first: f64, _second: f64, jacobian: f64) -> [f64; 3] {
-        [self.c10(), self.c01(), 2.0 * self.c() * jacobian - self.d() / jacobian]
+        [self.c10(), self.c01(), 2.0 * self.square_coefficient() * jacobian - self.logarithm_coefficient() / jacobian]
     }
 
     #[inline]
     fn curvatures(&self, _first: f64, _second: f64, jacobian: f64) -> [f64; 6] {
-        [0.0, 0.0, 0.0, 0.0, 0.0, 2.0 * self.c() + self.d() / (jacobian * jacobian)]
+        [
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            2.0 * self.square_coefficient() + self.logarithm_coefficient() / (jacobian * jacobian),
+        ]
     }
 }
 
@@ -115,12 +122,17 @@ impl Energy for NeoHookean<Logarithmic> {
 
     #[inline]
     fn slopes(&self, _first: f64, _second: f64, jacobian: f64) -> [f64; 3] {
-        [0.5 * self.mu(), 0.0, (self.volumetric().kappa() * jacobian.ln() - self.mu()) / jacobian]
+        [
+            0.5 * self.shear_modulus(),
+            0.0,
+            (self.volumetric().bulk_modulus() * jacobian.ln() - self.shear_modulus()) / jacobian,
+        ]
     }
 
     #[inline]
     fn curvatures(&self, _first: f64, _second: f64, jacobian: f64) -> [f64; 6] {
-        let volume = (self.volumetric().kappa() * (1.0 - jacobian.ln()) + self.mu()) / (jacobian * jacobian);
+        let volume =
+            (self.volumetric().bulk_modulus() * (1.0 - jacobian.ln()) + self.shear_modulus()) / (jacobian * jacobian);
         [0.0, 0.0, 0.0, 0.0, 0.0, volume]
     }
 }
@@ -132,14 +144,14 @@ impl Energy for NeoHookean<SimoTaylor> {
 
     #[inline]
     fn slopes(&self, _first: f64, _second: f64, jacobian: f64) -> [f64; 3] {
-        let lambda = self.volumetric().kappa();
-        [0.5 * self.mu(), 0.0, 0.5 * lambda * (jacobian - 1.0 / jacobian) - self.mu() / jacobian]
+        let lambda = self.volumetric().bulk_modulus();
+        [0.5 * self.shear_modulus(), 0.0, 0.5 * lambda * (jacobian - 1.0 / jacobian) - self.shear_modulus() / jacobian]
     }
 
     #[inline]
     fn curvatures(&self, _first: f64, _second: f64, jacobian: f64) -> [f64; 6] {
-        let (lambda, square) = (self.volumetric().kappa(), jacobian * jacobian);
-        [0.0, 0.0, 0.0, 0.0, 0.0, 0.5 * lambda * (1.0 + 1.0 / square) + self.mu() / square]
+        let (lambda, square) = (self.volumetric().bulk_modulus(), jacobian * jacobian);
+        [0.0, 0.0, 0.0, 0.0, 0.0, 0.5 * lambda * (1.0 + 1.0 / square) + self.shear_modulus() / square]
     }
 }
 
@@ -150,7 +162,11 @@ impl Energy for BlatzKo {
 
     #[inline]
     fn slopes(&self, _first: f64, second: f64, jacobian: f64) -> [f64; 3] {
-        let (beta, solid, foam) = (self.beta(), self.mu() * self.share(), self.mu() * (1.0 - self.share()));
+        let (beta, solid, foam) = (
+            self.exponent(),
+            self.shear_modulus() * self.solid_fraction(),
+            self.shear_modulus() * (1.0 - self.solid_fraction()),
+        );
         let square = jacobian * jacobian;
         let volume = foam * (jacobian.powf(2.0 * beta) - second / square) - solid * jacobian.powf(-2.0 * beta);
         [0.5 * solid, 0.5 * foam / square, volume / jacobian]
@@ -158,7 +174,11 @@ impl Energy for BlatzKo {
 
     #[inline]
     fn curvatures(&self, _first: f64, second: f64, jacobian: f64) -> [f64; 6] {
-        let (beta, solid, foam) = (self.beta(), self.mu() * self.share(), self.mu() * (1.0 - self.share()));
+        let (beta, solid, foam) = (
+            self.exponent(),
+            self.shear_modulus() * self.solid_fraction(),
+            self.shear_modulus() * (1.0 - self.solid_fraction()),
+        );
         let square = jacobian * jacobian;
         let volume = solid * (2.0 * beta + 1.0) * jacobian.powf(-2.0 * beta)
             + foam * (3.0 * second / square + (2.0 * beta - 1.0) * jacobian.powf(2.0 * beta));

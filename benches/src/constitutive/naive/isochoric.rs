@@ -34,7 +34,7 @@ impl<I: Shape> Energy for Compressible<I, Quadratic> {
         let g = jacobian.powf(-2.0 / 3.0);
         let (x, y) = (g * first, g * g * second);
         let [a, b] = self.isochoric().slopes(x, y);
-        let volume = self.volumetric().kappa() * (jacobian - 1.0);
+        let volume = self.volumetric().bulk_modulus() * (jacobian - 1.0);
         [a * g, b * g * g, volume - (2.0 * a * x + 4.0 * b * y) / (3.0 * jacobian)]
     }
 
@@ -56,7 +56,7 @@ impl<I: Shape> Energy for Compressible<I, Quadratic> {
                 + 2.0 * ab * xj * yj
                 + bb * yj * yj
                 + (10.0 * a * x + 28.0 * b * y) / (9.0 * jacobian * jacobian)
-                + self.volumetric().kappa(),
+                + self.volumetric().bulk_modulus(),
         ]
     }
 }
@@ -67,7 +67,7 @@ impl Shape for NeoHookean {
 
     #[inline]
     fn slopes(&self, _first: f64, _second: f64) -> [f64; 2] {
-        [0.5 * self.mu(), 0.0]
+        [0.5 * self.shear_modulus(), 0.0]
     }
 
     #[inline]
@@ -113,13 +113,13 @@ impl Shape for Gent {
 
     #[inline]
     fn slopes(&self, first: f64, _second: f64) -> [f64; 2] {
-        [0.5 * self.mu() * self.limit() / (self.limit() - (first - 3.0)), 0.0]
+        [0.5 * self.shear_modulus() * self.limit() / (self.limit() - (first - 3.0)), 0.0]
     }
 
     #[inline]
     fn curvatures(&self, first: f64, _second: f64) -> [f64; 3] {
         let left = self.limit() - (first - 3.0);
-        [0.5 * self.mu() * self.limit() / (left * left), 0.0, 0.0]
+        [0.5 * self.shear_modulus() * self.limit() / (left * left), 0.0, 0.0]
     }
 }
 

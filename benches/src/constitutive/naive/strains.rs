@@ -79,13 +79,13 @@ fn hooke(lambda: f64, mu: f64, strain: &Matrix3<f64>) -> Matrix3<f64> {
 impl Naive for SaintVenantKirchhoff {
     #[inline]
     fn first_piola(&self, f: &Matrix3<f64>) -> Matrix3<f64> {
-        f * hooke(self.lambda(), self.mu(), &green(f))
+        f * hooke(self.first_lame_parameter(), self.shear_modulus(), &green(f))
     }
 
     /// `δ_ik S_pq + λ F_ip F_kq + μ (F_iq F_kp + B_ik δ_pq)`.
     #[inline]
     fn first_piola_tangent(&self, f: &Matrix3<f64>) -> Tangent {
-        let (lambda, mu) = (self.lambda(), self.mu());
+        let (lambda, mu) = (self.first_lame_parameter(), self.shear_modulus());
         let (one, left) = (Matrix3::<f64>::identity(), f * f.transpose());
         let stress = hooke(lambda, mu, &green(f));
         by_entries(|i, p, k, q| {
@@ -131,7 +131,10 @@ impl Textbook for LinearElastic {
 
     /// λ is not a number where the solid is incompressible, which this law refuses.
     fn textbook(&self) -> Hooke {
-        Hooke { lambda: self.constants().lame().unwrap_or(f64::NAN), mu: self.constants().shear_modulus() }
+        Hooke {
+            lambda: self.constants().first_lame_parameter().unwrap_or(f64::NAN),
+            mu: self.constants().shear_modulus(),
+        }
     }
 }
 
@@ -223,6 +226,6 @@ impl Textbook for Fung {
     type Formula = Exponential;
 
     fn textbook(&self) -> Exponential {
-        Exponential { c: self.c(), exponents: matrix(self.exponents()) }
+        Exponential { c: self.modulus(), exponents: matrix(self.exponents()) }
     }
 }

@@ -96,32 +96,33 @@ impl<E: Energy> Naive for OfStretches<E> {
 /// Σ μₚ λ^αₚ.
 #[inline]
 fn series(terms: &[OgdenTerm], stretch: f64) -> f64 {
-    terms.iter().map(|term| term.mu * stretch.powf(term.alpha)).sum()
+    terms.iter().map(|term| term.modulus * stretch.powf(term.exponent)).sum()
 }
 
 /// Σ μₚ αₚ λ^αₚ.
 #[inline]
 fn series_rate(terms: &[OgdenTerm], stretch: f64) -> f64 {
-    terms.iter().map(|term| term.mu * term.alpha * stretch.powf(term.alpha)).sum()
+    terms.iter().map(|term| term.modulus * term.exponent * stretch.powf(term.exponent)).sum()
 }
 
 /// Σ μₚ.
 #[inline]
 fn moduli(terms: &[OgdenTerm]) -> f64 {
-    terms.iter().map(|term| term.mu).sum()
+    terms.iter().map(|term| term.modulus).sum()
 }
 
 /// β = Σ μₚ (λ^αₚ − 1) + λ ln J.
 impl Energy for Ogden {
     #[inline]
     fn kirchhoff(&self, stretches: &Vector3<f64>) -> Vector3<f64> {
-        let volume = self.lambda() * stretches.product().ln() - moduli(self.terms());
+        let volume = self.first_lame_parameter() * stretches.product().ln() - moduli(self.terms());
         stretches.map(|stretch| series(self.terms(), stretch) + volume)
     }
 
     #[inline]
     fn stiffness(&self, stretches: &Vector3<f64>) -> Matrix3<f64> {
-        Matrix3::from_diagonal(&stretches.map(|stretch| series_rate(self.terms(), stretch))).add_scalar(self.lambda())
+        Matrix3::from_diagonal(&stretches.map(|stretch| series_rate(self.terms(), stretch)))
+            .add_scalar(self.first_lame_parameter())
     }
 }
 
@@ -131,14 +132,14 @@ impl Energy for IsochoricOgden {
     fn kirchhoff(&self, stretches: &Vector3<f64>) -> Vector3<f64> {
         let j = stretches.product();
         let part = (stretches / j.cbrt()).map(|stretch| series(self.terms(), stretch));
-        part.add_scalar(self.kappa() * j * (j - 1.0) - part.mean())
+        part.add_scalar(self.bulk_modulus() * j * (j - 1.0) - part.mean())
     }
 
     #[inline]
     fn stiffness(&self, stretches: &Vector3<f64>) -> Matrix3<f64> {
         let j = stretches.product();
         let rate = (stretches / j.cbrt()).map(|stretch| series_rate(self.terms(), stretch));
-        let volume = self.kappa() * j * (2.0 * j - 1.0);
+        let volume = self.bulk_modulus() * j * (2.0 * j - 1.0);
         Matrix3::from_fn(|a, b| {
             let own = if a == b { rate[a] } else { 0.0 };
             own - (rate[a] + rate[b] - rate.mean()) / 3.0 + volume
@@ -151,12 +152,12 @@ impl Energy for Hencky {
     #[inline]
     fn kirchhoff(&self, stretches: &Vector3<f64>) -> Vector3<f64> {
         let strain = stretches.map(f64::ln);
-        (strain * (2.0 * self.mu())).add_scalar(self.lambda() * strain.sum())
+        (strain * (2.0 * self.shear_modulus())).add_scalar(self.first_lame_parameter() * strain.sum())
     }
 
     #[inline]
     fn stiffness(&self, _stretches: &Vector3<f64>) -> Matrix3<f64> {
-        (Matrix3::identity() * (2.0 * self.mu())).add_scalar(self.lambda())
+        (Matrix3::identity() * (2.0 * self.shear_modulus())).add_scalar(self.first_lame_parameter())
     }
 }
 

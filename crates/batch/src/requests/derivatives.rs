@@ -12,7 +12,8 @@ quantity! {
     /// ∂ ln U/∂F: six components 11, 22, 33, 12, 23, 13, each with the nine derivatives by the entries of F by rows.
     ///
     /// # Accuracy
-    /// As [`StretchRates`] along each entry: nothing is divided by a gap of the stretches.
+    /// That of [`StretchRates`] along each entry, relative to the largest derivative: nothing is divided by a gap of the
+    /// stretches.
     ///
     /// # Example
     /// ```

@@ -142,7 +142,7 @@ fn derivatives_of_the_logarithm_equal_automatic_ones() {
 
 #[test]
 fn derivatives_in_lanes_equal_those_of_one_point() {
-    let f: Vec<_> = deformations(37).into_iter().filter(|f| f.is_moderate()).collect();
+    let f: Vec<_> = deformations(37).into_iter().filter(Deformation::is_moderate).collect();
     let mut random = Random::new(16);
     let directions: Vec<Matrix3<f64>> = f.iter().map(|_| from_rows(random.matrix())).collect();
     let (mut first, mut second) = (vec![[0.0; 54]; f.len()], vec![Symmetric::zero(); f.len()]);

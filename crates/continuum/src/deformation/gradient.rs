@@ -207,6 +207,9 @@ impl<T: Real> Default for DeformationGradient<T> {
 }
 
 /// 0 < det F < ∞ in every lane.
+///
+/// # Errors
+/// [`ContinuumError::NonPositiveJacobian`].
 #[inline]
 pub fn check_jacobian<T: Real>(determinant: T) -> Result<(), ContinuumError> {
     if (T::zero().less_than(determinant) & determinant.is_finite()).all() {

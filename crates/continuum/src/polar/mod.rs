@@ -35,7 +35,7 @@ const SMALL: f64 = 0.25;
 /// Where the diagonal of 2E is below this, C has more digits.
 const SHRUNK: f64 = -0.5;
 
-/// The stretches, axes and rotation of a deformation: computed once, and each thing asked of it when it is asked.
+/// Analysis of the stretches, axes and rotation of a deformation. Each method computes one quantity from it.
 ///
 /// # Accuracy
 /// As a singular value decomposition of F: with the stretches λ₁ ≥ λ₂ ≥ λ₃ and ε = 2⁻⁵², R within a few

@@ -41,7 +41,7 @@ use super::{GradientRate, VelocityGradient};
 use crate::polar::StretchAnalysis;
 use crate::{ContinuumError, Deformation, Symmetric};
 
-/// The rates of R, U, V, ln U and ln V, computed once, and each given when it is asked for.
+/// Rates of R, U, V, ln U and ln V. Each method computes one of them from a shared analysis.
 ///
 /// # Accuracy
 /// With κ = 1 + λ₁/(λ₂ + λ₃), within 8 ulp × κ: U̇ and V̇ of |Ḟ|, the spins of R of |Ḟ|/(λ₂ + λ₃); within

@@ -4,7 +4,7 @@
 //! rounding, and finite where stretches coalesce because every spectral function is.
 //!
 //! These evaluations are large: unlike the measures themselves they are compiled once for each scalar and called, not
-//! inlined wherever they are asked for.
+//! inlined at every call.
 
 use nalgebra::Matrix3;
 use piola_numerics::linear::matrix3::{from_rows, rows_of};

@@ -71,7 +71,7 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// Where P surely obeys the balance: the differences are within 8 ulp of P Fᵀ itself, which is cheaply seen and never
-    /// more than [`check_balance`](Self::check_balance) allows; that one is to be asked elsewhere.
+    /// more than [`check_balance`](Self::check_balance) allows. That one decides on the others.
     #[inline(always)]
     #[doc(hidden)]
     pub fn is_balanced(&self, deformation: &impl Deformation<T>) -> T::Mask {

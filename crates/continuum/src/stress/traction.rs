@@ -79,13 +79,14 @@ impl<T: Real> CauchyStress<T> {
 }
 
 impl<T: Real> FirstPiola<T> {
-    /// The nominal traction P N, Pa: the force per reference area.
+    /// The traction P N, Pa: the force per reference area.
     ///
     /// # Source
     /// W(17.21).
+    #[doc(alias = "nominal traction")]
     #[inline(always)]
     #[must_use]
-    pub fn nominal_traction(&self, normal: &ReferenceNormal<T>) -> Vector3<T> {
+    pub fn traction(&self, normal: &ReferenceNormal<T>) -> Vector3<T> {
         Vector3::from(apply(self.rows(), normal.components()))
     }
 }

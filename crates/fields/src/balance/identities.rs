@@ -41,10 +41,10 @@ use crate::residual::{Residual, VectorResidual};
 pub fn cofactor_divergence<T: Real>(
     motion: &impl Motion,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<VectorResidual<T>, FieldsError> {
-    check_event(motion, reference, time)?;
-    let (_, gradient) = place_and_gradient(motion, &variables(reference), Gradient::constant(time));
+    check_event(motion, reference, t)?;
+    let (_, gradient) = place_and_gradient(motion, &variables(reference), Gradient::constant(t));
     checked_vector("divergence of J F^-T", divergence(&cofactor(gradient)))
 }
 
@@ -53,7 +53,7 @@ pub fn cofactor_divergence<T: Real>(
 /// | symbol | argument | unit |
 /// |---|---|---|
 /// | T(x, t) | `stress` | Pa |
-/// | X, t | `reference`, `time` | m, s |
+/// | X, t | `reference`, `t` | m, s |
 ///
 /// # Errors
 /// What the motion refuses; [`FieldsError::NotFinite`].
@@ -61,10 +61,10 @@ pub fn piola_identity_residual<T: Real>(
     motion: &impl Motion,
     stress: &Spatial<impl Field<Value = CauchyStress>>,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<VectorResidual<T>, FieldsError> {
-    check_event(motion, reference, time)?;
-    let instant = Gradient::constant(time);
+    check_event(motion, reference, t)?;
+    let instant = Gradient::constant(t);
     let (x, gradient) = place_and_gradient(motion, &variables(reference), instant);
     let first_piola = product(stress.0.at(&x, instant).rows(), cofactor(gradient));
     let place = finite::<Vector3<f64>, T>("place", x.map(|x| x.value))?;

@@ -112,17 +112,17 @@ impl<T: Real> Curvature<T> {
     /// | symbol | argument | shape | unit |
     /// |---|---|---|---|
     /// | C(X, t) | `metric` | 3×3 symmetric, positive definite | – |
-    /// | X, t | `reference`, `time` | 3, scalar | m, s |
+    /// | X, t | `reference`, `t` | 3, scalar | m, s |
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`]; [`TensorError::NotPositiveDefinite`](piola_tensor::TensorError::NotPositiveDefinite) where C is not positive definite.
     pub fn of_metric(
         metric: &Material<impl Field<Value = Symmetric>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Self, FieldsError> {
-        check_point(reference, time)?;
-        let field = with_second_partials(metric, reference, time);
+        check_point(reference, t)?;
+        let field = with_second_partials(metric, reference, t);
         let c: Rows<T> = field.map(|row| row.map(|entry| entry.value.value));
         check_metric(&c)?;
         let inverse = inverse_and_determinant(c).0;
@@ -217,9 +217,9 @@ pub(super) fn second_differences<T: Real>(
 pub(super) fn with_second_partials<T: Real>(
     field: &Material<impl Field<Value = Symmetric>>,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Rows<Gradient<Gradient<T, 3>, 3>> {
-    field.0.at(&twice_variables(reference), Gradient::constant(Gradient::constant(time))).rows()
+    field.0.at(&twice_variables(reference), Gradient::constant(Gradient::constant(t))).rows()
 }
 
 /// The leading minors of a metric are positive in every lane.

@@ -145,7 +145,7 @@ pub trait Coordinates {
     /// | symbol | argument | unit |
     /// |---|---|---|
     /// | T(q, t) | `tensor`, physical components | any |
-    /// | q, t | `coordinates`, `time` | m or rad, s |
+    /// | q, t | `coordinates`, `t` | m or rad, s |
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
@@ -153,9 +153,9 @@ pub trait Coordinates {
         &self,
         tensor: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Vector3<T>, FieldsError> {
-        let divergence = VectorResidual::from(divergence_of(self, tensor, coordinates, time)?).value;
+        let divergence = VectorResidual::from(divergence_of(self, tensor, coordinates, t)?).value;
         finite::<Vector3<f64>, T>("divergence", divergence)
     }
 
@@ -168,9 +168,9 @@ pub trait Coordinates {
         &self,
         vector: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Matrix3<T>, FieldsError> {
-        let gradient = gradient_of(self, vector, coordinates, time)?.1;
+        let gradient = gradient_of(self, vector, coordinates, t)?.1;
         check_finite("gradient", gradient.as_flattened())?;
         Ok(from_rows(gradient))
     }
@@ -183,9 +183,9 @@ pub trait Coordinates {
         &self,
         vector: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<T, FieldsError> {
-        let gradient = gradient_of(self, vector, coordinates, time)?.1;
+        let gradient = gradient_of(self, vector, coordinates, t)?.1;
         let divergence = piola_tensor::internal::rows::trace(gradient);
         check_finite("divergence", &[divergence])?;
         Ok(divergence)
@@ -199,10 +199,10 @@ pub trait Coordinates {
         &self,
         scalar: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Vector3<T>, FieldsError> {
-        check_point(coordinates, time)?;
-        let partials = value_and_partials(scalar, coordinates, time).1;
+        check_point(coordinates, t)?;
+        let partials = value_and_partials(scalar, coordinates, t).1;
         let h = self.scale_factors(coordinates)?;
         finite::<Vector3<f64>, T>("gradient", Vector3::from_fn(|i, _| partials[i] / h[i]))
     }
@@ -215,13 +215,13 @@ pub trait Coordinates {
         &self,
         scalar: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<T, FieldsError> {
         use piola_numerics::Gradient;
-        check_point(coordinates, time)?;
+        check_point(coordinates, t)?;
         let basis = self.local_basis(coordinates)?;
         let twice = super::motion::kernels::twice_variables(coordinates);
-        let value = scalar.at(&twice, Gradient::constant(Gradient::constant(time)));
+        let value = scalar.at(&twice, Gradient::constant(Gradient::constant(t)));
         let laplacian = basis.laplacian(&value.value.partials, &value.partials.map(|row| row.partials));
         check_finite("Laplacian", &[laplacian])?;
         Ok(laplacian)
@@ -266,10 +266,10 @@ pub(crate) fn divergence_of<C: Coordinates + ?Sized, F: Field<Value: TensorValue
     system: &C,
     tensor: &F,
     coordinates: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<[Residual<T>; 3], FieldsError> {
-    check_point(coordinates, time)?;
-    let (value, partials) = value_and_partials(tensor, coordinates, time);
+    check_point(coordinates, t)?;
+    let (value, partials) = value_and_partials(tensor, coordinates, t);
     let rows = |value: &ValueOf<F, T>| F::Value::rows(value);
     let [a, b, c] = &partials;
     system.divergence_terms(coordinates, &rows(&value), &[rows(a), rows(b), rows(c)])
@@ -280,10 +280,10 @@ pub(crate) fn gradient_of<C: Coordinates + ?Sized, F: Field<Value = Vector3<f64>
     system: &C,
     vector: &F,
     coordinates: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<(Vector3<T>, Rows<T>), FieldsError> {
-    check_point(coordinates, time)?;
-    let (value, partials) = value_and_partials(vector, coordinates, time);
+    check_point(coordinates, t)?;
+    let (value, partials) = value_and_partials(vector, coordinates, t);
     let gradient = system.gradient_from_partials(coordinates, &value.into(), &partials.map(Into::into))?;
     Ok((value, gradient))
 }

@@ -10,7 +10,7 @@ use crate::field::{Field, ValueOf, finite, local_rate, value_and_partials};
 use crate::motion::{Motion, kernels};
 use crate::value::{FieldValue, map};
 
-/// A motion whose quantities are asked for at places x: each question inverts the motion first.
+/// A motion evaluated at places x: each method inverts the motion first.
 ///
 /// # Errors
 /// Every method: as [`Inversion::preimage_near`], and [`FieldsError::NotFinite`] for a result.
@@ -23,8 +23,8 @@ use crate::value::{FieldValue, map};
 /// use piola_numerics::Real;
 /// struct Spin;
 /// impl RigidHistory for Spin {
-///     fn attitude<T: Real>(&self, time: T) -> [T; 4] {
-///         let (s, c) = (T::lit(0.5) * time).sin_cos();
+///     fn attitude<T: Real>(&self, t: T) -> [T; 4] {
+///         let (s, c) = (T::lit(0.5) * t).sin_cos();
 ///         [c, T::lit(0.0), T::lit(0.0), s]
 ///     }
 /// }
@@ -52,8 +52,8 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    pub fn preimage<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Preimage<T>, FieldsError> {
-        self.inversion.preimage(&self.motion, place, time)
+    pub fn preimage<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<Preimage<T>, FieldsError> {
+        self.inversion.preimage(&self.motion, place, t)
     }
 
     /// u(x, t) = x − X(x, t), m, B(4.15): the displacement in the Eulerian frame, from the motion's own
@@ -61,27 +61,27 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    pub fn displacement<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<Vector3<f64>, T>("displacement", self.motion.displacement(&reference, time))
+    pub fn displacement<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        let reference = self.preimage(place, t)?.reference;
+        finite::<Vector3<f64>, T>("displacement", self.motion.displacement(&reference, t))
     }
 
     /// v(x, t), m/s: the velocity of the particle at x.
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    pub fn velocity<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<Vector3<f64>, T>("velocity", kernels::velocity(&self.motion, &reference, time))
+    pub fn velocity<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        let reference = self.preimage(place, t)?.reference;
+        finite::<Vector3<f64>, T>("velocity", kernels::velocity(&self.motion, &reference, t))
     }
 
     /// a(x, t), m/s²: the acceleration of the particle at x.
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    pub fn acceleration<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<Vector3<f64>, T>("acceleration", kernels::acceleration(&self.motion, &reference, time))
+    pub fn acceleration<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        let reference = self.preimage(place, t)?.reference;
+        finite::<Vector3<f64>, T>("acceleration", kernels::acceleration(&self.motion, &reference, t))
     }
 
     /// Ψ(x, t) = Ψ(X(x, t), t): a field of particles in the Eulerian frame, B(4.14).
@@ -92,10 +92,10 @@ impl<M: Motion> Eulerian<M> {
         &self,
         field: &Material<F>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<F::Value, T>("field", field.0.at(&reference, time))
+        let reference = self.preimage(place, t)?.reference;
+        finite::<F::Value, T>("field", field.0.at(&reference, t))
     }
 
     /// ∂Ψ/∂xⱼ of a field of particles, (Grad Ψ) F⁻¹, per metre.
@@ -106,11 +106,11 @@ impl<M: Motion> Eulerian<M> {
         &self,
         field: &Material<F>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<[ValueOf<F, T>; 3], FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        let inverse = inverse_and_determinant(kernels::gradient(&self.motion, &reference, time)).0;
-        let partials = value_and_partials(&field.0, &reference, time).1;
+        let reference = self.preimage(place, t)?.reference;
+        let inverse = inverse_and_determinant(kernels::gradient(&self.motion, &reference, t)).0;
+        let partials = value_and_partials(&field.0, &reference, t).1;
         let partial = |j: usize| {
             finite::<F::Value, T>(
                 "grad",
@@ -133,9 +133,9 @@ impl<M: Motion> Eulerian<M> {
         &self,
         field: &Material<F>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        let value = self.field(field, &place.map(Dual::constant), Dual::variable(time))?;
+        let value = self.field(field, &place.map(Dual::constant), Dual::variable(t))?;
         finite::<F::Value, T>("local rate", map::<F::Value, _, _>(&value, |x| x.tangent))
     }
 
@@ -147,9 +147,9 @@ impl<M: Motion> Eulerian<M> {
         &self,
         field: &Material<F>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<F::Value, T>("material rate", local_rate(&field.0, &reference, time))
+        let reference = self.preimage(place, t)?.reference;
+        finite::<F::Value, T>("material rate", local_rate(&field.0, &reference, t))
     }
 }

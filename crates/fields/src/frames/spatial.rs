@@ -40,27 +40,27 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or value.
-    pub fn value<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
-        check_point(place, time)?;
-        finite::<F::Value, T>("field", self.0.at(place, time))
+    pub fn value<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<ValueOf<F, T>, FieldsError> {
+        check_point(place, t)?;
+        finite::<F::Value, T>("field", self.0.at(place, t))
     }
 
     /// ∂Ψ/∂t at fixed x.
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    pub fn local_rate<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
-        check_point(place, time)?;
-        finite::<F::Value, T>("local rate", local_rate(&self.0, place, time))
+    pub fn local_rate<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<ValueOf<F, T>, FieldsError> {
+        check_point(place, t)?;
+        finite::<F::Value, T>("local rate", local_rate(&self.0, place, t))
     }
 
     /// ∂Ψ/∂xⱼ for j = 1, 2, 3, per metre.
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    pub fn gradient<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<[ValueOf<F, T>; 3], FieldsError> {
-        check_point(place, time)?;
-        let [a, b, c] = value_and_partials(&self.0, place, time).1;
+    pub fn gradient<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<[ValueOf<F, T>; 3], FieldsError> {
+        check_point(place, t)?;
+        let [a, b, c] = value_and_partials(&self.0, place, t).1;
         let checked = |partial| finite::<F::Value, T>("grad", partial);
         Ok([checked(a)?, checked(b)?, checked(c)?])
     }
@@ -72,7 +72,7 @@ impl<F: Field> Spatial<F> {
     /// | symbol | argument | unit |
     /// |---|---|---|
     /// | v | `velocity` | m/s |
-    /// | x, t | `place`, `time` | m, s |
+    /// | x, t | `place`, `t` | m, s |
     /// | Ψ̇ | returned | `[Ψ]/s` |
     ///
     /// # Errors
@@ -81,11 +81,11 @@ impl<F: Field> Spatial<F> {
         &self,
         velocity: &impl Field<Value = Vector3<f64>>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        check_point(place, time)?;
-        let velocity = finite::<Vector3<f64>, T>("velocity", velocity.at(place, time))?;
-        finite::<F::Value, T>("material rate", along(&self.0, place, &velocity, time).1)
+        check_point(place, t)?;
+        let velocity = finite::<Vector3<f64>, T>("velocity", velocity.at(place, t))?;
+        finite::<F::Value, T>("material rate", along(&self.0, place, &velocity, t).1)
     }
 
     /// Ψ̇ at the particle X: the rate of Ψ(x(X, t), t) at fixed X.
@@ -96,11 +96,11 @@ impl<F: Field> Spatial<F> {
         &self,
         motion: &impl Motion,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        check_event(motion, reference, time)?;
-        let time = Dual::variable(time);
-        let value = self.0.at(&motion.place(&reference.map(Dual::constant), time), time);
+        check_event(motion, reference, t)?;
+        let t = Dual::variable(t);
+        let value = self.0.at(&motion.place(&reference.map(Dual::constant), t), t);
         finite::<F::Value, T>("material rate", map::<F::Value, _, _>(&value, |x| x.tangent))
     }
 
@@ -123,7 +123,7 @@ pub struct Following<F, M> {
 impl<F: Field, M: Motion> Field for Following<F, M> {
     type Value = F::Value;
     #[inline]
-    fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> ValueOf<F, T> {
-        self.field.at(&self.motion.place(place, time), time)
+    fn at<T: Real>(&self, place: &Vector3<T>, t: T) -> ValueOf<F, T> {
+        self.field.at(&self.motion.place(place, t), t)
     }
 }

@@ -49,7 +49,7 @@ impl IntegralBalance {
     /// | o | `pole` | m |
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     ///
     /// # Example
     /// ```
@@ -60,8 +60,8 @@ impl IntegralBalance {
     /// use piola_numerics::Real;
     /// struct Fall;
     /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference - Vector3::new(T::lit(0.0), T::lit(0.0), T::lit(5.0) * time * time)
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+    ///         reference - Vector3::new(T::lit(0.0), T::lit(0.0), T::lit(5.0) * t * t)
     ///     }
     /// }
     /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
@@ -80,13 +80,13 @@ impl IntegralBalance {
         stress: &Material<impl Field<Value = FirstPiola>>,
         body_force: &Material<impl Field<Value = Vector3<f64>>>,
         pole: &Vector3<f64>,
-        time: f64,
+        t: f64,
     ) -> Result<Self, FieldsError> {
         Ok(Self {
-            resultants: Resultants::in_reference(quadrature, region, body, pole, Dual::variable(time))?,
-            body: ForceResultants::of_body_force(quadrature, region, body, body_force, pole, time)?,
-            surface: ForceResultants::of_tractions(quadrature, region, &body.motion, stress, pole, time)?,
-            stress_power: stress_power(quadrature, region, &body.motion, stress, time)?,
+            resultants: Resultants::in_reference(quadrature, region, body, pole, Dual::variable(t))?,
+            body: ForceResultants::of_body_force(quadrature, region, body, body_force, pole, t)?,
+            surface: ForceResultants::of_tractions(quadrature, region, &body.motion, stress, pole, t)?,
+            stress_power: stress_power(quadrature, region, &body.motion, stress, t)?,
         })
     }
 
@@ -121,10 +121,10 @@ impl IntegralBalance {
         stress: &Material<impl Field<Value = FirstPiola>>,
         body_force: &Material<impl Field<Value = Vector3<f64>>>,
         pole: &Vector3<f64>,
-        time: f64,
+        t: f64,
     ) -> Result<Estimate<[f64; 7]>, FieldsError> {
         quadrature.estimate(|rule| {
-            let terms = Self::of(rule, region, body, stress, body_force, pole, time)?;
+            let terms = Self::of(rule, region, body, stress, body_force, pole, t)?;
             let (p, h) = (terms.momentum_residual().value, terms.moment_residual().value);
             Ok([p.x, p.y, p.z, h.x, h.y, h.z, terms.power_residual().value])
         })
@@ -140,7 +140,7 @@ fn residual_of(momentum: &Vector3<Dual<f64>>, body: &Vector3<f64>, surface: &Vec
 /// ∫ P : Ḟ dV, the power of the stress, W.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
 ///
 /// # Example
 /// See [`IntegralBalance`].
@@ -152,11 +152,11 @@ pub fn stress_power(
     region: &impl Region<f64>,
     motion: &impl Motion,
     stress: &Material<impl Field<Value = FirstPiola>>,
-    time: f64,
+    t: f64,
 ) -> Result<f64, FieldsError> {
     quadrature.volume_integral_of(region, |point| {
-        motion.deformation_gradient(&point.position, time)?;
-        let (_, rate) = gradient_and_rate(motion, &point.position, time);
-        Ok(double_contraction(stress.0.at(&point.position, time).rows(), rate))
+        motion.deformation_gradient(&point.position, t)?;
+        let (_, rate) = gradient_and_rate(motion, &point.position, t);
+        Ok(double_contraction(stress.0.at(&point.position, t).rows(), rate))
     })
 }

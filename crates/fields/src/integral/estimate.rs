@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use piola_numerics::Real;
 
-use super::integrand::{Integrand, largest_component, largest_difference};
 use super::{Quadrature, Region, SurfacePoint};
 use crate::FieldsError;
+use crate::integrand::{Integrand, largest_component, largest_difference};
 
 /// An integral with an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]

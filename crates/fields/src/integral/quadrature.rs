@@ -5,9 +5,9 @@ use core::num::NonZeroUsize;
 use nalgebra::Vector3;
 use piola_numerics::Real;
 
-use super::integrand::{Integrand, RunningIntegral};
 use super::region::{Region, SurfacePoint, VolumePoint};
 use crate::FieldsError;
+use crate::integrand::{Integrand, RunningIntegral};
 
 /// A node in [0, 1] with its weight; the weights sum to 1.
 pub(super) type LineNode = (f64, f64);
@@ -94,7 +94,7 @@ impl Quadrature {
     /// | ∫ f dV | returned | the same | that of f × m³ |
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`] with the place; [`FieldsError::NotFinite`] for an integral beyond the
+    /// [`FieldsError::IntegrandNotFinite`] with the place; [`FieldsError::NotFinite`] for an integral beyond the
     /// range of numbers; what the region refuses.
     pub fn volume_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,

@@ -103,50 +103,50 @@ impl SampledTrajectories {
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
-    pub fn position<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, FieldsError> {
-        check_finite("t", &[time])?;
-        self.times.check(time)?;
+    pub fn position<T: Real>(&self, particle: usize, t: T) -> Result<Vector3<T>, FieldsError> {
+        check_finite("t", &[t])?;
+        self.times.check(t)?;
         let count = self.particles();
         if count <= particle {
             return Err(FieldsError::NoSuchParticle { particle, count });
         }
-        Ok(self.at(particle, time))
+        Ok(self.at(particle, t))
     }
 
     /// v(t) of a particle, m/s.
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
-    pub fn velocity<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, FieldsError> {
-        Ok(self.position(particle, Dual::variable(time))?.map(|x| x.tangent))
+    pub fn velocity<T: Real>(&self, particle: usize, t: T) -> Result<Vector3<T>, FieldsError> {
+        Ok(self.position(particle, Dual::variable(t))?.map(|x| x.tangent))
     }
 
     /// a(t) of a particle, m/s².
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
-    pub fn acceleration<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, FieldsError> {
-        Ok(self.position(particle, Jet::<T, 0>::time(time))?.map(|x| x.second_rate))
+    pub fn acceleration<T: Real>(&self, particle: usize, t: T) -> Result<Vector3<T>, FieldsError> {
+        Ok(self.position(particle, Jet::<T, 0>::time(t))?.map(|x| x.second_rate))
     }
 
-    fn at<T: Real>(&self, particle: usize, time: T) -> Vector3<T> {
+    fn at<T: Real>(&self, particle: usize, t: T) -> Vector3<T> {
         let start = particle * self.times.len();
         let combine = |first: usize| {
-            let basis = self.times.basis(first, time);
+            let basis = self.times.basis(first, t);
             let coefficients = &self.coefficients[start + first..start + first + self.times.width()];
             Vector3::from_fn(|i, _| {
                 basis.iter().zip(coefficients).fold(T::zero(), |sum, (&b, c)| sum + b * T::lit(c[i]))
             })
         };
-        let mut first = self.times.first(time.primal(0));
+        let mut first = self.times.first(t.primal(0));
         let mut value = combine(first);
         for lane in 1..T::LANES {
-            let other = self.times.first(time.primal(lane));
+            let other = self.times.first(t.primal(lane));
             if other == first {
                 continue;
             }
             first = other;
-            let (there, mask) = (combine(first), self.times.within(first, time));
+            let (there, mask) = (combine(first), self.times.within(first, t));
             debug_assert!(mask.any(), "the lane lies in its own span");
             value = Vector3::from_fn(|i, _| T::select(mask, there[i], value[i]));
         }

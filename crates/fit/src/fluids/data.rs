@@ -1,4 +1,4 @@
-//! What a fluid is fitted to, and what it answers there.
+//! Measurements that a fluid is fitted to, and its answers there.
 
 use core::f64::consts::PI;
 
@@ -87,7 +87,7 @@ impl FlowData {
         Self { kind, rows: table.rows().collect(), noise: table.noise() }
     }
 
-    /// The same with what is known of its noise: by so much its responses may seem to fall. It changes no parameter.
+    /// With its noise, by which its responses may seem to fall. It changes no parameter.
     ///
     /// # Errors
     /// As [`FlowTable::with_noise`].
@@ -104,7 +104,7 @@ impl FlowData {
         Ok(FlowTable::new((), &self.rows)?.with_noise(self.noise)?.check_rising()?)
     }
 
-    /// Its rows: what was set, what was measured.
+    /// Its rows: drive, response.
     #[must_use]
     pub fn rows(&self) -> &[[f64; 2]] {
         &self.rows
@@ -122,7 +122,7 @@ impl FlowData {
         self.rows.is_empty()
     }
 
-    /// What a fluid answers to the drive of a row, with derivatives with respect to its parameters.
+    /// The answer of a fluid to the drive of a row, with derivatives with respect to its parameters.
     ///
     /// ```text
     /// pipe        Q = (8π/(3c³)) ∫ (T³ − τ(k)³) dk      up to ζ(T),  T = cR/2

@@ -27,10 +27,11 @@ use nalgebra::DMatrix;
 use piola_fluids::{Parameters, ViscometricFluid};
 
 use crate::search::Range;
+use crate::statistics::interval;
 use crate::{FitError, student};
 use search::Problem;
 
-/// What residuals are.
+/// Definition of the residuals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -42,12 +43,12 @@ pub enum Weighting {
     Equal,
 }
 
-/// How to fit.
+/// Options of a fit.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Options {
-    /// What residuals are.
+    /// Definition of the residuals.
     pub weighting: Weighting,
     /// Least and greatest values of parameters by name, both finite; parameters without are positive.
     pub bounds: Vec<(String, [f64; 2])>,
@@ -73,7 +74,7 @@ pub struct FluidParameter {
     pub value: f64,
     /// Its standard error, if the data determine it and there are degrees of freedom.
     pub standard_error: Option<f64>,
-    /// Where it is with the probability asked for.
+    /// Its confidence interval.
     pub interval: Option<[f64; 2]>,
 }
 
@@ -144,11 +145,9 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
         Covariance::new(&DMatrix::from_row_iterator(rows, N, slopes.into_iter().flatten()), &all, variance);
     let quantile = student(options.confidence, degrees_of_freedom);
     let parameter = |k: usize| {
-        let place = covariance.parameters.iter().position(|other| *other == k);
-        let standard_error =
-            place.filter(|_| 0 < degrees_of_freedom).map(|place| covariance.matrix[place][place].sqrt());
+        let standard_error = covariance.standard_error(k).filter(|_| 0 < degrees_of_freedom);
         let value = best.parameters[k];
-        let interval = standard_error.zip(quantile).map(|(error, t)| [value - t * error, value + t * error]);
+        let interval = interval(value, standard_error, quantile);
         FluidParameter { name: F::NAMES[k], value, standard_error, interval }
     };
     let mut rest = residuals.as_slice();

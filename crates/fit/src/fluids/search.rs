@@ -11,7 +11,7 @@ use super::{FlowData, Weighting};
 use crate::search::{Misfit, Range, minimise};
 use crate::{FitError, Outcome};
 
-/// Everything that a search knows.
+/// The data and bounds of a search.
 pub(super) struct Problem<'a, F, const N: usize> {
     data: &'a [FlowData],
     weighting: Weighting,
@@ -21,7 +21,7 @@ pub(super) struct Problem<'a, F, const N: usize> {
     fluid: PhantomData<F>,
 }
 
-/// Where a search has come to.
+/// The end of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Best<const N: usize> {
     pub(super) parameters: [f64; N],

@@ -113,14 +113,7 @@ impl AnyModel {
     /// [`FitError::NumberOfValues`]; what the law's constructor refuses, such as a modulus that is not positive.
     ///
     /// # Example
-    /// ```
-    /// use piola_fit::solids::AnyModel;
-    /// use piola_specimens::homogeneous::{Mode, nominal_stress};
-    /// let rubber = AnyModel::MooneyRivlin.law(&[0.5, 0.25])?;
-    /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
-    /// assert!((stress - 2.0 * 1.75 * 0.625).abs() < 1e-14); // 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ)
-    /// # Ok::<(), piola_fit::FitError>(())
-    /// ```
+    /// See [`Fit::law`](super::Fit::law).
     pub fn law(&self, parameters: &[f64]) -> Result<AnySolid, FitError> {
         Ok(match self.shape(parameters)? {
             Shape::Invariants(isochoric) => IncompressibleSolid::new(isochoric).into(),
@@ -158,7 +151,7 @@ impl AnyModel {
                 isochoric::Rivlin::new(series.powers().zip(p).map(term).collect())?.into()
             }
             Self::Ogden(_) => {
-                let terms = p.chunks_exact(2).map(|term| OgdenTerm { mu: term[0], alpha: term[1] });
+                let terms = p.chunks_exact(2).map(|term| OgdenTerm { modulus: term[0], exponent: term[1] });
                 return Ok(Shape::Stretches(terms.collect()));
             }
         }))

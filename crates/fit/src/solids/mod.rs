@@ -8,7 +8,7 @@
 //! | tables become data | [`Test`] of a [`Table`], [`Data`] of several tests |
 //! | a law with unknown parameters | [`AnyModel`] (`"ogden:3".parse()`), or your own [`Model`] |
 //! | the fit | [`fit`] with [`Options`]: weights, bounds, stability |
-//! | what came of it | [`Fit`]: [`Estimate`]s with errors, [`Covariance`], [`Residuals`] of each test, [`Criteria`], [`StabilityReport`] |
+//! | the result | [`Fit`]: [`Estimate`]s with errors, [`Covariance`], [`Residuals`] of each test, [`Criteria`], [`StabilityReport`] |
 //! | the law itself, for all else | [`Fit::law`], [`Fit::compressible`] |
 //!
 //! Derivatives of the stresses with respect to the parameters are exact: a model is one function over any scalar. Parameters
@@ -16,17 +16,7 @@
 //! the method of Levenberg and Marquardt from several fixed starts, the same in every run.
 //!
 //! # Example
-//! ```
-//! use piola_fit::solids::{AnyModel, Data, Measure, Options, Table, Test, fit};
-//! // Nominal stresses 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ) of C₁₀ = 0.3, C₀₁ = 0.1 with errors in the fourth digit.
-//! let bar = Table::Uniaxial(vec![[1.25, 0.4642], [1.5, 0.7758], [2.0, 1.2247], [3.0, 1.9260], [4.0, 2.5594]]);
-//! let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
-//! let rubber = fit(&AnyModel::MooneyRivlin, &data, &Options::default())?;
-//! let c10 = &rubber.parameters[0];
-//! assert!((c10.value - 0.3).abs() < 1e-3 && rubber.tests[0].relative_rms < 1e-3);
-//! assert!(rubber.outcome.is_converged() && rubber.stability.is_stable());
-//! # Ok::<(), piola_fit::FitError>(())
-//! ```
+//! See the [crate].
 
 mod laws;
 mod linear;
@@ -44,9 +34,10 @@ pub use test::{Component, Data, Measure, Table, Test};
 use piola_solids::{AnySolid, AnyVolumetric};
 
 use crate::FitError;
+use crate::statistics::interval;
 use search::{Best, Problem};
 
-/// What residuals are divided by.
+/// The divisor of the residuals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -70,12 +61,12 @@ pub enum Stability {
     Free,
 }
 
-/// How to fit.
+/// Options of a fit.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Options {
-    /// What residuals are divided by; the weight of each test comes on top.
+    /// The divisor of the residuals; the weight of each test comes on top.
     pub weighting: Weighting,
     /// Whether the law must be stable.
     pub stability: Stability,
@@ -126,13 +117,13 @@ pub struct Estimate {
     pub value: f64,
     /// Its standard error, if it is determined and there are degrees of freedom.
     pub standard_error: Option<f64>,
-    /// Where it is with the probability asked for.
+    /// Its confidence interval.
     pub interval: Option<[f64; 2]>,
     /// Whether it could be moved.
     pub state: State,
 }
 
-/// What a test has left.
+/// Residuals of a test.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Residuals {
@@ -161,7 +152,7 @@ pub struct Fit {
     /// The covariance of those that are determined; none without degrees of freedom, as the residuals then say nothing of
     /// the errors.
     pub covariance: Option<Covariance>,
-    /// What is left of each test.
+    /// Residuals of each test.
     pub tests: Vec<Residuals>,
     /// S, the weighted sum of squares.
     pub weighted_squares: f64,
@@ -246,7 +237,7 @@ impl Fit {
 /// where the data determine them. Intervals suppose small errors, near which the law is linear in its parameters.
 ///
 /// # Example
-/// See the [module](self).
+/// See the [crate].
 pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, FitError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
@@ -369,15 +360,14 @@ fn result<M: Model>(
     let covariance = if told.len() < all.parameters.len() { Covariance::new(&slopes, &told, variance) } else { all };
     let quantile = student(options.confidence, degrees_of_freedom);
     let estimate = |(k, parameter): (usize, &Parameter)| {
-        let place = covariance.parameters.iter().position(|&place| place == k);
-        let state = match place {
-            Some(_) if has_errors => State::Determined,
-            Some(_) => State::NoDegreesOfFreedom,
-            None if free.contains(&k) => State::Undetermined,
-            None => State::AtBound,
+        let state = match covariance.parameters.contains(&k) {
+            true if has_errors => State::Determined,
+            true => State::NoDegreesOfFreedom,
+            false if free.contains(&k) => State::Undetermined,
+            false => State::AtBound,
         };
-        let standard_error = place.filter(|_| has_errors).map(|place| covariance.matrix[place][place].sqrt());
-        let interval = standard_error.zip(quantile).map(|(error, t)| [theta[k] - t * error, theta[k] + t * error]);
+        let standard_error = covariance.standard_error(k).filter(|_| has_errors);
+        let interval = interval(theta[k], standard_error, quantile);
         let (name, is_stress) = (parameter.name.clone(), parameter.is_stress);
         Estimate { name, is_stress, value: theta[k], standard_error, interval, state }
     };

@@ -1,4 +1,4 @@
-//! What can be fitted: an energy of the principal stretches with parameters.
+//! Models to fit: energies of the principal stretches with parameters.
 
 use piola_numerics::{Dual, Real};
 use piola_specimens::homogeneous::Incompressible;
@@ -64,13 +64,13 @@ impl Parameter {
         Self { name: name.into(), is_stress: false, role: Role::Nonlinear, bounds, stable: StableSign::Any }
     }
 
-    /// The same with a condition of stability.
+    /// With a condition of stability.
     #[must_use]
     pub fn stable_if(self, stable: StableSign) -> Self {
         Self { stable, ..self }
     }
 
-    /// The same between bounds.
+    /// With bounds.
     #[must_use]
     pub fn between(self, bounds: [f64; 2]) -> Self {
         Self { bounds, ..self }
@@ -134,7 +134,7 @@ pub trait Model {
     fn order(&self, _parameters: &mut [f64]) {}
 }
 
-/// A model with its parameters: what the homogeneous tests can be asked of.
+/// A model with its parameters, as a law for homogeneous tests.
 #[derive(Clone, Debug)]
 pub struct Fitted<'m, M, T> {
     model: &'m M,
@@ -146,17 +146,6 @@ impl<'m, M: Model, T: Real> Fitted<'m, M, T> {
     ///
     /// # Errors
     /// [`FitError::NumberOfValues`] unless there is a value for each parameter.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fit::solids::{AnyModel, Fitted};
-    /// use piola_specimens::homogeneous::{Mode, nominal_stress};
-    /// let rubber = Fitted::new(&AnyModel::MooneyRivlin, [0.5, 0.25])?;
-    /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
-    /// assert!((stress - 2.0 * 1.75 * 0.625).abs() < 1e-14); // 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ)
-    /// assert!(Fitted::new(&AnyModel::Gent, [1.0]).is_err());
-    /// # Ok::<(), piola_fit::FitError>(())
-    /// ```
     pub fn new(model: &'m M, parameters: impl IntoIterator<Item = T>) -> Result<Self, FitError> {
         let fitted = Self::trusted(model, parameters);
         // The number of parameters is the same for any data; 3 is the invariant of the reference.

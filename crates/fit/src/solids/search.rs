@@ -18,7 +18,7 @@ use crate::search::{End, Misfit, Range, minimise};
 /// Parameters of one evaluation.
 const CHUNK: usize = 4;
 
-/// Everything that a search knows.
+/// The model, data and bounds of a search.
 pub(super) struct Problem<'a, M> {
     pub(super) model: &'a M,
     pub(super) data: &'a Data,
@@ -33,7 +33,7 @@ pub(super) struct Problem<'a, M> {
     evaluations: Cell<usize>,
 }
 
-/// Where a search has come to.
+/// The end of a search.
 #[derive(Clone, Debug)]
 pub(super) struct Best {
     pub(super) parameters: Vec<f64>,
@@ -313,8 +313,8 @@ impl<M: Model> Misfit for Penalised<'_, '_, M> {
                 }
             }
         }
-        for k in 0..unknowns {
-            jacobian.column_mut(k).scale_mut(self.problem.range(k).outward(x[k])[1]);
+        for (k, &unknown) in x.iter().enumerate().take(unknowns) {
+            jacobian.column_mut(k).scale_mut(self.problem.range(k).outward(unknown)[1]);
         }
         residuals.iter().all(|x| x.is_finite()).then_some((residuals, jacobian))
     }

@@ -1,4 +1,4 @@
-//! Whether a fitted law is stable where it was measured.
+//! Stability of a fitted law over the measured deformations.
 //!
 //! ```text
 //! Drucker         Σ dτₐ dεₐ > 0   for all isochoric increments:  ∂²W/∂ε∂ε > 0 on Σ εₐ = 0,   εₐ = ln λₐ
@@ -22,7 +22,7 @@ const STEPS: u32 = 24;
 pub struct Counterexample {
     /// The principal stretches.
     pub stretches: [f64; 3],
-    /// What should be positive, in the unit of the stresses.
+    /// The value that should be positive, in the unit of the stresses.
     pub value: f64,
 }
 
@@ -30,7 +30,7 @@ pub struct Counterexample {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StabilityReport {
-    /// How far was looked: I₁ = λ₁² + λ₂² + λ₃².
+    /// The largest I₁ = λ₁² + λ₂² + λ₃² that was tried.
     pub largest_first_invariant: f64,
     /// The worst violation of Drucker's condition.
     pub drucker: Option<Counterexample>,

@@ -100,7 +100,7 @@ pub struct Test {
     points: Vec<Measurement>,
 }
 
-/// What one number of a table was measured at.
+/// The deformation of one number of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Measurement {
     at: At,
@@ -166,7 +166,7 @@ impl Test {
         &self.table
     }
 
-    /// What its stresses are.
+    /// The measure of its stresses.
     #[must_use]
     pub const fn measure(&self) -> Measure {
         self.measure
@@ -202,7 +202,7 @@ impl Test {
         self.points.iter().map(|point| point.stress)
     }
 
-    /// What stands on the abscissa of each point: the stretch, the amount of shear, or the largest principal stretch.
+    /// The abscissa of each point: the stretch, the amount of shear, or the largest principal stretch.
     pub fn abscissas(&self) -> impl Iterator<Item = f64> {
         self.points.iter().map(|point| match point.at {
             At::Mode(_, stretch, _) => stretch,
@@ -228,7 +228,7 @@ impl Test {
         })
     }
 
-    /// What a law answers at a point.
+    /// The stress of a law at a point.
     pub(super) fn answer<T: Real>(&self, point: usize, law: &impl Incompressible<T>) -> T {
         match self.points[point].at {
             At::Mode(mode, stretch, factor) => T::lit(factor) * nominal_stress(mode, T::lit(stretch), law),
@@ -355,14 +355,7 @@ impl From<Test> for Written {
 /// The tests that a law is fitted to, all at once.
 ///
 /// # Example
-/// ```
-/// use piola_fit::solids::{Data, Measure, Table, Test};
-/// let bar = Test::new("bar", Table::Uniaxial(vec![[1.5, 0.4], [2.0, 0.6]]), Measure::Nominal)?;
-/// let data = Data::new(vec![bar])?;
-/// assert_eq!(data.len(), 2);
-/// assert_eq!(data.largest_first_invariant(), 5.0); // 2² + 2/2
-/// # Ok::<(), piola_fit::FitError>(())
-/// ```
+/// See the [crate].
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Vec<Test>", into = "Vec<Test>"))]

@@ -4,3 +4,4 @@
 mod fluids;
 #[cfg(feature = "solids")]
 mod solids;
+mod statistics;

@@ -5,7 +5,7 @@ use piola_numerics::{Real, parameters};
 use super::mode::{Mode, only_mode};
 use crate::FluidsError;
 use crate::ViscometricFluid;
-use crate::parameters::Parameters;
+use crate::parameters::{Parameters, listed};
 
 parameters! {
     FluidsError;
@@ -79,19 +79,9 @@ impl Giesekus {
     }
 }
 
-impl Parameters<4> for Giesekus {
-    const NAMES: [&'static str; 4] = ["solvent_viscosity", "polymer_viscosity", "time", "mobility"];
-
-    fn parameters(&self) -> [f64; 4] {
-        [self.solvent_viscosity, self.polymer_viscosity, self.time, self.mobility]
-    }
-
-    fn from_parameters([solvent, polymer, time, mobility]: [f64; 4]) -> Result<Self, FluidsError> {
-        Self::new(solvent, polymer, time, mobility)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([solvent, polymer, time, mobility]: [T; 4], shear_rate: T) -> T {
+listed! {
+    Giesekus<4>: solvent_viscosity, polymer_viscosity, time, mobility;
+    |[solvent, polymer, time, mobility], shear_rate| {
         let [chi, d, _] = parts(mobility, time * shear_rate);
         (solvent + polymer * T::lit(2.0) * (T::one() - mobility) * chi * chi / d) * shear_rate
     }

@@ -9,7 +9,7 @@ use piola_numerics::{Real, parameters};
 use super::mode::{DifferentialFluid, Mode, only_mode};
 use crate::FluidsError;
 use crate::answers::finite_rate;
-use crate::parameters::Parameters;
+use crate::parameters::{Parameters, listed};
 use crate::{FlowMoment, Newtonian, ViscometricFluid};
 
 parameters! {
@@ -83,38 +83,14 @@ parameters! {
     }
 }
 
-impl Parameters<2> for UpperConvectedMaxwell {
-    const NAMES: [&'static str; 2] = ["polymer_viscosity", "time"];
-
-    fn parameters(&self) -> [f64; 2] {
-        [self.polymer_viscosity, self.time]
-    }
-
-    fn from_parameters([viscosity, time]: [f64; 2]) -> Result<Self, FluidsError> {
-        Self::new(viscosity, time)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([viscosity, _]: [T; 2], shear_rate: T) -> T {
-        viscosity * shear_rate
-    }
+listed! {
+    UpperConvectedMaxwell<2>: polymer_viscosity, time;
+    |[viscosity, _], shear_rate| viscosity * shear_rate
 }
 
-impl Parameters<3> for OldroydB {
-    const NAMES: [&'static str; 3] = ["solvent_viscosity", "polymer_viscosity", "time"];
-
-    fn parameters(&self) -> [f64; 3] {
-        [self.solvent_viscosity, self.polymer_viscosity, self.time]
-    }
-
-    fn from_parameters([solvent, polymer, time]: [f64; 3]) -> Result<Self, FluidsError> {
-        Self::new(solvent, polymer, time)
-    }
-
-    #[inline(always)]
-    fn shear_stress_of<T: Real>([solvent, polymer, _]: [T; 3], shear_rate: T) -> T {
-        (solvent + polymer) * shear_rate
-    }
+listed! {
+    OldroydB<3>: solvent_viscosity, polymer_viscosity, time;
+    |[solvent, polymer, _], shear_rate| (solvent + polymer) * shear_rate
 }
 
 /// A mode with R(τ) = τ: what `ConvectedMaxwell` is exact for.

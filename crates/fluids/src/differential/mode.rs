@@ -1,4 +1,4 @@
-//! What a differential fluid is made of, and what its linear response is.
+//! Modes of differential fluids, and the linear response of such fluids.
 
 use crate::FluidsError;
 use crate::ViscometricFluid;
@@ -8,7 +8,7 @@ use crate::ViscometricFluid;
 /// ```text
 /// V = 2 ηₛ D + τ      λ (τ̇ − L τ − τ Lᵀ) + R(τ) = 2 ηₚ D
 /// ```
-/// R(τ) = τ + … is what tells the fluids apart. A polymer that [slips](Self::slip) is carried by L − ξ D in place of L.
+/// The fluids differ in R(τ) = τ + …. A polymer that [slips](Self::slip) is carried by L − ξ D in place of L.
 pub trait Mode: ViscometricFluid + Clone {
     /// ηₛ, Pa s.
     #[must_use]
@@ -64,7 +64,7 @@ impl Extension {
         }
     }
 
-    /// Its ratio to the viscosity of a Newtonian fluid: Trouton's.
+    /// Trouton's ratio: extensional over shear viscosity of a Newtonian fluid.
     #[must_use]
     pub fn trouton_ratio(self) -> f64 {
         match self {
@@ -100,7 +100,7 @@ impl Extension {
 /// # Ok::<(), piola_fluids::FluidsError>(())
 /// ```
 pub trait DifferentialFluid {
-    /// What its modes are.
+    /// The type of its modes.
     type Mode: Mode;
 
     /// Its modes.
@@ -121,8 +121,8 @@ pub trait DifferentialFluid {
 
     /// G(t), Pa, 0 < t: the shear stress after a small step of shear, divided by it; the solvent's impulse at t = 0 apart.
     #[must_use]
-    fn relaxation_modulus(&self, time: f64) -> f64 {
-        sum_of(self.modes(), |mode| (-time / mode.time()).exp())
+    fn relaxation_modulus(&self, t: f64) -> f64 {
+        sum_of(self.modes(), |mode| (-t / mode.time()).exp())
     }
 
     /// G′(ω), Pa: in phase with a small oscillating shear.

@@ -6,7 +6,7 @@ use super::mode::{Mode, only_mode};
 use super::slipping::{NetworkMode, network_extension};
 use crate::FluidsError;
 use crate::answers::{Relation, finite_rate, moment_of_power, moving, solve_from_above};
-use crate::parameters::Parameters;
+use crate::parameters::{Parameters, listed};
 use crate::viscometric::rate_at_stress;
 use crate::{FlowMoment, ViscometricFluid};
 
@@ -162,21 +162,10 @@ macro_rules! phan_thien_tanner {
             }
         }
 
-        impl Parameters<4> for $fluid {
-            const NAMES: [&'static str; 4] = ["solvent_viscosity", "polymer_viscosity", "time", "extensibility"];
-
-            fn parameters(&self) -> [f64; 4] {
-                [self.solvent_viscosity, self.polymer_viscosity, self.time, self.extensibility]
-            }
-
-            fn from_parameters([solvent, polymer, time, extensibility]: [f64; 4]) -> Result<Self, FluidsError> {
-                Self::new(solvent, polymer, time, extensibility)
-            }
-
-            #[inline(always)]
-            fn shear_stress_of<T: Real>([solvent, polymer, time, extensibility]: [T; 4], shear_rate: T) -> T {
+        listed! {
+            $fluid<4>: solvent_viscosity, polymer_viscosity, time, extensibility;
+            |[solvent, polymer, time, extensibility], shear_rate|
                 solvent * shear_rate + polymer / time * $solve(extensibility, time * shear_rate)
-            }
         }
 
         impl ViscometricFluid for $fluid {

@@ -19,7 +19,7 @@ use crate::{DifferentialFluid, FluidsError, Integral, LinearMode, Mode, Viscomet
 ///
 /// # Example
 /// ```
-/// use piola_fluids::{ConvectedMaxwell, DifferentialFluid, OldroydB};
+/// use piola_fluids::{ConvectedMaxwell, OldroydB, SteadyStress};
 /// use piola_continuum::rates::VelocityGradient;
 /// let fluid = OldroydB::new(0.25, 1.5, 0.75)?;
 /// let shear = VelocityGradient::from_rows([[0.0; 3], [0.5, 0.0, 0.0], [0.0; 3]])?;
@@ -40,13 +40,13 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     ///
     /// # Accuracy
     /// 8 ulp of each, for t/λ → 0 too.
-    fn start_up(&self, shear_rate: f64, time: f64) -> Result<ShearStresses, FluidsError> {
-        check_flow::<Self>(shear_rate, time)?;
-        let started = if 0.0 < time { 1.0 } else { 0.0 };
+    fn start_up(&self, shear_rate: f64, t: f64) -> Result<ShearStresses, FluidsError> {
+        check_flow::<Self>(shear_rate, t)?;
+        let started = if 0.0 < t { 1.0 } else { 0.0 };
         let mut stresses =
             ShearStresses { shear: started * self.total_solvent_viscosity() * shear_rate, ..ShearStresses::default() };
         for mode in self.modes() {
-            let x = time / mode.time();
+            let x = t / mode.time();
             let drawn = mode.polymer_viscosity() * shear_rate;
             stresses.shear -= drawn * (-x).exp_m1();
             // 1 − e⁻ˣ (1 + x) = e⁻ˣ (eˣ − 1 − x); beyond e⁻⁴⁰ x there is nothing left to subtract.
@@ -64,11 +64,11 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     ///
     /// # Errors
     /// As [`start_up`](Self::start_up).
-    fn cessation(&self, shear_rate: f64, time: f64) -> Result<ShearStresses, FluidsError> {
-        check_flow::<Self>(shear_rate, time)?;
+    fn cessation(&self, shear_rate: f64, t: f64) -> Result<ShearStresses, FluidsError> {
+        check_flow::<Self>(shear_rate, t)?;
         let mut stresses = ShearStresses::default();
         for mode in self.modes() {
-            let left = mode.polymer_viscosity() * shear_rate * (-time / mode.time()).exp();
+            let left = mode.polymer_viscosity() * shear_rate * (-t / mode.time()).exp();
             stresses.shear += left;
             stresses.first += 2.0 * left * (mode.time() * shear_rate);
         }
@@ -84,12 +84,12 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
     ///
     /// # Accuracy
     /// 32 ulp of its norm for |L| t ≤ 1; beyond, that of exp(L t).
-    fn start_up_stress(&self, velocity_gradient: &VelocityGradient, time: f64) -> Result<Symmetric, FluidsError> {
-        check_flow::<Self>(0.0, time)?;
-        let started = if 0.0 < time { 2.0 * self.total_solvent_viscosity() } else { 0.0 };
+    fn start_up_stress(&self, velocity_gradient: &VelocityGradient, t: f64) -> Result<Symmetric, FluidsError> {
+        check_flow::<Self>(0.0, t)?;
+        let started = if 0.0 < t { 2.0 * self.total_solvent_viscosity() } else { 0.0 };
         let mut total = velocity_gradient.rate_of_deformation().0 * started;
         for mode in self.modes() {
-            total += bounded::<Self>(from_rest(mode, velocity_gradient, time), time)?;
+            total += bounded::<Self>(from_rest(mode, velocity_gradient, t), t)?;
         }
         Ok(total)
     }
@@ -130,11 +130,11 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
         samples: &[(f64, DeformationGradient)],
     ) -> Result<(), FluidsError> {
         for pair in samples.windows(2) {
-            let [(before, first), (time, second)] = pair else { continue };
-            check_bound(Self::Mode::NAME, "time", *time, "each time is later than the one before", before < time)?;
+            let [(before, first), (t, second)] = pair else { continue };
+            check_bound(Self::Mode::NAME, "time", *t, "each time is later than the one before", before < t)?;
             let step = RelativeDeformation::of(first, second)?;
-            let velocity_gradient = VelocityGradient::new(logarithm(step.displacement.matrix())? / (time - before))?;
-            self.advance(memory, &velocity_gradient, time - before)?;
+            let velocity_gradient = VelocityGradient::new(logarithm(step.displacement.matrix())? / (t - before))?;
+            self.advance(memory, &velocity_gradient, t - before)?;
         }
         Ok(())
     }
@@ -169,9 +169,9 @@ pub trait ConvectedMaxwell: DifferentialFluid<Mode: LinearMode> {
 
 impl<F: DifferentialFluid<Mode: LinearMode> + ?Sized> ConvectedMaxwell for F {}
 
-fn check_flow<F: DifferentialFluid + ?Sized>(shear_rate: f64, time: f64) -> Result<(), FluidsError> {
+fn check_flow<F: DifferentialFluid + ?Sized>(shear_rate: f64, t: f64) -> Result<(), FluidsError> {
     check_finite(F::Mode::NAME, "shear rate", shear_rate)?;
-    check_bound(F::Mode::NAME, "time", time, "0 ≤ time", 0.0 <= time)
+    check_bound(F::Mode::NAME, "time", t, "0 ≤ time", 0.0 <= t)
 }
 
 /// A stress that is beyond all numbers is refused.
@@ -184,16 +184,16 @@ fn bounded<F: DifferentialFluid + ?Sized>(stress: Symmetric, duration: f64) -> R
 }
 
 /// exp(t L − t/(2 λ)).
-fn remaining<M: Mode>(mode: &M, velocity_gradient: &VelocityGradient, time: f64) -> [[f64; 3]; 3] {
+fn remaining<M: Mode>(mode: &M, velocity_gradient: &VelocityGradient, t: f64) -> [[f64; 3]; 3] {
     let decay = scaled(identity(), 0.5 / mode.time());
-    exponential_rows(scaled(difference(velocity_gradient.rows(), decay), time))
+    exponential_rows(scaled(difference(velocity_gradient.rows(), decay), t))
 }
 
 /// τ after the time t from rest: a series over a short time, doubled by τ(2h) = τ(h) + G(h) τ(h) G(h)ᵀ.
-fn from_rest<M: LinearMode>(mode: &M, velocity_gradient: &VelocityGradient, time: f64) -> Symmetric {
+fn from_rest<M: LinearMode>(mode: &M, velocity_gradient: &VelocityGradient, t: f64) -> Symmetric {
     let size = 2.0 * velocity_gradient.0.norm() + mode.time().recip();
     let mut doublings = 0;
-    let mut step = time;
+    let mut step = t;
     while 0.5 < size * step && doublings < 2000 {
         step /= 2.0;
         doublings += 1;

@@ -10,7 +10,7 @@ use super::stress_rate::StressRate;
 use crate::error::check_bound;
 use crate::{DifferentialFluid, FluidsError, Mode, ViscometricFluid};
 
-/// A motion that is followed: the stresses that a differential fluid remembers, and the time.
+/// Integration along a motion: the stresses of the modes of a differential fluid, and the time.
 ///
 /// # Accuracy
 /// The tolerance times a few, in units of the largest stress.
@@ -85,9 +85,9 @@ impl<'a, F: DifferentialFluid<Mode: StressRate>> Following<'a, F> {
     /// # Errors
     /// [`FluidsError::OutOfBounds`] for a time before now; [`FluidsError::Continuum`] for an L that is not finite
     /// there; [`FluidsError::Integration`] where the run fails.
-    pub fn advance(&mut self, gradient: impl Fn(f64) -> [[f64; 3]; 3], time: f64) -> Result<Symmetric, FluidsError> {
+    pub fn advance(&mut self, gradient: impl Fn(f64) -> [[f64; 3]; 3], t: f64) -> Result<Symmetric, FluidsError> {
         let (modes, before) = (self.fluid.modes(), self.state.time);
-        check_bound(F::Mode::NAME, "time", time, "0 ≤ time, and no earlier than the one before", before <= time)?;
+        check_bound(F::Mode::NAME, "time", t, "0 ≤ time, and no earlier than the one before", before <= t)?;
         let mut field = field(6 * modes.len(), |t, y: &[f64], rate: &mut [f64]| {
             // What is not finite stops the run, which names it.
             let l = VelocityGradient::from_rows(gradient(t));
@@ -97,8 +97,8 @@ impl<'a, F: DifferentialFluid<Mode: StressRate>> Following<'a, F> {
                 rate.copy_from_slice(&mode.stress_rate(&stress, &l).components.map(|x| x * factor));
             }
         });
-        self.method.integrate_to(&mut field, &mut self.state, time)?;
-        let deforming = VelocityGradient::from_rows(gradient(time))?.rate_of_deformation().0;
+        self.method.integrate_to(&mut field, &mut self.state, t)?;
+        let deforming = VelocityGradient::from_rows(gradient(t))?.rate_of_deformation().0;
         Ok(self.polymer_stress() + deforming * (2.0 * self.fluid.total_solvent_viscosity()))
     }
 }
@@ -116,14 +116,7 @@ impl<'a, F: DifferentialFluid<Mode: StressRate>> Following<'a, F> {
 /// The tolerance times a few, in units of the largest stress.
 ///
 /// # Example
-/// ```
-/// use piola_fluids::{ConvectedMaxwell, UpperConvectedMaxwell, follow};
-/// let fluid = UpperConvectedMaxwell::new(2.0, 0.5)?;
-/// let stress = follow(&fluid, |_| [[0.0; 3], [3.0, 0.0, 0.0], [0.0; 3]], &[0.25], 1e-12)?[0];
-/// let exact = fluid.start_up(3.0, 0.25)?;
-/// assert!((stress.components[3] / exact.shear - 1.0).abs() < 1e-11);
-/// # Ok::<(), piola_fluids::FluidsError>(())
-/// ```
+/// See [`Following`].
 pub fn follow<F: DifferentialFluid<Mode: StressRate>>(
     fluid: &F,
     gradient: impl Fn(f64) -> [[f64; 3]; 3],
@@ -131,7 +124,7 @@ pub fn follow<F: DifferentialFluid<Mode: StressRate>>(
     tolerance: f64,
 ) -> Result<Vec<Symmetric>, FluidsError> {
     let mut motion = Following::from_rest(fluid, tolerance)?;
-    times.iter().map(|&time| motion.advance(&gradient, time)).collect()
+    times.iter().map(|&t| motion.advance(&gradient, t)).collect()
 }
 
 /// The stresses at each of the `times`, s, of a shear flow from rest at t = 0 with the rate k(t), 1/s.

@@ -1,4 +1,4 @@
-//! Histories: how they look to other observers and from other references, and what of them every simple fluid forgets.
+//! Histories seen by other observers and from other references, and theorems of simple fluids on them.
 
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::Symmetric;
@@ -23,8 +23,8 @@ pub struct SeenFrom<M, Q> {
 }
 
 impl<M: HomogeneousMotion, Q: HomogeneousMotion> HomogeneousMotion for SeenFrom<M, Q> {
-    fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-        self.observer.gradient(time) * self.motion.gradient(time)
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+        self.observer.gradient(t) * self.motion.gradient(t)
     }
 }
 
@@ -41,8 +41,8 @@ pub struct Referred<M> {
 }
 
 impl<M: HomogeneousMotion> HomogeneousMotion for Referred<M> {
-    fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-        self.motion.gradient(time) * self.reference.map(T::lit)
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+        self.motion.gradient(t) * self.reference.map(T::lit)
     }
 }
 
@@ -75,21 +75,21 @@ pub struct ConstantStretchHistory<Q> {
 }
 
 impl<Q: HomogeneousMotion> HomogeneousMotion for ConstantStretchHistory<Q> {
-    fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
         let generator: Matrix3<T> = self.generator.map(T::lit);
-        let rows = piola_continuum::rates::exponential_rows(rows_of(&(generator * time)));
+        let rows = piola_continuum::rates::exponential_rows(rows_of(&(generator * t)));
         let exponential = Matrix3::from_fn(|i, j| rows[i][j]);
-        self.turning.gradient(time) * self.reference.map(T::lit) * exponential
+        self.turning.gradient(t) * self.reference.map(T::lit) * exponential
     }
 }
 
-/// How much of a violation beside how much: 0 where nothing is.
+/// A violation relative to a size; 0 where both are.
 fn ratio(violation: f64, size: f64) -> f64 {
     if 0.0 < size { violation / size } else { violation }
 }
 
-/// By how much the stress of an observer who turns with Q(t) differs from the turned stress, W(19.11) and W(19.13), beside the
-/// stress: zero for a simple fluid.
+/// Relative violation of objectivity, W(19.11) and W(19.13): the difference between the stress seen by an observer who turns with Q(t)
+/// and the turned stress, over the stress. Zero for a simple fluid.
 ///
 /// A constant Q, which may be improper, tries the isotropy of the functional.
 ///
@@ -115,17 +115,17 @@ pub fn fluid_indifference<M: HomogeneousMotion, Q: HomogeneousMotion>(
     fluid: &impl SimpleFluid,
     motion: M,
     observer: Q,
-    time: f64,
+    t: f64,
     tolerance: f64,
 ) -> Result<f64, FluidsError> {
-    let turn = observer.gradient(time);
-    let stress = fluid.response_to_motion(&motion, time, tolerance)?.matrix();
-    let seen = fluid.response_to_motion(&SeenFrom { motion, observer }, time, tolerance)?.matrix();
+    let turn = observer.gradient(t);
+    let stress = fluid.response_to_motion(&motion, t, tolerance)?.matrix();
+    let seen = fluid.response_to_motion(&SeenFrom { motion, observer }, t, tolerance)?.matrix();
     Ok(ratio((seen - turn * stress * turn.transpose()).norm(), stress.norm()))
 }
 
-/// By how much the stress differs where the same motion is described from another reference of the same density, F(t) H with
-/// det H = 1, W(19.6) and W(19.10), beside the stress: zero for a fluid.
+/// Relative change of the stress where the same motion is described from another reference of the same density, F(t) H with
+/// det H = 1, W(19.6) and W(19.10): zero for a fluid.
 ///
 /// # Errors
 /// As [`SimpleFluid::response_to_motion`]; [`FluidsError::OutOfBounds`] unless det H = 1 to rounding.
@@ -136,18 +136,18 @@ pub fn reference_indifference<M: HomogeneousMotion>(
     fluid: &impl SimpleFluid,
     motion: M,
     reference: &Matrix3<f64>,
-    time: f64,
+    t: f64,
     tolerance: f64,
 ) -> Result<f64, FluidsError> {
     let determinant = reference.determinant();
     let unimodular = (determinant - 1.0).abs() <= 1e-12 * (1.0 + reference.norm().powi(3));
     check_bound("change of reference", "det H", determinant, "det H = 1", unimodular)?;
-    let stress = fluid.response_to_motion(&motion, time, tolerance)?.matrix();
-    let seen = fluid.response_to_motion(&Referred { motion, reference: *reference }, time, tolerance)?.matrix();
+    let stress = fluid.response_to_motion(&motion, t, tolerance)?.matrix();
+    let seen = fluid.response_to_motion(&Referred { motion, reference: *reference }, t, tolerance)?.matrix();
     Ok(ratio((seen - stress).norm(), stress.norm()))
 }
 
-/// What is left of a common proper vector f: of the history, and of the stress.
+/// Deviations of a vector f from a proper vector of the history and of the stress.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneHistory {
     /// The largest |Cₜ(t − s) f − (f·Cₜ f) f| beside |Cₜ|, at times since the start: zero for a plane history.
@@ -165,22 +165,12 @@ pub struct PlaneHistory {
 /// As [`fluid_indifference`].
 ///
 /// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_fluids::{Giesekus, plane_history};
-/// use piola_continuum::rates::ExponentialMotion;
-/// let fluid = Giesekus::new(0.1, 2.0, 0.5, 0.25)?;
-/// let l = Matrix3::new(0.5, 1.0, 0.0, -0.25, -0.25, 0.0, 0.0, 0.0, -0.25); // in the plane of 1 and 2
-/// let motion = ExponentialMotion::new(l, Matrix3::identity())?;
-/// let report = plane_history(&fluid, &motion, &Vector3::z(), 1.5, 1e-10)?;
-/// assert!(report.history < 1e-15 && report.stress < 1e-15);
-/// # Ok::<(), piola_fluids::FluidsError>(())
-/// ```
+/// See [`fluid_indifference`].
 pub fn plane_history(
     fluid: &impl SimpleFluid,
     motion: &impl HomogeneousMotion,
     normal: &Vector3<f64>,
-    time: f64,
+    t: f64,
     tolerance: f64,
 ) -> Result<PlaneHistory, FluidsError> {
     let size = normal.norm();
@@ -192,14 +182,14 @@ pub fn plane_history(
     };
     let mut history = 0.0_f64;
     for i in 1..=16 {
-        let relative = motion.relative(time, -time * f64::from(i) / 16.0)?;
+        let relative = motion.relative(t, -t * f64::from(i) / 16.0)?;
         history = history.max(across(&relative.right_cauchy_green()));
     }
-    let stress = across(&fluid.response_to_motion(motion, time, tolerance)?);
+    let stress = across(&fluid.response_to_motion(motion, t, tolerance)?);
     Ok(PlaneHistory { history, stress })
 }
 
-/// By how much a motion fails to have a constant stretch history, W(22.33): the largest change, from the first of the `times` to
+/// Deviation of a motion from a constant stretch history, W(22.33): the largest change, from the first of the `times` to
 /// the others, of an invariant of the tensors Cₜ(t − s) − 1 within the last `horizon` seconds, beside the invariant's size.
 ///
 /// The invariants are the traces of products of up to three of Cₜ(t − s) − 1 at eight s: where the histories at two times differ by
@@ -215,19 +205,19 @@ pub fn stretch_history(motion: &impl HomogeneousMotion, times: &[f64], horizon: 
     let count = times.len() as f64;
     check_bound("stretch history", "number of times", count, "2 ≤ number", 2.0 <= count)?;
     check_bound("stretch history", "horizon", horizon, "0 < horizon", 0.0 < horizon)?;
-    let at = |time: f64| -> Result<[Matrix3<f64>; 8], FluidsError> {
-        check_finite("stretch history", "time", time)?;
+    let at = |t: f64| -> Result<[Matrix3<f64>; 8], FluidsError> {
+        check_finite("stretch history", "time", t)?;
         let mut tensors = [Matrix3::zeros(); 8];
         for (i, tensor) in (1..=8).zip(&mut tensors) {
             let lapse = -horizon * f64::from(i) / 8.0;
-            *tensor = motion.relative(time, lapse)?.right_cauchy_green_change().matrix();
+            *tensor = motion.relative(t, lapse)?.right_cauchy_green_change().matrix();
         }
         Ok(tensors)
     };
     let first = at(times[0])?;
     let mut worst = 0.0_f64;
-    for &time in &times[1..] {
-        let other = at(time)?;
+    for &t in &times[1..] {
+        let other = at(t)?;
         for i in 0..8 {
             worst = worst.max(ratio((first[i].trace() - other[i].trace()).abs(), first[i].norm()));
             for j in i..8 {
@@ -244,7 +234,7 @@ pub fn stretch_history(motion: &impl HomogeneousMotion, times: &[f64], horizon: 
     Ok(worst)
 }
 
-/// The shear that a motion is, for whoever turns with it.
+/// A motion as a shear, seen by an observer who turns with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viscometric {
     /// k, 1/s.
@@ -256,8 +246,8 @@ pub struct Viscometric {
     pub residual: f64,
 }
 
-/// Whether a motion is, at the time t, s, a steady shear for an observer who turns with it: from its Rivlin–Ericksen tensors,
-/// which determine a constant stretch history.
+/// The steady shear that a motion is at the time t, s, for an observer who turns with it, from its Rivlin–Ericksen tensors, which
+/// determine a constant stretch history.
 ///
 /// ```text
 /// A₁ = k (e₁e₂ + e₂e₁)      A₂ = 2 k² e₁e₁      A₃ = 0
@@ -287,12 +277,12 @@ pub struct Viscometric {
 ///
 /// # Source
 /// W(22.29–22.33), W(23.10); C.-C. Wang, Arch. Rational Mech. Anal. 20 (1965) 329.
-pub fn viscometric_motion(motion: &impl HomogeneousMotion, time: f64) -> Result<Option<Viscometric>, FluidsError> {
+pub fn viscometric_motion(motion: &impl HomogeneousMotion, t: f64) -> Result<Option<Viscometric>, FluidsError> {
     type Third = Dual<Dual<Dual<f64>>>;
-    motion.deformation(time)?;
+    motion.deformation(t)?;
     let one = Dual::lit(1.0);
     let lapse: Third = Dual { value: Dual { value: Dual::variable(0.0), tangent: one }, tangent: Dual::lit(1.0) };
-    let change = motion.relative_displacement(Third::lit(time), lapse);
+    let change = motion.relative_displacement(Third::lit(t), lapse);
     let strain = change + change.transpose() + change.transpose() * change;
     let part = |of: fn(&Third) -> f64| Symmetric::symmetric_part(rows_of(&strain.map(|x| of(&x))));
     let first = RivlinEricksen(part(|x| x.tangent.value.value));

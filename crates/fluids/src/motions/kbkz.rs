@@ -71,15 +71,15 @@ impl<H: Damping> Kbkz<H> {
     ///
     /// # Errors
     /// [`FluidsError::NotFinite`]; [`FluidsError::OutOfBounds`] unless 0 < t.
-    pub fn start_up(&self, shear_rate: f64, time: f64) -> Result<Integral<ShearStresses>, FluidsError> {
+    pub fn start_up(&self, shear_rate: f64, t: f64) -> Result<Integral<ShearStresses>, FluidsError> {
         check_finite(H::NAME, "shear rate", shear_rate)?;
-        check_bound(H::NAME, "time", time, "0 < time", 0.0 < time)?;
+        check_bound(H::NAME, "time", t, "0 < time", 0.0 < t)?;
         let parts = |strain: f64| {
             let damped = self.damping().factor(strain * strain, strain * strain);
             [damped * strain, damped * strain * strain]
         };
-        let remembered = integrate(|s| parts(shear_rate * s).map(|part| self.memory_function(s) * part), time);
-        let older = parts(shear_rate * time).map(|part| self.relaxation_modulus(time) * part);
+        let remembered = integrate(|s| parts(shear_rate * s).map(|part| self.memory_function(s) * part), t);
+        let older = parts(shear_rate * t).map(|part| self.relaxation_modulus(t) * part);
         let value =
             ShearStresses { shear: remembered.value[0] + older[0], first: remembered.value[1] + older[1], second: 0.0 };
         Ok(remembered.within(value, value.shear.abs().max(value.first)))
@@ -93,14 +93,14 @@ impl<H: Damping> Kbkz<H> {
     ///
     /// # Errors
     /// As [`start_up`](Self::start_up).
-    pub fn cessation(&self, shear_rate: f64, time: f64) -> Result<Integral<ShearStresses>, FluidsError> {
+    pub fn cessation(&self, shear_rate: f64, t: f64) -> Result<Integral<ShearStresses>, FluidsError> {
         check_finite(H::NAME, "shear rate", shear_rate)?;
-        check_bound(H::NAME, "time", time, "0 < time", 0.0 < time)?;
+        check_bound(H::NAME, "time", t, "0 < time", 0.0 < t)?;
         let longest = self.memory().iter().map(|term| term.time).fold(0.0, f64::max);
         let left = integrate(
             |s| {
                 let strain = shear_rate * s;
-                let damped = self.memory_function(time + s) * self.damping().factor(strain * strain, strain * strain);
+                let damped = self.memory_function(t + s) * self.damping().factor(strain * strain, strain * strain);
                 [damped * strain, damped * strain * strain]
             },
             HEIGHT.exp() * longest,
@@ -111,8 +111,8 @@ impl<H: Damping> Kbkz<H> {
 
     /// T₁₂ and N₁ at the time t after a step of shear γ: G(t) h γ and G(t) h γ².
     #[must_use]
-    pub fn step_strain(&self, strain: f64, time: f64) -> ShearStresses {
-        let damped = self.relaxation_modulus(time) * self.damping().factor(strain * strain, strain * strain);
+    pub fn step_strain(&self, strain: f64, t: f64) -> ShearStresses {
+        let damped = self.relaxation_modulus(t) * self.damping().factor(strain * strain, strain * strain);
         ShearStresses { shear: damped * strain, first: damped * strain * strain, second: 0.0 }
     }
 
@@ -194,14 +194,14 @@ impl<H: Damping> Kbkz<H> {
     ///
     /// # Errors
     /// [`FluidsError::OutOfBounds`] unless 0 < t.
-    pub fn stress_along(&self, motion: &impl HomogeneousMotion, time: f64) -> Result<Integral<Symmetric>, FluidsError> {
-        check_bound(H::NAME, "time", time, "0 < time", 0.0 < time)?;
+    pub fn stress_along(&self, motion: &impl HomogeneousMotion, t: f64) -> Result<Integral<Symmetric>, FluidsError> {
+        check_bound(H::NAME, "time", t, "0 < time", 0.0 < t)?;
         let at = |s: f64| {
-            let change = rows_of(&motion.relative_displacement(time, -s));
+            let change = rows_of(&motion.relative_displacement(t, -s));
             self.damped(change, inverse_change(change))
         };
-        let remembered = integrate(|s| (at(s) * self.memory_function(s)).components, time);
-        let value = Symmetric { components: remembered.value } + at(time) * self.relaxation_modulus(time);
+        let remembered = integrate(|s| (at(s) * self.memory_function(s)).components, t);
+        let value = Symmetric { components: remembered.value } + at(t) * self.relaxation_modulus(t);
         Ok(remembered.within(value, value.norm()))
     }
 
@@ -223,10 +223,10 @@ impl<H: Damping> Kbkz<H> {
         // F at the end of an interval relative to now, less 1.
         let (mut later, mut elapsed) = ([[0.0; 3]; 3], 0.0);
         for pair in samples.windows(2).rev() {
-            let [(before, first), (time, second)] = pair else { continue };
-            check_bound(H::NAME, "time", *time, "each time is later than the one before", before < time)?;
+            let [(before, first), (t, second)] = pair else { continue };
+            check_bound(H::NAME, "time", *t, "each time is later than the one before", before < t)?;
             let step = RelativeDeformation::of(first, second)?;
-            let l = rows_of(&(logarithm(step.displacement.matrix())? / (time - before)));
+            let l = rows_of(&(logarithm(step.displacement.matrix())? / (t - before)));
             let at = |s: f64| {
                 // Fₜ = exp(−L (s − elapsed)) Fₜ(end).
                 let back = exponential_minus_identity_rows(scaled(l, elapsed - s));
@@ -236,7 +236,7 @@ impl<H: Damping> Kbkz<H> {
                 let change = at(s);
                 (self.damped(change, inverse_change(change)) * self.memory_function(s)).components
             };
-            let next = elapsed + (time - before);
+            let next = elapsed + (t - before);
             let part = if elapsed <= 0.0 { integrate(f, next) } else { integrate_between(f, elapsed, next) };
             total.value += Symmetric { components: part.value };
             total.bound += part.bound;
@@ -257,17 +257,6 @@ impl<H: Damping> Kbkz<H> {
     ///
     /// # Accuracy
     /// That of quadrature, 1e-12; harmonics beyond the 63rd are taken for lower ones.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fluids::{ExponentialDamping, Kbkz, Relaxation};
-    /// let memory = vec![Relaxation { viscosity: 3.0, time: 1.0 }];
-    /// let melt = Kbkz::new(memory, ExponentialDamping::new(0.0, 1.0)?)?;
-    /// let response = melt.oscillation(5.0, 2.0, 2)?;
-    /// assert!((response.shear[0][0] - melt.storage_modulus(2.0)).abs() < 1e-11); // linear without damping
-    /// assert!((response.shear[0][1] - melt.loss_modulus(2.0)).abs() < 1e-11);
-    /// # Ok::<(), piola_fluids::FluidsError>(())
-    /// ```
     pub fn oscillation(
         &self,
         amplitude: f64,

@@ -18,7 +18,7 @@ pub struct Oscillation {
     pub shear: Vec<[f64; 2]>,
     /// (nₘ′, nₘ″), Pa, of m = 0, 2, 4, ….
     pub first_normal: Vec<[f64; 2]>,
-    /// What is known of the error, beside the largest harmonic of T₁₂. Of fluids that are integrated: the largest harmonic that
+    /// Estimate of the error relative to the largest harmonic of T₁₂. Of fluids that are integrated: the largest harmonic that
     /// is forbidden, of even n, which is what is left of the start and the error of the integration. Of others: the difference
     /// between two rules of quadrature.
     pub residual: f64,
@@ -32,10 +32,10 @@ pub(super) const POINTS: i32 = 64;
 /// The start is given `cycles` of the oscillation to be forgotten.
 ///
 /// # Errors
-/// [`FluidsError::OutOfBounds`] unless 0 < γ₀, 0 < ω, 1 ≤ `harmonics` ≤ 15; and as [`follow`].
+/// [`FluidsError::OutOfBounds`] unless 0 < γ₀, 0 < ω, 1 ≤ `harmonics` ≤ 15; and as [`follow`](crate::follow).
 ///
 /// # Accuracy
-/// That of [`follow`]; harmonics beyond the 63rd are taken for lower ones, and the start is forgotten to exp(−2 π cycles/(λ ω)).
+/// That of [`follow`](crate::follow); harmonics beyond the 63rd are taken for lower ones, and the start is forgotten to exp(−2 π cycles/(λ ω)).
 ///
 /// # Example
 /// ```

@@ -164,7 +164,7 @@ impl<M: StressRate> Balanced<'_, M, f64> {
     }
 }
 
-/// Whether what is perturbed returns: all eigenvalues of the derivative of what relaxes have positive real parts.
+/// Whether the state is stable: all eigenvalues of the derivative have positive real parts.
 fn is_stable(derivative: &Matrix6<f64>) -> bool {
     let schur = Schur::try_new(*derivative, f64::EPSILON, 1000);
     schur.is_some_and(|schur| schur.complex_eigenvalues().iter().all(|eigenvalue| 0.0 < eigenvalue.re))
@@ -191,7 +191,7 @@ pub trait SteadyStress: DifferentialFluid<Mode: StressRate> {
     ///
     /// # Example
     /// ```
-    /// use piola_fluids::{DifferentialFluid, Giesekus, ViscometricFluid};
+    /// use piola_fluids::{Giesekus, SteadyStress, ViscometricFluid};
     /// use piola_continuum::rates::VelocityGradient;
     /// use piola_numerics::Dual;
     /// let fluid = Giesekus::new(0.0, 2.0, 0.5, 0.25)?;

@@ -1,4 +1,4 @@
-//! How the stress of a mode changes along a motion.
+//! The rate of the stress of a mode along a motion.
 
 use piola_continuum::Symmetric;
 use piola_continuum::rates::VelocityGradient;
@@ -11,7 +11,7 @@ use crate::differential::{
     UpperConvectedMaxwell,
 };
 
-/// A mode of a differential fluid in motion: what relaxes of its stress, and the rate that follows.
+/// A mode of a differential fluid in motion: its relaxation R(τ), and the rate of its stress.
 ///
 /// ```text
 /// λ (τ̇ − L τ − τ Lᵀ) + R(τ) = 2 ηₚ D

@@ -45,8 +45,8 @@ pub(super) fn moments() -> Vec<(String, FlowMoment, f64, f64, f64)> {
     const MOMENTS: [FlowMoment; 4] =
         [FlowMoment::Reciprocal, FlowMoment::Zeroth, FlowMoment::First, FlowMoment::Second];
     let of = |case: &Value| {
-        let power = number(&case["power"]);
-        let moment = MOMENTS.into_iter().find(|moment| f64::from(moment.power()) == power).expect("a moment");
+        let power = case["power"].as_i64().expect("a power");
+        let moment = MOMENTS.into_iter().find(|moment| i64::from(moment.power()) == power).expect("a moment");
         let [from, to, integral] = ["from", "to", "integral"].map(|name| number(&case[name]));
         (text(&case["fluid"]).to_owned(), moment, from, to, integral)
     };

@@ -19,7 +19,7 @@ fn foci_of_an_oscillator_are_conjugate_events() {
     let (from, focus) = (Event::new(&[1.0, 0.5], 0.0), Event::new(&[-1.0, -0.5], PI));
     match distance.between(&from, &focus, &[0.3, 0.0]) {
         Err(HamiltonianError::HamiltonJacobi(HamiltonJacobiError::ConjugateEvents { ratio })) => {
-            assert!(ratio < 1e-10, "{ratio}")
+            assert!(ratio < 1e-10, "{ratio}");
         }
         other => panic!("{other:?}"),
     }
@@ -92,7 +92,7 @@ fn constants_that_depend_on_each_other_make_no_complete_integral() {
     let motion = Constants::through(&free, &OneConstant, (&[0.0, 0.0], &[2.0, 2.0], 0.0), &[1.0, 1.0]);
     match motion {
         Err(HamiltonianError::HamiltonJacobi(HamiltonJacobiError::IncompleteIntegral { ratio })) => {
-            assert!(ratio < 1e-15)
+            assert!(ratio < 1e-15);
         }
         other => panic!("{other:?}"),
     }

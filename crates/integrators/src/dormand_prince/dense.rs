@@ -11,6 +11,7 @@ use crate::{Field, IntegratorsError};
 ///
 /// The first call of [`at`](Self::at) within a step evaluates the field three times; a step that is not asked,
 /// or asked at its ends only, costs nothing.
+#[doc(alias("interpolation", "continuous output"))]
 #[derive(Debug)]
 pub struct DenseStep<'a, T, F> {
     method: &'a mut DormandPrince853<T>,

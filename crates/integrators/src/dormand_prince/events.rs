@@ -35,6 +35,7 @@ type Function<'e> = dyn FnMut(f64, &[f64]) -> f64 + 'e;
 /// are found unless they are closer than an eighth of it. A g that is exactly zero at the start of the run
 /// is not an event there: the run may start on the surface that it is to return to. Where g is exactly zero at
 /// a place looked at, that is a crossing, also if g then returns to the side it came from.
+#[doc(alias("zero crossing", "root"))]
 pub struct Event<'e> {
     function: Box<Function<'e>>,
     crossing: Crossing,

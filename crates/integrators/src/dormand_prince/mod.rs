@@ -58,6 +58,7 @@ use crate::{Ending, Field, IntegratorsError, Report, State, Tolerance};
 /// assert!(largest < 1e-11);
 /// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
+#[doc(alias("DOP853", "Runge-Kutta"))]
 #[derive(Clone, Debug)]
 pub struct DormandPrince853<T = f64> {
     tolerance: Tolerance,

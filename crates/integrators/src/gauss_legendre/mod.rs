@@ -57,6 +57,7 @@ const UNROUNDED: f64 = 1e-4;
 /// assert!((energy(&state.values) - before).abs() < 1e-10);
 /// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
+#[doc(alias("implicit midpoint", "collocation", "symplectic"))]
 #[derive(Clone, Debug)]
 pub struct GaussLegendre<T = f64> {
     order: Order,

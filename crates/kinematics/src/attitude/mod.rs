@@ -34,10 +34,14 @@ use crate::vector::{cross, dot, scaled};
 /// let attitude = Attitude::about_z(std::f64::consts::FRAC_PI_2);
 /// let f1 = attitude.to_space(&Vector3::x());
 /// assert!((f1 - Vector3::y()).norm() <= f64::EPSILON);
+/// // A turn of 1 rad/s about it: q̇ = ½ q ω.
+/// let rate = attitude.rate(&Vector3::z());
+/// assert_eq!(attitude.angular_velocity_in_body(rate).z.round(), 1.0);
 /// ```
 ///
 /// # Source
 /// W(2.10), W(2.13).
+#[doc(alias("quaternion", "orientation", "rotation"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -124,17 +128,7 @@ impl<T: Real> Attitude<T> {
     ///
     /// # Accuracy
     /// A few ulps at any angle; no cancellation at small ones.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::Attitude;
-    /// use piola_numerics::Dual;
-    /// // dq/dφ at φ = 0 is half the axis: finite, although |φ| has no derivative there.
-    /// let phi = Vector3::new(Dual::variable(0.0_f64), Dual::constant(0.0), Dual::constant(0.0));
-    /// let q = Attitude::from_rotation_vector(&phi);
-    /// assert_eq!((q.w.tangent, q.x.tangent), (0.0, 0.5));
-    /// ```
+    #[doc(alias = "exponential map")]
     #[inline]
     #[must_use]
     pub fn from_rotation_vector(phi: &Vector3<T>) -> Self {
@@ -153,6 +147,7 @@ impl<T: Real> Attitude<T> {
     ///
     /// # Accuracy
     /// A few ulps, also for tiny rotations; derivatives are finite at the identity.
+    #[doc(alias = "logarithm")]
     #[must_use]
     pub fn rotation_vector(self) -> Vector3<T> {
         let negative = self.w.less_than(T::zero());
@@ -217,6 +212,7 @@ impl<T: Real> Attitude<T> {
     ///
     /// # Source
     /// W(2.22).
+    #[doc(alias("direction cosine matrix", "rotation matrix"))]
     #[must_use]
     pub fn to_matrix(self) -> Matrix3<T> {
         let Self { w, x, y, z } = self;
@@ -241,6 +237,7 @@ impl<T: Real> Attitude<T> {
     ///
     /// # Source
     /// W(2.13–2.14).
+    #[doc(alias = "spin")]
     #[inline]
     #[must_use]
     pub fn angular_velocity_in_body(self, rate: [T; 4]) -> Vector3<T> {
@@ -252,6 +249,7 @@ impl<T: Real> Attitude<T> {
     ///
     /// # Source
     /// W(2.13–2.14).
+    #[doc(alias = "spin")]
     #[inline]
     #[must_use]
     pub fn angular_velocity_in_space(self, rate: [T; 4]) -> Vector3<T> {

@@ -58,6 +58,7 @@ pub use sequence::EulerSequence;
 ///
 /// # Source
 /// W(2.22).
+#[doc(alias("Euler angles", "Cardan angles"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

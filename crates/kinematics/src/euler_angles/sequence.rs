@@ -31,6 +31,7 @@ use crate::attitude::Attitude;
 ///
 /// # Source
 /// W(2.22) for z–y–z.
+#[doc(alias("Tait-Bryan", "Cardan"))]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
@@ -59,6 +60,7 @@ pub enum EulerSequence {
     /// z–x–y.
     Zxy,
     /// z–y–x: yaw, pitch, roll.
+    #[doc(alias("yaw, pitch, roll", "roll, pitch, yaw"))]
     Zyx,
 }
 

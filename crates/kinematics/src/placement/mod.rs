@@ -64,6 +64,7 @@ pub trait Placement<T: Real> {
 ///
 /// # Source
 /// W(3.2), W(3.24).
+#[doc(alias("generalised coordinates", "generalized coordinates"))]
 pub trait Holonomic {
     /// Whether the placement depends on time explicitly. A system that says no never pays for the row of
     /// time.

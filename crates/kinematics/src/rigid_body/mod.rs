@@ -97,6 +97,7 @@ impl RigidBody {
     ///
     /// # Source
     /// W(2.41).
+    #[doc(alias = "power")]
     #[inline]
     #[must_use]
     pub fn kinetic_energy_rate<T: Real>(
@@ -124,6 +125,7 @@ impl RigidBody {
     ///
     /// # Source
     /// W(2.35).
+    #[doc(alias("angular momentum", "moment of momentum"))]
     #[inline]
     #[must_use]
     pub fn spin_in_body<T: Real>(&self, angular_velocity_in_body: &Vector3<T>) -> Vector3<T> {
@@ -135,6 +137,7 @@ impl RigidBody {
     ///
     /// # Source
     /// W(2.39), W(4.8).
+    #[doc(alias("Euler equations", "torque"))]
     #[inline]
     #[must_use]
     pub fn spin_rate_in_body<T: Real>(
@@ -154,6 +157,7 @@ impl RigidBody {
     ///
     /// # Source
     /// W(2.35).
+    #[doc(alias = "moment of momentum")]
     #[must_use]
     pub fn angular_momentum<T: Real>(&self, motion: &BodyMotion<T>, about: &Vector3<T>) -> Vector3<T> {
         let arm = motion.position - about;
@@ -218,6 +222,7 @@ pub fn velocity_of_embedded_point<T: Real>(
 ///
 /// # Source
 /// W(2.13–2.14).
+#[doc(alias = "spin")]
 #[must_use]
 pub fn angular_velocity_of_basis<T: Real>(basis: &[Vector3<T>; 3], rates: &[Vector3<T>; 3]) -> Vector3<T> {
     let spin = |i: usize, j: usize| dot(&basis[j], &rates[i]);

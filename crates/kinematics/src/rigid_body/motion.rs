@@ -26,6 +26,7 @@ use crate::vector::cross;
 ///
 /// # Source
 /// W(2.10).
+#[doc(alias("rigid transform", "isometry", "SE(3)"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

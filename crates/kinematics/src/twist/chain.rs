@@ -43,6 +43,7 @@ use crate::twist::SpaceTwist;
 ///
 /// # Source
 /// Brockett (1984).
+#[doc(alias("forward kinematics", "POE"))]
 pub fn product_of_exponentials<T: Real>(
     joints: &[SpaceTwist<f64>],
     q: &[T],
@@ -62,6 +63,7 @@ pub fn product_of_exponentials<T: Real>(
 ///
 /// # Source
 /// Brockett (1984).
+#[doc(alias = "Jacobian")]
 pub fn joint_twists_into<T: Real>(
     joints: &[SpaceTwist<f64>],
     q: &[T],

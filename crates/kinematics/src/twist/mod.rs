@@ -34,16 +34,10 @@ pub use chain::{joint_twists_into, product_of_exponentials};
 pub use screw::ScrewAxis;
 
 /// Components along the body basis, the velocity that of the body's reference point.
-///
-/// # Example
-/// See [`BodyTwist::of_motion`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InBody;
 
 /// Components along the space basis, the velocity that of the embedded point at the origin.
-///
-/// # Example
-/// See [`SpaceTwist::of_motion`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct InSpace;
 
@@ -53,16 +47,22 @@ pub struct InSpace;
 /// # Example
 /// ```
 /// use nalgebra::Vector3;
-/// use piola_kinematics::SpaceTwist;
+/// use piola_kinematics::{BodyPose, BodyTwist, BodyVelocity, SpaceTwist};
 /// // Half a turn about the line through (1, 0, 0) along z carries the origin to (2, 0, 0).
 /// let joint = SpaceTwist::revolute(&Vector3::x(), &Vector3::z())?;
 /// let there = joint.scaled(std::f64::consts::PI).exponential().position;
 /// assert!((there - Vector3::new(2.0, 0.0, 0.0)).amax() <= 2.0 * f64::EPSILON);
+/// // A wheel of radius 1 m that rolls along x, its contact at the origin: that point rests, the centre moves.
+/// let pose = BodyPose { position: Vector3::z(), ..BodyPose::at_rest() };
+/// let rolling = BodyVelocity { velocity: Vector3::x(), angular_velocity: Vector3::y() };
+/// assert_eq!(SpaceTwist::of_motion(&pose, &rolling).linear, Vector3::zeros());
+/// assert_eq!(BodyTwist::of_motion(&pose, &rolling).linear, Vector3::x());
 /// # Ok::<(), piola_kinematics::KinematicsError>(())
 /// ```
 ///
 /// # Source
 /// W(2.13), W(2.19).
+#[doc(alias("spatial velocity", "motion vector", "screw", "se(3)"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -86,7 +86,7 @@ pub struct Twist<T: Real, F> {
 /// The twist of a body in body components, of its reference point.
 ///
 /// # Example
-/// See [`BodyTwist::of_motion`].
+/// See [`Twist`].
 pub type BodyTwist<T> = Twist<T, InBody>;
 
 /// The twist of a body in space components, of its point at the origin.
@@ -165,6 +165,7 @@ impl<T: Real, F> Twist<T, F> {
     /// ```text
     /// d/dt Ad_{exp(tξ)} η = [ξ, η] at t = 0
     /// ```
+    #[doc(alias = "Lie bracket")]
     #[must_use]
     pub fn commutator(&self, other: &Self) -> Self {
         let linear = cross(&self.angular, &other.linear) - cross(&other.angular, &self.linear);
@@ -174,16 +175,6 @@ impl<T: Real, F> Twist<T, F> {
 
 impl<T: Real> BodyTwist<T> {
     /// The twist of a body at a pose with a velocity.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{Attitude, BodyPose, BodyTwist, BodyVelocity};
-    /// // Half turned about z, moving along e₁: along −f₁.
-    /// let pose = BodyPose { position: Vector3::zeros(), attitude: Attitude { w: 0.0, x: 0.0, y: 0.0, z: 1.0 } };
-    /// let velocity = BodyVelocity { velocity: Vector3::x(), angular_velocity: Vector3::zeros() };
-    /// assert_eq!(BodyTwist::of_motion(&pose, &velocity).linear.x, -1.0);
-    /// ```
     ///
     /// # Source
     /// W(2.13).
@@ -208,16 +199,6 @@ impl<T: Real> BodyTwist<T> {
 
 impl<T: Real> SpaceTwist<T> {
     /// The twist of a body at a pose with a velocity.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Vector3;
-    /// # use piola_kinematics::{BodyPose, BodyVelocity, SpaceTwist};
-    /// // A wheel that rolls along x at 1 m/s, its contact at the origin: that point rests.
-    /// let pose = BodyPose { position: Vector3::<f64>::z(), ..BodyPose::at_rest() };
-    /// let rolling = BodyVelocity { velocity: Vector3::x(), angular_velocity: Vector3::y() };
-    /// assert_eq!(SpaceTwist::of_motion(&pose, &rolling).linear, Vector3::zeros());
-    /// ```
     ///
     /// # Source
     /// W(2.19).
@@ -267,6 +248,7 @@ impl<T: Real> SpaceTwist<T> {
 /// Ad_g = ⎡ R      0⎤    R = Qᵀ
 ///        ⎣ x^c×R  R⎦
 /// ```
+#[doc(alias("Ad", "spatial transform"))]
 #[must_use]
 pub fn adjoint<T: Real>(pose: &BodyPose<T>) -> Matrix6<T> {
     let mut matrix = Matrix6::zeros();

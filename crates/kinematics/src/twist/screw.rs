@@ -17,6 +17,7 @@ use crate::vector::cross;
 ///
 /// # Example
 /// See [`SpaceTwist::screw_axis`].
+#[doc(alias("Mozzi", "instantaneous axis"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(tag = "motion", rename_all = "snake_case", deny_unknown_fields))]

@@ -10,6 +10,7 @@ mod laws;
 mod meshes;
 mod orders;
 mod rounding;
+mod solids;
 mod systems;
 mod traps;
 mod twists;

@@ -72,8 +72,7 @@ fn links_too_short_to_meet_are_refused() {
     let error = system.assemble(&guess, &[0.0; 9], 0.0).unwrap_err();
     let refused = matches!(
         error,
-        LagrangianError::Constraint(ConstraintError::NotAssembled { .. })
-            | LagrangianError::Constraint(ConstraintError::Inconsistent { .. })
+        LagrangianError::Constraint(ConstraintError::NotAssembled { .. } | ConstraintError::Inconsistent { .. })
     );
     assert!(refused, "{error}");
 }

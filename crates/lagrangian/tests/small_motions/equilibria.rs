@@ -139,8 +139,9 @@ fn forces_that_nothing_balances_are_refused() {
     assert!(
         matches!(
             error,
-            LagrangianError::SmallMotions(SmallMotionsError::SingularStiffness { .. })
-                | LagrangianError::SmallMotions(SmallMotionsError::NoEquilibrium { .. })
+            LagrangianError::SmallMotions(
+                SmallMotionsError::SingularStiffness { .. } | SmallMotionsError::NoEquilibrium { .. }
+            )
         ),
         "{error}"
     );

@@ -56,6 +56,7 @@ use crate::{Mask, Real};
 /// assert_eq!(x.sqrt() + Lanes::splat(1.0), Lanes([2.0, 3.0, 4.0, 5.0]));
 /// assert!(x.less_than(Lanes::splat(2.0)).any());
 /// ```
+#[doc(alias = "SIMD")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct Lanes<T, const N: usize>(

@@ -252,6 +252,7 @@ pub fn solve<T: Real, const N: usize>(
 /// assert_eq!(ldlt.determinant(), 8.0);
 /// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
+#[doc(alias = "Cholesky")]
 #[derive(Clone, Debug)]
 pub struct Ldlt<T> {
     n: usize,

@@ -38,6 +38,7 @@ use crate::{NumericsError, Real};
 /// assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 2.0).abs() < 1e-15);
 /// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
+#[doc(alias("QR", "Householder"))]
 #[derive(Clone, Debug)]
 pub struct LeastSquares<T = f64> {
     columns: usize,

@@ -183,6 +183,7 @@ pub fn solve<T: Real, const N: usize>(
 /// assert_eq!(lu.determinant(), -2.0);
 /// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
+#[doc(alias = "Gaussian elimination")]
 #[derive(Clone, Debug)]
 pub struct Lu<T> {
     factors: Vec<T>,

@@ -161,6 +161,7 @@ pub enum Ending {
 ///
 /// # Accuracy
 /// [`Integral::errors`]: true for functions that the points resolve on the panels, an estimate for others.
+#[doc(alias("quadrature", "QUADPACK"))]
 pub fn integrate<const K: usize, R: ErrorRule<K>, E>(
     memory: &mut impl Memory<K>,
     parts: impl IntoIterator<Item = (f64, f64)>,

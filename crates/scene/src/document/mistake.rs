@@ -11,9 +11,9 @@ use super::{Place, Source};
 pub struct Mistake {
     /// Where.
     pub place: Place,
-    /// What was found.
+    /// The text or value that is wrong.
     pub found: String,
-    /// What would be valid, when that can be said.
+    /// A valid value in words, if one can be named.
     pub valid: Option<String>,
     /// A second place that belongs to it, with a word on why.
     pub see: Option<(Place, String)>,
@@ -51,9 +51,9 @@ pub struct Located {
     pub line: usize,
     /// Column from 1, in characters.
     pub column: usize,
-    /// What was found.
+    /// The text or value that is wrong.
     pub found: String,
-    /// What would be valid.
+    /// A valid value in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub valid: Option<String>,
     /// The text of the line.

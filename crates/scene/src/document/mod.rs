@@ -87,7 +87,7 @@ impl Document {
         &self.root
     }
 
-    /// What is wrong so far: with the syntax of the text and of the settings.
+    /// The mistakes so far: those of syntax, in the text and in the settings.
     #[must_use]
     pub fn mistakes(&self) -> &[Mistake] {
         &self.mistakes

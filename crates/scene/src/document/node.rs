@@ -1,17 +1,18 @@
 //! The tree of a scene: tables, lists and values, each with its place.
 
 use super::Place;
+use crate::words;
 
 /// A value with its place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
     /// Where it stands; for a table with a header, the header.
     pub place: Place,
-    /// What it is.
+    /// The value.
     pub value: Value,
 }
 
-/// What can stand in a scene.
+/// A value of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// A table, entries in the order of the text.
@@ -59,7 +60,7 @@ impl Node {
 }
 
 impl Value {
-    /// What it is, in words, for "found …".
+    /// The value in words, for "found …".
     #[must_use]
     pub fn describe(&self) -> String {
         match self {
@@ -69,7 +70,7 @@ impl Value {
             Self::Text(text) if text.chars().count() <= 40 => format!("the text \"{text}\""),
             Self::Text(text) => format!("a text of {} characters", text.chars().count()),
             Self::Number { value, whole: true } => format!("the number {value}"),
-            Self::Number { value, .. } if value.is_finite() => format!("the number {value:?}"),
+            Self::Number { value, .. } if value.is_finite() => format!("the number {}", words::number(*value)),
             Self::Number { value, .. } => {
                 if value.is_nan() {
                     "nan".to_string()

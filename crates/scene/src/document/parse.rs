@@ -1,4 +1,4 @@
-//! From TOML text to the tree, keeping on after syntax errors.
+//! The parser of TOML, which goes on after syntax errors.
 
 use toml::de::{DeTable, DeValue};
 

@@ -15,7 +15,7 @@ pub const LARGEST_SCENE: u64 = 4 << 20;
 /// A text with a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
-    /// What mistakes call it: a path, or `--set`.
+    /// Name in messages: a path, or `--set`.
     pub name: String,
     /// The whole text.
     pub text: String,

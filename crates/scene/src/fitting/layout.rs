@@ -16,7 +16,7 @@ use piola_fit::solids::{Component, Data, Measure, Table, Test};
 use piola_specimens::homogeneous::Mode;
 
 use super::TableMistake;
-use crate::SceneError;
+use crate::{SceneError, words};
 
 /// A table with more bytes than this is refused (64 MiB).
 const LARGEST: u64 = 64 << 20;
@@ -229,7 +229,7 @@ fn point(table: &Table, index: usize) -> Table {
     }
 }
 
-/// What is wrong with the point of a line, and what would be valid.
+/// The mistake in the point of a line, with a valid value.
 fn refused(line: u64, error: &FitError) -> TableMistake {
     match error {
         FitError::StretchOutOfRange { value, .. } => {
@@ -325,7 +325,7 @@ fn of_mode(mode: Mode, label: &str, rows: &[Tensors], mistakes: &mut Vec<TableMi
         if !is_of(mode, deformation) {
             let expected = mode.elongations(stretch).map(|x| x + 1.0);
             let what = format!("F is not that of the mode {label} at F11 = {stretch}");
-            mistakes.push(TableMistake::new(*line, what, format!("the diagonal {expected:?}")));
+            mistakes.push(TableMistake::new(*line, what, format!("the diagonal {}", words::numbers(&expected))));
         }
         check_sides(mode, label, *line, stress, mistakes);
         lines.push(*line);

@@ -9,9 +9,9 @@ use std::path::PathBuf;
 pub struct TableMistake {
     /// The line, from 1.
     pub line: u64,
-    /// What is wrong.
+    /// The mistake in words.
     pub what: String,
-    /// What would be valid.
+    /// A valid value in words.
     pub valid: String,
 }
 

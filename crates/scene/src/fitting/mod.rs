@@ -5,7 +5,7 @@
 //! | read | [`Measurements::load`]: a CSV table, every mistake with its line |
 //! | ask | [`Request`]: laws, weights, bounds, stability |
 //! | fit | [`compare`]: each law on the same data, by [`piola_fit::solids`] |
-//! | write | [`write()`]: `summary.json`, `curves.csv`, `residuals.csv`, `fit.svg` |
+//! | write | [`Comparison::write`]: `summary.json`, `curves.csv`, `residuals.csv`, `fit.svg` |
 
 mod figure;
 pub(crate) mod layout;
@@ -24,6 +24,7 @@ use piola_fit::FitError;
 use piola_fit::solids::{AnyModel, Data, fit};
 
 use crate::SceneError;
+use crate::comparison::{self, Judged};
 use crate::output::{Folder, Written};
 
 /// Measured stresses of one material.
@@ -79,75 +80,46 @@ impl Measurements {
     }
 }
 
-/// A law with what came of it.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Candidate {
-    /// The law.
-    pub law: AnyModel,
-    /// Its fit, or why there is none.
-    pub fit: Result<Fit, FitError>,
-}
+/// Laws fitted to the same stresses.
+pub type Comparison = comparison::Comparison<AnyModel, Fit, FitError>;
 
-/// Laws on the same data.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Comparison {
-    /// The laws in the order of asking.
-    pub candidates: Vec<Candidate>,
-}
-
-impl Comparison {
-    /// The fits that there are.
-    pub fn fits(&self) -> impl Iterator<Item = (AnyModel, &Fit)> {
-        self.candidates.iter().filter_map(|candidate| Some((candidate.law, candidate.fit.as_ref().ok()?)))
+impl Judged for Fit {
+    fn aicc(&self) -> Option<f64> {
+        self.criteria.aicc
     }
-
-    /// Why laws have no fit.
-    pub fn refusals(&self) -> impl Iterator<Item = &FitError> {
-        self.candidates.iter().filter_map(|candidate| candidate.fit.as_ref().err())
-    }
-
-    /// The fit with the least `AICc`; none where no law has one, as of less than three stresses more than parameters.
-    #[must_use]
-    pub fn best(&self) -> Option<&Fit> {
-        let judged = self.fits().filter_map(|(_, fit)| Some((fit.criteria.aicc?, fit)));
-        judged.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, fit)| fit)
-    }
-
-    /// Whether every law was fitted, and every search converged.
-    #[must_use]
-    pub fn is_complete(&self) -> bool {
-        self.candidates.iter().all(|candidate| candidate.fit.as_ref().is_ok_and(|fit| fit.outcome.is_converged()))
+    fn is_converged(&self) -> bool {
+        self.outcome.is_converged()
     }
 }
 
 /// Fits each law that is asked for.
 ///
 /// # Errors
-/// Weights of tests that are not in the data. What one law refuses stands in its [`Candidate`].
+/// Weights of tests that are not in the data. The refusal of a single law stands in its
+/// [`Candidate`](crate::comparison::Candidate).
 pub fn compare(measurements: &Measurements, request: &Request) -> Result<Comparison, SceneError> {
     let data = request.weighted(&measurements.data)?;
-    let candidate = |&law: &AnyModel| Candidate { law, fit: fit(&law, &data, &request.options(law)) };
-    Ok(Comparison { candidates: request.laws.iter().map(candidate).collect() })
+    Ok(Comparison::of(&request.laws, |law| fit(&law, &data, &request.options(law))))
 }
 
-/// The numbers of a comparison, as they stand in `summary.json`.
-#[must_use]
-pub fn summary(measurements: &Measurements, comparison: &Comparison) -> String {
-    tables::summary(measurements, comparison)
-}
+impl Comparison {
+    /// The numbers, as they stand in `summary.json`.
+    #[must_use]
+    pub fn summary(&self, measurements: &Measurements) -> String {
+        tables::summary(measurements, self)
+    }
 
-/// Writes summary, tables and figure.
-#[must_use]
-pub fn write(folder: &Folder, measurements: &Measurements, comparison: &Comparison) -> Written {
-    Written::of(
-        folder,
-        [
-            ("summary.json", tables::summary(measurements, comparison)),
-            ("curves.csv", tables::curves(measurements, comparison)),
-            ("residuals.csv", tables::residuals(measurements, comparison)),
-            ("fit.svg", figure::comparison(measurements, comparison)),
-        ],
-    )
+    /// Writes summary, tables and figure.
+    #[must_use]
+    pub fn write(&self, folder: &Folder, measurements: &Measurements) -> Written {
+        Written::of(
+            folder,
+            [
+                ("summary.json", tables::summary(measurements, self)),
+                ("curves.csv", tables::curves(measurements, self)),
+                ("residuals.csv", tables::residuals(measurements, self)),
+                ("fit.svg", figure::comparison(measurements, self)),
+            ],
+        )
+    }
 }

@@ -1,4 +1,4 @@
-//! What is asked of a comparison.
+//! Requests: laws, weights, bounds, stability.
 
 use core::str::FromStr;
 
@@ -58,7 +58,7 @@ pub struct Request {
     pub weights: Vec<(String, f64)>,
     /// Bounds of parameters.
     pub bounds: Vec<LawBounds>,
-    /// What residuals are divided by.
+    /// The scale of residuals.
     pub weighting: Weighting,
     /// Whether laws must be stable.
     pub stability: Stability,
@@ -67,7 +67,7 @@ pub struct Request {
 }
 
 impl Request {
-    /// Of some laws with everything else as it is by default.
+    /// A request for some laws, with everything else by default.
     #[must_use]
     pub fn of(laws: Vec<AnyModel>) -> Self {
         let Options { weighting, stability, confidence, .. } = Options::default();

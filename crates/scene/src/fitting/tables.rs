@@ -12,7 +12,7 @@ const POINTS: u32 = 120;
 
 pub(super) fn summary(measurements: &Measurements, comparison: &Comparison) -> String {
     let best = comparison.best();
-    let least = best.and_then(|fit| fit.criteria.aicc);
+    let least = best.and_then(|(_, fit)| fit.criteria.aicc);
     let laws: Vec<Value> = comparison
         .candidates
         .iter()
@@ -26,7 +26,7 @@ pub(super) fn summary(measurements: &Measurements, comparison: &Comparison) -> S
                 value["aicc_above_the_best"] = json!(fit.criteria.aicc.zip(least).map(|(own, least)| own - least));
                 value
             }
-            Err(error) => json!({ "model": candidate.law.to_string(), "failure": error.to_string() }),
+            Err(error) => json!({ "model": candidate.model.to_string(), "failure": error.to_string() }),
         })
         .collect();
     let tests: Vec<Value> = measurements
@@ -46,7 +46,7 @@ pub(super) fn summary(measurements: &Measurements, comparison: &Comparison) -> S
         "data": measurements.path.display().to_string(),
         "stress_unit": measurements.unit,
         "tests": tests,
-        "best_by_aicc": best.map(|fit| &fit.model),
+        "best_by_aicc": best.map(|(_, fit)| &fit.model),
         "laws": laws,
     });
     let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();

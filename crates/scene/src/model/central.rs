@@ -3,6 +3,7 @@
 use super::Builder;
 use crate::document::Mistake;
 use crate::validation::Record;
+use crate::words;
 use piola_gravitation::kepler::{Elements, KeplerMotion};
 
 /// Bodies about a fixed centre at the origin, without attraction among themselves.
@@ -94,8 +95,11 @@ impl Builder<'_> {
         let eccentricity = record.number("eccentricity");
         if let Some(e) = eccentricity.filter(|e| 1.0 <= *e) {
             self.wrong(
-                Mistake::new(record.place_of("eccentricity"), format!("the eccentricity {e} is of no ellipse"))
-                    .valid("a number from 0 to less than 1; give position and velocity of an escaping body"),
+                Mistake::new(
+                    record.place_of("eccentricity"),
+                    format!("the eccentricity {} is of no ellipse", words::number(e)),
+                )
+                .valid("a number from 0 to less than 1; give position and velocity of an escaping body"),
             );
             return None;
         }

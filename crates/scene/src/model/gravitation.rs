@@ -3,6 +3,7 @@
 use super::Builder;
 use crate::document::Mistake;
 use crate::validation::Record;
+use crate::words;
 
 /// Newton's constant of gravitation, m³ kg⁻¹ s⁻² (CODATA 2018; uncertain in the fifth digit).
 pub const NEWTONIAN_CONSTANT: f64 = 6.674_30e-11;
@@ -107,11 +108,15 @@ impl Builder<'_> {
         for pair in order.windows(2) {
             let ((first, one), (second, other)) = (pair[0], pair[1]);
             if key(one) == key(other) {
-                let [x, y, z] = one.position;
                 self.wrong(
                     Mistake::new(
                         records[second].place_of("position"),
-                        format!("`{}` and `{}` are in one place, [{x}, {y}, {z}] m", one.name, other.name),
+                        format!(
+                            "`{}` and `{}` are in one place, {} m",
+                            one.name,
+                            other.name,
+                            words::numbers(&one.position)
+                        ),
                     )
                     .see(records[first].place_of("position"), format!("`{}` is here", one.name))
                     .valid("places apart, or gravity.softening greater than zero"),

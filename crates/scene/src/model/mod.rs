@@ -9,12 +9,13 @@ mod independence;
 mod mechanism;
 mod reference;
 
+use core::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
 pub use central::{Central, Orbiter};
 pub use gravitation::{Gravitation, MassPoint, NEWTONIAN_CONSTANT, PostNewtonian};
 pub use mechanism::{JointTree, Mechanism, PartName};
-pub use reference::{ClosedForm, Comparison, Reference, ReferenceTable};
+pub use reference::{ClosedForm, Reference, ReferenceKind, ReferenceTable};
 
 use crate::document::{Document, Mistake};
 use crate::schema::{SCENE_KINDS, SceneKind};
@@ -28,15 +29,15 @@ pub struct Scene {
     pub name: String,
     /// Title of figures.
     pub title: Option<String>,
-    /// What moves.
+    /// The bodies and the forces between them.
     pub system: System,
     /// The span of time.
     pub time: TimeSpan,
-    /// What was asked of the integrator.
+    /// The method, step and tolerance that were asked for.
     pub integrator: IntegratorRequest,
-    /// What is to be written.
+    /// The files to write.
     pub output: OutputRequest,
-    /// What the result is compared with.
+    /// The reference for the result.
     pub reference: Option<Reference>,
 }
 
@@ -51,16 +52,48 @@ pub enum System {
     Central(Central),
 }
 
-/// From `start` to `end`, s.
+/// A span of time, s. The run goes backwards in time if `end < start`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeSpan {
     /// Start, s.
     pub start: f64,
-    /// End, s; `start < end`.
+    /// End, s; not the start.
     pub end: f64,
 }
 
-/// What a scene asks of the integrator; the planner fills in the rest.
+impl TimeSpan {
+    /// |end − start|, s.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        (self.end - self.start).abs()
+    }
+
+    /// 1 for a run forward in time, −1 for one backwards.
+    #[must_use]
+    pub fn direction(&self) -> f64 {
+        (self.end - self.start).signum()
+    }
+
+    /// The order of two instants in the run.
+    pub(crate) fn order(&self, a: f64, b: f64) -> Ordering {
+        // Adding zero makes −0 equal to 0.
+        let along = |t: f64| self.direction() * t + 0.0;
+        along(a).total_cmp(&along(b))
+    }
+
+    /// Whether an instant lies in the span, or outside it by rounding alone.
+    pub(crate) fn holds(&self, t: f64) -> bool {
+        let slack = self.slack();
+        self.start.min(self.end) - slack <= t && t <= self.start.max(self.end) + slack
+    }
+
+    /// Instants nearer to each other than this, s, differ by rounding alone.
+    pub(crate) fn slack(&self) -> f64 {
+        1e-12 * self.length()
+    }
+}
+
+/// The method, step and tolerance of a scene. The planner fills in those that are absent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntegratorRequest {
     /// One of [`METHODS`](crate::schema::METHODS).
@@ -71,7 +104,7 @@ pub struct IntegratorRequest {
     pub tolerance: Option<f64>,
 }
 
-/// What a scene asks to be written.
+/// The files that a scene asks for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputRequest {
     /// Folder, relative to the current one.
@@ -132,7 +165,7 @@ impl Scene {
     }
 }
 
-/// What collects mistakes while the model is built.
+/// Builds the model and collects mistakes.
 pub(crate) struct Builder<'d> {
     document: &'d Document,
     mistakes: Vec<Mistake>,
@@ -143,7 +176,7 @@ impl<'d> Builder<'d> {
         Self { document, mistakes }
     }
 
-    /// What was built, if there is no mistake.
+    /// The model, if there is no mistake.
     pub(crate) fn finish<T>(self, built: Option<T>) -> Result<T, SceneError> {
         match built {
             Some(built) if self.mistakes.is_empty() => Ok(built),
@@ -251,27 +284,26 @@ impl<'d> Builder<'d> {
         let start = table.number("start")?;
         if table.has("revolutions") && !record.has("central") {
             self.wrong(
-                Mistake::new(table.place_of("revolutions"), "`revolutions` without [central]")
-                    .valid("end = a time after the start"),
+                Mistake::new(table.place_of("revolutions"), "`revolutions` without [central]").valid("end = a time"),
             );
             return None;
         }
         if table.has("end") == table.has("revolutions") {
             let what = if table.has("end") { "[time] has both `end` and `revolutions`" } else { "[time] has no `end`" };
             let place = if table.has("end") { table.place_of("revolutions") } else { table.place.clone() };
-            self.wrong(Mistake::new(place, what).valid("end = a time after the start, as end = \"10 d\""));
+            self.wrong(Mistake::new(place, what).valid("end = a time, as end = \"10 d\""));
             return None;
         }
         if let (Some(revolutions), Some(period)) = (table.number("revolutions"), period) {
             return Some(TimeSpan { start, end: start + revolutions * period });
         }
         let end = table.number("end")?;
-        if start < end {
+        if start < end || end < start {
             return Some(TimeSpan { start, end });
         }
         self.wrong(
-            Mistake::new(table.place_of("end"), format!("the end, {end} s, is not after the start, {start} s"))
-                .valid(format!("a time after {start} s")),
+            Mistake::new(table.place_of("end"), format!("the end, {} s, is the start", words::number(end)))
+                .valid("a time after the start, or before it for a run backwards in time"),
         );
         None
     }
@@ -350,7 +382,7 @@ impl<'d> Builder<'d> {
     }
 }
 
-/// What is to be written.
+/// The files to write.
 pub(crate) fn output(record: &Record, name: &str) -> OutputRequest {
     let table = record.record("output");
     let folder = table.and_then(|table| table.text("folder")).map(PathBuf::from);

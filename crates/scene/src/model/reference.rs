@@ -1,4 +1,4 @@
-//! What a result is compared with.
+//! References: tables of positions and closed forms.
 
 use std::collections::HashMap;
 use std::io::Read as _;
@@ -13,17 +13,17 @@ use piola_gravitation::kepler::KeplerMotion;
 /// A reference with the way of measuring errors against it.
 #[derive(Debug, Clone)]
 pub struct Reference {
-    /// What it is called.
+    /// Name in figures and on the terminal.
     pub label: String,
     /// The reference itself.
-    pub comparison: Comparison,
+    pub kind: ReferenceKind,
     /// Index of the body from which distances are measured.
     pub relative_to: Option<usize>,
 }
 
 /// Kinds of references.
 #[derive(Debug, Clone)]
-pub enum Comparison {
+pub enum ReferenceKind {
     /// Positions at listed instants.
     Table(ReferenceTable),
     /// Positions at any instant.
@@ -42,7 +42,7 @@ pub enum ClosedForm {
 pub struct ReferenceTable {
     /// The file.
     pub path: PathBuf,
-    /// Instants, s, ascending.
+    /// Instants, s, in the order of the run.
     pub times: Vec<f64>,
     /// For each instant the bodies (by index) with their positions, m.
     pub positions: Vec<Vec<(usize, [f64; 3])>>,
@@ -86,12 +86,12 @@ impl Builder<'_> {
         Some(Some(match file {
             Some((path, text)) => Reference {
                 label: label(&path.file_stem().unwrap_or_default().to_string_lossy()),
-                comparison: Comparison::Table(self.reference_table(table, path, &text, &names, time?)?),
+                kind: ReferenceKind::Table(self.reference_table(table, path, &text, &names, time?)?),
                 relative_to,
             },
             None => Reference {
                 label: label("closed form"),
-                comparison: Comparison::ClosedForm(self.closed_form(table, system)?),
+                kind: ReferenceKind::ClosedForm(self.closed_form(table, system)?),
                 relative_to,
             },
         }))
@@ -152,17 +152,20 @@ impl Builder<'_> {
             self.wrong(Mistake::new(table.place_of("file"), shown).valid(valid));
         });
         let rows: Vec<(f64, usize, [f64; 3])> = rows.ok()?;
-        // Instants that rounding puts just outside are inside.
-        let slack = 1e-12 * (time.end - time.start);
         let mut instants: Vec<f64> = rows.iter().map(|row| row.0).collect();
-        instants.sort_by(f64::total_cmp);
-        instants.dedup_by(|a, b| a.total_cmp(b).is_eq());
-        instants.retain(|t| time.start - slack <= *t && *t <= time.end + slack);
+        instants.sort_by(|a, b| time.order(*a, *b));
+        instants.dedup_by(|a, b| time.order(*a, *b).is_eq());
+        instants.retain(|t| time.holds(*t));
         if instants.is_empty() {
             self.wrong(
                 Mistake::new(
                     table.place_of("file"),
-                    format!("no instant of `{}` is between {} s and {} s", path.display(), time.start, time.end),
+                    format!(
+                        "no instant of `{}` is between {} s and {} s",
+                        path.display(),
+                        words::number(time.start),
+                        words::number(time.end)
+                    ),
                 )
                 .valid("a table that overlaps the span of time"),
             );
@@ -170,11 +173,12 @@ impl Builder<'_> {
         }
         let mut positions = vec![Vec::new(); instants.len()];
         for (t, body, position) in rows {
-            if let Ok(instant) = instants.binary_search_by(|probe| probe.total_cmp(&t)) {
+            if let Ok(instant) = instants.binary_search_by(|probe| time.order(*probe, t)) {
                 positions[instant].push((body, position));
             }
         }
-        let clamped = instants.into_iter().map(|t| t.clamp(time.start, time.end)).collect();
+        let (first, last) = (time.start.min(time.end), time.start.max(time.end));
+        let clamped = instants.into_iter().map(|t| t.clamp(first, last)).collect();
         Some(ReferenceTable { path, times: clamped, positions })
     }
 }

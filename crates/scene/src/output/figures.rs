@@ -324,12 +324,13 @@ pub(super) fn error(title: &str, run: &Run) -> String {
     log_figure(&format!("{title}: difference from {}", errors.label), "relative error of position", curves, few)
 }
 
-/// Curves over time with a logarithmic ordinate; with a logarithmic abscissa and marks when there are few instants.
+/// Curves over time with a logarithmic ordinate; few instants have marks, and a logarithmic abscissa if none is before zero.
 fn log_figure(title: &str, ordinate: &str, mut curves: Vec<Curve>, few: bool) -> String {
     /// Below this a relative change is nothing but the last bit.
     const FLOOR: f64 = 1e-18;
+    let spread = few && curves.iter().flat_map(|curve| &curve.points).all(|(t, _)| 0.0 <= *t);
     for curve in &mut curves {
-        curve.points.retain(|(t, y)| t.is_finite() && y.is_finite() && FLOOR < *y && (!few || 0.0 < *t));
+        curve.points.retain(|(t, y)| t.is_finite() && y.is_finite() && FLOOR < *y && (!spread || 0.0 < *t));
     }
     let all = || curves.iter().flat_map(|curve| &curve.points);
     let extreme = |pick: fn(&(f64, f64)) -> f64, fold: fn(f64, f64) -> f64| all().map(pick).reduce(fold);
@@ -343,27 +344,20 @@ fn log_figure(title: &str, ordinate: &str, mut curves: Vec<Curve>, few: bool) ->
     let tail = if few { low } else { low.max(1e-2 * lowest_peak).min(high) };
     let bottom = decades(tail, false).min(top / 10.0);
     let start = extreme(|p| p.0, f64::min).unwrap_or(0.0);
-    let end = extreme(|p| p.0, f64::max).unwrap_or(1.0).max(start + f64::MIN_POSITIVE);
+    let end = extreme(|p| p.0, f64::max).unwrap_or(1.0).max(start + 1e-9 * start.abs() + f64::MIN_POSITIVE);
     let (unit, second) = time_unit(end - start);
     figure((960, 560), title, |area| {
         let named = 1 < curves.len() && curves.len() <= NAMED;
         let (width, _) = area.dim_in_pixel();
         let (plot, names) = area.split_horizontally(if named { width - 190 * FINE } else { width });
         let description = format!("time ({unit})");
-        if few {
+        if spread {
             // Marks stand clear of the frame.
             let range = (0.7 * start / second..1.4 * end / second).log_scale();
             log_chart(&plot, range, bottom..top, (&description, ordinate), &curves, second, true)?;
         } else {
-            log_chart(
-                &plot,
-                start / second..end / second,
-                bottom..top,
-                (&description, ordinate),
-                &curves,
-                second,
-                false,
-            )?;
+            let range = start / second..end / second;
+            log_chart(&plot, range, bottom..top, (&description, ordinate), &curves, second, few)?;
         }
         if named {
             let labels: Vec<(&str, RGBColor)> =

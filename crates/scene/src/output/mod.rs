@@ -1,4 +1,4 @@
-//! What a run leaves behind: a summary, tables and figures in one folder.
+//! Results in one folder: a summary, tables and figures.
 //!
 //! The folder is tried before the run. Every file is written beside its place and then moved there, so that none is ever half
 //! written, and one that fails does not keep the others from being written.
@@ -18,13 +18,13 @@ use crate::plan::Plan;
 use crate::run::Run;
 use crate::{SceneError, model};
 
-/// What was written, and what could not be.
+/// The files that were written, and those that could not be.
 #[derive(Debug, Default)]
 #[non_exhaustive]
 pub struct Written {
     /// Files in the order of writing.
     pub files: Vec<PathBuf>,
-    /// What went wrong, file by file.
+    /// The error of each file that could not be written.
     pub failures: Vec<SceneError>,
 }
 

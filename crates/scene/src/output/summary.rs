@@ -45,7 +45,7 @@ pub struct Summary {
     /// Errors against the reference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reference: Option<Value>,
-    /// What the plan skipped.
+    /// Quantities that the plan skipped.
     pub skipped: Vec<Item>,
 }
 

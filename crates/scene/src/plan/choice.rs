@@ -10,7 +10,7 @@ use piola_gravitation::kepler::KeplerMotion;
 const STEPS_PER_TURN: f64 = 100.0;
 /// Relative tolerance when none is asked for.
 const TOLERANCE: f64 = 1e-12;
-/// The same where rounding is to be reached: below it, since the estimate of a step's error is pessimistic (on an ellipse of
+/// Relative tolerance for errors near rounding. It is below rounding because the error estimate is pessimistic (on an ellipse of
 /// eccentricity 0.99 the error still falls fivefold from 1e-16 to 1e-18, and little from there on).
 const FINE_TOLERANCE: f64 = 1e-18;
 /// Tolerance of mechanisms, whose evaluations cost more.
@@ -110,7 +110,7 @@ fn automatic(scene: &Scene) -> (Method, String) {
 
 /// The step asked for, or one made from the fastest motion at the start.
 fn step(scene: &Scene, order: Order) -> (f64, String) {
-    let span = scene.time.end - scene.time.start;
+    let span = scene.time.length();
     if let Some(step) = scene.integrator.step {
         return (step.min(span), "the step is integrator.step".to_string());
     }

@@ -1,4 +1,4 @@
-//! What will be computed, by which method and step, and what is skipped, each with its reason.
+//! The plan of a run: method and step, computed and skipped quantities, each with its reason.
 
 mod choice;
 
@@ -7,7 +7,8 @@ use core::fmt;
 use piola_integrators::Order;
 use serde::Serialize;
 
-use crate::model::{Comparison, Scene, System};
+use crate::model::{ReferenceKind, Scene, System};
+use crate::words;
 
 /// The plan of a run.
 ///
@@ -51,9 +52,9 @@ pub struct Plan {
     pub steps: Option<u64>,
     /// Instants at which the state is recorded.
     pub instants: usize,
-    /// What is computed besides the motion.
+    /// Quantities computed besides the motion.
     pub computed: Vec<Item>,
-    /// What is not computed.
+    /// Quantities not computed.
     pub skipped: Vec<Item>,
     /// Folder of the results.
     pub folder: String,
@@ -65,9 +66,9 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Item {
-    /// What.
+    /// The quantity.
     pub what: String,
-    /// Why, or how.
+    /// The reason, or the method.
     pub why: String,
 }
 
@@ -190,7 +191,7 @@ impl Plan {
                     None => self.skip("post-Newtonian term", "gravity.post_newtonian = false"),
                 }
                 if system.softening > 0.0 {
-                    self.compute("softening", format!("gravity.softening = {} m", system.softening));
+                    self.compute("softening", format!("gravity.softening = {} m", words::number(system.softening)));
                 } else {
                     self.skip("softening", "gravity.softening = 0: the true law");
                 }
@@ -209,7 +210,7 @@ impl Plan {
                 if system.gravity.iter().all(|g| g.abs() <= 0.0) {
                     self.skip("gravity", "mechanism.gravity is zero");
                 } else {
-                    self.compute("gravity", format!("uniform, {:?} m/s²", system.gravity));
+                    self.compute("gravity", format!("uniform, {} m/s²", words::numbers(&system.gravity)));
                 }
                 if !system.parts.iter().any(|part| part.rigid) {
                     self.skip("attitudes", "no rigid bodies");
@@ -219,7 +220,7 @@ impl Plan {
                 self.skip("momentum and angular momentum", "not conserved: the ground holds the mechanism");
             }
             System::Central(system) => {
-                self.compute("central attraction", format!("gm = {} m³/s²", system.gm));
+                self.compute("central attraction", format!("gm = {} m³/s²", words::number(system.gm)));
                 self.skip("attraction between bodies", "[central]: the bodies do not attract");
                 self.skip("attitudes", "bodies without extent");
                 self.compute("energy and angular momentum", "conserved: at every recorded instant");
@@ -231,11 +232,11 @@ impl Plan {
     fn output_items(&mut self, scene: &Scene) {
         match &scene.reference {
             Some(reference) => {
-                let how = match &reference.comparison {
-                    Comparison::Table(table) => {
+                let how = match &reference.kind {
+                    ReferenceKind::Table(table) => {
                         format!("{} instants of {}", table.times.len(), table.path.display())
                     }
-                    Comparison::ClosedForm(_) => "closed form at every recorded instant".to_string(),
+                    ReferenceKind::ClosedForm(_) => "closed form at every recorded instant".to_string(),
                 };
                 self.compute("error against reference", how);
             }
@@ -263,25 +264,25 @@ impl Plan {
     }
 }
 
-/// Samples and instants of the reference, ascending, each once.
+/// Samples and instants of the reference in the order of the run, each once.
 pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
-    let (start, end) = (scene.time.start, scene.time.end);
+    let time = scene.time;
+    let (start, end) = (time.start, time.end);
     let last = f64::from(scene.output.samples - 1);
     let mut instants: Vec<f64> = (0..scene.output.samples)
         .map(|i| if i + 1 == scene.output.samples { end } else { start + (end - start) * (f64::from(i) / last) })
         .collect();
-    if let Some(Comparison::Table(table)) = scene.reference.as_ref().map(|reference| &reference.comparison) {
+    if let Some(ReferenceKind::Table(table)) = scene.reference.as_ref().map(|reference| &reference.kind) {
         instants.extend(&table.times);
     }
-    instants.sort_by(f64::total_cmp);
+    instants.sort_by(|a, b| time.order(*a, *b));
     // Two instants that differ by rounding alone are one; an instant of the reference is the one that stays.
     let wanted = reference_times(scene);
-    let slack = 1e-12 * (end - start);
     let mut merged: Vec<f64> = Vec::with_capacity(instants.len());
     for t in instants {
         match merged.last_mut() {
-            Some(last) if t - *last <= slack => {
-                if wanted.binary_search_by(|probe| probe.total_cmp(&t)).is_ok() {
+            Some(last) if (t - *last).abs() <= time.slack() => {
+                if wanted.binary_search_by(|probe| time.order(*probe, t)).is_ok() {
                     *last = t;
                 }
             }
@@ -295,14 +296,14 @@ pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
 fn steps(instants: &[f64], step: f64) -> u64 {
     // As the integrators count: an interval that is a whole number of steps but for rounding is not given one more.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, and the cast saturates")]
-    let count = |pair: &[f64]| ((pair[1] - pair[0]) / step * (1.0 - 4.0 * f64::EPSILON)).ceil() as u64;
+    let count = |pair: &[f64]| ((pair[1] - pair[0]).abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil() as u64;
     instants.windows(2).map(count).sum()
 }
 
-/// The instants of a reference table, ascending.
+/// The instants of a reference table in the order of the run.
 pub(crate) fn reference_times(scene: &Scene) -> &[f64] {
-    match scene.reference.as_ref().map(|reference| &reference.comparison) {
-        Some(Comparison::Table(table)) => &table.times,
+    match scene.reference.as_ref().map(|reference| &reference.kind) {
+        Some(ReferenceKind::Table(table)) => &table.times,
         _ => &[],
     }
 }
@@ -341,20 +342,22 @@ fn equations(system: &System) -> usize {
     }
 }
 
+/// A length of time to about seven digits.
+fn seconds(step: f64) -> String {
+    if (1e-3..1e9).contains(&step) { format!("{step:.6}") } else { format!("{step:.6e}") }
+}
+
 impl fmt::Display for Plan {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}: {}, {} equations of first order", self.name, self.system, self.equations)?;
-        write!(f, "time      {} s to {} s", self.start, self.end)?;
+        write!(f, "time      {} s to {} s", words::number(self.start), words::number(self.end))?;
         writeln!(f, ", recorded at {} instants", self.instants)?;
         write!(f, "method    {}", self.method)?;
         match self.method {
             Method::DormandPrince { tolerance } => writeln!(f, ", relative tolerance {tolerance:e}")?,
             Method::Composition { step, .. } | Method::GaussLegendre { step, .. } => {
-                writeln!(
-                    f,
-                    ", steps of at most {step:.6} s that land on every instant: {}",
-                    self.steps.unwrap_or_default()
-                )?;
+                let (step, count) = (seconds(step), self.steps.unwrap_or_default());
+                writeln!(f, ", steps of at most {step} s that land on every instant: {count}")?;
             }
         }
         writeln!(f, "          {}", self.reason)?;

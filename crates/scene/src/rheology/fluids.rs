@@ -15,6 +15,7 @@ use serde_json::{Value, json};
 
 use super::{Flow, Measured, figure};
 use crate::SceneError;
+use crate::comparison::{self, Judged};
 use crate::output::{Folder, Written};
 
 /// Points of a curve.
@@ -24,7 +25,7 @@ const POINTS: u32 = 120;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FluidName(&'static str);
 
-/// What the data look like: where searches start.
+/// Magnitudes of the data, from which searches start.
 struct Look {
     /// The least and the greatest apparent viscosity, Pa s.
     viscosity: [f64; 2],
@@ -57,7 +58,7 @@ impl Look {
     }
 }
 
-/// What came of the fit of a fluid, whatever its type.
+/// The fit of a fluid of any type.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct FittedFluid {
@@ -172,45 +173,40 @@ impl FromStr for FluidName {
 pub struct Request {
     /// The fluids.
     pub fluids: Vec<FluidName>,
-    /// What residuals are divided by.
+    /// The scale of residuals.
     pub weighting: Weighting,
     /// The probability of the intervals.
     pub confidence: f64,
-    /// What is known of the noise: what answers may fall by so much.
+    /// The noise of the measurements. A response may fall by this much.
     pub noise: Noise,
 }
 
 impl Request {
-    /// Of some fluids, errors in proportion to each answer.
+    /// A request for some fluids, with errors in proportion to each measured response.
     #[must_use]
     pub fn of(fluids: Vec<FluidName>) -> Self {
         Self { fluids, weighting: Weighting::Relative, confidence: 0.95, noise: Noise::Estimated }
     }
 }
 
-/// A fluid with what came of it.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Candidate {
-    /// The fluid.
-    pub fluid: FluidName,
-    /// Its fit, or why there is none.
-    pub fit: Result<FittedFluid, FitError>,
-}
+/// Fluids fitted to the same measurements.
+pub type Comparison = comparison::Comparison<FluidName, FittedFluid, FitError>;
 
-/// Fluids on the same data.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Comparison {
-    /// The fluids in the order of asking.
-    pub candidates: Vec<Candidate>,
+impl Judged for FittedFluid {
+    fn aicc(&self) -> Option<f64> {
+        self.criteria.aicc
+    }
+    fn is_converged(&self) -> bool {
+        self.outcome.is_converged()
+    }
 }
 
 /// Fits each fluid that is asked for.
 ///
 /// # Errors
-/// [`SceneError::Table`] with the line of a row that viscometry refuses, or at which what answers falls by more than noise explains;
-/// [`SceneError::Argument`] for capillaries, whose ends are not known, and thrusts alone. What one fluid refuses stands in its [`Candidate`].
+/// [`SceneError::Table`] with the line of a row that viscometry refuses, or at which the response falls by more than the noise;
+/// [`SceneError::Argument`] for capillaries, whose ends are not known, and thrusts alone. The refusal of a single fluid stands in its
+/// [`Candidate`](crate::comparison::Candidate).
 ///
 /// # Example
 /// ```
@@ -238,34 +234,10 @@ pub fn compare(measured: &Measured, request: &Request) -> Result<Comparison, Sce
     })?;
     let look = Look::at(measured);
     let options = Options { weighting: request.weighting, confidence: request.confidence, ..Options::default() };
-    let candidate = |&fluid: &FluidName| Candidate { fluid, fit: fluid.fit(measured, &data, &look, &options) };
-    Ok(Comparison { candidates: request.fluids.iter().map(candidate).collect() })
+    Ok(Comparison::of(&request.fluids, |fluid| fluid.fit(measured, &data, &look, &options)))
 }
 
 impl Comparison {
-    /// The fits that there are.
-    pub fn fits(&self) -> impl Iterator<Item = (FluidName, &FittedFluid)> {
-        self.candidates.iter().filter_map(|candidate| Some((candidate.fluid, candidate.fit.as_ref().ok()?)))
-    }
-
-    /// Why fluids have no fit.
-    pub fn refusals(&self) -> impl Iterator<Item = (FluidName, &FitError)> {
-        self.candidates.iter().filter_map(|candidate| Some((candidate.fluid, candidate.fit.as_ref().err()?)))
-    }
-
-    /// The fit with the least `AICc`; none where the points are too few for one.
-    #[must_use]
-    pub fn best(&self) -> Option<(FluidName, &FittedFluid)> {
-        let judged = self.fits().filter_map(|(name, fit)| Some((fit.criteria.aicc?, (name, fit))));
-        judged.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, best)| best)
-    }
-
-    /// Whether every fluid was fitted, and every search converged.
-    #[must_use]
-    pub fn is_complete(&self) -> bool {
-        self.candidates.iter().all(|candidate| candidate.fit.as_ref().is_ok_and(|fit| fit.outcome.is_converged()))
-    }
-
     /// The numbers, as they stand in `summary.json`.
     #[must_use]
     pub fn summary(&self, measured: &Measured) -> String {
@@ -274,13 +246,13 @@ impl Comparison {
             .iter()
             .map(|candidate| match &candidate.fit {
                 Ok(fit) => json!({
-                    "fluid": candidate.fluid.0,
+                    "fluid": candidate.model.0,
                     "parameters": serde_json::to_value(&fit.parameters).unwrap_or_default(),
                     "rms_residual": rms(&fit.residuals),
                     "criteria": serde_json::to_value(fit.criteria).unwrap_or_default(),
                     "converged": fit.outcome.is_converged(),
                 }),
-                Err(error) => json!({ "fluid": candidate.fluid.0, "failure": error.to_string() }),
+                Err(error) => json!({ "fluid": candidate.model.0, "failure": error.to_string() }),
             })
             .collect();
         let summary = json!({
@@ -299,8 +271,7 @@ impl Comparison {
     #[must_use]
     pub fn table(&self, measured: &Measured) -> String {
         let mut text = String::new();
-        let _ =
-            writeln!(text, "{}: {} rows of {}\n", measured.name(), measured.rows().len(), measured.flow.kind().name());
+        let _ = writeln!(text, "{}\n", measured.heading());
         let _ = writeln!(text, "{:<18}{:>3}{:>14}{:>10}  search", "fluid", "k", "RMS residual", "AICc");
         for (fluid, fit) in self.fits() {
             let aicc = fit.criteria.aicc.map_or_else(|| "-".to_owned(), |x| format!("{x:.1}"));

@@ -19,7 +19,7 @@ mod fluids;
 mod recovery;
 mod table;
 
-pub use fluids::{Candidate, Comparison, FluidName, Request, compare};
+pub use fluids::{Comparison, FittedFluid, FluidName, Request, compare};
 pub use piola_fit::fluids::Weighting;
 pub use piola_viscometry::recover::{Noise, Rise};
 pub use recovery::{

@@ -4,8 +4,8 @@ use core::fmt::Write as _;
 
 use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{
-    self, BelowSmallest, Capillary, EndCorrection, FlowCurve, FlowTable, Monotonicity, Noise, NormalStressCurve,
-    Options, PipeGeometry, Rise, SlipCorrection, Smoothing, StressCurve,
+    self, BelowSmallest, Capillary, Criterion, EndCorrection, FlowCurve, FlowTable, Monotonicity, Noise,
+    NormalStressCurve, Options, PipeGeometry, Rise, SlipCorrection, Smoothing, StressCurve,
 };
 use serde_json::{Map, Value, json};
 
@@ -22,9 +22,9 @@ const POINTS: u32 = 160;
 pub struct RecoveryRequest {
     /// The probability that the band holds the whole curve.
     pub confidence: f64,
-    /// What is known of the noise.
+    /// The noise of the measurements.
     pub noise: Noise,
-    /// What to do about a curve that does not rise.
+    /// The treatment of a curve that does not rise.
     pub rise: Rise,
 }
 
@@ -34,7 +34,7 @@ impl Default for RecoveryRequest {
     }
 }
 
-/// What a recovered curve gives over what.
+/// The quantities of a recovered curve: ordinate over abscissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Function {
@@ -98,9 +98,9 @@ pub struct Point {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct RecoveredCurve {
-    /// What it gives over what.
+    /// Its ordinate and abscissa.
     pub function: Function,
-    /// The column it comes of; none where several tables tell it.
+    /// The column it was recovered from; none if it comes from several tables.
     pub answering: Option<Answering>,
     /// Its points at the rows.
     pub rows: Vec<Point>,
@@ -110,9 +110,9 @@ pub struct RecoveredCurve {
     pub residuals: Vec<f64>,
     /// How each table was smoothed.
     pub smoothing: Vec<Smoothing>,
-    /// What is taken to hold below the smallest drive.
+    /// The assumption below the smallest drive.
     pub below_smallest: BelowSmallest,
-    /// Whether it rises.
+    /// Whether the curve rises.
     pub monotonicity: Monotonicity,
     /// The lines of the table between which it falls, if it does and one table tells it.
     pub falls_between_lines: Option<[u64; 2]>,
@@ -132,13 +132,13 @@ pub enum Correction {
     Ends(EndCorrection),
 }
 
-/// What is recovered from a table, or from several.
+/// Curves recovered from one table or several.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Recovery {
     /// One curve for each answering column.
     pub curves: Vec<RecoveredCurve>,
-    /// What several tables were corrected for.
+    /// The correction of several tables.
     pub correction: Option<Correction>,
 }
 
@@ -182,6 +182,21 @@ macro_rules! told {
     }};
 }
 
+/// The assumption below the smallest torque of coaxial cylinders, in words.
+fn assumption(below: BelowSmallest) -> Option<String> {
+    let speed = "the speed difference is";
+    match below {
+        BelowSmallest::Newtonian => Some(format!("{speed} proportional to the torque")),
+        BelowSmallest::PowerLaw { exponent } => {
+            Some(format!("{speed} proportional to the power {exponent:.4} of the torque"))
+        }
+        BelowSmallest::Powers { mean, variance } => Some(format!(
+            "{speed} a sum of powers of the torque, with exponents of mean {mean:.4} and variance {variance:.4}"
+        )),
+        _ => None,
+    }
+}
+
 /// The lines of the rows around the stretch on which a curve falls.
 fn falling_lines(monotonicity: Monotonicity, rows: &[Point], lines: &[u64]) -> Option<[u64; 2]> {
     let Monotonicity::Falling { from, to } = monotonicity else { return None };
@@ -195,7 +210,7 @@ fn closely(low: f64, high: f64) -> impl Iterator<Item = f64> {
     (0..=POINTS).map(move |k| (low * (high / low).powf(f64::from(k) / f64::from(POINTS))).clamp(low, high))
 }
 
-/// What a table of one geometry tells: a curve for each column that answers.
+/// Recovers a curve from each measured column of a table.
 ///
 /// | flow | column | curve |
 /// |---|---|---|
@@ -383,7 +398,7 @@ pub fn recover_without_ends(tables: &[Measured], request: &RecoveryRequest) -> R
     Ok(Recovery { curves: vec![curve], correction: Some(Correction::Ends(ends)) })
 }
 
-/// What viscometry refuses of several tables: a row's line in the only table in which that row is wrong.
+/// The error of several tables, with the line of the row in the one table where that row is wrong.
 fn of_several(error: ViscometryError, tables: &[Measured]) -> SceneError {
     let ViscometryError::ResponseFalls { row, value, .. } = error else { return SceneError::Viscometry(error) };
     let wrong =
@@ -451,14 +466,15 @@ impl RecoveredCurve {
         let mut text = String::new();
         for (index, smoothing) in self.smoothing.iter().enumerate() {
             let which = if 1 < self.smoothing.len() { format!("table {}: ", index + 1) } else { String::new() };
-            let (criterion, noise) = (smoothing.criterion, smoothing.noise);
-            let _ = writeln!(text, "{which}smoothed by {criterion:?}, noise {noise:.1e} of the response");
+            let criterion = match smoothing.criterion {
+                Criterion::Interpolation => "interpolated between all rows",
+                Criterion::KnownNoise => "smoothed for the stated noise",
+                _ => "smoothed by generalised cross-validation",
+            };
+            let _ = writeln!(text, "{which}{criterion}, noise {:.1e} of the response", smoothing.noise);
         }
-        match self.below_smallest {
-            BelowSmallest::NotNeeded => {}
-            assumed => {
-                let _ = writeln!(text, "assumed below the smallest drive: {assumed:?}");
-            }
+        if let Some(assumed) = assumption(self.below_smallest) {
+            let _ = writeln!(text, "assumed below the smallest torque: {assumed}");
         }
         let [(abscissa, unit), (value, other)] = self.function.axes();
         if let Monotonicity::Falling { from, to } = self.monotonicity {
@@ -596,8 +612,7 @@ impl Recovery {
     pub fn table(&self, tables: &[Measured]) -> String {
         let mut text = String::new();
         for measured in tables {
-            let (rows, kind) = (measured.rows().len(), measured.flow.kind().name());
-            let _ = writeln!(text, "{}: {rows} rows of {kind}", measured.name());
+            let _ = writeln!(text, "{}", measured.heading());
         }
         for curve in &self.curves {
             text.push_str(&curve.table());

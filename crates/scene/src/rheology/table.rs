@@ -30,9 +30,9 @@ const GRADIENT: Named = ("pressure_gradient", PRESSURE_GRADIENT, "Pa/m");
 const SPEED: Named = ("angular_velocity", Dimension::ANGULAR_RATE, "rad/s");
 const VOLUME: Named = ("discharge", DISCHARGE, "m^3/s");
 
-/// What was measured: what is set, and one or more columns of what answers.
+/// The kind of a measurement: the quantity that was set, and one or more columns of responses.
 ///
-/// | name | what is set | what answers | geometry |
+/// | name | set | response | geometry |
 /// |---|---|---|---|
 /// | `pipe` | `pressure_gradient` (Pa/m) | `discharge` (m³/s) | `radius` |
 /// | `capillary` | `discharge` (m³/s) | `pressure_difference` (Pa), ends included | `radius`, `length` |
@@ -81,7 +81,18 @@ impl FlowKind {
         }
     }
 
-    /// The column of what is set.
+    /// Its name in a sentence.
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Couette => "coaxial cylinders",
+            Self::Plates => "parallel plates",
+            Self::Cone => "cone and plate",
+            Self::Curve => "flow curve",
+            Self::Pipe | Self::Capillary | Self::Channel => self.name(),
+        }
+    }
+
+    /// The column of the quantity that was set.
     pub(super) const fn drive(self) -> Named {
         match self {
             Self::Pipe | Self::Channel => GRADIENT,
@@ -92,7 +103,7 @@ impl FlowKind {
         }
     }
 
-    /// The columns of what may answer.
+    /// The columns of possible responses.
     pub(super) const fn answers(self) -> &'static [Answering] {
         match self {
             Self::Pipe => &[Answering::Discharge],
@@ -119,7 +130,7 @@ impl FlowKind {
     }
 }
 
-/// What answers in a column.
+/// The measured quantity of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Answering {
@@ -163,15 +174,15 @@ impl Answering {
     }
 }
 
-/// A column of what answers.
+/// A column of measured responses.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Answer {
-    /// What it is.
+    /// The measured quantity.
     pub what: Answering,
     /// Whether all of the column is negative.
     pub is_negative: bool,
-    /// What was set and the size of what answered, in SI units.
+    /// The drive and the magnitude of the response, in SI units.
     pub rows: Vec<[f64; 2]>,
 }
 
@@ -194,7 +205,7 @@ impl FromStr for FlowKind {
     }
 }
 
-/// What was measured, and where. Lengths in m, angles in rad.
+/// A flow with its geometry. Lengths in m, angles in rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Flow {
@@ -241,7 +252,7 @@ pub enum Flow {
 }
 
 impl Flow {
-    /// What it is.
+    /// The kind of the flow.
     #[must_use]
     pub const fn kind(self) -> FlowKind {
         match self {
@@ -292,9 +303,9 @@ impl Flow {
 pub struct Measured {
     /// The file.
     pub path: PathBuf,
-    /// What was measured.
+    /// The flow.
     pub flow: Flow,
-    /// What answers, column by column; at least one.
+    /// The measured columns; at least one.
     pub answers: Vec<Answer>,
     /// The line of each row.
     pub lines: Vec<u64>,
@@ -353,7 +364,12 @@ impl Measured {
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// What was set and what answered: the first column that is not of normal stresses, if there is one.
+    /// "ketchup: 31 rows, coaxial cylinders".
+    pub(super) fn heading(&self) -> String {
+        format!("{}: {} rows, {}", self.name(), self.rows().len(), self.flow.kind().words())
+    }
+
+    /// Drives and responses: of the first column that is not of normal stresses, if there is one.
     #[must_use]
     pub fn rows(&self) -> &[[f64; 2]] {
         self.sheared().or(self.answers.first()).map_or(&[], |answer| &answer.rows)
@@ -398,7 +414,7 @@ impl Measured {
         self.answers.iter().try_for_each(|answer| FlowTable::new((), &answer.rows).map(|_| ()))
     }
 
-    /// What viscometry refuses, with the line of the row.
+    /// An error of viscometry, with the line of its row.
     fn mistake(&self, error: &ViscometryError) -> TableMistake {
         let line = |row: usize| self.lines.get(row).copied().unwrap_or(1);
         let (row, valid) = match error {
@@ -548,7 +564,7 @@ fn named(field: &str) -> (&str, Option<&str>) {
     (name.trim(), unit)
 }
 
-/// The columns after the first and what answers in them; names that are wrong or repeated are mistakes.
+/// The columns after the first with their measured quantities; wrong or repeated names are mistakes.
 fn answering(
     header: &StringRecord,
     line: u64,

@@ -1,13 +1,13 @@
 //! Errors against a reference.
 
 use super::History;
-use crate::model::{ClosedForm, Comparison, Scene};
+use crate::model::{ClosedForm, ReferenceKind, Scene};
 
 /// Errors of all bodies.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Errors {
-    /// What the reference is called.
+    /// Name of the reference.
     pub label: String,
     /// The largest relative error of any body.
     pub largest_relative: f64,
@@ -48,20 +48,20 @@ type Known = Vec<(usize, [f64; 3])>;
 
 pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
     let reference = scene.reference.as_ref()?;
-    let known: Vec<(usize, Known)> = match &reference.comparison {
-        Comparison::Table(table) => table
+    let known: Vec<(usize, Known)> = match &reference.kind {
+        ReferenceKind::Table(table) => table
             .times
             .iter()
             .zip(&table.positions)
             .filter_map(|(t, known)| {
                 // Recorded instants stand within rounding of the reference's.
-                let slack = 1e-12 * (scene.time.end - scene.time.start);
-                let record = history.times.partition_point(|time| *time < t - slack);
+                let (near, slack) = (t - scene.time.direction() * scene.time.slack(), scene.time.slack());
+                let record = history.times.partition_point(|time| scene.time.order(*time, near).is_lt());
                 history.times.get(record).filter(|time| (*time - t).abs() <= slack)?;
                 Some((record, known.clone()))
             })
             .collect(),
-        Comparison::ClosedForm(ClosedForm::Kepler(motions)) => history
+        ReferenceKind::ClosedForm(ClosedForm::Kepler(motions)) => history
             .times
             .iter()
             .enumerate()
@@ -75,15 +75,15 @@ pub(super) fn errors(scene: &Scene, history: &History) -> Option<Errors> {
     // The relative error of one position; `None` where the reference lacks the body to measure from.
     let relative = |record: usize, body: usize, expected: [f64; 3], known: &Known| {
         let position = history.positions[record][body];
-        let scale = match (reference.relative_to, &reference.comparison) {
+        let scale = match (reference.relative_to, &reference.kind) {
             (Some(centre), _) => {
                 let (_, origin) = known.iter().find(|(other, _)| *other == centre)?;
                 let moved = difference(history.positions[record][centre], *origin);
                 let error = distance(difference(position, expected), moved);
                 return Some(error / distance(expected, *origin));
             }
-            (None, Comparison::ClosedForm(ClosedForm::Kepler(motions))) => motions[body].semi_major_axis(),
-            (None, Comparison::Table(_)) => overall,
+            (None, ReferenceKind::ClosedForm(ClosedForm::Kepler(motions))) => motions[body].semi_major_axis(),
+            (None, ReferenceKind::Table(_)) => overall,
         };
         Some(distance(position, expected) / scale)
     };

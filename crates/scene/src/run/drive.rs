@@ -11,10 +11,10 @@ use piola_integrators::{
 };
 
 use super::{History, Invariants, Progress};
-use crate::model::Scene;
+use crate::model::{Scene, TimeSpan};
 use crate::plan::{self, Method, Plan};
 
-/// What a system makes of a state: everything that is recorded.
+/// Reads everything that is recorded out of a state.
 pub(super) trait Reading {
     /// Adds positions, velocities and coordinates of a state.
     fn record(&mut self, time: f64, values: &[f64], history: &mut History);
@@ -26,8 +26,7 @@ pub(super) struct Driver<O> {
     history: History,
     report: Report,
     time: f64,
-    start: f64,
-    end: f64,
+    span: TimeSpan,
     instants: Vec<f64>,
     /// The first instant that is not recorded yet.
     next: usize,
@@ -41,14 +40,13 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
         let names = scene.names().into_iter().map(str::to_string).collect();
         let mut landings = plan::reference_times(scene).to_vec();
         landings.push(plan.end);
-        landings.retain(|t| plan.start < *t);
-        landings.dedup_by(|a, b| a.total_cmp(b).is_eq());
+        landings.retain(|t| scene.time.order(plan.start, *t).is_lt());
+        landings.dedup_by(|a, b| scene.time.order(*a, *b).is_eq());
         Self {
             history: History { names, ..History::default() },
             report: Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached },
             time: plan.start,
-            start: plan.start,
-            end: plan.end,
+            span: scene.time,
             instants: plan::instants(scene),
             next: 0,
             landings,
@@ -58,7 +56,7 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
     }
 
     pub(super) fn start(&self) -> f64 {
-        self.start
+        self.span.start
     }
 
     pub(super) fn history(&mut self) -> &mut History {
@@ -72,7 +70,7 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
     fn step_done(&mut self, time: f64) -> ControlFlow<()> {
         self.steps += 1;
         self.time = time;
-        let fraction = ((time - self.start) / (self.end - self.start)).clamp(0.0, 1.0);
+        let fraction = ((time - self.span.start) / (self.span.end - self.span.start)).clamp(0.0, 1.0);
         (self.observer)(Progress { time, fraction, steps: self.steps })
     }
 
@@ -81,7 +79,7 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
         reading.record(state.time, &state.values, &mut self.history);
         let invariants = reading.invariants(state.time, &state.values);
         self.history.invariants.push(invariants);
-        while self.instants.get(self.next).is_some_and(|t| *t <= self.start) {
+        while self.instants.get(self.next).is_some_and(|t| self.span.order(*t, self.span.start).is_le()) {
             self.next += 1;
         }
     }
@@ -177,8 +175,12 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
             let mut dense = Ok(());
             let result = method.integrate(field, state, landing, |step| {
                 let passed = self.next;
-                while let Some(&instant) = self.instants.get(self.next).filter(|t| **t <= step.time()) {
-                    if instant < step.time() {
+                while let Some(&instant) = self.instants.get(self.next) {
+                    let order = self.span.order(instant, step.time());
+                    if order.is_gt() {
+                        break;
+                    }
+                    if order.is_lt() {
                         if let Err(error) = step.at(instant, &mut between) {
                             dense = Err(error.to_string());
                             return ControlFlow::Break(());

@@ -1,4 +1,4 @@
-//! What a run records: positions and coordinates at instants, invariants at ends of steps.
+//! The record of a run: positions and coordinates at instants, invariants at ends of steps.
 
 /// Positions, coordinates and invariants over time.
 #[derive(Debug, Clone, Default)]
@@ -24,14 +24,14 @@ pub struct History {
 /// A vector with the magnitude that its changes are compared with.
 pub type Scaled = ([f64; 3], f64);
 
-/// What should stay constant, at one time.
+/// The invariants of the motion at one time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Invariants {
     /// Time, s.
     pub time: f64,
     /// Kinetic and potential energy, J.
     pub energy: f64,
-    /// What energies are compared with besides the first one: kinetic energy in a mechanism, whose potential has an arbitrary zero; 0
+    /// A scale of energy besides the first energy: the kinetic energy in a mechanism, whose potential has an arbitrary zero; 0
     /// otherwise.
     pub energy_scale: f64,
     /// Energy with the post-Newtonian part, J, when that is on.
@@ -58,7 +58,7 @@ pub struct Drift {
 pub struct Drifts {
     /// |E − E₀| relative to |E₀| (in a mechanism to the largest of |E₀| and the kinetic energy).
     pub energy: Option<Drift>,
-    /// The same of the energy with its post-Newtonian part.
+    /// Drift of the energy with its post-Newtonian part, likewise.
     pub post_newtonian_energy: Option<Drift>,
     /// |P − P₀| relative to Σ m |v|.
     pub momentum: Option<Drift>,

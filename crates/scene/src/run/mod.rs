@@ -18,7 +18,7 @@ use crate::model::{Scene, System};
 use crate::plan::Plan;
 use drive::Driver;
 
-/// What an observer of a run sees.
+/// The progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Progress {
@@ -37,7 +37,7 @@ pub enum Outcome {
     Completed,
     /// The observer stopped it.
     Interrupted,
-    /// It failed, as the text says.
+    /// The run failed for this reason.
     Failed(String),
 }
 
@@ -57,7 +57,7 @@ pub struct Run {
     pub force_evaluations: u64,
     /// Wall time of the integration with its recording, s.
     pub wall_time: f64,
-    /// What was recorded.
+    /// The record.
     pub history: History,
     /// Drift of the invariants.
     pub drifts: Drifts,

@@ -7,7 +7,7 @@ use crate::units::Dimension;
 
 /// The JSON Schema of a scene.
 ///
-/// It says what a value may look like; meaning that spans several keys is left to `piola check`.
+/// It constrains single values. Conditions that span several keys are left to `piola check`.
 ///
 /// # Example
 /// ```

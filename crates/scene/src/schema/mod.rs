@@ -25,12 +25,38 @@ pub struct SceneKind {
     pub lists: &'static [&'static str],
 }
 
+/// Declares a [`Table`]: each key with its documentation, `key: kind, absent;` or `key: kind, absent, only_for types;`.
+macro_rules! table {
+    (
+        $(#[doc = $about:literal])+
+        $visibility:vis static $table:ident = $header:literal {
+            $($(#[doc = $doc:literal])+ $key:ident: $kind:expr, $absent:expr $(, only_for $types:expr)?;)+
+        }
+    ) => {
+        $(#[doc = $about])+
+        $visibility static $table: $crate::schema::Table = $crate::schema::Table {
+            name: $header,
+            doc: concat!($($about),+).trim_ascii(),
+            keys: &[$($crate::schema::Key {
+                name: stringify!($key),
+                kind: $kind,
+                absent: $absent,
+                only_for: $crate::schema::table!(@types $($types)?),
+                doc: concat!($($doc),+).trim_ascii(),
+            }),+],
+        };
+    };
+    (@types) => { &[] };
+    (@types $types:expr) => { $types };
+}
+use table;
+
 /// A table of a scene.
 #[derive(Debug)]
 pub struct Table {
     /// Header as written: `gravity`, `body`.
     pub name: &'static str,
-    /// What the table is for.
+    /// Purpose of the table.
     pub doc: &'static str,
     /// Its keys.
     pub keys: &'static [Key],
@@ -41,17 +67,17 @@ pub struct Table {
 pub struct Key {
     /// The key as written.
     pub name: &'static str,
-    /// What may stand there.
+    /// Kind of its value.
     pub kind: Kind,
-    /// What holds when it is absent.
+    /// The rule when it is absent.
     pub absent: Absent,
     /// Values of the table's `type` for which the key exists; empty for all.
     pub only_for: &'static [&'static str],
-    /// What it means.
+    /// Meaning.
     pub doc: &'static str,
 }
 
-/// What may stand at a key.
+/// The kind of a key's value.
 #[derive(Debug, Clone, Copy)]
 pub enum Kind {
     /// A name of letters, digits, `_`, `-` and spaces.
@@ -103,7 +129,7 @@ pub struct Word {
     pub doc: &'static str,
 }
 
-/// What holds when a key is absent.
+/// The rule for an absent key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Absent {
     /// It may not be absent.
@@ -139,7 +165,7 @@ impl Range {
 }
 
 impl Kind {
-    /// What is valid, in words: "a length such as "2 m"".
+    /// The valid values in words: "a length such as "2 m"".
     #[must_use]
     pub fn describe(&self) -> String {
         match self {

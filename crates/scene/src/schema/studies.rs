@@ -1,14 +1,17 @@
 //! The tables of studies.
 
-use super::tables::{key, key_for, quantity, word};
-use super::{Absent, Kind, Range, Table, Word};
-use crate::units::Dimension;
+use super::Absent::{Default, Optional, Required};
+use super::Range::{Any, Positive};
+use super::tables::{quantity, word};
+use super::{Kind, Word, table};
+use crate::units::Dimension as D;
 
-const fn pair(dimension: Dimension) -> Kind {
+const fn pair(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[2])
 }
 
-const INVERSE_LENGTH: Dimension = Dimension::NONE.over(Dimension::LENGTH);
+const INVERSE_LENGTH: D = D::NONE.over(D::LENGTH);
+const FREQUENCY: D = D::NONE.over(D::TIME);
 
 static SOURCES: [Word; 2] =
     [word("plane", "a straight front of some width"), word("point", "all directions, or some, from one place")];
@@ -18,67 +21,34 @@ static KEPT: [Word; 2] = [
     word("first", "of each front only what arrives first"),
 ];
 
-pub(super) static WAVEFRONT: Table = Table {
-    name: "wavefront",
-    doc: "Wave fronts in a plane medium of refractive index n(x, y) from a source, with rays and caustics. Fronts are levels of the optical length ∫ n ds; divided by the speed of light it is the time of travel.",
-    keys: &[
-        key("type", Kind::Choice(&SOURCES), Absent::Required, "The source."),
-        key(
-            "position",
-            pair(Dimension::LENGTH),
-            Absent::Default("[0.0, 0.0]"),
-            "The source, or the middle of a plane one.",
-        ),
-        key_for(
-            &["plane"],
-            "direction",
-            pair(Dimension::NONE),
-            Absent::Default("[1.0, 0.0]"),
-            "Direction of the rays at the source, of any length.",
-        ),
-        key_for(
-            &["plane"],
-            "width",
-            quantity(Dimension::LENGTH, Range::Positive),
-            Absent::Required,
-            "Width of the source.",
-        ),
-        key_for(
-            &["point"],
-            "from",
-            quantity(Dimension::ANGLE, Range::Any),
-            Absent::Default("0.0"),
-            "First direction, from the x axis.",
-        ),
-        key_for(
-            &["point"],
-            "to",
-            quantity(Dimension::ANGLE, Range::Any),
-            Absent::Optional,
-            "Last direction, at most a full turn after the first; a full turn when absent.",
-        ),
-        key(
-            "length",
-            quantity(Dimension::LENGTH, Range::Positive),
-            Absent::Required,
-            "Optical length ∫ n ds to which rays are followed.",
-        ),
-        key(
-            "fronts",
-            Kind::Count { least: 1, most: 500 },
-            Absent::Default("30"),
-            "Number of fronts, evenly spread over the length.",
-        ),
-        key("rays", Kind::Count { least: 3, most: 20_000 }, Absent::Default("401"), "Number of rays to begin with."),
-        key(
-            "spacing",
-            quantity(Dimension::LENGTH, Range::Positive),
-            Absent::Optional,
-            "Largest distance of neighbours on a front, beyond which rays are added; 1/200 of the length when absent.",
-        ),
-        key("keep", Kind::Choice(&KEPT), Absent::Default("\"all\""), "What is kept of fronts that fold."),
-    ],
-};
+table! {
+    /// Wave fronts in a plane medium of refractive index n(x, y) from a source, with rays and caustics. Fronts are
+    /// levels of the optical length ∫ n ds; divided by the speed of light it is the time of travel.
+    pub(super) static WAVEFRONT = "wavefront" {
+        /// The source.
+        type: Kind::Choice(&SOURCES), Required;
+        /// The source, or the middle of a plane one.
+        position: pair(D::LENGTH), Default("[0.0, 0.0]");
+        /// Direction of the rays at the source, of any length.
+        direction: pair(D::NONE), Default("[1.0, 0.0]"), only_for &["plane"];
+        /// Width of the source.
+        width: quantity(D::LENGTH, Positive), Required, only_for &["plane"];
+        /// First direction, from the x axis.
+        from: quantity(D::ANGLE, Any), Default("0.0"), only_for &["point"];
+        /// Last direction, at most a full turn after the first; a full turn when absent.
+        to: quantity(D::ANGLE, Any), Optional, only_for &["point"];
+        /// Optical length ∫ n ds to which rays are followed.
+        length: quantity(D::LENGTH, Positive), Required;
+        /// Number of fronts, evenly spread over the length.
+        fronts: Kind::Count { least: 1, most: 500 }, Default("30");
+        /// Number of rays to begin with.
+        rays: Kind::Count { least: 3, most: 20_000 }, Default("401");
+        /// Largest distance of neighbours on a front, beyond which rays are added; 1/200 of the length when absent.
+        spacing: quantity(D::LENGTH, Positive), Optional;
+        /// The sheets that are kept of a front that folds.
+        keep: Kind::Choice(&KEPT), Default("\"all\"");
+    }
+}
 
 static MEDIA: [Word; 4] = [
     word("uniform", "n = `index`"),
@@ -87,55 +57,25 @@ static MEDIA: [Word; 4] = [
     word("layers", "n = `index` + `gradient` (y − `height`)"),
 ];
 
-pub(super) static MEDIUM: Table = Table {
-    name: "medium",
-    doc: "A part of the medium. The refractive index is the product of those of all parts.",
-    keys: &[
-        key("type", Kind::Choice(&MEDIA), Absent::Required, "The law of the index."),
-        key_for(
-            &["uniform", "layers"],
-            "index",
-            quantity(Dimension::NONE, Range::Positive),
-            Absent::Default("1.0"),
-            "Index, at `height` where it varies.",
-        ),
-        key_for(
-            &["gaussian", "luneburg"],
-            "centre",
-            pair(Dimension::LENGTH),
-            Absent::Default("[0.0, 0.0]"),
-            "Centre of the lens.",
-        ),
-        key_for(
-            &["gaussian", "luneburg"],
-            "radius",
-            quantity(Dimension::LENGTH, Range::Positive),
-            Absent::Required,
-            "Radius of the lens.",
-        ),
-        key_for(
-            &["gaussian"],
-            "amplitude",
-            quantity(Dimension::NONE, Range::Any),
-            Absent::Required,
-            "Index at the centre less one, greater than −1.",
-        ),
-        key_for(
-            &["layers"],
-            "gradient",
-            quantity(INVERSE_LENGTH, Range::Any),
-            Absent::Required,
-            "Change of the index with y.",
-        ),
-        key_for(
-            &["layers"],
-            "height",
-            quantity(Dimension::LENGTH, Range::Any),
-            Absent::Default("0.0"),
-            "Height y at which the index is `index`.",
-        ),
-    ],
-};
+table! {
+    /// A part of the medium. The refractive index is the product of those of all parts.
+    pub(super) static MEDIUM = "medium" {
+        /// The law of the index.
+        type: Kind::Choice(&MEDIA), Required;
+        /// Index, at `height` where it varies.
+        index: quantity(D::NONE, Positive), Default("1.0"), only_for &["uniform", "layers"];
+        /// Centre of the lens.
+        centre: pair(D::LENGTH), Default("[0.0, 0.0]"), only_for &["gaussian", "luneburg"];
+        /// Radius of the lens.
+        radius: quantity(D::LENGTH, Positive), Required, only_for &["gaussian", "luneburg"];
+        /// Index at the centre less one, greater than −1.
+        amplitude: quantity(D::NONE, Any), Required, only_for &["gaussian"];
+        /// Change of the index with y.
+        gradient: quantity(INVERSE_LENGTH, Any), Required, only_for &["layers"];
+        /// Height y at which the index is `index`.
+        height: quantity(D::LENGTH, Any), Default("0.0"), only_for &["layers"];
+    }
+}
 
 static OUTLINES: [Word; 2] = [
     word("ellipse", "(x/a)² + (y/b)² = 1"),
@@ -144,45 +84,28 @@ static OUTLINES: [Word; 2] = [
 
 static SIGNALS: [Word; 2] = [word("wall", "everywhere on the wall at once"), word("circle", "on a circle in the room")];
 
-pub(super) static ROOM: Table = Table {
-    name: "room",
-    doc: "A signal in a room: the time u(x, y) of its first arrival, |∇u| = 1/speed, with u = 0 where it starts.",
-    keys: &[
-        key("type", Kind::Choice(&OUTLINES), Absent::Required, "The outline of the room about the origin."),
-        key("semi_axes", pair(Dimension::LENGTH), Absent::Required, "Semi-axes a and b, along x and y."),
-        key_for(
-            &["superellipse"],
-            "exponent",
-            Kind::Count { least: 2, most: 12 },
-            Absent::Default("4"),
-            "The exponent, an even number.",
-        ),
-        key(
-            "speed",
-            quantity(Dimension::SPEED, Range::Positive),
-            Absent::Required,
-            "Speed of the signal at the origin.",
-        ),
-        key(
-            "speed_gradient",
-            pair(Dimension::NONE.over(Dimension::TIME)),
-            Absent::Default("[0.0, 0.0]"),
-            "Gradient of the speed, which must be positive in the whole room.",
-        ),
-        key("signal", Kind::Choice(&SIGNALS), Absent::Default("\"wall\""), "Where the signal starts."),
-        key("centre", pair(Dimension::LENGTH), Absent::Default("[0.0, 0.0]"), "Centre of the circle."),
-        key("radius", quantity(Dimension::LENGTH, Range::Positive), Absent::Optional, "Radius of the circle."),
-        key(
-            "resolution",
-            quantity(Dimension::LENGTH, Range::Positive),
-            Absent::Optional,
-            "Largest error of interpolation between characteristics; 1/2000 of the shorter semi-axis when absent.",
-        ),
-        key(
-            "grid",
-            Kind::Count { least: 16, most: 400 },
-            Absent::Default("161"),
-            "Points of the grid along the longer axis.",
-        ),
-    ],
-};
+table! {
+    /// A signal in a room: the time u(x, y) of its first arrival, |∇u| = 1/speed, with u = 0 where it starts.
+    pub(super) static ROOM = "room" {
+        /// The outline of the room about the origin.
+        type: Kind::Choice(&OUTLINES), Required;
+        /// Semi-axes a and b, along x and y.
+        semi_axes: pair(D::LENGTH), Required;
+        /// The exponent, an even number.
+        exponent: Kind::Count { least: 2, most: 12 }, Default("4"), only_for &["superellipse"];
+        /// Speed of the signal at the origin.
+        speed: quantity(D::SPEED, Positive), Required;
+        /// Gradient of the speed, which must be positive in the whole room.
+        speed_gradient: pair(FREQUENCY), Default("[0.0, 0.0]");
+        /// Where the signal starts.
+        signal: Kind::Choice(&SIGNALS), Default("\"wall\"");
+        /// Centre of the circle.
+        centre: pair(D::LENGTH), Default("[0.0, 0.0]");
+        /// Radius of the circle.
+        radius: quantity(D::LENGTH, Positive), Optional;
+        /// Largest error of interpolation between characteristics; 1/2000 of the shorter semi-axis when absent.
+        resolution: quantity(D::LENGTH, Positive), Optional;
+        /// Points of the grid along the longer axis.
+        grid: Kind::Count { least: 16, most: 400 }, Default("161");
+    }
+}

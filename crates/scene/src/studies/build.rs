@@ -6,7 +6,7 @@ use crate::model::{self, Builder};
 use crate::schema::{SCENE_KINDS, SceneKind};
 use crate::validation::Record;
 
-/// What motions alone have.
+/// Tables that only scenes with a motion have.
 const OF_MOTIONS: [&str; 3] = ["time", "integrator", "reference"];
 
 impl Study {

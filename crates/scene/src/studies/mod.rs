@@ -30,13 +30,13 @@ pub struct Study {
     pub name: String,
     /// Title of figures.
     pub title: Option<String>,
-    /// What is studied.
+    /// The subject.
     pub subject: Subject,
-    /// What is to be written.
+    /// The files to write.
     pub output: OutputRequest,
 }
 
-/// What is studied.
+/// The subject of a study.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum Subject {

@@ -1,4 +1,4 @@
-//! What a study will compute, how, and what it skips.
+//! The plan of a study: its method, computed and skipped quantities.
 
 use core::fmt;
 
@@ -29,15 +29,15 @@ use crate::plan::Item;
 pub struct StudyPlan {
     /// Name of the scene.
     pub name: String,
-    /// What is studied, in words.
+    /// The subject in words.
     pub system: String,
     /// Method.
     pub method: String,
     /// Why this method.
     pub reason: String,
-    /// What is computed.
+    /// Quantities computed.
     pub computed: Vec<Item>,
-    /// What is not computed.
+    /// Quantities not computed.
     pub skipped: Vec<Item>,
     /// Folder of the results.
     pub folder: String,

@@ -10,16 +10,16 @@ use super::{Study, StudyPlan, Subject, room, wavefront};
 use crate::output::{Folder, Written};
 use crate::run::Outcome;
 
-/// Who sees the part that is done, 0 to 1, and may stop the run.
+/// A function that gets the finished part of the run, 0 to 1, and may stop the run.
 pub(super) type Observer<'o> = dyn FnMut(f64) -> ControlFlow<()> + 'o;
 
-/// What a study found.
+/// The results of a study.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub enum Findings {
-    /// Of wave fronts.
+    /// Fronts in a medium.
     Wavefront(wavefront::Fronts),
-    /// Of a signal in a room.
+    /// Arrivals of a signal in a room.
     Room(room::Arrivals),
 }
 
@@ -31,13 +31,13 @@ pub struct StudyRun {
     pub outcome: Outcome,
     /// Wall time, s.
     pub wall_time: f64,
-    /// What it found.
+    /// The results.
     pub findings: Findings,
 }
 
-/// Runs a study. The observer sees the part that is done, from 0 to 1, and may stop the run.
+/// Runs a study. The observer gets the finished part of the run, from 0 to 1, and may stop it.
 ///
-/// A run that fails or is stopped returns what it found until then.
+/// A run that fails or is stopped returns its results until then.
 ///
 /// # Example
 /// ```

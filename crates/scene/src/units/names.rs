@@ -5,11 +5,11 @@ use super::{Dimension, Unit};
 /// A unit with its name.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NamedUnit {
-    /// As written in a scene.
+    /// The name as written in a scene.
     pub name: &'static str,
     /// Factor and dimension.
     pub unit: Unit,
-    /// What it is, in words.
+    /// Description.
     pub doc: &'static str,
 }
 

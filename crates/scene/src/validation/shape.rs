@@ -1,4 +1,4 @@
-//! From the tree to records, by the declared keys.
+//! Checks the tree against the declared keys and makes records of it.
 
 use super::{Field, FieldValue, Record};
 use crate::document::{Document, Entry, Mistake, Node, Place, Value};

@@ -120,7 +120,7 @@ fn summary_of_as_many_stresses_as_parameters_has_no_errors_and_no_best() {
     let comparison =
         fitting::compare(&measurements, &Request::of(laws.into())).unwrap_or_else(|error| panic!("{error}"));
     assert!(comparison.best().is_none());
-    let text = fitting::summary(&measurements, &comparison);
+    let text = comparison.summary(&measurements);
     let summary: serde_json::Value = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}"));
     let law = &summary["laws"][0];
     assert_eq!(law["degrees_of_freedom"], 0);
@@ -176,7 +176,7 @@ fn comparison_writes_summary_tables_and_figure() {
     assert_eq!(comparison.fits().count(), 3);
     let path: PathBuf = std::env::temp_dir().join(format!("piola-fitting-{}", std::process::id()));
     let folder = Folder::prepare(&path).unwrap_or_else(|error| panic!("{error}"));
-    let written = fitting::write(&folder, &measurements, &comparison);
+    let written = comparison.write(&folder, &measurements);
     assert!(written.failures.is_empty() && written.files.len() == 4);
     let read = |name: &str| std::fs::read_to_string(path.join(name)).unwrap_or_else(|error| panic!("{error}"));
     let summary: serde_json::Value =

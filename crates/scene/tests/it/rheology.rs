@@ -8,6 +8,9 @@ use piola_scene::rheology::{
     Correction, FlowKind, Function, Measured, Noise, Point, RecoveryRequest, Request, Rise, compare, recover,
     recover_without_ends, recover_without_slip,
 };
+use piola_testkit::{Tol, assert_close};
+
+use crate::support::assert_small;
 
 const PIPE: &str = "# radius: 2 mm\npressure_gradient [kPa/m],discharge [mm^3/s]\n";
 
@@ -145,7 +148,7 @@ fn wrong_units_columns_and_geometries_are_named_with_their_line() {
     assert_eq!(given(&[("outer_radius", "1 cm")]), format!("flow.csv:5: {crossed}"));
     assert_eq!(
         given(&[("inner_radius", "2 cm"), ("outer_radius", "15 mm")]),
-        "`inner_radius = 2 cm, outer_radius = 15 mm` cannot be read; valid: inner_radius < outer_radius"
+        "`inner_radius = 2 cm, outer_radius = 15 mm` is not accepted; valid: inner_radius < outer_radius"
     );
     assert_eq!(given(&[("outer_radius", "3 cm")]), "");
     assert_eq!(sentences("", FlowKind::Curve)[0].split(';').next(), Some("flow.csv:1: the table is empty"));
@@ -267,7 +270,9 @@ fn torques_and_thrusts_of_cones_and_plates_give_stresses_and_normal_stresses() -
     let recovery = recover(&measured, &RecoveryRequest::default())?;
     let [stress, normal] = recovery.curves.as_slice() else { panic!("{recovery:?}") };
     assert_eq!([stress.function, normal.function], [Function::ShearStress, Function::FirstNormalStress]);
-    assert!(off(&stress.rows, |k| 3.0 * k.sqrt()) < 1e-10 && off(&normal.rows, |k| k.powf(1.5)) < 1e-10);
+    let tolerance = Tol::stated(1e-10, "powers of k between rows 0.3 of an e-fold apart");
+    assert_small("τ of a cone", off(&stress.rows, |k| 3.0 * k.sqrt()), tolerance);
+    assert_small("N₁ of a cone", off(&normal.rows, |k| k.powf(1.5)), tolerance);
     // M = 2πR³ 3 √k/3.5, F = πR² 1.1 k^1.5/3.5, pulled together.
     let plates = rates().map(|k| {
         let speed = k * gap / radius;
@@ -278,7 +283,9 @@ fn torques_and_thrusts_of_cones_and_plates_give_stresses_and_normal_stresses() -
     let recovery = recover(&measured, &RecoveryRequest::default())?;
     let [normal, stress] = recovery.curves.as_slice() else { panic!("{recovery:?}") };
     assert_eq!([normal.function, stress.function], [Function::NormalStressesOfPlates, Function::ShearStress]);
-    assert!(off(&stress.rows, |k| 3.0 * k.sqrt()) < 1e-9 && off(&normal.rows, |k| -1.1 * k.powf(1.5)) < 1e-9);
+    let tolerance = Tol::stated(1e-9, "the same for a derivative of the curve through the rows");
+    assert_small("τ of plates", off(&stress.rows, |k| 3.0 * k.sqrt()), tolerance);
+    assert_small("N₁ − N₂ of plates", off(&normal.rows, |k| -1.1 * k.powf(1.5)), tolerance);
     let folder = std::env::temp_dir().join(format!("piola-plates-{}", std::process::id()));
     let written = recovery.write(&Folder::prepare(&folder)?, core::slice::from_ref(&measured));
     assert_eq!((written.files.len(), written.failures.len()), (7, 0));
@@ -287,7 +294,8 @@ fn torques_and_thrusts_of_cones_and_plates_give_stresses_and_normal_stresses() -
     let fluids = vec!["power-law".parse()?];
     let comparison = compare(&measured, &Request::of(fluids))?;
     let fit = comparison.candidates[0].fit.clone()?;
-    assert!((fit.parameters[0].value - 3.0).abs() < 1e-7 && (fit.parameters[1].value - 0.5).abs() < 1e-8);
+    let found = [fit.parameters[0].value, fit.parameters[1].value];
+    assert_close("K and n", &found, &[3.0, 0.5], Tol::stated(1e-8, "the search ends where residuals are quadratic"));
     Ok(())
 }
 
@@ -300,7 +308,8 @@ fn radial_stresses_of_cylinders_give_the_first_normal_stress_difference() -> Res
     let recovery = recover(&measured, &RecoveryRequest::default())?;
     let curve = &recovery.curves[0];
     assert_eq!(curve.function, Function::FirstNormalStressOverStress);
-    assert!(off(&curve.rows, |stress| 4.0 * stress * stress) < 1e-9);
+    let tolerance = Tol::stated(1e-9, "a sum over cylinders of the derivative of a power through the rows");
+    assert_small("N₁", off(&curve.rows, |stress| 4.0 * stress * stress), tolerance);
     assert!(matches!(compare(&measured, &Request::of(Vec::new())), Err(SceneError::Argument { .. })));
     Ok(())
 }
@@ -319,10 +328,11 @@ fn pipes_of_several_radii_and_capillaries_of_several_lengths_are_corrected() -> 
     let pipes = [pipe(0.5)?, pipe(1.0)?, pipe(2.0)?];
     let request = RecoveryRequest::default();
     let recovery = recover_without_slip(&pipes, &request)?;
-    assert!(off(&recovery.curves[0].rows, |t| t * t) < 1e-8);
+    let tolerance = Tol::stated(1e-8, "differences of pipes, then the derivative of the curve through the rows");
+    assert_small("k without slip", off(&recovery.curves[0].rows, |t| t * t), tolerance);
     let Some(Correction::Slip(slip)) = &recovery.correction else { panic!("{recovery:?}") };
     let off_by = slip.points.iter().map(|p| (p.slip_velocity / (0.3 * p.wall_stress.powf(1.5)) - 1.0).abs());
-    assert!(off_by.fold(0.0, f64::max) < 1e-9);
+    assert_small("slip", off_by.fold(0.0, f64::max), Tol::stated(1e-9, "powers of τ between the rows of each pipe"));
     let capillary = |length: f64| {
         let rows = stresses().map(|t| [0.25 * PI * 0.8 * t * t, 2.0 * t * length + 4.0 * t]);
         let head = format!("# radius: 1 m\n# length: {length} m\ndischarge [m^3/s],pressure_difference [Pa]");
@@ -330,7 +340,7 @@ fn pipes_of_several_radii_and_capillaries_of_several_lengths_are_corrected() -> 
     };
     let capillaries = [capillary(10.0)?, capillary(20.0)?, capillary(40.0)?];
     let recovery = recover_without_ends(&capillaries, &request)?;
-    assert!(off(&recovery.curves[0].rows, |t| t * t) < 1e-8);
+    assert_small("k without ends", off(&recovery.curves[0].rows, |t| t * t), tolerance);
     let folder = std::env::temp_dir().join(format!("piola-ends-{}", std::process::id()));
     let written = recovery.write(&Folder::prepare(&folder)?, &capillaries);
     assert_eq!((written.files.len(), written.failures.len()), (4, 0));
@@ -343,7 +353,7 @@ fn pipes_of_several_radii_and_capillaries_of_several_lengths_are_corrected() -> 
     let same = recover_without_slip(&[pipes[0].clone(), pipes[0].clone()], &request);
     assert_eq!(sentence(same), "the radius 5e-1 of all tables is the same");
     let other = sentence(recover_without_slip(&capillaries, &request));
-    assert_eq!(other, "`--slip with --flow capillary` cannot be read; valid: --flow pipe");
+    assert_eq!(other, "`--slip with --flow capillary` is not accepted; valid: --flow pipe");
     Ok(())
 }
 
@@ -368,7 +378,7 @@ fn mistakes_in_tables_with_several_columns_are_named_with_their_line() {
     let given = [("angle".to_owned(), "100 deg".to_owned())];
     let given = Measured::parse("flow.csv", &format!("{head}1,2,3\n"), FlowKind::Cone, &given);
     let given = given.map_or_else(|error| error.to_string(), |_| String::new());
-    assert_eq!(given, "`angle = 100 deg` cannot be read; valid: an angle below 90 deg");
+    assert_eq!(given, "`angle = 100 deg` is not accepted; valid: an angle below 90 deg");
     let unit = sentences(&format!("{}1,2,3\n", head.replace("N*m", "N")), FlowKind::Cone);
     assert_eq!(unit, ["flow.csv:3: `N` is no unit of torque; valid: a unit such as N m"]);
     let column = sentences(&format!("{}1,2,3\n", head.replace("thrust", "push")), FlowKind::Cone);
@@ -403,9 +413,17 @@ fn bands_of_the_other_made_tables_hold_the_fluid_too() -> Result<(), SceneError>
     }
     let Some(Correction::Slip(slip)) = slip.correction else { panic!("no slip") };
     for point in slip.points {
-        assert!((point.slip_velocity / (2e-5 * point.wall_stress.powf(1.5)) - 1.0).abs() < 0.1, "{point:?}");
+        let off = point.slip_velocity / (2e-5 * point.wall_stress.powf(1.5)) - 1.0;
+        assert_small("slip", off, Tol::stated(0.1, "noise of the made rows, amplified by differences of pipes"));
     }
     let Some(Correction::Ends(ends)) = ends.correction else { panic!("no ends") };
-    assert!(ends.points.iter().all(|point| (point.end_length - 2.5).abs() < 0.4));
+    for point in ends.points {
+        let off = point.end_length - 2.5;
+        assert_small(
+            "length of ends",
+            off,
+            Tol::stated(0.4, "noise of the made pressures, amplified by extrapolation to no length"),
+        );
+    }
     Ok(())
 }

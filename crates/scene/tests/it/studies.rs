@@ -6,7 +6,7 @@ use piola_scene::run::Outcome;
 use piola_scene::studies::{self, Findings, StudyPlan, StudyRun};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
-use crate::support::{PAIR, assert_mistake, replaced, study};
+use crate::support::{PAIR, assert_mistake, assert_small, replaced, study};
 
 const LENS: &str = r#"
 [wavefront]
@@ -76,8 +76,12 @@ fn front_of_a_lens_trimmed_to_first_arrival_has_no_ray_beyond_a_caustic() {
     assert!(count(first) + all.fronts[0].beyond_caustic <= count(all) + 2);
     // By symmetry the two branches meet on the axis.
     let crossing = first.fronts[0].pieces.iter().flatten().map(|place| place[1].abs()).fold(f64::INFINITY, f64::min);
-    assert!(crossing < 1e-9, "{crossing}");
-    assert!(all.residual < 1e-10);
+    assert_small(
+        "crossing",
+        crossing,
+        Tol::stated(1e-9, "tolerance of the rays over the angle at which the branches cross"),
+    );
+    assert_small("H", all.residual, Tol::stated(1e-10, "tolerance of the rays, a thousand steps"));
 }
 
 #[test]
@@ -91,7 +95,13 @@ fn first_loss_in_an_ellipse_is_its_smallest_radius_of_curvature() {
     assert_close("place", &[loss.place[0].abs(), loss.place[1].abs()], &[3.2, 0.0], tolerance);
     assert_eq!(found.closed_form_of_first_loss, Some(0.9));
     assert!(found.uncovered <= 2);
-    assert!(found.drift < 1e-12 && found.residual < 1e-3 && found.difference < 1e-5, "{found:?}");
+    assert_small("drift", found.drift, Tol::stated(1e-12, "tolerance of the characteristics, 1e-13"));
+    assert_small(
+        "residual",
+        found.residual,
+        Tol::stated(1e-3, "the resolution, 1/2000 of the semi-axis, over the speed"),
+    );
+    assert_small("difference", found.difference, Tol::stated(1e-5, "s; interpolation across 1/2000 of the semi-axis"));
 }
 
 #[test]

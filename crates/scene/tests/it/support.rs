@@ -2,6 +2,7 @@
 
 use piola_scene::document::Report;
 use piola_scene::{Document, Scene, SceneError, SceneFile, Study};
+use piola_testkit::{Tol, assert_close};
 
 /// A valid scene of gravitation.
 pub(crate) const PAIR: &str = r#"
@@ -95,6 +96,12 @@ pub(crate) fn report_with(text: &str, settings: &[&str]) -> Report {
         Err(error) => panic!("{error}"),
         Ok(_) => panic!("the scene has no mistakes"),
     }
+}
+
+/// Asserts that an error, or a number that should be zero, is within a tolerance.
+#[track_caller]
+pub(crate) fn assert_small(what: &str, error: f64, tolerance: Tol) {
+    assert_close(what, &[error], &[0.0], tolerance);
 }
 
 /// A text with one piece replaced, which must be there.

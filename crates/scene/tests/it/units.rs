@@ -85,9 +85,18 @@ fn every_unit_is_read_back_and_every_dimension_is_written_as_a_unit() {
 proptest! {
     #[test]
     fn any_text_is_read_or_refused_without_panic(text in "\\PC{0,40}") {
-        let _ = text.parse::<Quantity>();
-        let _ = text.parse::<VectorQuantity>();
-        let _ = text.parse::<Unit>();
+        match text.parse::<Quantity>() {
+            Ok(quantity) => prop_assert!(quantity.number.is_finite() && text.contains(|c: char| c.is_ascii_digit())),
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
+        }
+        match text.parse::<VectorQuantity>() {
+            Ok(vector) => prop_assert!(!vector.numbers.is_empty() && vector.numbers.iter().all(|x| x.is_finite())),
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
+        }
+        match text.parse::<Unit>() {
+            Ok(unit) => prop_assert!(0.0 < unit.numerator && 0.0 < unit.denominator),
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
+        }
     }
 
     #[test]

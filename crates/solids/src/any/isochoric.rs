@@ -11,14 +11,6 @@ macro_rules! any_isochoric {
         /// Any of the built-in energies of the [change of shape](crate::isochoric), written with its name.
         ///
         /// Laws of Ī₁ alone are asked with Ī₂ too; [`AnySolid`](super::AnySolid) computes what the law needs.
-        ///
-        /// # Example
-        /// ```
-        /// use piola_solids::{AnyIsochoric, isochoric::{Isochoric, Yeoh}};
-        /// let part = AnyIsochoric::from(Yeoh::new(1.0, -0.25, 0.5)?); // law = "yeoh", c1 = 1.0, c2 = −0.25, c3 = 0.5
-        /// assert_eq!(part.energy(2.0, 0.0), 5.0); // 2 − 1 + 4
-        /// # Ok::<(), piola_solids::SolidsError>(())
-        /// ```
         #[derive(Clone, Debug, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(tag = "law", rename_all = "snake_case"))]

@@ -23,20 +23,20 @@ pub use volumetric::AnyVolumetric;
 ///
 /// | `law` | type | parameters |
 /// |---|---|---|
-/// | `mooney_rivlin` | [`MooneyRivlin`] | `c10`, `c01`, `c`, and `d` unless the reference is free of stress |
-/// | `neo_hookean` | [`NeoHookean`] | `mu`, `volumetric` |
+/// | `mooney_rivlin` | [`MooneyRivlin`] | `c10`, `c01`, `square_coefficient`, and `logarithm_coefficient` unless the reference is free of stress |
+/// | `neo_hookean` | [`NeoHookean`] | `shear_modulus`, `volumetric` |
 /// | `compressible` | [`Compressible`] | `isochoric`, `volumetric` |
 /// | `incompressible` | [`IncompressibleSolid`] | `isochoric`, and `pressure` unless it is that of a body at rest |
 /// | `polynomial` | [`Polynomial`] | `terms` |
-/// | `blatz_ko` | [`BlatzKo`] | `mu`, `nu`, `share` |
-/// | `saint_venant_kirchhoff` | [`SaintVenantKirchhoff`] | `lambda`, `mu` |
-/// | `linear_elastic` | [`LinearElastic`] | `lambda`, `mu` |
+/// | `blatz_ko` | [`BlatzKo`] | `shear_modulus`, `poisson_ratio`, `solid_fraction` |
+/// | `saint_venant_kirchhoff` | [`SaintVenantKirchhoff`] | `first_lame_parameter`, `shear_modulus` |
+/// | `linear_elastic` | [`LinearElastic`] | `shear_modulus`, `first_lame_parameter` |
 /// | `ogden`, `isochoric_ogden` | [`Ogden`], [`IsochoricOgden`] | `terms`, `volumetric` |
 /// | `incompressible_ogden` | [`IncompressibleOgden`] | `terms`, and `pressure` unless it is that of a body at rest |
-/// | `hencky` | [`Hencky`] | `mu`, `volumetric` |
-/// | `fung` | [`Fung`] | `c`, `exponents` |
-/// | `holzapfel_gasser_ogden` | [`HolzapfelGasserOgden`] | `mu`, `kappa`, `k1`, `k2`, `dispersion`, `fibres` |
-/// | `reinforced_neo_hookean` | [`ReinforcedNeoHookean`] | `mu`, `lambda`, `k`, `fibre` |
+/// | `hencky` | [`Hencky`] | `shear_modulus`, `volumetric` |
+/// | `fung` | [`Fung`] | `modulus`, `exponents` |
+/// | `holzapfel_gasser_ogden` | [`HolzapfelGasserOgden`] | `shear_modulus`, `bulk_modulus`, `fibre_modulus`, `fibre_exponent`, `dispersion`, `fibres` |
+/// | `reinforced_neo_hookean` | [`ReinforcedNeoHookean`] | `shear_modulus`, `first_lame_parameter`, `fibre_modulus`, `fibre` |
 /// | `anisotropic_linear` | [`AnisotropicLinear`] | `stiffness` |
 /// | `anisotropic_saint_venant_kirchhoff` | [`AnisotropicSaintVenantKirchhoff`] | `stiffness` |
 ///
@@ -56,16 +56,16 @@ pub use volumetric::AnyVolumetric;
 /// let rubber: AnySolid = toml::from_str(r#"
 ///     law = "compressible"
 ///     isochoric = { law = "mooney_rivlin", c10 = 0.5, c01 = 0.25 }
-///     volumetric = { law = "simo_taylor", kappa = 100.0 }
+///     volumetric = { law = "simo_taylor", bulk_modulus = 100.0 }
 /// "#)?;
 /// let shear = DeformationGradient::simple_shear(0.5)?;
 /// let stress: f64 = rubber.cauchy(&shear).0.components[3];
 /// assert!((stress - 0.75).abs() < 1e-15); // 2 (C₁₀ + C₀₁) k
 /// let wrong = toml::from_str::<AnySolid>(r#"law = "blatz_ko"
-///     mu = 1.0
-///     nu = 0.75
-///     share = 0.0"#);
-/// assert!(wrong.unwrap_err().to_string().contains("nu = 7.5e-1 violates 0 ≤ ν < ½"));
+///     shear_modulus = 1.0
+///     poisson_ratio = 0.75
+///     solid_fraction = 0.0"#);
+/// assert!(wrong.unwrap_err().to_string().contains("poisson_ratio = 7.5e-1 violates 0 ≤ ν < ½"));
 /// # Ok(())
 /// # }
 /// # #[cfg(not(feature = "serde"))]

@@ -11,14 +11,6 @@ use crate::volumetric::{
 macro_rules! any_volumetric {
     ($($(#[$about:meta])* $name:ident($part:ident)),+ $(,)?) => {
         /// Any of the built-in energies of the [change of volume](crate::volumetric), written with its name.
-        ///
-        /// # Example
-        /// ```
-        /// use piola_solids::{AnyVolumetric, volumetric::{Miehe, Volumetric}};
-        /// let part = AnyVolumetric::from(Miehe::new(3.0)?); // law = "miehe", kappa = 3.0
-        /// assert_eq!(part.mean_kirchhoff(1.0, 2.0), 3.0); // κ (J − 1)
-        /// # Ok::<(), piola_solids::SolidsError>(())
-        /// ```
         #[derive(Clone, Copy, Debug, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(tag = "law", rename_all = "snake_case"))]

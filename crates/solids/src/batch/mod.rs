@@ -1,15 +1,17 @@
 //! Laws at millions of points: in lanes, on all cores, only what is asked for.
 //!
 //! ```
-//! use piola_solids::batch;
-//! use piola_solids::MooneyRivlin;
 //! use piola_continuum::{DeformationGradient, FirstPiola};
+//! use piola_solids::{SaintVenantKirchhoff, batch};
 //!
-//! let law = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-//! let f = vec![DeformationGradient::simple_shear(0.5)?; 1000];
+//! let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
+//! let f = vec![DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 1000]; // E₁₁ = 3/2
 //! let (mut p, mut a) = (vec![FirstPiola::zero(); 1000], vec![[0.0; 45]; 1000]);
-//! batch::evaluate(&f[..], (batch::first_piola(&law, &mut p[..]), batch::first_piola_tangent(&law, &mut a[..])))?;
-//! assert_eq!(p[999].0[(0, 1)], 0.75);
+//! batch::evaluate(&f[..], batch::first_piola_and_tangent(&law, &mut p[..], &mut a[..]))?;
+//! assert_eq!((p[999].0[(0, 0)], a[999][0]), (15.0, 27.5)); // 2 (λ + 2 μ) E₁₁, S₁₁ + F₁₁² (λ + 2 μ)
+//! let (mut c, mut t) = (vec![[0.0; 21]; 1000], vec![[0.0; 21]; 1000]);
+//! batch::evaluate(&f[..], (batch::material_tangent(&law, &mut c[..]), batch::truesdell_tangent(&law, &mut t[..])))?;
+//! assert_eq!((c[999][0], t[999][0]), (5.0, 40.0)); // λ + 2 μ, F₁₁⁴ (λ + 2 μ)/J
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

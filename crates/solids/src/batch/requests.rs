@@ -112,19 +112,6 @@ quantities! {
     /// W(F) − W(1): see [`Hyperelastic::energy`].
     pub energy EnergyOf [1] EnergyOf<'static, ()>, |law, point| [law.energy(point)];
     /// P: see [`Hyperelastic::first_piola`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::batch;
-    /// use piola_solids::SaintVenantKirchhoff;
-    /// use piola_batch::Gradients;
-    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-    /// let f = [[[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]; 7];
-    /// let mut p = [[[0.0; 3]; 3]; 7];
-    /// batch::evaluate(Gradients(&f[..]), batch::first_piola(&law, &mut p[..]))?;
-    /// assert_eq!(p[6][0][0], 15.0); // 2 (λ + 2μ) E₁₁
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub first_piola FirstPiolaOf [9 knows] FirstPiola, |law, point| flat(&law.first_piola(point));
     /// S: see [`Hyperelastic::second_piola`].
     pub second_piola SecondPiolaOf [6] SecondPiola, |law, point| law.second_piola(point).0.components;

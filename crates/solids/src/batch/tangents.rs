@@ -39,18 +39,6 @@ fn square<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 81] {
 quantities! {
     /// The 45 entries of ∂P/∂F that major symmetry leaves: those of row r and column s with r ≤ s, by rows, where the
     /// pair iA has the number r = 3 i + A.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::batch;
-    /// use piola_solids::SaintVenantKirchhoff;
-    /// use piola_continuum::DeformationGradient;
-    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-    /// let (f, mut a) = ([DeformationGradient::identity(); 7], [[0.0; 45]; 7]);
-    /// batch::evaluate(&f[..], batch::first_piola_tangent(&law, &mut a[..]))?;
-    /// assert_eq!(a[6][..5], [5.0, 0.0, 0.0, 0.0, 1.0]); // λ + 2μ at (11, 11), λ at (11, 22)
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub first_piola_tangent FirstPiolaTangentOf [45 knows] FirstPiolaTangentOf<'static, ()>, |law, point| upper(&law.first_piola_tangent(point));
     /// All 81 entries of ∂P/∂F: see [`Hyperelastic::first_piola_tangent`].
     pub first_piola_tangent_square FirstPiolaTangentSquareOf [81 knows] FirstPiolaTangent,
@@ -58,34 +46,10 @@ quantities! {
     /// The 21 components of ∂S/∂E, the upper triangle by rows of the 6×6 array over the pairs 11, 22, 33, 12, 23, 13 without
     /// factors for shears, as in [`MajorSymmetric`](piola_tensor::MajorSymmetric): see
     /// [`Hyperelastic::material_tangent`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::batch;
-    /// use piola_solids::SaintVenantKirchhoff;
-    /// use piola_continuum::DeformationGradient;
-    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-    /// let (f, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [[0.0; 21]; 7]);
-    /// batch::evaluate(&f[..], batch::material_tangent(&law, &mut c[..]))?;
-    /// assert_eq!(c[6][..4], [5.0, 1.0, 1.0, 0.0]); // λ + 2μ at (11, 11), λ at (11, 22) at every deformation
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub material_tangent MaterialTangentOf [21] MaterialTangentOf<'static, ()>,
         |law, point| law.material_tangent(point).0.components;
     /// The 21 components of c/J, which takes D to the Truesdell rate of T, in the order of [`material_tangent`]: see
     /// [`Hyperelastic::truesdell_tangent`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::batch;
-    /// use piola_solids::SaintVenantKirchhoff;
-    /// use piola_continuum::DeformationGradient;
-    /// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-    /// let (f, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [[0.0; 21]; 7]);
-    /// batch::evaluate(&f[..], batch::truesdell_tangent(&law, &mut c[..]))?;
-    /// assert_eq!(c[6][..2], [40.0, 2.0]); // F₁₁⁴ (λ + 2μ)/J and F₁₁² λ/J
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub truesdell_tangent TruesdellTangentOf [21] TruesdellTangentOf<'static, ()>,
         |law, point| law.truesdell_tangent(point).0.components;
 }
@@ -93,20 +57,6 @@ quantities! {
 /// (∂P/∂F) : δF of a direction δF at each point: see [`Hyperelastic::first_piola_derivative`].
 ///
 /// A direction so large that the answer is beyond the range of numbers is not refused: the answer is then not finite.
-///
-/// # Example
-/// ```
-/// use nalgebra::Matrix3;
-/// use piola_solids::batch;
-/// use piola_solids::SaintVenantKirchhoff;
-/// use piola_continuum::{DeformationGradient, FirstPiola};
-/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-/// let (f, mut q) = ([DeformationGradient::identity(); 7], [FirstPiola::zero(); 7]);
-/// let direction = [Matrix3::new(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0); 7];
-/// batch::evaluate(&f[..], batch::first_piola_derivative(&law, &direction[..], &mut q[..]))?;
-/// assert_eq!((q[6].0[(0, 1)], q[6].0[(1, 0)]), (2.0, 2.0)); // μ (δF + δFᵀ)
-/// # Ok::<(), piola_solids::SolidsError>(())
-/// ```
 #[must_use]
 pub fn first_piola_derivative<L: Hyperelastic + Sync, S, V>(
     law: &L,

@@ -70,18 +70,6 @@ fn with_tangent<T: Real>(stress: &[T; 6], tangent: &[T; 21]) -> [T; 27] {
 
 /// S and the 21 components of [`material_tangent`](super::material_tangent), what they share computed once: what a total Lagrangian formulation asks
 /// for.
-///
-/// # Example
-/// ```
-/// use piola_solids::batch;
-/// use piola_solids::SaintVenantKirchhoff;
-/// use piola_continuum::{DeformationGradient, SecondPiola};
-/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-/// let (f, mut s, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [SecondPiola::zero(); 7], [[0.0; 21]; 7]);
-/// batch::evaluate(&f[..], batch::second_piola_and_tangent(&law, &mut s[..], &mut c[..]))?;
-/// assert_eq!((s[6].0.components[0], c[6][0]), (7.5, 5.0)); // (λ + 2μ) E₁₁, λ + 2μ
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[must_use]
 pub fn second_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
     law: &L,
@@ -93,18 +81,6 @@ pub fn second_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
 
 /// T and the 21 components of [`truesdell_tangent`](super::truesdell_tangent), what they share computed once: what an updated Lagrangian formulation asks
 /// for.
-///
-/// # Example
-/// ```
-/// use piola_solids::batch;
-/// use piola_solids::SaintVenantKirchhoff;
-/// use piola_continuum::{CauchyStress, DeformationGradient};
-/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-/// let (f, mut t, mut c) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [CauchyStress::zero(); 7], [[0.0; 21]; 7]);
-/// batch::evaluate(&f[..], batch::cauchy_and_tangent(&law, &mut t[..], &mut c[..]))?;
-/// assert_eq!((t[6].0.components[0], c[6][0]), (15.0, 40.0)); // F₁₁² S₁₁/J, F₁₁⁴ (λ + 2μ)/J
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[must_use]
 pub fn cauchy_and_tangent<L: Hyperelastic + Sync, V, W>(
     law: &L,
@@ -115,18 +91,6 @@ pub fn cauchy_and_tangent<L: Hyperelastic + Sync, V, W>(
 }
 
 /// W(F) − W(1) and P, what they share computed once: what a line search asks for.
-///
-/// # Example
-/// ```
-/// use piola_solids::batch;
-/// use piola_solids::SaintVenantKirchhoff;
-/// use piola_continuum::{DeformationGradient, FirstPiola};
-/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-/// let (f, mut w, mut p) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [0.0; 7], [FirstPiola::zero(); 7]);
-/// batch::evaluate(&f[..], batch::energy_and_first_piola(&law, &mut w[..], &mut p[..]))?;
-/// assert_eq!((w[6], p[6].0[(0, 0)]), (5.625, 15.0)); // ½ (λ + 2μ) E₁₁², 2 (λ + 2μ) E₁₁
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[must_use]
 pub fn energy_and_first_piola<L: Hyperelastic + Sync, V, W>(
     law: &L,
@@ -138,19 +102,6 @@ pub fn energy_and_first_piola<L: Hyperelastic + Sync, V, W>(
 
 /// W(F) − W(1), P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent), what they share computed once: what a step of Newton's method
 /// with a line search asks for.
-///
-/// # Example
-/// ```
-/// use piola_solids::batch;
-/// use piola_solids::SaintVenantKirchhoff;
-/// use piola_continuum::{DeformationGradient, FirstPiola};
-/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-/// let f = [DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7];
-/// let (mut w, mut p, mut a) = ([0.0; 7], [FirstPiola::zero(); 7], [[0.0; 45]; 7]);
-/// batch::evaluate(&f[..], batch::energy_first_piola_and_tangent(&law, &mut w[..], &mut p[..], &mut a[..]))?;
-/// assert_eq!((w[6], p[6].0[(0, 0)], a[6][0]), (5.625, 15.0, 27.5));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[must_use]
 pub fn energy_first_piola_and_tangent<L: Hyperelastic + Sync, U, V, W>(
     law: &L,
@@ -163,18 +114,6 @@ pub fn energy_first_piola_and_tangent<L: Hyperelastic + Sync, U, V, W>(
 
 /// P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent), what they share computed once: see
 /// [`Hyperelastic::first_piola_and_tangent`].
-///
-/// # Example
-/// ```
-/// use piola_solids::batch;
-/// use piola_solids::SaintVenantKirchhoff;
-/// use piola_continuum::{DeformationGradient, FirstPiola};
-/// let law = SaintVenantKirchhoff::new(1.0, 2.0)?;
-/// let (f, mut p, mut a) = ([DeformationGradient::diagonal([2.0, 1.0, 1.0])?; 7], [FirstPiola::zero(); 7], [[0.0; 45]; 7]);
-/// batch::evaluate(&f[..], batch::first_piola_and_tangent(&law, &mut p[..], &mut a[..]))?;
-/// assert_eq!((p[6].0[(0, 0)], a[6][0]), (15.0, 27.5));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[must_use]
 pub fn first_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
     law: &L,

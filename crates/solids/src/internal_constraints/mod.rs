@@ -1,4 +1,4 @@
-//! Internal constraints: what a material cannot do, and the stress that sees to it.
+//! Internal constraints and their reaction stresses.
 //!
 //! ```text
 //! μ(F) = 0        T = N + what the law gives        N = λ F (∂μ/∂F)ᵀ        tr(N L) = 0
@@ -15,24 +15,9 @@
 //! | your own μ(F) | [`InternalConstraint`] | by exact differentiation |
 //! | your own μ̂(C) | [`MetricConstraint`] in [`OfMetric`] | the same, six directions instead of nine |
 //!
-//! Several are combined in a [`Combination`], which names those that say the same or contradict one another, and finds
-//! multipliers from [`StressCondition`]s. Where the deformation is not known either:
+//! Several are combined in a [`Combination`], which refuses redundant and inconsistent ones and finds multipliers from
+//! [`StressCondition`]s. Where the deformation is not known either:
 //! `piola_specimens::homogeneous::constrained_equilibrium`.
-//!
-//! # Example
-//! An incompressible bar, its sides free: the pressure, and the force with it.
-//! ```
-//! use piola_solids::internal_constraints::{Combination, Incompressibility, InternalConstraint, StressCondition};
-//! use piola_continuum::{CauchyStress, DeformationGradient};
-//! let bar = DeformationGradient::diagonal([4.0, 0.5, 0.5])?;
-//! let extra = CauchyStress::new(16.0, 0.25, 0.25, 0.0, 0.0, 0.0)?; // μ B with μ = 1
-//! let constraints = Combination::new([Incompressibility.at(&bar)?])?;
-//! let multipliers = constraints.multipliers(&extra, &StressCondition::traction_free([0.0, 0.0, 1.0])?)?;
-//! let stress = constraints.stress(&extra, multipliers);
-//! assert!((stress.0.components[0] - 15.75).abs() < 1e-13); // λ² − 1/λ
-//! assert!((Incompressibility::pressure(multipliers[0], &bar) - 0.25).abs() < 1e-14);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
 //!
 //! # Source
 //! W(21.5–21.25).

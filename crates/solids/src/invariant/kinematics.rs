@@ -47,6 +47,13 @@ impl<T: Real> Kinematics<T> {
     /// Those of F and ∇u where they are [moderate](kernels::is_moderate).
     #[inline(always)]
     pub(super) fn near<L: InvariantEnergy>(gradient: Rows<T>, h: Rows<T>) -> Self {
+        if L::SECOND { Self::closed::<true>(gradient, h) } else { Self::closed::<false>(gradient, h) }
+    }
+
+    // Without optimisation a function of its own: each method of each law would hold two copies.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(debug_assertions, inline(never))]
+    fn closed<const SECOND: bool>(gradient: Rows<T>, h: Rows<T>) -> Self {
         let (one, two) = (T::one(), T::lit(2.0));
         let change = kernels::right_cauchy_green_minus_one(h);
         let [a, b, c, x_12, x_23, x_13] = change.components;
@@ -69,7 +76,7 @@ impl<T: Real> Kinematics<T> {
         let beyond =
             [[d(0), x - m[0][1], z - m[0][2]], [x - m[1][0], d(1), y - m[1][2]], [z - m[2][0], y - m[2][1], d(2)]];
         // I₂ − 3 = 2 tr (C − 1) + i₂(C − 1).
-        let second = if L::SECOND {
+        let second = if SECOND {
             (two * first + (a * b + b * c + a * c)) - (x_12 * x_12 + x_23 * x_23 + x_13 * x_13)
         } else {
             T::zero()
@@ -100,11 +107,17 @@ impl<T: Real> Kinematics<T> {
     /// With what is far from the reference, where it is.
     #[inline(always)]
     fn with_far<L: InvariantEnergy>(self, jacobian: T) -> Self {
+        if L::SECOND { self.completed::<true>(jacobian) } else { self.completed::<false>(jacobian) }
+    }
+
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    #[cfg_attr(debug_assertions, inline(never))]
+    fn completed<const SECOND: bool>(self, jacobian: T) -> Self {
         let (one, three) = (T::one(), T::lit(3.0));
         let plain_cofactor = cofactor(self.gradient);
         // I₁ = F : F and I₂ = Cof F : Cof F.
         let first = double_contraction(self.gradient, self.gradient);
-        let second = if L::SECOND { double_contraction(plain_cofactor, plain_cofactor) } else { three };
+        let second = if SECOND { double_contraction(plain_cofactor, plain_cofactor) } else { three };
         let (near, closed) = (self.near, self.invariants);
         let turned = largest_modulus(&self.change).at_most(T::lit(SMALL));
         let mut beyond = self.gradient;

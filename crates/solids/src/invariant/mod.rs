@@ -221,29 +221,11 @@ macro_rules! hyperelastic_of_invariants {
                 <$law as $crate::invariant::InvariantEnergy>::REFUSED_IS_NOT_FINITE;
             const KNOWS_DEFORMATIONS: bool = <$law as $crate::invariant::InvariantEnergy>::STRAIGHT;
 
-            #[inline(always)]
-            fn energy<T: piola_numerics::Real>(&self, deformation: &impl piola_continuum::Deformation<T>) -> T {
-                $crate::invariant::InvariantEnergy::energy(self, deformation)
-            }
             fn reference_energy(&self) -> f64 {
                 $crate::invariant::InvariantEnergy::reference_energy(self)
             }
-            #[inline(always)]
-            fn check<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> Result<(), $crate::SolidsError> {
-                $crate::invariant::InvariantEnergy::check(self, deformation)
-            }
             fn is_incompressible(&self) -> bool {
                 $crate::invariant::InvariantEnergy::is_incompressible(self)
-            }
-            #[inline(always)]
-            fn first_piola<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::FirstPiola<T> {
-                $crate::invariant::first_piola(self, deformation)
             }
             #[inline(always)]
             fn first_piola_derivative<T: piola_numerics::Real>(
@@ -253,69 +235,39 @@ macro_rules! hyperelastic_of_invariants {
             ) -> piola_continuum::FirstPiola<T> {
                 $crate::invariant::first_piola_derivative(self, deformation, direction)
             }
-            #[inline(always)]
-            fn energy_and_first_piola<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (T, piola_continuum::FirstPiola<T>) {
-                $crate::invariant::energy_and_first_piola(self, deformation)
-            }
-            #[inline(always)]
-            fn energy_first_piola_and_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
-                $crate::invariant::energy_first_piola_and_tangent(self, deformation)
-            }
-            #[inline(always)]
-            fn second_piola<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::SecondPiola<T> {
-                $crate::invariant::second_piola(self, deformation)
-            }
-            #[inline(always)]
-            fn kirchhoff<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::KirchhoffStress<T> {
-                $crate::invariant::kirchhoff(self, deformation)
-            }
-            #[inline(always)]
-            fn first_piola_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> piola_continuum::stress::tangents::FirstPiolaTangent<T> {
-                $crate::invariant::first_piola_tangent(self, deformation)
-            }
-            #[inline(always)]
-            fn first_piola_and_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
-                $crate::invariant::first_piola_and_tangent(self, deformation)
-            }
-            #[inline(always)]
-            fn first_piola_and_upper_triangle<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> [T; 54] {
-                $crate::invariant::first_piola_and_upper_triangle(self, deformation)
-            }
-            #[inline(always)]
-            fn second_piola_and_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
-                $crate::invariant::second_piola_and_tangent(self, deformation)
-            }
-            #[inline(always)]
-            fn cauchy_and_tangent<T: piola_numerics::Real>(
-                &self,
-                deformation: &impl piola_continuum::Deformation<T>,
-            ) -> (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
-                let (stress, tangent) = $crate::invariant::second_piola_and_tangent(self, deformation);
-                (stress.cauchy(deformation), tangent.truesdell(deformation))
+
+            answers! { |self, deformation|
+                energy -> T { $crate::invariant::InvariantEnergy::energy(self, deformation) }
+                check -> Result<(), $crate::SolidsError> { $crate::invariant::InvariantEnergy::check(self, deformation) }
+                first_piola -> piola_continuum::FirstPiola<T> { $crate::invariant::first_piola(self, deformation) }
+                energy_and_first_piola -> (T, piola_continuum::FirstPiola<T>) {
+                    $crate::invariant::energy_and_first_piola(self, deformation)
+                }
+                energy_first_piola_and_tangent ->
+                    (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+                    $crate::invariant::energy_first_piola_and_tangent(self, deformation)
+                }
+                second_piola -> piola_continuum::SecondPiola<T> { $crate::invariant::second_piola(self, deformation) }
+                kirchhoff -> piola_continuum::KirchhoffStress<T> { $crate::invariant::kirchhoff(self, deformation) }
+                first_piola_tangent -> piola_continuum::stress::tangents::FirstPiolaTangent<T> {
+                    $crate::invariant::first_piola_tangent(self, deformation)
+                }
+                first_piola_and_tangent ->
+                    (piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
+                    $crate::invariant::first_piola_and_tangent(self, deformation)
+                }
+                first_piola_and_upper_triangle -> [T; 54] {
+                    $crate::invariant::first_piola_and_upper_triangle(self, deformation)
+                }
+                second_piola_and_tangent ->
+                    (piola_continuum::SecondPiola<T>, piola_continuum::stress::tangents::MaterialTangent<T>) {
+                    $crate::invariant::second_piola_and_tangent(self, deformation)
+                }
+                cauchy_and_tangent ->
+                    (piola_continuum::CauchyStress<T>, piola_continuum::stress::tangents::TruesdellTangent<T>) {
+                    let (stress, tangent) = $crate::invariant::second_piola_and_tangent(self, deformation);
+                    (stress.cauchy(deformation), tangent.truesdell(deformation))
+                }
             }
         }
     };

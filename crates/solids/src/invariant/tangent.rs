@@ -45,12 +45,33 @@ pub(super) fn tangent<T: Real, L: InvariantEnergy>(
     curvatures: &Curvatures<T>,
     kinematics: &Kinematics<T>,
 ) -> FirstPiolaTangent<T> {
+    if L::SECOND {
+        if L::CURVED {
+            sum_of_terms::<T, true, true>(slopes, curvatures, kinematics)
+        } else {
+            sum_of_terms::<T, true, false>(slopes, curvatures, kinematics)
+        }
+    } else if L::CURVED {
+        sum_of_terms::<T, false, true>(slopes, curvatures, kinematics)
+    } else {
+        sum_of_terms::<T, false, false>(slopes, curvatures, kinematics)
+    }
+}
+
+// Without optimisation a function of its own: each of seven methods of each law would hold two copies of it.
+#[cfg_attr(not(debug_assertions), inline(always))]
+#[cfg_attr(debug_assertions, inline(never))]
+fn sum_of_terms<T: Real, const SECOND: bool, const CURVED: bool>(
+    slopes: &Slopes<T>,
+    curvatures: &Curvatures<T>,
+    kinematics: &Kinematics<T>,
+) -> FirstPiolaTangent<T> {
     let (one, two, four) = (T::one(), T::lit(2.0), T::lit(4.0));
     let invariants = &kinematics.invariants;
     let (f, k) = (flat(kinematics.gradient), flat(kinematics.cofactor));
     let volume = slopes.volume * invariants.jacobian.recip();
     let w = two * slopes.second;
-    let alternating = if L::SECOND { combined(volume, &f, w, &k) } else { multiple(volume, &f) };
+    let alternating = if SECOND { combined(volume, &f, w, &k) } else { multiple(volume, &f) };
 
     // F ⊗ u + Cof F ⊗ v + g ⊗ z.
     let mut u = f;
@@ -58,11 +79,11 @@ pub(super) fn tangent<T: Real, L: InvariantEnergy>(
     let (mut g, mut z) = (f, f);
     // I₁ 1 − C is this times 1 less the change.
     let trace = two * kinematics.shift + kinematics.trace();
-    if L::CURVED {
+    if CURVED {
         let mixed = two * curvatures.first_volume;
         v = combined(curvatures.volume_volume, &k, mixed, &f);
-        u = combined(if L::SECOND { w } else { T::zero() } + four * curvatures.first_first, &f, mixed, &k);
-        if L::SECOND {
+        u = combined(if SECOND { w } else { T::zero() } + four * curvatures.first_first, &f, mixed, &k);
+        if SECOND {
             // ∂I₂ = 2 F (I₁ 1 − C).
             let inner = (Symmetric::identity() * trace - kinematics.change) * two;
             g = flat(product(kinematics.gradient, inner.rows()));
@@ -71,7 +92,7 @@ pub(super) fn tangent<T: Real, L: InvariantEnergy>(
             z = combined(curvatures.second_second, &g, two * curvatures.first_second, &f);
             z = combined(one, &z, curvatures.second_volume, &k);
         }
-    } else if L::SECOND {
+    } else if SECOND {
         u = multiple(w, &f);
     }
 
@@ -79,7 +100,7 @@ pub(super) fn tangent<T: Real, L: InvariantEnergy>(
     let right = kinematics.change * w;
     let left = Symmetric::upper_triangle(product_transposed(kinematics.gradient, kinematics.gradient)) * w;
     let (right, left) = (right.rows(), left.rows());
-    let diagonal = two * slopes.first + if L::SECOND { w * trace } else { T::zero() };
+    let diagonal = two * slopes.first + if SECOND { w * trace } else { T::zero() };
 
     // Written out: in a loop the compiler would decide at run time which terms an entry has.
     let mut entries = [[T::zero(); 9]; 9];
@@ -87,19 +108,19 @@ pub(super) fn tangent<T: Real, L: InvariantEnergy>(
         ($r:literal: $($s:literal)+) => { $(
             let (i, p, j, q) = ($r / 3, $r % 3, $s / 3, $s % 3);
             let mut entry = k[$r] * v[$s];
-            if L::SECOND || L::CURVED {
+            if SECOND || CURVED {
                 entry += f[$r] * u[$s];
             }
-            if L::SECOND && L::CURVED {
+            if SECOND && CURVED {
                 entry += g[$r] * z[$s];
             }
             if i == j && p == q {
                 entry += diagonal;
             }
-            if L::SECOND && i == j {
+            if SECOND && i == j {
                 entry -= right[p][q];
             }
-            if L::SECOND && p == q {
+            if SECOND && p == q {
                 entry -= left[i][j];
             }
             if i != j && p != q {

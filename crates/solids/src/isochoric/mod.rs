@@ -70,10 +70,10 @@ pub use yeoh::Yeoh;
 pub trait Isochoric: Clone {
     /// Whether W̄ depends on Ī₂.
     const SECOND: bool;
-    /// Whether energy, slopes and curvatures are not finite wherever [`check`](Self::check) refuses, if it refuses
-    /// anything: batches then ask it only where an answer is not finite.
+    /// True if energy, slopes and curvatures are NaN or ∞ wherever [`check`](Self::check) fails. Batches then call it
+    /// only after a non-finite result.
     const REFUSED_IS_NOT_FINITE: bool = false;
-    /// Whether [`check`](Self::check) can refuse anything: where not, it is not prepared for.
+    /// True if [`check`](Self::check) can fail at all; otherwise it is not called.
     const LIMITED: bool = true;
     /// See [`InvariantEnergy::STRAIGHT`](super::invariant::InvariantEnergy::STRAIGHT).
     const STRAIGHT: bool = false;

@@ -117,20 +117,4 @@ fn scaled<T: Real>(mut tangent: FirstPiolaTangent<T>, factor: f64) -> FirstPiola
     tangent
 }
 
-/// The share as it is written.
-#[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written<L> {
-    law: L,
-    factor: f64,
-}
-
-#[cfg(feature = "serde")]
-impl<L> TryFrom<Written<L>> for Scaled<L> {
-    type Error = SolidsError;
-
-    fn try_from(Written { law, factor }: Written<L>) -> Result<Self, SolidsError> {
-        Self::new(law, factor)
-    }
-}
+read_with!(new of Scaled<L: Sized> { law: L, factor: f64 });

@@ -74,16 +74,6 @@ impl<L: Hyperelastic + Clone> Viscoelastic<Scaled<L>, L> {
     ///
     /// # Errors
     /// [`SolidsError::OutOfBounds`] unless Σ gₖ ≤ 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::memory::{Prony, PronyTerm, Viscoelastic};
-    /// use piola_solids::MooneyRivlin;
-    /// let rubber = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?;
-    /// let too_much = Prony::new(vec![PronyTerm { weight: 1.5, time: 2.0 }])?;
-    /// assert!(Viscoelastic::relaxing(rubber, too_much).is_err());
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub fn relaxing(law: L, prony: Prony) -> Result<Self, SolidsError> {
         let sum = prony.sum();
         check_bound("Prony series", "sum of weights", sum, "sum ≤ 1", sum <= 1.0)?;
@@ -187,18 +177,6 @@ impl<E: Hyperelastic, D: Hyperelastic> Viscoelastic<E, D> {
     ///
     /// # Errors
     /// [`SolidsError::OutOfBounds`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_solids::memory::{Prony, PronyTerm, Viscoelastic};
-    /// use piola_solids::MooneyRivlin;
-    /// let rubber = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?;
-    /// let series = |count| Prony::new(vec![PronyTerm { weight: 0.1, time: 2.0 }; count]);
-    /// let solid = Viscoelastic::new(rubber, rubber, series(3)?);
-    /// assert!(solid.check_step(&solid.prony().step(0.5)?).is_ok());
-    /// assert!(solid.check_step(&series(1)?.step(0.5)?).is_err());
-    /// # Ok::<(), piola_solids::SolidsError>(())
-    /// ```
     pub fn check_step(&self, step: &PronyStep) -> Result<(), SolidsError> {
         const STEP: &str = "viscoelastic step";
         let count = step.factors().len() as f64;

@@ -33,12 +33,11 @@ const LAW: &str = "incompressible Ogden";
 ///
 /// # Example
 /// ```
-/// use piola_specimens::homogeneous::{Mode, nominal_stress};
 /// use piola_solids::{Hyperelastic, IncompressibleOgden, OgdenTerm};
 /// use piola_continuum::DeformationGradient;
 /// let rubber = IncompressibleOgden::new(&[OgdenTerm { modulus: 2.0, exponent: 2.0 }])?;
-/// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
-/// assert!((stress - 2.0 * 1.75).abs() < 1e-14); // μ (λ^(α−1) − λ^(−α/2−1))
+/// let bar = rubber.cauchy(&DeformationGradient::diagonal([4.0, 0.5, 0.5])?).0.components;
+/// assert!((bar[0] - bar[1] - 31.5_f64).abs() < 1e-13); // μ (λ^α − λ^(−α/2))
 /// let sheared = rubber.at_pressure(0.5)?.cauchy(&DeformationGradient::simple_shear(1.0)?).0.components;
 /// assert!((sheared[2] - 1.5_f64).abs() < 1e-15); // μ − p
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -7,6 +7,8 @@ mod extremes;
 mod kinks;
 mod laws;
 mod limits;
+#[path = "../invariant/once.rs"]
+mod once;
 mod pairs;
 mod refusals;
 mod same;

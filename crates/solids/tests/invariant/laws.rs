@@ -8,7 +8,6 @@ use piola_solids::SolidsError;
 use piola_testkit::{Tol, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
-use super::answers;
 use super::zoo::{self, Visitor};
 
 const MODULI: Tol = Tol::stated(1e-13, "closed forms and exact derivatives, of the moduli");
@@ -18,32 +17,32 @@ struct ClosedEqualsDerived(DisplacementGradient);
 impl Visitor for ClosedEqualsDerived {
     fn visit<L: Hyperelastic>(&mut self, name: &str, law: &L) {
         let f = &self.0;
-        let tangent = answers::first_piola_tangent(law, f);
+        let tangent = law.first_piola_tangent(f);
         let entries = tangent.0.components.as_flattened();
         let moduli = entries.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let close = |what: &str, scale: f64, a: &[f64], b: &[f64]| {
             assert_close_at_scale(&format!("{name}: {what}"), a, b, scale, MODULI);
         };
-        let stress = answers::first_piola(law, f);
+        let stress = law.first_piola(f);
         // ∂W/∂F of the energy and ∂P/∂F of P, a column at a time, by dual numbers.
         let mut slopes = Matrix3::zeros();
         for column in 0..9 {
             let varied = f.lifted(|i, j, x| Dual::new(x, if 3 * i + j == column { 1.0 } else { 0.0 }));
-            slopes[(column / 3, column % 3)] = answers::energy(law, &varied).tangent;
-            let derivative = answers::first_piola(law, &varied).0.map(|x| x.tangent);
+            slopes[(column / 3, column % 3)] = law.energy(&varied).tangent;
+            let derivative = law.first_piola(&varied).0.map(|x| x.tangent);
             let closed: [f64; 9] = core::array::from_fn(|row| tangent.0.components[row][column]);
             close("∂P/∂F", moduli, &closed, derivative.transpose().as_slice());
         }
         close("P", moduli, stress.0.as_slice(), slopes.as_slice());
         let inverse = f.inverse_rows().as_flattened().iter().fold(1.0_f64, |largest, x| largest.max(x.abs()));
-        let (second, kirchhoff) = (answers::second_piola(law, f).0, answers::kirchhoff(law, f).0);
+        let (second, kirchhoff) = (law.second_piola(f).0, law.kirchhoff(f).0);
         // To the linear law all measures are one.
         let linear = Symmetric::symmetric_part(stress.0.into());
         let (pulled, pushed) =
             if name == "linear elastic" { (linear, linear) } else { (stress.second_piola(f).0, stress.kirchhoff(f).0) };
         close("S", moduli * inverse, &second.components, &pulled.components);
         close("τ", moduli, &kirchhoff.components, &pushed.components);
-        assert_eq!(answers::first_piola_and_tangent(law, f), (stress, tangent), "{name}: together and apart");
+        assert_eq!(law.first_piola_and_tangent(f), (stress, tangent), "{name}: together and apart");
     }
 }
 
@@ -54,7 +53,7 @@ impl Visitor for ReferenceIsFree {
         for component in law.reference_stress().components {
             assert_eq!(component.abs().to_bits(), 0, "{name}");
         }
-        let energy: f64 = answers::energy(law, &DisplacementGradient::zero());
+        let energy: f64 = law.energy(&DisplacementGradient::zero());
         assert_eq!(energy.abs().to_bits(), 0, "{name}");
     }
 }
@@ -65,7 +64,7 @@ impl Visitor for EnergyIsNotNegative {
     fn visit<L: Hyperelastic>(&mut self, name: &str, law: &L) {
         // Continued off J = 1 an incompressible law need not be positive.
         if !name.starts_with("incompressible") && name != "polynomial" {
-            let energy = answers::energy(law, &self.0);
+            let energy = law.energy(&self.0);
             assert!(0.0 <= energy, "{name}: {energy:e}");
         }
     }

@@ -1,7 +1,6 @@
 //! Isotropic laws of invariants, linear elasticity and response functions.
 
 mod alloc;
-mod answers;
 mod constants;
 mod forms;
 mod golden;
@@ -10,6 +9,7 @@ mod langevin;
 mod laws;
 mod limits;
 mod near;
+mod once;
 mod parameters;
 mod variation;
 mod volumes;

@@ -1,5 +1,7 @@
-//! The tests of `piola-constitutive`.
+//! The tests of `piola-solids`.
 
 mod golden;
+#[path = "../invariant/once.rs"]
+mod once;
 mod range;
 mod single;

@@ -4,4 +4,6 @@ mod cases;
 mod derived;
 mod identities;
 mod near_reference;
+#[path = "../invariant/once.rs"]
+mod once;
 mod traps;

@@ -8,6 +8,7 @@ use piola_testkit::{DoubleDouble, Tol, assert_close};
 use proptest::prelude::*;
 
 use super::cases::{Group, Visitor, all, hencky};
+use super::once::Once;
 
 const RELATIVE: Tol = Tol::stated(1e-13, "stresses of small strain, relative to themselves");
 
@@ -48,7 +49,7 @@ proptest! {
         let mut visitor = RoundingIsSmall(rows);
         all(&mut visitor);
         let terms = [(0.63, 1.3), (0.0012, 5.0), (-0.01, -2.0)].map(|(mu, alpha)| OgdenTerm { modulus: mu, exponent: alpha });
-        visitor.visit("incompressible Ogden", &IncompressibleOgden::new(&terms).expect("parameters"), Group::All);
-        visitor.visit("incompressible Hencky", &Pressurised::new(hencky()), Group::All);
+        visitor.visit("incompressible Ogden", &Once(&IncompressibleOgden::new(&terms).expect("parameters")), Group::All);
+        visitor.visit("incompressible Hencky", &Once(&Pressurised::new(hencky())), Group::All);
     }
 }

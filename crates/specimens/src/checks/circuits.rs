@@ -110,18 +110,6 @@ pub struct Potential {
 ///
 /// # Accuracy
 /// The quadrature is refined, about kinks too, until its error is below 1e-13 of ∫ |P| |dF| or rounding, at most to 1024 panels.
-///
-/// # Example
-/// ```
-/// use nalgebra::Matrix3;
-/// use piola_specimens::checks::potential;
-/// use piola_continuum::DeformationGradient;
-/// // P = F − F⁻ᵀ of W = ½ (F : F − 3) − ln J.
-/// let law = |f: &Matrix3<f64>| (f * f.transpose() - Matrix3::identity()) / f.determinant();
-/// let found = potential(&law, &DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
-/// assert!((found.energy - (1.5 - 2.0_f64.ln())).abs() < 1e-13);
-/// # Ok::<(), piola_continuum::ContinuumError>(())
-/// ```
 #[must_use]
 pub fn potential(law: &impl Elastic, deformation: &DeformationGradient) -> Potential {
     let analysis = StretchAnalysis::of(deformation);

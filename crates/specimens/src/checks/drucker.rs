@@ -199,19 +199,6 @@ impl DruckerScan {
 
 /// Tries to refute Drucker's condition over random deformations, of any stretches along any axes, and all increments of each:
 /// see [`second_order_work`]. Deformations and increments are isochoric where the kinematics or the law are.
-///
-/// # Example
-/// ```
-/// use piola_specimens::checks::{Kinematics, Search, drucker_scan};
-/// use piola_solids::SaintVenantKirchhoff;
-/// // λ = 0: dτᵢ/dεᵢ = 2 μ λᵢ² (2 λᵢ² − 1) is lost where a stretch is √½, ln λ = −0.347.
-/// let law = SaintVenantKirchhoff::new(0.0, 1.0)?;
-/// let scan = |strain| drucker_scan(&law, &Search { strain, ..Search::default() }, Kinematics::Free);
-/// assert!(scan(0.34).passes());
-/// let report = scan(0.6);
-/// assert!(report.worst.modulus < -0.2); // −μ/4 at ln λ = −0.693 is the least
-/// # Ok::<(), piola_specimens::SpecimensError>(())
-/// ```
 #[must_use]
 pub fn drucker_scan(law: &impl Hyperelastic, search: &Search, kinematics: Kinematics) -> DruckerScan {
     let mut sampler = Sampler::new(search.seed);
@@ -261,18 +248,6 @@ impl DruckerPath {
 /// Drucker's condition along a path of principal stretches, from `from` to `to` in `steps` steps.
 ///
 /// The path ends where the law has no answer: beyond a limiting stretch nothing is lost.
-///
-/// # Example
-/// The stretches of a homogeneous test, in tension and compression.
-/// ```
-/// use piola_specimens::checks::{Kinematics, drucker_path};
-/// use piola_specimens::homogeneous::Mode;
-/// use piola_solids::MooneyRivlin;
-/// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-/// let path = |stretch: f64| Mode::Uniaxial.elongations(stretch).map(|x| 1.0 + x);
-/// assert!(drucker_path(&rubber, path, 0.2, 8.0, 50, Kinematics::Isochoric).passes());
-/// # Ok::<(), piola_specimens::SpecimensError>(())
-/// ```
 #[must_use]
 pub fn drucker_path(
     law: &impl Hyperelastic,

@@ -27,18 +27,6 @@ impl Kinematics {
 }
 
 /// The acoustic tensor `Q_ij = A_iAjB N_A N_B` of ∂P/∂F in the direction N of the reference, Pa.
-///
-/// # Example
-/// ```
-/// use piola_specimens::checks::acoustic_tensor;
-/// use piola_solids::{Hyperelastic, MooneyRivlin};
-/// use piola_continuum::DeformationGradient;
-/// let solid = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?; // μ = 1, λ = 4
-/// let tangent = solid.first_piola_tangent(&DeformationGradient::<f64>::identity());
-/// let q = acoustic_tensor(&tangent, [1.0, 0.0, 0.0]);
-/// assert_eq!([q[0][0], q[1][1], q[2][2]], [6.0, 1.0, 1.0]); // λ + 2μ, μ, μ
-/// # Ok::<(), piola_specimens::SpecimensError>(())
-/// ```
 #[must_use]
 pub fn acoustic_tensor<T: Real>(tangent: &FirstPiolaTangent<T>, normal: [T; 3]) -> Rows<T> {
     core::array::from_fn(|i| {
@@ -240,16 +228,6 @@ impl EllipticityScan {
 }
 
 /// Tries to refute strong ellipticity over random deformations; isochoric ones where the kinematics or the law are.
-///
-/// # Example
-/// ```
-/// use piola_specimens::checks::{Kinematics, Search, ellipticity_scan};
-/// use piola_solids::MooneyRivlin;
-/// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?; // polyconvex
-/// let search = Search { samples: 20, strain: 1.0, ..Search::default() };
-/// assert!(ellipticity_scan(&rubber, &search, Kinematics::Free).passes());
-/// # Ok::<(), piola_specimens::SpecimensError>(())
-/// ```
 #[must_use]
 pub fn ellipticity_scan(law: &impl Hyperelastic, search: &Search, kinematics: Kinematics) -> EllipticityScan {
     let mut sampler = Sampler::new(search.seed);
@@ -287,18 +265,6 @@ pub struct Loss {
 
 /// The first loss of strong ellipticity along a path from `from` to `to`, looked at in `steps` steps and then bisected; none
 /// if there is none, or if the path ends before it (where `path` has no deformation or the law no answer).
-///
-/// # Example
-/// See [`Kinematics`] for incompressible laws.
-/// ```
-/// use piola_specimens::checks::{Kinematics, first_loss};
-/// use piola_solids::MooneyRivlin;
-/// use piola_continuum::DeformationGradient;
-/// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-/// let path = |stretch: f64| DeformationGradient::uniaxial(stretch, 1.0).ok();
-/// assert!(first_loss(&rubber, path, 1.0, 0.2, 8, Kinematics::Free).is_none());
-/// # Ok::<(), piola_specimens::SpecimensError>(())
-/// ```
 #[must_use]
 pub fn first_loss<D: Deformation<f64>>(
     law: &impl Hyperelastic,

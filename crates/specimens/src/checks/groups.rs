@@ -207,18 +207,6 @@ impl SymmetryGroup {
     /// # Errors
     /// [`SpecimensError::OutOfBounds`] for a generator whose determinant is not 1 to 1e-12, or when more than `limit`
     /// elements are generated.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_specimens::checks::SymmetryGroup;
-    /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-    /// assert_eq!(SymmetryGroup::generated(&[quarter_turn], 48)?.order(), Some(4));
-    /// // Simple shears generate infinitely many.
-    /// let shear = Matrix3::new(1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-    /// assert!(SymmetryGroup::generated(&[shear], 48).is_err());
-    /// # Ok::<(), piola_specimens::SpecimensError>(())
-    /// ```
     pub fn generated(generators: &[Matrix3<f64>], limit: usize) -> Result<Self, SpecimensError> {
         for generator in generators {
             let determinant = jacobian(generator);

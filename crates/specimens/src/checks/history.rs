@@ -40,21 +40,14 @@ impl Drawn {
 ///
 /// # Example
 /// ```
-/// use nalgebra::Matrix3;
-/// use piola_solids::memory::{History, Reduced, SimpleMaterial};
+/// use piola_solids::SaintVenantKirchhoff;
+/// use piola_solids::memory::{Prony, PronyTerm, Remembered, Viscoelastic};
 /// use piola_specimens::checks::{Search, history_indifference};
-///
-/// struct Mine;
-/// impl SimpleMaterial for Mine {
-///     fn cauchy(&self, history: &dyn History) -> Matrix3<f64> {
-///         let (now, then) = (history.gradient(0.0), history.gradient(1.0));
-///         now + now.transpose() - then - then.transpose()
-///     }
-/// }
-///
-/// let search = Search { samples: 50, ..Search::default() };
-/// assert!(!history_indifference(&Mine, 1.0, &search).passes());
-/// assert!(history_indifference(&Reduced(Mine), 1.0, &search).passes());
+/// let prony = Prony::new(vec![PronyTerm { weight: 0.5, time: 1.0 }])?;
+/// let solid = Viscoelastic::relaxing(SaintVenantKirchhoff::new(1.0, 2.0)?, prony)?;
+/// let search = Search { samples: 20, ..Search::default() };
+/// assert!(history_indifference(&Remembered::new(&solid, 5.0, 50)?, 1.0, &search).passes());
+/// # Ok::<(), piola_solids::SolidsError>(())
 /// ```
 #[must_use]
 pub fn history_indifference(material: &impl SimpleMaterial, time: f64, search: &Search) -> Report<Observers> {

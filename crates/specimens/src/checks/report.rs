@@ -70,15 +70,6 @@ impl<C> Report<C> {
     }
 
     /// Whether the claim passed, was refuted, remained open for numerical errors, or was not tested at all.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_specimens::checks::{Search, Verdict, frame_indifference};
-    /// let good = |f: &Matrix3<f64>| f * f.transpose();
-    /// let verdict = |samples| frame_indifference(&good, &Search { samples, ..Search::default() }).verdict();
-    /// assert_eq!([verdict(10), verdict(0)], [Verdict::Passed, Verdict::NothingTested]);
-    /// ```
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if self.samples == 0 {

@@ -1,4 +1,4 @@
-//! Homogeneous tests: what a law answers to a bar that is pulled, a sheet that is pulled both ways, a block that is sheared.
+//! Homogeneous tests: stresses of bars that are pulled, sheets that are pulled both ways, blocks that are sheared.
 //!
 //! ```text
 //! uniaxial     F = diag(λ, λ_t, λ_t)        P₂₂ = P₃₃ = 0
@@ -13,7 +13,7 @@
 //! | a law, compressible or not, and a mode | [`uniaxial`], [`equibiaxial`], [`planar`], [`simple_shear`], [`volumetric`] |
 //! | some components of F and the others of P or T | [`equilibrium`] with [`Controls`] |
 //! | the same, and the body has internal constraints | [`constrained_equilibrium`] |
-//! | a step of a viscoelastic solid, or a law of your own without an energy | the same, of a [`Response`] |
+//! | a step of a viscoelastic solid, or a law of your own without an energy | the same, of a [`Response`](piola_solids::Response) |
 //!
 //! The third face is free of traction in every mode; the pressure of an incompressible law follows from that in
 //! closed form by [`nominal_stress`] and [`IncompressibleState`], as an unknown beside F by [`equilibrium`].
@@ -35,9 +35,22 @@ pub use mode::Mode;
 use piola_numerics::Real;
 use piola_tensor::internal::rows::Rows;
 
+use crate::SpecimensError;
+use crate::error::check_bound;
+
 /// ∇u of stretches along the axes, from the elongations.
 #[inline(always)]
 pub(crate) fn diagonal<T: Real>([a, b, c]: [T; 3]) -> Rows<T> {
     let o = T::zero();
     [[a, o, o], [o, b, o], [o, o, c]]
+}
+
+/// Refuses stretches that are not positive.
+fn check_stretches<T: Real>(stretches: &[T]) -> Result<(), SpecimensError> {
+    stretches.iter().try_for_each(|stretch| {
+        (0..T::LANES).try_for_each(|lane| {
+            let stretch = stretch.primal(lane);
+            check_bound("homogeneous test", "stretch", stretch, "0 < stretch", 0.0 < stretch)
+        })
+    })
 }

@@ -27,7 +27,7 @@ const ITERATIONS: usize = 40;
 /// The components of F and of a symmetric reaction: more unknowns are not independent.
 const MOST: usize = 9 + 6;
 
-/// A body, and what is prescribed of which components.
+/// A body and its prescribed components.
 pub(super) struct Problem<'a, L, C> {
     pub(super) law: &'a L,
     pub(super) constraints: &'a C,
@@ -43,7 +43,7 @@ pub(super) struct Point<const N: usize> {
     pub(super) multipliers: [f64; N],
 }
 
-/// What is to be reached, or what is missing of it: a value for each component and for each μₖ.
+/// A load, or a residual: a value for each component and for each μₖ.
 #[derive(Clone, Copy)]
 pub(super) struct Load<const N: usize> {
     pub(super) components: Rows<f64>,
@@ -85,7 +85,7 @@ impl<L: Response, C> Problem<'_, L, C> {
         gradients.iter().zip(point.multipliers).fold(Matrix3::zeros(), |sum, (gradient, x)| sum + gradient * x)
     }
 
-    /// What a point has of what is prescribed.
+    /// The current values of the prescribed components.
     pub(super) fn present<const N: usize>(&self, point: &Point<N>) -> Load<N>
     where
         C: Constraints<N>,
@@ -103,8 +103,7 @@ impl<L: Response, C> Problem<'_, L, C> {
         Load { components, values: self.constraints.values(&point.state) }
     }
 
-    /// What a point has beyond a load, and the largest modulus of its stresses; displacements that are prescribed have
-    /// none.
+    /// The current values less the load, and the largest modulus of its stresses; zero for prescribed displacements.
     pub(super) fn residual<const N: usize>(&self, load: &Load<N>, point: &Point<N>) -> (Load<N>, f64)
     where
         C: Constraints<N>,
@@ -131,8 +130,8 @@ impl<L: Response, C> Problem<'_, L, C> {
         (stresses + residual.values.iter().map(|x| x * x).sum::<f64>()).sqrt()
     }
 
-    /// A state of these rows, if it is one and the law has an answer there. On the way an incompressible body may change
-    /// its volume: then the change of shape is asked about.
+    /// The state of these rows where the law admits it. During the iteration the volume of an incompressible body may
+    /// change: the law is then asked about the isochoric part.
     fn admitted(&self, rows: Rows<f64>) -> Option<DisplacementGradient> {
         let state = DisplacementGradient::from_rows(rows).ok()?;
         if self.law.keeps_volume() {

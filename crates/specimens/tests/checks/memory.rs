@@ -2,9 +2,9 @@
 
 use nalgebra::Matrix3;
 use piola_continuum::strain::GreenStrain;
-use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient, Symmetric};
+use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient};
 use piola_numerics::{Dual, Real};
-use piola_solids::memory::{History, Prony, PronyTerm, Reduced, Remembered, Scaled, SimpleMaterial, Viscoelastic};
+use piola_solids::memory::{History, Prony, PronyTerm, Reduced, Remembered, SimpleMaterial, Viscoelastic};
 use piola_solids::{Hyperelastic, MooneyRivlin};
 use piola_specimens::checks::{Search, history_indifference};
 use piola_testkit::{Tol, allocations_in, assert_close, assert_close_at_scale};
@@ -319,14 +319,18 @@ fn laws_and_states_are_read_as_they_were_written() {
     let (law, read): (Viscoelastic<MooneyRivlin, MooneyRivlin>, piola_solids::memory::ViscoelasticState) =
         serde_json::from_str(&written).expect("read");
     assert_eq!((&law, &read), (&solid, &state));
-    assert_ne!(read.driving(), &Symmetric::zero());
+    assert_ne!(read.driving(), &piola_continuum::Symmetric::zero());
     assert!(serde_json::from_str::<Prony>(r#"[{"weight": 0.5, "time": -1.0}]"#).is_err());
     // A law of fast loading, of which a share is at rest.
     let relaxing = Viscoelastic::relaxing(rubber(), series()).expect("Σ g ≤ 1");
     let written = serde_json::to_string(&relaxing).expect("written");
-    let read: Viscoelastic<Scaled<MooneyRivlin>, MooneyRivlin> = serde_json::from_str(&written).expect("read");
+    let read: Viscoelastic<piola_solids::memory::Scaled<MooneyRivlin>, MooneyRivlin> =
+        serde_json::from_str(&written).expect("read");
     assert_eq!(read, relaxing);
     let negative = written.replacen("\"factor\":0.125", "\"factor\":-0.125", 1);
     assert_ne!(negative, written);
-    assert!(serde_json::from_str::<Viscoelastic<Scaled<MooneyRivlin>, MooneyRivlin>>(&negative).is_err());
+    assert!(
+        serde_json::from_str::<Viscoelastic<piola_solids::memory::Scaled<MooneyRivlin>, MooneyRivlin>>(&negative)
+            .is_err()
+    );
 }

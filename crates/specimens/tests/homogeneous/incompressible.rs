@@ -170,3 +170,10 @@ fn slope_of_an_anisotropic_bar_equals_differences_of_its_stress() {
         assert_close("dP/dλ", &[slope], &[expected], Tol::stated(1e-8, "differences of fourth order, h = 1e-3"));
     }
 }
+
+#[test]
+fn a_sheet_held_along_one_axis_equals_planar_tension() {
+    let rubber = piola_solids::MooneyRivlin::stress_free(0.5, 0.25, 1.0).expect("parameters");
+    let sheet = IncompressibleState::biaxial(&rubber, [2.0, 1.0]).expect("stretches");
+    assert_eq!(sheet, IncompressibleState::of(&rubber, Mode::Planar, 2.0).expect("a stretch"));
+}

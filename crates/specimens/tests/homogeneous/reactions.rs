@@ -1,12 +1,15 @@
 //! Reactions of internal constraints that faces free of traction determine.
 
-use piola_continuum::{Deformation, DisplacementGradient};
+use nalgebra::Matrix3;
+use piola_continuum::stress::tangents::FirstPiolaTangent;
+use piola_continuum::{Deformation, DisplacementGradient, FirstPiola};
 use piola_numerics::Real;
 use piola_solids::internal_constraints::{
     Combination, Constraints, Incompressibility, Inextensibility, InternalConstraint, Rigidity, StressCondition,
 };
-use piola_solids::{Fibre, Hyperelastic, MooneyRivlin, Pressurised};
+use piola_solids::{Fibre, Hyperelastic, MooneyRivlin, Pressurised, Response, SolidsError};
 use piola_specimens::homogeneous::{Control, Controls, constrained_equilibrium, equilibrium};
+use piola_tensor::FourthOrder;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
 const NEWTON: Tol = Tol::stated(1e-11, "end of the iteration");
@@ -132,4 +135,27 @@ fn start_that_violates_a_constraint_is_brought_back() {
     let expected = constrained_equilibrium(&rubber(), &Incompressibility, &controls, &DisplacementGradient::zero());
     let expected = expected.expect("state");
     assert_close("P", &[found.state.first_piola.0[(0, 0)]], &[expected.state.first_piola.0[(0, 0)]], NEWTON);
+}
+
+/// A stress that is linear in ∇u and has no energy, as its tangent is not symmetric.
+struct Linear(FourthOrder);
+
+impl Response for Linear {
+    fn admits(&self, _: &DisplacementGradient) -> Result<(), SolidsError> {
+        Ok(())
+    }
+    fn stress_and_tangent(&self, deformation: &DisplacementGradient) -> (FirstPiola, FirstPiolaTangent) {
+        let stress = self.0.contract(deformation.displacement_rows());
+        (FirstPiola(Matrix3::from_fn(|i, j| stress[i][j])), FirstPiolaTangent(self.0))
+    }
+}
+
+#[test]
+fn a_bar_without_an_energy_contracts_as_its_tangent_says() {
+    // P₁₁ = 4 u₁₁ + u₂₂ + u₃₃, P₂₂ = 2 u₁₁ + 4 u₂₂ …
+    let mut c = FourthOrder::from_fn(|i, a, j, b| if (i, a) == (j, b) { 4.0 } else { 0.0 });
+    (c.components[0][4], c.components[0][8], c.components[4][0], c.components[8][0]) = (1.0, 1.0, 2.0, 2.0);
+    let controls = Controls::uniaxial(1.25).expect("a stretch");
+    let bar = equilibrium(&Linear(c), &controls, &DisplacementGradient::zero()).expect("equilibrium");
+    assert_eq!((bar.deformation.matrix()[(1, 1)], bar.first_piola.0[(0, 0)]), (-0.125, 0.75));
 }

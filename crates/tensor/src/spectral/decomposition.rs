@@ -54,6 +54,9 @@ impl<T: Real> TryFrom<Unchecked<T>> for SpectralDecomposition<T> {
 }
 
 /// Refuses values that are not finite or do not descend, and axes that are not orthonormal and right-handed.
+///
+/// # Errors
+/// `NotFinite`, `NotARotation`.
 #[cfg(feature = "serde")]
 pub fn check_principal<T: Real>(values: &[T; 3], axes: Rows<T>) -> Result<(), TensorError> {
     check_finite("principal value", values)?;

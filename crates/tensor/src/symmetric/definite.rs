@@ -9,6 +9,9 @@ use crate::TensorError;
 /// The leading minors are not negative beyond rounding, in any lane.
 ///
 /// What a formula has computed for stretches of very different size may be indefinite by rounding; it is accepted.
+///
+/// # Errors
+/// `NotPositiveDefinite`.
 pub fn positive_definite<T: Real>(quantity: &'static str, a: &Symmetric<T>) -> Result<(), TensorError> {
     let [xx, yy, zz, xy, yz, xz] = a.components;
     let scale = [yy, zz, xy, yz, xz].iter().fold(xx.abs(), |largest, x| largest.max(x.abs()));

@@ -34,7 +34,7 @@ fn components_are_compared_each_with_its_own_size() {
     let (near, far) = ([1e9, 1.0, 0.0], [1e9, 1.0 + 1e-9, 0.0]);
     assert_close("by the largest", &near, &far, Tol::ulps(8.0));
     assert!(fails(|| assert_each_close("each", &near, &far, Tol::ulps(8.0))));
-    assert_each_close("each", &near, &far, Tol::stated(1e-9, "the difference"));
+    assert_each_close("each", &near, &far, Tol::stated(1.1e-9, "the difference, with its rounding"));
     assert!(fails(|| assert_each_close("zero", &[1e-300], &[0.0], Tol::ulps(64.0))));
     assert_each_close_at_scales("zero", &[1e-16], &[0.0], &[1.0], Tol::ulps(1.0));
     assert!(fails(|| assert_each_close_at_scales("scales", &[1.0], &[1.0], &[1.0, 2.0], Tol::ulps(1.0))));

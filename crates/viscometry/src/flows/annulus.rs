@@ -55,10 +55,6 @@ flow_of_numbers! {
         /// c = −∂p/∂z, Pa/m: what drives the fluid towards larger z.
         pressure_gradient: "c is finite" => pressure_gradient.is_finite(),
     }
-    also {
-        /// Slip at both walls; none unless given.
-        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
-    }
 }
 
 /// The share of the gap within which of its plug the stress of a fluid that yields is not resolved.
@@ -74,7 +70,7 @@ struct Rest {
     place: f64,
     /// Where the fluid ceases and begins to yield.
     plug: [f64; 2],
-    /// What ∫ |ζ| dr on one side of λ may differ from that on the other, m/s: a bound of how far λ is off, as the speeds at which the
+    /// Bound of the difference of ∫ |ζ| dr between the two sides of λ, m/s: it tells how far λ is off, as the speeds at which the
     /// sides pass one another.
     mismatch: f64,
 }
@@ -130,12 +126,8 @@ impl Annulus {
         Ok(Self { pressure_gradient: (least + excess).copysign(discharge), ..still })
     }
 
-    /// By how much the pressure gradient, Pa/m, may be off that was sought for this discharge, m³/s: what the answer to it misses and may itself be
-    /// off, over its slope. Infinite where that is zero, as below a yield stress.
-    ///
-    /// ```text
-    /// |δc| ≈ (|Q(c) − Q| + δQ)/(dQ/dc)
-    /// ```
+    /// Error bound of the pressure gradient, Pa/m, found by [`with_discharge`](Self::with_discharge) for this discharge, m³/s, as
+    /// [`Poiseuille::pressure_gradient_error`](crate::Poiseuille::pressure_gradient_error).
     ///
     /// # Errors
     /// What the fluid refuses.
@@ -149,13 +141,6 @@ impl Annulus {
         drive_error(self.pressure_gradient, least, discharge, |pressure_gradient| {
             Self { pressure_gradient, ..*self }.discharge(fluid)
         })
-    }
-
-    /// With slip at both walls.
-    #[must_use]
-    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
-        self.slip = slip;
-        self
     }
 
     /// λ, m: where the shear stress vanishes. Where nothing flows any place of a range serves, and √(R₁ R₂) is given.
@@ -203,7 +188,7 @@ impl Annulus {
         self.velocity_about(rest, fluid, r)
     }
 
-    /// v at each of the distances, into `velocities`; the place of rest is sought once.
+    /// v, m/s, at each of the distances, m, into `velocities`; the place of rest is sought once.
     ///
     /// # Errors
     /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
@@ -251,7 +236,7 @@ impl Annulus {
         Ok(self.discharge(fluid)?.scaled(area.recip()))
     }
 
-    /// The stresses at the distance `r`, m, from the axis and the height `z`, m.
+    /// The stresses, Pa, at the distance `r`, m, from the axis and the height `z`, m.
     ///
     /// # Errors
     /// As [`shear_stress`](Self::shear_stress).

@@ -3,7 +3,7 @@
 use piola_fluids::{FlowMoment, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
-use super::wall::{Sheared, check_density, duct, entry_length, generalised_reynolds, normal_functions, plug, profile};
+use super::wall::{Sheared, check_density, duct, entry_length, generalised_reynolds, normal_functions, plug};
 use crate::error::{check_bound, check_finite};
 use crate::inverse::drive_error;
 use crate::{Estimate, Stresses, Validity, ViscometryError, WallSlip};
@@ -45,10 +45,6 @@ flow_of_numbers! {
         /// c = −∂p/∂x₂, Pa/m: what drives the fluid towards larger x₂.
         pressure_gradient: "c is finite" => pressure_gradient.is_finite(),
     }
-    also {
-        /// Slip at both walls; none unless given.
-        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
-    }
 }
 
 impl Channel {
@@ -81,12 +77,8 @@ impl Channel {
         Self::new(half_width, wall / half_width).map(|flow| flow.with_slip(slip))
     }
 
-    /// By how much the pressure gradient, Pa/m, may be off that was sought for this discharge for each width, m²/s: what the answer to it misses and may itself be
-    /// off, over its slope. Infinite where that is zero, as below a yield stress.
-    ///
-    /// ```text
-    /// |δc| ≈ (|Q(c) − Q| + δQ)/(dQ/dc)
-    /// ```
+    /// Error bound of the pressure gradient, Pa/m, found by [`with_discharge`](Self::with_discharge) for this discharge per width, m²/s,
+    /// as [`Poiseuille::pressure_gradient_error`](crate::Poiseuille::pressure_gradient_error).
     ///
     /// # Errors
     /// What the fluid refuses.
@@ -100,13 +92,6 @@ impl Channel {
         drive_error(self.pressure_gradient, least, discharge, |pressure_gradient| {
             Self { pressure_gradient, ..*self }.discharge(fluid)
         })
-    }
-
-    /// With slip at both walls.
-    #[must_use]
-    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
-        self.slip = slip;
-        self
     }
 
     /// c d, Pa: minus T₁₂ at the wall x₁ = d.
@@ -141,19 +126,6 @@ impl Channel {
         self.sheared().velocity(fluid, (self.half_width - x1.abs()) / self.half_width)
     }
 
-    /// v at each of the places x₁, into `velocities`.
-    ///
-    /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
-    pub fn profile_into<F: ViscometricFluid + ?Sized>(
-        &self,
-        fluid: &F,
-        places: &[f64],
-        velocities: &mut [Estimate],
-    ) -> Result<(), ViscometryError> {
-        profile(Self::NAME, places, velocities, |x1| self.velocity(fluid, x1))
-    }
-
     /// Q per width, m²/s.
     ///
     /// # Errors
@@ -175,7 +147,7 @@ impl Channel {
         plug(self.half_width, self.wall_stress(), fluid.yield_stress())
     }
 
-    /// The stresses at `x1`, `x2`, m.
+    /// The stresses, Pa, at `x1`, `x2`, m.
     ///
     /// # Errors
     /// As [`shear_rate`](Self::shear_rate).

@@ -52,10 +52,6 @@ flow_of_numbers! {
         /// Ω, rad/s.
         speed: "Ω is finite" => speed.is_finite(),
     }
-    also {
-        /// Slip at cone and plate; none unless given.
-        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
-    }
 }
 
 impl ConeAndPlate {
@@ -95,25 +91,14 @@ impl ConeAndPlate {
         Ok(Self::new(radius, angle, speed)?.with_slip(slip))
     }
 
-    /// By how much the angular velocity, rad/s, may be off that was sought for this torque, N m: what the answer to it misses and may itself be
-    /// off, over its slope. Infinite where that is zero, as below a yield stress.
-    ///
-    /// ```text
-    /// |δΩ| ≈ (|M(Ω) − M| + δM)/(dM/dΩ)
-    /// ```
+    /// Error bound of the angular velocity, rad/s, found by [`with_torque`](Self::with_torque) for this torque, N m:
+    /// (|M(Ω) − M| + δM)/(dM/dΩ), infinite where the torque does not rise.
     ///
     /// # Errors
     /// What the fluid refuses.
     pub fn speed_error<F: ViscometricFluid + ?Sized>(&self, fluid: &F, torque: f64) -> Result<f64, ViscometryError> {
         check_finite(Self::NAME, "torque", torque)?;
         drive_error(self.speed, 0.0, torque, |speed| Self { speed, ..*self }.torque(fluid))
-    }
-
-    /// With slip at cone and plate.
-    #[must_use]
-    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
-        self.slip = slip;
-        self
     }
 
     /// Ω/α, 1/s: the rate, everywhere the same, of a fluid that sticks.
@@ -205,7 +190,7 @@ impl ConeAndPlate {
         Ok(-0.075 * PI * density * (self.speed * self.radius * self.radius).powi(2))
     }
 
-    /// The stresses at the distance `r`, m, from the axis.
+    /// The stresses, Pa, at the distance `r`, m, from the axis.
     ///
     /// # Errors
     /// [`ViscometryError::OutOfBounds`] unless 0 < r ≤ R; what the fluid refuses, where it slips.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use piola_fluids::{FlowMoment, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
-use super::wall::{check_density, finite, normal_functions, profile};
+use super::wall::{check_density, finite, normal_functions};
 use crate::error::{check_bound, check_finite};
 use crate::inverse::{Wanted, drive_error, solve};
 use crate::quadrature::{Span, integrate, scaled_moment, stress_integral};
@@ -60,8 +60,6 @@ flow_of_numbers! {
         inner_speed: f64 = 0.0, |flow, speed| flow.with_inner_speed(speed);
         /// ρ, kg/m³: for centrifugal pressures; zero unless given.
         density: f64 = 0.0, |flow, density| flow.with_density(density);
-        /// Slip at both walls; none unless given.
-        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
     }
 }
 
@@ -140,12 +138,8 @@ impl Couette {
         Ok(self)
     }
 
-    /// By how much the moment, N m/m, may be off that was sought for this ΔΩ, rad/s: what the answer to it misses and may itself be
-    /// off, over its slope. Infinite where that is zero, as below a yield stress.
-    ///
-    /// ```text
-    /// |δM| ≈ (|ΔΩ(M) − ΔΩ| + δΔΩ)/(dΔΩ/dM)
-    /// ```
+    /// Error bound of the moment, N m/m, found by [`with_speed_difference`](Self::with_speed_difference) for this ΔΩ, rad/s:
+    /// (|ΔΩ(M) − ΔΩ| + δΔΩ)/(dΔΩ/dM), infinite where the slope is zero, as below a yield stress.
     ///
     /// # Errors
     /// What the fluid refuses.
@@ -157,13 +151,6 @@ impl Couette {
         check_finite(Self::NAME, "speed_difference", speed_difference)?;
         let least = fluid.yield_stress() * (2.0 * PI * self.inner_radius * self.inner_radius);
         drive_error(self.moment, least, speed_difference, |moment| Self { moment, ..*self }.speed_difference(fluid))
-    }
-
-    /// With slip at both walls.
-    #[must_use]
-    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
-        self.slip = slip;
-        self
     }
 
     /// `T_rθ`, Pa, at the distance `r`, m, from the axis.
@@ -197,25 +184,12 @@ impl Couette {
         finite(Self::NAME, "angular velocity", self.gained(fluid, r)?.plus(Estimate::rounded(at_wall)))
     }
 
-    /// v = r ω, m/s.
+    /// v = r ω, m/s, at the distance `r`, m, from the axis.
     ///
     /// # Errors
     /// As [`angular_velocity`](Self::angular_velocity).
     pub fn velocity<F: ViscometricFluid + ?Sized>(&self, fluid: &F, r: f64) -> Result<Estimate, ViscometryError> {
         Ok(self.angular_velocity(fluid, r)?.scaled(r))
-    }
-
-    /// v at each of the distances, into `velocities`.
-    ///
-    /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
-    pub fn profile_into<F: ViscometricFluid + ?Sized>(
-        &self,
-        fluid: &F,
-        distances: &[f64],
-        velocities: &mut [Estimate],
-    ) -> Result<(), ViscometryError> {
-        profile(Self::NAME, distances, velocities, |r| self.velocity(fluid, r))
     }
 
     /// ΔΩ = Ω₂ − Ω₁, rad/s, of the cylinders, slip included.
@@ -234,7 +208,7 @@ impl Couette {
         (yields > 0.0).then(|| radius.clamp(self.inner_radius, self.outer_radius))
     }
 
-    /// The stresses at the distance `r`, m, from the axis; centrifugal ones where a density is given.
+    /// The stresses, Pa, at the distance `r`, m, from the axis; centrifugal ones where a density is given.
     ///
     /// # Errors
     /// As [`shear_rate`](Self::shear_rate).

@@ -1,6 +1,7 @@
-//! What every flow of numbers has: a checked constructor, getters and validated serde.
+//! Checked constructor, getters and validated serde of a flow of numbers.
 
-/// Declares a flow of numbers: each with its documentation, its bound as text and as a condition on all of them; then what may be added.
+/// Declares a flow of numbers, each with its documentation, its bound as text and as a condition on all of them; then further numbers that may
+/// be added. Every flow may slip at its walls.
 macro_rules! flow_of_numbers {
     (
         $(#[$documentation:meta])*
@@ -17,6 +18,7 @@ macro_rules! flow_of_numbers {
         pub struct $name {
             $($field: f64,)+
             $($($extra: $kind,)+)?
+            slip: crate::WallSlip,
         }
 
         impl $name {
@@ -30,7 +32,7 @@ macro_rules! flow_of_numbers {
             /// [`ViscometryError::OutOfBounds`](crate::ViscometryError::OutOfBounds).
             pub fn new($($field: f64),+) -> Result<Self, crate::ViscometryError> {
                 $(crate::error::check_bound($flow, stringify!($field), $field, $bound, $holds)?;)+
-                Ok(Self { $($field,)+ $($($extra: $default,)+)? })
+                Ok(Self { $($field,)+ $($($extra: $default,)+)? slip: crate::WallSlip::NONE })
             }
 
             $($(#[$about])*
@@ -44,6 +46,19 @@ macro_rules! flow_of_numbers {
             pub const fn $extra(&self) -> $kind {
                 self.$extra
             })+)?
+
+            /// Slip at the walls; none unless given.
+            #[must_use]
+            pub const fn slip(&self) -> crate::WallSlip {
+                self.slip
+            }
+
+            /// With slip at the walls.
+            #[must_use]
+            pub const fn with_slip(mut self, slip: crate::WallSlip) -> Self {
+                self.slip = slip;
+                self
+            }
         }
 
         #[cfg(feature = "serde")]
@@ -55,6 +70,7 @@ macro_rules! flow_of_numbers {
                 struct Written {
                     $($field: f64,)+
                     $($($extra: Option<$kind>,)+)?
+                    slip: Option<crate::WallSlip>,
                 }
                 let written = Written::deserialize(deserializer)?;
                 let flow = Self::new($(written.$field),+).map_err(serde::de::Error::custom)?;
@@ -65,7 +81,7 @@ macro_rules! flow_of_numbers {
                         None => flow,
                     };
                 )+)?
-                Ok(flow)
+                Ok(written.slip.map_or(flow, |slip| flow.with_slip(slip)))
             }
         }
     };

@@ -5,10 +5,10 @@ use std::f64::consts::FRAC_PI_2;
 use piola_fluids::{FlowMoment, ViscometricFluid};
 
 use super::declaration::flow_of_numbers;
-use super::wall::{Sheared, generalised_reynolds, normal_functions, plug, profile};
+use super::wall::{Sheared, generalised_reynolds, normal_functions, plug};
 use crate::error::{check_bound, check_finite};
 use crate::inverse::{Wanted, drive_error, solve};
-use crate::{Estimate, Stresses, Validity, ViscometryError, WallSlip, Warning};
+use crate::{Estimate, Stresses, Validity, ViscometryError, Warning};
 
 flow_of_numbers! {
     /// A film with a free surface that runs steadily down an inclined wall under its weight; x is the distance from the wall.
@@ -54,10 +54,6 @@ flow_of_numbers! {
         /// β, rad.
         inclination: "0 ≤ β ≤ π/2" => 0.0 <= inclination && inclination <= FRAC_PI_2,
     }
-    also {
-        /// Slip at the wall; none unless given.
-        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
-    }
 }
 
 impl FallingFilm {
@@ -91,12 +87,8 @@ impl FallingFilm {
         Self::new((yields + excess) / weight, density, gravity, inclination)
     }
 
-    /// By how much the thickness, m, may be off that was sought for this discharge for each width, m²/s: what the answer to it misses and may itself be
-    /// off, over its slope. Infinite where that is zero, as below a yield stress.
-    ///
-    /// ```text
-    /// |δδ| ≈ (|Q(δ) − Q| + δQ)/(dQ/dδ)
-    /// ```
+    /// Error bound of the thickness, m, found by [`with_discharge`](Self::with_discharge) for this discharge per width, m²/s:
+    /// (|Q(δ) − Q| + δQ)/(dQ/dδ), infinite where the slope is zero, as below a yield stress.
     ///
     /// # Errors
     /// What the fluid refuses.
@@ -108,13 +100,6 @@ impl FallingFilm {
         check_finite(Self::NAME, "discharge", discharge)?;
         let least = fluid.yield_stress() * (self.thickness / self.wall_stress());
         drive_error(self.thickness, least, discharge, |thickness| Self { thickness, ..*self }.discharge(fluid))
-    }
-
-    /// With slip at the wall.
-    #[must_use]
-    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
-        self.slip = slip;
-        self
     }
 
     /// f δ, Pa: T₁₂ at the wall.
@@ -149,19 +134,6 @@ impl FallingFilm {
         self.sheared().velocity(fluid, x / self.thickness)
     }
 
-    /// v at each of the distances, into `velocities`.
-    ///
-    /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
-    pub fn profile_into<F: ViscometricFluid + ?Sized>(
-        &self,
-        fluid: &F,
-        distances: &[f64],
-        velocities: &mut [Estimate],
-    ) -> Result<(), ViscometryError> {
-        profile(Self::NAME, distances, velocities, |x| self.velocity(fluid, x))
-    }
-
     /// Q per width, m²/s.
     ///
     /// # Errors
@@ -183,7 +155,7 @@ impl FallingFilm {
         plug(self.thickness, self.wall_stress(), fluid.yield_stress())
     }
 
-    /// The stresses at the distance `x`, m, from the wall.
+    /// The stresses, Pa, at the distance `x`, m, from the wall.
     ///
     /// # Errors
     /// As [`shear_rate`](Self::shear_rate).

@@ -23,3 +23,28 @@ pub use falling_film::FallingFilm;
 pub use parallel_plates::ParallelPlates;
 pub use plane_couette::PlaneCouette;
 pub use poiseuille::Poiseuille;
+
+use piola_fluids::ViscometricFluid;
+
+use crate::{Estimate, ViscometryError};
+
+/// Implements the profile of a flow whose velocity depends on one place.
+macro_rules! profiles {
+    ($($flow:ty),+) => {
+        $(impl $flow {
+            /// v, m/s, at each of the places, m, into `velocities`.
+            ///
+            /// # Errors
+            /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
+            pub fn profile_into<F: ViscometricFluid + ?Sized>(
+                &self,
+                fluid: &F,
+                places: &[f64],
+                velocities: &mut [Estimate],
+            ) -> Result<(), ViscometryError> {
+                wall::profile(Self::NAME, places, velocities, |place| self.velocity(fluid, place))
+            }
+        })+
+    };
+}
+profiles!(Channel, Couette, FallingFilm, Poiseuille);

@@ -54,10 +54,6 @@ flow_of_numbers! {
         /// Ω, rad/s.
         speed: "Ω is finite" => speed.is_finite(),
     }
-    also {
-        /// Slip at both discs; none unless given.
-        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
-    }
 }
 
 impl ParallelPlates {
@@ -109,25 +105,14 @@ impl ParallelPlates {
         Ok(Self::new(radius, gap, speed)?.with_slip(slip))
     }
 
-    /// By how much the angular velocity, rad/s, may be off that was sought for this torque, N m: what the answer to it misses and may itself be
-    /// off, over its slope. Infinite where that is zero, as below a yield stress.
-    ///
-    /// ```text
-    /// |δΩ| ≈ (|M(Ω) − M| + δM)/(dM/dΩ)
-    /// ```
+    /// Error bound of the angular velocity, rad/s, found by [`with_torque`](Self::with_torque) for this torque, N m:
+    /// (|M(Ω) − M| + δM)/(dM/dΩ), infinite where the torque does not rise.
     ///
     /// # Errors
     /// What the fluid refuses.
     pub fn speed_error<F: ViscometricFluid + ?Sized>(&self, fluid: &F, torque: f64) -> Result<f64, ViscometryError> {
         check_finite(Self::NAME, "torque", torque)?;
         drive_error(self.speed, 0.0, torque, |speed| Self { speed, ..*self }.torque(fluid))
-    }
-
-    /// With slip at both discs.
-    #[must_use]
-    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
-        self.slip = slip;
-        self
     }
 
     /// `k_R` = Ω R/h, 1/s: the rate at the rim of a fluid that sticks.
@@ -214,7 +199,7 @@ impl ParallelPlates {
         finite(Self::NAME, "thrust", mean.scaled(PI * self.radius * self.radius))
     }
 
-    /// The stresses at the distance `r`, m, from the axis.
+    /// The stresses, Pa, at the distance `r`, m, from the axis.
     ///
     /// # Errors
     /// As [`shear_rate`](Self::shear_rate).

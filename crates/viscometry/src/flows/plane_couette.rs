@@ -7,7 +7,7 @@ use super::declaration::flow_of_numbers;
 use super::wall::{check_density, normal_functions, rising_stress};
 use crate::error::{check_bound, check_finite};
 use crate::inverse::{Wanted, solve};
-use crate::{Stresses, Validity, ViscometryError, WallSlip, Warning};
+use crate::{Stresses, Validity, ViscometryError, Warning};
 
 flow_of_numbers! {
     /// Simple shear between the wall x₁ = 0, at rest, and the wall x₁ = h, which moves along x₂.
@@ -43,10 +43,6 @@ flow_of_numbers! {
         /// V, m/s.
         speed: "V is finite" => speed.is_finite(),
     }
-    also {
-        /// Slip at both walls; none unless given.
-        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
-    }
 }
 
 impl PlaneCouette {
@@ -61,13 +57,6 @@ impl PlaneCouette {
     ) -> Result<Self, ViscometryError> {
         check_finite(Self::NAME, "shear_stress", shear_stress)?;
         Self::new(gap, gap * fluid.shear_rate(shear_stress)?)
-    }
-
-    /// With slip at both walls.
-    #[must_use]
-    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
-        self.slip = slip;
-        self
     }
 
     /// k, 1/s.
@@ -122,7 +111,7 @@ impl PlaneCouette {
         Ok(self.slip.speed(stress) + fluid.shear_rate(stress)? * x1)
     }
 
-    /// The stresses, everywhere the same; the pressure is counted from T₁₁ = 0.
+    /// The stresses, Pa, everywhere the same; the pressure is counted from T₁₁ = 0.
     ///
     /// # Errors
     /// As [`shear_rate`](Self::shear_rate).

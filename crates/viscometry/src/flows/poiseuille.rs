@@ -50,10 +50,6 @@ flow_of_numbers! {
         /// c = −∂p/∂z, Pa/m: what drives the fluid towards larger z.
         pressure_gradient: "c is finite" => pressure_gradient.is_finite(),
     }
-    also {
-        /// Slip at the wall; none unless given.
-        slip: WallSlip = WallSlip::NONE, |flow, slip| Ok(flow.with_slip(slip));
-    }
 }
 
 impl Poiseuille {
@@ -86,26 +82,15 @@ impl Poiseuille {
         Self::new(radius, 2.0 * wall / radius).map(|flow| flow.with_slip(slip))
     }
 
-    /// By how much the pressure gradient, Pa/m, may be off that was sought for this discharge, m³/s: what the answer to it misses and may itself be
-    /// off, over its slope. Infinite where that is zero, as below a yield stress.
+    /// Error bound of the pressure gradient, Pa/m, found by [`with_discharge`](Self::with_discharge) for this discharge, m³/s.
     ///
     /// ```text
-    /// |δc| ≈ (|Q(c) − Q| + δQ)/(dQ/dc)
+    /// |δc| ≈ (|Q(c) − Q| + δQ)/(dQ/dc)      the residual of the discharge and its quadrature error, over the slope
     /// ```
+    /// Infinite where the slope is zero, as below a yield stress.
     ///
     /// # Errors
     /// What the fluid refuses.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fluids::PowerLaw;
-    /// use piola_viscometry::Poiseuille;
-    /// let fluid = PowerLaw::new(1.0, 0.5)?; // Q = π R³ (c R/2)²/5
-    /// let pipe = Poiseuille::with_discharge(2.0, 40.0 * std::f64::consts::PI, &fluid)?;
-    /// let error = pipe.pressure_gradient_error(&fluid, 40.0 * std::f64::consts::PI)?;
-    /// assert!((pipe.pressure_gradient() - 5.0).abs() <= error && error < 1e-12);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn pressure_gradient_error<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,
@@ -116,13 +101,6 @@ impl Poiseuille {
         drive_error(self.pressure_gradient, least, discharge, |pressure_gradient| {
             Self { pressure_gradient, ..*self }.discharge(fluid)
         })
-    }
-
-    /// With slip at the wall.
-    #[must_use]
-    pub const fn with_slip(mut self, slip: WallSlip) -> Self {
-        self.slip = slip;
-        self
     }
 
     /// ½ c R, Pa: minus `T_rz` at the wall.
@@ -157,19 +135,6 @@ impl Poiseuille {
         self.sheared().velocity(fluid, (self.radius - r) / self.radius)
     }
 
-    /// v at each of the distances, into `velocities`.
-    ///
-    /// # Errors
-    /// As [`velocity`](Self::velocity); [`ViscometryError::WrongLength`].
-    pub fn profile_into<F: ViscometricFluid + ?Sized>(
-        &self,
-        fluid: &F,
-        distances: &[f64],
-        velocities: &mut [Estimate],
-    ) -> Result<(), ViscometryError> {
-        super::wall::profile(Self::NAME, distances, velocities, |r| self.velocity(fluid, r))
-    }
-
     /// Q, m³/s.
     ///
     /// # Errors
@@ -191,7 +156,7 @@ impl Poiseuille {
         super::wall::plug(self.radius, self.wall_stress(), fluid.yield_stress())
     }
 
-    /// The stresses at the distance `r`, m, from the axis and the height `z`, m.
+    /// The stresses, Pa, at the distance `r`, m, from the axis and the height `z`, m.
     ///
     /// # Errors
     /// As [`shear_rate`](Self::shear_rate).
@@ -235,7 +200,7 @@ impl Poiseuille {
     /// [`ViscometryError::OutOfBounds`] unless 0 < ρ and 0 < length; what the fluid refuses.
     ///
     /// # Source
-    /// A. B. Metzner, J. C. Reed, *AIChE J.* 1 (1955) 434.
+    /// A. B. Metzner, J. C. Reed, *A. I. Ch. E. Journal* 1 (1955) 434.
     pub fn validity<F: ViscometricFluid + ?Sized>(
         &self,
         fluid: &F,

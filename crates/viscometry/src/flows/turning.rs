@@ -1,4 +1,4 @@
-//! What cone and plate and parallel discs share where the fluid slips: every circle is plane Couette flow in the gap there.
+//! Cone and plate and parallel discs with slip: every circle is plane Couette flow in the gap there.
 //!
 //! ```text
 //! h(r) ζ(τ) + 2 v_s(τ) = Ω r      M = 2π ∫ r² τ dr      with h(r) = h between discs, α r under a cone
@@ -14,7 +14,7 @@ use crate::inverse::{Wanted, solve};
 use crate::quadrature::integrate;
 use crate::{Estimate, ViscometryError, WallSlip};
 
-/// How wide the gap is.
+/// The width of the gap.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Gap {
     /// h, m.

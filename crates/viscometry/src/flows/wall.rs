@@ -1,4 +1,4 @@
-//! What channel, pipe and film share: the shear stress grows in proportion to the distance from a place of rest up to a wall.
+//! Channel, pipe and film: the shear stress grows in proportion to the distance from a place of rest up to a wall.
 //!
 //! With L that distance and `τ_w` the stress at the wall: v = L m₀ + `v_s` and, over the cross section, V = L mₚ + `v_s`, where mₚ is the
 //! moment ∫ sᵖ ζ ds over `τ_wᵖ⁺¹`.

@@ -21,7 +21,7 @@ pub(crate) use stress::{Span, rate_integral, scaled_moment, stress_integral};
 
 use crate::{Estimate, ViscometryError};
 
-/// How many panels there are at most, on the stack.
+/// The most panels, on the stack.
 const PANELS: usize = 96;
 
 /// The relative error at which bisection ends.

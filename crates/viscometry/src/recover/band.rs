@@ -1,4 +1,4 @@
-//! How wide a band must be to hold a whole curve at once.
+//! Width of a simultaneous confidence band of a curve.
 //!
 //! ```text
 //! P(somewhere c < |Z(u)|) ≤ (κ₀/π) (1 + c²/ν)^(−ν/2) + P(c < |t_ν|)      κ₀ = ∫ |d/du (l/|l|)| du

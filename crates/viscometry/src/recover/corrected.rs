@@ -107,14 +107,14 @@ struct Member {
     weights: [f64; 2],
 }
 
-/// What is corrected.
+/// The correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Law {
     Slip,
     Ends { radius: f64 },
 }
 
-/// What follows at an abscissa.
+/// The result at an abscissa.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Found {
     pub(super) wall_stress: f64,
@@ -166,7 +166,7 @@ impl Corrected {
         Ok(Self { law, members, abscissas: abscissas.iter().map(|x| x.ln()).collect(), band: None })
     }
 
-    /// How each table was smoothed.
+    /// The smoothing of each table.
     pub(super) fn smoothing(&self) -> impl Iterator<Item = Smoothing> + '_ {
         self.members.iter().map(|member| member.smoothed.smoothing)
     }
@@ -237,7 +237,7 @@ impl Corrected {
         self.members.iter().map(part).sum::<f64>() / sums.line[1]
     }
 
-    /// What follows at an abscissa.
+    /// The result at an abscissa.
     ///
     /// # Errors
     /// [`ViscometryError::NotMeasured`], [`ViscometryError::NotRecovered`].
@@ -332,7 +332,7 @@ impl Corrected {
         DVector::from_vec(all)
     }
 
-    /// What other curves of the tables would change in ln k at the same τ.
+    /// The change of ln k at the same τ by other curves of the tables.
     fn difference(&self, u: f64, sums: &Sums) -> f64 {
         let of_one = |(index, member): (usize, &Member)| {
             let change = |other: &Fitted| match self.sums(u, Some((index, other))) {

@@ -36,7 +36,7 @@ pub struct SlipPoint {
     pub band: Option<[f64; 2]>,
 }
 
-/// What pipes of several radii tell of slip.
+/// Slip recovered from pipes of several radii.
 ///
 /// # Example
 /// See [`slip_at_walls`].
@@ -45,7 +45,7 @@ pub struct SlipPoint {
 pub struct SlipCorrection {
     /// Slip at the wall stresses of the first table that all tables reach.
     pub points: Vec<SlipPoint>,
-    /// What would flow through the pipe of the first table without slip, smoothed: a band recovered from it would not know the noise of
+    /// The table of the first pipe without slip, smoothed: a band recovered from it would not know the noise of
     /// the tables, which that of [`with_band`](Self::with_band) does.
     pub table: FlowTable<PipeGeometry>,
     #[cfg_attr(feature = "serde", serde(skip))]
@@ -73,7 +73,7 @@ impl SlipCorrection {
         slip_point(&self.tables, wall_stress)
     }
 
-    /// How each table was smoothed.
+    /// The smoothing of each table.
     pub fn smoothing(&self) -> impl Iterator<Item = Smoothing> + '_ {
         self.tables.smoothing()
     }
@@ -107,7 +107,7 @@ impl Capillary {
         Ok(Self { length, table: FlowTable::pipe(radius, rows)? })
     }
 
-    /// The same with what is known of the noise of Δp.
+    /// With the noise of Δp.
     ///
     /// # Errors
     /// As [`FlowTable::with_noise`].
@@ -139,7 +139,7 @@ pub struct EndPoint {
     pub band: Option<[f64; 2]>,
 }
 
-/// What capillaries of several lengths tell of their ends.
+/// End effects recovered from capillaries of several lengths.
 ///
 /// # Example
 /// See [`end_correction`].
@@ -175,7 +175,7 @@ impl EndCorrection {
         end_point(&self.tables, discharge)
     }
 
-    /// How each table was smoothed.
+    /// The smoothing of each table.
     pub fn smoothing(&self) -> impl Iterator<Item = Smoothing> + '_ {
         self.tables.smoothing()
     }

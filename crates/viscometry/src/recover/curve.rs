@@ -9,7 +9,7 @@ use super::smoothing::{Criterion, EXACT, Fitted, Penalised, Smoother, Smoothing}
 use super::table::{FlowTable, Noise};
 use crate::ViscometryError;
 
-/// What is taken to hold below the smallest torque of a table.
+/// Assumption on the response below the smallest torque of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -49,7 +49,7 @@ pub enum Monotonicity {
     },
 }
 
-/// What to do about a smoothed curve that does not rise.
+/// Treatment of a smoothed curve that does not rise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -61,7 +61,7 @@ pub enum Rise {
     Enforced,
 }
 
-/// How to recover.
+/// Options of a recovery.
 ///
 /// # Example
 /// ```
@@ -77,9 +77,9 @@ pub enum Rise {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Options {
-    /// What to do about a smoothed curve that does not rise.
+    /// Treatment of a smoothed curve that does not rise.
     pub rise: Rise,
-    /// What is taken to hold below the smallest torque; found from the table unless given as `Newtonian` or `PowerLaw`.
+    /// Assumption below the smallest torque; found from the table unless given as `Newtonian` or `PowerLaw`.
     pub below_smallest: Option<BelowSmallest>,
 }
 
@@ -99,7 +99,7 @@ pub(super) struct Recovered {
     main: Fitted,
     /// Curves that could be as true.
     others: Vec<Fitted>,
-    /// What makes errors of the main curve, if it is smoothed.
+    /// The errors of the main curve, if it is smoothed.
     penalised: Option<Penalised>,
     /// Relative noise of an interpolated curve.
     level: f64,

@@ -46,7 +46,7 @@ pub trait MeasuredCurve {
 /// A point of a flow curve.
 ///
 /// # Example
-/// See [`pipe`].
+/// See [`MeasuredCurve`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FlowPoint {
@@ -69,7 +69,7 @@ pub struct RatePoint {
     pub stress: f64,
 }
 
-/// What the series of coaxial cylinders comes to.
+/// The sum of the series of coaxial cylinders.
 ///
 /// # Example
 /// See [`couette`].
@@ -84,7 +84,7 @@ pub struct Series {
     pub terms: usize,
     /// An estimate of the error: the last terms of the rest that was summed at once.
     pub error: f64,
-    /// What encloses the value wherever what is recovered rises with the stress below the last term, however it does:
+    /// Rigorous bounds of the value, valid if the recovered function rises with the stress below the last term:
     /// the rest lies between 2ΔΩ/δ and 2ΔΩ/δ + φ there.
     pub enclosure: [f64; 2],
 }
@@ -100,7 +100,7 @@ pub struct Approximation {
     pub shear_stress: f64,
     /// The approximate shear rate there, 1/s.
     pub shear_rate: f64,
-    /// It is off by this at most wherever the shear rate rises with the stress.
+    /// Error bound, valid if the shear rate rises with the stress.
     pub bound: f64,
 }
 
@@ -154,19 +154,7 @@ pub fn pipe(
 /// 4 ulp beyond those of the curve and its derivative.
 ///
 /// # Example
-/// ```
-/// use piola_numerics::Real;
-/// use piola_viscometry::recover::{ChannelGeometry, MeasuredCurve, functions};
-/// struct Linear; // Q = (2/3) c d³/μ with d = μ = 1
-/// impl MeasuredCurve for Linear {
-///     fn response<T: Real>(&self, drive: T) -> T {
-///         T::lit(2.0) * drive / T::lit(3.0)
-///     }
-/// }
-/// let wall = functions::channel(&Linear, ChannelGeometry::new(1.0)?, 5.0)?;
-/// assert!((wall.shear_rate - 5.0).abs() < 1e-14);
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See [`MeasuredCurve`].
 ///
 /// # Source
 /// W(23.44).
@@ -226,20 +214,7 @@ pub fn parallel_plates(
 /// 4 ulp beyond those of the curve and its derivative.
 ///
 /// # Example
-/// N₁ − N₂ = 2 k² between plates of radius and gap 1: 𝓕 = π·2 Ω²/4.
-/// ```
-/// use piola_numerics::Real;
-/// use piola_viscometry::recover::{MeasuredCurve, PlatesGeometry, functions};
-/// struct Thrust;
-/// impl MeasuredCurve for Thrust {
-///     fn response<T: Real>(&self, speed: T) -> T {
-///         T::lit(0.5 * core::f64::consts::PI) * speed * speed
-///     }
-/// }
-/// let rim = functions::parallel_plates_thrust(&Thrust, PlatesGeometry::new(1.0, 1.0)?, 3.0)?;
-/// assert!((rim.stress - 18.0).abs() < 1e-14);
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See [`parallel_plates`].
 ///
 /// # Source
 /// The thrust is π (R/k)² ∫ s (N₁ − N₂) ds up to the rate k = ΩR/h of the rim.
@@ -257,9 +232,9 @@ pub fn parallel_plates_thrust(
 /// The rest is looked at after so many terms.
 const LOOKS: [usize; 22] =
     [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 512, 1024, 2048, 4096, 8192];
-/// What the series is summed to.
+/// Relative error at which the sum ends.
 const AIM: f64 = 4.0 * f64::EPSILON;
-/// What it must come to.
+/// Largest relative error that is accepted.
 const REACHED: f64 = 1e-8;
 
 /// ζ at the inner of two coaxial cylinders from ΔΩ as a function of the torque, by the series W(23.82) with its rest summed at once
@@ -288,6 +263,11 @@ const REACHED: f64 = 1e-8;
 ///     let inner = functions::couette(&Squared(outer), CouetteGeometry::new(1.0, outer)?, core::f64::consts::TAU)?;
 ///     assert!((inner.value - 1.0).abs() < 1e-12 && inner.terms == 0);
 /// }
+/// let (gap, torque) = (CouetteGeometry::new(1.0, 2.0)?, core::f64::consts::TAU);
+/// let two = functions::couette_series(&Squared(2.0), gap, torque, 2)?;
+/// assert!((two.value - 255.0 / 256.0).abs() < 1e-15 && 1.0 <= two.enclosure[1]); // 15/16 (1 + 1/16)
+/// let wide = functions::couette_wide_gap(&Squared(2.0), gap, torque)?;
+/// assert!((wide.shear_rate - 15.0 / 16.0).abs() < 1e-15 && 1.0 - wide.shear_rate <= wide.bound);
 /// # Ok::<(), piola_viscometry::ViscometryError>(())
 /// ```
 ///
@@ -374,22 +354,7 @@ fn summed(sum: f64, w: Derivatives, step: f64, terms: usize, shear_stress: f64) 
 /// The enclosure, wherever ζ rises with the stress; it narrows by (R₁/R₂)² a term for a Newtonian fluid.
 ///
 /// # Example
-/// ```
-/// use piola_numerics::Real;
-/// use piola_viscometry::recover::{CouetteGeometry, MeasuredCurve, functions};
-/// // ζ = T²: ΔΩ = (T₁² − T₂²)/4 with T = M/(2πR²).
-/// struct Squared(f64);
-/// impl MeasuredCurve for Squared {
-///     fn response<T: Real>(&self, torque: T) -> T {
-///         let stress = torque / T::lit(core::f64::consts::TAU);
-///         stress * stress * T::lit(0.25 * (1.0 - self.0.powi(-4)))
-///     }
-/// }
-/// let two = functions::couette_series(&Squared(2.0), CouetteGeometry::new(1.0, 2.0)?, core::f64::consts::TAU, 2)?;
-/// assert!((two.value - 255.0 / 256.0).abs() < 1e-15); // 15/16 (1 + 1/16) of ζ = 1
-/// assert!(two.enclosure[0] <= 1.0 && 1.0 <= two.enclosure[1]);
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See [`couette`].
 ///
 /// # Source
 /// W(23.82).
@@ -429,21 +394,7 @@ pub fn couette_series(
 /// Its bound 2ΔΩ/δ, which the neglected ζ(T₂) does not exceed.
 ///
 /// # Example
-/// ```
-/// use piola_numerics::Real;
-/// use piola_viscometry::recover::{CouetteGeometry, MeasuredCurve, functions};
-/// // ζ = T²: ΔΩ = (T₁² − T₂²)/4 with T = M/(2πR²).
-/// struct Squared(f64);
-/// impl MeasuredCurve for Squared {
-///     fn response<T: Real>(&self, torque: T) -> T {
-///         let stress = torque / T::lit(core::f64::consts::TAU);
-///         stress * stress * T::lit(0.25 * (1.0 - self.0.powi(-4)))
-///     }
-/// }
-/// let wide = functions::couette_wide_gap(&Squared(8.0), CouetteGeometry::new(1.0, 8.0)?, core::f64::consts::TAU)?;
-/// assert!((wide.shear_rate - (1.0 - 1.0 / 4096.0)).abs() < 1e-15 && 1.0 - wide.shear_rate <= wide.bound); // of ζ = 1
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See [`couette`].
 ///
 /// # Source
 /// W(23.83).
@@ -466,22 +417,7 @@ pub fn couette_wide_gap(
 /// Its bound: the mean 2ΔΩ/δ of ζ over the gap is exceeded by ζ(T₁) by no more than φ.
 ///
 /// # Example
-/// ```
-/// use piola_numerics::Real;
-/// use piola_viscometry::recover::{CouetteGeometry, MeasuredCurve, functions};
-/// // ζ = T²: ΔΩ = (T₁² − T₂²)/4 with T = M/(2πR²).
-/// struct Squared(f64);
-/// impl MeasuredCurve for Squared {
-///     fn response<T: Real>(&self, torque: T) -> T {
-///         let stress = torque / T::lit(core::f64::consts::TAU);
-///         stress * stress * T::lit(0.25 * (1.0 - self.0.powi(-4)))
-///     }
-/// }
-/// let gap = CouetteGeometry::new(1.0, 1.001)?;
-/// let narrow = functions::couette_narrow_gap(&Squared(1.001), gap, core::f64::consts::TAU)?;
-/// assert!(1.0 - narrow.shear_rate < 0.003 && 1.0 - narrow.shear_rate <= narrow.bound); // of ζ = 1
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See [`couette`].
 ///
 /// # Source
 /// W(23.85).

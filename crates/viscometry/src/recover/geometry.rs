@@ -1,4 +1,4 @@
-//! Where measurements are made.
+//! Geometries of measurements.
 
 use crate::ViscometryError;
 use crate::error::check_bound;

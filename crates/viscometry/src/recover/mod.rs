@@ -112,7 +112,7 @@ macro_rules! recovered_curve {
         }
 
         impl $name {
-            /// The same with a band that holds the true curve at once everywhere between the first and the last row with this
+            /// With a band that holds the true curve at once everywhere between the first and the last row with this
             /// confidence, if the rows' errors are independent and normal; for exact rows it bounds the error of interpolation.
             ///
             /// # Errors
@@ -141,13 +141,13 @@ macro_rules! recovered_curve {
                 &self.recovered.residuals
             }
 
-            /// How the table was smoothed.
+            /// The smoothing of the table.
             #[must_use]
             pub const fn smoothing(&self) -> Smoothing {
                 self.recovered.smoothing
             }
 
-            /// What is taken to hold below the smallest drive.
+            /// The assumption below the smallest drive.
             #[must_use]
             pub const fn below_smallest(&self) -> BelowSmallest {
                 self.recovered.below
@@ -222,9 +222,6 @@ impl FlowCurve {
 /// [`ViscometryError::TooFewRows`], [`ViscometryError::ResponseFalls`], [`ViscometryError::RowsTooClose`],
 /// [`ViscometryError::NotRecovered`].
 ///
-/// # Accuracy
-/// That of [`FlowCurve`].
-///
 /// # Example
 /// See the [module](self).
 ///
@@ -254,18 +251,8 @@ pub fn pipe_with(table: &FlowTable<PipeGeometry>, options: Options) -> Result<Fl
 /// # Errors
 /// As [`pipe`].
 ///
-/// # Accuracy
-/// That of [`FlowCurve`].
-///
 /// # Example
-/// Q = (2/3) c d³/μ with d = 1 and μ = 2.
-/// ```
-/// use piola_viscometry::recover::{self, FlowTable};
-/// let rows: Vec<_> = (1..=12).map(f64::from).map(|c| [c, c / 3.0]).collect();
-/// let curve = recover::channel(&FlowTable::channel(1.0, &rows)?)?;
-/// assert!((curve.at(3.0)?.shear_rate - 1.5).abs() < 1e-11);
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See the [module](self).
 ///
 /// # Source
 /// W(23.44).
@@ -331,9 +318,6 @@ pub fn couette_with(table: &FlowTable<CouetteGeometry>, options: Options) -> Res
 /// # Errors
 /// As [`pipe`].
 ///
-/// # Accuracy
-/// That of [`NormalStressCurve`].
-///
 /// # Example
 /// N₁ = 4 T² with T = M/(2πR²): the difference is ½ ∫ N₁ ds/s = T₁² − T₂², for R₁ = 1, R₂ = 2.
 /// ```
@@ -373,9 +357,6 @@ pub fn normal_stress_with(
 ///
 /// # Errors
 /// As [`pipe`].
-///
-/// # Accuracy
-/// That of [`StressCurve`].
 ///
 /// # Example
 /// τ = 2 k² between plates of radius and gap 1: 𝓜 = 2π·2 Ω²/5.
@@ -417,18 +398,8 @@ pub fn parallel_plates_with(
 /// # Errors
 /// As [`pipe`].
 ///
-/// # Accuracy
-/// That of [`StressCurve`].
-///
 /// # Example
-/// N₁ − N₂ = 2 k² between plates of radius and gap 1: 𝓕 = π·2 Ω²/4.
-/// ```
-/// use piola_viscometry::recover::{self, FlowTable};
-/// let rows: Vec<_> = (1..=12).map(f64::from).map(|speed| [speed, 0.5 * core::f64::consts::PI * speed * speed]).collect();
-/// let curve = recover::parallel_plates_thrust(&FlowTable::parallel_plates(1.0, 1.0, &rows)?)?;
-/// assert!((curve.at(3.0)?.stress - 18.0).abs() < 1e-10);
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See [`parallel_plates`].
 ///
 /// # Source
 /// See [`functions::parallel_plates_thrust`].
@@ -463,14 +434,7 @@ pub fn parallel_plates_thrust_with(
 /// That of [`StressCurve`]; of the model, α².
 ///
 /// # Example
-/// τ = 2 k under a cone of radius 1 and angle 0.1: 𝓜 = (2π/3)·20 Ω.
-/// ```
-/// use piola_viscometry::recover::{self, FlowTable};
-/// let rows: Vec<_> = (1..=12).map(f64::from).map(|speed| [speed, 40.0 / 3.0 * core::f64::consts::PI * speed]).collect();
-/// let curve = recover::cone_and_plate_torque(&FlowTable::cone_and_plate(1.0, 0.1, &rows)?)?;
-/// assert!((curve.at(30.0)?.stress - 60.0).abs() < 1e-10);
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See [`parallel_plates`].
 ///
 /// # Source
 /// See [`cone_and_plate`].
@@ -505,14 +469,7 @@ pub fn cone_and_plate_torque_with(
 /// That of [`StressCurve`]; of the model, α².
 ///
 /// # Example
-/// N₁ = 2 k² under a cone of radius 1 and angle 0.1: 𝓕 = 100 π Ω².
-/// ```
-/// use piola_viscometry::recover::{self, FlowTable};
-/// let rows: Vec<_> = (1..=12).map(f64::from).map(|speed| [speed, 100.0 * core::f64::consts::PI * speed * speed]).collect();
-/// let curve = recover::cone_and_plate_thrust(&FlowTable::cone_and_plate(1.0, 0.1, &rows)?)?;
-/// assert!((curve.at(30.0)?.stress - 1800.0).abs() < 1e-8);
-/// # Ok::<(), piola_viscometry::ViscometryError>(())
-/// ```
+/// See [`parallel_plates`].
 ///
 /// # Source
 /// See [`cone_and_plate`].

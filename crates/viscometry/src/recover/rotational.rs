@@ -6,7 +6,7 @@ use super::geometry::ConeGeometry;
 use crate::ViscometryError;
 use crate::error::check_bound;
 
-/// What cone and plate tell at a speed.
+/// Viscometric functions from cone and plate at one speed.
 ///
 /// # Example
 /// See [`cone_and_plate`].

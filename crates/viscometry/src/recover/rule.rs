@@ -10,7 +10,7 @@ use super::series::{self, Order};
 use super::smoothing::Fitted;
 use super::splines::Derivatives;
 
-/// How the recovered quantity follows.
+/// The rule by which the recovered quantity follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Rule {
     /// e^`logarithm` e^y.

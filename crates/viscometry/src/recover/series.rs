@@ -57,7 +57,7 @@ fn bernoulli<T: Real>(x: T) -> T {
     x / -(-x).exp_m1()
 }
 
-/// How much of the expansion is taken.
+/// The order of the expansion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
     /// One power.
@@ -68,7 +68,7 @@ pub(super) enum Order {
     Full,
 }
 
-/// What is left of the series.
+/// The rest of the series.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rest {
     /// Its sum over 2 W.

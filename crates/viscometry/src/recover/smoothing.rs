@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::splines::Splines;
 
-/// What a curve was made by.
+/// Criterion by which a curve was made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -26,11 +26,11 @@ pub enum Criterion {
     KnownNoise,
 }
 
-/// How a curve was smoothed.
+/// Smoothing of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Smoothing {
-    /// What it was made by.
+    /// The criterion.
     pub criterion: Criterion,
     /// The standard deviation of the noise, relative: stated, or estimated.
     pub noise: f64,

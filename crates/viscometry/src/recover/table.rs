@@ -5,7 +5,7 @@ use super::smoothing;
 use crate::ViscometryError;
 use crate::error::check_bound;
 
-/// How exact the responses of a table are.
+/// Noise of the responses of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -20,7 +20,7 @@ pub enum Noise {
     Relative(f64),
 }
 
-/// What was measured in one geometry: rows of what drives the flow and what answers.
+/// Measurements in one geometry: rows of a drive and a response.
 ///
 /// | table | first column | second column |
 /// |---|---|---|
@@ -87,7 +87,7 @@ impl<G> FlowTable<G> {
         Ok(Self { geometry, drive, response, noise: Noise::Estimated })
     }
 
-    /// The same with what is known of its noise.
+    /// With its noise.
     ///
     /// # Errors
     /// [`ViscometryError::OutOfBounds`] unless it is finite and not negative.
@@ -103,13 +103,13 @@ impl<G> FlowTable<G> {
         self.drive.iter().zip(&self.response).map(|(drive, response)| [*drive, *response])
     }
 
-    /// Where it was measured.
+    /// The geometry.
     #[must_use]
     pub const fn geometry(&self) -> &G {
         &self.geometry
     }
 
-    /// What is known of its noise.
+    /// The noise.
     #[must_use]
     pub const fn noise(&self) -> Noise {
         self.noise
@@ -126,16 +126,6 @@ impl<G> FlowTable<G> {
     ///
     /// # Errors
     /// [`ViscometryError::ResponseFalls`] with the first such row.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_viscometry::ViscometryError;
-    /// use piola_viscometry::recover::{FlowTable, Noise};
-    /// let table = FlowTable::pipe(1.0, &[[1.0, 2.0], [2.0, 4.0], [3.0, 3.9]])?;
-    /// assert_eq!(table.check_rising(), Err(ViscometryError::ResponseFalls { row: 2, value: 3.9, previous: 4.0 }));
-    /// assert_eq!(table.with_noise(Noise::Relative(0.01))?.check_rising(), Ok(()));
-    /// # Ok::<(), ViscometryError>(())
-    /// ```
     pub fn check_rising(&self) -> Result<(), ViscometryError> {
         let allowed = 5.0 * core::f64::consts::SQRT_2 * self.level();
         let mut previous = 0.0_f64;

@@ -252,8 +252,13 @@ fn stresses_of_every_flow_equal_the_answer_of_the_fluid_to_the_history_of_its_pa
                 local[(0, 2)],
                 local[(1, 2)],
             ];
-            let expected =
-                [stresses.shear, stresses.first_normal_difference(), stresses.second_normal_difference(), 0.0, 0.0];
+            let expected = [
+                stresses.shear,
+                stresses.first_normal_stress_difference(),
+                stresses.second_normal_stress_difference(),
+                0.0,
+                0.0,
+            ];
             let scale = expected.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
             let followed = Tol::stated(1e-8, "histories to the tolerance 1e-11");
             assert_close_at_scale(&what, &found, &expected, scale, followed);
@@ -275,7 +280,8 @@ fn cylinders_that_turn_together_add_a_rigid_rotation_and_its_centrifugal_pressur
             let seen = turning.angular_velocity(&fluid, r)?.value;
             assert_close_at_scale(fluid.name(), &[seen - spin], &[omega], spin, Tol::ulps(4.0));
             let [one, other] = [still.stresses(&fluid, r)?, turning.stresses(&fluid, r)?];
-            let differences = |at: Stresses| [at.shear, at.first_normal_difference(), at.second_normal_difference()];
+            let differences =
+                |at: Stresses| [at.shear, at.first_normal_stress_difference(), at.second_normal_stress_difference()];
             let close = Tol::stated(1e-13, "differences beside the centrifugal pressure");
             let scale = other.gradient.abs().max(one.shear.abs());
             assert_close_at_scale(fluid.name(), &differences(other), &differences(one), scale, close);

@@ -77,7 +77,7 @@ fn flows<F: ViscometricFluid>(fluid: &F, rate: f64) -> Outcome {
     let at = plane.stresses(fluid)?;
     let [first, second]: [f64; 2] =
         [fluid.first_normal_stress_difference(rate), fluid.second_normal_stress_difference(rate)];
-    let differences = [at.first_normal_difference(), at.second_normal_difference()];
+    let differences = [at.first_normal_stress_difference(), at.second_normal_stress_difference()];
     assert_close_at_scale(&what, &differences, &[first, second], first.abs(), Tol::ulps(16.0));
 
     let cone = ConeAndPlate::new(radius, 0.05, 0.05 * rate)?;

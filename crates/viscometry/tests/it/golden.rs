@@ -96,7 +96,7 @@ impl<F: ViscometricFluid> Flows for Of<F> {
     fn plane(&self, flow: PlaneCouette) -> Result<[f64; 6], ViscometryError> {
         let fluid = &self.0;
         let stresses = flow.stresses(fluid)?;
-        let [n1, n2] = [stresses.first_normal_difference(), stresses.second_normal_difference()];
+        let [n1, n2] = [stresses.first_normal_stress_difference(), stresses.second_normal_stress_difference()];
         Ok([stresses.shear, n2, n1 + n2, n1, n2, stresses.shear / flow.shear_rate(fluid)?])
     }
 

@@ -14,7 +14,33 @@ const WORDS: &[(&str, &str)] = &[
 ];
 
 /// Public types whose name stands more than once, each with the reason.
-const SHARED_NAMES: &[(&str, &str)] = &[];
+const SHARED_NAMES: &[(&str, &str)] = &[
+    ("BadPoint", "a bad point with the error of its own crate"),
+    ("ConstrainedMotion", "motion under constraints of velocity and of position: modules of one crate"),
+    ("Constraints", "constraints of a mechanism and of a material"),
+    ("Ending", "how a run and how a quadrature ended"),
+    ("Estimate", "a value with its error; in `fit` an estimated parameter"),
+    ("Event", "an event of space-time and an event of a run"),
+    ("Field", "a field of rates and a field in space"),
+    ("Following", "the spatial following of a material field and the following of a history"),
+    ("Generator", "of a cone and of a group"),
+    ("Integral", "a value with its bound; `fluids` adds the law"),
+    ("Mode", "of relaxation and of a specimen"),
+    ("Motion", "of a body, of a particle and of a system"),
+    ("Options", "of a fit and of a recovery"),
+    ("Potential", "of forces, and of a circuit of stresses"),
+    ("RayField", "of two kinds of characteristics"),
+    ("Report", "of a batch, of a run and of a check"),
+    ("Residual", "of a balance and of an action"),
+    ("SampledMotion", "of a body and of a system"),
+    ("Search", "of roots and of counterexamples"),
+    ("Separable", "a Hamiltonian and a field of rates"),
+    ("Series", "of terms and of points"),
+    ("Stability", "of a law and of an equilibrium"),
+    ("State", "of a run and of a fit"),
+    ("Weighting", "of solids and of fluids"),
+    ("Workspace", "each algorithm has its own"),
+];
 
 /// Every violation.
 pub(super) fn check(workspace: &Workspace) -> Vec<String> {

@@ -5,8 +5,8 @@ mod cases;
 mod energies;
 mod golden;
 mod laws;
+mod of_stress;
 mod rates;
 mod scalars;
-mod tangents;
 #[cfg(feature = "serde")]
 mod written;

@@ -103,13 +103,13 @@ impl ExplicitMotion {
     ///
     /// # Errors
     /// [`FieldsError::WrongLength`], [`FieldsError::NotFinite`].
-    pub fn set_state(&mut self, time: f64, displacement: &[f64], velocity: &[f64]) -> Result<(), FieldsError> {
+    pub fn set_state(&mut self, t: f64, displacement: &[f64], velocity: &[f64]) -> Result<(), FieldsError> {
         check_length("displacement", displacement.len(), self.displacement.len())?;
         check_length("velocity", velocity.len(), self.velocity.len())?;
-        check_finite("time", &[time])?;
+        check_finite("time", &[t])?;
         check_finite("displacement", displacement)?;
         check_finite("velocity", velocity)?;
-        self.time = time;
+        self.time = t;
         self.displacement.copy_from_slice(displacement);
         for ((v, &given), &is_held) in self.velocity.iter_mut().zip(velocity).zip(&self.is_held) {
             *v = if is_held { 0.0 } else { given };
@@ -161,7 +161,7 @@ impl ExplicitMotion {
     /// [`FieldsError::WrongLength`]; those of the forces.
     pub fn accelerations_into(
         &self,
-        time: f64,
+        t: f64,
         displacement: &[f64],
         velocity: &[f64],
         mut forces: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), FieldsError>,
@@ -171,7 +171,7 @@ impl ExplicitMotion {
         check_length("velocity", velocity.len(), self.displacement.len())?;
         check_length("accelerations", accelerations.len(), self.displacement.len())?;
         accelerations.fill(0.0);
-        forces(time, displacement, accelerations)?;
+        forces(t, displacement, accelerations)?;
         for (component, (a, v)) in accelerations.iter_mut().zip(velocity).enumerate() {
             let node = component / 3;
             *a = if self.is_held[component] { 0.0 } else { (*a - self.damping[node] * v) / self.masses[node] };

@@ -30,9 +30,9 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant};
 
 use super::TetrahedralMesh;
-use super::integrand::{Integrand, RunningIntegral};
 use super::quadrature::Quadrature;
 use crate::FieldsError;
+use crate::integrand::{Integrand, RunningIntegral};
 use piola_continuum::ContinuumError;
 use piola_continuum::DisplacementGradient;
 use piola_tensor::internal::rows::Rows;
@@ -208,7 +208,7 @@ impl<const N: usize> TetrahedralElements<N> {
     /// displacement.
     ///
     /// # Errors
-    /// [`FieldsError::WrongLength`], [`FieldsError::NonFiniteIntegrand`], the integrand's own.
+    /// [`FieldsError::WrongLength`], [`FieldsError::IntegrandNotFinite`], the integrand's own.
     pub fn integral<T: Real, V: Integrand<Scalar = T>>(
         &self,
         field: &[T],

@@ -35,19 +35,19 @@ mod exact {
     pub(super) fn start<F: ConvectedMaxwell>(
         fluid: &F,
         shear_rate: f64,
-        time: f64,
+        t: f64,
         _tolerance: f64,
     ) -> Result<ShearStresses, FluidsError> {
-        fluid.start_up(shear_rate, time)
+        fluid.start_up(shear_rate, t)
     }
 
     pub(super) fn stop<F: ConvectedMaxwell>(
         fluid: &F,
         shear_rate: f64,
-        time: f64,
+        t: f64,
         _tolerance: f64,
     ) -> Result<ShearStresses, FluidsError> {
-        fluid.cessation(shear_rate, time)
+        fluid.cessation(shear_rate, t)
     }
 }
 
@@ -76,26 +76,26 @@ mod followed {
     pub(super) fn start<F: DifferentialFluid<Mode: StressRate>>(
         fluid: &F,
         shear_rate: f64,
-        time: f64,
+        t: f64,
         tolerance: f64,
     ) -> Result<ShearStresses, FluidsError> {
-        check_flow(F::Mode::NAME, shear_rate, time)?;
-        if time <= 0.0 {
+        check_flow(F::Mode::NAME, shear_rate, t)?;
+        if t <= 0.0 {
             return Ok(ShearStresses::default());
         }
         let rows = shear(shear_rate).rows();
-        Ok(ShearStresses::of(&Following::from_rest(fluid, tolerance)?.advance(|_| rows, time)?))
+        Ok(ShearStresses::of(&Following::from_rest(fluid, tolerance)?.advance(|_| rows, t)?))
     }
 
     pub(super) fn stop<F: DifferentialFluid<Mode: StressRate>>(
         fluid: &F,
         shear_rate: f64,
-        time: f64,
+        t: f64,
         tolerance: f64,
     ) -> Result<ShearStresses, FluidsError> {
-        check_flow(F::Mode::NAME, shear_rate, time)?;
+        check_flow(F::Mode::NAME, shear_rate, t)?;
         let mut motion = Following::from_steady(fluid, &shear(shear_rate), tolerance)?;
-        motion.advance(|_| [[0.0; 3]; 3], time)?;
+        motion.advance(|_| [[0.0; 3]; 3], t)?;
         Ok(ShearStresses::of(&motion.polymer_stress()))
     }
 }
@@ -110,12 +110,12 @@ macro_rules! differential {
             fn response_to_motion(
                 &self,
                 motion: &impl HomogeneousMotion,
-                time: f64,
+                t: f64,
                 tolerance: f64,
             ) -> Result<Symmetric, FluidsError> {
-                check_bound(<Self as DifferentialFluid>::Mode::NAME, "time", time, "0 < time", 0.0 < time)?;
+                check_bound(<Self as DifferentialFluid>::Mode::NAME, "time", t, "0 < time", 0.0 < t)?;
                 let gradient = |t: f64| motion.velocity_gradient(t).map_or([[f64::NAN; 3]; 3], |l| l.rows());
-                Following::from_rest(self, tolerance)?.advance(gradient, time)
+                Following::from_rest(self, tolerance)?.advance(gradient, t)
             }
 
             fn response_to_samples(
@@ -129,19 +129,19 @@ macro_rules! differential {
             fn response_to_start(
                 &self,
                 shear_rate: f64,
-                time: f64,
+                t: f64,
                 tolerance: f64,
             ) -> Result<ShearStresses, FluidsError> {
-                $way::start(self, shear_rate, time, tolerance)
+                $way::start(self, shear_rate, t, tolerance)
             }
 
             fn response_to_stop(
                 &self,
                 shear_rate: f64,
-                time: f64,
+                t: f64,
                 tolerance: f64,
             ) -> Result<ShearStresses, FluidsError> {
-                $way::stop(self, shear_rate, time, tolerance)
+                $way::stop(self, shear_rate, t, tolerance)
             }
 
             fn response_to_small_oscillation(&self, angular_frequency: f64) -> Result<Moduli, FluidsError> {

@@ -16,10 +16,10 @@ impl<H: Damping> SimpleFluid for Kbkz<H> {
     fn response_to_motion(
         &self,
         motion: &impl HomogeneousMotion,
-        time: f64,
+        t: f64,
         _tolerance: f64,
     ) -> Result<Symmetric, FluidsError> {
-        Ok(self.stress_along(motion, time)?.value)
+        Ok(self.stress_along(motion, t)?.value)
     }
 
     fn response_to_samples(
@@ -30,19 +30,19 @@ impl<H: Damping> SimpleFluid for Kbkz<H> {
         Ok(self.stress_of_samples(samples)?.value)
     }
 
-    fn response_to_start(&self, shear_rate: f64, time: f64, _tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        check_flow(H::NAME, shear_rate, time)?;
-        if time <= 0.0 { Ok(ShearStresses::default()) } else { Ok(self.start_up(shear_rate, time)?.value) }
+    fn response_to_start(&self, shear_rate: f64, t: f64, _tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        check_flow(H::NAME, shear_rate, t)?;
+        if t <= 0.0 { Ok(ShearStresses::default()) } else { Ok(self.start_up(shear_rate, t)?.value) }
     }
 
-    fn response_to_stop(&self, shear_rate: f64, time: f64, _tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        check_flow(H::NAME, shear_rate, time)?;
-        if time <= 0.0 {
+    fn response_to_stop(&self, shear_rate: f64, t: f64, _tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        check_flow(H::NAME, shear_rate, t)?;
+        if t <= 0.0 {
             let shear = self.shear_stress(shear_rate);
             let first = self.first_normal_stress_difference(shear_rate);
             return Ok(ShearStresses { shear, first, second: 0.0 });
         }
-        Ok(self.cessation(shear_rate, time)?.value)
+        Ok(self.cessation(shear_rate, t)?.value)
     }
 
     fn response_to_small_oscillation(&self, angular_frequency: f64) -> Result<Moduli, FluidsError> {

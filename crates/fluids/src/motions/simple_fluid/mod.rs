@@ -1,4 +1,4 @@
-//! What every fluid answers to: steady motions, histories, the start and the stop of shear, oscillations, extension.
+//! Responses of every fluid: to steady motions, histories, start and stop of shear, oscillations, extension.
 
 mod differential;
 mod integral;
@@ -10,7 +10,7 @@ use piola_continuum::{DeformationGradient, Symmetric};
 
 use super::oscillation::Oscillation;
 use super::shear_stresses::ShearStresses;
-use crate::any::chosen;
+use crate::any::chosen_fluid;
 use crate::error::{check_bound, check_finite};
 use crate::{AnyFluid, Extension, FluidsError};
 
@@ -29,20 +29,27 @@ pub struct Moduli {
 /// ```text
 /// T = −p 1 + G(Cₜ(t − s), s ≥ 0)      Q G(Cₜ) Qᵀ = G(Q Cₜ Qᵀ)
 /// ```
-/// | the response to | is, of fluids of the present rate | of differential fluids | of K-BKZ fluids |
-/// |---|---|---|---|
-/// | a [steady motion](Self::response_to_steady) | a formula | six equations; a formula in shear and extension | quadrature |
-/// | a [motion](Self::response_to_motion) | a formula | integrated | quadrature |
-/// | [samples](Self::response_to_samples) of one | a formula | integrated; of Maxwell's and Oldroyd's fluids a formula | quadrature |
-/// | the [start](Self::response_to_start) of shear | a formula | the same | quadrature |
-/// | its [stop](Self::response_to_stop) | a formula | the same | quadrature |
-/// | a [small oscillation](Self::response_to_small_oscillation) | a formula | a formula | a formula |
-/// | a [large one](Self::response_to_oscillation) | quadrature; a formula of the second-order fluid | integrated | quadrature |
-/// | [steady extension](Self::response_to_extension) | a formula | a formula; of [`Slipping`](crate::Slipping) and Phan-Thien–Tanner one root | quadrature |
+/// How each fluid responds to a [steady motion](Self::response_to_steady), a [motion](Self::response_to_motion),
+/// [samples](Self::response_to_samples) of one, the [start](Self::response_to_start) and the [stop](Self::response_to_stop) of
+/// shear, a [small](Self::response_to_small_oscillation) and a [large](Self::response_to_oscillation) oscillation, and steady
+/// [extension](Self::response_to_extension): by a formula ●, the root of one equation ○, six equations ◐, quadrature with an error ∫,
+/// or integration to a tolerance →.
 ///
-/// Without a tolerance the answer is exact to rounding, or to 1e-11 by quadrature; where one is asked for, it is that of what
-/// is integrated, and formulas do not look at it. Solids at small stresses, and power laws without a viscosity at rest, have no
-/// response to a small oscillation. An [`EulerianFluid`](crate::EulerianFluid) remembers nothing and has no T + p 1.
+/// | fluid | steady | motion | samples | start, stop | small | large | extension |
+/// |---|---|---|---|---|---|---|---|
+/// | generalised Newtonian (for Ellis ○), Reiner–Rivlin, [`LinearViscous`](crate::LinearViscous) | ● | ● | ● | ● | ● ¹ | ∫ | ● |
+/// | [`SecondOrder`](crate::SecondOrder) | ● | ● | ● | ● | ● | ● | ● |
+/// | [`UpperConvectedMaxwell`](crate::UpperConvectedMaxwell), [`OldroydB`](crate::OldroydB) | ◐ ² | → ³ | ● | ● | ● | → | ● ² |
+/// | [`Giesekus`](crate::Giesekus) | ◐ | → | → | → | ● | → | ● |
+/// | Phan-Thien–Tanner, [`Slipping`](crate::Slipping) networks | ◐ | → | → | → | ● | → | ○ ² |
+/// | [`Modes`](crate::Modes) of these | as one | → | → | → ³ | ● | → | as one |
+/// | [`Kbkz`](crate::Kbkz) | ∫ ² | ∫ | ∫ | ∫ | ● | ∫ | ∫ ² |
+///
+/// ¹ An error where the viscosity at rest is infinite: with a yield stress, and of powers below 1. ² An error where the stress would
+/// grow without end: 2 λ ε̇ ≥ 1 without anything that limits it. ³ By formulas through [`ConvectedMaxwell`](crate::ConvectedMaxwell).
+///
+/// Formulas are exact to rounding and quadratures to 1e-11, whatever the tolerance. An [`EulerianFluid`](crate::EulerianFluid) has a
+/// pressure of the present density and no T + p 1.
 ///
 /// # Example
 /// ```
@@ -77,7 +84,7 @@ pub trait SimpleFluid {
     fn response_to_motion(
         &self,
         motion: &impl HomogeneousMotion,
-        time: f64,
+        t: f64,
         tolerance: f64,
     ) -> Result<Symmetric, FluidsError>;
 
@@ -97,13 +104,13 @@ pub trait SimpleFluid {
     ///
     /// # Errors
     /// [`FluidsError::NotFinite`]; [`FluidsError::OutOfBounds`] unless 0 ≤ t; [`FluidsError::Integration`].
-    fn response_to_start(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError>;
+    fn response_to_start(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError>;
 
     /// The stresses at the time t, s, after the end of a long steady shear at the rate k, 1/s.
     ///
     /// # Errors
     /// As [`response_to_start`](Self::response_to_start).
-    fn response_to_stop(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError>;
+    fn response_to_stop(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError>;
 
     /// G′ and G″ at the angular frequency ω, 1/s.
     ///
@@ -149,9 +156,9 @@ fn extensional_viscosity(stress: &Symmetric, extension: Extension, rate: f64) ->
 }
 
 /// Refuses rates that are not finite and times before the start.
-fn check_flow(name: &'static str, shear_rate: f64, time: f64) -> Result<(), FluidsError> {
+fn check_flow(name: &'static str, shear_rate: f64, t: f64) -> Result<(), FluidsError> {
     check_finite(name, "shear rate", shear_rate)?;
-    check_bound(name, "time", time, "0 ≤ time", 0.0 <= time)
+    check_bound(name, "time", t, "0 ≤ time", 0.0 <= t)
 }
 
 /// Refuses too few samples, and times that do not grow.
@@ -167,25 +174,25 @@ fn check_samples(name: &'static str, samples: &[(f64, DeformationGradient)]) -> 
 /// The velocity gradient that leads from one sample to the next.
 fn gradient_between(
     (before, first): &(f64, DeformationGradient),
-    (time, second): &(f64, DeformationGradient),
+    (t, second): &(f64, DeformationGradient),
 ) -> Result<VelocityGradient, FluidsError> {
     let step = RelativeDeformation::of(first, second)?;
-    Ok(VelocityGradient::new(logarithm(step.displacement.matrix())? / (time - before))?)
+    Ok(VelocityGradient::new(logarithm(step.displacement.matrix())? / (t - before))?)
 }
 
 /// Each fluid's own.
 impl SimpleFluid for AnyFluid {
     fn response_to_steady(&self, velocity_gradient: &VelocityGradient) -> Result<Symmetric, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_steady(velocity_gradient))
+        chosen_fluid!(self, fluid => fluid.response_to_steady(velocity_gradient))
     }
 
     fn response_to_motion(
         &self,
         motion: &impl HomogeneousMotion,
-        time: f64,
+        t: f64,
         tolerance: f64,
     ) -> Result<Symmetric, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_motion(motion, time, tolerance))
+        chosen_fluid!(self, fluid => fluid.response_to_motion(motion, t, tolerance))
     }
 
     fn response_to_samples(
@@ -193,19 +200,19 @@ impl SimpleFluid for AnyFluid {
         samples: &[(f64, DeformationGradient)],
         tolerance: f64,
     ) -> Result<Symmetric, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_samples(samples, tolerance))
+        chosen_fluid!(self, fluid => fluid.response_to_samples(samples, tolerance))
     }
 
-    fn response_to_start(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_start(shear_rate, time, tolerance))
+    fn response_to_start(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        chosen_fluid!(self, fluid => fluid.response_to_start(shear_rate, t, tolerance))
     }
 
-    fn response_to_stop(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_stop(shear_rate, time, tolerance))
+    fn response_to_stop(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        chosen_fluid!(self, fluid => fluid.response_to_stop(shear_rate, t, tolerance))
     }
 
     fn response_to_small_oscillation(&self, angular_frequency: f64) -> Result<Moduli, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_small_oscillation(angular_frequency))
+        chosen_fluid!(self, fluid => fluid.response_to_small_oscillation(angular_frequency))
     }
 
     fn response_to_oscillation(
@@ -215,10 +222,10 @@ impl SimpleFluid for AnyFluid {
         harmonics: usize,
         tolerance: f64,
     ) -> Result<Oscillation, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_oscillation(amplitude, angular_frequency, harmonics, tolerance))
+        chosen_fluid!(self, fluid => fluid.response_to_oscillation(amplitude, angular_frequency, harmonics, tolerance))
     }
 
     fn response_to_extension(&self, extension: Extension, rate: f64) -> Result<f64, FluidsError> {
-        chosen!(self, fluid => fluid.response_to_extension(extension, rate))
+        chosen_fluid!(self, fluid => fluid.response_to_extension(extension, rate))
     }
 }

@@ -22,17 +22,17 @@ struct Rescaled<'m, M> {
 }
 
 impl<M: HomogeneousMotion> HomogeneousMotion for Rescaled<'_, M> {
-    fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-        self.motion.gradient(T::lit(self.factor) * time)
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+        self.motion.gradient(T::lit(self.factor) * t)
     }
 
-    fn relative_displacement<T: Real>(&self, time: T, lapse: T) -> Matrix3<T> {
+    fn relative_displacement<T: Real>(&self, t: T, lapse: T) -> Matrix3<T> {
         let factor = T::lit(self.factor);
-        self.motion.relative_displacement(factor * time, factor * lapse)
+        self.motion.relative_displacement(factor * t, factor * lapse)
     }
 }
 
-/// What it answers at the reference temperature, by the fluid's own clock; accuracy and refusals are those of that answer.
+/// The response at the reference temperature, by the fluid's own clock, with its accuracy and errors.
 impl<F: ViscometricFluid + SimpleFluid> SimpleFluid for Shifted<F> {
     fn response_to_steady(&self, velocity_gradient: &VelocityGradient) -> Result<Symmetric, FluidsError> {
         self.fluid().response_to_steady(&VelocityGradient::new(velocity_gradient.0 * self.factor())?)
@@ -41,11 +41,11 @@ impl<F: ViscometricFluid + SimpleFluid> SimpleFluid for Shifted<F> {
     fn response_to_motion(
         &self,
         motion: &impl HomogeneousMotion,
-        time: f64,
+        t: f64,
         tolerance: f64,
     ) -> Result<Symmetric, FluidsError> {
         let rescaled = Rescaled { motion, factor: self.factor() };
-        self.fluid().response_to_motion(&rescaled, time / self.factor(), tolerance)
+        self.fluid().response_to_motion(&rescaled, t / self.factor(), tolerance)
     }
 
     fn response_to_samples(
@@ -53,16 +53,16 @@ impl<F: ViscometricFluid + SimpleFluid> SimpleFluid for Shifted<F> {
         samples: &[(f64, DeformationGradient)],
         tolerance: f64,
     ) -> Result<Symmetric, FluidsError> {
-        let rescaled: Vec<_> = samples.iter().map(|(time, gradient)| (time / self.factor(), *gradient)).collect();
+        let rescaled: Vec<_> = samples.iter().map(|(t, gradient)| (t / self.factor(), *gradient)).collect();
         self.fluid().response_to_samples(&rescaled, tolerance)
     }
 
-    fn response_to_start(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        self.fluid().response_to_start(self.factor() * shear_rate, time / self.factor(), tolerance)
+    fn response_to_start(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        self.fluid().response_to_start(self.factor() * shear_rate, t / self.factor(), tolerance)
     }
 
-    fn response_to_stop(&self, shear_rate: f64, time: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        self.fluid().response_to_stop(self.factor() * shear_rate, time / self.factor(), tolerance)
+    fn response_to_stop(&self, shear_rate: f64, t: f64, tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        self.fluid().response_to_stop(self.factor() * shear_rate, t / self.factor(), tolerance)
     }
 
     fn response_to_small_oscillation(&self, angular_frequency: f64) -> Result<Moduli, FluidsError> {

@@ -25,9 +25,9 @@ fn at_rest(law: &'static str, viscosity: f64) -> Result<f64, FluidsError> {
 }
 
 /// L at the time t of a motion from rest at t = 0.
-fn present(name: &'static str, motion: &impl HomogeneousMotion, time: f64) -> Result<VelocityGradient, FluidsError> {
-    check_bound(name, "time", time, "0 < time", 0.0 < time)?;
-    Ok(motion.velocity_gradient(time)?)
+fn present(name: &'static str, motion: &impl HomogeneousMotion, t: f64) -> Result<VelocityGradient, FluidsError> {
+    check_bound(name, "time", t, "0 < time", 0.0 < t)?;
+    Ok(motion.velocity_gradient(t)?)
 }
 
 /// L between the last two samples.
@@ -98,10 +98,10 @@ macro_rules! present_rate {
             fn response_to_motion(
                 &$self,
                 motion: &impl HomogeneousMotion,
-                time: f64,
+                t: f64,
                 _tolerance: f64,
             ) -> Result<Symmetric, FluidsError> {
-                Ok($stresses.extra_stress(&present($name, motion, time)?))
+                Ok($stresses.extra_stress(&present($name, motion, t)?))
             }
 
             fn response_to_samples(
@@ -115,21 +115,21 @@ macro_rules! present_rate {
             fn response_to_start(
                 &$self,
                 shear_rate: f64,
-                time: f64,
+                t: f64,
                 _tolerance: f64,
             ) -> Result<ShearStresses, FluidsError> {
-                check_flow($name, shear_rate, time)?;
-                let rate = if 0.0 < time { shear_rate } else { 0.0 };
+                check_flow($name, shear_rate, t)?;
+                let rate = if 0.0 < t { shear_rate } else { 0.0 };
                 Ok(ShearStresses::of(&$stresses.extra_stress(&shear(rate))))
             }
 
             fn response_to_stop(
                 &$self,
                 shear_rate: f64,
-                time: f64,
+                t: f64,
                 _tolerance: f64,
             ) -> Result<ShearStresses, FluidsError> {
-                check_flow($name, shear_rate, time)?;
+                check_flow($name, shear_rate, t)?;
                 Ok(ShearStresses::default())
             }
 
@@ -196,11 +196,11 @@ impl SimpleFluid for SecondOrder {
     fn response_to_motion(
         &self,
         motion: &impl HomogeneousMotion,
-        time: f64,
+        t: f64,
         _tolerance: f64,
     ) -> Result<Symmetric, FluidsError> {
-        check_bound(Self::NAME, "time", time, "0 < time", 0.0 < time)?;
-        let MotionRates { deformation, rate, second_rate } = motion.rates(time)?;
+        check_bound(Self::NAME, "time", t, "0 < time", 0.0 < t)?;
+        let MotionRates { deformation, rate, second_rate } = motion.rates(t)?;
         let l = VelocityGradient::of(&deformation, &rate);
         let acceleration = AccelerationGradient::of(&deformation, &second_rate);
         let [first, second] = RivlinEricksen::of_gradients(&[l.0, acceleration.0]);
@@ -215,14 +215,14 @@ impl SimpleFluid for SecondOrder {
         Ok(self.extra_stress(&last(Self::NAME, samples)?))
     }
 
-    fn response_to_start(&self, shear_rate: f64, time: f64, _tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        check_flow(Self::NAME, shear_rate, time)?;
-        let rate = if 0.0 < time { shear_rate } else { 0.0 };
+    fn response_to_start(&self, shear_rate: f64, t: f64, _tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        check_flow(Self::NAME, shear_rate, t)?;
+        let rate = if 0.0 < t { shear_rate } else { 0.0 };
         Ok(ShearStresses::of(&self.extra_stress(&shear(rate))))
     }
 
-    fn response_to_stop(&self, shear_rate: f64, time: f64, _tolerance: f64) -> Result<ShearStresses, FluidsError> {
-        check_flow(Self::NAME, shear_rate, time)?;
+    fn response_to_stop(&self, shear_rate: f64, t: f64, _tolerance: f64) -> Result<ShearStresses, FluidsError> {
+        check_flow(Self::NAME, shear_rate, t)?;
         Ok(ShearStresses::default())
     }
 

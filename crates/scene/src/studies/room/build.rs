@@ -4,6 +4,7 @@ use super::{Outline, Room, Speed};
 use crate::document::Mistake;
 use crate::model::Builder;
 use crate::validation::Record;
+use crate::words;
 
 impl Builder<'_> {
     pub(in crate::studies) fn room(&mut self, table: &Record) -> Option<Room> {
@@ -45,7 +46,7 @@ impl Builder<'_> {
         let semi_axes = table.pair("semi_axes")?;
         if semi_axes.iter().any(|axis| *axis <= 0.0) {
             self.wrong(
-                Mistake::new(table.place_of("semi_axes"), format!("semi-axes of {semi_axes:?} m"))
+                Mistake::new(table.place_of("semi_axes"), format!("semi-axes of {} m", words::numbers(&semi_axes)))
                     .valid("two lengths greater than zero"),
             );
             return None;

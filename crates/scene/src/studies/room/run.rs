@@ -34,7 +34,7 @@ pub struct Loss {
     pub angle: f64,
 }
 
-/// What was found.
+/// The arrivals in a room.
 #[derive(Debug, Clone, Default)]
 pub struct Arrivals {
     /// Points of the grid and their times, s; none outside of the room.
@@ -49,7 +49,7 @@ pub struct Arrivals {
     pub caustic: Vec<Vec<[f64; 2]>>,
     /// The first loss of invertibility.
     pub first_loss: Option<Loss>,
-    /// The same in closed form, s, where there is one.
+    /// The first loss in closed form, s, where there is one.
     pub closed_form_of_first_loss: Option<f64>,
     /// Number of characteristics.
     pub rays: usize,

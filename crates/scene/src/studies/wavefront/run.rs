@@ -45,7 +45,7 @@ pub struct CausticMark {
     pub place: [f64; 2],
 }
 
-/// What was found.
+/// The fronts, rays and caustic of a medium.
 #[derive(Debug, Clone, Default)]
 pub struct Fronts {
     /// The fronts, the source not among them.
