@@ -8,7 +8,7 @@
 //! | tables become data | [`Test`] of a [`Table`], [`Data`] of several tests |
 //! | a law with unknown parameters | [`AnyModel`] (`"ogden:3".parse()`), or your own [`Model`] |
 //! | the fit | [`fit`] with [`Options`]: weights, bounds, stability |
-//! | the result | [`Fit`]: [`Estimate`]s with errors, [`Covariance`], [`Residuals`] of each test, [`Criteria`], [`StabilityReport`] |
+//! | the result | [`Fit`]: [`SolidParameter`]s with errors, [`Covariance`], [`Residuals`] of each test, [`Criteria`], [`StabilityReport`] |
 //! | the law itself, for all else | [`Fit::law`], [`Fit::compressible`] |
 //!
 //! Derivatives of the stresses with respect to the parameters are exact: a model is one function over any scalar. Parameters
@@ -108,7 +108,7 @@ pub enum State {
 /// A fitted parameter.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Estimate {
+pub struct SolidParameter {
     /// Its name.
     pub name: String,
     /// Whether it is in the unit of the stresses; a pure number otherwise.
@@ -148,7 +148,7 @@ pub struct Fit {
     /// Name of the model.
     pub model: String,
     /// Its parameters, in its order.
-    pub parameters: Vec<Estimate>,
+    pub parameters: Vec<SolidParameter>,
     /// The covariance of those that are determined; none without degrees of freedom, as the residuals then say nothing of
     /// the errors.
     pub covariance: Option<Covariance>,
@@ -369,7 +369,7 @@ fn result<M: Model>(
         let standard_error = covariance.standard_error(k).filter(|_| has_errors);
         let interval = interval(theta[k], standard_error, quantile);
         let (name, is_stress) = (parameter.name.clone(), parameter.is_stress);
-        Estimate { name, is_stress, value: theta[k], standard_error, interval, state }
+        SolidParameter { name, is_stress, value: theta[k], standard_error, interval, state }
     };
     let mut row = 0;
     let mut tests = Vec::new();

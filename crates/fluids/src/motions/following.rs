@@ -136,14 +136,7 @@ pub fn follow<F: DifferentialFluid<Mode: StressRate>>(
 /// As [`follow`].
 ///
 /// # Example
-/// Giesekus' fluid overshoots when shear starts:
-/// ```
-/// use piola_fluids::{Giesekus, follow_shear};
-/// let fluid = Giesekus::new(0.0, 1.0, 1.0, 0.3)?;
-/// let stresses = follow_shear(&fluid, |_| 10.0, &[0.2, 20.0], 1e-10)?;
-/// assert!(stresses[1].shear < stresses[0].shear);
-/// # Ok::<(), piola_fluids::FluidsError>(())
-/// ```
+/// See [`Following`].
 pub fn follow_shear<F: DifferentialFluid<Mode: StressRate>>(
     fluid: &F,
     shear_rate: impl Fn(f64) -> f64,
