@@ -9,6 +9,8 @@ mod golden;
 mod laws;
 mod meshes;
 mod orders;
+#[cfg(feature = "glam")]
+mod poses;
 mod rounding;
 mod solids;
 mod systems;

@@ -5,6 +5,7 @@ use piola_kinematics::curve::{Curve, Frenet};
 use piola_kinematics::euler_angles::AnglesOfAttitude;
 use piola_kinematics::placement::{PlacementEvaluator, count, independence};
 use piola_kinematics::solids::{Solid, body_of_particles};
+use piola_kinematics::system::largest_distance_change;
 use piola_kinematics::{
     Attitude, BodyVelocity, EulerAngles, EulerSequence, Holonomic, Inertia, KinematicsError, ParticleSystem, Placement,
     RigidBody,
@@ -49,6 +50,43 @@ fn path_at_rest_reports_no_tangent() {
     let zero = Vector3::zeros();
     let frenet = Frenet::from_derivatives(&zero, &Vector3::x(), &Vector3::y()).expect("finite");
     assert!(matches!(frenet, Frenet::Rest { speed } if speed <= 0.0));
+}
+
+/// The path of a point of the rim of a wheel, at rest where it touches the ground.
+struct Cycloid;
+
+impl Curve for Cycloid {
+    fn position<T: Real>(&self, t: T) -> Vector3<T> {
+        let (s, c) = t.sin_cos();
+        Vector3::new(t - s, T::one() - c, T::zero())
+    }
+}
+
+#[test]
+fn cusps_are_found_after_any_number_of_turns() {
+    for turns in [0.0, 1.0, 2.0, 100.0] {
+        // 2π rounded: the speed there is the rounding of the time times the acceleration.
+        let t = turns * core::f64::consts::TAU;
+        let frenet = Frenet::of_curve(&Cycloid, t).expect("finite");
+        assert!(matches!(frenet, Frenet::Rest { .. }), "{turns}: {frenet:?}");
+        assert!(matches!(Frenet::of_curve(&Cycloid, t + 1e-3).expect("finite"), Frenet::Curved(_)), "{turns}");
+    }
+}
+
+#[test]
+fn change_of_distance_is_relative_to_the_largest_distance() {
+    // 2 m, 4 m and 6 m apart on a line; the last is moved by 3 m: 9 m instead of 6 m.
+    let before = [0.0, 2.0, 6.0].map(|x| Vector3::new(x, 0.0, 0.0));
+    let after = [0.0, 2.0, 9.0].map(|x| Vector3::new(0.0, x, 0.0));
+    let change = largest_distance_change(&before, &after).expect("finite").expect("three particles");
+    assert_eq!(change.pair, (0, 2));
+    assert_close("relative", &[change.relative_change], &[0.5], Tol::ulps(1.0));
+    assert_eq!(largest_distance_change(&before[..1], &after[..1]), Ok(None));
+    let together = [Vector3::zeros(); 2];
+    let same = largest_distance_change(&together, &together).expect("finite").expect("two particles");
+    assert_close("nothing moves", &[same.relative_change], &[0.0], Tol::ulps(0.0));
+    let apart = largest_distance_change(&together, &before[..2]).expect("finite").expect("two particles");
+    assert!(apart.relative_change.is_infinite());
 }
 
 #[test]

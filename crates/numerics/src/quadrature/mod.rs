@@ -196,7 +196,11 @@ pub fn integrate<const K: usize, R: ErrorRule<K>, E>(
             (0..K).filter(|&k| too_large(k)).map(|k| panel.errors[k] / errors[k]).fold(0.0, f64::max)
         };
         let candidates = panels.iter().enumerate().filter(|(_, panel)| accuracy.is_worth_halving(panel));
-        let worst = candidates.max_by(|a, b| share(a.1).total_cmp(&share(b.1))).filter(|(_, panel)| has_middle(panel));
+        let by_error = |a: &Panel<K>, b: &Panel<K>| {
+            let alike = || a.errors.partial_cmp(&b.errors).unwrap_or(Ordering::Equal);
+            share(a).total_cmp(&share(b)).then_with(alike)
+        };
+        let worst = candidates.max_by(|a, b| by_error(a.1, b.1)).filter(|(_, panel)| has_middle(panel));
         let ending = match worst {
             _ if sampler.bad.is_some() => sampler.bad,
             _ if !has_room => Some(Ending::Full),
