@@ -4,7 +4,7 @@
 use piola::dynamics::first_order_pde::{CauchyProblem, FirstOrderPde, InitialManifold, ParameterInterval, Refinement};
 use piola::numerics::Real;
 
-/// u_t + u u_q = 0, with x = (t, q).
+/// ∂u/∂t + u ∂u/∂q = 0, with x = (t, q).
 struct Burgers;
 
 impl FirstOrderPde for Burgers {
