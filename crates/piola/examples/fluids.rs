@@ -17,7 +17,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         assert!((normal - 400.0 * rate * rate).abs() < 1e-12 * normal); // 2 η λ k²
     }
     // The other way round: no flow up to the yield stress, and the rate of a stress beyond it.
-    assert_eq!(ketchup.shear_rate(14.0_f64)?, 0.0);
+    assert!(ketchup.shear_rate(14.0_f64)?.abs() < 1e-300);
     assert!((ketchup.shear_rate(55.0_f64)? - 4.0).abs() < 1e-12);
     Ok(())
 }
