@@ -3,7 +3,7 @@
 use piola_continuum::ContinuumError;
 use piola_tensor::TensorError;
 
-use crate::{BadPoint, Refusal};
+use crate::Refusal;
 
 /// A violated condition of a batch or of one of its points.
 ///
@@ -63,6 +63,15 @@ impl From<TensorError> for BatchError {
     fn from(error: TensorError) -> Self {
         ContinuumError::from(error).into()
     }
+}
+
+/// A point of a batch at which something is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadPoint {
+    /// Which point, from 0.
+    pub index: usize,
+    /// What is wrong, as the constructor of a single point says it.
+    pub error: BatchError,
 }
 
 /// The first bad point in words.

@@ -34,12 +34,12 @@ mod requests;
 
 pub use engine::deformations::{Deformations, Displacements, Gradients, Undeformed};
 pub use engine::destinations::Destination;
-pub use engine::evaluation::{BadPoint, PARALLEL_POINTS, Report, evaluate};
+pub use engine::evaluation::{PARALLEL_POINTS, Report, evaluate};
 pub use engine::point::Point;
 pub use engine::refusal::Refusal;
 pub use engine::request::{Quantity, Request, Requests};
 pub use engine::scalar::BatchScalar;
 pub use engine::sources::Source;
 pub use engine::views::{AllEntries, ColumnMajor, Components, LaneBlocks, Strided, points_of, points_of_mut};
-pub use error::BatchError;
+pub use error::{BadPoint, BatchError};
 pub use requests::*;

@@ -10,7 +10,7 @@ use super::deformations::Deformations;
 use super::point::Point;
 use super::request::Requests;
 use super::scalar::BatchScalar;
-use crate::BatchError;
+use crate::{BadPoint, BatchError};
 
 /// A batch that was evaluated, all points good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,15 +21,6 @@ pub struct Report {
     /// How many of them took the slow path of the analysis of the stretches, see
     /// [`StretchAnalysis::slow_path`]; 0 where no output needs that analysis.
     pub slow_path: usize,
-}
-
-/// A point of a batch at which something is wrong.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BadPoint {
-    /// Which point, from 0.
-    pub index: usize,
-    /// What is wrong, as the constructor of a single point says it.
-    pub error: BatchError,
 }
 
 /// Counts of a part of a batch.

@@ -5,7 +5,7 @@ use piola_kinematics::Holonomic;
 use piola_numerics::Dual;
 
 use super::map::dot;
-use super::solve::Workspace;
+use super::workspace::Workspace;
 use super::{InFrame, QuasiVelocities};
 use crate::LagrangianError;
 use crate::check::{check_finite, check_length};

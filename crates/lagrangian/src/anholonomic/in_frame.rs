@@ -5,7 +5,7 @@ use piola_integrators::Field;
 use piola_kinematics::Holonomic;
 use piola_numerics::Real;
 
-use super::solve::Workspace;
+use super::workspace::Workspace;
 use super::{AnholonomicFrame, ByCoframe, ByFrame, Coframe, QuasiVelocities};
 use crate::LagrangianError;
 use crate::check::{check_finite, check_length};

@@ -37,10 +37,11 @@ pub mod rolling;
 mod rotation;
 mod run;
 mod solve;
+mod workspace;
 
 pub use boltzmann_hamel::BoltzmannHamel;
 pub use frame::{AnholonomicFrame, ByCoframe, ByFrame, Coframe, QuasiVelocities};
 pub use in_frame::{InFrame, QuasiMotion, drift_coefficients, structure_coefficients};
 pub use nonholonomic::{ConstrainedMotion, Nonholonomic};
 pub use rotation::BodyAngularVelocity;
-pub use solve::Workspace;
+pub use workspace::Workspace;

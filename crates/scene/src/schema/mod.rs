@@ -25,6 +25,14 @@ pub struct SceneKind {
     pub lists: &'static [&'static str],
 }
 
+const fn word(name: &'static str, doc: &'static str) -> Word {
+    Word { name, doc }
+}
+
+const fn quantity(dimension: crate::units::Dimension, range: Range) -> Kind {
+    Kind::Quantity(dimension, range)
+}
+
 /// Declares a [`Table`]: each key with its documentation, `key: kind, absent;` or `key: kind, absent, only_for types;`.
 macro_rules! table {
     (

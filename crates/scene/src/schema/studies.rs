@@ -2,8 +2,7 @@
 
 use super::Absent::{Default, Optional, Required};
 use super::Range::{Any, Positive};
-use super::tables::{quantity, word};
-use super::{Kind, Word, table};
+use super::{Kind, Word, quantity, table, word};
 use crate::units::Dimension as D;
 
 const fn pair(dimension: D) -> Kind {

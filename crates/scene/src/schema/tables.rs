@@ -3,16 +3,8 @@
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
 use super::Range::{self, Any, Fraction, NotNegative, Positive};
-use super::{Kind, SceneKind, Word, studies, table};
+use super::{Kind, SceneKind, Word, quantity, studies, table, word};
 use crate::units::Dimension as D;
-
-pub(super) const fn word(name: &'static str, doc: &'static str) -> Word {
-    Word { name, doc }
-}
-
-pub(super) const fn quantity(dimension: D, range: Range) -> Kind {
-    Kind::Quantity(dimension, range)
-}
 
 const fn vector(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[3])

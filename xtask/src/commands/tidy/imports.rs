@@ -17,7 +17,54 @@ const FLOORS: &[(&str, &[&[&str]])] = &[
 ];
 
 /// Pairs of files that import each other, each with its reason.
-const CIRCLES: &[(&str, &str, &str)] = &[];
+const CIRCLES: &[(&str, &str, &str)] = &[
+    (
+        "crates/continuum/src/deformation/displacement.rs",
+        "crates/continuum/src/deformation/gradient.rs",
+        "F and ∇u convert into each other",
+    ),
+    (
+        "crates/continuum/src/rates/spins.rs",
+        "crates/continuum/src/rates/stretch.rs",
+        "the rates of the stretches hold the spins, and a spin is read from them",
+    ),
+    (
+        "crates/fields/src/coordinates/basis.rs",
+        "crates/fields/src/coordinates/frame.rs",
+        "natural and physical components convert into each other",
+    ),
+    (
+        "crates/fields/src/integral/quadrature.rs",
+        "crates/fields/src/integral/region/mod.rs",
+        "a rule integrates over regions, and a region lays out the points of a rule",
+    ),
+    (
+        "crates/numerics/src/lanewise.rs",
+        "crates/numerics/src/real.rs",
+        "a computation in lanes is over scalars, and a scalar runs it",
+    ),
+    ("crates/scene/src/rheology/figure.rs", "crates/scene/src/rheology/fluids.rs", "a comparison writes its figure"),
+    (
+        "crates/scene/src/rheology/figure.rs",
+        "crates/scene/src/rheology/recovery.rs",
+        "a recovered curve writes its figure",
+    ),
+    (
+        "crates/scene/src/units/names.rs",
+        "crates/scene/src/units/unit.rs",
+        "a unit is read by its name, and the names are of units",
+    ),
+    (
+        "crates/tensor/src/fourth/major.rs",
+        "crates/tensor/src/fourth/symmetry.rs",
+        "tensors of three symmetries convert into one another",
+    ),
+    (
+        "crates/tensor/src/fourth/minor.rs",
+        "crates/tensor/src/fourth/symmetry.rs",
+        "tensors of three symmetries convert into one another",
+    ),
+];
 
 /// Every violation.
 pub(super) fn check(workspace: &Workspace) -> Vec<String> {
