@@ -44,7 +44,7 @@ pub enum FieldsError {
     },
     /// An integrand is infinite or NaN at a point of the quadrature.
     #[error("component {component} of the integrand is {value} at {position:?}")]
-    NonFiniteIntegrand {
+    IntegrandNotFinite {
         /// The place.
         position: [f64; 3],
         /// Which component, in the order of storage.

@@ -41,14 +41,14 @@ pub trait Field {
     type Value: FieldValue;
 
     /// The value at a place and time.
-    fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> ValueOf<Self, T>;
+    fn at<T: Real>(&self, place: &Vector3<T>, t: T) -> ValueOf<Self, T>;
 }
 
 impl<F: Field> Field for &F {
     type Value = F::Value;
     #[inline]
-    fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> ValueOf<Self, T> {
-        (**self).at(place, time)
+    fn at<T: Real>(&self, place: &Vector3<T>, t: T) -> ValueOf<Self, T> {
+        (**self).at(place, t)
     }
 }
 
@@ -73,11 +73,11 @@ impl<V: FieldValue<Over<f64> = V>> Field for Uniform<V> {
     }
 }
 
-/// Refuses a place or time that is not finite.
+/// Refuses a place or t that is not finite.
 #[inline]
-pub(crate) fn check_point<T: Real>(place: &Vector3<T>, time: T) -> Result<(), FieldsError> {
+pub(crate) fn check_point<T: Real>(place: &Vector3<T>, t: T) -> Result<(), FieldsError> {
     check_finite("place", place.as_slice())?;
-    check_finite("t", &[time])
+    check_finite("t", &[t])
 }
 
 /// The value, if all components are finite.
@@ -101,17 +101,17 @@ pub(crate) fn along<F: Field + ?Sized, T: Real>(
     field: &F,
     place: &Vector3<T>,
     velocity: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> (ValueOf<F, T>, ValueOf<F, T>) {
     let place = Vector3::from_fn(|i, _| Dual::new(place[i], velocity[i]));
-    let value = field.at(&place, Dual::variable(time));
+    let value = field.at(&place, Dual::variable(t));
     (map::<F::Value, _, _>(&value, |x| x.value), map::<F::Value, _, _>(&value, |x| x.tangent))
 }
 
 /// ∂/∂t at fixed place.
 #[inline]
-pub(crate) fn local_rate<F: Field + ?Sized, T: Real>(field: &F, place: &Vector3<T>, time: T) -> ValueOf<F, T> {
-    let value = field.at(&place.map(Dual::constant), Dual::variable(time));
+pub(crate) fn local_rate<F: Field + ?Sized, T: Real>(field: &F, place: &Vector3<T>, t: T) -> ValueOf<F, T> {
+    let value = field.at(&place.map(Dual::constant), Dual::variable(t));
     map::<F::Value, _, _>(&value, |x| x.tangent)
 }
 
@@ -120,9 +120,9 @@ pub(crate) fn local_rate<F: Field + ?Sized, T: Real>(field: &F, place: &Vector3<
 pub(crate) fn value_and_partials<F: Field + ?Sized, T: Real>(
     field: &F,
     place: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> (ValueOf<F, T>, [ValueOf<F, T>; 3]) {
-    let value = field.at(&variables(place), Gradient::constant(time));
+    let value = field.at(&variables(place), Gradient::constant(t));
     let partial = |j: usize| map::<F::Value, _, _>(&value, |x| x.partials[j]);
     (map::<F::Value, _, _>(&value, |x| x.value), [partial(0), partial(1), partial(2)])
 }

@@ -9,6 +9,7 @@ mod error;
 mod field;
 pub mod frames;
 pub mod integral;
+mod integrand;
 pub mod motion;
 #[cfg(feature = "serde")]
 mod reading;

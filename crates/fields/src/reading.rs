@@ -3,8 +3,8 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-use super::integral::Integrand;
 use crate::error::check_finite;
+use crate::integrand::Integrand;
 
 /// Reads a value and refuses it when a component is infinite or NaN.
 pub(super) fn finite<'de, D: Deserializer<'de>, V: Integrand + Deserialize<'de>>(source: D) -> Result<V, D::Error> {

@@ -20,7 +20,7 @@ use piola_numerics::Real;
     feature = "serde",
     serde(bound(
         serialize = "T: serde::Serialize",
-        deserialize = "T: crate::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
+        deserialize = "T: crate::integrand::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct Residual<T = f64> {
@@ -34,51 +34,24 @@ pub struct Residual<T = f64> {
 
 impl<T: Real> Residual<T> {
     /// The empty sum.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::Residual;
-    /// assert_eq!(Residual::<f64>::zero().relative(), 0.0);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {
         Self { value: T::zero(), scale: T::zero() }
     }
     /// With one more term.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::Residual;
-    /// let residual = Residual::zero().plus(3.0).plus(-1.0);
-    /// assert_eq!((residual.value, residual.scale), (2.0, 4.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn plus(self, term: T) -> Self {
         Self { value: self.value + term, scale: self.scale + term.abs() }
     }
     /// With the terms of another sum, each times a factor.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::Residual;
-    /// let force = Residual::zero().plus(3.0).plus(-1.0);
-    /// let residual = Residual::zero().plus(2.0).plus_all(force, -2.0);
-    /// assert_eq!((residual.value, residual.scale), (-2.0, 10.0)); // 2 − 2·2, 2 + 2·4
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn plus_all(self, other: Self, factor: T) -> Self {
         Self { value: self.value + other.value * factor, scale: self.scale + other.scale * factor.abs() }
     }
     /// |value|/scale ∈ [0, 1]; zero when all terms are.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::Residual;
-    /// assert_eq!(Residual::zero().plus(3.0).plus(-1.0).relative(), 0.5); // 2/4
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn relative(&self) -> T {

@@ -3,9 +3,9 @@
 use piola_continuum::{Deformation, DeformationGradient, DisplacementGradient};
 use piola_numerics::{Lanes, Real};
 
-use super::evaluation::BatchScalar;
 use super::parts::rows;
 use super::records::gather;
+use super::scalar::BatchScalar;
 use super::sources::{Source, by_rows, fill};
 use crate::BatchError;
 

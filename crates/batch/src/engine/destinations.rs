@@ -6,8 +6,8 @@ use piola_numerics::internal::prefetch_for_writing;
 use piola_numerics::{Element, Lanes};
 use piola_tensor::Symmetric;
 
-use super::evaluation::BatchScalar;
 use super::records;
+use super::scalar::BatchScalar;
 use super::sources::{ahead, transposed};
 use super::views::{ColumnMajor, Components, LaneBlocks, Strided};
 use crate::BatchError;

@@ -4,31 +4,13 @@ use core::marker::PhantomData;
 
 use piola_continuum::Deformation;
 use piola_continuum::polar::StretchAnalysis;
-use piola_numerics::{Element, LaneKernel, Lanes, Mask, Real, dispatch_lanes};
+use piola_numerics::{LaneKernel, Lanes, Mask, Real};
 
 use super::deformations::Deformations;
 use super::point::Point;
 use super::request::Requests;
+use super::scalar::BatchScalar;
 use crate::BatchError;
-
-/// `f64` or `f32`, with the number of lanes that was measured to be the fastest.
-pub trait BatchScalar: Element + Real {
-    #[doc(hidden)]
-    fn run<D: Deformations<Self>, R: Requests<Self>>(points: D, range: [usize; 2], requests: R) -> Tally;
-}
-
-macro_rules! scalar {
-    ($float:ident: $base:literal $avx2:literal $avx512:literal) => {
-        impl BatchScalar for $float {
-            fn run<D: Deformations<Self>, R: Requests<Self>>(points: D, range: [usize; 2], requests: R) -> Tally {
-                let evaluation = Evaluation { points, range, requests, scalar: PhantomData::<Self> };
-                dispatch_lanes::<_, $base, $avx2, $avx512>(evaluation)
-            }
-        }
-    };
-}
-scalar!(f64: 2 4 8);
-scalar!(f32: 4 8 16);
 
 /// A batch that was evaluated, all points good.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,9 +33,8 @@ pub struct BadPoint {
 }
 
 /// Counts of a part of a batch.
-#[doc(hidden)]
 #[derive(Debug, Default)]
-pub struct Tally {
+struct Tally {
     slow_path: usize,
     bad: Vec<BadPoint>,
 }
@@ -86,8 +67,8 @@ const SMALLEST_PART: usize = 1 << 12;
 ///
 /// # Accuracy
 /// That of the one-point functions, whose formulas run in [`Lanes`]. The results are theirs to the last bit, except that
-/// elementary functions (ln) are those of [`Lanes`], within 2 ulp of the standard library's; and they are bit-identical
-/// for every place in a batch, number of threads and machine.
+/// logarithms are those of [`Lanes`], within 2 ulp of the standard library's relative to the logarithm itself. They are
+/// bit-identical for every place in a batch, number of threads and machine.
 ///
 /// # Example
 /// ```
@@ -113,18 +94,23 @@ pub fn evaluate<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(
     }
 }
 
+/// The points of a range, in lanes.
+fn run<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(points: D, range: [usize; 2], requests: R) -> Tally {
+    T::in_lanes(Evaluation { points, range, requests, scalar: PhantomData })
+}
+
 /// One part after the other, or on several threads.
 #[cfg(feature = "rayon")]
 fn divided<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(points: D, range: [usize; 2], requests: R) -> Tally {
     if range[1] - range[0] < PARALLEL_POINTS || rayon::current_num_threads() < 2 {
-        return T::run(points, range, requests);
+        return run(points, range, requests);
     }
     halved(points, range, requests)
 }
 
 #[cfg(not(feature = "rayon"))]
 fn divided<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(points: D, range: [usize; 2], requests: R) -> Tally {
-    T::run(points, range, requests)
+    run(points, range, requests)
 }
 
 /// Halves the points until the parts are small; the reports stay in the order of the points.
@@ -132,7 +118,7 @@ fn divided<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(points: D, range:
 fn halved<T: BatchScalar, D: Deformations<T>, R: Requests<T>>(points: D, range: [usize; 2], requests: R) -> Tally {
     let [start, end] = range;
     if end - start < 2 * SMALLEST_PART {
-        return T::run(points, range, requests);
+        return run(points, range, requests);
     }
     let half = ((end - start) / 2).next_multiple_of(64);
     let (head, tail) = requests.split(half);

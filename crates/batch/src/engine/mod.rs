@@ -8,6 +8,7 @@ pub(crate) mod point;
 mod records;
 pub(crate) mod refusal;
 pub(crate) mod request;
+pub(crate) mod scalar;
 pub(crate) mod sources;
 pub(crate) mod tangents;
 pub(crate) mod views;

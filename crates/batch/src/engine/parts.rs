@@ -9,7 +9,7 @@ use piola_tensor::Symmetric;
 use piola_tensor::internal::rows::Rows;
 
 use super::destinations::Destination;
-use super::evaluation::BatchScalar;
+use super::scalar::BatchScalar;
 use super::sources::{Source, by_rows};
 use crate::BatchError;
 

@@ -4,7 +4,7 @@ use core::error::Error;
 use core::fmt::{Display, Formatter, Result};
 use std::sync::Arc;
 
-/// The error of a [`Quantity`](super::Quantity) that has no value at a point, such as a law beyond its limit.
+/// The error of a [`Quantity`](crate::Quantity) that has no value at a point, such as a law beyond its limit.
 ///
 /// Two of them are equal if they say the same.
 ///

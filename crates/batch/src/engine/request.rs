@@ -1,13 +1,13 @@
-//! What is asked of a batch: single outputs and tuples of them.
+//! Requests to a batch: single outputs and tuples of them.
 
 use piola_continuum::Deformation;
 use piola_numerics::{Lanes, Mask, Real};
 use piola_tensor::internal::check_finite;
 
 use super::destinations::{Destination, scatter};
-use super::evaluation::BatchScalar;
 use super::point::Point;
 use super::refusal::Refusal;
+use super::scalar::BatchScalar;
 use super::sources::{Source, fill};
 use crate::BatchError;
 
@@ -45,10 +45,9 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
     type Input;
     /// What the K components are.
     type Output;
-    /// Whether it is computed from the analysis of the stretches.
+    /// Whether the value is computed from the analysis of the stretches.
     const NEEDS_STRETCH: bool;
-    /// Whether it is not [`good`](Self::good) wherever F is no deformation, by itself: no det F is formed then before it is
-    /// computed.
+    /// Whether [`good`](Self::good) is false wherever F is no deformation. The engine forms no det F of its own then.
     const KNOWS_DEFORMATIONS: bool = false;
     /// What the I components are, for messages.
     const INPUT: &'static str;
@@ -56,7 +55,7 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
     /// The value, at one point or in lanes: the formulas of the one-point types and no others.
     fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, input: [T; I]) -> [T; K];
 
-    /// False where there may be no value: [`check`](Self::check) is asked of those points then.
+    /// Mask of lanes whose value is certainly defined. [`check`](Self::check) runs on the others.
     #[inline(always)]
     fn exists<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>) -> T::Mask {
         Mask::splat(true)
@@ -68,14 +67,13 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
         self.exists(point)
     }
 
-    /// False where the input may not be what it is taken for: [`check_input`](Self::check_input) is asked of those
-    /// points then.
+    /// Mask of lanes whose input certainly satisfies its condition. [`check_input`](Self::check_input) runs on the others.
     #[inline(always)]
     fn admits<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, _input: &[T; I]) -> T::Mask {
         Mask::splat(true)
     }
 
-    /// Refuses input that is not what it is taken for, though finite.
+    /// Refuses finite input that violates a condition, such as symmetry.
     ///
     /// # Errors
     /// What is wrong with it; most quantities take any finite input.
@@ -113,7 +111,7 @@ impl<Q: Quantity<I, K>, S, V, const I: usize, const K: usize> Request<Q, S, V, I
 impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
     /// What a batch would write at one point: from the deformation there, and the input of the request at an index.
     ///
-    /// To look into a batch, or to try a quantity of one's own; of a million points [`evaluate`](super::evaluate) is the
+    /// To look into a batch, or to try a quantity of one's own; of a million points [`evaluate`](crate::evaluate) is the
     /// way. Nothing is written, and nothing is checked.
     ///
     /// # Accuracy
@@ -124,8 +122,8 @@ impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
     /// use piola_batch as batch;
     /// use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola};
     /// let (f, stress) = (DeformationGradient::diagonal([2.0, 0.5, 0.5])?, [CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?]);
-    /// let mut nominal = [FirstPiola::zero()];
-    /// let request = batch::cauchy_to_first_piola(&stress[..], &mut nominal[..]);
+    /// let mut converted = [FirstPiola::zero()];
+    /// let request = batch::cauchy_to_first_piola(&stress[..], &mut converted[..]);
     /// assert_eq!(request.at(&f, 0)[0], 2.0); // by rows
     /// # Ok::<(), piola_batch::BatchError>(())
     /// ```

@@ -7,8 +7,8 @@ use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Element, Lanes, Real};
 use piola_tensor::Symmetric;
 
-use super::evaluation::BatchScalar;
 use super::records::gather;
+use super::scalar::BatchScalar;
 use super::views::{AllEntries, ColumnMajor, Components, LaneBlocks, Strided};
 use crate::BatchError;
 
@@ -22,7 +22,7 @@ use crate::BatchError;
 /// | `&[CauchyStress<T>]` and the other measures, each only where that measure is asked for | so too |
 /// | [`ColumnMajor`] | nine numbers by columns for each point |
 /// | [`AllEntries`] | symmetric tensors by any layout of nine numbers, which are checked |
-/// | [`Strided`] | numbers at a stride, from [`points_of`](super::points_of) where it is K |
+/// | [`Strided`] | numbers at a stride, from [`points_of`](crate::points_of) where it is K |
 /// | [`Components`] | an array for each component |
 /// | [`LaneBlocks`] | blocks of points, in a block an array for each component: the fastest |
 pub trait Source<Q, T: Element, const K: usize>: Copy + Send + Sync {
@@ -214,8 +214,8 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for Strided<&[T], K> {
     }
 }
 
-/// So many blocks ahead memory is asked for: eight of nine components in double precision, one of large tangents, of which more
-/// would drive out of the cache what is read beside them.
+/// Prefetch distance in blocks, about 4.6 kB: eight blocks of nine doubles, or one block of a tangent. More would evict data
+/// still in use.
 pub(super) const fn ahead<Block>() -> usize {
     let size = size_of::<Block>();
     if 0 < size && size < 4608 { 4608 / size } else { 1 }

@@ -7,7 +7,7 @@ use piola_numerics::Real;
 use piola_tensor::{FourthOrder, MajorSymmetric, MinorSymmetric};
 
 use super::destinations::Destination;
-use super::evaluation::BatchScalar;
+use super::scalar::BatchScalar;
 use super::sources::Source;
 
 /// The entries of nine rows of nine.

@@ -196,15 +196,6 @@ pub fn points_of<const K: usize, T>(numbers: &[T]) -> Result<&[[T; K]], BatchErr
 ///
 /// # Errors
 /// [`BatchError::WrongLength`] when the numbers end within a point.
-///
-/// # Example
-/// ```
-/// use piola_batch::points_of_mut;
-/// let mut numbers = [0.0; 4];
-/// points_of_mut::<2, _>(&mut numbers)?[1] = [3.0, 4.0];
-/// assert_eq!(numbers, [0.0, 0.0, 3.0, 4.0]);
-/// # Ok::<(), piola_batch::BatchError>(())
-/// ```
 pub fn points_of_mut<const K: usize, T>(numbers: &mut [T]) -> Result<&mut [[T; K]], BatchError> {
     let found = numbers.len();
     match numbers.as_chunks_mut() {

@@ -1,22 +1,4 @@
-//! What may be asked of a point of a batch.
-//!
-//! | of | request | components |
-//! |---|---|---|
-//! | F | [`jacobian`] | 1 |
-//! | F | [`right_cauchy_green`], [`left_cauchy_green`], [`green_strain`] | 11, 22, 33, 12, 23, 13 |
-//! | F | [`right_stretch`], [`left_stretch`], [`hencky`], [`spatial_hencky`] | 11, 22, 33, 12, 23, 13 |
-//! | F | [`rotation`] | 9, by rows |
-//! | F | [`principal_stretches`] | 3, descending |
-//! | F | [`hencky_derivative`] | 6×9, by rows |
-//! | F and two directions | [`hencky_second_derivative`] | 11, 22, 33, 12, 23, 13 |
-//! | F and Ḟ | [`hencky_rate`], [`velocity_gradient`] | 6; 9, by rows |
-//! | L | [`rate_of_deformation`] | 11, 22, 33, 12, 23, 13 |
-//! | F and a stress | [`cauchy_to_first_piola`] and seven other conversions | of the measure |
-//! | T | [`von_mises`] | 1 |
-//! | F and tangents | [`push_forward_tangent`], [`truesdell_tangent`], [`first_piola_tangent`], [`jaumann_tangent`] | 21 or 81 |
-//! | a symmetric tensor | [`eigenpairs`] | 3 and 9 |
-//!
-//! Whatever else the types of `piola-continuum` compute is a [`Quantity`](crate::Quantity) of eight lines.
+//! The requests of the library, and the macro that makes them.
 
 mod derivatives;
 mod kinematic;

@@ -27,12 +27,6 @@ pub fn is_moderate<T: Real>(f: Rows<T>, h: Rows<T>) -> T::Mask {
 pub const MODERATE: f64 = 0.75;
 
 /// |∇u|².
-///
-/// # Example
-/// ```
-/// use piola_continuum::internal::strain::square;
-/// assert_eq!(square([[1.0, 2.0, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 3.0]]), 14.0);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn square<T: Real>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> T {

@@ -82,7 +82,7 @@ impl<T: Real> From<PolarHencky<T>> for Written<T> {
 ///
 /// The numbers are those of [`StretchAnalysis`] to the last bit. That one is compiled into its caller for the machine
 /// that the caller is compiled for, and computes single quantities; this one saves a sixth of the time where all three
-/// are needed and the caller is compiled for any x86-64. For many points at a time, [`batch`](crate::batch) takes a
+/// are needed and the caller is compiled for any x86-64. For many points at a time, `piola-batch` takes a
 /// third of the time.
 ///
 /// # Accuracy

@@ -41,7 +41,7 @@ use super::{GradientRate, VelocityGradient};
 use crate::polar::StretchAnalysis;
 use crate::{ContinuumError, Deformation, Symmetric};
 
-/// The rates of R, U, V, ln U and ln V, computed once, and each given when it is asked for.
+/// Rates of R, U, V, ln U and ln V. Each method computes one of them from a shared analysis.
 ///
 /// # Accuracy
 /// With κ = 1 + λ₁/(λ₂ + λ₃), within 8 ulp × κ: U̇ and V̇ of |Ḟ|, the spins of R of |Ḟ|/(λ₂ + λ₃); within
@@ -90,16 +90,6 @@ impl<T: Real> fmt::Debug for StretchRates<T> {
 
 impl<T: Real> StretchRates<T> {
     /// From F (or ∇u) and Ḟ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let growing = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let rates = StretchRates::of(&stretch, &GradientRate::from_rows(growing)?);
-    /// assert!((rates.left_stretch().components[0] - 3.0_f64).abs() < 1e-14);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> Self {
@@ -107,16 +97,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// From an analysis of F that is at hand, and Ḟ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::rates::{GradientRate, StretchRates};
-    /// use piola_continuum::{DeformationGradient, polar::StretchAnalysis};
-    /// let analysis = StretchAnalysis::of(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
-    /// let rate = GradientRate::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-    /// assert_eq!(StretchRates::of_analysis(analysis, &rate).right_stretch().components[0], 3.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of_analysis(analysis: StretchAnalysis<T>, rate: &GradientRate<T>) -> Self {
@@ -127,16 +107,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// The analysis of F: R, U, V, stretches and axes.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let growing = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let rates = StretchRates::of(&stretch, &GradientRate::from_rows(growing)?);
-    /// assert_eq!(rates.analysis().principal_stretches(), [2.0, 1.0, 1.0]);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub const fn analysis(&self) -> &StretchAnalysis<T> {
@@ -144,15 +114,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// U̇, with U̇ U + U U̇ = Ċ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let f = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let growing = GradientRate::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-    /// assert_eq!(StretchRates::of(&f, &growing).right_stretch().components, [3.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn right_stretch(&self) -> Symmetric<T> {
@@ -160,16 +121,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// V̇, with V̇ V + V V̇ = Ḃ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let growing = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let rates = StretchRates::of(&stretch, &GradientRate::from_rows(growing)?);
-    /// assert!((rates.left_stretch().components[0] - 3.0_f64).abs() < 1e-14);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn left_stretch(&self) -> Symmetric<T> {
@@ -177,15 +128,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// Ṙ = R (Rᵀ Ṙ).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let turning = GradientRate::from_rows([[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])?; // 2 rad/s about 3
-    /// let rates = StretchRates::of(&DeformationGradient::identity(), &turning);
-    /// assert!((rates.rotation()[(1, 0)] - 2.0_f64).abs() < 1e-15);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn rotation(&self) -> Matrix3<T> {
@@ -194,15 +136,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// Ṙ Rᵀ, the spin of Green and Naghdi's rate.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let turning = GradientRate::from_rows([[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])?;
-    /// let rates = StretchRates::of(&DeformationGradient::identity(), &turning);
-    /// assert!((rates.polar_spin().axial.z - 2.0_f64).abs() < 1e-15);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn polar_spin(&self) -> PolarSpin<T> {
@@ -210,15 +143,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// Rᵀ Ṙ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let turning = GradientRate::from_rows([[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])?; // 2 rad/s about 3
-    /// let rates = StretchRates::of(&DeformationGradient::identity(), &turning);
-    /// assert!((rates.material_spin().axial.z - 2.0_f64).abs() < 1e-15);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material_spin(&self) -> MaterialSpin<T> {
@@ -226,16 +150,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// (ln U)˙.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let growing = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let rates = StretchRates::of(&stretch, &GradientRate::from_rows(growing)?);
-    /// assert!((rates.hencky_material().components[0] - 1.5_f64).abs() < 1e-15); // λ̇/λ
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn hencky_material(&self) -> Symmetric<T> {
@@ -243,16 +157,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// (ln V)˙ = R (ln U)˙ Rᵀ + Ω ln V − ln V Ω with Ω = Ṙ Rᵀ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let growing = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let rates = StretchRates::of(&stretch, &GradientRate::from_rows(growing)?);
-    /// assert!((rates.hencky_spatial().components[0] - 1.5_f64).abs() < 1e-15); // λ̇/λ
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn hencky_spatial(&self) -> Symmetric<T> {
@@ -260,18 +164,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// f(U)˙ for a function f of the stretch, such as a measure of strain: Σ f[λₖ, λₗ] U̇ₖₗ along the axes.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_tensor::spectral::SquareRoot;
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let fourfold = DeformationGradient::new(Matrix3::from_diagonal_element(4.0))?;
-    /// let rate = GradientRate::new(Matrix3::from_diagonal_element(1.0))?;
-    /// let roots = StretchRates::of(&fourfold, &rate).material_function(&SquareRoot);
-    /// assert!((roots.components[0] - 0.25_f64).abs() < 1e-15); // (√λ)˙ = λ̇/(2√λ)
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
@@ -279,17 +171,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// f(V)˙ = R f(U)˙ Rᵀ + Ω f(V) − f(V) Ω with Ω = Ṙ Rᵀ, for a function f of the stretch.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::spectral::Power;
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let growing = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let rates = StretchRates::of(&stretch, &GradientRate::from_rows(growing)?);
-    /// assert!((rates.spatial_function(&Power(2.0)).components[0] - 12.0_f64).abs() < 1e-13); // 2 λ λ̇
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn spatial_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
@@ -299,16 +180,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// L = Ḟ F⁻¹ = Ḟ Rᵀ V⁻¹, at hand without another inverse.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let growing = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let rates = StretchRates::of(&stretch, &GradientRate::from_rows(growing)?);
-    /// assert!((rates.velocity_gradient().0[(0, 0)] - 1.5_f64).abs() < 1e-15); // λ̇/λ
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn velocity_gradient(&self) -> VelocityGradient<T> {
@@ -318,15 +189,6 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// The spin Ω^log for which (ln V)˙ − Ω ln V + ln V Ω = D.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let turning = GradientRate::from_rows([[0.0, -2.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]])?; // 2 rad/s about 3
-    /// let rates = StretchRates::of(&DeformationGradient::identity(), &turning);
-    /// assert!((rates.logarithmic_spin().axial.z - 2.0_f64).abs() < 1e-15); // of a rigid turn all spins are one
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn logarithmic_spin(&self) -> LogarithmicSpin<T> {
@@ -357,15 +219,6 @@ impl<T: Real> StretchRates<T> {
     ///
     /// # Accuracy
     /// Within a few ulp × λ₁ over the least gap of the stretches, squared for the axes themselves.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let rate = GradientRate::from_rows([[0.0, -2.0, 0.0], [4.0, 0.0, 0.0], [0.0; 3]])?; // turned by 2 rad/s about 3
-    /// let rates = StretchRates::of(&DeformationGradient::diagonal([2.0_f64, 1.0, 0.5])?, &rate);
-    /// assert!(rates.material_twirl()?.axial.norm() < 1e-14); // in the body the axes stay
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     pub fn material_twirl(&self) -> Result<MaterialTwirl<T>, ContinuumError> {
         let axes = self.analysis.material_axes();
         let [a, b, c] = self.distinct_stretches()?;
@@ -380,15 +233,6 @@ impl<T: Real> StretchRates<T> {
     ///
     /// # Errors
     /// As [`material_twirl`](Self::material_twirl).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let rate = GradientRate::from_rows([[0.0, -2.0, 0.0], [4.0, 0.0, 0.0], [0.0; 3]])?; // turned by 2 rad/s about 3
-    /// let rates = StretchRates::of(&DeformationGradient::diagonal([2.0_f64, 1.0, 0.5])?, &rate);
-    /// assert!((rates.spatial_twirl()?.axial.z - 2.0_f64).abs() < 1e-14);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     pub fn spatial_twirl(&self) -> Result<SpatialTwirl<T>, ContinuumError> {
         let twirl = self.material_twirl()?.axial;
         let turned = apply(self.analysis.rotation(), [twirl[0], twirl[1], twirl[2]]);
@@ -401,15 +245,6 @@ impl<T: Real> StretchRates<T> {
     /// # Errors
     /// As [`material_twirl`](Self::material_twirl): coalescent stretches may part at different rates forward and
     /// backward.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, rates::{GradientRate, StretchRates}};
-    /// let rate = GradientRate::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0, 0.0, 5.0]])?;
-    /// let rates = StretchRates::of(&DeformationGradient::diagonal([2.0, 1.0, 4.0])?, &rate).principal_stretches()?;
-    /// assert!((rates[0] - 5.0_f64).abs() < 1e-14 && (rates[1] - 3.0).abs() < 1e-14); // of the stretches 4 and 2
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     pub fn principal_stretches(&self) -> Result<[T; 3], ContinuumError> {
         self.distinct_stretches()?;
         let axes = self.analysis.material_axes();

@@ -72,14 +72,6 @@ macro_rules! of_stretch_analysis {
             ///
             /// To ask for several measures of one deformation, make one [`StretchAnalysis`] and use
             /// [`from_analysis`](Self::from_analysis).
-            ///
-            /// # Example
-            /// ```
-            #[doc = concat!("use piola_continuum::{DeformationGradient, strain::", stringify!($name), "};")]
-            #[doc = concat!("let strain = ", stringify!($name), "::of(&DeformationGradient::diagonal([1.0_f64, 2.0, 3.0])?);")]
-            /// assert!(strain.0.components[3].abs() < 1e-15); // the principal axes are those of coordinates
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn of(deformation: &impl Deformation<T>) -> Self {
@@ -87,15 +79,6 @@ macro_rules! of_stretch_analysis {
             }
 
             /// From the stretches of a deformation that are already known.
-            ///
-            /// # Example
-            /// ```
-            #[doc = concat!("use piola_continuum::{DeformationGradient, polar::StretchAnalysis, strain::", stringify!($name), "};")]
-            /// let shear = DeformationGradient::simple_shear(2.0)?;
-            #[doc = concat!("let known = ", stringify!($name), "::from_analysis(&StretchAnalysis::of(&shear));")]
-            #[doc = concat!("assert_eq!(known, ", stringify!($name), "::of(&shear));")]
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn from_analysis(analysis: &StretchAnalysis<T>) -> Self {
@@ -129,16 +112,6 @@ derivatives_of_measure!(BiotStrain);
 
 impl<T: Real> RightStretch<T> {
     /// ∂U/∂C: entry (ij, kl) in the order 11, 22, 33, 12, 23, 13, without factors for shears; the same as ∂(U − 1)/∂C.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::strain::{RightCauchyGreen, RightStretch};
-    /// let c = RightCauchyGreen::new(4.0, 9.0, 1.0, 0.0, 0.0, 0.0)?;
-    /// let derivative = RightStretch::derivative_by_metric(&c);
-    /// assert!((derivative[0][0] - 0.25_f64).abs() < 1e-16); // 1/(2 · 2)
-    /// assert!((derivative[3][3] - 0.1).abs() < 1e-16); // ½ · 1/(2 + 3)
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn derivative_by_metric(metric: &RightCauchyGreen<T>) -> Slots<T> {
@@ -146,16 +119,6 @@ impl<T: Real> RightStretch<T> {
     }
 
     /// ∂²U/∂C² along two symmetric directions.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{strain::{RightCauchyGreen, RightStretch}, Symmetric};
-    /// let c = RightCauchyGreen::new(4.0, 4.0, 4.0, 0.0, 0.0, 0.0)?;
-    /// let along = Symmetric::identity();
-    /// let second = RightStretch::second_derivative_by_metric(&c, &along, &along);
-    /// assert!((second.components[0] + 1.0 / 32.0_f64).abs() < 1e-15); // d² √c = −¼ c^(−3/2) dc²
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_derivative_by_metric(
@@ -204,14 +167,6 @@ impl<T: Real> Rotation<T> {
     ///
     /// # Accuracy
     /// Orthogonal within 8 ulp; within a few ulp × λ₁/(λ₂ + λ₃) of the rotation that F determines.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, strain::Rotation};
-    /// let rotation = Rotation::of(&DeformationGradient::diagonal([2.0, 3.0, 4.0])?);
-    /// assert!((rotation.matrix()[(0, 0)] - 1.0_f64).abs() < 1e-15); // a pure stretch does not turn
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
@@ -219,14 +174,6 @@ impl<T: Real> Rotation<T> {
     }
 
     /// From the stretches of a deformation that are already known.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, polar::StretchAnalysis, strain::Rotation};
-    /// let shear = DeformationGradient::simple_shear(2.0)?;
-    /// assert_eq!(Rotation::from_analysis(&StretchAnalysis::of(&shear)), Rotation::of(&shear));
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn from_analysis(analysis: &StretchAnalysis<T>) -> Self {
@@ -237,14 +184,6 @@ impl<T: Real> Rotation<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation) beyond 64 ulp, in any lane.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::strain::Rotation;
-    /// assert!(Rotation::from_matrix(Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)).is_ok());
-    /// assert!(Rotation::from_matrix(-Matrix3::<f64>::identity()).is_err()); // an inversion
-    /// ```
     pub fn from_matrix(matrix: Matrix3<T>) -> Result<Self, ContinuumError> {
         check_rotation(&matrix)?;
         Ok(Self { matrix })
@@ -265,15 +204,6 @@ impl<T: Real> Rotation<T> {
     }
 
     /// R A Rᵀ: a material tensor turned into space, as V = R U Rᵀ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::{Symmetric, strain::Rotation};
-    /// let quarter_turn = Rotation::from_matrix(Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0))?;
-    /// assert_eq!(quarter_turn.to_space(&Symmetric::diagonal([5.0, 0.0, 0.0])), Symmetric::diagonal([0.0, 5.0, 0.0]));
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn to_space(&self, material: &Symmetric<T>) -> Symmetric<T> {
@@ -281,15 +211,6 @@ impl<T: Real> Rotation<T> {
     }
 
     /// Rᵀ A R: a spatial tensor turned back into the reference configuration.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::{Symmetric, strain::Rotation};
-    /// let quarter_turn = Rotation::from_matrix(Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0))?;
-    /// assert_eq!(quarter_turn.to_reference(&Symmetric::diagonal([0.0, 5.0, 0.0])), Symmetric::diagonal([5.0, 0.0, 0.0]));
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn to_reference(&self, spatial: &Symmetric<T>) -> Symmetric<T> {
@@ -297,17 +218,6 @@ impl<T: Real> Rotation<T> {
     }
 
     /// dR along a direction dF; with Ḟ for dF the rate Ṙ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_continuum::strain::Rotation;
-    /// // At F = 1 a shear turns by half its amount.
-    /// let shear = Matrix3::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-    /// let change = Rotation::derivative(&DeformationGradient::identity(), &shear);
-    /// assert!((change[(1, 0)] - 0.5_f64).abs() < 1e-15);
-    /// ```
     ///
     /// # Source
     /// W(14.24).

@@ -56,15 +56,6 @@ impl<T: Real> ReferenceNormal<T> {
     ///
     /// # Accuracy
     /// A few ulp of |F|² for the vector; no division, so also for nearly flattened bodies.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::{DeformationGradient, ReferenceNormal};
-    /// let area = ReferenceNormal::new(Vector3::z())?.deformed(&DeformationGradient::diagonal([2.0, 3.0, 4.0])?);
-    /// assert_eq!(area.ratio, 6.0); // a face of 1 by 1 has become one of 2 by 3
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn deformed(&self, deformation: &impl Deformation<T>) -> DeformedArea<T> {
@@ -100,16 +91,6 @@ impl<T: Real> From<DeformedArea<T>> for [T; 3] {
 
 impl<T: Real> UnitNormal<T> {
     /// N and dA/da of the surface that the deformation has brought here: N dA = J⁻¹ Fᵀ n da.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::{DeformationGradient, UnitNormal};
-    /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[2.0, 4.0, 4.0].into()))?;
-    /// let (normal, ratio) = UnitNormal::new(Vector3::x())?.reference(&stretch);
-    /// assert_eq!((normal.vector(), ratio), (Vector3::x(), 0.0625));
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn reference(&self, deformation: &impl Deformation<T>) -> (ReferenceNormal<T>, T) {
@@ -128,17 +109,6 @@ impl<T: Real> UnitNormal<T> {
 /// | g̃ | `force` | 3 | N per deformed m² |
 /// | g | returned | 3 | N per reference m² |
 ///
-/// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_continuum::stress::reference_surface_force;
-/// use piola_continuum::{DeformationGradient, ReferenceNormal};
-/// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[1.0, 3.0, 4.0].into()))?;
-/// let normal = ReferenceNormal::new(Vector3::x())?;
-/// assert_eq!(reference_surface_force(&stretch, &normal, &Vector3::y()), Vector3::new(0.0, 12.0, 0.0));
-/// # Ok::<(), piola_continuum::ContinuumError>(())
-/// ```
-///
 /// # Source
 /// B(4.39).
 #[inline(always)]
@@ -153,15 +123,6 @@ pub fn reference_surface_force<T: Real>(
 }
 
 /// f = J f̃: a body force per deformed volume, as one per reference volume.
-///
-/// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_continuum::{DeformationGradient, stress::reference_body_force};
-/// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&[1.0, 3.0, 4.0].into()))?;
-/// assert_eq!(reference_body_force(&stretch, &Vector3::z()), Vector3::new(0.0, 0.0, 12.0));
-/// # Ok::<(), piola_continuum::ContinuumError>(())
-/// ```
 ///
 /// # Source
 /// B(4.38).

@@ -48,7 +48,7 @@
 //! // The force on the end of the bar, by its deformed and by its reference area.
 //! let end = ReferenceNormal::new(Vector3::x())?;
 //! let area = end.deformed(&stretch); // Nanson
-//! assert_eq!(cauchy.traction(&area.normal) * area.ratio, cauchy.first_piola(&stretch).nominal_traction(&end));
+//! assert_eq!(cauchy.traction(&area.normal) * area.ratio, cauchy.first_piola(&stretch).traction(&end));
 //!
 //! // Lengthening at 3/s works 6 W per reference m³.
 //! let rate = GradientRate::new(Matrix3::from_diagonal(&[3.0, 0.0, 0.0].into()))?;
@@ -62,7 +62,7 @@
 //! t = T n  W(16.4)     P N     n da = J F⁻ᵀ N dA     g = J |F⁻ᵀ N| g̃  B(4.39)     f = J f̃  B(4.38)
 //! ```
 //! Normals are [`UnitNormal`] in space and [`ReferenceNormal`] in the reference body, of length one by construction.
-//! Methods: [`CauchyStress::traction`], [`CauchyStress::shear_traction`], [`FirstPiola::nominal_traction`],
+//! Methods: [`CauchyStress::traction`], [`CauchyStress::shear_traction`], [`FirstPiola::traction`],
 //! [`ReferenceNormal::deformed`]; functions: [`reference_surface_force`], [`reference_body_force`] and, for Cauchy's
 //! tetrahedron, [`oblique_traction`].
 //!

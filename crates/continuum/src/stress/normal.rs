@@ -54,15 +54,6 @@ macro_rules! unit_normal {
             ///
             /// # Accuracy
             /// 2 ulp, for vectors of any size.
-            ///
-            /// # Example
-            /// ```
-            /// use nalgebra::Vector3;
-            #[doc = concat!("use piola_continuum::", stringify!($name), ";")]
-            #[doc = concat!("assert_eq!(", stringify!($name), "::new(Vector3::new(0.0, -2.0, 0.0))?.vector(), -Vector3::y());")]
-            #[doc = concat!("assert!(", stringify!($name), "::new(Vector3::new(0.0, 0.0, 0.0)).is_err());")]
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             pub fn new(vector: Vector3<T>) -> Result<Self, ContinuumError> {
                 direction(&vector).map(|components| Self { components })
             }

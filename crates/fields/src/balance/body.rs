@@ -33,15 +33,15 @@ use crate::residual::{Residual, VectorResidual};
 /// use piola_numerics::Real;
 /// struct Expansion;
 /// impl AffineHistory for Expansion {
-///     fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-///         Matrix3::from_diagonal(&Vector3::repeat(T::lit(1.0) + time))
+///     fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+///         Matrix3::from_diagonal(&Vector3::repeat(T::lit(1.0) + t))
 ///     }
 /// }
 /// struct Density;
 /// impl Field for Density {
 ///     type Value = f64;
-///     fn at<T: Real>(&self, _place: &Vector3<T>, time: T) -> T {
-///         T::lit(8.0) / (T::lit(1.0) + time).powi(3)
+///     fn at<T: Real>(&self, _place: &Vector3<T>, t: T) -> T {
+///         T::lit(8.0) / (T::lit(1.0) + t).powi(3)
 ///     }
 /// }
 /// let gas = Body { motion: Homogeneous(Expansion), reference_density: Uniform(8.0) };
@@ -64,22 +64,11 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Affine, Body, Uniform};
-    /// use piola_continuum::DeformationGradient;
-    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
-    /// assert_eq!(body.density(&Vector3::zeros(), 1.0)?, 4.0); // 8/J
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn density<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<T, FieldsError> {
-        check_event(&self.motion, reference, time)?;
-        let jacobian = determinant(kernels::gradient(&self.motion, reference, time));
+    pub fn density<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<T, FieldsError> {
+        check_event(&self.motion, reference, t)?;
+        let jacobian = determinant(kernels::gradient(&self.motion, reference, t));
         check_jacobian(jacobian)?;
-        let density = self.reference_density.at(reference, time) / jacobian;
+        let density = self.reference_density.at(reference, t) / jacobian;
         check_finite("density", &[density])?;
         Ok(density)
     }
@@ -88,28 +77,16 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Affine, Body, Spatial, Uniform};
-    /// use piola_continuum::DeformationGradient;
-    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
-    /// assert_eq!(body.density_residual(&Spatial(Uniform(4.0)), &Vector3::zeros(), 1.0)?.value, 0.0);
-    /// assert_eq!(body.density_residual(&Spatial(Uniform(5.0)), &Vector3::zeros(), 1.0)?.value, 2.0); // 5·2 − 8
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn density_residual<T: Real>(
         &self,
         density: &Spatial<impl Field<Value = f64>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Residual<T>, FieldsError> {
-        check_event(&self.motion, reference, time)?;
-        let (place, gradient) = kernels::place_and_gradient(&self.motion, reference, time);
-        let now = density.0.at(&place, time) * determinant(gradient);
-        checked("density", Residual::zero().plus(now).plus(-self.reference_density.at(reference, time)))
+        check_event(&self.motion, reference, t)?;
+        let (place, gradient) = kernels::place_and_gradient(&self.motion, reference, t);
+        let now = density.0.at(&place, t) * determinant(gradient);
+        checked("density", Residual::zero().plus(now).plus(-self.reference_density.at(reference, t)))
     }
 
     /// ρ̇ + ρ div v, kg/(m³ s), W(17.5), B(4.43), of a density given in space, with ρ̇ = ∂ρ/∂t + (grad ρ)·v and
@@ -117,36 +94,19 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Body, Motion, Spatial, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t) X: Ḟ = 1
-    /// impl Motion for Growth {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference * (T::one() + time)
-    ///     }
-    /// }
-    /// let body = Body { motion: Growth, reference_density: Uniform(1.0) };
-    /// let residual = body.continuity_residual(&Spatial(Uniform(4.0)), &Vector3::zeros(), 1.0)?;
-    /// assert_eq!(residual.value, 6.0); // 0 + 4 div v: a density that stays while the volume grows
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn continuity_residual<T: Real>(
         &self,
         density: &Spatial<impl Field<Value = f64>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Residual<T>, FieldsError> {
-        check_event(&self.motion, reference, time)?;
-        let (gradient, rate) = kernels::gradient_and_rate(&self.motion, reference, time);
+        check_event(&self.motion, reference, t)?;
+        let (gradient, rate) = kernels::gradient_and_rate(&self.motion, reference, t);
         check_jacobian(determinant(gradient))?;
         let inverse = inverse_and_determinant(gradient).0;
-        let x = self.motion.place(&reference.map(Dual::constant), Dual::variable(time));
+        let x = self.motion.place(&reference.map(Dual::constant), Dual::variable(t));
         let (place, velocity) = (x.map(|x| x.value), x.map(|x| x.tangent));
-        let (value, material_rate) = along(&density.0, &place, &velocity, time);
+        let (value, material_rate) = along(&density.0, &place, &velocity, t);
         let mut residual = Residual::zero().plus(material_rate);
         for i in 0..3 {
             let slope = dot_terms(rate[i], [inverse[0][i], inverse[1][i], inverse[2][i]]);
@@ -164,45 +124,18 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// A bar that accelerates along its axis under its own weight and P₁₁ = 3 X₁.
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::{Body, Field, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Fall;
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + Vector3::new(T::lit(6.0) * time * time, T::lit(0.0), T::lit(0.0))
-    ///     }
-    /// }
-    /// struct Pull;
-    /// impl Field for Pull {
-    ///     type Value = FirstPiola;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _time: T) -> FirstPiola<T> {
-    ///         FirstPiola(Matrix3::from_diagonal(&Vector3::new(T::lit(3.0) * particle.x, T::lit(0.0), T::lit(0.0))))
-    ///     }
-    /// }
-    /// let bar = Body { motion: Fall, reference_density: Uniform(1.0) };
-    /// let force = Material(Uniform(Vector3::new(9.0, 0.0, 0.0)));
-    /// let residual = bar.momentum_residual(&Material(Pull), &force, &Vector3::zeros(), 1.0)?;
-    /// assert_eq!((residual.value.x, residual.scale.x), (0.0, 24.0)); // 3 + 9 − 12
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn momentum_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
         body_force: &Material<impl Field<Value = Vector3<f64>>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<VectorResidual<T>, FieldsError> {
-        check_event(&self.motion, reference, time)?;
-        let divergence = referential_divergence(stress, reference, time);
-        let density = self.reference_density.at(reference, time);
-        let force = body_force.0.at(reference, time);
-        let acceleration = single_terms(&kernels::acceleration(&self.motion, reference, time));
+        check_event(&self.motion, reference, t)?;
+        let divergence = referential_divergence(stress, reference, t);
+        let density = self.reference_density.at(reference, t);
+        let force = body_force.0.at(reference, t);
+        let acceleration = single_terms(&kernels::acceleration(&self.motion, reference, t));
         momentum(divergence, density, &force, acceleration)
     }
 
@@ -215,37 +148,18 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Body, Motion, Spatial, Uniform};
-    /// use piola_continuum::CauchyStress;
-    /// use piola_numerics::Real;
-    /// struct Fall; // 6 t² along the first axis
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + Vector3::new(T::lit(6.0) * time * time, T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let body = Body { motion: Fall, reference_density: Uniform(2.0) };
-    /// let (stress, force) = (Spatial(Uniform(CauchyStress::zero())), Spatial(Uniform(Vector3::new(9.0, 0.0, 0.0))));
-    /// // 2·9 − 2·12
-    /// assert_eq!(body.spatial_momentum_residual(&stress, &force, &Vector3::zeros(), 1.0)?.value.x, -6.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn spatial_momentum_residual<T: Real>(
         &self,
         stress: &Spatial<impl Field<Value = CauchyStress>>,
         body_force: &Spatial<impl Field<Value = Vector3<f64>>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<VectorResidual<T>, FieldsError> {
-        let density = self.density(reference, time)?;
-        let place = self.motion.place(reference, time);
-        let tensor = stress.0.at(&kernels::variables(&place), Gradient::constant(time)).rows();
-        let force = body_force.0.at(&place, time);
-        let acceleration = single_terms(&kernels::acceleration(&self.motion, reference, time));
+        let density = self.density(reference, t)?;
+        let place = self.motion.place(reference, t);
+        let tensor = stress.0.at(&kernels::variables(&place), Gradient::constant(t)).rows();
+        let force = body_force.0.at(&place, t);
+        let acceleration = single_terms(&kernels::acceleration(&self.motion, reference, t));
         let divergence = divergence(&tensor);
         momentum(divergence, density, &force, acceleration)
     }
@@ -260,38 +174,19 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_continuum::FirstPiola;
-    /// use piola_numerics::Real;
-    /// struct Fall; // 6 t² along the first axis
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + Vector3::new(T::lit(6.0) * time * time, T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let body = Body { motion: Fall, reference_density: Uniform(2.0) };
-    /// let (stress, force) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(60.0, 0.0, 0.0))));
-    /// let residual = body.damped_residual(&stress, &force, &Material(Uniform(3.0)), &Vector3::zeros(), 1.0)?;
-    /// assert_eq!(residual.value.x, 0.0); // 2·12 + 3·12 − 60
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn damped_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
         force: &Material<impl Field<Value = Vector3<f64>>>,
         damping: &Material<impl Field<Value = f64>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<VectorResidual<T>, FieldsError> {
-        check_event(&self.motion, reference, time)?;
-        let divergence = referential_divergence(stress, reference, time);
-        let density = self.reference_density.at(reference, time);
-        let (damping, force) = (damping.0.at(reference, time), force.0.at(reference, time));
-        let (velocity, acceleration) = kernels::velocity_and_acceleration(&self.motion, reference, time);
+        check_event(&self.motion, reference, t)?;
+        let divergence = referential_divergence(stress, reference, t);
+        let density = self.reference_density.at(reference, t);
+        let (damping, force) = (damping.0.at(reference, t), force.0.at(reference, t));
+        let (velocity, acceleration) = kernels::velocity_and_acceleration(&self.motion, reference, t);
         let component = |i: usize| {
             let inertia = Residual::zero().plus(density * acceleration[i]).plus(damping * velocity[i]);
             inertia.plus(-force[i]).plus_all(divergence[i], -T::one())
@@ -301,32 +196,20 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
 
     /// Div P + f, N/m³ of the reference configuration: statics, B(4.59).
     ///
-    /// The motion is not asked for anything but its domain.
+    /// Only the domain of the motion is evaluated.
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Affine, Body, Material, Uniform};
-    /// use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
-    /// let (stress, force) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(7.0, 0.0, 0.0))));
-    /// assert_eq!(body.equilibrium_residual(&stress, &force, &Vector3::zeros(), 1.0)?.value.x, 7.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn equilibrium_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
         force: &Material<impl Field<Value = Vector3<f64>>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<VectorResidual<T>, FieldsError> {
-        check_event(&self.motion, reference, time)?;
-        let divergence = referential_divergence(stress, reference, time);
-        let force = force.0.at(reference, time);
+        check_event(&self.motion, reference, t)?;
+        let divergence = referential_divergence(stress, reference, t);
+        let force = force.0.at(reference, t);
         checked_vector("equilibrium", [0, 1, 2].map(|i: usize| divergence[i].plus(force[i])))
     }
 
@@ -335,27 +218,15 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Affine, Body, Material, Uniform};
-    /// use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let stretch = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// let body = Body { motion: stretch, reference_density: Uniform(8.0) };
-    /// let turning = Material(Uniform(FirstPiola::from_rows([[0.0, 1.0, 0.0], [0.0; 3], [0.0; 3]])?));
-    /// assert_eq!(body.symmetry_residual(&turning, &Vector3::zeros(), 1.0)?.value.z, -1.0); // P₂₁ F₁₁ − P₁₂ F₂₂
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn symmetry_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<VectorResidual<T>, FieldsError> {
-        check_event(&self.motion, reference, time)?;
-        let gradient = kernels::gradient(&self.motion, reference, time);
-        checked_vector("moment", two_point_symmetry(&stress.0.at(reference, time).rows(), &gradient))
+        check_event(&self.motion, reference, t)?;
+        let gradient = kernels::gradient(&self.motion, reference, t);
+        checked_vector("moment", two_point_symmetry(&stress.0.at(reference, t).rows(), &gradient))
     }
 
     /// `ρ_κ` ε̇ − P : Ḟ, W/m³ of the reference configuration: the balance of energy of a body that neither conducts
@@ -368,37 +239,18 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t) X: Ḟ = 1
-    /// impl Motion for Growth {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference * (T::one() + time)
-    ///     }
-    /// }
-    /// let body = Body { motion: Growth, reference_density: Uniform(1.0) };
-    /// let stress = Material(Uniform(FirstPiola::from_rows([[5.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?));
-    /// let residual = body.energy_residual(&Material(Uniform(0.0)), &stress, &Vector3::zeros(), 1.0)?;
-    /// assert_eq!(residual.value, -5.0); // the power P : Ḟ goes nowhere
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn energy_residual<T: Real>(
         &self,
         internal_energy: &Material<impl Field<Value = f64>>,
         stress: &Material<impl Field<Value = FirstPiola>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Residual<T>, FieldsError> {
-        check_event(&self.motion, reference, time)?;
-        let rate = kernels::gradient_and_rate(&self.motion, reference, time).1;
-        let stress: Rows<T> = stress.0.at(reference, time).rows();
-        let density = self.reference_density.at(reference, time);
-        let stored = density * local_rate(&internal_energy.0, reference, time);
+        check_event(&self.motion, reference, t)?;
+        let rate = kernels::gradient_and_rate(&self.motion, reference, t).1;
+        let stress: Rows<T> = stress.0.at(reference, t).rows();
+        let density = self.reference_density.at(reference, t);
+        let stored = density * local_rate(&internal_energy.0, reference, t);
         let power = |i: usize| dot_terms(stress[i], rate[i]);
         let residual = (0..3).fold(Residual::zero().plus(stored), |sum, i| sum.plus_all(power(i), -T::one()));
         checked("energy", residual)
@@ -413,27 +265,6 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     ///
     /// # Errors
     /// See [the type](Body#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t) X: Ḟ = 1
-    /// impl Motion for Growth {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference * (T::one() + time)
-    ///     }
-    /// }
-    /// let body = Body { motion: Growth, reference_density: Uniform(1.0) };
-    /// let stress = Material(Uniform(FirstPiola::from_rows([[5.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?));
-    /// let (energy, supply) = (Material(Uniform(0.0)), Material(Uniform(-5.0)));
-    /// let flux = Material(Uniform(Vector3::zeros()));
-    /// let residual = body.heated_energy_residual(&energy, &stress, &flux, &supply, &Vector3::zeros(), 1.0)?;
-    /// assert_eq!(residual.value, 0.0); // what the stress does leaves as heat
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn heated_energy_residual<T: Real>(
         &self,
         internal_energy: &Material<impl Field<Value = f64>>,
@@ -441,12 +272,12 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         heat_flux: &Material<impl Field<Value = Vector3<f64>>>,
         heat_supply: &Material<impl Field<Value = f64>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Residual<T>, FieldsError> {
-        let mechanical = self.energy_residual(internal_energy, stress, reference, time)?;
-        let flux = heat_flux.0.at(&kernels::variables(reference), Gradient::constant(time));
+        let mechanical = self.energy_residual(internal_energy, stress, reference, t)?;
+        let flux = heat_flux.0.at(&kernels::variables(reference), Gradient::constant(t));
         let residual = (0..3).fold(mechanical, |sum, a| sum.plus(flux[a].partials[a]));
-        checked("energy", residual.plus(-heat_supply.0.at(reference, time)))
+        checked("energy", residual.plus(-heat_supply.0.at(reference, t)))
     }
 }
 
@@ -455,9 +286,9 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
 fn referential_divergence<T: Real>(
     stress: &Material<impl Field<Value = FirstPiola>>,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> [Residual<T>; 3] {
-    divergence(&stress.0.at(&kernels::variables(reference), Gradient::constant(time)).rows())
+    divergence(&stress.0.at(&kernels::variables(reference), Gradient::constant(t)).rows())
 }
 
 /// A vector as sums of one term each.

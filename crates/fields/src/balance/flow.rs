@@ -71,26 +71,8 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// assert_eq!(flow.acceleration(&point, 0.0)?.x, 36.0); // v ∂v/∂r = 9 r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn acceleration<T: Real>(&self, coordinates: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        let terms = self.acceleration_terms(coordinates, time)?;
+    pub fn acceleration<T: Real>(&self, coordinates: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        let terms = self.acceleration_terms(coordinates, t)?;
         finite::<Vector3<f64>, T>("acceleration", terms.map(|a| a.value).into())
     }
 
@@ -98,28 +80,10 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// assert_eq!(flow.continuity_residual(&point, 0.0)?.value, 12.0); // ρ div v = 2 (3 + 3)
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn continuity_residual<T: Real>(&self, coordinates: &Vector3<T>, time: T) -> Result<Residual<T>, FieldsError> {
-        let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, time)?;
-        let density = self.density.at(coordinates, time);
-        let residual = self.material_rate(&self.density, &v, coordinates, time)?;
+    pub fn continuity_residual<T: Real>(&self, coordinates: &Vector3<T>, t: T) -> Result<Residual<T>, FieldsError> {
+        let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, t)?;
+        let density = self.density.at(coordinates, t);
+        let residual = self.material_rate(&self.density, &v, coordinates, t)?;
         let diagonal = [0, 1, 2].map(|i: usize| gradient[i][i]);
         let residual = diagonal.into_iter().fold(residual, |residual, slope| residual.plus(density * slope));
         checked("continuity", residual)
@@ -134,37 +98,17 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::CauchyStress;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// let (stress, force) = (Uniform(CauchyStress::zero()), Uniform(Vector3::new(36.0, 0.0, 0.0)));
-    /// assert_eq!(flow.momentum_residual(&stress, &force, &point, 0.0)?.value.x, 0.0); // 2·36 − 2·9 r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn momentum_residual<T: Real>(
         &self,
         stress: &impl Field<Value = CauchyStress>,
         body_force: &impl Field<Value = Vector3<f64>>,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<VectorResidual<T>, FieldsError> {
-        let divergence = divergence_of(&self.coordinates, stress, coordinates, time)?;
-        let acceleration = self.acceleration_terms(coordinates, time)?;
-        let density = self.density.at(coordinates, time);
-        let force = body_force.at(coordinates, time);
+        let divergence = divergence_of(&self.coordinates, stress, coordinates, t)?;
+        let acceleration = self.acceleration_terms(coordinates, t)?;
+        let density = self.density.at(coordinates, t);
+        let force = body_force.at(coordinates, t);
         momentum(divergence, density, &force, acceleration)
     }
 
@@ -177,38 +121,17 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::CauchyStress;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// let stress = Uniform(CauchyStress::new(5.0, 5.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// let residual = flow.energy_residual(&Uniform(0.0), &stress, &point, 0.0)?;
-    /// assert_eq!(residual.value, -30.0); // the power T : L = 5·3 + 5·3 goes nowhere
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn energy_residual<T: Real>(
         &self,
         internal_energy: &impl Field<Value = f64>,
         stress: &impl Field<Value = CauchyStress>,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Residual<T>, FieldsError> {
-        let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, time)?;
-        let density = self.density.at(coordinates, time);
-        let rate = self.material_rate(internal_energy, &v, coordinates, time)?;
-        let stress = stress.at(coordinates, time).rows();
+        let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, t)?;
+        let density = self.density.at(coordinates, t);
+        let rate = self.material_rate(internal_energy, &v, coordinates, t)?;
+        let stress = stress.at(coordinates, t).rows();
         let mut residual = Residual::zero().plus_all(rate, density);
         for (row, slopes) in stress.iter().zip(&gradient) {
             for (component, slope) in row.iter().zip(slopes) {
@@ -227,28 +150,6 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
     ///
     /// # Errors
     /// See [the type](Flow#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::CauchyStress;
-    /// use piola_fields::{Cylindrical, Field, Flow, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Radial; // v = 3 r
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(3.0) * q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// let flow = Flow { coordinates: Cylindrical, density: Uniform(2.0), velocity: Radial };
-    /// let point = Vector3::new(4.0, 0.0, 0.0);
-    /// let stress = Uniform(CauchyStress::new(5.0, 5.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// let (energy, flux, supply) = (Uniform(0.0), Uniform(Vector3::zeros()), Uniform(-30.0));
-    /// let residual = flow.heated_energy_residual(&energy, &stress, &flux, &supply, &point, 0.0)?;
-    /// assert_eq!(residual.value, 0.0); // what the stress does leaves as heat
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn heated_energy_residual<T: Real>(
         &self,
         internal_energy: &impl Field<Value = f64>,
@@ -256,18 +157,18 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
         heat_flux: &impl Field<Value = Vector3<f64>>,
         heat_supply: &impl Field<Value = f64>,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Residual<T>, FieldsError> {
-        let mechanical = self.energy_residual(internal_energy, stress, coordinates, time)?;
-        let flux = gradient_of(&self.coordinates, heat_flux, coordinates, time)?.1;
-        let supply = heat_supply.at(coordinates, time);
+        let mechanical = self.energy_residual(internal_energy, stress, coordinates, t)?;
+        let flux = gradient_of(&self.coordinates, heat_flux, coordinates, t)?.1;
+        let supply = heat_supply.at(coordinates, t);
         checked("energy", mechanical.plus(flux[0][0]).plus(flux[1][1]).plus(flux[2][2]).plus(-supply))
     }
 
     /// Terms of ∂v/∂t + (grad v) v.
-    fn acceleration_terms<T: Real>(&self, coordinates: &Vector3<T>, time: T) -> Result<[Residual<T>; 3], FieldsError> {
-        let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, time)?;
-        let local = local_rate(&self.velocity, coordinates, time);
+    fn acceleration_terms<T: Real>(&self, coordinates: &Vector3<T>, t: T) -> Result<[Residual<T>; 3], FieldsError> {
+        let (v, gradient) = gradient_of(&self.coordinates, &self.velocity, coordinates, t)?;
+        let local = local_rate(&self.velocity, coordinates, t);
         Ok([0, 1, 2].map(|i: usize| {
             let row = &gradient[i];
             Residual::zero().plus(local[i]).plus(row[0] * v[0]).plus(row[1] * v[1]).plus(row[2] * v[2])
@@ -280,11 +181,11 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
         scalar: &impl Field<Value = f64>,
         v: &Vector3<T>,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Residual<T>, FieldsError> {
-        let partials = value_and_partials(scalar, coordinates, time).1;
+        let partials = value_and_partials(scalar, coordinates, t).1;
         let h = self.coordinates.scale_factors(coordinates)?;
-        let local = Residual::zero().plus(local_rate(scalar, coordinates, time));
+        let local = Residual::zero().plus(local_rate(scalar, coordinates, t));
         Ok((0..3).fold(local, |rate, i| rate.plus(partials[i] / h[i] * v[i])))
     }
 }
@@ -296,7 +197,7 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
 /// |---|---|---|
 /// | T(q, t) | `stress`, any tensor, physical components | Pa |
 /// | f(q, t) | `force`, per volume | N/m³ |
-/// | t | `time`, a parameter | s |
+/// | t | `t`, a parameter | s |
 ///
 /// # Errors
 /// As [`Coordinates`](Coordinates#errors).
@@ -326,11 +227,11 @@ pub fn equilibrium_residual<T: Real>(
     stress: &impl Field<Value: TensorValue>,
     force: &impl Field<Value = Vector3<f64>>,
     point: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<VectorResidual<T>, FieldsError> {
-    check_point(point, time)?;
-    let divergence = divergence_of(coordinates, stress, point, time)?;
-    let force = force.at(point, time);
+    check_point(point, t)?;
+    let divergence = divergence_of(coordinates, stress, point, t)?;
+    let force = force.at(point, t);
     check_finite("force", force.as_slice())?;
     checked_vector("equilibrium", [0, 1, 2].map(|i: usize| divergence[i].plus(force[i])))
 }

@@ -41,10 +41,10 @@ use crate::residual::{Residual, VectorResidual};
 pub fn cofactor_divergence<T: Real>(
     motion: &impl Motion,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<VectorResidual<T>, FieldsError> {
-    check_event(motion, reference, time)?;
-    let (_, gradient) = place_and_gradient(motion, &variables(reference), Gradient::constant(time));
+    check_event(motion, reference, t)?;
+    let (_, gradient) = place_and_gradient(motion, &variables(reference), Gradient::constant(t));
     checked_vector("divergence of J F^-T", divergence(&cofactor(gradient)))
 }
 
@@ -53,38 +53,18 @@ pub fn cofactor_divergence<T: Real>(
 /// | symbol | argument | unit |
 /// |---|---|---|
 /// | T(x, t) | `stress` | Pa |
-/// | X, t | `reference`, `time` | m, s |
+/// | X, t | `reference`, `t` | m, s |
 ///
 /// # Errors
 /// What the motion refuses; [`FieldsError::NotFinite`].
-///
-/// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_continuum::{CauchyStress, DeformationGradient, Symmetric};
-/// use piola_fields::{Affine, Field, Spatial, balance::piola_identity_residual};
-/// use piola_numerics::Real;
-/// struct Stress;
-/// impl Field for Stress {
-///     type Value = CauchyStress;
-///     fn at<T: Real>(&self, place: &Vector3<T>, _time: T) -> CauchyStress<T> {
-///         CauchyStress(Symmetric::diagonal([place.x * place.x, place.y, place.z]))
-///     }
-/// }
-/// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&Vector3::new(2.0, 1.0, 1.0)))?;
-/// let motion = Affine::new(stretch, Vector3::zeros())?;
-/// let residual = piola_identity_residual(&motion, &Spatial(Stress), &Vector3::new(1.0, 0.0, 0.0), 0.0)?;
-/// assert_eq!((residual.value.x, residual.scale.x), (0.0, 16.0)); // Div P = J div T = 2 · 2 · 2
-/// # Ok::<(), piola_fields::FieldsError>(())
-/// ```
 pub fn piola_identity_residual<T: Real>(
     motion: &impl Motion,
     stress: &Spatial<impl Field<Value = CauchyStress>>,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<VectorResidual<T>, FieldsError> {
-    check_event(motion, reference, time)?;
-    let instant = Gradient::constant(time);
+    check_event(motion, reference, t)?;
+    let instant = Gradient::constant(t);
     let (x, gradient) = place_and_gradient(motion, &variables(reference), instant);
     let first_piola = product(stress.0.at(&x, instant).rows(), cofactor(gradient));
     let place = finite::<Vector3<f64>, T>("place", x.map(|x| x.value))?;
@@ -96,14 +76,6 @@ pub fn piola_identity_residual<T: Real>(
 
 /// T − Tᵀ as the vector of its entries 32, 13, 21, Pa, with its scale: zero by the balance of moment of
 /// momentum, W(17.34).
-///
-/// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_fields::symmetry_residual;
-/// let residual = symmetry_residual(&Matrix3::new(0.0, 1.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0, 0.0));
-/// assert_eq!((residual.value.z, residual.scale.z), (2.0, 4.0));
-/// ```
 #[inline]
 #[must_use]
 pub fn symmetry_residual<T: Real>(tensor: &Matrix3<T>) -> VectorResidual<T> {

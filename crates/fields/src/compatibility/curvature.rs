@@ -112,30 +112,17 @@ impl<T: Real> Curvature<T> {
     /// | symbol | argument | shape | unit |
     /// |---|---|---|---|
     /// | C(X, t) | `metric` | 3×3 symmetric, positive definite | – |
-    /// | X, t | `reference`, `time` | 3, scalar | m, s |
+    /// | X, t | `reference`, `t` | 3, scalar | m, s |
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`]; [`TensorError::NotPositiveDefinite`](piola_tensor::TensorError::NotPositiveDefinite) where C is not positive definite.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::Symmetric;
-    /// use piola_fields::{Material, Uniform, compatibility::Curvature};
-    /// let stretched = Material(Uniform(Symmetric::diagonal([4.0, 1.0, 1.0])));
-    /// let curvature = Curvature::of_metric(&stretched, &Vector3::zeros(), 0.0)?;
-    /// assert_eq!(curvature.residual.relative(), 0.0); // a homogeneous metric is compatible
-    /// let folded = Material(Uniform(Symmetric::diagonal([-4.0, 1.0, 1.0])));
-    /// assert!(Curvature::of_metric(&folded, &Vector3::zeros(), 0.0).is_err());
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn of_metric(
         metric: &Material<impl Field<Value = Symmetric>>,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Self, FieldsError> {
-        check_point(reference, time)?;
-        let field = with_second_partials(metric, reference, time);
+        check_point(reference, t)?;
+        let field = with_second_partials(metric, reference, t);
         let c: Rows<T> = field.map(|row| row.map(|entry| entry.value.value));
         check_metric(&c)?;
         let inverse = inverse_and_determinant(c).0;
@@ -162,26 +149,6 @@ impl<T: Real> Curvature<T> {
     }
 
     /// `R_ABCD`, 1/m², indices from 0; an index of 3 or more gives zero.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::Symmetric;
-    /// use piola_fields::{Field, Material, compatibility::Curvature};
-    /// use piola_numerics::Real;
-    /// struct Sphere; // the unit sphere in four dimensions
-    /// impl Field for Sphere {
-    ///     type Value = Symmetric;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _time: T) -> Symmetric<T> {
-    ///         let [x, y, z] = (*particle).into();
-    ///         let factor = (T::one() + T::lit(0.25) * (x * x + y * y + z * z)).powi(-2);
-    ///         Symmetric::diagonal([factor; 3])
-    ///     }
-    /// }
-    /// let curvature = Curvature::of_metric(&Material(Sphere), &Vector3::zeros(), 0.0)?;
-    /// assert_eq!((curvature.riemann(0, 1, 0, 1), curvature.riemann(0, 1, 1, 0)), (1.0, -1.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn riemann(&self, a: usize, b: usize, c: usize, d: usize) -> T {
         let n = self.residual.value.rows();
@@ -196,26 +163,6 @@ impl<T: Real> Curvature<T> {
     }
 
     /// Einstein's tensor `G_AB = Ric_AB − ½ R C_AB`, 1/m².
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::Symmetric;
-    /// use piola_fields::{Field, Material, compatibility::Curvature};
-    /// use piola_numerics::Real;
-    /// struct Sphere; // the unit sphere in four dimensions
-    /// impl Field for Sphere {
-    ///     type Value = Symmetric;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _time: T) -> Symmetric<T> {
-    ///         let [x, y, z] = (*particle).into();
-    ///         let factor = (T::one() + T::lit(0.25) * (x * x + y * y + z * z)).powi(-2);
-    ///         Symmetric::diagonal([factor; 3])
-    ///     }
-    /// }
-    /// let curvature = Curvature::of_metric(&Material(Sphere), &Vector3::zeros(), 0.0)?;
-    /// assert_eq!(curvature.einstein().components[0], -1.0); // Ric − ½ R = 2 − 3
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn einstein(&self) -> Symmetric<T> {
         let c = self.metric.rows();
@@ -225,26 +172,6 @@ impl<T: Real> Curvature<T> {
     }
 
     /// The scalar curvature `R = C⁻¹_AB Ric_AB`, 1/m².
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::Symmetric;
-    /// use piola_fields::{Field, Material, compatibility::Curvature};
-    /// use piola_numerics::Real;
-    /// struct Sphere; // the unit sphere in four dimensions
-    /// impl Field for Sphere {
-    ///     type Value = Symmetric;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _time: T) -> Symmetric<T> {
-    ///         let [x, y, z] = (*particle).into();
-    ///         let factor = (T::one() + T::lit(0.25) * (x * x + y * y + z * z)).powi(-2);
-    ///         Symmetric::diagonal([factor; 3])
-    ///     }
-    /// }
-    /// let curvature = Curvature::of_metric(&Material(Sphere), &Vector3::zeros(), 0.0)?;
-    /// assert_eq!(curvature.scalar(), 6.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn scalar(&self) -> T {
         // tr G = R − 3/2 R, and tr G = N : C/det C.
@@ -253,26 +180,6 @@ impl<T: Real> Curvature<T> {
     }
 
     /// Ricci's tensor `Ric_AB`, 1/m²: zero where C is compatible, and only there.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::Symmetric;
-    /// use piola_fields::{Field, Material, compatibility::Curvature};
-    /// use piola_numerics::Real;
-    /// struct Sphere; // the unit sphere in four dimensions
-    /// impl Field for Sphere {
-    ///     type Value = Symmetric;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _time: T) -> Symmetric<T> {
-    ///         let [x, y, z] = (*particle).into();
-    ///         let factor = (T::one() + T::lit(0.25) * (x * x + y * y + z * z)).powi(-2);
-    ///         Symmetric::diagonal([factor; 3])
-    ///     }
-    /// }
-    /// let curvature = Curvature::of_metric(&Material(Sphere), &Vector3::zeros(), 0.0)?;
-    /// assert_eq!(curvature.ricci().components[0], 2.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn ricci(&self) -> Symmetric<T> {
         let (einstein, half) = (self.einstein().components, T::lit(0.5) * self.scalar());
@@ -310,9 +217,9 @@ pub(super) fn second_differences<T: Real>(
 pub(super) fn with_second_partials<T: Real>(
     field: &Material<impl Field<Value = Symmetric>>,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Rows<Gradient<Gradient<T, 3>, 3>> {
-    field.0.at(&twice_variables(reference), Gradient::constant(Gradient::constant(time))).rows()
+    field.0.at(&twice_variables(reference), Gradient::constant(Gradient::constant(t))).rows()
 }
 
 /// The leading minors of a metric are positive in every lane.

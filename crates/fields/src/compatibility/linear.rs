@@ -46,10 +46,10 @@ use crate::frames::Material;
 pub fn incompatibility<T: Real>(
     strain: &Material<impl Field<Value = Symmetric>>,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<SymmetricResidual<T>, FieldsError> {
-    check_point(reference, time)?;
-    let strain = with_second_partials(strain, reference, time);
+    check_point(reference, t)?;
+    let strain = with_second_partials(strain, reference, t);
     let second = |a: usize, b: usize, c: usize, d: usize| strain[c][d].partials[a].partials[b];
     // As half the metric 1 + 2ε.
     let entry = |k: usize, l: usize| second_differences(PAIRS[k], PAIRS[l], -T::one(), second);

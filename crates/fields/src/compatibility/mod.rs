@@ -66,7 +66,7 @@ impl<T: Real> GradientResidual<T> {
 /// | symbol | argument | shape | unit |
 /// |---|---|---|---|
 /// | F(X, t) | `gradient` | 3×3 | – |
-/// | X, t | `reference`, `time` | 3, scalar | m, s |
+/// | X, t | `reference`, `t` | 3, scalar | m, s |
 ///
 /// # Errors
 /// [`FieldsError::NotFinite`].
@@ -92,10 +92,10 @@ impl<T: Real> GradientResidual<T> {
 pub fn gradient_residual<T: Real>(
     gradient: &Material<impl Field<Value = Matrix3<f64>>>,
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<GradientResidual<T>, FieldsError> {
-    check_point(reference, time)?;
-    let (_, partials) = value_and_partials(&gradient.0, reference, time);
+    check_point(reference, t)?;
+    let (_, partials) = value_and_partials(&gradient.0, reference, t);
     let difference = |i: usize, c: usize| {
         let (b, a) = ((c + 1) % 3, (c + 2) % 3);
         Residual::zero().plus(partials[b][(i, a)]).plus(-partials[a][(i, b)])

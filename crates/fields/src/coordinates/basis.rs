@@ -68,15 +68,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// `g_ij` = gᵢ·gⱼ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// assert_eq!(basis.metric().components, [1.0, 4.0, 1.0, 0.0, 0.0, 0.0]); // diag(1, r², 1)
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn metric(&self) -> Symmetric<T> {
@@ -84,15 +75,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// gⁱʲ = gⁱ·gʲ, the inverse of the metric.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// assert_eq!(basis.inverse_metric().components, [1.0, 0.25, 1.0, 0.0, 0.0, 0.0]);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn inverse_metric(&self) -> Symmetric<T> {
@@ -100,15 +82,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// √det g = |det ∂x/∂q|: the volume of the element dq¹ dq² dq³.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// assert_eq!(basis.volume_element(), 2.0); // r dr dθ dz
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn volume_element(&self) -> T {
@@ -117,15 +90,6 @@ impl<T: Real> LocalBasis<T> {
 
     /// Whether (g₁, g₂, g₃) is a right-handed basis: +1, or −1 when it is left-handed, as the spherical one in the
     /// order r, azimuth, colatitude.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Spherical};
-    /// assert_eq!(Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?.orientation(), 1.0);
-    /// assert_eq!(Spherical.local_basis(&Vector3::new(2.0, 0.0, 1.0))?.orientation(), -1.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn orientation(&self) -> T {
@@ -133,15 +97,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// Cartesian components of v = vⁱ gᵢ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// assert_eq!(basis.vector_to_cartesian(&Vector3::new(0.0, 3.0, 0.0)), Vector3::new(0.0, 6.0, 0.0)); // r vᶿ
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn vector_to_cartesian(&self, v: &Vector3<T>) -> Vector3<T> {
@@ -149,15 +104,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// Contravariant components vⁱ = gⁱ·v of a vector with given Cartesian ones.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// assert_eq!(basis.vector_from_cartesian(&Vector3::new(0.0, 6.0, 0.0)), Vector3::new(0.0, 3.0, 0.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn vector_from_cartesian(&self, v: &Vector3<T>) -> Vector3<T> {
@@ -165,16 +111,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// Cartesian components of T = Tⁱʲ gᵢ⊗gⱼ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// let tensor = [[0.0; 3], [0.0, 3.0, 0.0], [0.0; 3]];
-    /// assert_eq!(basis.tensor_to_cartesian(&tensor)[1][1], 12.0); // r² Tᶿᶿ
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn tensor_to_cartesian(&self, tensor: &Rows<T>) -> Rows<T> {
@@ -182,16 +118,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// Contravariant components Tⁱʲ = gⁱ·T gʲ of a tensor with given Cartesian ones.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// let tensor = [[0.0; 3], [0.0, 12.0, 0.0], [0.0; 3]];
-    /// assert_eq!(basis.tensor_from_cartesian(&tensor)[1][1], 3.0); // T₂₂/r²
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn tensor_from_cartesian(&self, tensor: &Rows<T>) -> Rows<T> {
@@ -199,17 +125,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// ∇ⱼvⁱ = ∂ⱼvⁱ + Γⁱₖⱼ vᵏ, at row i and column j, from vⁱ and ∂vⁱ/∂qᵏ, `[k][i]`.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// // A rigid turn, vᶿ = 3 everywhere.
-    /// let gradient = basis.vector_gradient(&Vector3::new(0.0, 3.0, 0.0), &[Vector3::zeros(); 3]);
-    /// assert_eq!((gradient[(0, 1)], gradient[(1, 0)]), (-6.0, 1.5)); // Γʳθθ vᶿ = −r vᶿ, Γᶿθr vᶿ = vᶿ/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn vector_gradient(&self, v: &Vector3<T>, partials: &[Vector3<T>; 3]) -> Matrix3<T> {
@@ -218,17 +133,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// div v = ∂ᵢvⁱ + Γⁱₖᵢ vᵏ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// // A source line, vʳ = 6/r: ∂vʳ/∂r = −6/r².
-    /// let partials = [Vector3::new(-1.5, 0.0, 0.0), Vector3::zeros(), Vector3::zeros()];
-    /// assert_eq!(basis.vector_divergence(&Vector3::new(3.0, 0.0, 0.0), &partials), 0.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn vector_divergence(&self, v: &Vector3<T>, partials: &[Vector3<T>; 3]) -> T {
@@ -237,17 +141,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// (div T)ⁱ = ∂ⱼTⁱʲ + Γⁱₖⱼ Tᵏʲ + Γʲₖⱼ Tⁱᵏ, contravariant, from Tⁱʲ and ∂Tⁱʲ/∂qᵏ, `[k][i][j]`.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// // Tʳʳ = 3, the same everywhere.
-    /// let tensor = [[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// assert_eq!(basis.tensor_divergence(&tensor, &[[[0.0; 3]; 3]; 3]).x, 1.5); // Tʳʳ/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn tensor_divergence(&self, tensor: &Rows<T>, partials: &[Rows<T>; 3]) -> Vector3<T> {
@@ -266,17 +159,6 @@ impl<T: Real> LocalBasis<T> {
     }
 
     /// Δf = gⁱʲ (∂ᵢ∂ⱼf − Γᵏᵢⱼ ∂ₖf).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// // f = r²: ∂f/∂r = 4 and ∂²f/∂r² = 2 at r = 2.
-    /// let laplacian = basis.laplacian(&[4.0, 0.0, 0.0], &[[2.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
-    /// assert_eq!(laplacian, 4.0); // f″ + f′/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn laplacian(&self, partials: &[T; 3], second_partials: &Rows<T>) -> T {
@@ -295,15 +177,6 @@ impl<T: Real> LocalBasis<T> {
     ///
     /// # Errors
     /// [`FieldsError::NotOrthogonal`] when, in any lane, gᵢ·gⱼ is more than 64 ulp of |gᵢ| |gⱼ|.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?; // r = 2
-    /// assert_eq!(basis.physical_frame()?.scale_factors, [1.0, 2.0, 1.0]);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn physical_frame(&self) -> Result<PhysicalFrame<T>, FieldsError> {
         PhysicalFrame::of(self)
     }

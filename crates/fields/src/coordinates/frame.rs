@@ -65,17 +65,6 @@ impl<T: Real> PhysicalFrame<T> {
     }
 
     /// Cartesian components of v = vᵢ eᵢ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// // On the second axis.
-    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, core::f64::consts::FRAC_PI_2, 0.0))?;
-    /// let radial = frame.vector_to_cartesian(&Vector3::new(3.0, 0.0, 0.0));
-    /// assert!((radial - Vector3::new(0.0, 3.0, 0.0)).norm() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn vector_to_cartesian(&self, v: &Vector3<T>) -> Vector3<T> {
@@ -83,17 +72,6 @@ impl<T: Real> PhysicalFrame<T> {
     }
 
     /// Physical components vᵢ = eᵢ·v of a vector with given Cartesian ones.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// // On the second axis.
-    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, core::f64::consts::FRAC_PI_2, 0.0))?;
-    /// let components = frame.vector_from_cartesian(&Vector3::new(0.0, 3.0, 0.0));
-    /// assert!((components - Vector3::new(3.0, 0.0, 0.0)).norm() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn vector_from_cartesian(&self, v: &Vector3<T>) -> Vector3<T> {
@@ -101,17 +79,6 @@ impl<T: Real> PhysicalFrame<T> {
     }
 
     /// Cartesian components of T = Tᵢⱼ eᵢ⊗eⱼ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// // On the second axis.
-    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, core::f64::consts::FRAC_PI_2, 0.0))?;
-    /// let tensor = frame.tensor_to_cartesian(&[[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
-    /// assert!((tensor[1][1] - 3.0).abs() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn tensor_to_cartesian(&self, tensor: &Rows<T>) -> Rows<T> {
@@ -119,17 +86,6 @@ impl<T: Real> PhysicalFrame<T> {
     }
 
     /// Physical components Tᵢⱼ = eᵢ·T eⱼ of a tensor with given Cartesian ones.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// // On the second axis.
-    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, core::f64::consts::FRAC_PI_2, 0.0))?;
-    /// let components = frame.tensor_from_cartesian(&[[0.0; 3], [0.0, 3.0, 0.0], [0.0; 3]]);
-    /// assert!((components[0][0] - 3.0).abs() < 1e-15); // T_rr
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn tensor_from_cartesian(&self, tensor: &Rows<T>) -> Rows<T> {
@@ -137,18 +93,6 @@ impl<T: Real> PhysicalFrame<T> {
     }
 
     /// (grad v)ᵢⱼ: ∂vᵢ/∂sⱼ − κⱼᵢ vⱼ for i ≠ j, ∂vⱼ/∂sⱼ + Σₖ κⱼₖ vₖ on the diagonal.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// // On the second axis.
-    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, core::f64::consts::FRAC_PI_2, 0.0))?;
-    /// // A rigid turn at 3 rad/s, v = 3 r along the circles.
-    /// let gradient = frame.gradient(&[0.0, 6.0, 0.0], &[[0.0, 3.0, 0.0], [0.0; 3], [0.0; 3]]);
-    /// assert_eq!((gradient[0][1], gradient[1][0]), (-3.0, 3.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn gradient(&self, vector: &[T; 3], partials: &[[T; 3]; 3]) -> Rows<T> {
@@ -164,18 +108,6 @@ impl<T: Real> PhysicalFrame<T> {
     }
 
     /// The terms of (div T)ᵢ = Σⱼ ∂Tᵢⱼ/∂sⱼ + Σₖ κᵢₖ Tₖᵢ − Σⱼ κⱼᵢ Tⱼⱼ + Σⱼₖ κⱼₖ Tᵢₖ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// // On the second axis.
-    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, core::f64::consts::FRAC_PI_2, 0.0))?;
-    /// // T_rr = 3, the same everywhere.
-    /// let terms = frame.divergence_terms(&[[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]], &[[[0.0; 3]; 3]; 3]);
-    /// assert_eq!(terms[0].value, 1.5); // T_rr/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     #[must_use]
     pub fn divergence_terms(&self, tensor: &Rows<T>, partials: &[Rows<T>; 3]) -> [Residual<T>; 3] {

@@ -92,16 +92,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let basis = Cylindrical.local_basis(&Vector3::new(2.0, 0.0, 0.0))?;
-    /// assert_eq!(basis.christoffel[0][1][1], -2.0); // Γʳθθ = −r
-    /// assert!(Cylindrical.local_basis(&Vector3::new(0.0, 0.0, 0.0)).is_err()); // no basis on the axis
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn local_basis<T: Real>(&self, coordinates: &Vector3<T>) -> Result<LocalBasis<T>, FieldsError> {
         LocalBasis::of(self, coordinates)
     }
@@ -110,15 +100,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let frame = Cylindrical.physical_frame(&Vector3::new(2.0, 0.0, 0.0))?;
-    /// assert_eq!(frame.curvatures[1][0], 0.5); // 1/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn physical_frame<T: Real>(&self, coordinates: &Vector3<T>) -> Result<PhysicalFrame<T>, FieldsError> {
         self.local_basis(coordinates)?.physical_frame()
     }
@@ -127,14 +108,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// assert_eq!(Cylindrical.scale_factors(&Vector3::new(2.0, 0.0, 0.0))?, [1.0, 2.0, 1.0]);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn scale_factors<T: Real>(&self, coordinates: &Vector3<T>) -> Result<[T; 3], FieldsError> {
         Ok(self.physical_frame(coordinates)?.scale_factors)
     }
@@ -144,16 +117,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// let (tensor, still) = ([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]], [[[0.0; 3]; 3]; 3]);
-    /// let terms = Cylindrical.divergence_terms(&Vector3::new(2.0, 0.0, 0.0), &tensor, &still)?;
-    /// assert_eq!(terms[0].value, 1.5); // T_rr/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn divergence_terms<T: Real>(
         &self,
         coordinates: &Vector3<T>,
@@ -168,17 +131,6 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical};
-    /// // v_θ = 3 r: a rigid turn.
-    /// let partials = [[0.0, 3.0, 0.0], [0.0; 3], [0.0; 3]];
-    /// let gradient = Cylindrical.gradient_from_partials(&Vector3::new(2.0, 0.0, 0.0), &[0.0, 6.0, 0.0], &partials)?;
-    /// assert_eq!((gradient[0][1], gradient[1][0]), (-3.0, 3.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn gradient_from_partials<T: Real>(
         &self,
         coordinates: &Vector3<T>,
@@ -193,35 +145,17 @@ pub trait Coordinates {
     /// | symbol | argument | unit |
     /// |---|---|---|
     /// | T(q, t) | `tensor`, physical components | any |
-    /// | q, t | `coordinates`, `time` | m or rad, s |
+    /// | q, t | `coordinates`, `t` | m or rad, s |
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// T = r eᵣ⊗eᵣ in cylindrical coordinates: (div T)ᵣ = ∂Tᵣᵣ/∂r + Tᵣᵣ/r = 2.
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Radial;
-    /// impl Field for Radial {
-    ///     type Value = Matrix3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Matrix3<T> {
-    ///         Matrix3::from_diagonal(&Vector3::new(q[0], T::lit(0.0), T::lit(0.0)))
-    ///     }
-    /// }
-    /// let divergence = Cylindrical.divergence(&Radial, &Vector3::new(4.0, 0.5, 0.0), 0.0)?;
-    /// assert_eq!(divergence, Vector3::new(2.0, 0.0, 0.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn divergence<F: Field<Value: TensorValue>, T: Real>(
         &self,
         tensor: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Vector3<T>, FieldsError> {
-        let divergence = VectorResidual::from(divergence_of(self, tensor, coordinates, time)?).value;
+        let divergence = VectorResidual::from(divergence_of(self, tensor, coordinates, t)?).value;
         finite::<Vector3<f64>, T>("divergence", divergence)
     }
 
@@ -230,31 +164,13 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// The rigid turn v = ω r `e_θ` has the skew gradient with the angular velocity.
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Turn;
-    /// impl Field for Turn {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(0.0), T::lit(3.0) * q[0], T::lit(0.0))
-    ///     }
-    /// }
-    /// let gradient = Cylindrical.vector_gradient(&Turn, &Vector3::new(2.0, 1.0, 0.0), 0.0)?;
-    /// assert_eq!((gradient[(0, 1)], gradient[(1, 0)]), (-3.0, 3.0));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn vector_gradient<F: Field<Value = Vector3<f64>>, T: Real>(
         &self,
         vector: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Matrix3<T>, FieldsError> {
-        let gradient = gradient_of(self, vector, coordinates, time)?.1;
+        let gradient = gradient_of(self, vector, coordinates, t)?.1;
         check_finite("gradient", gradient.as_flattened())?;
         Ok(from_rows(gradient))
     }
@@ -263,29 +179,13 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Radial;
-    /// impl Field for Radial {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(q[0], T::zero(), T::zero())
-    ///     }
-    /// }
-    /// assert_eq!(Cylindrical.vector_divergence(&Radial, &Vector3::new(2.0, 0.0, 0.0), 0.0)?, 2.0); // ∂v_r/∂r + v_r/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn vector_divergence<F: Field<Value = Vector3<f64>>, T: Real>(
         &self,
         vector: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<T, FieldsError> {
-        let gradient = gradient_of(self, vector, coordinates, time)?.1;
+        let gradient = gradient_of(self, vector, coordinates, t)?.1;
         let divergence = piola_tensor::internal::rows::trace(gradient);
         check_finite("divergence", &[divergence])?;
         Ok(divergence)
@@ -295,31 +195,14 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Azimuth;
-    /// impl Field for Azimuth {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> T {
-    ///         q[1]
-    ///     }
-    /// }
-    /// let gradient = Cylindrical.scalar_gradient(&Azimuth, &Vector3::new(2.0, 0.0, 0.0), 0.0)?;
-    /// assert_eq!(gradient, Vector3::new(0.0, 0.5, 0.0)); // 1/r
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn scalar_gradient<F: Field<Value = f64>, T: Real>(
         &self,
         scalar: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Vector3<T>, FieldsError> {
-        check_point(coordinates, time)?;
-        let partials = value_and_partials(scalar, coordinates, time).1;
+        check_point(coordinates, t)?;
+        let partials = value_and_partials(scalar, coordinates, t).1;
         let h = self.scale_factors(coordinates)?;
         finite::<Vector3<f64>, T>("gradient", Vector3::from_fn(|i, _| partials[i] / h[i]))
     }
@@ -328,34 +211,17 @@ pub trait Coordinates {
     ///
     /// # Errors
     /// See [the trait](Coordinates#errors).
-    ///
-    /// # Example
-    /// Δ r² = 4 in cylindrical coordinates.
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Coordinates, Cylindrical, Field};
-    /// use piola_numerics::Real;
-    /// struct Square;
-    /// impl Field for Square {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, q: &Vector3<T>, _time: T) -> T {
-    ///         q[0] * q[0]
-    ///     }
-    /// }
-    /// assert_eq!(Cylindrical.laplacian(&Square, &Vector3::new(2.0, 0.0, 0.0), 0.0)?, 4.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     fn laplacian<F: Field<Value = f64>, T: Real>(
         &self,
         scalar: &F,
         coordinates: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<T, FieldsError> {
         use piola_numerics::Gradient;
-        check_point(coordinates, time)?;
+        check_point(coordinates, t)?;
         let basis = self.local_basis(coordinates)?;
         let twice = super::motion::kernels::twice_variables(coordinates);
-        let value = scalar.at(&twice, Gradient::constant(Gradient::constant(time)));
+        let value = scalar.at(&twice, Gradient::constant(Gradient::constant(t)));
         let laplacian = basis.laplacian(&value.value.partials, &value.partials.map(|row| row.partials));
         check_finite("Laplacian", &[laplacian])?;
         Ok(laplacian)
@@ -400,10 +266,10 @@ pub(crate) fn divergence_of<C: Coordinates + ?Sized, F: Field<Value: TensorValue
     system: &C,
     tensor: &F,
     coordinates: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<[Residual<T>; 3], FieldsError> {
-    check_point(coordinates, time)?;
-    let (value, partials) = value_and_partials(tensor, coordinates, time);
+    check_point(coordinates, t)?;
+    let (value, partials) = value_and_partials(tensor, coordinates, t);
     let rows = |value: &ValueOf<F, T>| F::Value::rows(value);
     let [a, b, c] = &partials;
     system.divergence_terms(coordinates, &rows(&value), &[rows(a), rows(b), rows(c)])
@@ -414,10 +280,10 @@ pub(crate) fn gradient_of<C: Coordinates + ?Sized, F: Field<Value = Vector3<f64>
     system: &C,
     vector: &F,
     coordinates: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<(Vector3<T>, Rows<T>), FieldsError> {
-    check_point(coordinates, time)?;
-    let (value, partials) = value_and_partials(vector, coordinates, time);
+    check_point(coordinates, t)?;
+    let (value, partials) = value_and_partials(vector, coordinates, t);
     let gradient = system.gradient_from_partials(coordinates, &value.into(), &partials.map(Into::into))?;
     Ok((value, gradient))
 }

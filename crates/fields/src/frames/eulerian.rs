@@ -10,7 +10,7 @@ use crate::field::{Field, ValueOf, finite, local_rate, value_and_partials};
 use crate::motion::{Motion, kernels};
 use crate::value::{FieldValue, map};
 
-/// A motion whose quantities are asked for at places x: each question inverts the motion first.
+/// A motion evaluated at places x: each method inverts the motion first.
 ///
 /// # Errors
 /// Every method: as [`Inversion::preimage_near`], and [`FieldsError::NotFinite`] for a result.
@@ -23,8 +23,8 @@ use crate::value::{FieldValue, map};
 /// use piola_numerics::Real;
 /// struct Spin;
 /// impl RigidHistory for Spin {
-///     fn attitude<T: Real>(&self, time: T) -> [T; 4] {
-///         let (s, c) = (T::lit(0.5) * time).sin_cos();
+///     fn attitude<T: Real>(&self, t: T) -> [T; 4] {
+///         let (s, c) = (T::lit(0.5) * t).sin_cos();
 ///         [c, T::lit(0.0), T::lit(0.0), s]
 ///     }
 /// }
@@ -43,16 +43,6 @@ pub struct Eulerian<M> {
 
 impl<M: Motion> Eulerian<M> {
     /// A motion seen from space, inverted as usual.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian};
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.velocity(&Vector3::new(6.0, 0.0, 0.0), 0.0)?, Vector3::zeros()); // at rest
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn new(motion: M) -> Self {
         Self { motion, inversion: Inversion::default() }
@@ -62,18 +52,8 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian};
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.preimage(&Vector3::new(6.0, 0.0, 0.0), 0.0)?.reference.x, 3.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn preimage<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Preimage<T>, FieldsError> {
-        self.inversion.preimage(&self.motion, place, time)
+    pub fn preimage<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<Preimage<T>, FieldsError> {
+        self.inversion.preimage(&self.motion, place, t)
     }
 
     /// u(x, t) = x − X(x, t), m, B(4.15): the displacement in the Eulerian frame, from the motion's own
@@ -81,135 +61,56 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian};
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.displacement(&Vector3::new(6.0, 0.0, 0.0), 0.0)?.x, 3.0); // from 3 to 6
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn displacement<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<Vector3<f64>, T>("displacement", self.motion.displacement(&reference, time))
+    pub fn displacement<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        let reference = self.preimage(place, t)?.reference;
+        finite::<Vector3<f64>, T>("displacement", self.motion.displacement(&reference, t))
     }
 
     /// v(x, t), m/s: the velocity of the particle at x.
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::{AffineHistory, Eulerian, Homogeneous};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t) X
-    /// impl AffineHistory for Growth {
-    ///     fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-    ///         Matrix3::from_diagonal(&Vector3::repeat(T::one() + time))
-    ///     }
-    /// }
-    /// let velocity = Eulerian::new(Homogeneous(Growth)).velocity(&Vector3::new(6.0, 0.0, 0.0), 1.0)?;
-    /// assert!((velocity.x - 3.0_f64).abs() < 1e-14); // x/(1 + t)
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn velocity<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<Vector3<f64>, T>("velocity", kernels::velocity(&self.motion, &reference, time))
+    pub fn velocity<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        let reference = self.preimage(place, t)?.reference;
+        finite::<Vector3<f64>, T>("velocity", kernels::velocity(&self.motion, &reference, t))
     }
 
     /// a(x, t), m/s²: the acceleration of the particle at x.
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::{AffineHistory, Eulerian, Homogeneous};
-    /// use piola_numerics::Real;
-    /// struct Growth; // x = (1 + t²) X
-    /// impl AffineHistory for Growth {
-    ///     fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-    ///         Matrix3::from_diagonal(&Vector3::repeat(T::one() + time * time))
-    ///     }
-    /// }
-    /// let acceleration = Eulerian::new(Homogeneous(Growth)).acceleration(&Vector3::new(6.0, 0.0, 0.0), 1.0)?;
-    /// assert!((acceleration.x - 6.0_f64).abs() < 1e-14); // 2 X with X = 3
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn acceleration<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<Vector3<f64>, T>("acceleration", kernels::acceleration(&self.motion, &reference, time))
+    pub fn acceleration<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        let reference = self.preimage(place, t)?.reference;
+        finite::<Vector3<f64>, T>("acceleration", kernels::acceleration(&self.motion, &reference, t))
     }
 
     /// Ψ(x, t) = Ψ(X(x, t), t): a field of particles in the Eulerian frame, B(4.14).
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian, Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Label;
-    /// impl Field for Label {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _time: T) -> T {
-    ///         particle.x
-    ///     }
-    /// }
-    /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&Vector3::new(4.0, 1.0, 1.0)))?;
-    /// let motion = Eulerian::new(Affine::new(stretch, Vector3::zeros())?);
-    /// assert_eq!(motion.field(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 0.0)?, 2.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn field<F: Field, T: Real>(
         &self,
         field: &Material<F>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<F::Value, T>("field", field.0.at(&reference, time))
+        let reference = self.preimage(place, t)?.reference;
+        finite::<F::Value, T>("field", field.0.at(&reference, t))
     }
 
     /// ∂Ψ/∂xⱼ of a field of particles, (Grad Ψ) F⁻¹, per metre.
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian, Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Label;
-    /// impl Field for Label {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
-    ///         particle.x * time
-    ///     }
-    /// }
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.gradient(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 2.0)?[0], 0.5); // t/4
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn gradient<F: Field, T: Real>(
         &self,
         field: &Material<F>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<[ValueOf<F, T>; 3], FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        let inverse = inverse_and_determinant(kernels::gradient(&self.motion, &reference, time)).0;
-        let partials = value_and_partials(&field.0, &reference, time).1;
+        let reference = self.preimage(place, t)?.reference;
+        let inverse = inverse_and_determinant(kernels::gradient(&self.motion, &reference, t)).0;
+        let partials = value_and_partials(&field.0, &reference, t).1;
         let partial = |j: usize| {
             finite::<F::Value, T>(
                 "grad",
@@ -228,31 +129,13 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian, Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Label;
-    /// impl Field for Label {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
-    ///         particle.x * time
-    ///     }
-    /// }
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.local_rate(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 1.0)?, 2.0); // X of a body at rest
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn local_rate<F: Field, T: Real>(
         &self,
         field: &Material<F>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        let value = self.field(field, &place.map(Dual::constant), Dual::variable(time))?;
+        let value = self.field(field, &place.map(Dual::constant), Dual::variable(t))?;
         finite::<F::Value, T>("local rate", map::<F::Value, _, _>(&value, |x| x.tangent))
     }
 
@@ -260,31 +143,13 @@ impl<M: Motion> Eulerian<M> {
     ///
     /// # Errors
     /// See [the type](Eulerian#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Eulerian, Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Label;
-    /// impl Field for Label {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
-    ///         particle.x * time
-    ///     }
-    /// }
-    /// let motion = Eulerian::new(Affine::new(DeformationGradient::uniaxial(4.0, 1.0)?, Vector3::zeros())?);
-    /// assert_eq!(motion.material_derivative(&Material(Label), &Vector3::new(8.0, 0.0, 0.0), 1.0)?, 2.0); // X
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn material_derivative<F: Field, T: Real>(
         &self,
         field: &Material<F>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        let reference = self.preimage(place, time)?.reference;
-        finite::<F::Value, T>("material rate", local_rate(&field.0, &reference, time))
+        let reference = self.preimage(place, t)?.reference;
+        finite::<F::Value, T>("material rate", local_rate(&field.0, &reference, t))
     }
 }

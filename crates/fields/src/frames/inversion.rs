@@ -68,7 +68,7 @@ impl Default for Inversion {
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: crate::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
+        deserialize = "T: crate::integrand::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct Preimage<T = f64> {
@@ -102,31 +102,21 @@ impl Inversion {
     ///
     /// # Errors
     /// As [`preimage_near`](Self::preimage_near).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Inversion};
-    /// let motion = Affine::new(DeformationGradient::uniaxial(2.0, 1.0)?, Vector3::zeros())?;
-    /// assert_eq!(Inversion::default().preimage(&motion, &Vector3::new(6.0, 0.0, 0.0), 0.0)?.reference.x, 3.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[inline]
     pub fn preimage<T: Real>(
         &self,
         motion: &impl Motion,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<Preimage<T>, FieldsError> {
-        self.preimage_near(motion, place, time, place)
+        self.preimage_near(motion, place, t, place)
     }
 
     /// X(x, t), looking from a guess.
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
-    /// | x, t | `place`, `time` | m, s |
+    /// | x, t | `place`, `t` | m, s |
     /// | first X | `guess` | m |
     ///
     /// # Errors
@@ -139,35 +129,17 @@ impl Inversion {
     /// `error_bound` is proved but for two estimates: how far F changes within it is taken as twice the most at the
     /// eight corners of its cube, which is more than enough for motions of the second degree; the rounding of
     /// x(X, t) is taken as 8 ulp of |x| + |F| |X|.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Inversion, Motion};
-    /// use piola_numerics::Real;
-    /// // X² has two particles at every place: which one is found, the guess says.
-    /// struct Fold;
-    /// impl Motion for Fold {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, _time: T) -> Vector3<T> {
-    ///         Vector3::new(reference.x * reference.x, reference.y, reference.z)
-    ///     }
-    /// }
-    /// let (place, guess) = (Vector3::new(4.0, 0.0, 0.0), Vector3::new(1.5, 0.0, 0.0));
-    /// let found = Inversion::default().preimage_near(&Fold, &place, 0.0, &guess)?;
-    /// assert!((found.reference.x - 2.0_f64).abs() < 1e-14);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn preimage_near<T: Real>(
         &self,
         motion: &impl Motion,
         place: &Vector3<T>,
-        time: T,
+        t: T,
         guess: &Vector3<T>,
     ) -> Result<Preimage<T>, FieldsError> {
         check_finite("place", place.as_slice())?;
-        check_finite("t", &[time])?;
+        check_finite("t", &[t])?;
         check_finite("guess", guess.as_slice())?;
-        let (target, instant) = (place.map(T::frozen), time.frozen());
+        let (target, instant) = (place.map(T::frozen), t.frozen());
         let start = guess.map(T::frozen);
         motion.check_domain(&start, instant)?;
         let mut best = trial(motion, &target, instant, start);
@@ -190,7 +162,7 @@ impl Inversion {
                 None => break,
             }
         }
-        certified(motion, place, time, &target, &best, iterations)
+        certified(motion, place, t, &target, &best, iterations)
     }
 
     /// The first of X + λ δ, λ = 1, ½, ¼, …, that is better in every lane; lanes that have converged may stay.
@@ -198,7 +170,7 @@ impl Inversion {
         &self,
         motion: &impl Motion,
         target: &Vector3<T>,
-        time: T,
+        t: T,
         from: &Trial<T>,
         step: &Vector3<T>,
     ) -> Option<Trial<T>> {
@@ -207,11 +179,11 @@ impl Inversion {
         for _ in 0..=self.halvings {
             let reference = from.reference + step * fraction;
             let half = T::lit(0.5);
-            if motion.check_domain(&reference, time).is_err() {
+            if motion.check_domain(&reference, t).is_err() {
                 fraction *= half;
                 continue;
             }
-            let candidate = trial(motion, target, time, reference);
+            let candidate = trial(motion, target, t, reference);
             // A quarter of the decrease that the linear model promises.
             let enough = candidate.size.at_most((T::one() - T::lit(0.25) * fraction) * from.size);
             let better = (enough & T::zero().less_than(determinant(candidate.gradient))) | converged;
@@ -226,8 +198,8 @@ impl Inversion {
 
 /// What the motion makes of a particle.
 #[inline]
-fn trial<T: Real>(motion: &impl Motion, target: &Vector3<T>, time: T, reference: Vector3<T>) -> Trial<T> {
-    let (place, gradient) = kernels::place_and_gradient(motion, &reference, time);
+fn trial<T: Real>(motion: &impl Motion, target: &Vector3<T>, t: T, reference: Vector3<T>) -> Trial<T> {
+    let (place, gradient) = kernels::place_and_gradient(motion, &reference, t);
     let residual = target - place;
     let scale = largest(&place) + norm(&gradient) * largest(&reference);
     let rounding = T::lit(8.0 * unit_in_last_place::<T>()) * scale;
@@ -256,7 +228,7 @@ impl<T: Real> Preimage<T> {
     ///
     /// | symbol | argument | unit |
     /// |---|---|---|
-    /// | t | `time`, that of the inversion | s |
+    /// | t | `t`, that of the inversion | s |
     /// | largest ρ | `reach` | m |
     ///
     /// Particles for which the motion is not defined are left out. Costs at most 26 · 53 evaluations of F.
@@ -282,11 +254,11 @@ impl<T: Real> Preimage<T> {
     /// assert_eq!(found.uniqueness_radius(&Cubic, 0.0, 8.0)?, 0.25);
     /// # Ok::<(), piola_fields::FieldsError>(())
     /// ```
-    pub fn uniqueness_radius(&self, motion: &impl Motion, time: T, reach: T) -> Result<T, FieldsError> {
+    pub fn uniqueness_radius(&self, motion: &impl Motion, t: T, reach: T) -> Result<T, FieldsError> {
         check_finite("X", self.reference.as_slice())?;
-        check_finite("t", &[time])?;
+        check_finite("t", &[t])?;
         check_finite("reach", &[reach])?;
-        let (centre, instant) = (self.reference.map(T::frozen), time.frozen());
+        let (centre, instant) = (self.reference.map(T::frozen), t.frozen());
         motion.check_domain(&centre, instant)?;
         let gradient = kernels::gradient(motion, &centre, instant);
         check_finite("F", gradient.as_flattened())?;
@@ -336,7 +308,7 @@ const fn lattice() -> [[f64; 3]; 26] {
 fn change_of_gradient<T: Real>(
     motion: &impl Motion,
     centre: &Vector3<T>,
-    time: T,
+    t: T,
     inverse: Rows<T>,
     radius: T,
     points: &[[f64; 3]],
@@ -344,10 +316,10 @@ fn change_of_gradient<T: Real>(
     let mut most = T::zero();
     for point in points {
         let there = centre + Vector3::from(point.map(T::lit)) * radius;
-        if motion.check_domain(&there, time).is_err() {
+        if motion.check_domain(&there, t).is_err() {
             continue;
         }
-        let moved = product(inverse, kernels::gradient(motion, &there, time));
+        let moved = product(inverse, kernels::gradient(motion, &there, t));
         let change = norm(&difference(moved, identity()));
         // What is not a number is no small change.
         most = T::select(change.at_most(most), most, change);
@@ -360,7 +332,7 @@ fn change_of_gradient<T: Real>(
 fn certified<T: Real>(
     motion: &impl Motion,
     place: &Vector3<T>,
-    time: T,
+    t: T,
     target: &Vector3<T>,
     best: &Trial<T>,
     iterations: usize,
@@ -369,7 +341,7 @@ fn certified<T: Real>(
     let eta = norm(&inverse) * (best.size + best.rounding);
     let two = T::lit(2.0);
     let corners = &LATTICE[..CORNERS];
-    let change = two * change_of_gradient(motion, &best.reference, time.frozen(), inverse, two * eta, corners);
+    let change = two * change_of_gradient(motion, &best.reference, t.frozen(), inverse, two * eta, corners);
     if !change.at_most(T::lit(0.5)).all() {
         return Err(failure(target, best, iterations, change));
     }
@@ -377,7 +349,7 @@ fn certified<T: Real>(
     // Each step with the value of F⁻¹ brings in one more order of derivatives.
     let mut reference = best.reference;
     for _ in 0..T::ORDER {
-        let residual = place - motion.place(&reference, time);
+        let residual = place - motion.place(&reference, t);
         reference += Vector3::from(apply(inverse, residual.into()));
     }
     Ok(Preimage { reference, residual: best.size, error_bound: eta / (T::one() - change), iterations })

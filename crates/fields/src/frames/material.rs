@@ -17,8 +17,8 @@ use crate::field::{Field, ValueOf, check_point, finite, local_rate, value_and_pa
 /// struct Temperature;
 /// impl Field for Temperature {
 ///     type Value = f64;
-///     fn at<T: Real>(&self, particle: &Vector3<T>, time: T) -> T {
-///         particle.x * particle.x + T::lit(3.0) * time
+///     fn at<T: Real>(&self, particle: &Vector3<T>, t: T) -> T {
+///         particle.x * particle.x + T::lit(3.0) * t
 ///     }
 /// }
 /// let temperature = Material(Temperature);
@@ -37,75 +37,27 @@ impl<F: Field> Material<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or value.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Material(Temperature).value(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 18.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn value<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
-        check_point(reference, time)?;
-        finite::<F::Value, T>("field", self.0.at(reference, time))
+    pub fn value<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<ValueOf<F, T>, FieldsError> {
+        check_point(reference, t)?;
+        finite::<F::Value, T>("field", self.0.at(reference, t))
     }
 
     /// Ψ̇ = ∂Ψ/∂t at fixed X: the material derivative.
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Material(Temperature).rate(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 9.0); // X²
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn rate<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
-        check_point(reference, time)?;
-        finite::<F::Value, T>("material rate", local_rate(&self.0, reference, time))
+    pub fn rate<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<ValueOf<F, T>, FieldsError> {
+        check_point(reference, t)?;
+        finite::<F::Value, T>("material rate", local_rate(&self.0, reference, t))
     }
 
     /// `∂Ψ/∂X_A` for A = 1, 2, 3, per metre of the reference configuration.
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Material};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Material(Temperature).gradient(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, [12.0, 0.0, 0.0]); // 2 X t
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn gradient<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<[ValueOf<F, T>; 3], FieldsError> {
-        check_point(reference, time)?;
-        let [a, b, c] = value_and_partials(&self.0, reference, time).1;
+    pub fn gradient<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<[ValueOf<F, T>; 3], FieldsError> {
+        check_point(reference, t)?;
+        let [a, b, c] = value_and_partials(&self.0, reference, t).1;
         let checked = |partial| finite::<F::Value, T>("Grad", partial);
         Ok([checked(a)?, checked(b)?, checked(c)?])
     }

@@ -40,75 +40,27 @@ impl<F: Field> Spatial<F> {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or value.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Spatial(Temperature).value(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 18.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn value<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
-        check_point(place, time)?;
-        finite::<F::Value, T>("field", self.0.at(place, time))
+    pub fn value<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<ValueOf<F, T>, FieldsError> {
+        check_point(place, t)?;
+        finite::<F::Value, T>("field", self.0.at(place, t))
     }
 
     /// ∂Ψ/∂t at fixed x.
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Spatial(Temperature).local_rate(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, 9.0); // x²
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn local_rate<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<ValueOf<F, T>, FieldsError> {
-        check_point(place, time)?;
-        finite::<F::Value, T>("local rate", local_rate(&self.0, place, time))
+    pub fn local_rate<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<ValueOf<F, T>, FieldsError> {
+        check_point(place, t)?;
+        finite::<F::Value, T>("local rate", local_rate(&self.0, place, t))
     }
 
     /// ∂Ψ/∂xⱼ for j = 1, 2, 3, per metre.
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// assert_eq!(Spatial(Temperature).gradient(&Vector3::new(3.0, 0.0, 0.0), 2.0)?, [12.0, 0.0, 0.0]); // 2 x t
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn gradient<T: Real>(&self, place: &Vector3<T>, time: T) -> Result<[ValueOf<F, T>; 3], FieldsError> {
-        check_point(place, time)?;
-        let [a, b, c] = value_and_partials(&self.0, place, time).1;
+    pub fn gradient<T: Real>(&self, place: &Vector3<T>, t: T) -> Result<[ValueOf<F, T>; 3], FieldsError> {
+        check_point(place, t)?;
+        let [a, b, c] = value_and_partials(&self.0, place, t).1;
         let checked = |partial| finite::<F::Value, T>("grad", partial);
         Ok([checked(a)?, checked(b)?, checked(c)?])
     }
@@ -120,100 +72,39 @@ impl<F: Field> Spatial<F> {
     /// | symbol | argument | unit |
     /// |---|---|---|
     /// | v | `velocity` | m/s |
-    /// | x, t | `place`, `time` | m, s |
+    /// | x, t | `place`, `t` | m, s |
     /// | Ψ̇ | returned | `[Ψ]/s` |
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`] for a place, time, velocity or result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Spatial, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// let wind = Uniform(Vector3::new(5.0, 0.0, 0.0));
-    /// // x² + 2 x t · 5
-    /// assert_eq!(Spatial(Temperature).material_derivative(&wind, &Vector3::new(3.0, 0.0, 0.0), 2.0)?, 69.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn material_derivative<T: Real>(
         &self,
         velocity: &impl Field<Value = Vector3<f64>>,
         place: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        check_point(place, time)?;
-        let velocity = finite::<Vector3<f64>, T>("velocity", velocity.at(place, time))?;
-        finite::<F::Value, T>("material rate", along(&self.0, place, &velocity, time).1)
+        check_point(place, t)?;
+        let velocity = finite::<Vector3<f64>, T>("velocity", velocity.at(place, t))?;
+        finite::<F::Value, T>("material rate", along(&self.0, place, &velocity, t).1)
     }
 
     /// Ψ̇ at the particle X: the rate of Ψ(x(X, t), t) at fixed X.
     ///
     /// # Errors
     /// What the motion refuses; [`FieldsError::NotFinite`] for a result.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Field, Motion, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Temperature;
-    /// impl Field for Temperature {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> T {
-    ///         place.x * place.x * time
-    ///     }
-    /// }
-    /// struct Wind;
-    /// impl Motion for Wind {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + Vector3::new(T::lit(5.0) * time, T::zero(), T::zero())
-    ///     }
-    /// }
-    /// // The particle that starts at −7 is at 3 after two seconds.
-    /// let rate = Spatial(Temperature).rate_following(&Wind, &Vector3::new(-7.0, 0.0, 0.0), 2.0)?;
-    /// assert_eq!(rate, 69.0); // x² + 2 x t · 5
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn rate_following<T: Real>(
         &self,
         motion: &impl Motion,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<ValueOf<F, T>, FieldsError> {
-        check_event(motion, reference, time)?;
-        let time = Dual::variable(time);
-        let value = self.0.at(&motion.place(&reference.map(Dual::constant), time), time);
+        check_event(motion, reference, t)?;
+        let t = Dual::variable(t);
+        let value = self.0.at(&motion.place(&reference.map(Dual::constant), t), t);
         finite::<F::Value, T>("material rate", map::<F::Value, _, _>(&value, |x| x.tangent))
     }
 
     /// The same field as a function of the particle: Ψ(X, t) = Ψ(x(X, t), t), B(4.14).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::{Affine, Field, Spatial};
-    /// use piola_numerics::Real;
-    /// struct Height;
-    /// impl Field for Height {
-    ///     type Value = f64;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, _time: T) -> T {
-    ///         place.z
-    ///     }
-    /// }
-    /// let stretch = DeformationGradient::new(Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 3.0)))?;
-    /// let height = Spatial(Height).following(Affine::new(stretch, Vector3::zeros())?);
-    /// assert_eq!(height.value(&Vector3::new(0.0, 0.0, 2.0), 0.0)?, 6.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn following<M: Motion>(self, motion: M) -> Material<Following<F, M>> {
         Material(Following { field: self.0, motion })
     }
@@ -232,7 +123,7 @@ pub struct Following<F, M> {
 impl<F: Field, M: Motion> Field for Following<F, M> {
     type Value = F::Value;
     #[inline]
-    fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> ValueOf<F, T> {
-        self.field.at(&self.motion.place(place, time), time)
+    fn at<T: Real>(&self, place: &Vector3<T>, t: T) -> ValueOf<F, T> {
+        self.field.at(&self.motion.place(place, t), t)
     }
 }

@@ -3,9 +3,9 @@
 use nalgebra::Vector3;
 use piola_numerics::Real;
 
-use super::integrand::{Integrand, largest_component, largest_difference};
 use super::{Quadrature, Region, SurfacePoint};
 use crate::FieldsError;
+use crate::integrand::{Integrand, largest_component, largest_difference};
 
 /// An integral with an estimate of its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,14 +45,6 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// [`FieldsError::DegreeTooHigh`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::integral::EstimatedQuadrature;
-    /// let rules = EstimatedQuadrature::of_degree(6)?;
-    /// assert_eq!((rules.coarse().degree(), rules.fine().degree()), (6, 8));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn of_degree(degree: usize) -> Result<Self, FieldsError> {
         Self::of_degrees(degree, degree.saturating_add(2))
     }
@@ -61,14 +53,6 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// [`FieldsError::DegreeTooHigh`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::integral::EstimatedQuadrature;
-    /// let rules = EstimatedQuadrature::of_degrees(3, 9)?;
-    /// assert_eq!((rules.coarse().degree(), rules.fine().degree()), (3, 9));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn of_degrees(coarse: usize, fine: usize) -> Result<Self, FieldsError> {
         Ok(Self { coarse: Quadrature::of_degree(coarse)?, fine: Quadrature::of_degree(fine)? })
     }
@@ -89,17 +73,6 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// Those of the integration.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, EstimatedQuadrature};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let rules = EstimatedQuadrature::of_degree(2)?;
-    /// let integral = rules.estimate(|rule| rule.volume_integral(&unit, |x: &Vector3<f64>| x.x * x.x))?;
-    /// assert!((integral.value - 1.0 / 3.0).abs() < 1e-15 && integral.error < 1e-15); // both are exact
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn estimate<V: Integrand>(
         &self,
         mut integral: impl FnMut(&Quadrature) -> Result<V, FieldsError>,
@@ -113,16 +86,6 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// As [`Quadrature::volume_integral`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, EstimatedQuadrature};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let integral = EstimatedQuadrature::of_degree(2)?.volume_integral(&unit, |x: &Vector3<f64>| x.x.powi(4))?;
-    /// assert!((integral.value - 0.2).abs() < 1e-15 && 1e-3 < integral.error); // degree 4 is exact, degree 2 is not
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn volume_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,
@@ -135,17 +98,6 @@ impl EstimatedQuadrature {
     ///
     /// # Errors
     /// As [`Quadrature::surface_integral`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, EstimatedQuadrature, SurfacePoint};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let rules = EstimatedQuadrature::of_degree(1)?;
-    /// let flux = rules.surface_integral(&unit, |point: &SurfacePoint<f64>| point.position.dot(&point.normal))?;
-    /// assert!((flux.value - 3.0).abs() < 1e-14 && flux.error < 1e-14); // div x = 3
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn surface_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,
@@ -181,13 +133,6 @@ impl AdaptiveQuadrature {
     ///
     /// # Errors
     /// [`FieldsError::DegreeTooHigh`].
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::integral::AdaptiveQuadrature;
-    /// assert!(AdaptiveQuadrature::up_to_degree(12).is_ok());
-    /// assert!(AdaptiveQuadrature::up_to_degree(1000).is_err());
-    /// ```
     pub fn up_to_degree(degree: usize) -> Result<Self, FieldsError> {
         let mut degrees = vec![1, 3];
         while let Some(&last) = degrees.last()
@@ -206,17 +151,6 @@ impl AdaptiveQuadrature {
     ///
     /// # Errors
     /// Those of the integration; [`FieldsError::IntegralNotConverged`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{AdaptiveQuadrature, Cuboid};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let rules = AdaptiveQuadrature::up_to_degree(27)?;
-    /// let integral = rules.estimate(1e-12, |rule| rule.volume_integral(&unit, |x: &Vector3<f64>| x.x.exp()))?;
-    /// assert!((integral.value - (core::f64::consts::E - 1.0)).abs() < 1e-12);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn estimate<V: Integrand>(
         &self,
         tolerance: f64,
@@ -240,17 +174,6 @@ impl AdaptiveQuadrature {
     ///
     /// # Errors
     /// As [`estimate`](Self::estimate) and [`Quadrature::volume_integral`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{AdaptiveQuadrature, Cuboid};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let rules = AdaptiveQuadrature::up_to_degree(27)?;
-    /// let integral = rules.volume_integral(&unit, 1e-12, |x: &Vector3<f64>| x.x.exp())?;
-    /// assert!((integral.value - (core::f64::consts::E - 1.0)).abs() < 1e-12);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn volume_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,
@@ -264,17 +187,6 @@ impl AdaptiveQuadrature {
     ///
     /// # Errors
     /// As [`estimate`](Self::estimate) and [`Quadrature::surface_integral`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{AdaptiveQuadrature, Cuboid, SurfacePoint};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let rules = AdaptiveQuadrature::up_to_degree(27)?;
-    /// let flux = rules.surface_integral(&unit, 1e-12, |point: &SurfacePoint<f64>| point.position.dot(&point.normal))?;
-    /// assert!((flux.value - 3.0).abs() < 1e-12); // div x = 3
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn surface_integral<T: Real, V: Integrand<Scalar = T>, R: Region<T>>(
         &self,
         region: &R,

@@ -6,10 +6,10 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{cross, dot};
 use piola_tensor::internal::rows::apply;
 
-use super::integrand::RunningIntegral;
 use super::region::lift;
 use super::{Quadrature, Region};
 use crate::FieldsError;
+use crate::integrand::RunningIntegral;
 use crate::motion::kernels::velocity;
 use crate::{Body, Field, Material, Motion, Spatial};
 
@@ -28,7 +28,7 @@ use crate::{Body, Field, Material, Motion, Spatial};
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: crate::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
+        deserialize = "T: crate::integrand::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct Resultants<T = f64> {
@@ -61,7 +61,7 @@ impl<T: Real> Resultants<T> {
     /// With a time that is a dual variable, the results carry their rates, exact to rounding.
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     ///
     /// # Example
     /// ```
@@ -71,8 +71,8 @@ impl<T: Real> Resultants<T> {
     /// use piola_numerics::Real;
     /// struct Spin; // one radian a second about the third axis
     /// impl RigidHistory for Spin {
-    ///     fn attitude<T: Real>(&self, time: T) -> [T; 4] {
-    ///         let (s, c) = (T::lit(0.5) * time).sin_cos();
+    ///     fn attitude<T: Real>(&self, t: T) -> [T; 4] {
+    ///         let (s, c) = (T::lit(0.5) * t).sin_cos();
     ///         [c, T::lit(0.0), T::lit(0.0), s]
     ///     }
     /// }
@@ -88,14 +88,14 @@ impl<T: Real> Resultants<T> {
         region: &impl Region<f64>,
         body: &Body<impl Motion, impl Field<Value = f64>>,
         pole: &Vector3<f64>,
-        time: T,
+        t: T,
     ) -> Result<Self, FieldsError> {
         let mut integral = RunningIntegral::new();
         region.volume_points(quadrature, |point| {
             let particle = lift(&point.position);
-            let place = body.motion.position(&particle, time)?;
-            let density = body.reference_density.at(&particle, time);
-            let of_particle = densities(density, place - lift(pole), velocity(&body.motion, &particle, time));
+            let place = body.motion.position(&particle, t)?;
+            let density = body.reference_density.at(&particle, t);
+            let of_particle = densities(density, place - lift(pole), velocity(&body.motion, &particle, t));
             integral.add(&of_particle, T::lit(point.weight), &particle)
         })?;
         Ok(Self::from_array(&integral.value()?))
@@ -106,59 +106,25 @@ impl<T: Real> Resultants<T> {
     /// The region of a body in motion is a [`MovedRegion`](super::MovedRegion).
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, Quadrature, Resultants};
-    /// use piola_fields::{Field, Spatial, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Shear;
-    /// impl Field for Shear {
-    ///     type Value = Vector3<f64>;
-    ///     fn at<T: Real>(&self, place: &Vector3<T>, _: T) -> Vector3<T> {
-    ///         Vector3::new(T::lit(2.0) * place.y, T::lit(0.0), T::lit(0.0))
-    ///     }
-    /// }
-    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::zeros());
-    /// let (rules, density) = (Quadrature::of_degree(2)?, Spatial(Uniform(3.0)));
-    /// let of = Resultants::in_space(&rules, &unit, &density, &Spatial(Shear), &pole, 0.0)?;
-    /// assert!((of.mass - 3.0).abs() < 1e-15 && (of.momentum.x - 3.0).abs() < 1e-15);
-    /// assert!((of.kinetic_energy - 2.0).abs() < 1e-15); // ½ · 3 · 4/3
-    /// assert!((of.centre_of_mass(&pole).z - 0.5).abs() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
+    /// [`FieldsError::IntegrandNotFinite`]; what the region refuses.
     pub fn in_space(
         quadrature: &Quadrature,
         region: &impl Region<T>,
         density: &Spatial<impl Field<Value = f64>>,
         velocity: &Spatial<impl Field<Value = Vector3<f64>>>,
         pole: &Vector3<f64>,
-        time: T,
+        t: T,
     ) -> Result<Self, FieldsError> {
         let mut integral = RunningIntegral::new();
         region.volume_points(quadrature, |point| {
             let place = point.position;
-            let of_place = densities(density.0.at(&place, time), place - lift(pole), velocity.0.at(&place, time));
+            let of_place = densities(density.0.at(&place, t), place - lift(pole), velocity.0.at(&place, t));
             integral.add(&of_place, point.weight, &place)
         })?;
         Ok(Self::from_array(&integral.value()?))
     }
 
     /// c, m, for the pole that the resultants were taken about.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, Quadrature, Resultants};
-    /// use piola_fields::{Spatial, Uniform};
-    /// let (unit, pole) = (Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?, Vector3::new(4.0, 0.0, 0.0));
-    /// let (density, rest) = (Spatial(Uniform(3.0)), Spatial(Uniform(Vector3::zeros())));
-    /// let of = Resultants::in_space(&Quadrature::of_degree(2)?, &unit, &density, &rest, &pole, 0.0)?;
-    /// assert!((of.centre_of_mass(&pole) - Vector3::repeat(0.5)).norm() < 1e-14); // whatever the pole
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     #[must_use]
     pub fn centre_of_mass(&self, pole: &Vector3<f64>) -> Vector3<T> {
         let mass = self.mass;
@@ -212,7 +178,7 @@ impl ForceResultants {
     /// Of body forces b(X, t) per unit mass.
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     ///
     /// # Example
     /// ```
@@ -234,13 +200,13 @@ impl ForceResultants {
         body: &Body<impl Motion, impl Field<Value = f64>>,
         body_force: &Material<impl Field<Value = Vector3<f64>>>,
         pole: &Vector3<f64>,
-        time: f64,
+        t: f64,
     ) -> Result<Self, FieldsError> {
         let mut integral = RunningIntegral::new();
         region.volume_points(quadrature, |point| {
             let particle = &point.position;
-            let force = body_force.0.at(particle, time) * body.reference_density.at(particle, time);
-            integral.add(&acting(&force, &body.motion, particle, pole, time)?, point.weight, particle)
+            let force = body_force.0.at(particle, t) * body.reference_density.at(particle, t);
+            integral.add(&acting(&force, &body.motion, particle, pole, t)?, point.weight, particle)
         })?;
         Ok(Self::from_array(&integral.value()?))
     }
@@ -248,39 +214,16 @@ impl ForceResultants {
     /// Of the tractions P N of a stress P(X, t) on the boundary.
     ///
     /// # Errors
-    /// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
-    ///
-    /// # Example
-    /// Under water of unit weight, the pressure lifts a unit cube by the weight of the water displaced.
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::integral::{Cuboid, ForceResultants, Quadrature};
-    /// use piola_fields::{Affine, Field, Material};
-    /// use piola_continuum::{DeformationGradient, FirstPiola};
-    /// use piola_numerics::Real;
-    /// struct Water;
-    /// impl Field for Water {
-    ///     type Value = FirstPiola;
-    ///     fn at<T: Real>(&self, particle: &Vector3<T>, _: T) -> FirstPiola<T> {
-    ///         FirstPiola(Matrix3::from_diagonal(&Vector3::repeat(particle.z - T::lit(1.0))))
-    ///     }
-    /// }
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let rest = Affine::new(DeformationGradient::new(Matrix3::identity())?, Vector3::zeros())?;
-    /// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
-    /// let of = ForceResultants::of_tractions(&rules, &unit, &rest, &Material(Water), &pole, 0.0)?;
-    /// assert!((of.force - Vector3::z()).norm() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
+    /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
     pub fn of_tractions(
         quadrature: &Quadrature,
         region: &impl Region<f64>,
         motion: &impl Motion,
         stress: &Material<impl Field<Value = FirstPiola>>,
         pole: &Vector3<f64>,
-        time: f64,
+        t: f64,
     ) -> Result<Self, FieldsError> {
-        Self::of_stress_on_boundary(quadrature, region, motion, |particle| stress.0.at(particle, time), pole, time)
+        Self::of_stress_on_boundary(quadrature, region, motion, |particle| stress.0.at(particle, t), pole, t)
     }
 
     /// As [`of_tractions`](Self::of_tractions), of any function of the particle.
@@ -290,13 +233,13 @@ impl ForceResultants {
         motion: &impl Motion,
         stress: impl Fn(&Vector3<f64>) -> FirstPiola,
         pole: &Vector3<f64>,
-        time: f64,
+        t: f64,
     ) -> Result<Self, FieldsError> {
         let mut integral = RunningIntegral::new();
         region.surface_points(quadrature, |point| {
             let particle = &point.position;
             let traction = Vector3::from(apply(stress(particle).rows(), point.normal.into()));
-            integral.add(&acting(&traction, motion, particle, pole, time)?, point.weight, particle)
+            integral.add(&acting(&traction, motion, particle, pole, t)?, point.weight, particle)
         })?;
         Ok(Self::from_array(&integral.value()?))
     }
@@ -312,9 +255,9 @@ fn acting(
     motion: &impl Motion,
     particle: &Vector3<f64>,
     pole: &Vector3<f64>,
-    time: f64,
+    t: f64,
 ) -> Result<[f64; 7], FieldsError> {
-    let moment = (motion.position(particle, time)? - pole).cross(force);
-    let power = velocity(motion, particle, time).dot(force);
+    let moment = (motion.position(particle, t)? - pole).cross(force);
+    let power = velocity(motion, particle, t).dot(force);
     Ok([force.x, force.y, force.z, moment.x, moment.y, moment.z, power])
 }

@@ -12,10 +12,10 @@ use nalgebra::Vector3;
 use piola_continuum::Deformation;
 use piola_numerics::{Dual, Gradient};
 
-use super::integrand::FieldIntegral;
 use super::region::{moved_element, placed};
 use super::{MovedRegion, Quadrature, Region};
 use crate::FieldsError;
+use crate::integrand::FieldIntegral;
 use crate::motion::kernels::{variables, velocity};
 use crate::value::map;
 use crate::{Body, Field, FieldValue, Motion, Spatial, TensorValue, ValueOf};
@@ -31,8 +31,8 @@ use crate::{Body, Field, FieldValue, Motion, Spatial, TensorValue, ValueOf};
 /// use piola_numerics::Real;
 /// struct Swelling;
 /// impl Motion for Swelling {
-///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-///         reference * (T::lit(1.0) + time)
+///     fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+///         reference * (T::lit(1.0) + t)
 ///     }
 /// }
 /// let ball = Ball::new(Vector3::zeros(), 1.0)?;
@@ -82,7 +82,7 @@ pub struct Sides<V> {
 /// The motion need not be that of matter: with that of any moving boundary it is Reynolds' theorem.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
 ///
 /// # Example
 /// See [`Transport`].
@@ -94,9 +94,9 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     region: &R,
     motion: &impl Motion,
     field: &Spatial<F>,
-    time: f64,
+    t: f64,
 ) -> Result<Transport<ValueOf<F, f64>>, FieldsError> {
-    let moving = MovedRegion { region, motion, time: Dual::variable(time) };
+    let moving = MovedRegion { region, motion, time: Dual::variable(t) };
     let mut total = FieldIntegral::<F::Value, Dual<f64>>::new();
     moving.volume_points(quadrature, |point| {
         total.add(&field.0.at(&point.position, moving.time), point.weight, &point.position)
@@ -106,11 +106,11 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     let (mut local, mut convected) = (FieldIntegral::<F::Value, f64>::new(), FieldIntegral::<F::Value, f64>::new());
     Region::<f64>::volume_points(region, quadrature, |point| {
         let particle = point.position;
-        let (place, deformation) = placed(motion, &particle, time)?;
+        let (place, deformation) = placed(motion, &particle, t)?;
         let volume = point.weight * deformation.jacobian();
-        let g = field.0.at(&place_variables(&place), Gradient::variable(time, 3));
-        let v = velocity(motion, &particle, time);
-        let divergence = motion.velocity_gradient(&particle, time)?.trace();
+        let g = field.0.at(&place_variables(&place), Gradient::variable(t, 3));
+        let v = velocity(motion, &particle, t);
+        let divergence = motion.velocity_gradient(&particle, t)?.trace();
         let carried = |g: Gradient<f64, 4>| {
             let [x, y, z, _] = g.partials;
             x * v.x + y * v.y + z * v.z + g.value * divergence
@@ -121,10 +121,10 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     let mut flux = FieldIntegral::<F::Value, f64>::new();
     Region::<f64>::surface_points(region, quadrature, |point| {
         let particle = point.position;
-        let (place, deformation) = placed(motion, &particle, time)?;
+        let (place, deformation) = placed(motion, &particle, t)?;
         let (normal, ratio) = moved_element(deformation.gradient_rows(), &point.normal);
-        let across = velocity(motion, &particle, time).dot(&normal);
-        let through = map::<F::Value, _, _>(&field.0.at(&place, time), |g: f64| g * across);
+        let across = velocity(motion, &particle, t).dot(&normal);
+        let through = map::<F::Value, _, _>(&field.0.at(&place, t), |g: f64| g * across);
         flux.add(&through, point.weight * ratio, &place)
     })?;
     let (local, convected, flux) = (local.value()?, convected.value()?, flux.value()?);
@@ -141,7 +141,7 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
 /// integrates `ρ_κ` (∂Φ/∂t + grad Φ·v) over the reference configuration.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the motion refuses.
+/// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
 ///
 /// # Example
 /// The height Φ of a body that rises at 2 m/s: the mass times that.
@@ -152,8 +152,8 @@ pub fn transport<F: Field, R: Region<f64> + Region<Dual<f64>>>(
 /// use piola_numerics::Real;
 /// struct Rise;
 /// impl Motion for Rise {
-///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-///         reference + Vector3::new(T::lit(0.0), T::lit(0.0), T::lit(2.0) * time)
+///     fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+///         reference + Vector3::new(T::lit(0.0), T::lit(0.0), T::lit(2.0) * t)
 ///     }
 /// }
 /// struct Height;
@@ -177,9 +177,9 @@ pub fn transport_of_mass<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     region: &R,
     body: &Body<impl Motion, impl Field<Value = f64>>,
     field: &Spatial<F>,
-    time: f64,
+    t: f64,
 ) -> Result<Sides<ValueOf<F, f64>>, FieldsError> {
-    let (motion, now) = (&body.motion, Dual::variable(time));
+    let (motion, now) = (&body.motion, Dual::variable(t));
     let mut left = FieldIntegral::<F::Value, Dual<f64>>::new();
     Region::<Dual<f64>>::volume_points(region, quadrature, |point| {
         let particle = point.position;
@@ -192,14 +192,14 @@ pub fn transport_of_mass<F: Field, R: Region<f64> + Region<Dual<f64>>>(
     let mut right = FieldIntegral::<F::Value, f64>::new();
     Region::<f64>::volume_points(region, quadrature, |point| {
         let particle = point.position;
-        let place = motion.position(&particle, time)?;
-        let phi = field.0.at(&place_variables(&place), Gradient::variable(time, 3));
-        let v = velocity(motion, &particle, time);
+        let place = motion.position(&particle, t)?;
+        let phi = field.0.at(&place_variables(&place), Gradient::variable(t, 3));
+        let v = velocity(motion, &particle, t);
         let material = |phi: Gradient<f64, 4>| {
             let [x, y, z, rate] = phi.partials;
             rate + (x * v.x + y * v.y + z * v.z)
         };
-        let density = body.reference_density.at(&particle, time);
+        let density = body.reference_density.at(&particle, t);
         right.add(&map::<F::Value, _, _>(&phi, material), point.weight * density, &particle)
     })?;
     let left = map::<F::Value, _, _>(&left.value()?, |total: Dual<f64>| total.tangent);
@@ -214,38 +214,18 @@ fn place_variables(place: &Vector3<f64>) -> Vector3<Gradient<f64, 4>> {
 /// Both sides of the divergence theorem for a vector field, ∫ div g dv and ∮ g·n da.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
-///
-/// # Example
-/// ```
-/// use nalgebra::Vector3;
-/// use piola_fields::integral::{Ball, divergence_theorem, Quadrature};
-/// use piola_fields::{Field, Spatial};
-/// use piola_numerics::Real;
-/// struct Place;
-/// impl Field for Place {
-///     type Value = Vector3<f64>;
-///     fn at<T: Real>(&self, place: &Vector3<T>, _: T) -> Vector3<T> {
-///         *place
-///     }
-/// }
-/// let ball = Ball::new(Vector3::zeros(), 1.0)?;
-/// let sides = divergence_theorem(&Quadrature::of_degree(2)?, &ball, &Spatial(Place), 0.0)?;
-/// let volumes = 4.0 * core::f64::consts::PI; // div x = 3
-/// assert!((sides.left - volumes).abs() < 1e-14 && (sides.right - volumes).abs() < 1e-14);
-/// # Ok::<(), piola_fields::FieldsError>(())
-/// ```
+/// [`FieldsError::IntegrandNotFinite`]; what the region refuses.
 pub fn divergence_theorem(
     quadrature: &Quadrature,
     region: &impl Region<f64>,
     field: &Spatial<impl Field<Value = Vector3<f64>>>,
-    time: f64,
+    t: f64,
 ) -> Result<Sides<f64>, FieldsError> {
     let left = quadrature.volume_integral(region, |place: &Vector3<f64>| {
-        let g = field.0.at(&variables(place), Gradient::constant(time));
+        let g = field.0.at(&variables(place), Gradient::constant(t));
         g.x.partials[0] + g.y.partials[1] + g.z.partials[2]
     })?;
-    let right = quadrature.surface_integral(region, |point| field.0.at(&point.position, time).dot(&point.normal))?;
+    let right = quadrature.surface_integral(region, |point| field.0.at(&point.position, t).dot(&point.normal))?;
     Ok(Sides { left, right })
 }
 
@@ -254,32 +234,20 @@ pub fn divergence_theorem(
 /// With [`FirstPiola`](piola_continuum::FirstPiola) on a region of the reference configuration it is ∫ Div P dV = ∮ P N dA.
 ///
 /// # Errors
-/// [`FieldsError::NonFiniteIntegrand`]; what the region refuses.
-///
-/// # Example
-/// ```
-/// use nalgebra::{Matrix3, Vector3};
-/// use piola_fields::integral::{Cuboid, Quadrature, tensor_divergence_theorem};
-/// use piola_fields::{Spatial, Uniform};
-/// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-/// let uniform = Spatial(Uniform(Matrix3::<f64>::identity()));
-/// let sides = tensor_divergence_theorem(&Quadrature::of_degree(0)?, &unit, &uniform, 0.0)?;
-/// assert_eq!((sides.left, sides.right), (Vector3::zeros(), Vector3::zeros()));
-/// # Ok::<(), piola_fields::FieldsError>(())
-/// ```
+/// [`FieldsError::IntegrandNotFinite`]; what the region refuses.
 pub fn tensor_divergence_theorem<V: TensorValue>(
     quadrature: &Quadrature,
     region: &impl Region<f64>,
     field: &Spatial<impl Field<Value = V>>,
-    time: f64,
+    t: f64,
 ) -> Result<Sides<Vector3<f64>>, FieldsError> {
     let left = quadrature.volume_integral(region, |place: &Vector3<f64>| {
-        let rows = V::rows(&field.0.at(&variables(place), Gradient::constant(time)));
+        let rows = V::rows(&field.0.at(&variables(place), Gradient::constant(t)));
         Vector3::from_fn(|i, _| rows[i][0].partials[0] + rows[i][1].partials[1] + rows[i][2].partials[2])
     })?;
     let right = quadrature.surface_integral(region, |point| {
         Vector3::from(piola_tensor::internal::rows::apply(
-            V::rows(&field.0.at(&point.position, time)),
+            V::rows(&field.0.at(&point.position, t)),
             point.normal.into(),
         ))
     })?;

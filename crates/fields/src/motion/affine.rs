@@ -11,18 +11,18 @@ use crate::error::check_finite;
 /// F(t) and c(t) of a [`Homogeneous`] motion.
 pub trait AffineHistory {
     /// F(t), with 0 < det F.
-    fn gradient<T: Real>(&self, time: T) -> Matrix3<T>;
+    fn gradient<T: Real>(&self, t: T) -> Matrix3<T>;
 
     /// ∇u(t) = F(t) − 1: a history that knows it states it here, and F from it, and keeps small strains exact.
     #[inline]
-    fn displacement_gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-        self.gradient(time) - identity()
+    fn displacement_gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+        self.gradient(t) - identity()
     }
 
     /// c(t), m; zero unless stated.
     #[inline]
-    fn translation<T: Real>(&self, time: T) -> Vector3<T> {
-        let _ = time;
+    fn translation<T: Real>(&self, t: T) -> Vector3<T> {
+        let _ = t;
         Vector3::repeat(T::zero())
     }
 }
@@ -37,8 +37,8 @@ pub trait AffineHistory {
 /// use piola_numerics::Real;
 /// struct Pull;
 /// impl AffineHistory for Pull {
-///     fn gradient<T: Real>(&self, time: T) -> Matrix3<T> {
-///         let stretch = T::lit(1.0) + time;
+///     fn gradient<T: Real>(&self, t: T) -> Matrix3<T> {
+///         let stretch = T::lit(1.0) + t;
 ///         Matrix3::from_diagonal(&Vector3::new(stretch, T::lit(1.0), T::lit(1.0) / stretch))
 ///     }
 /// }
@@ -54,12 +54,12 @@ pub struct Homogeneous<H>(pub H);
 
 impl<H: AffineHistory> Motion for Homogeneous<H> {
     #[inline]
-    fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        self.0.gradient(time) * reference + self.0.translation(time)
+    fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        self.0.gradient(t) * reference + self.0.translation(t)
     }
     #[inline]
-    fn displacement<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        self.0.displacement_gradient(time) * reference + self.0.translation(time)
+    fn displacement<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        self.0.displacement_gradient(t) * reference + self.0.translation(t)
     }
 }
 
@@ -105,17 +105,6 @@ impl Affine {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::Affine;
-    /// let stretch = DeformationGradient::uniaxial(2.0, 1.0)?;
-    /// assert!(Affine::new(stretch, Vector3::new(0.0, 0.0, 5.0)).is_ok());
-    /// assert!(Affine::new(stretch, Vector3::new(0.0, 0.0, f64::NAN)).is_err());
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn new(gradient: DeformationGradient, translation: Vector3<f64>) -> Result<Self, FieldsError> {
         check_finite("translation", translation.as_slice())?;
         Ok(Self { gradient, translation })
@@ -138,12 +127,12 @@ pub trait RigidHistory {
     /// The rotation R(t) as a quaternion (w, x, y, z) of any length but zero: every such history is a rotation.
     ///
     /// An angle φ about the unit vector e is (cos ½φ, e sin ½φ).
-    fn attitude<T: Real>(&self, time: T) -> [T; 4];
+    fn attitude<T: Real>(&self, t: T) -> [T; 4];
 
     /// c(t), m; zero unless stated.
     #[inline]
-    fn translation<T: Real>(&self, time: T) -> Vector3<T> {
-        let _ = time;
+    fn translation<T: Real>(&self, t: T) -> Vector3<T> {
+        let _ = t;
         Vector3::repeat(T::zero())
     }
 }
@@ -161,8 +150,8 @@ pub trait RigidHistory {
 /// use piola_numerics::Real;
 /// struct Spin;
 /// impl RigidHistory for Spin {
-///     fn attitude<T: Real>(&self, time: T) -> [T; 4] {
-///         let (s, c) = (T::lit(1.5) * time).sin_cos();
+///     fn attitude<T: Real>(&self, t: T) -> [T; 4] {
+///         let (s, c) = (T::lit(1.5) * t).sin_cos();
 ///         [c, T::lit(0.0), T::lit(0.0), s]
 ///     }
 /// }
@@ -176,12 +165,12 @@ pub struct Rigid<H>(pub H);
 
 impl<H: RigidHistory> Motion for Rigid<H> {
     #[inline]
-    fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        (turn_less_identity(self.0.attitude(time)) + identity()) * reference + self.0.translation(time)
+    fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        (turn_less_identity(self.0.attitude(t)) + identity()) * reference + self.0.translation(t)
     }
     #[inline]
-    fn displacement<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        turn_less_identity(self.0.attitude(time)) * reference + self.0.translation(time)
+    fn displacement<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        turn_less_identity(self.0.attitude(t)) * reference + self.0.translation(t)
     }
 }
 

@@ -20,14 +20,14 @@ pub(crate) fn twice_variables<T: Real>(x: &Vector3<T>) -> Vector3<Gradient<Gradi
 
 /// v = ∂x/∂t.
 #[inline]
-pub(crate) fn velocity<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, time: T) -> Vector3<T> {
-    motion.place(&reference.map(Dual::constant), Dual::variable(time)).map(|x| x.tangent)
+pub(crate) fn velocity<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, t: T) -> Vector3<T> {
+    motion.place(&reference.map(Dual::constant), Dual::variable(t)).map(|x| x.tangent)
 }
 
 /// a = ∂²x/∂t².
 #[inline]
-pub(crate) fn acceleration<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, time: T) -> Vector3<T> {
-    motion.place(&reference.map(Jet::<T, 0>::constant), Jet::time(time)).map(|x| x.second_rate)
+pub(crate) fn acceleration<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, t: T) -> Vector3<T> {
+    motion.place(&reference.map(Jet::<T, 0>::constant), Jet::time(t)).map(|x| x.second_rate)
 }
 
 /// (v, a).
@@ -35,9 +35,9 @@ pub(crate) fn acceleration<T: Real>(motion: &(impl Motion + ?Sized), reference: 
 pub(crate) fn velocity_and_acceleration<T: Real>(
     motion: &(impl Motion + ?Sized),
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> (Vector3<T>, Vector3<T>) {
-    let x = motion.place(&reference.map(Jet::<T, 0>::constant), Jet::time(time));
+    let x = motion.place(&reference.map(Jet::<T, 0>::constant), Jet::time(t));
     (x.map(|x| x.rate), x.map(|x| x.second_rate))
 }
 
@@ -46,26 +46,22 @@ pub(crate) fn velocity_and_acceleration<T: Real>(
 pub(crate) fn place_and_gradient<T: Real>(
     motion: &(impl Motion + ?Sized),
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> (Vector3<T>, Rows<T>) {
-    let x = motion.place(&variables(reference), Gradient::constant(time));
+    let x = motion.place(&variables(reference), Gradient::constant(t));
     (x.map(|x| x.value), [x[0].partials, x[1].partials, x[2].partials])
 }
 
 /// F = ∂x/∂X.
 #[inline]
-pub(crate) fn gradient<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, time: T) -> Rows<T> {
-    place_and_gradient(motion, reference, time).1
+pub(crate) fn gradient<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, t: T) -> Rows<T> {
+    place_and_gradient(motion, reference, t).1
 }
 
 /// ∇u = ∂u/∂X.
 #[inline]
-pub(crate) fn displacement_gradient<T: Real>(
-    motion: &(impl Motion + ?Sized),
-    reference: &Vector3<T>,
-    time: T,
-) -> Rows<T> {
-    let u = motion.displacement(&variables(reference), Gradient::constant(time));
+pub(crate) fn displacement_gradient<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, t: T) -> Rows<T> {
+    let u = motion.displacement(&variables(reference), Gradient::constant(t));
     [u[0].partials, u[1].partials, u[2].partials]
 }
 
@@ -74,34 +70,26 @@ pub(crate) fn displacement_gradient<T: Real>(
 pub(crate) fn gradient_and_rate<T: Real>(
     motion: &(impl Motion + ?Sized),
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> (Rows<T>, Rows<T>) {
     let reference = variables(&reference.map(Dual::constant));
-    let x = motion.place(&reference, Gradient::constant(Dual::variable(time)));
+    let x = motion.place(&reference, Gradient::constant(Dual::variable(t)));
     let parts = |part: fn(&Dual<T>) -> T| [0, 1, 2].map(|i: usize| [0, 1, 2].map(|a: usize| part(&x[i].partials[a])));
     (parts(|f| f.value), parts(|f| f.tangent))
 }
 
 /// F̈.
 #[inline]
-pub(crate) fn gradient_second_rate<T: Real>(
-    motion: &(impl Motion + ?Sized),
-    reference: &Vector3<T>,
-    time: T,
-) -> Rows<T> {
+pub(crate) fn gradient_second_rate<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, t: T) -> Rows<T> {
     let reference = variables(&reference.map(Jet::<T, 0>::constant));
-    let x = motion.place(&reference, Gradient::constant(Jet::time(time)));
+    let x = motion.place(&reference, Gradient::constant(Jet::time(t)));
     [0, 1, 2].map(|i: usize| x[i].partials.map(|f| f.second_rate))
 }
 
 /// `∂²xᵢ/∂X_A∂X_B`, as `[i][A][B]`.
 #[inline]
-pub(crate) fn second_gradient<T: Real>(
-    motion: &(impl Motion + ?Sized),
-    reference: &Vector3<T>,
-    time: T,
-) -> [Rows<T>; 3] {
-    let time = Gradient::constant(Gradient::constant(time));
-    let x = motion.place(&twice_variables(reference), time);
+pub(crate) fn second_gradient<T: Real>(motion: &(impl Motion + ?Sized), reference: &Vector3<T>, t: T) -> [Rows<T>; 3] {
+    let t = Gradient::constant(Gradient::constant(t));
+    let x = motion.place(&twice_variables(reference), t);
     [0, 1, 2].map(|i: usize| x[i].partials.map(|f| f.partials))
 }

@@ -40,7 +40,7 @@ use piola_tensor::internal::rows::product;
 /// | symbol | here | unit |
 /// |---|---|---|
 /// | X, x, u | `reference`, [`place`](Self::place), [`displacement`](Self::displacement) | m |
-/// | t | `time` | s |
+/// | t | `t` | s |
 /// | v, a | [`velocity`](Self::velocity), [`acceleration`](Self::acceleration) | m/s, m/s² |
 /// | F, ∇u | [`deformation_gradient`](Self::deformation_gradient), [`displacement_gradient`](Self::displacement_gradient) | – |
 /// | Ḟ, F̈ | [`deformation_rate`](Self::deformation_rate), [`deformation_second_rate`](Self::deformation_second_rate) | 1/s, 1/s² |
@@ -66,9 +66,9 @@ use piola_tensor::internal::rows::product;
 ///     rate: f64,
 /// }
 /// impl Motion for Shear {
-///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
+///     fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
 ///         let [x, y, z] = (*reference).into();
-///         Vector3::new(x + T::lit(self.rate) * time * y, y, z)
+///         Vector3::new(x + T::lit(self.rate) * t * y, y, z)
 ///     }
 /// }
 ///
@@ -84,7 +84,7 @@ use piola_tensor::internal::rows::product;
 /// W(14.1–14.7), W(14.18), W(14.21).
 pub trait Motion {
     /// x(X, t), m.
-    fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T>;
+    fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T>;
 
     /// u(X, t) = x(X, t) − X, m, B(4.13).
     ///
@@ -97,11 +97,11 @@ pub trait Motion {
     /// use piola_numerics::Real;
     /// struct Breath;
     /// impl Motion for Breath {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference + self.displacement(reference, time)
+    ///     fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+    ///         reference + self.displacement(reference, t)
     ///     }
-    ///     fn displacement<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-    ///         reference * (T::lit(1e-20) * time)
+    ///     fn displacement<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+    ///         reference * (T::lit(1e-20) * t)
     ///     }
     /// }
     /// let strain = Breath.displacement_gradient(&Vector3::new(1.0, 1.0, 1.0), 1.0)?;
@@ -109,8 +109,8 @@ pub trait Motion {
     /// # Ok::<(), piola_fields::FieldsError>(())
     /// ```
     #[inline]
-    fn displacement<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        self.place(reference, time) - reference
+    fn displacement<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        self.place(reference, t) - reference
     }
 
     /// Refuses particles and times for which the motion is not defined; everything is defined unless this says
@@ -119,8 +119,8 @@ pub trait Motion {
     /// # Errors
     /// Whatever the motion does not accept.
     #[inline]
-    fn check_domain<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<(), FieldsError> {
-        let _ = (reference, time);
+    fn check_domain<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<(), FieldsError> {
+        let _ = (reference, t);
         Ok(())
     }
 
@@ -129,9 +129,9 @@ pub trait Motion {
     /// # Errors
     /// See [the trait](Motion#errors).
     #[inline]
-    fn position<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        check_event(self, reference, time)?;
-        finite("place", self.place(reference, time))
+    fn position<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        check_event(self, reference, t)?;
+        finite("place", self.place(reference, t))
     }
 
     /// v = ∂x/∂t at fixed X, m/s, W(14.18).
@@ -139,9 +139,9 @@ pub trait Motion {
     /// # Errors
     /// See [the trait](Motion#errors).
     #[inline]
-    fn velocity<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        check_event(self, reference, time)?;
-        finite("velocity", kernels::velocity(self, reference, time))
+    fn velocity<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        check_event(self, reference, t)?;
+        finite("velocity", kernels::velocity(self, reference, t))
     }
 
     /// a = ∂²x/∂t² at fixed X, m/s², W(14.18).
@@ -149,9 +149,9 @@ pub trait Motion {
     /// # Errors
     /// See [the trait](Motion#errors).
     #[inline]
-    fn acceleration<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<Vector3<T>, FieldsError> {
-        check_event(self, reference, time)?;
-        finite("acceleration", kernels::acceleration(self, reference, time))
+    fn acceleration<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<Vector3<T>, FieldsError> {
+        check_event(self, reference, t)?;
+        finite("acceleration", kernels::acceleration(self, reference, t))
     }
 
     /// F = ∂x/∂X, W(14.7), with 0 < det F, W(14.8).
@@ -162,10 +162,10 @@ pub trait Motion {
     fn deformation_gradient<T: Real>(
         &self,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<DeformationGradient<T>, FieldsError> {
-        check_event(self, reference, time)?;
-        Ok(DeformationGradient::new(from_rows(kernels::gradient(self, reference, time)))?)
+        check_event(self, reference, t)?;
+        Ok(DeformationGradient::new(from_rows(kernels::gradient(self, reference, t)))?)
     }
 
     /// ∇u = ∂u/∂X = F − 1, B(4.28), from the displacement: without cancellation where the motion states it.
@@ -176,10 +176,10 @@ pub trait Motion {
     fn displacement_gradient<T: Real>(
         &self,
         reference: &Vector3<T>,
-        time: T,
+        t: T,
     ) -> Result<DisplacementGradient<T>, FieldsError> {
-        check_event(self, reference, time)?;
-        Ok(DisplacementGradient::new(from_rows(kernels::displacement_gradient(self, reference, time)))?)
+        check_event(self, reference, t)?;
+        Ok(DisplacementGradient::new(from_rows(kernels::displacement_gradient(self, reference, t)))?)
     }
 
     /// Ḟ = ∂F/∂t at fixed X, 1/s.
@@ -187,9 +187,9 @@ pub trait Motion {
     /// # Errors
     /// See [the trait](Motion#errors).
     #[inline]
-    fn deformation_rate<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<Matrix3<T>, FieldsError> {
-        check_event(self, reference, time)?;
-        let rate = kernels::gradient_and_rate(self, reference, time).1;
+    fn deformation_rate<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<Matrix3<T>, FieldsError> {
+        check_event(self, reference, t)?;
+        let rate = kernels::gradient_and_rate(self, reference, t).1;
         check_finite("rate of F", rate.as_flattened())?;
         Ok(from_rows(rate))
     }
@@ -199,9 +199,9 @@ pub trait Motion {
     /// # Errors
     /// See [the trait](Motion#errors).
     #[inline]
-    fn deformation_second_rate<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<Matrix3<T>, FieldsError> {
-        check_event(self, reference, time)?;
-        let second_rate = kernels::gradient_second_rate(self, reference, time);
+    fn deformation_second_rate<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<Matrix3<T>, FieldsError> {
+        check_event(self, reference, t)?;
+        let second_rate = kernels::gradient_second_rate(self, reference, t);
         check_finite("second rate of F", second_rate.as_flattened())?;
         Ok(from_rows(second_rate))
     }
@@ -211,9 +211,9 @@ pub trait Motion {
     /// # Errors
     /// See [the trait](Motion#errors).
     #[inline]
-    fn velocity_gradient<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<Matrix3<T>, FieldsError> {
-        check_event(self, reference, time)?;
-        let (gradient, rate) = kernels::gradient_and_rate(self, reference, time);
+    fn velocity_gradient<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<Matrix3<T>, FieldsError> {
+        check_event(self, reference, t)?;
+        let (gradient, rate) = kernels::gradient_and_rate(self, reference, t);
         check_finite("F", gradient.as_flattened())?;
         check_jacobian(determinant(gradient))?;
         let velocity_gradient = product(rate, inverse_and_determinant(gradient).0);
@@ -226,9 +226,9 @@ pub trait Motion {
     /// # Errors
     /// See [the trait](Motion#errors).
     #[inline]
-    fn second_gradient<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<[Matrix3<T>; 3], FieldsError> {
-        check_event(self, reference, time)?;
-        let second = kernels::second_gradient(self, reference, time);
+    fn second_gradient<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<[Matrix3<T>; 3], FieldsError> {
+        check_event(self, reference, t)?;
+        let second = kernels::second_gradient(self, reference, t);
         check_finite("gradient of F", second.as_flattened().as_flattened())?;
         Ok(second.map(from_rows))
     }
@@ -236,16 +236,16 @@ pub trait Motion {
 
 impl<M: Motion> Motion for &M {
     #[inline]
-    fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        (**self).place(reference, time)
+    fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        (**self).place(reference, t)
     }
     #[inline]
-    fn displacement<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        (**self).displacement(reference, time)
+    fn displacement<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        (**self).displacement(reference, t)
     }
     #[inline]
-    fn check_domain<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<(), FieldsError> {
-        (**self).check_domain(reference, time)
+    fn check_domain<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<(), FieldsError> {
+        (**self).check_domain(reference, t)
     }
 }
 
@@ -254,11 +254,11 @@ impl<M: Motion> Motion for &M {
 pub(crate) fn check_event<T: Real>(
     motion: &(impl Motion + ?Sized),
     reference: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<(), FieldsError> {
     check_finite("X", reference.as_slice())?;
-    check_finite("t", &[time])?;
-    motion.check_domain(reference, time)
+    check_finite("t", &[t])?;
+    motion.check_domain(reference, t)
 }
 
 /// The vector, if it is finite.

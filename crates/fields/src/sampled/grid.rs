@@ -74,19 +74,6 @@ impl SampledMotion {
     /// n₁ n₂ n₃ × times; [`FieldsError::NotFinite`]; [`FieldsError::NotIncreasing`] with the name of the
     /// axis and the index of the node; [`FieldsError::FoldedCell`] with cell and time where 0 < det F is
     /// violated at a corner of a cell, by the edges that meet there.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::{Interpolation, MotionSamples, SampledMotion};
-    /// let samples = |elongation: f64| MotionSamples {
-    ///     nodes: [vec![0.0, 1.0], vec![0.0], vec![0.0]],
-    ///     times: vec![0.0],
-    ///     displacements: vec![[0.0; 3], [elongation, 0.0, 0.0]],
-    ///     interpolation: Interpolation::Linear,
-    /// };
-    /// assert!(SampledMotion::new(samples(0.5)).is_ok());
-    /// assert!(SampledMotion::new(samples(-1.5)).is_err()); // the cell is turned inside out
-    /// ```
     pub fn new(samples: MotionSamples) -> Result<Self, FieldsError> {
         let spline = |name, nodes: &[f64]| Axis::new(name, nodes, samples.interpolation);
         let [x, y, z] = &samples.nodes;
@@ -116,16 +103,6 @@ impl SampledMotion {
     ///
     /// # Errors
     /// As [`new`](Self::new).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::{Interpolation, Motion, SampledMotion};
-    /// let (nodes, places) = ([vec![0.0, 1.0], vec![0.0], vec![0.0]], [[0.0; 3], [3.0, 0.0, 0.0]]);
-    /// let stretch = SampledMotion::from_places(nodes, vec![0.0], &places, Interpolation::Linear)?;
-    /// assert_eq!(stretch.position(&Vector3::new(0.5, 0.0, 0.0), 0.0)?.x, 1.5);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn from_places(
         nodes: [Vec<f64>; 3],
         times: Vec<f64>,
@@ -153,9 +130,9 @@ impl SampledMotion {
     }
 
     /// The value of the splines from the given first ones on.
-    fn combine<T: Real>(&self, first: [usize; 4], reference: &Vector3<T>, time: T) -> Vector3<T> {
+    fn combine<T: Real>(&self, first: [usize; 4], reference: &Vector3<T>, t: T) -> Vector3<T> {
         let [x, y, z] = &self.axes;
-        let (bt, bx) = (self.times.basis(first[0], time), x.basis(first[1], reference[0]));
+        let (bt, bx) = (self.times.basis(first[0], t), x.basis(first[1], reference[0]));
         let (by, bz) = (y.basis(first[2], reference[1]), z.basis(first[3], reference[2]));
         let mut sum = [T::zero(); 3];
         for (l, &bt) in bt.iter().enumerate().take(self.times.width()) {
@@ -181,30 +158,30 @@ impl SampledMotion {
     }
 
     /// The first splines of the cell where a lane is.
-    fn first<T: Real>(&self, reference: &Vector3<T>, time: T, lane: usize) -> [usize; 4] {
+    fn first<T: Real>(&self, reference: &Vector3<T>, t: T, lane: usize) -> [usize; 4] {
         let along = |axis: usize| self.axes[axis].first(reference[axis].primal(lane));
-        [self.times.first(time.primal(lane)), along(0), along(1), along(2)]
+        [self.times.first(t.primal(lane)), along(0), along(1), along(2)]
     }
 }
 
 impl Motion for SampledMotion {
     #[inline]
-    fn place<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        reference + self.displacement(reference, time)
+    fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        reference + self.displacement(reference, t)
     }
 
-    fn displacement<T: Real>(&self, reference: &Vector3<T>, time: T) -> Vector3<T> {
-        let mut cell = self.first(reference, time, 0);
-        let mut value = self.combine(cell, reference, time);
+    fn displacement<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+        let mut cell = self.first(reference, t, 0);
+        let mut value = self.combine(cell, reference, t);
         // Lanes in other cells take the value from theirs.
         for lane in 1..T::LANES {
-            let other = self.first(reference, time, lane);
+            let other = self.first(reference, t, lane);
             if other == cell {
                 continue;
             }
             cell = other;
-            let there = self.combine(cell, reference, time);
-            let mask = self.times.within(cell[0], time)
+            let there = self.combine(cell, reference, t);
+            let mask = self.times.within(cell[0], t)
                 & self.axes[0].within(cell[1], reference[0])
                 & self.axes[1].within(cell[2], reference[1])
                 & self.axes[2].within(cell[3], reference[2]);
@@ -213,8 +190,8 @@ impl Motion for SampledMotion {
         value
     }
 
-    fn check_domain<T: Real>(&self, reference: &Vector3<T>, time: T) -> Result<(), FieldsError> {
-        self.times.check(time)?;
+    fn check_domain<T: Real>(&self, reference: &Vector3<T>, t: T) -> Result<(), FieldsError> {
+        self.times.check(t)?;
         self.axes.iter().zip(reference.iter()).try_for_each(|(axis, &x)| axis.check(x))
     }
 }

@@ -75,16 +75,6 @@ impl SampledTrajectories {
     /// # Errors
     /// [`FieldsError::WrongLength`] when there is no time or a particle has another number of places;
     /// [`FieldsError::NotFinite`]; [`FieldsError::NotIncreasing`] with the index of the time.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::{Interpolation, SampledTrajectories};
-    /// let places = [[0.0; 3], [2.0, 0.0, 0.0]];
-    /// let walk = SampledTrajectories::new(&[0.0, 1.0], &[&places], Interpolation::Linear)?;
-    /// assert_eq!(walk.particles(), 1);
-    /// assert!(SampledTrajectories::new(&[1.0, 1.0], &[&places], Interpolation::Linear).is_err()); // time stands still
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn new(times: &[f64], particles: &[&[[f64; 3]]], interpolation: Interpolation) -> Result<Self, FieldsError> {
         let times = Axis::new("times", times, interpolation)?;
         let mut coefficients = Vec::with_capacity(particles.len() * times.len());
@@ -113,77 +103,50 @@ impl SampledTrajectories {
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::{Interpolation, SampledTrajectories};
-    /// let places = [[0.0; 3], [2.0, 0.0, 0.0]];
-    /// let walk = SampledTrajectories::new(&[0.0, 1.0], &[&places], Interpolation::Linear)?;
-    /// assert_eq!(walk.position(0, 0.5)?.x, 1.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn position<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, FieldsError> {
-        check_finite("t", &[time])?;
-        self.times.check(time)?;
+    pub fn position<T: Real>(&self, particle: usize, t: T) -> Result<Vector3<T>, FieldsError> {
+        check_finite("t", &[t])?;
+        self.times.check(t)?;
         let count = self.particles();
         if count <= particle {
             return Err(FieldsError::NoSuchParticle { particle, count });
         }
-        Ok(self.at(particle, time))
+        Ok(self.at(particle, t))
     }
 
     /// v(t) of a particle, m/s.
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::{Interpolation, SampledTrajectories};
-    /// let places = [[0.0; 3], [2.0, 0.0, 0.0]];
-    /// let walk = SampledTrajectories::new(&[0.0, 1.0], &[&places], Interpolation::Linear)?;
-    /// assert_eq!(walk.velocity(0, 0.5)?.x, 2.0);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn velocity<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, FieldsError> {
-        Ok(self.position(particle, Dual::variable(time))?.map(|x| x.tangent))
+    pub fn velocity<T: Real>(&self, particle: usize, t: T) -> Result<Vector3<T>, FieldsError> {
+        Ok(self.position(particle, Dual::variable(t))?.map(|x| x.tangent))
     }
 
     /// a(t) of a particle, m/s².
     ///
     /// # Errors
     /// See [the type](SampledTrajectories#errors).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::{Interpolation, SampledTrajectories};
-    /// let (times, places) = ([0.0, 1.0, 2.0, 3.0], [0.0, 1.0, 4.0, 9.0].map(|x| [x, 0.0, 0.0])); // t²
-    /// let start = SampledTrajectories::new(&times, &[&places], Interpolation::Cubic)?;
-    /// assert!((start.acceleration(0, 1.5_f64)?.x - 2.0).abs() < 1e-13);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    pub fn acceleration<T: Real>(&self, particle: usize, time: T) -> Result<Vector3<T>, FieldsError> {
-        Ok(self.position(particle, Jet::<T, 0>::time(time))?.map(|x| x.second_rate))
+    pub fn acceleration<T: Real>(&self, particle: usize, t: T) -> Result<Vector3<T>, FieldsError> {
+        Ok(self.position(particle, Jet::<T, 0>::time(t))?.map(|x| x.second_rate))
     }
 
-    fn at<T: Real>(&self, particle: usize, time: T) -> Vector3<T> {
+    fn at<T: Real>(&self, particle: usize, t: T) -> Vector3<T> {
         let start = particle * self.times.len();
         let combine = |first: usize| {
-            let basis = self.times.basis(first, time);
+            let basis = self.times.basis(first, t);
             let coefficients = &self.coefficients[start + first..start + first + self.times.width()];
             Vector3::from_fn(|i, _| {
                 basis.iter().zip(coefficients).fold(T::zero(), |sum, (&b, c)| sum + b * T::lit(c[i]))
             })
         };
-        let mut first = self.times.first(time.primal(0));
+        let mut first = self.times.first(t.primal(0));
         let mut value = combine(first);
         for lane in 1..T::LANES {
-            let other = self.times.first(time.primal(lane));
+            let other = self.times.first(t.primal(lane));
             if other == first {
                 continue;
             }
             first = other;
-            let (there, mask) = (combine(first), self.times.within(first, time));
+            let (there, mask) = (combine(first), self.times.within(first, t));
             debug_assert!(mask.any(), "the lane lies in its own span");
             value = Vector3::from_fn(|i, _| T::select(mask, there[i], value[i]));
         }

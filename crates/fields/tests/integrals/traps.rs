@@ -88,7 +88,7 @@ fn integrand_that_is_no_number_is_located() {
     let error = rules.volume_integral(&unit, |x: &Vector3<f64>| [1.0, 1.0 / x.y]).expect_err("a pole at zero");
     let expected = [-(0.6_f64.sqrt()), 0.0, -(0.6_f64.sqrt())];
     match error {
-        FieldsError::NonFiniteIntegrand { position, component: 1, value } if value.is_infinite() => {
+        FieldsError::IntegrandNotFinite { position, component: 1, value } if value.is_infinite() => {
             piola_testkit::assert_close("place", &position, &expected, piola_testkit::Tol::ulps(4.0));
         }
         other => panic!("{other}"),

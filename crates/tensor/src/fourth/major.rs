@@ -51,12 +51,6 @@ macro_rules! upper {
 
 impl<T: Real> MajorSymmetric<T> {
     /// 0.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::MajorSymmetric;
-    /// assert_eq!(MajorSymmetric::<f64>::zero().components, [0.0; 21]);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn zero() -> Self {
@@ -64,14 +58,6 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// The identity of symmetric tensors, ½ (δᵢₖ δⱼₗ + δᵢₗ δⱼₖ): A ↦ A.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// let a = Symmetric::new(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
-    /// assert_eq!(MajorSymmetric::identity().contract(&a), a);
-    /// assert_eq!(MajorSymmetric::<f64>::identity().entry(0, 1, 0, 1), 0.5);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn identity() -> Self {
@@ -79,13 +65,6 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ⅓ 1 ⊗ 1: A ↦ ⅓ tr A 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// let a = Symmetric::diagonal([1.0, 2.0, 6.0]);
-    /// assert!((MajorSymmetric::spherical().contract(&a) - Symmetric::identity() * 3.0).norm() < 1e-14);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn spherical() -> Self {
@@ -93,13 +72,6 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// The identity less the spherical projector: A ↦ dev A.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// let dev = MajorSymmetric::deviatoric().contract(&Symmetric::diagonal([3.0, 0.0, 0.0]));
-    /// assert_eq!(dev, Symmetric::diagonal([2.0, -1.0, -1.0]));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn deviatoric() -> Self {
@@ -107,13 +79,6 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// λ 1 ⊗ 1 + 2 μ identity: A ↦ λ tr A 1 + 2 μ A, Hooke's law of an isotropic body.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{MajorSymmetric, PairSymmetric};
-    /// let stiffness = MajorSymmetric::isotropic(1.0, 3.0);
-    /// assert_eq!((stiffness.entry(0, 0, 0, 0), stiffness.entry(0, 0, 1, 1)), (7.0, 1.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn isotropic(lambda: T, mu: T) -> Self {
@@ -123,13 +88,6 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// A ⊗ A = `A_ij A_kl`.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// let dyad = MajorSymmetric::dyad(&Symmetric::diagonal([1.0, 2.0, 0.0]));
-    /// assert_eq!((dyad.entry(0, 0, 1, 1), dyad.entry(1, 1, 1, 1)), (2.0, 4.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn dyad(a: &Symmetric<T>) -> Self {
@@ -138,14 +96,6 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ½ (A ⊗ B + B ⊗ A).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// let (a, b) = (Symmetric::diagonal([1.0, 0.0, 0.0]), Symmetric::diagonal([0.0, 4.0, 0.0]));
-    /// let dyad = MajorSymmetric::symmetric_dyad(&a, &b);
-    /// assert_eq!((dyad.entry(0, 0, 1, 1), dyad.entry(1, 1, 0, 0)), (2.0, 2.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn symmetric_dyad(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
@@ -154,15 +104,6 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ½ (A ⊗̄ A + A ⊗̲ A) = ½ (`A_ik A_jl + A_il A_jk`): B ↦ A B A; its negative is ∂A⁻¹/∂A at A⁻¹.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// use piola_tensor::{MajorSymmetric, PairSymmetric};
-    /// let a = Symmetric::diagonal([2.0, 3.0, 1.0]);
-    /// let b = Symmetric::new(1.0, 1.0, 1.0, 1.0, 0.0, 0.0);
-    /// assert_eq!(MajorSymmetric::square_dyad(&a).contract(&b), Symmetric::new(4.0, 9.0, 1.0, 6.0, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn square_dyad(a: &Symmetric<T>) -> Self {
@@ -175,16 +116,6 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ¼ (A ⊗̄ B + A ⊗̲ B + B ⊗̄ A + B ⊗̲ A): C ↦ ½ (A C B + B C A).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// use piola_tensor::{MajorSymmetric, PairSymmetric};
-    /// let a = Symmetric::diagonal([2.0, 4.0, 6.0]);
-    /// let mean = MajorSymmetric::symmetric_square_dyad(&a, &Symmetric::identity()); // C ↦ ½ (A C + C A)
-    /// let c = Symmetric::new(1.0, 1.0, 1.0, 1.0, 0.0, 0.0);
-    /// assert_eq!(mean.contract(&c), Symmetric::new(2.0, 4.0, 6.0, 3.0, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn symmetric_square_dyad(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
@@ -199,15 +130,6 @@ impl<T: Real> MajorSymmetric<T> {
     ///
     /// # Errors
     /// As [`MinorSymmetric::inverse`](super::MinorSymmetric::inverse).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{MajorSymmetric, PairSymmetric};
-    /// let compliance = MajorSymmetric::isotropic(0.0, 2.0).inverse()?; // ε = σ/4
-    /// assert_eq!(compliance.entry(0, 0, 0, 0), 0.25);
-    /// assert!(MajorSymmetric::<f64>::spherical().inverse().is_err());
-    /// # Ok::<(), piola_tensor::TensorError>(())
-    /// ```
     pub fn inverse(&self) -> Result<Self, TensorError> {
         Ok(self.minor().inverse()?.major_part())
     }

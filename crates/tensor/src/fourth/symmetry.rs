@@ -55,13 +55,6 @@ pub trait PairSymmetric<T: Real>:
     ///
     /// # Accuracy
     /// 24 ulp of |F|⁴ |C|.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{MajorSymmetric, PairSymmetric};
-    /// let c = MajorSymmetric::isotropic(1.0, 3.0).congruence([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-    /// assert_eq!((c.entry(0, 0, 0, 0), c.entry(0, 0, 1, 1)), (112.0, 4.0)); // 2⁴ (λ + 2μ), 2² λ
-    /// ```
     #[inline(always)]
     #[must_use]
     fn congruence(&self, f: Rows<T>) -> Self {
@@ -73,30 +66,12 @@ pub trait PairSymmetric<T: Real>:
     /// # Errors
     /// [`TensorError::NotFinite`], [`TensorError::NotARotation`]. A kernel that knows its Q uses
     /// [`congruence`](Self::congruence).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-    /// let turned = MajorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0])).rotated(&quarter_turn)?;
-    /// assert_eq!(turned.entry(1, 1, 1, 1), 4.0);
-    /// # Ok::<(), piola_tensor::TensorError>(())
-    /// ```
     fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, TensorError> {
         check_rotation(rotation)?;
         Ok(self.congruence(rows_of(rotation)))
     }
 
     /// C : A.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// let strain = Symmetric::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0);
-    /// let stress = MajorSymmetric::isotropic(1.0, 3.0).contract(&strain); // λ tr ε 1 + 2μ ε
-    /// assert_eq!(stress, Symmetric::new(7.0, 1.0, 1.0, 12.0, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     fn contract(&self, a: &Symmetric<T>) -> Symmetric<T> {
@@ -104,13 +79,6 @@ pub trait PairSymmetric<T: Real>:
     }
 
     /// A : C.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MinorSymmetric, PairSymmetric}};
-    /// let c = MinorSymmetric::dyad(&Symmetric::diagonal([1.0, 0.0, 0.0]), &Symmetric::identity());
-    /// assert_eq!(c.contract_left(&Symmetric::diagonal([5.0, 0.0, 0.0])), Symmetric::identity() * 5.0);
-    /// ```
     #[inline(always)]
     #[must_use]
     fn contract_left(&self, a: &Symmetric<T>) -> Symmetric<T> {
@@ -118,13 +86,6 @@ pub trait PairSymmetric<T: Real>:
     }
 
     /// A : C : B, for A = B a quadratic form such as twice an energy.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// let strain = Symmetric::diagonal([2.0, 0.0, 0.0]);
-    /// assert_eq!(MajorSymmetric::isotropic(1.0, 3.0).quadratic_form(&strain, &strain), 28.0); // (λ + 2μ) 2²
-    /// ```
     #[inline(always)]
     #[must_use]
     fn quadratic_form(&self, a: &Symmetric<T>, b: &Symmetric<T>) -> T {
@@ -132,13 +93,6 @@ pub trait PairSymmetric<T: Real>:
     }
 
     /// C : D, which lacks major symmetry in general.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{MajorSymmetric, PairSymmetric};
-    /// let c = MajorSymmetric::isotropic(0.0, 3.0); // six times the identity
-    /// assert_eq!(c.double_contraction(&c).entry(0, 0, 0, 0), 36.0);
-    /// ```
     #[inline(always)]
     #[must_use]
     fn double_contraction(&self, other: &impl PairSymmetric<T>) -> MinorSymmetric<T> {
@@ -158,12 +112,6 @@ pub trait PairSymmetric<T: Real>:
     ///
     /// # Accuracy
     /// 16 ulp for components anywhere in the range of numbers.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, {MajorSymmetric, PairSymmetric}};
-    /// assert_eq!(MajorSymmetric::dyad(&Symmetric::diagonal([3.0, 4.0, 0.0])).norm(), 25.0); // |A ⊗ A| = |A|²
-    /// ```
     #[must_use]
     fn norm(&self) -> T {
         use crate::scale::{power_of_two_scale, square_root};
@@ -183,12 +131,6 @@ pub trait PairSymmetric<T: Real>:
     }
 
     /// The same tensor without the claim of major symmetry.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{MajorSymmetric, MinorSymmetric, PairSymmetric};
-    /// assert_eq!(MajorSymmetric::<f64>::identity().minor(), MinorSymmetric::identity());
-    /// ```
     #[inline(always)]
     #[must_use]
     fn minor(&self) -> MinorSymmetric<T> {
@@ -196,12 +138,6 @@ pub trait PairSymmetric<T: Real>:
     }
 
     /// The same tensor without any claim.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{FourthOrder, MajorSymmetric, PairSymmetric};
-    /// assert_eq!(MajorSymmetric::<f64>::identity().general(), FourthOrder::symmetrizer());
-    /// ```
     #[must_use]
     fn general(&self) -> FourthOrder<T> {
         FourthOrder::from_fn(|i, j, k, l| self.entry(i, j, k, l))

@@ -193,7 +193,7 @@ pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
     (frame.axes(), frame.first)
 }
 
-/// [`separated_frame`] but for its last rotation.
+/// `separated_frame` but for its last rotation.
 #[inline(always)]
 pub fn unturned_frame<T: Real>(a: &Symmetric<T>) -> UnturnedFrame<T> {
     let range = range::<T>();
@@ -268,13 +268,13 @@ pub fn unturned_frame<T: Real>(a: &Symmetric<T>) -> UnturnedFrame<T> {
     UnturnedFrame { vectors, turn, square, first: T::zero().at_most(x) }
 }
 
-/// Of [`separated_frame`], what belongs to the axes, in descending order.
+/// Of `separated_frame`, what belongs to the axes, in descending order.
 #[inline(always)]
 pub fn in_order<T: Real>(first: T::Mask, [n, larger, smaller]: [T; 3]) -> [T; 3] {
     choose::<T>(first, [n, larger, smaller], [larger, smaller, n])
 }
 
-/// The axes of [`separated_frame`] in descending order, right-handed as they are.
+/// The axes of `separated_frame` in descending order, right-handed as they are.
 #[inline(always)]
 pub fn axes_in_order<T: Real>(first: T::Mask, [n, larger, smaller]: Rows<T>) -> Rows<T> {
     [choose::<T>(first, n, larger), choose::<T>(first, larger, smaller), choose::<T>(first, smaller, n)]

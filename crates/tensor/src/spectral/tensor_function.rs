@@ -58,14 +58,6 @@ fn frame_of<T: Real>(a: &Symmetric<T>) -> (Rows<T>, [T; 3], [T; 6]) {
 ///
 /// # Accuracy
 /// Finite and accurate to a few ulp of ‖H‖ max |f[λᵢ, λⱼ]| at and near coalescence.
-///
-/// # Example
-/// ```
-/// use piola_tensor::{Symmetric, spectral};
-/// let shear = Symmetric::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
-/// let slope = spectral::derivative(&spectral::SquareRoot, &Symmetric::diagonal([4.0, 9.0, 1.0]), &shear);
-/// assert!((slope.components[3] - 0.2_f64).abs() < 1e-16); // 1/(√4 + √9)
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn derivative<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T>, h: &Symmetric<T>) -> Symmetric<T> {
@@ -88,15 +80,6 @@ fn along<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T>, h: &Sy
 ///
 /// # Accuracy
 /// Finite and accurate to a few ulp of ‖H‖ ‖K‖ max |f[λᵢ, λₖ, λⱼ]| at and near coalescence.
-///
-/// # Example
-/// ```
-/// use piola_tensor::{Symmetric, spectral};
-/// let (one, h) = (Symmetric::<f64>::identity(), Symmetric::diagonal([1.0, 2.0, 0.0]));
-/// // √(1 + h) = 1 + h/2 − h²/8: the second derivative at 1 is −h²/4.
-/// let second = spectral::second_derivative(&spectral::SquareRoot, &one, &h, &h);
-/// assert!((second.components[1] + 1.0).abs() < 1e-15);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn second_derivative<T: Real, F: IsotropicFunction + ?Sized>(
@@ -158,14 +141,6 @@ fn first_differences<T: Real, F: IsotropicFunction + ?Sized>(f: &F, [a, b, c]: [
 /// Df(A)[H]ᵢⱼ = Dᵢⱼₖₗ Hₖₗ,    Dᵢⱼₖₗ = Dⱼᵢₖₗ = Dₖₗᵢⱼ
 /// ```
 /// so that a column of a shear counts twice when the array is applied to six components.
-///
-/// # Example
-/// ```
-/// use piola_tensor::{Symmetric, spectral};
-/// // ∂√A/∂A at A = 1 is half the identity on symmetric tensors: ½ for 1111 and ¼ for 1212.
-/// let root = spectral::derivative_array(&spectral::SquareRoot, &Symmetric::<f64>::identity());
-/// assert!((root[0][0] - 0.5).abs() < 1e-15 && (root[3][3] - 0.25).abs() < 1e-15 && root[0][1].abs() < 1e-15);
-/// ```
 #[inline(always)]
 #[must_use]
 pub fn derivative_array<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T>) -> [[T; 6]; 6] {

@@ -15,13 +15,6 @@ impl<T: Real> Symmetric<T> {
     /// # Accuracy
     /// 4 ulp for components anywhere in the range of numbers: they are scaled by a power of two before they are
     /// squared. At A = 0, where the norm has no derivative, that of differentiable numbers is zero.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let large = 2.0_f64.powi(1000);
-    /// assert_eq!(Symmetric::diagonal([3.0 * large, 4.0 * large, 0.0]).norm(), 5.0 * large);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn norm(&self) -> T {
@@ -31,12 +24,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// ⅓ tr A.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// assert_eq!(Symmetric::diagonal([1.0, 2.0, 6.0]).mean(), 3.0);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn mean(&self) -> T {
@@ -47,13 +34,6 @@ impl<T: Real> Symmetric<T> {
     ///
     /// # Accuracy
     /// 3 ulp of the largest difference of two diagonal components.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let tensor = Symmetric::diagonal([1e15 + 3.0, 1e15, 1e15]);
-    /// assert_eq!(tensor.deviator(), Symmetric::diagonal([2.0, -1.0, -1.0]));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn deviator(&self) -> Self {
@@ -64,12 +44,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// ⅓ tr A 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// assert_eq!(Symmetric::diagonal([1.0, 2.0, 6.0]).spherical_part(), Symmetric::identity() * 3.0);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn spherical_part(&self) -> Self {
@@ -78,12 +52,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// adj A, with A adj A = (det A) 1; it exists for singular tensors too.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// assert_eq!(Symmetric::diagonal([2.0, 3.0, 0.0]).adjugate(), Symmetric::diagonal([0.0, 0.0, 6.0]));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn adjugate(&self) -> Self {
@@ -101,13 +69,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// (A⁻¹, det A), ∞ or NaN when A is singular: the kernel of [`inverse`](Self::inverse), without scaling.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let (inverse, determinant) = Symmetric::diagonal([2.0, 4.0, 1.0]).inverse_and_determinant();
-    /// assert_eq!((inverse, determinant), (Symmetric::diagonal([0.5, 0.25, 1.0]), 8.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn inverse_and_determinant(&self) -> (Self, T) {
@@ -126,15 +87,6 @@ impl<T: Real> Symmetric<T> {
     ///
     /// # Accuracy
     /// A few ulp × the condition number, for components anywhere in the range of numbers.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let inverse = Symmetric::diagonal([2e200, 4e200, 1e200]).inverse()?;
-    /// assert_eq!(inverse.components[0], 0.5e-200);
-    /// assert!(Symmetric::dyad([1.0, 2.0, 3.0]).inverse().is_err());
-    /// # Ok::<(), piola_tensor::TensorError>(())
-    /// ```
     pub fn inverse(&self) -> Result<Self, TensorError> {
         check_finite("symmetric tensor", &self.components)?;
         let (scale, unscale) = power_of_two_scale(largest(self.components));

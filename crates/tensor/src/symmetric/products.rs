@@ -14,12 +14,6 @@ use crate::rows::{Rows, product, transpose};
 
 impl<T: Real> Symmetric<T> {
     /// v ⊗ v = vᵢ vⱼ.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// assert_eq!(Symmetric::dyad([1.0, 2.0, 0.0]), Symmetric::new(1.0, 4.0, 0.0, 2.0, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn dyad(v: [T; 3]) -> Self {
@@ -27,13 +21,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// ½ (v ⊗ w + w ⊗ v).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let shear = Symmetric::symmetric_dyad([1.0, 0.0, 0.0], [0.0, 3.0, 0.0]);
-    /// assert_eq!(shear, Symmetric::new(0.0, 0.0, 0.0, 1.5, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn symmetric_dyad(v: [T; 3], w: [T; 3]) -> Self {
@@ -43,13 +30,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A B, in general not symmetric.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let shear = Symmetric::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
-    /// assert_eq!(shear.product(&Symmetric::diagonal([2.0, 3.0, 0.0])), [[0.0, 3.0, 0.0], [2.0, 0.0, 0.0], [0.0; 3]]);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn product(&self, other: &Self) -> Rows<T> {
@@ -57,14 +37,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A B + B A, twice the symmetric part of the product.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let shear = Symmetric::new(0.0, 0.0, 0.0, 1.0, 0.0, 0.0);
-    /// let sum = shear.anticommutator(&Symmetric::diagonal([2.0, 3.0, 0.0]));
-    /// assert_eq!(sum, Symmetric::new(0.0, 0.0, 0.0, 5.0, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn anticommutator(&self, other: &Self) -> Self {
@@ -83,13 +55,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A² = A A.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let shear = Symmetric::new(0.0, 0.0, 0.0, 2.0, 0.0, 0.0);
-    /// assert_eq!(shear.square(), Symmetric::diagonal([4.0, 4.0, 0.0]));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn square(&self) -> Self {
@@ -97,13 +62,6 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A Aᵀ of a general tensor, symmetric to the last bit.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let shear = [[1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    /// assert_eq!(Symmetric::gram(shear), Symmetric::new(1.0, 5.0, 1.0, 2.0, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn gram(a: Rows<T>) -> Self {
@@ -123,14 +81,6 @@ impl<T: Real> Symmetric<T> {
     ///
     /// # Accuracy
     /// 6 ulp of |F|² |A|; symmetric because only the upper triangle is computed.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let f = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 1.0]];
-    /// let a = Symmetric::new(1.0, 1.0, 1.0, 1.0, 0.0, 0.0);
-    /// assert_eq!(a.congruence(f), Symmetric::new(4.0, 9.0, 1.0, 6.0, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn congruence(&self, f: Rows<T>) -> Self {
@@ -151,14 +101,6 @@ impl<T: Real> Symmetric<T> {
     ///
     /// # Accuracy
     /// As [`congruence`](Self::congruence).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::Symmetric;
-    /// let f = [[1.0, 2.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    /// let c = Symmetric::identity().transposed_congruence(f); // FᵀF
-    /// assert_eq!(c, Symmetric::new(1.0, 5.0, 1.0, 2.0, 0.0, 0.0));
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn transposed_congruence(&self, f: Rows<T>) -> Self {
@@ -170,16 +112,6 @@ impl<T: Real> Symmetric<T> {
     /// # Errors
     /// [`TensorError::NotFinite`], [`TensorError::NotARotation`]. A kernel that knows its Q uses
     /// [`congruence`](Self::congruence).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_tensor::Symmetric;
-    /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-    /// let turned = Symmetric::new(1.0, 2.0, 3.0, 4.0, 0.0, 0.0).rotated(&quarter_turn)?;
-    /// assert_eq!(turned, Symmetric::new(2.0, 1.0, 3.0, -4.0, 0.0, 0.0));
-    /// # Ok::<(), piola_tensor::TensorError>(())
-    /// ```
     pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, TensorError> {
         check_rotation(rotation)?;
         Ok(self.congruence(rows_of(rotation)))

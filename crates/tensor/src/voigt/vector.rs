@@ -34,15 +34,6 @@ macro_rules! vectors {
             ///
             /// # Errors
             /// [`TensorError::NotFinite`].
-            ///
-            /// # Example
-            /// ```
-            #[doc = concat!("use piola_tensor::voigt::", stringify!($name), ";")]
-            #[doc = concat!("let vector = ", stringify!($name), "::<f64>::new([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])?;")]
-            /// assert_eq!(vector.components[3], 4.0);
-            #[doc = concat!("assert!(", stringify!($name), "::<f64>::new([f64::NAN; 6]).is_err());")]
-            /// # Ok::<(), piola_tensor::TensorError>(())
-            /// ```
             pub fn new(components: [T; 6]) -> Result<Self, TensorError> {
                 check_finite($quantity, &components)?;
                 Ok(Self::raw(components))
@@ -54,13 +45,6 @@ macro_rules! vectors {
             }
 
             /// Of a tensor.
-            ///
-            /// # Example
-            /// ```
-            #[doc = concat!("use piola_tensor::{Symmetric, voigt::", stringify!($name), "};")]
-            #[doc = concat!("let vector = ", stringify!($name), "::<f64>::of(&Symmetric::diagonal([1.0, 2.0, 3.0]));")]
-            /// assert_eq!(vector.components, [1.0, 2.0, 3.0, 0.0, 0.0, 0.0]);
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn of(tensor: &Symmetric<T>) -> Self {
@@ -73,14 +57,6 @@ macro_rules! vectors {
             }
 
             /// The tensor.
-            ///
-            /// # Example
-            /// ```
-            #[doc = concat!("use piola_tensor::{Symmetric, voigt::", stringify!($name), "};")]
-            #[doc = concat!("let vector = ", stringify!($name), "::<f64>::new([1.0, 2.0, 3.0, 0.0, 0.0, 0.0])?;")]
-            /// assert_eq!(vector.tensor(), Symmetric::diagonal([1.0, 2.0, 3.0]));
-            /// # Ok::<(), piola_tensor::TensorError>(())
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn tensor(&self) -> Symmetric<T> {
@@ -93,14 +69,6 @@ macro_rules! vectors {
             }
 
             /// The same in another order, to the last bit.
-            ///
-            /// # Example
-            /// ```
-            #[doc = concat!("use piola_tensor::voigt::{Classical, ", stringify!($name), "};")]
-            #[doc = concat!("let vector = ", stringify!($name), "::<f64>::new([1.0, 2.0, 3.0, 12.0, 23.0, 13.0])?;")]
-            /// assert_eq!(vector.reordered::<Classical>().components, [1.0, 2.0, 3.0, 23.0, 13.0, 12.0]);
-            /// # Ok::<(), piola_tensor::TensorError>(())
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn reordered<N: VoigtOrder>(&self) -> $name<T, N> {
@@ -187,15 +155,6 @@ vectors! {
 
 impl<T: Real, O: VoigtOrder> StressVector<T, O> {
     /// T : ε, the product with a strain vector of the same order.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::voigt::{StrainVector, StressVector};
-    /// let stress = StressVector::<f64>::new([0.0, 0.0, 0.0, 5.0, 0.0, 0.0])?;
-    /// let strain = StrainVector::new([0.0, 0.0, 0.0, 2.0, 0.0, 0.0])?; // γ₁₂ = 2
-    /// assert_eq!(stress.dot(&strain), 10.0);
-    /// # Ok::<(), piola_tensor::TensorError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn dot(&self, strain: &StrainVector<T, O>) -> T {
@@ -205,13 +164,6 @@ impl<T: Real, O: VoigtOrder> StressVector<T, O> {
 
 impl<T: Real, O: VoigtOrder> MandelVector<T, O> {
     /// A : B.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, voigt::MandelVector};
-    /// let diagonal = MandelVector::<f64>::of(&Symmetric::diagonal([1.0, 2.0, 0.0]));
-    /// assert_eq!(diagonal.dot(&MandelVector::of(&Symmetric::diagonal([3.0, 4.0, 0.0]))), 11.0);
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn dot(&self, other: &Self) -> T {
@@ -219,13 +171,6 @@ impl<T: Real, O: VoigtOrder> MandelVector<T, O> {
     }
 
     /// |A|, for components anywhere in the range of numbers.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_tensor::{Symmetric, voigt::MandelVector};
-    /// let shear = Symmetric::new(0.0, 0.0, 0.0, 3.0, 4.0, 0.0);
-    /// assert!((MandelVector::<f64>::of(&shear).norm() - 50.0_f64.sqrt()).abs() < 1e-14); // √(2·3² + 2·4²)
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn norm(&self) -> T {

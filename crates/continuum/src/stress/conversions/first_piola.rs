@@ -14,16 +14,6 @@ use crate::{ContinuumError, Deformation};
 
 impl<T: Real> FirstPiola<T> {
     /// T = sym(P Fᵀ)/J, W(17.21).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.cauchy(&bar).0.components[0], 8.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
@@ -31,16 +21,6 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// τ = sym(P Fᵀ).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
@@ -48,16 +28,6 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// S = sym(F⁻¹ P), B(4.57).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
@@ -65,16 +35,6 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// M = Fᵀ P.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.mandel(&bar).0[(0, 0)], 4.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
@@ -82,16 +42,6 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// Biot's stress Rᵀ P; its rotation R is computed, see [`StretchAnalysis`].
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.biot(&bar).0[(0, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
@@ -99,17 +49,6 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// Biot's stress Rᵀ P where the stretches are known already.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::polar::StretchAnalysis;
-    /// use piola_continuum::{DeformationGradient, FirstPiola};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?;
-    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.biot_of_analysis(&StretchAnalysis::of(&bar)).0[(0, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot_of_analysis(&self, stretches: &StretchAnalysis<T>) -> BiotStress<T> {
@@ -120,16 +59,6 @@ impl<T: Real> FirstPiola<T> {
     ///
     /// # Errors
     /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::FirstPiola;
-    /// let turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0); // e₁ to e₂
-    /// let stress = FirstPiola::new(Matrix3::from_diagonal(&[2.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.biot_of_rotation(&turn)?.0[(1, 0)], -2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     pub fn biot_of_rotation(&self, rotation: &Matrix3<T>) -> Result<BiotStress<T>, ContinuumError> {
         check_rotation(rotation)?;
         Ok(BiotStress::trusted(transposed_product(rows_of(rotation), self.rows())))

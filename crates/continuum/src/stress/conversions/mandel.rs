@@ -8,16 +8,6 @@ use crate::stress::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, Mande
 
 impl<T: Real> MandelStress<T> {
     /// P = F⁻ᵀ M.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, MandelStress};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.first_piola(&bar).0[(0, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
@@ -25,16 +15,6 @@ impl<T: Real> MandelStress<T> {
     }
 
     /// T = sym(F⁻ᵀ M Fᵀ)/J.
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, MandelStress};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.cauchy(&bar).0.components[0], 8.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
@@ -42,16 +22,6 @@ impl<T: Real> MandelStress<T> {
     }
 
     /// τ = sym(F⁻ᵀ M Fᵀ).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, MandelStress};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.kirchhoff(&bar).0.components[0], 4.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
@@ -59,16 +29,6 @@ impl<T: Real> MandelStress<T> {
     }
 
     /// Biot's stress U⁻¹ M, as Rᵀ (F⁻ᵀ M).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, MandelStress};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.biot(&bar).0[(0, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
@@ -76,16 +36,6 @@ impl<T: Real> MandelStress<T> {
     }
 
     /// S = sym(C⁻¹ M), as F⁻¹ (F⁻ᵀ M).
-    ///
-    /// # Example
-    /// ```
-    /// # use nalgebra::Matrix3;
-    /// # use piola_continuum::{DeformationGradient, MandelStress};
-    /// let bar = DeformationGradient::diagonal([2.0, 0.5, 0.5])?; // J = 1/2
-    /// let stress = MandelStress::new(Matrix3::from_diagonal(&[4.0, 0.0, 0.0].into()))?;
-    /// assert_eq!(stress.second_piola(&bar).0.components[0], 1.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {

@@ -27,17 +27,6 @@ pub struct MaterialRate<S>(
 
 impl<T: Real> MaterialRate<CauchyStress<T>> {
     /// The material derivative of Kirchhoff's stress: τ̇ = J (Ṫ + T tr L).
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, DeformationGradient, rates::VelocityGradient, stress::rates::MaterialRate};
-    /// let stress = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-    /// let twice = DeformationGradient::dilatation(2.0)?;
-    /// let rate = MaterialRate(CauchyStress::zero()).kirchhoff(&stress, &twice, &growth);
-    /// assert_eq!(rate.0.0.components[0], 120.0); // 8·5·3
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn kirchhoff(
@@ -53,18 +42,6 @@ impl<T: Real> MaterialRate<CauchyStress<T>> {
 
 impl<T: Real> MaterialRate<SecondPiola<T>> {
     /// The material derivative of the first Piola–Kirchhoff stress, by rows: Ṗ = Ḟ S + F Ṡ.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::{DeformationGradient, SecondPiola, rates::GradientRate, stress::rates::MaterialRate};
-    /// let twice = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
-    /// let still = GradientRate::new(Matrix3::zeros())?;
-    /// let stress = SecondPiola::zero();
-    /// let rate = MaterialRate(SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// assert_eq!(rate.first_piola(&stress, &twice, &still).0.0[(0, 0)], 2.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn first_piola(

@@ -72,16 +72,6 @@ macro_rules! carried_rate {
 
         impl<S> $name<S> {
             /// From the stress, its material derivative and what carries it.
-            ///
-            /// # Example
-            /// ```
-            /// use piola_continuum::{CauchyStress, stress::rates::MaterialRate};
-            #[doc = concat!("use piola_continuum::{rates::", stringify!($carrier), ", stress::rates::", stringify!($name), "};")]
-            /// let (stress, rate) = (CauchyStress::zero(), CauchyStress::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-            #[doc = concat!("let objective = ", stringify!($name), "::of(&stress, &MaterialRate(rate), &", stringify!($carrier), "::zero());")]
-            /// assert_eq!(objective.0, rate); // of a body at rest
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn of<T: Real>(stress: &S, rate: &MaterialRate<S>, carrier: &$carrier<T>) -> Self
@@ -92,16 +82,6 @@ macro_rules! carried_rate {
             }
 
             /// The material derivative of which this is the objective rate.
-            ///
-            /// # Example
-            /// ```
-            /// use piola_continuum::CauchyStress;
-            #[doc = concat!("use piola_continuum::{rates::", stringify!($carrier), ", stress::rates::", stringify!($name), "};")]
-            /// let (stress, rate) = (CauchyStress::zero(), CauchyStress::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-            #[doc = concat!("let material = ", stringify!($name), "(rate).material(&stress, &", stringify!($carrier), "::zero());")]
-            /// assert_eq!(material.0, rate); // of a body at rest
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn material<T: Real>(&self, stress: &S, carrier: &$carrier<T>) -> MaterialRate<S>
@@ -120,19 +100,6 @@ macro_rules! connected {
     ($name:ident) => {
         impl<T: Real> $name<CauchyStress<T>> {
             /// The same rate of Kirchhoff's stress: τ° = J (T° + T tr D).
-            ///
-            /// # Example
-            /// ```
-            /// use nalgebra::Vector3;
-            /// use piola_continuum::{rates::{Spin, VelocityGradient}, stress::rates::{JaumannRate, MaterialRate}};
-            /// use piola_continuum::{CauchyStress, DeformationGradient};
-            /// let stress = CauchyStress::new(2.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-            /// let still = JaumannRate::of(&stress, &MaterialRate(CauchyStress::zero()), &Spin::zero());
-            /// let growth = VelocityGradient::of_parts(&piola_continuum::rates::RateOfDeformation(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?, &Spin::new(Vector3::zeros())?);
-            /// let kirchhoff = still.kirchhoff(&stress, &DeformationGradient::dilatation(2.0)?, &growth);
-            /// assert_eq!(kirchhoff.0.0.components[0], 48.0); // 8 (0 + 2·3)
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn kirchhoff(
@@ -147,18 +114,6 @@ macro_rules! connected {
         }
         impl<T: Real> $name<KirchhoffStress<T>> {
             /// The same rate of Cauchy's stress: T° = (τ° − τ tr D)/J.
-            ///
-            /// # Example
-            /// ```
-            /// use piola_continuum::{DeformationGradient, KirchhoffStress};
-            #[doc = concat!("use piola_continuum::{rates::VelocityGradient, stress::rates::", stringify!($name), "};")]
-            /// let stress = KirchhoffStress::new(16.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-            /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-            #[doc = concat!("let still = ", stringify!($name), "(KirchhoffStress::zero());")]
-            /// let cauchy = still.cauchy(&stress, &DeformationGradient::dilatation(2.0)?, &growth);
-            /// assert_eq!(cauchy.0.0.components[0], -6.0); // (0 − 16·3)/8
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             #[inline(always)]
             #[must_use]
             pub fn cauchy(
@@ -268,16 +223,6 @@ connected!(LowerConvectedRate);
 
 impl<S> LowerConvectedRate<S> {
     /// From the stress, its material derivative and the velocity gradient.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, rates::VelocityGradient, stress::rates::{LowerConvectedRate, MaterialRate}};
-    /// let pull = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-    /// let rate = LowerConvectedRate::of(&pull, &MaterialRate(CauchyStress::zero()), &growth);
-    /// assert_eq!(rate.0.0.components[0], 30.0); // 2·3·5
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of<T: Real>(stress: &S, rate: &MaterialRate<S>, velocity_gradient: &VelocityGradient<T>) -> Self
@@ -289,16 +234,6 @@ impl<S> LowerConvectedRate<S> {
     }
 
     /// The material derivative of which this is the objective rate.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, rates::VelocityGradient, stress::rates::LowerConvectedRate};
-    /// let pull = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-    /// let rate = LowerConvectedRate(CauchyStress::zero()).material(&pull, &growth);
-    /// assert_eq!(rate.0.0.components[0], -30.0); // −2·3·5
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material<T: Real>(&self, stress: &S, velocity_gradient: &VelocityGradient<T>) -> MaterialRate<S>
@@ -333,16 +268,6 @@ pub struct TruesdellRate<S>(
 
 impl<T: Real> TruesdellRate<CauchyStress<T>> {
     /// From the stress, its material derivative and the velocity gradient.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, rates::VelocityGradient, stress::rates::{MaterialRate, TruesdellRate}};
-    /// let pull = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-    /// let rate = TruesdellRate::of(&pull, &MaterialRate(CauchyStress::zero()), &growth);
-    /// assert_eq!(rate.0.0.components[0], -15.0); // −2·3·5 + 3·5
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of(
@@ -354,16 +279,6 @@ impl<T: Real> TruesdellRate<CauchyStress<T>> {
     }
 
     /// The material derivative of which this is the objective rate.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, rates::VelocityGradient, stress::rates::TruesdellRate};
-    /// let pull = CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let growth = VelocityGradient::from_rows([[3.0, 0.0, 0.0], [0.0; 3], [0.0; 3]])?;
-    /// let rate = TruesdellRate(CauchyStress::zero()).material(&pull, &growth);
-    /// assert_eq!(rate.0.0.components[0], 15.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material(
@@ -375,14 +290,6 @@ impl<T: Real> TruesdellRate<CauchyStress<T>> {
     }
 
     /// J times this rate: the upper-convected rate of Kirchhoff's stress.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, DeformationGradient, stress::rates::TruesdellRate};
-    /// let rate = TruesdellRate(CauchyStress::new(5.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// assert_eq!(rate.upper_convected(&DeformationGradient::dilatation(2.0)?).0.0.components[0], 40.0); // J = 8
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn upper_convected(&self, deformation: &impl Deformation<T>) -> UpperConvectedRate<KirchhoffStress<T>> {
@@ -403,16 +310,6 @@ fn half_less_divergence<T: Real>(velocity_gradient: &VelocityGradient<T>) -> Row
 
 impl<T: Real> UpperConvectedRate<KirchhoffStress<T>> {
     /// F Ṡ Fᵀ, from the rate of the second Piola–Kirchhoff stress.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_continuum::{DeformationGradient, SecondPiola, stress::rates::{MaterialRate, UpperConvectedRate}};
-    /// let twice = DeformationGradient::new(Matrix3::from_diagonal_element(2.0))?;
-    /// let rate = MaterialRate(SecondPiola::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// assert_eq!(UpperConvectedRate::of_second_piola(&rate, &twice).0.0.components[0], 4.0);
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn of_second_piola(rate: &MaterialRate<SecondPiola<T>>, deformation: &impl Deformation<T>) -> Self {

@@ -7,9 +7,7 @@
 //! | [`LieTangent`] c | D ↦ upper-convected rate of τ | F F F F C | minor, major |
 //! | [`TruesdellTangent`] | D ↦ Truesdell rate of T | c/J | minor, major |
 //! | [`JaumannTangent`] (`DDSDDE` of Abaqus) | D ↦ Jaumann rate of τ, over J | c/J + T-terms | minor, major |
-//! | [`LowerConvectedTangent`] | D ↦ lower-convected rate of τ, over J | c/J + T-terms | minor, major |
-//! | [`GreenNaghdiTangent`], [`LogarithmicTangent`] | D ↦ that rate of τ, over J | with the spin of V | minor |
-//! | `Cauchy…Tangent` | D ↦ that rate of T | the one of τ, over J, less T ⊗ 1 | minor |
+//! | `MinorSymmetric` of an [`ObjectiveRate`] | D ↦ that rate of τ, over J, or of T | c/J + T-terms | minor |
 //!
 //! ```text
 //! A_iAjB = δ_ij S_AB + F_iC F_jD C_CADB        c_ijkl = F_iA F_jB F_kC F_lD C_ABCD
@@ -19,14 +17,11 @@
 //! [`voigt`](piola_tensor::voigt). The second parameter of a type says whether the law has an energy
 //! ([`Major`](piola_tensor::Major), the default) or not ([`Minor`](piola_tensor::Minor)).
 
+mod first_piola;
 pub(crate) mod kernels;
-mod nominal;
+mod other_rates;
 mod spatial;
-mod spins;
 mod types;
 
-pub use types::{
-    CauchyGreenNaghdiTangent, CauchyJaumannTangent, CauchyLogarithmicTangent, CauchyLowerConvectedTangent,
-    CauchyUpperConvectedTangent, FirstPiolaTangent, GreenNaghdiTangent, JaumannTangent, LieTangent, LogarithmicTangent,
-    LowerConvectedTangent, MaterialTangent, TruesdellTangent,
-};
+pub use other_rates::ObjectiveRate;
+pub use types::{FirstPiolaTangent, JaumannTangent, LieTangent, MaterialTangent, TruesdellTangent};

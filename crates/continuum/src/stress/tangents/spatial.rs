@@ -1,12 +1,9 @@
 //! ∂S/∂E to and from the spatial tangents, and those to and from one another.
 
 use piola_numerics::Real;
-use piola_tensor::{MajorSymmetric, Minor, MinorSymmetric, PairSymmetric, Symmetry};
+use piola_tensor::{MajorSymmetric, Minor, PairSymmetric, Symmetry};
 
-use super::{
-    CauchyJaumannTangent, CauchyLowerConvectedTangent, CauchyUpperConvectedTangent, FirstPiolaTangent, JaumannTangent,
-    LieTangent, LowerConvectedTangent, MaterialTangent, TruesdellTangent,
-};
+use super::{FirstPiolaTangent, JaumannTangent, LieTangent, MaterialTangent, TruesdellTangent};
 use crate::{CauchyStress, Deformation, SecondPiola, Symmetric};
 
 impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
@@ -14,16 +11,6 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     ///
     /// # Accuracy
     /// 24 ulp of |F|⁴ |C|.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::MaterialTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let lie = tangent.lie(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
-    /// assert_eq!((lie.entry(0, 0, 0, 0), lie.entry(0, 0, 1, 1)), (112.0, 4.0)); // 2⁴ (λ + 2μ), 2² λ
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn lie(&self, deformation: &impl Deformation<T>) -> LieTangent<T, Y> {
@@ -31,16 +18,6 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     }
 
     /// c/J.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::MaterialTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let truesdell = tangent.truesdell(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
-    /// assert_eq!(truesdell.entry(0, 0, 1, 1), 2.0); // 2² λ/J
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn truesdell(&self, deformation: &impl Deformation<T>) -> TruesdellTangent<T, Y> {
@@ -50,19 +27,6 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
 
 impl<T: Real> FirstPiolaTangent<T> {
     /// c/J of ∂P/∂F, by way of ∂S/∂E.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::stress::tangents::MaterialTangent;
-    /// use piola_tensor::MajorSymmetric;
-    /// use piola_continuum::{DeformationGradient, SecondPiola};
-    /// let tangent: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let stress = SecondPiola::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let stretch = DeformationGradient::diagonal([2.0, 1.0, 1.0])?;
-    /// let truesdell = tangent.first_piola(&stress, &stretch).truesdell(&stress, &stretch);
-    /// assert_eq!(truesdell.entry(0, 0, 1, 1), 2.0); // 2² λ/J
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn truesdell(&self, stress: &SecondPiola<T>, deformation: &impl Deformation<T>) -> TruesdellTangent<T, Minor> {
@@ -91,16 +55,6 @@ impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
     ///
     /// # Accuracy
     /// 24 ulp of |F⁻¹|⁴ |c|.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::LieTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let lie: LieTangent = LieTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let material = lie.material(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
-    /// assert_eq!((material.entry(0, 0, 0, 0), material.entry(0, 0, 1, 1)), (0.4375, 0.25)); // 7/2⁴, 1/2²
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material(&self, deformation: &impl Deformation<T>) -> MaterialTangent<T, Y> {
@@ -110,7 +64,7 @@ impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
 
 /// ½ (`δ_ik T_jl + δ_il T_jk + T_ik δ_jl + T_il δ_jk`): D ↦ D T + T D.
 #[inline(always)]
-fn stretching_terms<T: Real>(stress: &CauchyStress<T>) -> MajorSymmetric<T> {
+pub(super) fn stretching_terms<T: Real>(stress: &CauchyStress<T>) -> MajorSymmetric<T> {
     MajorSymmetric::symmetric_square_dyad(&stress.0, &Symmetric::identity()) * T::lit(2.0)
 }
 
@@ -118,12 +72,6 @@ fn stretching_terms<T: Real>(stress: &CauchyStress<T>) -> MajorSymmetric<T> {
 #[inline(always)]
 fn stored<T: Real, Y: Symmetry>(terms: &MajorSymmetric<T>) -> Y::Tensor<T> {
     Y::Tensor::from_slots(&terms.slots())
-}
-
-/// T ⊗ 1: D ↦ T tr D.
-#[inline(always)]
-pub(super) fn volume_terms<T: Real>(stress: &CauchyStress<T>) -> MinorSymmetric<T> {
-    MinorSymmetric::dyad(&stress.0, &Symmetric::identity())
 }
 
 impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
@@ -144,16 +92,6 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     }
 
     /// ∂S/∂E, J times the pull-back.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::TruesdellTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let material = truesdell.material(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?);
-    /// assert_eq!(material.entry(0, 0, 0, 0), 0.875); // 7 J/2⁴
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn material(&self, deformation: &impl Deformation<T>) -> MaterialTangent<T, Y> {
@@ -161,55 +99,10 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     }
 
     /// The tangent of Jaumann's rate of τ, over J: adds D ↦ D T + T D.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let jaumann = truesdell.jaumann(&stress);
-    /// assert_eq!((jaumann.entry(0, 0, 0, 0), jaumann.entry(0, 1, 0, 1)), (27.0, 8.0)); // 7 + 2·10, 3 + ½·10
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn jaumann(&self, stress: &CauchyStress<T>) -> JaumannTangent<T, Y> {
         JaumannTangent(self.0 + stored::<T, Y>(&stretching_terms(stress)))
-    }
-
-    /// The tangent of the lower-convected rate of τ, over J: adds twice D ↦ D T + T D.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// assert_eq!(truesdell.lower_convected(&stress).entry(0, 0, 0, 0), 47.0); // 7 + 4·10
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn lower_convected(&self, stress: &CauchyStress<T>) -> LowerConvectedTangent<T, Y> {
-        LowerConvectedTangent(self.0 + stored::<T, Y>(&(stretching_terms(stress) * T::lit(2.0))))
-    }
-
-    /// The tangent of the upper-convected rate of Cauchy's stress: less T ⊗ 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::TruesdellTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let tangent = truesdell.cauchy_upper_convected(&CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (-9.0, 1.0)); // λ − T₁₁, λ − T₂₂
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn cauchy_upper_convected(&self, stress: &CauchyStress<T>) -> CauchyUpperConvectedTangent<T> {
-        CauchyUpperConvectedTangent(self.0.minor() - volume_terms(stress))
     }
 }
 
@@ -229,115 +122,5 @@ impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
     #[must_use]
     pub fn truesdell(&self, stress: &CauchyStress<T>) -> TruesdellTangent<T, Y> {
         TruesdellTangent(self.0 - stored::<T, Y>(&stretching_terms(stress)))
-    }
-
-    /// The tangent of Jaumann's rate of Cauchy's stress: less T ⊗ 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::JaumannTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let jaumann: JaumannTangent = JaumannTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let tangent = jaumann.cauchy(&CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (-9.0, 1.0)); // λ − T₁₁, λ − T₂₂
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn cauchy(&self, stress: &CauchyStress<T>) -> CauchyJaumannTangent<T> {
-        CauchyJaumannTangent(self.0.minor() - volume_terms(stress))
-    }
-}
-
-impl<T: Real, Y: Symmetry> LowerConvectedTangent<T, Y> {
-    /// The tangent of Truesdell's rate.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::LowerConvectedTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let lower: LowerConvectedTangent = LowerConvectedTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// assert_eq!(lower.truesdell(&stress).entry(0, 0, 0, 0), -33.0); // 7 − 4·10
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn truesdell(&self, stress: &CauchyStress<T>) -> TruesdellTangent<T, Y> {
-        TruesdellTangent(self.0 - stored::<T, Y>(&(stretching_terms(stress) * T::lit(2.0))))
-    }
-
-    /// The tangent of the lower-convected rate of Cauchy's stress: less T ⊗ 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::LowerConvectedTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let lower: LowerConvectedTangent = LowerConvectedTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let tangent = lower.cauchy(&CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?);
-    /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (-9.0, 1.0)); // λ − T₁₁, λ − T₂₂
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn cauchy(&self, stress: &CauchyStress<T>) -> CauchyLowerConvectedTangent<T> {
-        CauchyLowerConvectedTangent(self.0.minor() - volume_terms(stress))
-    }
-}
-
-impl<T: Real> CauchyJaumannTangent<T> {
-    /// The tangent of Jaumann's rate of τ, over J: with T ⊗ 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyJaumannTangent};
-    /// use piola_tensor::MinorSymmetric;
-    /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let tangent = CauchyJaumannTangent(MinorSymmetric::zero()).kirchhoff(&stress);
-    /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (10.0, 0.0)); // T₁₁, T₂₂
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn kirchhoff(&self, stress: &CauchyStress<T>) -> JaumannTangent<T, Minor> {
-        JaumannTangent(self.0 + volume_terms(stress))
-    }
-}
-
-impl<T: Real> CauchyLowerConvectedTangent<T> {
-    /// The tangent of the lower-convected rate of τ, over J: with T ⊗ 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyLowerConvectedTangent};
-    /// use piola_tensor::MinorSymmetric;
-    /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let tangent = CauchyLowerConvectedTangent(MinorSymmetric::zero()).kirchhoff(&stress);
-    /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (10.0, 0.0)); // T₁₁, T₂₂
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn kirchhoff(&self, stress: &CauchyStress<T>) -> LowerConvectedTangent<T, Minor> {
-        LowerConvectedTangent(self.0 + volume_terms(stress))
-    }
-}
-
-impl<T: Real> CauchyUpperConvectedTangent<T> {
-    /// The tangent of Truesdell's rate: with T ⊗ 1.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::CauchyUpperConvectedTangent};
-    /// use piola_tensor::MinorSymmetric;
-    /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// let tangent = CauchyUpperConvectedTangent(MinorSymmetric::zero()).truesdell(&stress);
-    /// assert_eq!((tangent.entry(0, 0, 1, 1), tangent.entry(1, 1, 0, 0)), (10.0, 0.0)); // T₁₁, T₂₂
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
-    #[inline(always)]
-    #[must_use]
-    pub fn truesdell(&self, stress: &CauchyStress<T>) -> TruesdellTangent<T, Minor> {
-        TruesdellTangent(self.0 + volume_terms(stress))
     }
 }

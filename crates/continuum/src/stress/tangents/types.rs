@@ -2,12 +2,10 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::Real;
-use piola_tensor::{FourthOrder, Major, MinorSymmetric, PairSymmetric, Symmetry};
+use piola_tensor::{FourthOrder, Major, PairSymmetric, Symmetry};
 
 use crate::rates::RateOfDeformation;
-use crate::stress::rates::{
-    GreenNaghdiRate, JaumannRate, LogarithmicRate, LowerConvectedRate, TruesdellRate, UpperConvectedRate,
-};
+use crate::stress::rates::{TruesdellRate, UpperConvectedRate};
 use crate::{CauchyStress, ContinuumError, KirchhoffStress, Symmetric};
 
 /// A tangent whose major symmetry is that of the law.
@@ -40,117 +38,11 @@ macro_rules! symmetric_tangent {
             ///
             /// # Errors
             /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
-            ///
-            /// # Example
-            /// ```
-            /// use nalgebra::Matrix3;
-            #[doc = concat!("use piola_tensor::MajorSymmetric; use piola_continuum::{Symmetric, stress::tangents::", stringify!($name), "};")]
-            /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-            /// let along_1 = MajorSymmetric::dyad(&Symmetric::diagonal([2.0, 0.0, 0.0]));
-            #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(along_1);")]
-            /// assert_eq!(tangent.rotated(&quarter_turn)?.entry(1, 1, 1, 1), 4.0);
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
             pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
                 Ok(Self(self.0.rotated(rotation)?))
             }
         }
     };
-}
-
-/// A tangent without major symmetry.
-macro_rules! minor_tangent {
-    ($(#[$documentation:meta])* $name:ident) => {
-        $(#[$documentation])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-        #[cfg_attr(feature = "serde", serde(
-            transparent,
-            bound(serialize = "T: serde::Serialize", deserialize = "T: serde::Deserialize<'de>")
-        ))]
-        pub struct $name<T: Real = f64>(
-            /// The components, Pa, without factors for shears.
-            pub MinorSymmetric<T>,
-        );
-
-        impl<T: Real> $name<T> {
-            /// `C_ijkl`, Pa, indices from 0.
-            #[inline(always)]
-            #[must_use]
-            pub fn entry(&self, i: usize, j: usize, k: usize, l: usize) -> T {
-                self.0.entry(i, j, k, l)
-            }
-
-            /// The tangent of the turned body, or of the turned basis: all four indices turned by Q.
-            ///
-            /// # Errors
-            /// [`ContinuumError::NotFinite`], [`TensorError::NotARotation`](piola_tensor::TensorError::NotARotation).
-            ///
-            /// # Example
-            /// ```
-            /// use nalgebra::Matrix3;
-            /// use piola_continuum::Symmetric;
-            /// use piola_tensor::MinorSymmetric;
-            #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
-            /// let quarter_turn = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-            /// let along_1 = Symmetric::diagonal([2.0, 0.0, 0.0]);
-            #[doc = concat!("let tangent = ", stringify!($name), "(MinorSymmetric::dyad(&along_1, &along_1));")]
-            /// assert_eq!(tangent.rotated(&quarter_turn)?.entry(1, 1, 1, 1), 4.0);
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
-            pub fn rotated(&self, rotation: &Matrix3<T>) -> Result<Self, ContinuumError> {
-                Ok(Self(self.0.rotated(rotation)?))
-            }
-        }
-    };
-}
-
-/// The rate of a spatial tangent: of a type where it is a rate of a stress, bare where it is one over J.
-macro_rules! rate {
-    ($($name:ident $(<$symmetry:ident>)? $objective:ident $stress:ident;)*) => {$(
-        impl<T: Real $(, $symmetry: Symmetry)?> $name<T $(, $symmetry)?> {
-            /// The rate that the tangent is named for, Pa/s, of a stretching D.
-            ///
-            /// # Example
-            /// ```
-            /// use piola_continuum::rates::RateOfDeformation;
-            /// use piola_tensor::MajorSymmetric;
-            #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
-            #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(MajorSymmetric::isotropic(1.0, 3.0).into());")]
-            /// let rate = tangent.rate(&RateOfDeformation::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0)?);
-            /// assert_eq!(rate.0.0.components, [7.0, 1.0, 1.0, 12.0, 0.0, 0.0]); // λ tr D 1 + 2μ D
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
-            #[inline(always)]
-            #[must_use]
-            pub fn rate(&self, stretching: &RateOfDeformation<T>) -> $objective<$stress<T>> {
-                $objective($stress(self.0.contract(&stretching.0)))
-            }
-        }
-    )*};
-    ($($name:ident $(<$symmetry:ident>)?;)*) => {$(
-        impl<T: Real $(, $symmetry: Symmetry)?> $name<T $(, $symmetry)?> {
-            /// The rate of Kirchhoff's stress that the tangent is named for, over J, Pa/s, of a stretching D.
-            ///
-            /// It is the rate of no stress, and therefore bare.
-            ///
-            /// # Example
-            /// ```
-            /// use piola_continuum::rates::RateOfDeformation;
-            /// use piola_tensor::MajorSymmetric;
-            #[doc = concat!("use piola_continuum::stress::tangents::", stringify!($name), ";")]
-            #[doc = concat!("let tangent: ", stringify!($name), " = ", stringify!($name), "(MajorSymmetric::isotropic(1.0, 3.0).into());")]
-            /// let rate = tangent.rate(&RateOfDeformation::new(1.0, 0.0, 0.0, 2.0, 0.0, 0.0)?);
-            /// assert_eq!(rate.components, [7.0, 1.0, 1.0, 12.0, 0.0, 0.0]); // λ tr D 1 + 2μ D
-            /// # Ok::<(), piola_continuum::ContinuumError>(())
-            /// ```
-            #[inline(always)]
-            #[must_use]
-            pub fn rate(&self, stretching: &RateOfDeformation<T>) -> Symmetric<T> {
-                self.0.contract(&stretching.0)
-            }
-        }
-    )*};
 }
 
 symmetric_tangent! {
@@ -190,59 +82,35 @@ symmetric_tangent! {
     /// The tangent of Jaumann's rate of Kirchhoff's stress, over J: (τ̇ − W τ + τ W)/J = C : D. Pa.
     ///
     /// This is the `DDSDDE` of Abaqus' user materials; of the rate of Cauchy's stress itself see
-    /// [`CauchyJaumannTangent`].
+    /// [`TruesdellTangent::of_cauchy_rate`].
+    #[doc(alias = "DDSDDE")]
     JaumannTangent
 }
-symmetric_tangent! {
-    /// The tangent of the lower-convected rate of Kirchhoff's stress, over J: (τ̇ + Lᵀ τ + τ L)/J = C : D. Pa.
-    LowerConvectedTangent
-}
-minor_tangent! {
-    /// The tangent of Green and Naghdi's rate of Kirchhoff's stress, over J: (τ̇ − Ω τ + τ Ω)/J = C : D with
-    /// Ω = Ṙ Rᵀ. Pa.
-    GreenNaghdiTangent
-}
-minor_tangent! {
-    /// The tangent of the logarithmic rate of Kirchhoff's stress, over J: (τ̇ − Ω τ + τ Ω)/J = C : D with the
-    /// spin for which (ln V)° = D. Pa.
-    LogarithmicTangent
-}
-minor_tangent! {
-    /// The tangent of Jaumann's rate of Cauchy's stress: Ṫ − W T + T W = C : D. Pa.
-    CauchyJaumannTangent
-}
-minor_tangent! {
-    /// The tangent of the upper-convected rate of Cauchy's stress: Ṫ − L T − T Lᵀ = C : D. Pa.
-    CauchyUpperConvectedTangent
-}
-minor_tangent! {
-    /// The tangent of the lower-convected rate of Cauchy's stress: Ṫ + Lᵀ T + T L = C : D. Pa.
-    CauchyLowerConvectedTangent
-}
-minor_tangent! {
-    /// The tangent of Green and Naghdi's rate of Cauchy's stress: Ṫ − Ω T + T Ω = C : D with Ω = Ṙ Rᵀ. Pa.
-    CauchyGreenNaghdiTangent
-}
-minor_tangent! {
-    /// The tangent of the logarithmic rate of Cauchy's stress: Ṫ − Ω T + T Ω = C : D with the spin for which
-    /// (ln V)° = D. Pa.
-    CauchyLogarithmicTangent
+impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
+    /// The upper-convected rate of τ of a rate of deformation D, Pa/s.
+    #[inline(always)]
+    #[must_use]
+    pub fn rate(&self, rate_of_deformation: &RateOfDeformation<T>) -> UpperConvectedRate<KirchhoffStress<T>> {
+        UpperConvectedRate(KirchhoffStress(self.0.contract(&rate_of_deformation.0)))
+    }
 }
 
-rate! {
-    LieTangent<Y> UpperConvectedRate KirchhoffStress;
-    TruesdellTangent<Y> TruesdellRate CauchyStress;
-    CauchyJaumannTangent JaumannRate CauchyStress;
-    CauchyUpperConvectedTangent UpperConvectedRate CauchyStress;
-    CauchyLowerConvectedTangent LowerConvectedRate CauchyStress;
-    CauchyGreenNaghdiTangent GreenNaghdiRate CauchyStress;
-    CauchyLogarithmicTangent LogarithmicRate CauchyStress;
+impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
+    /// Truesdell's rate of T of a rate of deformation D, Pa/s.
+    #[inline(always)]
+    #[must_use]
+    pub fn rate(&self, rate_of_deformation: &RateOfDeformation<T>) -> TruesdellRate<CauchyStress<T>> {
+        TruesdellRate(CauchyStress(self.0.contract(&rate_of_deformation.0)))
+    }
 }
-rate! {
-    JaumannTangent<Y>;
-    LowerConvectedTangent<Y>;
-    GreenNaghdiTangent;
-    LogarithmicTangent;
+
+impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
+    /// Jaumann's rate of τ of a rate of deformation D, over J, Pa/s.
+    #[inline(always)]
+    #[must_use]
+    pub fn rate(&self, rate_of_deformation: &RateOfDeformation<T>) -> Symmetric<T> {
+        self.0.contract(&rate_of_deformation.0)
+    }
 }
 
 /// The tangent A = ∂P/∂F of the first Piola–Kirchhoff stress: Ṗ = A : Ḟ. Pa.

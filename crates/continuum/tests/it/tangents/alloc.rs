@@ -1,7 +1,7 @@
 //! Evaluations allocate nothing.
 
 use nalgebra::Matrix3;
-use piola_continuum::stress::tangents::MaterialTangent;
+use piola_continuum::stress::tangents::{MaterialTangent, ObjectiveRate};
 use piola_continuum::{DeformationGradient, SecondPiola, Symmetric};
 use piola_tensor::MajorSymmetric;
 use piola_tensor::voigt::{Abaqus, StiffnessMatrix};
@@ -17,10 +17,10 @@ fn tangents_and_their_conversions_allocate_nothing() {
         let material: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
         let nominal = material.first_piola(&stress, &deformation);
         let back = nominal.material(&stress, &deformation);
-        let jaumann = back.truesdell(&deformation).jaumann(&cauchy);
-        let naghdi = jaumann.green_naghdi(&cauchy, &deformation).cauchy(&cauchy);
-        let logarithmic = jaumann.logarithmic(&cauchy, &deformation);
-        let matrix = StiffnessMatrix::<f64, Abaqus>::of(&(naghdi.0 + logarithmic.0));
+        let truesdell = back.truesdell(&deformation);
+        let naghdi = truesdell.of_cauchy_rate(ObjectiveRate::GreenNaghdi, &cauchy, &deformation);
+        let logarithmic = truesdell.of_kirchhoff_rate(ObjectiveRate::Logarithmic, &cauchy, &deformation);
+        let matrix = StiffnessMatrix::<f64, Abaqus>::of(&(naghdi + logarithmic));
         let compliance = matrix.compliance().expect("regular");
         let singular = MajorSymmetric::<f64>::spherical().inverse();
         core::hint::black_box((compliance, singular.is_err()));

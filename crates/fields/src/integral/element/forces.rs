@@ -25,21 +25,6 @@ impl<const N: usize> TetrahedralElements<N> {
     /// volume is the point's share times det F); [`FieldsError::NotFinite`]; the stress's own. What was added
     /// before an error stays added.
     ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, LinearTetrahedra, TetrahedralMesh};
-    /// use piola_continuum::{DisplacementGradient, FirstPiola};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let body = LinearTetrahedra::new(TetrahedralMesh::of_cuboid(&unit, [2, 2, 2])?, 0)?;
-    /// let (rest, mut forces) = (vec![0.0; body.components()], vec![0.0; body.components()]);
-    /// let tension = |_: &_, _: &DisplacementGradient| Ok(FirstPiola(nalgebra::Matrix3::from_diagonal_element(1.0)));
-    /// body.add_stress_forces(&rest, tension, &mut forces)?;
-    /// // Uniform stress leaves the node in the middle alone: Div P = 0.
-    /// assert!(forces[3 * 13..3 * 14].iter().all(|force| force.abs() < 1e-15));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
-    ///
     /// # Source
     /// B(4.58–4.59) in weak form.
     pub fn add_stress_forces<T: Real>(
@@ -71,18 +56,6 @@ impl<const N: usize> TetrahedralElements<N> {
     ///
     /// # Errors
     /// [`FieldsError::WrongLength`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{LinearTetrahedra, MaterialPoint, TetrahedralMesh};
-    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let body = LinearTetrahedra::new(TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?, 1)?;
-    /// let mut forces = vec![0.0_f64; body.components()];
-    /// body.add_body_forces(|_: &MaterialPoint| Vector3::new(0.0, 0.0, -24.0), &mut forces)?;
-    /// assert!((forces[2] + 1.0).abs() < 1e-15); // a quarter of 24 · 1/6
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn add_body_forces<T: Real>(
         &self,
         mut density: impl FnMut(&MaterialPoint) -> Vector3<T>,
@@ -105,20 +78,6 @@ impl<const N: usize> TetrahedralElements<N> {
     ///
     /// # Errors
     /// [`FieldsError::WrongLength`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{LinearTetrahedra, SurfacePoint, TetrahedralMesh};
-    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let body = LinearTetrahedra::new(TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?, 1)?;
-    /// let mut forces = vec![0.0_f64; body.components()];
-    /// // Pull on the face z = 0 only.
-    /// let pull = |point: &SurfacePoint<f64>| if point.normal.z == -1.0 { -Vector3::z() * 6.0 } else { Vector3::zeros() };
-    /// body.add_tractions(pull, &mut forces)?;
-    /// assert!((forces[2] + 1.0).abs() < 1e-15 && forces[11] == 0.0); // a third of 6 · ½; none on the tip
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn add_tractions<T: Real>(
         &self,
         mut traction: impl FnMut(&SurfacePoint<f64>) -> Vector3<T>,

@@ -30,9 +30,9 @@ use piola_numerics::Real;
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant};
 
 use super::TetrahedralMesh;
-use super::integrand::{Integrand, RunningIntegral};
 use super::quadrature::Quadrature;
 use crate::FieldsError;
+use crate::integrand::{Integrand, RunningIntegral};
 use piola_continuum::ContinuumError;
 use piola_continuum::DisplacementGradient;
 use piola_tensor::internal::rows::Rows;
@@ -208,23 +208,7 @@ impl<const N: usize> TetrahedralElements<N> {
     /// displacement.
     ///
     /// # Errors
-    /// [`FieldsError::WrongLength`], [`FieldsError::NonFiniteIntegrand`], the integrand's own.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::integral::{Cuboid, LinearTetrahedra, MaterialPoint, TetrahedralMesh};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let body = LinearTetrahedra::new(TetrahedralMesh::of_cuboid(&unit, [1, 1, 1])?, 2)?;
-    /// let mut velocity = vec![0.0; body.components()];
-    /// body.sample_into(|x| Vector3::new(-x.y, x.x, 0.0), &mut velocity)?;
-    /// // Kinetic energy of a unit cube of unit density turning about an edge: ½ · 2/3.
-    /// let energy = body.integral(&velocity, |_: &MaterialPoint, v: &Vector3<f64>, _: &Matrix3<f64>| {
-    ///     Ok(0.5 * v.dot(v))
-    /// })?;
-    /// assert!((energy - 1.0 / 3.0).abs() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
+    /// [`FieldsError::WrongLength`], [`FieldsError::IntegrandNotFinite`], the integrand's own.
     pub fn integral<T: Real, V: Integrand<Scalar = T>>(
         &self,
         field: &[T],
@@ -249,20 +233,6 @@ impl<const N: usize> TetrahedralElements<N> {
     ///
     /// # Errors
     /// As [`integral`](Self::integral); [`FieldsError::InvertedElement`] where 0 < det F is violated.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{LinearTetrahedra, MaterialPoint, TetrahedralMesh};
-    /// use piola_continuum::{Deformation, DisplacementGradient};
-    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let body = LinearTetrahedra::new(TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?, 0)?;
-    /// let mut displacement = vec![0.0; body.components()];
-    /// body.sample_into(|x| x * 1.0, &mut displacement)?; // doubled in size
-    /// let growth = |_: &MaterialPoint, gradient: &DisplacementGradient| Ok(gradient.volume_change());
-    /// assert!((body.strain_energy(&displacement, growth)? - 7.0 / 6.0).abs() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     ///
     /// # Source
     /// B(4.61).

@@ -29,17 +29,6 @@ impl TetrahedralMesh {
     ///
     /// # Errors
     /// [`FieldsError::EmptyMesh`] when a count is zero; as [`new`](Self::new) for a box of extreme proportions.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, TetrahedralMesh};
-    /// let brick = Cuboid::new(Vector3::zeros(), Vector3::new(1.0, 2.0, 3.0))?;
-    /// let mesh = TetrahedralMesh::of_cuboid(&brick, [1, 2, 3])?;
-    /// assert_eq!((mesh.tetrahedra().len(), mesh.boundary().len()), (36, 44));
-    /// assert!((mesh.volume() - 6.0).abs() < 1e-14);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn of_cuboid(cuboid: &Cuboid, cells: [usize; 3]) -> Result<Self, FieldsError> {
         if cells.contains(&0) {
             return Err(FieldsError::EmptyMesh);
@@ -75,16 +64,6 @@ impl TetrahedralMesh {
     ///
     /// # Errors
     /// As [`new`](Self::new), when the midpoints of extremely small elements coincide.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::TetrahedralMesh;
-    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let refined = TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?.refined()?;
-    /// assert_eq!((refined.tetrahedra().len(), refined.vertices().len()), (8, 10));
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn refined(&self) -> Result<Self, FieldsError> {
         let edges = self.edges();
         let mut vertices = self.vertices.clone();
@@ -107,16 +86,6 @@ impl TetrahedralMesh {
     ///
     /// # Errors
     /// As [`new`](Self::new), when the map turns an element inside out.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Cuboid, TetrahedralMesh};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let doubled = TetrahedralMesh::of_cuboid(&unit, [1, 1, 1])?.moved(|x| x * 2.0)?;
-    /// assert!((doubled.volume() - 8.0).abs() < 1e-14);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn moved(&self, map: impl FnMut(&Vector3<f64>) -> Vector3<f64>) -> Result<Self, FieldsError> {
         Self::new(self.vertices.iter().map(map).collect(), self.tetrahedra.clone())
     }

@@ -73,16 +73,6 @@ impl TetrahedralMesh {
     /// [`FieldsError::NoSuchVertex`], [`FieldsError::RepeatedVertex`], [`FieldsError::FlatElement`] when
     /// 6 V ≤ 64 ulp × (longest edge)³, [`FieldsError::InvertedElement`], [`FieldsError::OverlappingElements`],
     /// [`FieldsError::UnusedVertex`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::TetrahedralMesh;
-    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// assert_eq!(TetrahedralMesh::new(corners.clone(), vec![[0, 1, 2, 3]])?.volumes(), [1.0 / 6.0]);
-    /// assert!(TetrahedralMesh::new(corners, vec![[0, 1, 2, 4]]).is_err()); // there is no vertex 4
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn new(vertices: Vec<Vector3<f64>>, tetrahedra: Vec<[usize; 4]>) -> Result<Self, FieldsError> {
         if tetrahedra.is_empty() {
             return Err(FieldsError::EmptyMesh);

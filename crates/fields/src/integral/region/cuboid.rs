@@ -34,16 +34,6 @@ impl Cuboid {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`]; [`FieldsError::NotPositive`] of the edge that is not positive.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::Cuboid;
-    /// let brick = Cuboid::new(Vector3::zeros(), Vector3::new(1.0, 2.0, 3.0))?;
-    /// assert_eq!((brick.lower().z, brick.upper().z), (0.0, 3.0));
-    /// assert!(Cuboid::new(Vector3::zeros(), Vector3::new(1.0, 2.0, 0.0)).is_err()); // flat
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn new(lower: Vector3<f64>, upper: Vector3<f64>) -> Result<Self, FieldsError> {
         check_finite("lower corner", lower.as_slice())?;
         check_finite("upper corner", upper.as_slice())?;

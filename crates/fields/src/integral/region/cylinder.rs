@@ -36,14 +36,6 @@ impl Cylinder {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`]; [`FieldsError::NotPositive`] unless 0 < |axis|, 0 ≤ R₁, R₁ < R₂.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::Cylinder;
-    /// assert!(Cylinder::new(Vector3::zeros(), Vector3::new(0.0, 0.0, 5.0), [0.0, 2.0]).is_ok()); // solid
-    /// assert!(Cylinder::new(Vector3::zeros(), Vector3::new(0.0, 0.0, 5.0), [2.0, 1.0]).is_err());
-    /// ```
     pub fn new(base: Vector3<f64>, axis: Vector3<f64>, radii: [f64; 2]) -> Result<Self, FieldsError> {
         check_finite("centre of the base", base.as_slice())?;
         check_finite("axis", axis.as_slice())?;

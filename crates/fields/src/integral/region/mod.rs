@@ -40,7 +40,7 @@ use piola_tensor::internal::rows::{Rows, apply};
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: crate::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
+        deserialize = "T: crate::integrand::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct VolumePoint<T = f64> {
@@ -61,7 +61,7 @@ pub struct VolumePoint<T = f64> {
     feature = "serde",
     serde(bound(
         serialize = "T: nalgebra::Scalar + serde::Serialize",
-        deserialize = "T: crate::integral::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
+        deserialize = "T: crate::integrand::Integrand<Scalar = T> + Real + serde::Deserialize<'de>"
     ))
 )]
 pub struct SurfacePoint<T = f64> {

@@ -85,9 +85,9 @@ impl<T: Real, R: Region<T>, M: Motion> Region<T> for MovedRegion<'_, R, M, T> {
 pub(in crate::integral) fn placed<T: Real>(
     motion: &impl Motion,
     particle: &Vector3<T>,
-    time: T,
+    t: T,
 ) -> Result<(Vector3<T>, DeformationGradient<T>), FieldsError> {
-    check_event(motion, particle, time)?;
-    let (place, gradient) = place_and_gradient(motion, particle, time);
+    check_event(motion, particle, t)?;
+    let (place, gradient) = place_and_gradient(motion, particle, t);
     Ok((place, DeformationGradient::new(from_rows(gradient))?))
 }

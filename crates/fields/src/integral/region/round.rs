@@ -34,14 +34,6 @@ impl Ball {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`], [`FieldsError::NotPositive`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::Ball;
-    /// assert!(Ball::new(Vector3::zeros(), 1.0).is_ok());
-    /// assert!(Ball::new(Vector3::zeros(), 0.0).is_err());
-    /// ```
     pub fn new(centre: Vector3<f64>, radius: f64) -> Result<Self, FieldsError> {
         check_finite("centre", centre.as_slice())?;
         check_length("radius", radius)?;
@@ -86,14 +78,6 @@ impl SphericalShell {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`]; [`FieldsError::NotPositive`] unless 0 < R₁ and 0 < R₂ − R₁.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::SphericalShell;
-    /// assert!(SphericalShell::new(Vector3::zeros(), [1.0, 2.0]).is_ok());
-    /// assert!(SphericalShell::new(Vector3::zeros(), [2.0, 1.0]).is_err());
-    /// ```
     pub fn new(centre: Vector3<f64>, radii: [f64; 2]) -> Result<Self, FieldsError> {
         check_finite("centre", centre.as_slice())?;
         check_length("inner radius", radii[0])?;
@@ -143,14 +127,6 @@ impl Ellipsoid {
     ///
     /// # Errors
     /// [`FieldsError::NotFinite`]; [`ContinuumError::NonPositiveJacobian`](piola_continuum::ContinuumError::NonPositiveJacobian) unless 0 < det A.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::{Matrix3, Vector3};
-    /// use piola_fields::integral::Ellipsoid;
-    /// assert!(Ellipsoid::new(Vector3::zeros(), Matrix3::from_diagonal_element(2.0)).is_ok());
-    /// assert!(Ellipsoid::new(Vector3::zeros(), Matrix3::zeros()).is_err());
-    /// ```
     pub fn new(centre: Vector3<f64>, semi_axes: Matrix3<f64>) -> Result<Self, FieldsError> {
         check_finite("centre", centre.as_slice())?;
         let rows = rows_of(&semi_axes);

@@ -5,10 +5,10 @@ use piola_numerics::sums::two_sum;
 use piola_numerics::{Dual, Element, Gradient, Jet, Lanes, Mask, Real};
 use piola_tensor::Symmetric;
 
-use crate::FieldValue;
 use crate::FieldsError;
 use crate::error::check_finite;
 use crate::field::finite;
+use crate::value::FieldValue;
 
 /// A value with components that can be weighted and added.
 ///
@@ -131,20 +131,20 @@ impl<T: Real, const N: usize> Integrand for [T; N] {
 
 /// A running integral Σ w f that keeps what its additions round off.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct RunningIntegral<V> {
+pub(crate) struct RunningIntegral<V> {
     sum: V,
     carry: V,
 }
 
 impl<V: Integrand> RunningIntegral<V> {
     #[inline(always)]
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { sum: V::zero(), carry: V::zero() }
     }
 
     /// Adds `weight` × `term`, a value at `position`.
     #[inline(always)]
-    pub(super) fn add(
+    pub(crate) fn add(
         &mut self,
         term: &V,
         weight: V::Scalar,
@@ -164,7 +164,7 @@ impl<V: Integrand> RunningIntegral<V> {
 
     /// The integral, if it is in the range of numbers.
     #[inline(always)]
-    pub(super) fn value(mut self) -> Result<V, FieldsError> {
+    pub(crate) fn value(mut self) -> Result<V, FieldsError> {
         for (sum, &carry) in self.sum.components_mut().iter_mut().zip(self.carry.components()) {
             // After an overflow the carry is NaN and the plain sum tells what happened.
             *sum = V::Scalar::select(carry.is_finite(), *sum + carry, *sum);
@@ -176,21 +176,21 @@ impl<V: Integrand> RunningIntegral<V> {
 
 /// A running integral of the values of a field.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct FieldIntegral<V: FieldValue, T: Real> {
+pub(crate) struct FieldIntegral<V: FieldValue, T: Real> {
     sum: V::Over<T>,
     carry: V::Over<T>,
 }
 
 impl<V: FieldValue, T: Real> FieldIntegral<V, T> {
     #[inline(always)]
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let zero = V::from_components(|_| T::lit(0.0));
         Self { sum: zero, carry: zero }
     }
 
     /// Adds `weight` × `term`, a value at `position`.
     #[inline(always)]
-    pub(super) fn add(&mut self, term: &V::Over<T>, weight: T, position: &Vector3<T>) -> Result<(), FieldsError> {
+    pub(crate) fn add(&mut self, term: &V::Over<T>, weight: T, position: &Vector3<T>) -> Result<(), FieldsError> {
         let not_finite_at = |i: &usize| !V::component::<T>(term, *i).is_finite().all();
         if let Some(component) = (0..V::COMPONENTS).find(not_finite_at) {
             return Err(not_finite(component, V::component(term, component), position));
@@ -204,7 +204,7 @@ impl<V: FieldValue, T: Real> FieldIntegral<V, T> {
 
     /// The integral, if it is in the range of numbers.
     #[inline(always)]
-    pub(super) fn value(self) -> Result<V::Over<T>, FieldsError> {
+    pub(crate) fn value(self) -> Result<V::Over<T>, FieldsError> {
         let total = V::from_components(|i| {
             let (sum, carry) = (V::component::<T>(&self.sum, i), V::component::<T>(&self.carry, i));
             // After an overflow the carry is NaN and the plain sum tells what happened.
@@ -217,7 +217,7 @@ impl<V: FieldValue, T: Real> FieldIntegral<V, T> {
 #[cold]
 fn not_finite<T: Real>(component: usize, value: T, position: &Vector3<T>) -> FieldsError {
     let lane = (0..T::LANES).find(|&lane| !value.primal(lane).is_finite()).unwrap_or(0);
-    FieldsError::NonFiniteIntegrand {
+    FieldsError::IntegrandNotFinite {
         position: [position.x.primal(lane), position.y.primal(lane), position.z.primal(lane)],
         component,
         value: value.primal(lane),
@@ -225,13 +225,13 @@ fn not_finite<T: Real>(component: usize, value: T, position: &Vector3<T>) -> Fie
 }
 
 /// The largest component in modulus, over all lanes; derivatives do not count.
-pub(super) fn largest_component<V: Integrand>(value: &V) -> f64 {
+pub(crate) fn largest_component<V: Integrand>(value: &V) -> f64 {
     let lanes = |x: &V::Scalar| (0..V::Scalar::LANES).map(|lane| x.primal(lane).abs()).fold(0.0, f64::max);
     value.components().iter().map(lanes).fold(0.0, f64::max)
 }
 
 /// The largest difference of components in modulus, over all lanes; derivatives do not count.
-pub(super) fn largest_difference<V: Integrand>(a: &V, b: &V) -> f64 {
+pub(crate) fn largest_difference<V: Integrand>(a: &V, b: &V) -> f64 {
     let mut difference = *a;
     for (component, &other) in difference.components_mut().iter_mut().zip(b.components()) {
         *component -= other;
