@@ -83,7 +83,7 @@ impl BlatzKo {
         ((-exponent).exp_m1(), exponent.exp_m1())
     }
 
-    /// What |2 β ln J| is below, so that the tangent is within the range of the scalar.
+    /// Upper bound of |2 β ln J| that keeps the tangent within the range of the scalar.
     #[inline(always)]
     fn limit<T: Real>(&self) -> f64 {
         largest_exponent::<T>(4.0 * self.shear_modulus * (1.0 + self.exponent()))

@@ -5,7 +5,7 @@ use crate::error::{check_bound, check_finite};
 
 const LAW: &str = "elastic constants";
 
-/// Whether Poisson's ratio is below zero, where a pair of constants leaves it open.
+/// Sign of Poisson's ratio, for pairs of constants that leave it open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PoissonSign {
     /// 0 ≤ ν: nearly every solid.
@@ -276,7 +276,7 @@ impl ElasticConstants {
         self.lambda.map(|lambda| lambda + 2.0 * self.mu)
     }
 
-    /// Whether ν = ½.
+    /// True if ν = ½.
     #[must_use]
     pub const fn is_incompressible(&self) -> bool {
         self.lambda.is_none()

@@ -28,25 +28,25 @@ pub enum SolidsError {
         parameter: &'static str,
         /// Its value.
         value: f64,
-        /// What would be valid, such as `0 < μ`.
+        /// The bound, such as `0 < μ`.
         bound: &'static str,
     },
-    /// The deformation is beyond what the law can answer.
+    /// The deformation is beyond the limit of the law.
     #[error("{law}: {quantity} = {value:e} is not below its limit {limit:e}")]
     BeyondLimit {
         /// The law.
         law: &'static str,
-        /// What is limited.
+        /// The limited quantity.
         quantity: &'static str,
-        /// What it is.
+        /// Its value.
         value: f64,
-        /// What it must be below.
+        /// Its upper limit.
         limit: f64,
     },
-    /// The law has no limit here, but its answer is beyond the range of the scalar.
+    /// The law has no limit here, but the result overflows the scalar.
     #[error("the answer `{answer}` is beyond the range of the scalar; valid are deformations at which it is finite")]
     Overflow {
-        /// What was asked for.
+        /// The requested quantity.
         answer: &'static str,
     },
     /// A constraint is not the same for all observers: its reaction is not symmetric.
@@ -66,7 +66,7 @@ pub enum SolidsError {
         rank: usize,
         /// How many there are.
         count: usize,
-        /// What is left of its reaction without the others', as a share of it.
+        /// The part of its reaction independent of the others', as a share of it.
         share: f64,
     },
     /// Constraints contradict one another.
@@ -102,7 +102,7 @@ pub enum SolidsError {
     ImpossibleCondition {
         /// The condition, from 0.
         index: usize,
-        /// What its left side has beyond its right, Pa.
+        /// Its left side minus its right, Pa.
         residual: f64,
     },
     /// Points of a batch are bad; the outputs of all others are computed.
@@ -150,7 +150,7 @@ impl From<BatchError> for SolidsError {
 pub struct BadPoint {
     /// Which point, from 0.
     pub index: usize,
-    /// What is wrong, as the law or the constructor of a single deformation says it.
+    /// The error of the law, or of the constructor of a single deformation.
     pub error: SolidsError,
 }
 

@@ -63,7 +63,7 @@ fn beyond<T: Real>(law: &'static str, quantity: &'static str, exponent: T, facto
     Ok(())
 }
 
-/// Where no closer look is needed.
+/// True if both are clearly within the range.
 #[inline(always)]
 fn are_small<T: Real>(exponent: T, factor: T) -> bool {
     let (most, great) = if largest_logarithm::<T>() < 100.0 { (36.0, 1e16) } else { (297.0, 1e129) };

@@ -84,7 +84,7 @@ impl Fung {
         (image, strain.double_contraction(&image))
     }
 
-    /// What multiplies e^Q in ∂P/∂F is below this: (A : E)² ≤ |A| Q, and |F|² = tr C.
+    /// Upper bound of the factor of e^Q in ∂P/∂F: (A : E)² ≤ |A| Q, and |F|² = tr C.
     #[inline(always)]
     fn factor<T: Real>(&self, strain: &Symmetric<T>, q: T) -> T {
         let two = T::lit(2.0);

@@ -136,7 +136,7 @@ impl HolzapfelGasserOgden {
     }
 }
 
-/// What the isochoric invariants J^(−2/3) C : H are made of.
+/// The terms of the isochoric invariants J^(−2/3) C : H.
 struct Metric<T: Real> {
     /// C, C − 1, C⁻¹ and 1 − C⁻¹.
     whole: Symmetric<T>,
@@ -146,7 +146,7 @@ struct Metric<T: Real> {
     /// J^(−2/3) and its difference from 1.
     scale: T,
     scale_change: T,
-    /// Where the volume is near that of the reference: elsewhere differences from the reference would hide what is left.
+    /// Mask of volumes near that of the reference. Elsewhere differences from the reference would lose the digits.
     near: T::Mask,
 }
 

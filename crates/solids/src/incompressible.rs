@@ -14,7 +14,7 @@ use piola_numerics::internal::excess_over_given;
 
 const LAW: &str = "incompressible solid";
 
-/// How far J may be from 1.
+/// Largest |J − 1| admitted.
 const VOLUME: f64 = 1e-6;
 
 /// The pressure of an incompressible solid, Pa.

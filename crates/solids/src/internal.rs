@@ -1,4 +1,4 @@
-//! What only our other crates need.
+//! Functions for Piola's other crates only.
 
 pub use crate::internal_constraints::orthogonal::{outside_of_columns, rank_of_columns};
 pub use crate::isochoric::arruda_boyce::arruda_boyce;

@@ -33,7 +33,7 @@ macro_rules! read_with {
     ($constructor:ident of $law:ident<$($generic:ident: $bound:ident),*> {
         $($(#[$about:meta])* $field:ident $(as $old:literal)?: $type:ty),+ $(,)?
     }) => {
-        /// What is written of the law.
+        /// The written form of the law.
         #[cfg(feature = "serde")]
         #[derive(serde::Deserialize)]
         #[serde(deny_unknown_fields)]

@@ -113,7 +113,7 @@ impl Polynomial {
         Ok(Self { residual: 0.0, ..law })
     }
 
-    /// Whether the reference has no stress, within rounding of the terms of degree 1.
+    /// True if the reference is free of stress, within rounding of the terms of degree 1.
     fn is_stress_free(&self) -> bool {
         let largest = self.linear.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         self.residual.abs() <= 16.0 * f64::EPSILON * largest

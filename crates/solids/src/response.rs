@@ -61,7 +61,7 @@ pub enum ResponseForm {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct IsotropicResponse<T = f64> {
-    /// What the coefficients multiply.
+    /// The tensors that the coefficients multiply.
     pub form: ResponseForm,
     /// The coefficients, Pa, in the order of the form.
     pub coefficients: [T; 3],

@@ -66,7 +66,7 @@ use piola_numerics::{Real, parameters};
 pub trait Volumetric: Clone {
     /// See [`InvariantEnergy::STRAIGHT`](super::invariant::InvariantEnergy::STRAIGHT).
     const STRAIGHT: bool = false;
-    /// Whether the bulk modulus may be negative, beside a change of shape that resists a change of volume too.
+    /// True if the bulk modulus may be negative, beside a change of shape that resists a change of volume too.
     const EITHER_SIGN: bool = false;
 
     /// U of J − 1 and J, J/m³, without cancellation.

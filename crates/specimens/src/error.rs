@@ -26,7 +26,7 @@ pub enum SpecimensError {
         parameter: &'static str,
         /// Its value.
         value: f64,
-        /// What would be valid, such as `0 < μ`.
+        /// The bound, such as `0 < μ`.
         bound: &'static str,
     },
     /// No state was found in which everything prescribed holds.

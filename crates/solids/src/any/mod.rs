@@ -113,7 +113,7 @@ pub enum AnySolid {
     AnisotropicSaintVenantKirchhoff(AnisotropicSaintVenantKirchhoff),
 }
 
-/// What is done with the law that an [`AnySolid`] is.
+/// A computation with the law of an [`AnySolid`], its type known.
 ///
 /// # Example
 /// The energy of many points: the law is chosen once. A [batch](crate::batch) goes into a visitor in the same way.
@@ -133,10 +133,10 @@ pub enum AnySolid {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait SolidVisitor {
-    /// What comes of it.
+    /// The result.
     type Output;
 
-    /// Is called with the law.
+    /// Computes with the law.
     fn visit<L: Hyperelastic + Sync>(self, law: &L) -> Self::Output;
 }
 
@@ -196,7 +196,7 @@ impl AnySolid {
     }
 }
 
-/// Whether a scalar holds one value: lanes are kept in one function, which is compiled for the machine's registers.
+/// Tells scalars of one value from lanes: lanes stay in one function, which is compiled for the machine's registers.
 struct Alone<T>(T);
 
 impl<T: Real> Alone<T> {

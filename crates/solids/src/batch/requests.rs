@@ -1,4 +1,4 @@
-//! What may be asked of a law: the energy and the stresses.
+//! Requests of the energy and the stresses.
 
 use piola_batch::{Point, Quantity, Refusal, Request};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola};

@@ -1,4 +1,4 @@
-//! What may be asked of a law: its tangent, whole, by half, or in one direction.
+//! Requests of the tangent: whole, its upper triangle, or its product with a direction.
 
 use nalgebra::Matrix3;
 use piola_batch::{Point, Quantity, Refusal, Request};

@@ -1,4 +1,4 @@
-//! What may be asked of a law together: what several answers share is computed once, each goes to a destination of its own.
+//! Requests of several quantities that share work, each with a destination of its own.
 
 use piola_batch::{BatchScalar, Destination, Point, Quantity, Refusal, Request};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, SecondPiola};
@@ -68,8 +68,8 @@ fn with_tangent<T: Real>(stress: &[T; 6], tangent: &[T; 21]) -> [T; 27] {
     all
 }
 
-/// S and the 21 components of [`material_tangent`](super::material_tangent), what they share computed once: what a total Lagrangian formulation asks
-/// for.
+/// S and the 21 components of [`material_tangent`](super::material_tangent), their common terms computed once: for total
+/// Lagrangian formulations.
 #[must_use]
 pub fn second_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
     law: &L,
@@ -79,8 +79,8 @@ pub fn second_piola_and_tangent<L: Hyperelastic + Sync, V, W>(
     shared_material(law, Together(stress, tangent))
 }
 
-/// T and the 21 components of [`truesdell_tangent`](super::truesdell_tangent), what they share computed once: what an updated Lagrangian formulation asks
-/// for.
+/// T and the 21 components of [`truesdell_tangent`](super::truesdell_tangent), their common terms computed once: for updated
+/// Lagrangian formulations.
 #[must_use]
 pub fn cauchy_and_tangent<L: Hyperelastic + Sync, V, W>(
     law: &L,
@@ -90,7 +90,7 @@ pub fn cauchy_and_tangent<L: Hyperelastic + Sync, V, W>(
     shared_spatial(law, Together(stress, tangent))
 }
 
-/// W(F) − W(1) and P, what they share computed once: what a line search asks for.
+/// W(F) − W(1) and P, their common terms computed once: for line searches.
 #[must_use]
 pub fn energy_and_first_piola<L: Hyperelastic + Sync, V, W>(
     law: &L,
@@ -100,8 +100,8 @@ pub fn energy_and_first_piola<L: Hyperelastic + Sync, V, W>(
     shared_energy(law, Together(energy, stress))
 }
 
-/// W(F) − W(1), P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent), what they share computed once: what a step of Newton's method
-/// with a line search asks for.
+/// W(F) − W(1), P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent), their common terms computed once: for Newton's
+/// method with a line search.
 #[must_use]
 pub fn energy_first_piola_and_tangent<L: Hyperelastic + Sync, U, V, W>(
     law: &L,
@@ -112,7 +112,7 @@ pub fn energy_first_piola_and_tangent<L: Hyperelastic + Sync, U, V, W>(
     shared_all(law, Together(energy, Together(stress, tangent)))
 }
 
-/// P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent), what they share computed once: see
+/// P and the 45 entries of [`first_piola_tangent`](super::first_piola_tangent), their common terms computed once: see
 /// [`Hyperelastic::first_piola_and_tangent`].
 #[must_use]
 pub fn first_piola_and_tangent<L: Hyperelastic + Sync, V, W>(

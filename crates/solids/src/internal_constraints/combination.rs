@@ -78,7 +78,7 @@ impl<const N: usize> Combination<N> {
         Err(SolidsError::RedundantConstraint { index, rank, count: N, share })
     }
 
-    /// What the independent constraints say of the value of a dependent one, and the size that it is compared with.
+    /// The value of a dependent constraint that follows from the independent ones, and the size to compare it with.
     fn implied(orthogonal: &Orthogonal<6, N>, restrictions: &[Restriction; N], place: usize) -> (f64, f64) {
         let mut column = [0.0; N];
         for (entry, row) in column.iter_mut().zip(&orthogonal.triangle) {
@@ -96,7 +96,7 @@ impl<const N: usize> Combination<N> {
         (sum, scale)
     }
 
-    /// How many of constraints are independent: never an error.
+    /// Number of independent constraints; never an error.
     #[must_use]
     pub fn rank(restrictions: &[Restriction; N]) -> usize {
         orthogonalise(&reactions(restrictions)).rank

@@ -1,4 +1,4 @@
-//! What a constraint is.
+//! Traits of constraints, and a constraint at a deformation.
 
 use nalgebra::Matrix3;
 use piola_continuum::strain::RightCauchyGreen;
@@ -9,7 +9,7 @@ use piola_tensor::internal::rows::{Rows, product, product_transposed, scaled};
 
 use crate::SolidsError;
 
-/// How much of N may be skew, as a share of it, before a constraint is said to depend on the observer.
+/// Largest skew share of N of a constraint that counts as independent of the observer.
 const LARGEST_SKEW_SHARE: f64 = 1e-10;
 
 /// A constraint μ(F) = 0.

@@ -1,6 +1,6 @@
 //! A few columns made orthonormal, which tells how many of them are independent.
 
-/// What is left of a column when those before it are taken out must be more than this share of it.
+/// Least share of a column that must remain after projection off the columns before it.
 const LEAST_SHARE: f64 = 1e-10;
 
 /// Columns `a_k = Σ q_j r_jk` in the order in which they were taken.
@@ -12,7 +12,7 @@ pub(super) struct Orthogonal<const ROWS: usize, const COLUMNS: usize> {
     /// Which column each is, the independent first.
     pub(super) order: [usize; COLUMNS],
     pub(super) rank: usize,
-    /// What is left of the first dependent column, as a share of it.
+    /// Independent part of the first dependent column, as a share of it.
     pub(super) share: f64,
 }
 
@@ -84,8 +84,7 @@ impl<const ROWS: usize, const COLUMNS: usize> Orthogonal<ROWS, COLUMNS> {
     }
 }
 
-/// What of a vector is no sum of the columns.
-#[must_use]
+/// The part of a vector outside the span of the columns.
 pub fn outside_of_columns<const ROWS: usize, const COLUMNS: usize>(
     columns: &[[f64; ROWS]; COLUMNS],
     mut vector: [f64; ROWS],
@@ -100,8 +99,7 @@ pub fn outside_of_columns<const ROWS: usize, const COLUMNS: usize>(
     vector
 }
 
-/// How many columns are independent, and the first that is not.
-#[must_use]
+/// Rank of the columns, and the first dependent one.
 pub fn rank_of_columns<const ROWS: usize, const COLUMNS: usize>(
     columns: &[[f64; ROWS]; COLUMNS],
 ) -> (usize, Option<usize>) {

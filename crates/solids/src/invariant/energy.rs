@@ -65,13 +65,13 @@ impl<T: Real> Curvatures<T> {
 
 /// An isotropic energy W(I₁, I₂, J) with its derivatives in closed form.
 pub trait InvariantEnergy: Clone {
-    /// Whether W depends on I₂; what that needs is compiled out otherwise.
+    /// True if W depends on I₂; otherwise its terms are not compiled.
     const SECOND: bool;
-    /// Whether another second derivative than ∂²W/∂J² is not zero.
+    /// True if a second derivative other than ∂²W/∂J² is not zero.
     const CURVED: bool;
     /// See [`Hyperelastic::REFUSED_IS_NOT_FINITE`](crate::Hyperelastic::REFUSED_IS_NOT_FINITE).
     const REFUSED_IS_NOT_FINITE: bool = false;
-    /// Whether slopes and curvatures are straight code, without a loop of a length that is known at run time only: lanes
+    /// True if slopes and curvatures are straight code, without a loop of a length that is known at run time only: lanes
     /// are then computed by [`Real::lanewise`] while the strain is moderate, with a copy of the law. A law with such loops, or
     /// that is not copied at once, is slower by that.
     const STRAIGHT: bool = false;
@@ -95,7 +95,7 @@ pub trait InvariantEnergy: Clone {
         Ok(())
     }
 
-    /// Whether the body keeps its volume.
+    /// True if the body keeps its volume.
     #[must_use]
     fn is_incompressible(&self) -> bool {
         false

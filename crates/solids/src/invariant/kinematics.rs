@@ -1,4 +1,4 @@
-//! What the stress and tangent of a law of invariants share: near the reference, turned from it, and far from it.
+//! Kinematics for stress and tangent of a law of invariants: near the reference, turned from it, and far from it.
 
 use piola_continuum::internal::strain as kernels;
 use piola_continuum::{Deformation, Symmetric};
@@ -10,7 +10,7 @@ use super::energy::{InvariantEnergy, Invariants, Slopes};
 /// Strains with components up to this size take the forms in which everything is as small as the strain.
 pub(super) const SMALL: f64 = 0.25;
 
-/// What stress and tangent share.
+/// Kinematic quantities of both stress and tangent.
 pub(super) struct Kinematics<T: Real> {
     /// F.
     pub(super) gradient: Rows<T>,
@@ -22,9 +22,9 @@ pub(super) struct Kinematics<T: Real> {
     pub(super) invariants: Invariants<T>,
     /// F − Cof F where ∇u is moderate, computed from ∇u; F − F⁻ᵀ where only the strain is; F elsewhere.
     beyond: Rows<T>,
-    /// Where ∇u is moderate.
+    /// Mask of moderate ∇u.
     near: T::Mask,
-    /// Where the strain is small.
+    /// Mask of small strains.
     turned: T::Mask,
 }
 
@@ -104,7 +104,7 @@ impl<T: Real> Kinematics<T> {
         }
     }
 
-    /// With what is far from the reference, where it is.
+    /// With the forms for large strain in the lanes that need them.
     #[inline(always)]
     fn with_far<L: InvariantEnergy>(self, jacobian: T) -> Self {
         if L::SECOND { self.completed::<true>(jacobian) } else { self.completed::<false>(jacobian) }

@@ -68,7 +68,7 @@ pub use yeoh::Yeoh;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Isochoric: Clone {
-    /// Whether W̄ depends on Ī₂.
+    /// True if W̄ depends on Ī₂.
     const SECOND: bool;
     /// True if energy, slopes and curvatures are NaN or ∞ wherever [`check`](Self::check) fails. Batches then call it
     /// only after a non-finite result.

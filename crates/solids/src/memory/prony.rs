@@ -121,7 +121,7 @@ impl From<Prony> for Vec<PronyTerm> {
     }
 }
 
-/// What a step Δt makes of each term: hₖ ← exp(−Δt/τₖ) hₖ + φ(Δt/τₖ) ΔS with φ(x) = (1 − e⁻ˣ)/x.
+/// The update of each term over a step Δt: hₖ ← exp(−Δt/τₖ) hₖ + φ(Δt/τₖ) ΔS with φ(x) = (1 − e⁻ˣ)/x.
 ///
 /// # Accuracy
 /// 2 ulp each, for Δt/τ from 0 to ∞.

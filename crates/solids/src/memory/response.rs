@@ -8,7 +8,7 @@ use crate::Hyperelastic;
 use crate::Response;
 use crate::SolidsError;
 
-/// What a viscoelastic solid answers at the end of a step: [`Viscoelastic::response`].
+/// Stress and tangent of a viscoelastic solid at the end of a step: [`Viscoelastic::response`].
 #[derive(Clone, Copy, Debug)]
 pub struct ViscoelasticResponse<'a, E, D> {
     solid: &'a Viscoelastic<E, D>,
@@ -17,7 +17,7 @@ pub struct ViscoelasticResponse<'a, E, D> {
 }
 
 impl<E: Hyperelastic, D: Hyperelastic> Viscoelastic<E, D> {
-    /// What the solid answers at the end of a step to the deformations that may be there, as
+    /// The solid at the end of a step, as a function of the deformation there, as
     /// `piola_specimens::homogeneous::equilibrium` asks it: sides that are free, forces that are held.
     ///
     /// # Errors

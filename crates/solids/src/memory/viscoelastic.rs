@@ -81,7 +81,7 @@ impl<L: Hyperelastic + Clone> Viscoelastic<Scaled<L>, L> {
     }
 }
 
-/// What a viscoelastic solid remembers.
+/// The memory of a viscoelastic solid.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -183,7 +183,7 @@ impl<E: Hyperelastic, D: Hyperelastic> Viscoelastic<E, D> {
         check_bound(STEP, "number of terms", count, "those of the series", self.fits(step))
     }
 
-    /// Whether a step has the terms of the series.
+    /// True if a step has the terms of the series.
     fn fits(&self, step: &PronyStep) -> bool {
         step.factors().len() == self.prony.terms().len()
     }

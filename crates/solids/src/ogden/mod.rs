@@ -182,7 +182,7 @@ impl<U: Volumetric> IsochoricOgden<U> {
     }
 }
 
-/// What both have: their parts, and the closed forms of all laws of stretches.
+/// Getters and closed forms of both laws.
 macro_rules! ogden {
     ($law:ident, $name:ident, isochoric: $isochoric:literal) => {
         impl<U: Volumetric> $law<U> {

@@ -31,7 +31,7 @@ impl<T: Real> Volume<T> {
 
 /// An energy Σ w(ln λₐ) + U(J) with its derivatives in closed form.
 pub trait StretchEnergy {
-    /// Whether w acts on the isochoric part J^(−1/3) F of the deformation.
+    /// True if w acts on the isochoric part J^(−1/3) F of the deformation.
     const ISOCHORIC: bool;
 
     /// Refuses deformations at which the law has no answer.
@@ -43,7 +43,7 @@ pub trait StretchEnergy {
         Ok(())
     }
 
-    /// Whether the body keeps its volume.
+    /// True if the body keeps its volume.
     #[must_use]
     fn is_incompressible(&self) -> bool {
         false

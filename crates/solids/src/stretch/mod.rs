@@ -88,7 +88,7 @@ fn stress_function<T: Real, L: StretchEnergy, const N: usize, const SPATIAL: boo
     (stress, sum)
 }
 
-/// What is the same in all directions of βₐ: J U′, of an isochoric law less the mean of the w′.
+/// The spherical part of β: J U′, less the mean of the w′ if the law is isochoric.
 #[inline(always)]
 fn uniform<T: Real, L: StretchEnergy>(law: &L, sum: T, volume: &Volume<T>) -> T {
     let slope = law.volume_slope(volume);

@@ -179,18 +179,18 @@ fn increments() -> [Symmetric<f64>; 6] {
 /// The worst of random deformations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DruckerScan {
-    /// How many deformations were looked at.
+    /// Number of deformations compared.
     pub samples: usize,
-    /// How many more were drawn at which the law has no answer.
+    /// Number of further samples that the law refused.
     pub refused: usize,
-    /// The deformation with the least modulus; the reference if nothing was looked at.
+    /// The deformation with the least modulus; the reference if nothing was compared.
     pub gradient: DeformationGradient,
-    /// The least modulus, and the increment that has it; NaN if nothing was looked at.
+    /// The least modulus, and the increment that has it; NaN if nothing was compared.
     pub worst: SecondOrderWork,
 }
 
 impl DruckerScan {
-    /// Whether something was looked at, and more strain always took more stress.
+    /// True if something was compared, and more strain always took more stress.
     #[must_use]
     pub fn passes(&self) -> bool {
         0 < self.samples && 0.0 < self.worst.modulus
@@ -238,7 +238,7 @@ pub struct DruckerPath {
 }
 
 impl DruckerPath {
-    /// Whether the modulus was positive everywhere, up to the end of the path.
+    /// True if the modulus was positive everywhere, up to the end of the path.
     #[must_use]
     pub fn passes(&self) -> bool {
         0.0 < self.worst.modulus

@@ -20,7 +20,7 @@ pub enum Kinematics {
 }
 
 impl Kinematics {
-    /// What the body allows of these.
+    /// Kinematics of the body.
     pub(super) fn of(self, law: &impl Hyperelastic) -> Self {
         if law.is_incompressible() { Self::Isochoric } else { self }
     }
@@ -209,18 +209,18 @@ fn minimum(f: impl Fn([f64; 3]) -> f64) -> ([f64; 3], f64) {
 /// The worst of random deformations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EllipticityScan {
-    /// How many deformations were scanned, beside the reference.
+    /// Number of deformations scanned, beside the reference.
     pub samples: usize,
-    /// How many more were drawn at which the law has no answer.
+    /// Number of further samples that the law refused.
     pub refused: usize,
     /// The deformation with the least modulus.
     pub gradient: DeformationGradient,
-    /// What was found there.
+    /// Ellipticity there.
     pub worst: Ellipticity,
 }
 
 impl EllipticityScan {
-    /// Whether something was scanned and all was strongly elliptic.
+    /// True if something was scanned and all was strongly elliptic.
     #[must_use]
     pub fn passes(&self) -> bool {
         0 < self.samples && self.worst.is_strong()
@@ -254,12 +254,12 @@ pub fn ellipticity_scan(law: &impl Hyperelastic, search: &Search, kinematics: Ki
     scan
 }
 
-/// Where a path leaves strong ellipticity.
+/// The point where a path leaves strong ellipticity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Loss {
     /// The parameter of the path.
     pub parameter: f64,
-    /// What is found there.
+    /// Ellipticity there.
     pub ellipticity: Ellipticity,
 }
 

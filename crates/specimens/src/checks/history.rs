@@ -1,4 +1,4 @@
-//! Do simple materials turn with the observer, whatever their history?
+//! Frame indifference of simple materials, over histories.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use piola_solids::memory::SimpleMaterial;

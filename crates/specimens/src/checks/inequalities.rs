@@ -8,9 +8,9 @@ use super::{Sampler, Search};
 /// The least of Baker and Ericksen's quotients.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakerEricksen {
-    /// How many stretches were looked at.
+    /// Number of stretches compared.
     pub samples: usize,
-    /// How many more were drawn at which the law has no answer.
+    /// Number of further samples that the law refused.
     pub refused: usize,
     /// The least (Tᵢ − Tⱼ)/(λᵢ − λⱼ), Pa.
     pub least: f64,
@@ -21,7 +21,7 @@ pub struct BakerEricksen {
 }
 
 impl BakerEricksen {
-    /// Whether something was looked at, and the greater stress was always along the greater stretch.
+    /// True if something was compared, and the greater stress was always along the greater stretch.
     #[must_use]
     pub fn passes(&self) -> bool {
         0 < self.samples && 0.0 < self.least

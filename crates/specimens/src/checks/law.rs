@@ -23,14 +23,14 @@ pub trait Elastic {
     #[must_use]
     fn cauchy(&self, gradient: &Matrix3<f64>) -> Matrix3<f64>;
 
-    /// Whether the law has an answer at F: where it refuses, nothing is claimed of it, and samples there are left out and
+    /// True if the law has a stress at F. Where it refuses, nothing is claimed of it, and samples there are left out and
     /// counted.
     #[must_use]
     fn answers(&self, _gradient: &Matrix3<f64>) -> bool {
         true
     }
 
-    /// Whether the body keeps its volume: then all samples are isochoric.
+    /// True if the body keeps its volume: then all samples are isochoric.
     #[must_use]
     fn is_incompressible(&self) -> bool {
         false

@@ -41,13 +41,13 @@ pub struct NollReport {
 }
 
 impl NollReport {
-    /// Whether all three pass.
+    /// True if all three pass.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.energy.passes() && self.response.passes() && self.symmetry.passes()
     }
 
-    /// Whether the three stand or fall together, as the theorem says: otherwise the stress of the law is not the derivative of
+    /// True if the three stand or fall together, as the theorem says: otherwise the stress of the law is not the derivative of
     /// its energy. False where nothing was tested.
     #[must_use]
     pub fn agrees(&self) -> bool {

@@ -1,6 +1,6 @@
-//! What is searched and what is found.
+//! Settings of a search and its report.
 
-/// Where and how long to search.
+/// Settings of a search.
 ///
 /// # Example
 /// ```
@@ -12,9 +12,9 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Search {
-    /// How many samples are drawn: 400.
+    /// Number of samples: 400.
     pub samples: usize,
-    /// The beginning of the sequence: the same seed draws the same samples.
+    /// Seed of the sequence: the same seed draws the same samples.
     pub seed: u64,
     /// The largest |ln λ| of the principal stretches λ: ½, stretches between 0.61 and 1.65.
     pub strain: f64,
@@ -28,7 +28,7 @@ impl Default for Search {
     }
 }
 
-/// What a search says of a claim.
+/// Result of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Verdict {
     /// No counterexample was found among the samples.
@@ -45,11 +45,11 @@ pub enum Verdict {
 /// The worst counterexample of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Report<C> {
-    /// How many samples were compared.
+    /// Number of samples compared.
     pub samples: usize,
-    /// How many more were drawn at which the law has no answer, such as those beyond a limiting stretch.
+    /// Number of further samples that the law refused, such as those beyond a limiting stretch.
     pub refused: usize,
-    /// How many of those compared say nothing: their numerical error is above the tolerance, and what violation they show is
+    /// Number of compared samples that decide nothing: their numerical error is above the tolerance, and their violation is
     /// not above it by more than that error. None but where a check integrates, see [`hyperelasticity`](super::hyperelasticity).
     pub unresolved: usize,
     /// The size up to which the claim passes.
@@ -63,13 +63,13 @@ pub struct Report<C> {
 }
 
 impl<C> Report<C> {
-    /// Whether something was compared, all of it resolved, and no violation above the tolerance was found.
+    /// True if something was compared, all of it resolved, and no violation above the tolerance was found.
     #[must_use]
     pub fn passes(&self) -> bool {
         self.verdict() == Verdict::Passed
     }
 
-    /// Whether the claim passed, was refuted, remained open for numerical errors, or was not tested at all.
+    /// The claim passed, was refuted, remained open for numerical errors, or was not tested at all.
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if self.samples == 0 {

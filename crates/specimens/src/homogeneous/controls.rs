@@ -1,11 +1,11 @@
-//! What is prescribed in a homogeneous test: some components of F, the others of the stress.
+//! Prescribed components of a homogeneous test: some of F, the others of the stress.
 
 use piola_continuum::ContinuumError;
 
 use crate::SpecimensError;
 use crate::error::check_bound;
 
-/// What is prescribed of one component ij.
+/// The prescribed value of one component ij.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -31,7 +31,7 @@ impl Control {
     }
 }
 
-/// What is prescribed of all nine components, by rows.
+/// Prescribed values of all nine components, by rows.
 ///
 /// To fix the rotation of the body, of each pair ij and ji at least one should be a displacement; the constructors
 /// prescribe both, as zero.
@@ -133,7 +133,7 @@ impl Controls {
         Self::axial([pulled; 3])
     }
 
-    /// Where a stress is prescribed and F is free, by rows, and how many there are.
+    /// Places of the prescribed stresses, by rows, and their number.
     pub(super) fn free(&self) -> ([(usize, usize); 9], usize) {
         let (mut places, mut count) = ([(0, 0); 9], 0);
         for (i, row) in self.components.iter().enumerate() {

@@ -9,7 +9,7 @@ use piola_tensor::internal::rows::Rows;
 use super::{Mode, check_stretches, diagonal};
 use crate::SpecimensError;
 
-/// What an incompressible law answers in a homogeneous test.
+/// A law as an incompressible body in a homogeneous test.
 ///
 /// Every [`Hyperelastic`] law has it: the deformations are isochoric, and what the law says of volumes drops out with the
 /// pressure. A law written in principal stretches gives [`energy_of_stretches`](Self::energy_of_stretches), its
@@ -88,7 +88,7 @@ impl<T: Real, L: Hyperelastic> Incompressible<T> for L {
 /// Sides whose stresses differ by less than this share of all are alike.
 const ALIKE: f64 = 1e-12;
 
-/// Whether τ₂₂ = τ₃₃ in every lane, as they are in a bar of an isotropic solid; derivatives are not looked at.
+/// True if τ₂₂ = τ₃₃ in every lane, as they are in a bar of an isotropic solid; derivatives are not looked at.
 fn sides_alike<T: Real>(stress: &Matrix3<T>, gradient: &Rows<T>) -> bool {
     (0..T::LANES).all(|lane| {
         let [axial, second, third] =

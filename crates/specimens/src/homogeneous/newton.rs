@@ -36,7 +36,7 @@ pub(super) struct Problem<'a, L, C> {
     pub(super) unit: f64,
 }
 
-/// Where the iteration is.
+/// An iterate.
 #[derive(Clone, Copy)]
 pub(super) struct Point<const N: usize> {
     pub(super) state: DisplacementGradient,
