@@ -50,7 +50,7 @@ pub(super) fn comparison(measurements: &Measurements, comparison: &Comparison) -
     let title = format!("{}: measured and fitted", measurements.name());
     let names: Vec<String> =
         comparison.fits().map(|(law, fit)| label(&law.to_string(), fit.worst_relative_rms())).collect();
-    figure((size(across, PANEL.0, LEGEND + 24), size(down, PANEL.1, 56)), &title, |area| {
+    figure((size(across, PANEL.0, LEGEND + 24), size(down, PANEL.1, 56)), &title, &|area| {
         let (width, _) = area.dim_in_pixel();
         let (plots, side) = area.split_horizontally(width - size(1, LEGEND, 0) * FINE);
         for (panel, part) in panels.iter().zip(plots.split_evenly((down, across))) {

@@ -74,6 +74,11 @@ impl TimeSpan {
         (self.end - self.start).signum()
     }
 
+    /// Sorts instants in the order of the run.
+    pub(crate) fn sort(&self, instants: &mut [f64]) {
+        instants.sort_by(|a, b| self.order(*a, *b));
+    }
+
     /// The order of two instants in the run.
     pub(crate) fn order(&self, a: f64, b: f64) -> Ordering {
         // Adding zero makes −0 equal to 0.

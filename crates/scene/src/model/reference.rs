@@ -153,7 +153,7 @@ impl Builder<'_> {
         });
         let rows: Vec<(f64, usize, [f64; 3])> = rows.ok()?;
         let mut instants: Vec<f64> = rows.iter().map(|row| row.0).collect();
-        instants.sort_by(|a, b| time.order(*a, *b));
+        time.sort(&mut instants);
         instants.dedup_by(|a, b| time.order(*a, *b).is_eq());
         instants.retain(|t| time.holds(*t));
         if instants.is_empty() {

@@ -43,7 +43,7 @@ pub(crate) fn colour(index: usize) -> RGBColor {
 }
 
 /// A figure of a size, with a title; one that cannot be drawn says so instead of being lost.
-pub(crate) fn figure(size: (u32, u32), title: &str, draw: impl Fn(&Area<'_>) -> Drawn) -> String {
+pub(crate) fn figure(size: (u32, u32), title: &str, draw: &dyn Fn(&Area<'_>) -> Drawn) -> String {
     let mut text = String::new();
     let attempt = |text: &mut String, draw: &dyn Fn(&Area<'_>) -> Drawn| -> Drawn {
         let area = SVGBackend::with_string(text, (FINE * size.0, FINE * size.1)).into_drawing_area();
@@ -54,7 +54,7 @@ pub(crate) fn figure(size: (u32, u32), title: &str, draw: impl Fn(&Area<'_>) -> 
         area.present()?;
         Ok(())
     };
-    let drawn = attempt(&mut text, &draw);
+    let drawn = attempt(&mut text, draw);
     if let Err(error) = drawn {
         text.clear();
         let message = format!("this figure could not be drawn: {error}");
@@ -123,7 +123,7 @@ pub(super) fn trajectory(title: &str, history: &History, gravity: Option<[f64; 3
         .max_by(|a, b| (a[1] / a[0]).total_cmp(&(b[1] / b[0])));
     let panels: Vec<f64> = gap.map(|pair| pair[0]).into_iter().chain([largest]).collect();
     let size = if panels.len() == 2 { (1180, 600) } else { (780, 640) };
-    figure(size, title, |area| {
+    figure(size, title, &|area| {
         let legend = if history.names.len() <= NAMED { 130 * FINE } else { 0 };
         let (width, height) = area.dim_in_pixel();
         let (plots, names) = area.split_horizontally(width - legend);
@@ -310,7 +310,7 @@ pub(super) fn invariants(title: &str, history: &History) -> String {
 
 /// The relative error of each body over time.
 pub(super) fn error(title: &str, run: &Run) -> String {
-    let Some(errors) = &run.errors else { return figure((780, 520), title, |_| Ok(())) };
+    let Some(errors) = &run.errors else { return figure((780, 520), title, &|_| Ok(())) };
     let curves: Vec<Curve> = errors
         .bodies
         .iter()
@@ -346,7 +346,7 @@ fn log_figure(title: &str, ordinate: &str, mut curves: Vec<Curve>, few: bool) ->
     let start = extreme(|p| p.0, f64::min).unwrap_or(0.0);
     let end = extreme(|p| p.0, f64::max).unwrap_or(1.0).max(start + 1e-9 * start.abs() + f64::MIN_POSITIVE);
     let (unit, second) = time_unit(end - start);
-    figure((960, 560), title, |area| {
+    figure((960, 560), title, &|area| {
         let named = 1 < curves.len() && curves.len() <= NAMED;
         let (width, _) = area.dim_in_pixel();
         let (plot, names) = area.split_horizontally(if named { width - 190 * FINE } else { width });

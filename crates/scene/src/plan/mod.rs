@@ -275,7 +275,7 @@ pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
     if let Some(ReferenceKind::Table(table)) = scene.reference.as_ref().map(|reference| &reference.kind) {
         instants.extend(&table.times);
     }
-    instants.sort_by(|a, b| time.order(*a, *b));
+    time.sort(&mut instants);
     // Two instants that differ by rounding alone are one; an instant of the reference is the one that stays.
     let wanted = reference_times(scene);
     let mut merged: Vec<f64> = Vec::with_capacity(instants.len());

@@ -59,7 +59,7 @@ pub(super) fn recovery(measured: &Measured, curve: &RecoveredCurve, what: Answer
     };
     let residuals = vec![curve.residuals.clone()];
     let title = format!("{}: the fluid behind it", measured.name());
-    figure((1130, 420), &title, |area| {
+    figure((1130, 420), &title, &|area| {
         let parts = area.split_evenly((1, 3));
         logarithmic(&parts[0], &flow)?;
         logarithmic(&parts[1], &data)?;
@@ -97,7 +97,7 @@ pub(super) fn correction(tables: &[Measured], curve: &RecoveredCurve, correction
     let marks = marks.into_iter().filter(|(_, y)| 0.0 < *y).collect();
     let lost = Panel { title, axes: ["shear stress (Pa)", name], marks, curves: Vec::new(), band: Vec::new() };
     let names: Vec<String> = tables.iter().map(Measured::name).collect();
-    figure((1130, 420), &format!("{}: the fluid behind them", names.join(", ")), |area| {
+    figure((1130, 420), &format!("{}: the fluid behind them", names.join(", ")), &|area| {
         let parts = area.split_evenly((1, 3));
         logarithmic(&parts[0], &flow)?;
         logarithmic(&parts[1], &raw)?;
@@ -131,7 +131,7 @@ pub(super) fn comparison(measured: &Measured, comparison: &Comparison) -> String
     let residuals: Vec<Vec<f64>> = comparison.fits().map(|(_, fit)| fit.residuals.clone()).collect();
     let names: Vec<String> = comparison.fits().map(|(fluid, _)| fluid.to_string()).collect();
     let title = format!("{}: measured and fitted", measured.name());
-    figure((1290, 420), &title, |area| {
+    figure((1290, 420), &title, &|area| {
         let (width, _) = area.dim_in_pixel();
         let (plots, side) = area.split_horizontally(width - 160 * FINE);
         let parts = plots.split_evenly((1, 3));

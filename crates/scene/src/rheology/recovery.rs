@@ -142,42 +142,64 @@ pub struct Recovery {
     pub correction: Option<Correction>,
 }
 
-/// A recovered curve out of one of viscometry's, whose points have fields of this name.
-macro_rules! told {
-    ($curve:expr, $at:ident, $value:ident, $function:expr, $measured:expr, $answer:expr, $request:expr) => {{
-        let curve = $curve.with_band($request.confidence)?;
-        let sign = $answer.sign();
+/// A curve of any type of viscometry's, with its band.
+struct Banded<'c> {
+    /// Its points at the rows of the table.
+    points: Vec<Result<Point, ViscometryError>>,
+    at: &'c dyn Fn(f64) -> Result<Point, ViscometryError>,
+    residuals: &'c [f64],
+    smoothing: Smoothing,
+    below_smallest: BelowSmallest,
+    monotonicity: Monotonicity,
+}
+
+impl Banded<'_> {
+    fn recovered(
+        self,
+        function: Function,
+        measured: &Measured,
+        answer: &Answer,
+        request: &RecoveryRequest,
+    ) -> Result<RecoveredCurve, ViscometryError> {
+        let sign = answer.sign();
         let band = |band: [f64; 2]| if sign < 0.0 { [-band[1], -band[0]] } else { band };
-        let (lines, rows): (Vec<u64>, Vec<Point>) = curve
-            .points()
-            .zip(&$measured.lines)
-            .filter_map(|(point, line)| {
-                let point = point.ok()?;
-                Some((*line, Point { at: point.$at, value: sign * point.$value, band: point.band.map(band) }))
-            })
-            .unzip();
+        let signed = |point: Point| Point { value: sign * point.value, band: point.band.map(band), ..point };
+        let found = self.points.iter().zip(&measured.lines);
+        let (lines, rows): (Vec<u64>, Vec<Point>) =
+            found.filter_map(|(point, line)| Some((*line, signed(*point.as_ref().ok()?)))).unzip();
         let Some((low, high)) = rows.first().zip(rows.last()).map(|(first, last)| (first.at, last.at)) else {
-            let why = curve.points().find_map(Result::err);
+            let why = self.points.into_iter().find_map(Result::err);
             return Err(why.unwrap_or(ViscometryError::TooFewRows { rows: 0, least: 1 }));
         };
-        let points = closely(low, high)
-            .filter_map(|at| {
-                let point = curve.at(at).ok()?;
-                Some(Point { at, value: sign * point.$value, band: point.band.map(band) })
-            })
-            .collect();
+        let points = closely(low, high).filter_map(|at| (self.at)(at).ok()).map(signed).collect();
         Ok(RecoveredCurve {
-            function: $function,
-            answering: Some($answer.what),
-            lost: $answer.rows.len() - rows.len(),
-            falls_between_lines: falling_lines(curve.monotonicity(), &rows, &lines),
+            function,
+            answering: Some(answer.what),
+            lost: answer.rows.len() - rows.len(),
+            falls_between_lines: falling_lines(self.monotonicity, &rows, &lines),
             rows,
             points,
-            residuals: curve.residuals().to_vec(),
-            smoothing: vec![curve.smoothing()],
+            residuals: self.residuals.to_vec(),
+            smoothing: vec![self.smoothing],
+            below_smallest: self.below_smallest,
+            monotonicity: self.monotonicity,
+            confidence: request.confidence,
+        })
+    }
+}
+
+/// Runs a function on a curve whose points have fields of these names.
+macro_rules! banded {
+    ($curve:expr, $abscissa:ident, $value:ident, $request:expr, $then:expr) => {{
+        let curve = $curve.with_band($request.confidence)?;
+        let points = curve.points().map(|p| p.map(|p| Point { at: p.$abscissa, value: p.$value, band: p.band }));
+        $then(Banded {
+            points: points.collect(),
+            at: &|at| curve.at(at).map(|p| Point { at, value: p.$value, band: p.band }),
+            residuals: curve.residuals(),
+            smoothing: curve.smoothing(),
             below_smallest: curve.below_smallest(),
             monotonicity: curve.monotonicity(),
-            confidence: $request.confidence,
         })
     }};
 }
@@ -261,45 +283,43 @@ fn curve_of(
 ) -> Result<RecoveredCurve, ViscometryError> {
     let options = Options { rise: request.rise, ..Options::default() };
     let (rows, noise) = (&answer.rows, request.noise);
+    let of = |function: Function| move |curve: Banded<'_>| curve.recovered(function, measured, answer, request);
+    let flow_curve = |curve: FlowCurve| banded!(curve, shear_stress, shear_rate, request, of(Function::ShearRate));
+    let stress = |curve: StressCurve, function| banded!(curve, shear_rate, stress, request, of(function));
     match (measured.flow, answer.what) {
         (Flow::Channel { half_width }, _) => {
             let table = FlowTable::channel(half_width, rows)?.with_noise(noise)?;
-            let curve: FlowCurve = recover::channel_with(&table, options)?;
-            told!(curve, shear_stress, shear_rate, Function::ShearRate, measured, answer, request)
+            flow_curve(recover::channel_with(&table, options)?)
         }
-        (Flow::Couette { inner_radius, outer_radius }, what) => {
+        (Flow::Couette { inner_radius, outer_radius }, Answering::RadialStressDifference) => {
             let table = FlowTable::couette(inner_radius, outer_radius, rows)?.with_noise(noise)?;
-            if what == Answering::RadialStressDifference {
-                let curve: NormalStressCurve = recover::normal_stress_with(&table, options)?;
-                let function = Function::FirstNormalStressOverStress;
-                told!(curve, shear_stress, first_normal_stress_difference, function, measured, answer, request)
-            } else {
-                let curve: FlowCurve = recover::couette_with(&table, options)?;
-                told!(curve, shear_stress, shear_rate, Function::ShearRate, measured, answer, request)
-            }
+            let curve: NormalStressCurve = recover::normal_stress_with(&table, options)?;
+            let function = Function::FirstNormalStressOverStress;
+            banded!(curve, shear_stress, first_normal_stress_difference, request, of(function))
+        }
+        (Flow::Couette { inner_radius, outer_radius }, _) => {
+            let table = FlowTable::couette(inner_radius, outer_radius, rows)?.with_noise(noise)?;
+            flow_curve(recover::couette_with(&table, options)?)
         }
         (Flow::Plates { radius, gap }, what) => {
             let table = FlowTable::parallel_plates(radius, gap, rows)?.with_noise(noise)?;
-            let (curve, function): (StressCurve, _) = if what == Answering::Thrust {
-                (recover::parallel_plates_thrust_with(&table, options)?, Function::NormalStressesOfPlates)
+            if what == Answering::Thrust {
+                stress(recover::parallel_plates_thrust_with(&table, options)?, Function::NormalStressesOfPlates)
             } else {
-                (recover::parallel_plates_with(&table, options)?, Function::ShearStress)
-            };
-            told!(curve, shear_rate, stress, function, measured, answer, request)
+                stress(recover::parallel_plates_with(&table, options)?, Function::ShearStress)
+            }
         }
         (Flow::Cone { radius, angle }, what) => {
             let table = FlowTable::cone_and_plate(radius, angle, rows)?.with_noise(noise)?;
-            let (curve, function): (StressCurve, _) = if what == Answering::Thrust {
-                (recover::cone_and_plate_thrust_with(&table, options)?, Function::FirstNormalStress)
+            if what == Answering::Thrust {
+                stress(recover::cone_and_plate_thrust_with(&table, options)?, Function::FirstNormalStress)
             } else {
-                (recover::cone_and_plate_torque_with(&table, options)?, Function::ShearStress)
-            };
-            told!(curve, shear_rate, stress, function, measured, answer, request)
+                stress(recover::cone_and_plate_torque_with(&table, options)?, Function::ShearStress)
+            }
         }
         (Flow::Pipe { radius } | Flow::Capillary { radius, .. }, _) => {
             let table = FlowTable::pipe(radius, rows)?.with_noise(noise)?;
-            let curve: FlowCurve = recover::pipe_with(&table, options)?;
-            told!(curve, shear_stress, shear_rate, Function::ShearRate, measured, answer, request)
+            flow_curve(recover::pipe_with(&table, options)?)
         }
         (Flow::Curve, _) => {
             // Its columns are the other way round; there is nothing to recover.

@@ -55,7 +55,7 @@ impl Arrivals {
         let share = |band: u32| f64::from(band) / f64::from(BANDS);
         let colours: Vec<RGBColor> = (0..BANDS).map(|band| viridis(share(band))).collect();
         let (wide, tall) = window.size(980);
-        figure((wide + 90, tall), title, |area| {
+        figure((wide + 90, tall), title, &|area| {
             let (width, _) = area.dim_in_pixel();
             let (plot, bar) = area.split_horizontally(width - 80 * FINE);
             let mut canvas = Canvas::metres(&plot, window, ("x", "y"))?;

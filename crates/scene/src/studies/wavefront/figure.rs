@@ -62,7 +62,7 @@ impl Fronts {
         };
         let points = self.fronts.iter().flat_map(|front| front.pieces.iter().flatten()).chain(&source).copied();
         let window = Window::around(points);
-        figure(window.size(980), title, |area| {
+        figure(window.size(980), title, &|area| {
             let mut canvas = Canvas::metres(area, window, ("x", "y"))?;
             let medium = Lattice::of(window.low, window.high, [161, 161], |place| asked.medium.index(place));
             let (low, high) = medium.range();
