@@ -1,7 +1,7 @@
 //! Equations of first order by characteristics: a wave that breaks, and light from a curved front.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
-use piola::dynamics::first_order_pde::{CauchyProblem, FirstOrderPde, InitialManifold, ParameterInterval, Refinement};
+use piola::characteristics::{CauchyProblem, FirstOrderPde, InitialManifold, ParameterInterval, Refinement};
 use piola::numerics::Real;
 
 /// ∂u/∂t + u ∂u/∂q = 0, with x = (t, q).

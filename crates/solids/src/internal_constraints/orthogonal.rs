@@ -85,6 +85,7 @@ impl<const ROWS: usize, const COLUMNS: usize> Orthogonal<ROWS, COLUMNS> {
 }
 
 /// The part of a vector outside the span of the columns.
+#[must_use]
 pub fn outside_of_columns<const ROWS: usize, const COLUMNS: usize>(
     columns: &[[f64; ROWS]; COLUMNS],
     mut vector: [f64; ROWS],
@@ -100,6 +101,7 @@ pub fn outside_of_columns<const ROWS: usize, const COLUMNS: usize>(
 }
 
 /// Rank of the columns, and the first dependent one.
+#[must_use]
 pub fn rank_of_columns<const ROWS: usize, const COLUMNS: usize>(
     columns: &[[f64; ROWS]; COLUMNS],
 ) -> (usize, Option<usize>) {
