@@ -2,7 +2,7 @@
 
 use core::fmt::Write as _;
 
-use piola_scene::fitting::{Comparison, Estimate, Fit, Measurements, State};
+use piola_scene::fitting::{Comparison, Fit, Measurements, SolidParameter, State};
 
 /// Laws with their residuals and criteria, then each law's parameters.
 pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> String {
@@ -49,7 +49,7 @@ pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> Str
 }
 
 /// A parameter with its error and interval.
-fn parameter(estimate: &Estimate, unit: Option<&str>) -> String {
+fn parameter(estimate: &SolidParameter, unit: Option<&str>) -> String {
     let unit = unit.filter(|_| estimate.is_stress).map_or_else(String::new, |unit| format!(" {unit}"));
     let mut line = format!("  {:<8}{:>14}", estimate.name, short(estimate.value));
     match (estimate.standard_error, estimate.interval, estimate.state) {

@@ -5,7 +5,7 @@ use core::ops::Range;
 use piola_integrators::Tolerance;
 use piola_kinematics::Holonomic;
 
-use super::solve::Workspace;
+use super::workspace::Workspace;
 use super::{Nonholonomic, QuasiVelocities};
 use crate::LagrangianError;
 use crate::Run;

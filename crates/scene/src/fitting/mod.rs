@@ -16,7 +16,7 @@ mod tables;
 pub use mistake::{TableMistake, TableReport};
 pub use request::{LawBounds, Request};
 
-pub use piola_fit::solids::{Estimate, Fit, Stability, State, Weighting};
+pub use piola_fit::solids::{Fit, SolidParameter, Stability, State, Weighting};
 
 use std::path::{Path, PathBuf};
 

@@ -29,7 +29,7 @@ const fn word(name: &'static str, doc: &'static str) -> Word {
     Word { name, doc }
 }
 
-const fn quantity(dimension: crate::units::Dimension, range: Range) -> Kind {
+const fn quantity(dimension: Dimension, range: Range) -> Kind {
     Kind::Quantity(dimension, range)
 }
 

@@ -2,7 +2,7 @@
 
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
-use super::Range::{self, Any, Fraction, NotNegative, Positive};
+use super::Range::{Any, Fraction, NotNegative, Positive};
 use super::{Kind, SceneKind, Word, quantity, studies, table, word};
 use crate::units::Dimension as D;
 
