@@ -66,7 +66,7 @@ fn page(workspace: &Workspace) -> (String, usize) {
     (text, count)
 }
 
-/// The enums of a file that have messages: for each its variants with theirs.
+/// The enums and structs of a file that have messages: for each its variants with theirs.
 fn enums(source: &str) -> Vec<(String, Vec<(String, String)>)> {
     let mut enums: Vec<(String, Vec<(String, String)>)> = Vec::new();
     let (mut name, mut message) = (String::new(), None);
@@ -75,6 +75,8 @@ fn enums(source: &str) -> Vec<(String, Vec<(String, String)>)> {
         let line = line.trim();
         if let Some(rest) = line.strip_prefix("pub enum ") {
             name = word(rest);
+        } else if let Some(rest) = line.strip_prefix("pub struct ") {
+            enums.extend(message.take().map(|message| (word(rest), vec![(word(rest), message)])));
         } else if let Some(rest) = line.strip_prefix("#[error(") {
             let mut attribute = rest.to_owned();
             while !attribute.ends_with(")]") {
