@@ -1,6 +1,5 @@
 //! A block sheared by one: stretches, rotation, strain, and the first Piola–Kirchhoff stress of a Cauchy stress.
 #![expect(clippy::print_stdout, reason = "an example prints")]
-#![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 use piola::continuum::polar::StretchAnalysis;
 use piola::continuum::strain::GreenStrain;

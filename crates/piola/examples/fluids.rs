@@ -1,6 +1,5 @@
 //! Two fluids in shear: one that thins above its yield stress, and one that remembers and pushes plates apart.
 #![expect(clippy::print_stdout, reason = "an example prints")]
-#![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 use piola::fluids::{HerschelBulkley, UpperConvectedMaxwell, ViscometricFluid};
 
