@@ -24,7 +24,7 @@
 //!     Ok::<_, core::convert::Infallible>([x.exp(), x.sqrt()])
 //! })?;
 //! assert_eq!(found.ending, Ending::Accurate);
-//! assert!((found.values[0] - (1.0_f64.exp() - 1.0)).abs() <= found.errors[0]);
+//! assert!((found.values[0] - (1.0_f64.exp_m1())).abs() <= found.errors[0]);
 //! assert!((found.values[1] - 2.0 / 3.0).abs() <= found.errors[1]);
 //! # Ok::<(), core::convert::Infallible>(())
 //! ```

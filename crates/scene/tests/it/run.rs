@@ -223,7 +223,7 @@ fn failed_run_keeps_its_history_and_says_why() {
     let scene = scene(&replaced(&text, "[0.0, -0.5, 0.0]", "[0.0, 0.0, 0.0]"));
     let plan = Plan::of(&scene);
     let run = run::run(&scene, &plan, |_| ControlFlow::Continue(()));
-    assert!(matches!(&run.outcome, Outcome::Failed(why) if why.contains("time")), "{:?}", run.outcome);
+    assert!(matches!(&run.outcome, Outcome::Failed(why) if why.contains("advances t = ")), "{:?}", run.outcome);
     // They meet after π/√2 · (r³/2Gm)^½ …: before the end at any rate.
     assert!(0.0 < run.time && run.time < plan.end && 0 < run.steps);
     assert!(1 < run.history.times.len());
