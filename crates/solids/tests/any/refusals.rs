@@ -139,7 +139,7 @@ fn bounds_of_laws_of_stretches_are_named() {
     assert_eq!((infinite(rubber.at_pressure(f64::NAN)), infinite(rubber.at_excess_pressure(f64::NAN))), ("p", "q"));
     assert_eq!(refused(Hencky::new(1.0, 0.0)), ("Hencky", "shear_modulus", "0 < μ"));
     assert_eq!(refused(Hencky::new(-1.0, 1.0)), ("Hencky", "first_lame_parameter", "0 < λ + ⅔ μ"));
-    assert_eq!(refused(Hencky::with_volumetric(1.0, volume)), ("Hencky", "U″(1)", "0 < U″(1) + 2/3 mu"));
+    assert_eq!(refused(Hencky::with_volumetric(1.0, volume)), ("Hencky", "U″(1)", "0 < U″(1) + ⅔ μ"));
     assert_eq!(infinite(Hencky::with_volumetric(f64::NAN, volume)), "shear_modulus");
 }
 
