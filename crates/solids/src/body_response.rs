@@ -29,7 +29,7 @@ use crate::SolidsError;
 ///         (FirstPiola(*deformation.matrix() * 3.0), FirstPiolaTangent(tangent))
 ///     }
 /// }
-/// assert_eq!(Springs.stress(&DisplacementGradient::simple_shear(0.5)?).0[(0, 1)], 1.5);
+/// assert_eq!(Springs.stress(&DisplacementGradient::simple_shear(0.5)?).0[(1, 0)], 1.5);
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
 pub trait Response {

@@ -14,7 +14,7 @@ pub type Rows<T> = [[T; 3]; 3];
 ///
 /// # Example
 /// ```
-/// use piola_tensor::rows;
+/// use piola_tensor::internal::rows;
 /// assert_eq!(rows::identity::<f64>(), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 /// ```
 #[inline(always)]

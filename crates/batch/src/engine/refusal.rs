@@ -10,10 +10,10 @@ use std::sync::Arc;
 ///
 /// # Example
 /// ```
-/// use piola_batch::BatchError;
 /// use piola_batch::Refusal;
-/// let refusal = Refusal::new(BatchError::NonPositiveJacobian { determinant: -1.0 });
-/// assert!(refusal.downcast_ref::<BatchError>().is_some());
+/// use piola_continuum::ContinuumError;
+/// let refusal = Refusal::new(ContinuumError::NonPositiveJacobian { determinant: -1.0 });
+/// assert!(refusal.downcast_ref::<ContinuumError>().is_some());
 /// ```
 #[derive(Clone, Debug)]
 pub struct Refusal(Arc<dyn Error + Send + Sync>);

@@ -33,6 +33,8 @@ pub struct ColumnMajor<A>(
 /// use piola_batch::BatchError;
 /// use piola_batch as batch;
 /// use piola_batch::{AllEntries, Undeformed};
+/// use piola_continuum::ContinuumError;
+/// use piola_tensor::TensorError;
 /// let mut stress = [Matrix3::from_diagonal(&[250.0, 0.0, 0.0].into()); 100];
 /// let mut equivalent = [0.0; 100];
 /// batch::evaluate(Undeformed(100), batch::von_mises(AllEntries(&stress[..]), &mut equivalent[..]))?;
@@ -41,7 +43,8 @@ pub struct ColumnMajor<A>(
 /// let bad = batch::evaluate(Undeformed(100), batch::von_mises(AllEntries(&stress[..]), &mut equivalent[..]));
 /// let Err(BatchError::BadPoints { points, .. }) = bad else { unreachable!() };
 /// assert_eq!(points[0].index, 7);
-/// assert!(matches!(points[0].error, BatchError::NotSymmetric { row: 0, column: 1, .. }));
+/// let BatchError::Continuum(ContinuumError::Tensor(why)) = &points[0].error else { unreachable!() };
+/// assert!(matches!(why, TensorError::NotSymmetric { row: 0, column: 1, .. }));
 /// # Ok::<(), BatchError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]

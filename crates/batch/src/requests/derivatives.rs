@@ -21,7 +21,7 @@ quantity! {
     /// use piola_continuum::DeformationGradient;
     /// let f = DeformationGradient::diagonal([2.0, 0.5, 0.5])?;
     /// let request = batch::hencky_derivative(&mut [[0.0; 54]; 0][..]);
-    /// assert!((request.at(&f, 0)[0] - 0.5).abs() < 1e-15); // ∂ ln U₁₁/∂F₁₁ = 1/λ₁
+    /// assert!((request.at(&f, 0)[0] - 0.5_f64).abs() < 1e-15); // ∂ ln U₁₁/∂F₁₁ = 1/λ₁
     /// # Ok::<(), piola_batch::BatchError>(())
     /// ```
     hencky_derivative() HenckyDerivative: () [0] => Self [54], "", stretches |point, _| {

@@ -92,10 +92,10 @@ impl<T: Real> From<PolarHencky<T>> for Written<T> {
 /// ```
 /// use nalgebra::Matrix3;
 /// use piola_continuum::DeformationGradient;
-/// use piola_tensor::spectral;
+/// use piola_continuum::polar::polar_hencky;
 /// // Twice as long along 1, then turned by 90° about 3.
 /// let f = DeformationGradient::new(Matrix3::new(0.0, -1.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 1.0))?;
-/// let polar = polar::polar_hencky(&f);
+/// let polar = polar_hencky(&f);
 /// assert_eq!(polar.rotation, Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0));
 /// assert_eq!(polar.right_stretch.components[..3], [2.0, 1.0, 1.0]);
 /// assert_eq!(polar.hencky.components[0], 2.0_f64.ln());

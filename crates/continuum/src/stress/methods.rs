@@ -14,8 +14,9 @@ use crate::{ContinuumError, Symmetric};
 macro_rules! example {
     ($name:ident, $check:literal) => {
         concat!(
-            "```\nuse piola_continuum::{",
-            ", ContinuumError, stringify!($name)};\nlet bar = ",
+            "```\nuse piola_continuum::{ContinuumError, ",
+            stringify!($name),
+            "};\nlet bar = ",
             stringify!($name),
             "::new(3.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;\n",
             $check,

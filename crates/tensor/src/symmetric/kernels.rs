@@ -10,7 +10,7 @@ use crate::rows::Rows;
 ///
 /// # Example
 /// ```
-/// use piola_continuum::stress::kernels::product_symmetrized;
+/// use piola_tensor::internal::product_symmetrized;
 /// let one = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// let a = [[1.0, 4.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// assert_eq!(product_symmetrized(a, one).components[3], 3.0);

@@ -14,7 +14,7 @@ use crate::Symmetric;
 ///
 /// # Example
 /// ```
-/// use piola_continuum::stress::tangents::kernels::push_forward;
+/// use piola_continuum::internal::tangents::push_forward;
 /// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// assert_eq!(push_forward(f, &[1.0; 21])[0], 16.0);
 /// ```
