@@ -53,7 +53,7 @@ pub struct InSpace;
 /// let there = joint.scaled(std::f64::consts::PI).exponential().position;
 /// assert!((there - Vector3::new(2.0, 0.0, 0.0)).amax() <= 2.0 * f64::EPSILON);
 /// // A wheel of radius 1 m that rolls along x, its contact at the origin: that point rests, the centre moves.
-/// let pose: BodyPose = BodyPose { position: Vector3::z(), ..BodyPose::at_rest() };
+/// let pose = BodyPose { position: Vector3::<f64>::z(), ..BodyPose::at_rest() };
 /// let rolling = BodyVelocity { velocity: Vector3::x(), angular_velocity: Vector3::y() };
 /// assert_eq!(SpaceTwist::of_motion(&pose, &rolling).linear, Vector3::zeros());
 /// assert_eq!(BodyTwist::of_motion(&pose, &rolling).linear, Vector3::x());
