@@ -70,7 +70,7 @@ impl From<TensorError> for BatchError {
 pub struct BadPoint {
     /// Which point, from 0.
     pub index: usize,
-    /// What is wrong, as the constructor of a single point says it.
+    /// The violated condition, as the constructor of a single point reports it.
     pub error: BatchError,
 }
 

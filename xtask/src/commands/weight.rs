@@ -67,7 +67,7 @@ fn weigh(shell: &Shell, workspace: &Workspace, target: &Path, only: &[String], p
         }
         rows.push(row);
     }
-    let table = table(&rows, &heaviest(shell, workspace, target, only));
+    let table = table(&rows, &heaviest(shell, target, only));
     eprintln!("{table}");
     if page {
         let file = workspace.root.join("docs/measurements/weight.md");
@@ -177,7 +177,7 @@ fn table(rows: &[Row], heaviest: &str) -> String {
 }
 
 /// The ten functions with most lines of LLVM IR in the program that evaluates all laws.
-fn heaviest(shell: &Shell, workspace: &Workspace, target: &Path, only: &[String]) -> String {
+fn heaviest(shell: &Shell, target: &Path, only: &[String]) -> String {
     if !only.is_empty() && !only.iter().any(|name| name == "all-laws") {
         return String::new();
     }
@@ -196,7 +196,6 @@ fn heaviest(shell: &Shell, workspace: &Workspace, target: &Path, only: &[String]
         text.push_str(line.trim_end());
         text.push('\n');
     }
-    let _ = workspace;
     text + "```\n"
 }
 
