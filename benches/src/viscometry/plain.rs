@@ -1,12 +1,36 @@
 //! What a textbook does: adaptive quadrature by Gauss's and Kronrod's rules of 7 and 15 points, of the printed formula.
 
-use piola_numerics::gauss_kronrod::{GAUSS, KRONROD, NODES};
-
 /// The name by which it goes as a peer.
 pub const NAME: &str = "adaptive Gauss-Kronrod 7-15 (QUADPACK's error), rates by Newton's method";
 
 /// The most intervals.
 const MOST: usize = 400;
+
+/// The nodes that are not negative, from the outside inwards.
+const NODES: [f64; 8] = [
+    0.991_455_371_120_812_6,
+    0.949_107_912_342_758_5,
+    0.864_864_423_359_769_1,
+    0.741_531_185_599_394_5,
+    0.586_087_235_467_691_1,
+    0.405_845_151_377_397_2,
+    0.207_784_955_007_898_47,
+    0.0,
+];
+/// Kronrod's weights, the centre last.
+const KRONROD: [f64; 8] = [
+    0.022_935_322_010_529_224,
+    0.063_092_092_629_978_56,
+    0.104_790_010_322_250_19,
+    0.140_653_259_715_525_92,
+    0.169_004_726_639_267_9,
+    0.190_350_578_064_785_42,
+    0.204_432_940_075_298_89,
+    0.209_482_141_084_727_83,
+];
+/// Gauss's weights at the nodes of odd index, the centre last.
+const GAUSS: [f64; 4] =
+    [0.129_484_966_168_869_7, 0.279_705_391_489_276_64, 0.381_830_050_505_118_9, 0.417_959_183_673_469_4];
 
 /// A part of an interval with its integral.
 #[derive(Clone, Copy, Debug)]

@@ -22,8 +22,6 @@ mod dual;
 mod elementary;
 mod error;
 mod excess;
-#[doc(hidden)]
-pub mod gauss_kronrod;
 mod gradient;
 mod jet;
 mod lanes;
