@@ -30,7 +30,9 @@ pub enum FitError {
         value: f64,
     },
     /// A stretch of a test, or an amount of shear, is so small or large that no law has a stress there.
-    #[error("test `{test}`, point {index}: at the stretch {value:e} no law has a stress: valid are 1e-30 to 1e30")]
+    #[error(
+        "test `{test}`, point {index}: at the stretch {value:e} no law has a stress; valid stretches are 1e-30 to 1e30"
+    )]
     StretchOutOfRange {
         /// The test.
         test: String,
