@@ -38,7 +38,7 @@ fn first(chosen: u32, number: u32) -> bool {
     }
     if let Some(folder) = variable(SEEN_IN) {
         FOLDER.get_or_init(|| folder);
-        CHOSEN.store(RECORDING, Ordering::Relaxed);
+        CHOSEN.store(RECORDING, Ordering::Release);
         record(number);
         return false;
     }
@@ -51,14 +51,16 @@ fn first(chosen: u32, number: u32) -> bool {
 
 /// An empty file named by the number.
 fn record(number: u32) {
-    if SEEN[number as usize % SEEN.len()].swap(true, Ordering::Relaxed) {
+    let seen = &SEEN[number as usize % SEEN.len()];
+    // A load first: a swap each time would be much of the time of a loop.
+    if seen.load(Ordering::Relaxed) {
         return;
     }
-    let Some((folder, length)) = FOLDER.get() else {
-        // Another thread is about to store it.
-        SEEN[number as usize % SEEN.len()].store(false, Ordering::Relaxed);
+    // Stored before recording begins; a thread that does not see it yet records when it comes by again.
+    let Some((folder, length)) = FOLDER.get() else { return };
+    if seen.swap(true, Ordering::Relaxed) {
         return;
-    };
+    }
     let mut path = [0; LONGEST + 12];
     path[..*length].copy_from_slice(&folder[..*length]);
     path[*length] = b'/';
