@@ -25,6 +25,9 @@ pub(super) trait Reading {
 /// The observer of a run: it sees the progress after every step and may stop the run.
 pub(super) type Observer<'o> = &'o mut dyn FnMut(Progress) -> ControlFlow<()>;
 
+/// Takes a driver and a state to an instant.
+type Advance<'a, 'o> = &'a mut dyn FnMut(&mut Driver<'o>, &mut State, f64) -> Result<Report, IntegratorsError<String>>;
+
 /// A field or a separable pair behind a pointer: the integrators are compiled once and not once a system.
 /// Their cost beside the forces of a scene is a call through a pointer, some nanoseconds an evaluation.
 struct AnyField<'f, F: ?Sized>(&'f mut F);
@@ -170,12 +173,7 @@ impl<'o> Driver<'o> {
     }
 
     /// A method of fixed step, from instant to instant.
-    fn fixed(
-        &mut self,
-        state: &mut State,
-        reading: &mut dyn Reading,
-        advance: &mut dyn FnMut(&mut Self, &mut State, f64) -> Result<Report, IntegratorsError<String>>,
-    ) -> Result<(), String> {
+    fn fixed(&mut self, state: &mut State, reading: &mut dyn Reading, advance: Advance<'_, 'o>) -> Result<(), String> {
         self.begin(state, reading);
         while let Some(&instant) = self.instants.get(self.next) {
             let steps_before = self.steps;
