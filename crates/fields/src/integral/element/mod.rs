@@ -90,7 +90,7 @@ pub struct MaterialPoint {
 impl LinearTetrahedra {
     /// Linear elements on a mesh, integrated by rules of `degree`.
     ///
-    /// Degree 0 is exact for stress, which is constant in an element; 1 for uniform body forces; 2 for the
+    /// Degree 0 is exact for stress, which is constant in an element; 1 for uniform forces per volume; 2 for the
     /// consistent mass of a uniform density.
     ///
     /// # Errors
@@ -114,7 +114,7 @@ impl LinearTetrahedra {
 impl QuadraticTetrahedra {
     /// Quadratic elements on a mesh, integrated by rules of `degree`.
     ///
-    /// Degree 2 is exact for stress linear in ∇u and uniform body forces; 4 for the consistent mass of a uniform
+    /// Degree 2 is exact for stress linear in ∇u and uniform forces per volume; 4 for the consistent mass of a uniform
     /// density.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ const STUDENT: f64 = 3.182_446_305_284_263;
 #[test]
 fn statistics_of_mooney_and_rivlin_equal_the_normal_equations() {
     let points = [[1.25, 0.4642], [1.5, 0.7758], [2.0, 1.2247], [3.0, 1.9260], [4.0, 2.5594]];
-    let bar = Test::new("bar", Table::Uniaxial(points.to_vec()), Measure::Nominal).expect("a test");
+    let bar = Test::new("bar", Table::Uniaxial(points.to_vec()), Measure::FirstPiola).expect("a test");
     let data = Data::new(vec![bar]).expect("data");
     for weighting in [Weighting::LargestStress, Weighting::Equal] {
         let options = Options { stability: Stability::Free, weighting, ..Options::default() };
