@@ -40,7 +40,7 @@ fn check_against_coordinates<W: QuasiVelocities>(what: &str, system: &Driven<W>,
     let found = system.coordinate_acceleration(q, u, t).unwrap();
     // Both are differences of terms as large as the frame's rate times u.
     let scale = 10.0 + found.amax();
-    let condition = system.lagrangian().inertia_metric(q, t).singular_values();
+    let condition = system.lagrangian().inertia_metric(q, t).unwrap().singular_values();
     let condition = condition.max() / condition.min();
     assert_close_at_scale(what, found.as_slice(), expected.as_slice(), scale, rounding().times(condition));
 }
