@@ -84,7 +84,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// Refuses a metric that is zero because there is nothing that has inertia.
-    pub(crate) fn refuse_without_parts<T: Real>(&self, q: &[T], t: T, metric: &[T]) -> Result<(), LagrangianError> {
+    pub(super) fn refuse_without_parts<T: Real>(&self, q: &[T], t: T, metric: &[T]) -> Result<(), LagrangianError> {
         let nothing = !q.is_empty() && metric.iter().all(T::is_zero) && self.parts(q, t) == 0;
         if nothing { Err(LagrangianError::NoParts) } else { Ok(()) }
     }
