@@ -50,7 +50,7 @@ fn laws_of_every_model_answer_as_the_model() {
             }
         }
         let wrong = model.law(&parameters[1..]).expect_err("too few").to_string();
-        assert!(wrong.contains("values are given"), "{wrong}");
+        assert!(wrong.contains("the number of parameter values is"), "{wrong}");
     }
 }
 
