@@ -172,9 +172,7 @@ fn tokens(code: &str) -> Vec<String> {
         match tokens.last_mut() {
             Some(last) if is_part && in_word => last.push(sign),
             Some(last) if sign == ':' && last == ":" => last.push(sign),
-            _ if sign.is_whitespace() => {
-                // A space between two colons would part them; nobody writes one.
-            }
+            _ if sign.is_whitespace() => {}
             _ => tokens.push(sign.into()),
         }
         in_word = is_part;
@@ -212,7 +210,9 @@ fn define(code: &[String], module: &[String], owner: Option<&str>, found: &mut V
                 }
                 define(inside(&code[at..end]), module, Some(&of), found);
             }
-            ("mod", Some(name)) => define(inside(&code[at..end]), &[module, &[name.clone()]].concat(), None, found),
+            ("mod", Some(name)) => {
+                define(inside(&code[at..end]), &[module, std::slice::from_ref(name)].concat(), None, found);
+            }
             ("macro_rules", _) if code.get(at + 1).is_some_and(|next| next == "!") => {
                 if let Some(name) = code.get(at + 2) {
                     add(name, Kind::Macro);
