@@ -7,7 +7,7 @@ use piola_fit::solids::{
 use piola_numerics::Real;
 
 fn bar(points: Vec<[f64; 2]>) -> Result<Test, FitError> {
-    Test::new("bar", Table::Uniaxial(points), Measure::Nominal)
+    Test::new("bar", Table::Uniaxial(points), Measure::FirstPiola)
 }
 
 fn data(count: u32) -> Data {
@@ -32,7 +32,7 @@ fn impossible_tests_are_refused_with_their_point() {
     assert_eq!(sentence(Data::new(vec![])), "there is no test to fit to");
     assert_eq!(sentence(Data::new(vec![good.clone(), good])), "two tests are called `bar`");
     let component = |deformation, free| Component { deformation, component: [0, 0], free, stress: 1.0 };
-    let general = |point| Test::new("sheet", Table::General(vec![point]), Measure::Nominal);
+    let general = |point| Test::new("sheet", Table::General(vec![point]), Measure::FirstPiola);
     let swollen = component([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 2);
     assert_eq!(
         sentence(general(swollen)),
@@ -78,11 +78,11 @@ fn impossible_models_and_options_are_refused() {
 /// Stresses beyond a limiting stretch are no numbers: a model asked there has no start, and a fit stays below.
 #[test]
 fn stretches_beyond_a_limit_have_no_stress_and_no_fit_ends_there() {
-    use piola_specimens::homogeneous::{Mode, nominal_stress};
+    use piola_specimens::homogeneous::{Mode, first_piola};
     for (model, parameters) in [(AnyModel::Gent, [1.0, 3.0]), (AnyModel::ArrudaBoyce, [1.0, 2.0])] {
         let law = Fitted::new(&model, parameters).expect("as many");
-        assert!(nominal_stress(Mode::Uniaxial, 2.0_f64, &law).is_finite());
-        assert!(nominal_stress(Mode::Uniaxial, 3.0_f64, &law).is_nan());
+        assert!(first_piola(Mode::Uniaxial, 2.0_f64, &law).is_finite());
+        assert!(first_piola(Mode::Uniaxial, 3.0_f64, &law).is_nan());
         let found = fit(&model, &data(20), &Options::default()).expect("a fit");
         let reach = data(20).largest_first_invariant();
         let limit = if model == AnyModel::Gent { found.values()[1] + 3.0 } else { 3.0 * found.values()[1] };
@@ -150,7 +150,7 @@ fn stretches_at_which_no_law_has_a_stress_are_refused_with_their_point() {
     let error = bar(vec![[1.5, 1.0], [1e200, 1.0]]).expect_err("beyond");
     assert!(matches!(error, FitError::StretchOutOfRange { index: 1, .. }), "{error}");
     assert!(bar(vec![[1e-200, 1.0]]).is_err());
-    let sheared = |k| Test::new("block", Table::SimpleShear(vec![[k, 0.0]]), Measure::Nominal);
+    let sheared = |k| Test::new("block", Table::SimpleShear(vec![[k, 0.0]]), Measure::FirstPiola);
     assert!(sheared(0.0).is_ok() && sheared(-1e-200).is_ok() && sheared(1e200).is_err());
 }
 
