@@ -210,8 +210,7 @@ fn breaking_wave_has_three_sheets_on_a_grid() {
     let single = solution.onto_grid(grid, Overlap::Nothing).unwrap();
     let mut folded = 0;
     for j in 0..20 {
-        // Before t = 1 one sheet everywhere; u = sin(q − u t). Where u is interpolated to 1e-4 this is off by 1 + t times as
-        // much, and as much again since the ray is.
+        // Before t = 1 one sheet everywhere; u = sin(q − u t), off by up to 1 + t times what u is, which is interpolated to 1e-4.
         let value = all.get(0, j).unwrap();
         assert_eq!(value.sheets, 1);
         assert!((value.u - (grid.point(0, j)[1] - 0.5 * value.u).sin()).abs() < 1e-3);

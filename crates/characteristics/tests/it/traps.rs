@@ -107,7 +107,7 @@ fn gradient_that_becomes_infinite_names_the_missing_declaration() {
     let problem = CauchyProblem::new(&Undeclared, &Line::Sine, 2).unwrap();
     let named = |error: Option<CharacteristicsError>, breaking: f64| match error {
         Some(CharacteristicsError::UndeclaredQuasilinear { s, x }) => {
-            // ξ = 1/(breaking − s) outgrows the step there: the run stops some 1e-7 before the end.
+            // ξ = 1/(breaking − s) outgrows every step: the run stops a little before.
             assert!((s - breaking).abs() < 1e-6 && (x[0] - breaking).abs() < 1e-6, "{s}, {x:?}");
         }
         other => panic!("{other:?}"),

@@ -92,7 +92,7 @@ fn newtonian_solar_system_equals_prediction_and_keeps_its_invariants() {
     }
     for (what, values) in [("energy", &drift.energy), ("momentum", &drift.momentum), ("moment", &drift.moment)] {
         let (drift, growth) = (largest(values), linear_growth(&drift.days, values).abs());
-        // Rounding of some ten thousand steps walks at random to a hundred ulp.
+        // 450 ulp: the rounding of all steps walks at random.
         assert!(drift < 1e-13, "{what}: {drift:e}");
         // A systematic error of one in 2⁵³ a step would grow to 8e-13.
         assert!(growth < 2e-14, "{what} grows by {growth:e} of {drift:e}");

@@ -45,7 +45,7 @@ fn crossings_lie_on_the_surface_and_keep_the_energy() {
         let resolution = 4.0 * f64::EPSILON * crossing.time();
         assert!(crossing.q()[0].abs() < resolution && 0.0 < crossing.p()[0]);
         let energy = system.value(crossing.q(), crossing.p(), 0.0);
-        // A thousand steps and more of relative tolerance 1e-12, whose errors hardly add up.
+        // Ten times the tolerance of the steps, whose errors hardly add up.
         assert!((energy - 1.0 / 12.0).abs() < 1e-11, "{energy}");
     }
 }
@@ -62,7 +62,7 @@ fn a_system_that_separates_crosses_along_a_curve() {
         0.25 * v * v + 0.25 * u * u + u * u * u / 6.0
     };
     assert_eq!(crossings.len(), 100);
-    // As above: some thousand steps of relative tolerance 1e-12.
+    // As above.
     assert!(crossings.iter().all(|point| (part(point) - part(&crossings[0])).abs() < 1e-11));
 }
 

@@ -114,7 +114,7 @@ proptest! {
         let mut slope = [0.0; 5];
         Differential(Along(&h)).components(&x, &mut slope);
         assert_close_at_scale("L_h θ̃", lie.as_slice(), &slope, 40.0, Tol::ulps(20.0));
-        // Three second derivatives of H, each of up to some tens.
+        // Second derivatives of H cancel in pairs.
         prop_assert!(closedness_residual(&ExtendedTwoForm(&h), &x).unwrap() < 1e-13);
     }
 

@@ -264,8 +264,8 @@ proptest! {
     fn random_canonical_maps_their_compositions_and_inverses_keep_the_symplectic_form(
         (q, p) in any_point(), first in any_map(), second in any_map(),
     ) {
-        // Entries of a Jacobian that nearly vanish are rounding of what they are differences of: relative to them the error
-        // has no bound. Of three times 256 random maps the worst are some 1e-11.
+        // Entries of a Jacobian that nearly vanish are rounding of what they are differences of: beside them the residual has
+        // no bound of some ulp.
         prop_assert!(canonical_test(&first, &q, &p, 0.0).unwrap().relative < 1e-9);
         let both = Composed(first, second);
         prop_assert!(canonical_test(&both, &q, &p, 0.0).unwrap().relative < 1e-9);

@@ -86,7 +86,7 @@ fn proportional_damping_ratios_equal_closed_form() {
         assert_close("λ", &[mode.eigenvalue.re, mode.eigenvalue.im], expected, Tol::ulps(64.0));
         let ratio = -expected[0] / expected[0].hypot(expected[1]);
         assert_close("ζ", &[mode.damping_ratio()], &[ratio], Tol::ulps(64.0));
-        // A bound, by the norm of the matrix, which is some hundred times the smallest eigenvalue.
+        // A bound by the norm of the whole matrix, beside the smallest eigenvalue.
         assert!(mode.uncertainty < 1e-10 * mode.eigenvalue.norm());
     }
 }

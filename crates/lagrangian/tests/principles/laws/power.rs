@@ -23,7 +23,7 @@ proptest! {
         let balance = system.power_balance(&q, &v, t).unwrap();
         let (moving, rates) = (along(&q, &v), along(&v, a.as_slice()));
         let energies = system.energies(&moving, &rates, Dual::variable(t)).unwrap();
-        let tol = Tol::ulps(256.0).times(condition(&system, (&q, &v, t)));
+        let tol = Tol::ulps(8.0).times(condition(&system, (&q, &v, t)));
         let scale = 50.0 + balance.kinetic_energy_rate.abs();
         assert_close_at_scale("dE/dt", &[balance.kinetic_energy_rate], &[energies.kinetic.tangent], scale, tol);
         assert_close_at_scale("P", &[balance.total()], &[energies.kinetic.tangent], scale, tol);
@@ -47,7 +47,7 @@ proptest! {
         let along_time = system.force_along_time(&q, &v, t).unwrap();
         let power = generalised.dot(&DVector::from_column_slice(&v)) + along_time.total();
         let balance = system.power_balance(&q, &v, t).unwrap();
-        let tol = Tol::ulps(256.0).times(condition(&system, (&q, &v, t)));
+        let tol = Tol::ulps(8.0).times(condition(&system, (&q, &v, t)));
         assert_close_at_scale("P", &[balance.total()], &[power], 50.0, tol);
         assert_close_at_scale("constraint", &[balance.moving_constraint], &[along_time.constraint], 50.0, tol);
 
