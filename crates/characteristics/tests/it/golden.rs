@@ -9,7 +9,7 @@ use super::systems::{Burgers, Circle, Eikonal, Line, Oscillator, Parabola, Produ
 
 /// Characteristics integrated with a local error of 1e-13.
 fn integrated() -> Tol {
-    Tol::stated(1e-12, "a few dozen steps of local error 1e-13")
+    Tol::stated(1e-13, "a few dozen steps of local error 1e-13")
 }
 
 fn check<P: FirstOrderPde, M: InitialManifold>(case: &Value, equation: &P, manifold: &M, guess: [f64; 2]) {
