@@ -7,7 +7,9 @@ use piola_testkit::golden::{load, number, text};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use serde_json::Value;
 
-const CLOSED: Tol = Tol::stated(1e-13, "closed forms");
+/// A power and some products; moments are sums of several.
+const FUNCTIONS: Tol = Tol::ulps(4.0);
+const CLOSED: Tol = Tol::ulps(32.0);
 
 /// The fluid of a case of `viscometric`.
 fn fluid(case: &Value) -> AnyFluid {
@@ -34,15 +36,15 @@ fn viscometric_functions_equal_golden() {
             let k = number(&state["kappa"]);
             let of = |name: &str| [number(&state[name])];
             let what = |name: &str| format!("{} at {k}: {name}", text(&case["id"]));
-            assert_close(&what("T12"), &[fluid.shear_stress(k)], &of("T12"), CLOSED);
-            assert_close(&what("viscosity"), &[fluid.viscosity(k)], &of("viscosity"), CLOSED);
-            assert_close(&what("odd"), &[-fluid.shear_stress(-k)], &of("T12"), CLOSED);
+            assert_close(&what("T12"), &[fluid.shear_stress(k)], &of("T12"), FUNCTIONS);
+            assert_close(&what("viscosity"), &[fluid.viscosity(k)], &of("viscosity"), FUNCTIONS);
+            assert_close(&what("odd"), &[-fluid.shear_stress(-k)], &of("T12"), FUNCTIONS);
             for k in [k, -k] {
-                assert_close(&what("sigma1"), &[fluid.sigma1(k)], &of("sigma1"), CLOSED);
-                assert_close(&what("sigma2"), &[fluid.sigma2(k)], &of("sigma2"), CLOSED);
+                assert_close(&what("sigma1"), &[fluid.sigma1(k)], &of("sigma1"), FUNCTIONS);
+                assert_close(&what("sigma2"), &[fluid.sigma2(k)], &of("sigma2"), FUNCTIONS);
             }
-            assert_close(&what("N1"), &[fluid.first_normal_stress_difference(k)], &of("N1"), CLOSED);
-            assert_close(&what("N2"), &[fluid.second_normal_stress_difference(k)], &of("N2"), CLOSED);
+            assert_close(&what("N1"), &[fluid.first_normal_stress_difference(k)], &of("N1"), FUNCTIONS);
+            assert_close(&what("N2"), &[fluid.second_normal_stress_difference(k)], &of("N2"), FUNCTIONS);
             count += 1;
             elastic += usize::from(0.0 < number(&state["N1"]));
         }
@@ -85,5 +87,5 @@ fn closed_moments_equal_golden_discharges_and_speed_differences() {
             count += 1;
         }
     }
-    assert_eq!(count, 0);
+    assert_eq!(count, 32);
 }
