@@ -78,10 +78,12 @@ fn network_energy_equals_the_integral_of_its_slope() {
         // dW/dx by the energy over a dual number, beside the closed slope.
         let varied = network.energy(Dual::variable(first), Dual::constant(0.0));
         let [slope, _] = network.slopes(first, 0.0);
-        // Of the energy ln(sinh β/β) cancels against β λ in part.
-        assert_close(&format!("slope at {first}"), &[varied.tangent], &[slope], Tol::ulps(64.0));
+        // Near the limit λ = 1 of the chains an ulp of λ is 1/(1 − λ) of β.
+        let condition = 1.0 / (1.0 - ((first + 3.0) / 15.0).sqrt());
+        let tolerance = Tol::ulps(16.0).times(condition);
+        assert_close(&format!("slope at {first}"), &[varied.tangent], &[slope], tolerance);
         let exact = network.energy(DoubleDouble::lit(first), DoubleDouble::lit(0.0));
         let rounding = exact.rounding_of(varied.value);
-        assert_close_at_scale(&format!("W at {first}"), &[rounding], &[0.0], varied.value, Tol::ulps(64.0));
+        assert_close_at_scale(&format!("W at {first}"), &[rounding], &[0.0], varied.value, tolerance);
     }
 }
