@@ -175,8 +175,11 @@ fn anisotropic_linear_elasticity_equals_reference() {
     for name in ["saint_venant_kirchhoff_orthotropic", "saint_venant_kirchhoff_transverse"] {
         let case = cases(name, 1).swap_remove(0);
         let parameter = |name: &str| number(&case["params"][name]);
-        let stiffness =
-            if name.ends_with("transverse") { transverse(&parameter, &case["params"]) } else { orthotropic(&case["params"]) };
+        let stiffness = if name.ends_with("transverse") {
+            transverse(&parameter, &case["params"])
+        } else {
+            orthotropic(&case["params"])
+        };
         let law = AnisotropicLinear::new(stiffness.expect("definite"));
         let components = matrix(&case["output"]["dS_dE"]);
         for (column, (i, j)) in STRAINS.into_iter().enumerate() {

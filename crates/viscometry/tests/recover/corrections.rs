@@ -135,7 +135,12 @@ fn bands_of_corrected_exact_tables_hold_the_fluid_and_are_narrow() {
         assert_close("rate", &[rate], &[truth], Tol::stated(5e-9, "splines of degree 7 at their ends, rows at e^0.1"));
     }
     let middle = slip.at(2.0).expect("measured");
-    assert_close("slip", &[middle.slip_velocity], &[0.3 * 2.0_f64.powf(1.5)], Tol::stated(1e-12, "splines in their middle"));
+    assert_close(
+        "slip",
+        &[middle.slip_velocity],
+        &[0.3 * 2.0_f64.powf(1.5)],
+        Tol::stated(1e-12, "splines in their middle"),
+    );
     assert!(matches!(slip.at(1e3), Err(ViscometryError::NotMeasured { .. })));
     assert_eq!(slip.with_band(1.0), Err(ViscometryError::ConfidenceOutOfRange { value: 1.0 }));
 }

@@ -103,7 +103,8 @@ fn rates_of_the_tables_equal_those_that_made_them_within_narrow_bands() {
                 widths.push((high - low) / rate);
                 count += 1;
             }
-            for (name, found, bounds) in [("error", sorted(errors), worth.error), ("band", sorted(widths), worth.width)] {
+            for (name, found, bounds) in [("error", sorted(errors), worth.error), ("band", sorted(widths), worth.width)]
+            {
                 let found = [found[found.len() - 1], found[found.len() / 2]];
                 assert!(found[0] <= bounds[0] && found[1] <= bounds[1], "{what}: {name} {found:?}, bounds {bounds:?}");
             }

@@ -132,7 +132,11 @@ fn check<F: ViscometricFluid>(fluid: &F, excess: f64) {
     let stress = yields + excess;
     let truth: f64 = fluid.shear_rate(stress).expect("a rate");
     // Where the outer wall begins to yield the curve has a kink, and the series its largest error.
-    let tol = if 0.0 < yields { Tol::stated(1e-8, "a kink at yield") } else { Tol::stated(1e-12, "derivatives of a quadrature") };
+    let tol = if 0.0 < yields {
+        Tol::stated(1e-8, "a kink at yield")
+    } else {
+        Tol::stated(1e-12, "derivatives of a quadrature")
+    };
     for duct in DUCTS {
         let drive = match duct {
             Duct::Pipe => 2.0 * stress,
@@ -183,7 +187,10 @@ proptest! {
 
 #[test]
 fn measured_functions_recover_the_rates_of_the_reference_values() {
-    let tol = Tol::stated(5e-14, "a quadrature of some hundred panels; 2 % above yield an ulp of the stress is fifty of the rate");
+    let tol = Tol::stated(
+        5e-14,
+        "a quadrature of some hundred panels; 2 % above yield an ulp of the stress is fifty of the rate",
+    );
     for case in cases() {
         let p = |name: &str| number(&case["params"][name]);
         match text(&case["fluid"]) {

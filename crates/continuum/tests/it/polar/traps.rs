@@ -1,8 +1,8 @@
 //! Where decompositions go wrong: small strain, coalescence, large ratios, half turns, the ends of the range.
 
 use nalgebra::Matrix3;
-use piola_continuum::{ContinuumError, DeformationGradient};
 use piola_continuum::polar::StretchAnalysis;
+use piola_continuum::{ContinuumError, DeformationGradient};
 use piola_numerics::Real;
 use piola_testkit::spectral::{
     Random, adversarial_set, polar_reference, polar_reference_of_displacement, with_stretches,

@@ -40,7 +40,8 @@ fn check<F: Parameters<N> + ViscometricFluid, const N: usize>(case: &Value, star
             assert_close(&format!("{what}: {}", found.name), &[found.value], &[exact], tol);
         }
         let most = fit.residuals.iter().flatten().fold(0.0, |most: f64, r| most.max(r.abs()));
-        let residual = Tol::stated(1e-8, "the tables are exact: parameters to 1e-7 of answers that they change by a tenth of it");
+        let residual =
+            Tol::stated(1e-8, "the tables are exact: parameters to 1e-7 of answers that they change by a tenth of it");
         assert_close_at_scale(what, &[most], &[0.0], 1.0, residual);
     }
 }
