@@ -104,7 +104,12 @@ fn rates_across_a_bend_are_found() {
     let (yielding, rate) =
         (Papanastasiou::new(0.5, 0.75, 0.158_919_137_625_068_4, 1e6).expect("bounds"), 9.182_468_858e-8);
     let found: f64 = yielding.shear_rate(yielding.shear_stress(rate)).expect("a growing stress");
-    assert_close("ζ(τ(k))", &[found], &[rate], Tol::ulps(256.0));
+    assert_close(
+        "ζ(τ(k))",
+        &[found],
+        &[rate],
+        Tol::ulps_because(256.0, "at a bend the stress hardly grows with the rate"),
+    );
 }
 
 #[test]
