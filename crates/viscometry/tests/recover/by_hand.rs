@@ -107,7 +107,6 @@ fn largest(what: &str, curve: FlowCurve) -> f64 {
         assert!(low <= truth && truth <= high, "{what}: {truth} is not in {low} .. {high}");
         largest = largest.max((point.shear_rate / truth - 1.0).abs());
     }
-    eprintln!("DBG {what} {largest:e}");
     largest
 }
 
@@ -124,7 +123,7 @@ fn tables_of_any_size_recover_the_rates_by_hand() {
     let [inner, outer] = [3.0, 3.25];
     let table = FlowTable::couette(inner, outer, &rows(&cylinders(inner, outer), 20.0)).expect("a table");
     let error = largest("cylinders", recover::couette(&table).expect("a curve"));
-    assert!(error <= TABLE.times(50.0).value(), "cylinders: {error:e}");
+    assert!(error <= TABLE.value(), "cylinders: {error:e}");
 }
 
 /// Splines of degree 7 through rows at e^⅛.
