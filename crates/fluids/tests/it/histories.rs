@@ -48,7 +48,7 @@ fn wandering(across: f64) -> impl Strategy<Value = Wandering> {
     })
 }
 
-const FOLLOWED: Tol = Tol::stated(1e-8, "tolerance 1e-10 of each of some hundred steps");
+const FOLLOWED: Tol = Tol::stated(1e-7, "tolerance 1e-10 of each of some hundred steps, and derivatives of the motion");
 /// What flows like a power knows the stress of a rate of 1e-16 badly: (1e-16)^0.05 of it.
 const POWERS: Tol = Tol::stated(1e-6, "derivatives of the motion, to a power");
 
@@ -85,7 +85,7 @@ fn fluid_statements(
         assert_close_at_scale(&format!("{what} from another reference"), &[referred], &[0.0], 1.0, tolerance(fluid));
         let plane = plane_history(fluid, flat, &Vector3::new(0.0, 0.0, 2.0), time, 1e-10).expect("runs");
         // F is a block: what is outside of it is the rounding of a polar decomposition, and what a fluid makes of that.
-        assert_close_at_scale(what, &[plane.history], &[0.0], 1.0, Tol::ulps(16.0));
+        assert_close_at_scale(what, &[plane.history], &[0.0], 1.0, Tol::ulps(45.0));
         let left = Tol::stated(1e-9, "tolerance 1e-10 of each step");
         assert_close_at_scale(what, &[plane.stress], &[0.0], 1.0, left);
     }
@@ -163,7 +163,7 @@ proptest! {
         let motion = ConstantStretchHistory { generator: axes * shear * axes.transpose(), ..motion };
         let found = viscometric_motion(&motion, time / k).expect("a motion").expect("it flows");
         // Up to k t = 3: F, its rate and its inverse grow by 1 + k t each.
-        let tolerance = Tol::ulps(16.0).times((1.0 + time).powi(4));
+        let tolerance = Tol::ulps_because(4096.0, "two derivatives of F and its inverse").times((1.0 + time).powi(4));
         assert_close("k", &[found.shear_rate], &[k], tolerance);
         assert_close_at_scale("residual", &[found.residual], &[0.0], 1.0, tolerance);
         // A₁ = k (e₁e₂ + e₂e₁) with e₁ in the turned gradient.
@@ -235,7 +235,8 @@ fn solids_are_refuted_as_fluids_and_anisotropic_stress_in_a_plane() {
     let observer = steady_turn(&Vector3::new(0.5, 1.0, -0.25)).expect("finite");
     // An isotropic solid looks the same to all observers, but it remembers its reference.
     let seen = fluid_indifference(&Solid, motion.clone(), observer, 1.0, 0.0).expect("runs");
-    assert_close_at_scale("seen by others", &[seen], &[0.0], 1.0, Tol::ulps(64.0));
+    let products = Tol::stated(1e-12, "F, its inverse and a rotation of a stress of some ten times its size");
+    assert_close_at_scale("seen by others", &[seen], &[0.0], 1.0, products);
     let other = unimodular(&[0.5, 0.0, 0.1, 0.2, 0.0, 0.3]);
     assert!(0.1 < reference_indifference(&Solid, motion.clone(), &other, 1.0, 0.0).expect("runs"));
     let volume = Matrix3::from_diagonal_element(2.0);

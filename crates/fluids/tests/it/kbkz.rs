@@ -47,8 +47,8 @@ fn steady_shear_of_rational_damping_equals_golden() {
         for (integral, name) in fluid.steady_shear(k).iter().zip(["tau", "N1"]) {
             let error = (integral.value - of(name)[0]).abs();
             assert!(
-                // The bound is not idle: it is below what is asked of the quadrature.
-                error <= integral.bound && integral.bound <= QUADRATURE.value() * integral.value,
+                // The bound is not idle: a tenth of what the values are compared with.
+                error <= integral.bound && integral.bound <= QUADRATURE.times(0.1).value() * integral.value,
                 "{id}: {error:e}, {integral:?}"
             );
         }
