@@ -1,6 +1,5 @@
 //! Where decompositions go wrong: small strain, coalescence, large ratios, half turns, the ends of the range.
 
-use nalgebra::Matrix3;
 use piola_continuum::polar::StretchAnalysis;
 use piola_continuum::{ContinuumError, DeformationGradient};
 use piola_numerics::Real;
