@@ -74,7 +74,7 @@ fn fluid_statements(
     spin: &Vector3<f64>,
     reference: &Matrix3<f64>,
     time: f64,
-) -> Result<(), TestCaseError> {
+) {
     let observer = steady_turn(spin).expect("finite");
     for fluid in fluids {
         let what = fluid.name();
@@ -89,7 +89,6 @@ fn fluid_statements(
         let left = Tol::stated(1e-9, "tolerance 1e-10 of each step");
         assert_close_at_scale(what, &[plane.stress], &[0.0], 1.0, left);
     }
-    Ok(())
 }
 
 fn unimodular(entries: &[f64]) -> Matrix3<f64> {
@@ -108,7 +107,7 @@ proptest! {
         motion in wandering(0.5), flat in wandering(0.0), spin in strategies::vector(3, -2.0..2.0),
         entries in strategies::vector(6, -1.0..1.0), time in 0.2..2.0_f64,
     ) {
-        fluid_statements(&instant(), &motion, &flat, &Vector3::from_column_slice(&spin), &unimodular(&entries), time)?;
+        fluid_statements(&instant(), &motion, &flat, &Vector3::from_column_slice(&spin), &unimodular(&entries), time);
     }
 }
 
@@ -120,7 +119,7 @@ proptest! {
         motion in wandering(0.5), flat in wandering(0.0), spin in strategies::vector(3, -2.0..2.0),
         entries in strategies::vector(6, -1.0..1.0), time in 0.2..2.0_f64,
     ) {
-        fluid_statements(&integrated(), &motion, &flat, &Vector3::from_column_slice(&spin), &unimodular(&entries), time)?;
+        fluid_statements(&integrated(), &motion, &flat, &Vector3::from_column_slice(&spin), &unimodular(&entries), time);
     }
 }
 

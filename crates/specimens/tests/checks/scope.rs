@@ -14,7 +14,7 @@ use piola_specimens::checks::{
     potential,
 };
 use piola_specimens::homogeneous::Mode;
-use piola_testkit::{Tol, assert_close, assert_close_at_scale};
+use piola_testkit::{Tol, assert_close};
 
 fn mooney() -> MooneyRivlin {
     MooneyRivlin::new(0.37, 0.11).expect("parameters")
