@@ -10,7 +10,6 @@
 //! so that a = (∂x/∂q) q̈ + `second_rate`. With N = 0 it is the Taylor polynomial of order two along a curve.
 
 use crate::Real;
-use crate::gradient::components;
 
 /// A value with N partial derivatives and two derivatives along a motion, exact to rounding.
 ///
@@ -63,7 +62,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
         let (f1, f2) = (f1(), f2());
         Self {
             value: f,
-            partials: components(self.value, |i| self.partials[i] * f1),
+            partials: self.partials.map(|x| x * f1),
             rate: self.rate * f1,
             second_rate: self.second_rate * f1 + self.rate * self.rate * f2,
         }
@@ -72,7 +71,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
     fn linear(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         Self {
             value: f(self.value, other.value),
-            partials: components(self.value, |i| f(self.partials[i], other.partials[i])),
+            partials: core::array::from_fn(|i| f(self.partials[i], other.partials[i])),
             rate: f(self.rate, other.rate),
             second_rate: f(self.second_rate, other.second_rate),
         }
@@ -81,7 +80,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
     fn each(self, f: impl Fn(T) -> T) -> Self {
         Self {
             value: f(self.value),
-            partials: components(self.value, |i| f(self.partials[i])),
+            partials: core::array::from_fn(|i| f(self.partials[i])),
             rate: f(self.rate),
             second_rate: f(self.second_rate),
         }
@@ -91,7 +90,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
         let cross = self.rate * o.rate;
         Self {
             value: self.value * o.value,
-            partials: components(self.value, |i| self.partials[i] * o.value + self.value * o.partials[i]),
+            partials: core::array::from_fn(|i| self.partials[i] * o.value + self.value * o.partials[i]),
             rate: self.rate * o.value + self.value * o.rate,
             second_rate: self.second_rate * o.value + self.value * o.second_rate + (cross + cross),
         }
@@ -105,7 +104,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
         let cross = rate * o.rate;
         Self {
             value,
-            partials: components(self.value, |i| (self.partials[i] - value * o.partials[i]) * r),
+            partials: core::array::from_fn(|i| (self.partials[i] - value * o.partials[i]) * r),
             rate,
             second_rate: (self.second_rate - value * o.second_rate - (cross + cross)) * r,
         }
