@@ -50,7 +50,7 @@ use crate::metric::check_metric;
 ///         Matrix3::from_diagonal_element(growth.recip())
 ///     }
 /// }
-/// let body = MateriallyUniformBody { law: NeoHookeanLogarithmic::new(1.0, 1.0)?, map: Grown };
+/// let body = MateriallyUniformBody { law: NeoHookeanLogarithmic::with_constants(1.0, 1.0)?, map: Grown };
 /// let held = DeformationGradient::identity();
 /// assert!(body.cauchy(&held, &Vector3::new(1.0, 0.0, 0.0))?.0.components[0] < -0.1);
 /// assert_eq!(body.cauchy(&held, &Vector3::new(-1.0, 0.0, 0.0))?.0.components[0], 0.0);
@@ -180,7 +180,7 @@ impl<L: Hyperelastic, M: UniformityMap> StoredEnergy for MateriallyUniformBody<L
 ///         *reference
 ///     }
 /// }
-/// let body = MateriallyUniformBody { law: NeoHookeanLogarithmic::new(1.0, 1.0)?, map: ConstantMap(Matrix3::identity()) };
+/// let body = MateriallyUniformBody { law: NeoHookeanLogarithmic::with_constants(1.0, 1.0)?, map: ConstantMap(Matrix3::identity()) };
 /// let stress = StressInMotion { body: &body, motion: &Rest }.at(&Vector3::new(1.0, 2.0, 3.0), 0.0);
 /// assert_eq!(stress.0, Matrix3::zeros());
 /// # Ok::<(), Box<dyn std::error::Error>>(())

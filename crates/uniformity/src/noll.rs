@@ -53,7 +53,7 @@ use crate::map::UniformityMap;
 ///         *reference
 ///     }
 /// }
-/// let body = MateriallyUniformBody { law: NeoHookeanLogarithmic::new(1.0, 0.0)?, map: Grown };
+/// let body = MateriallyUniformBody { law: NeoHookeanLogarithmic::with_constants(1.0, 0.0)?, map: Grown };
 /// let connection = MaterialConnection::new(Grown, LieAlgebra::rotations());
 /// let divergence = NollEquations { body: &body, connection: &connection }.divergence(&Rest, &Vector3::zeros(), 0.0)?;
 /// // T₁₁ = μ (k² − 1)/k with k = 1/(1 + X): dT₁₁/dX = −2 μ at X = 0.

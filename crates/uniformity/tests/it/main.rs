@@ -2,10 +2,17 @@
 
 use piola_testkit::CountingAllocator;
 
+mod alloc;
+mod bodies;
 mod fixtures;
+mod flatness;
 mod geometry;
 mod golden;
+mod laminated;
+
+mod orders;
 mod transport;
+mod traps;
 
 #[global_allocator]
 static ALLOCATOR: CountingAllocator = CountingAllocator;
