@@ -17,10 +17,9 @@ use piola_tensor::Symmetric;
 use piola_tensor::internal::rows::{product, product_transposed, scaled};
 
 use crate::UniformityError;
-use crate::error::check_finite;
+use crate::error::{check_finite, check_metric};
 use crate::indices::variables;
 use crate::map::UniformityMap;
-use crate::metric::check_metric;
 
 /// A materially uniform body of a hyperelastic law, W(26.2).
 ///

@@ -3,9 +3,10 @@
 use piola_continuum::ContinuumError;
 use piola_fields::FieldsError;
 use piola_integrators::IntegratorsError;
-use piola_numerics::Real;
+use piola_numerics::linear::matrix3::determinant;
+use piola_numerics::{Mask, Real};
 use piola_solids::SolidsError;
-use piola_tensor::TensorError;
+use piola_tensor::{Symmetric, TensorError};
 
 /// A violated condition on a uniformity map, a connection, a circuit or a laminated body.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -179,4 +180,19 @@ pub(crate) fn check_bound(
         return Err(UniformityError::NotFinite { quantity, index: 0, value });
     }
     if holds { Ok(()) } else { Err(UniformityError::OutOfBounds { quantity, value, bound }) }
+}
+
+/// The leading minors of a metric are positive in every lane.
+pub(crate) fn check_metric<T: Real>(metric: &Symmetric<T>) -> Result<(), UniformityError> {
+    check_finite("M", &metric.components)?;
+    let m = metric.rows();
+    let minors = [m[0][0], m[0][0] * m[1][1] - m[0][1] * m[1][0], determinant(m)];
+    for (index, minor) in minors.into_iter().enumerate() {
+        if !T::zero().less_than(minor).all() {
+            let lane = (0..T::LANES).find(|&lane| minor.primal(lane) <= 0.0).unwrap_or(0);
+            let (order, minor) = (index + 1, minor.primal(lane));
+            return Err(TensorError::NotPositiveDefinite { quantity: "M", order, minor, scale: 1.0 }.into());
+        }
+    }
+    Ok(())
 }

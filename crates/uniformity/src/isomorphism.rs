@@ -10,10 +10,9 @@ use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_o
 use piola_tensor::Symmetric;
 
 use crate::UniformityError;
-use crate::error::check_finite;
+use crate::error::{check_finite, check_metric};
 use crate::group::NominalGroup;
 use crate::map::UniformityMap;
-use crate::metric::check_metric;
 
 /// K(Y) H K(X)⁻¹, a material isomorphism from X to Y for each H in the symmetry group, W(27.6).
 ///

@@ -1,4 +1,5 @@
-//! Materially uniform, inhomogeneous bodies.
+//! Materially uniform bodies: material connections, dislocations, characteristic metric, residual stress.
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 mod body;
@@ -15,6 +16,7 @@ mod map;
 mod metric;
 mod moebius;
 mod noll;
+pub mod residual_stress;
 mod sampled;
 mod transport;
 

@@ -9,14 +9,14 @@
 
 use nalgebra::{Matrix3, Vector3};
 use piola_fields::Field;
-use piola_numerics::linear::matrix3::{determinant, inverse_and_determinant, rows_of};
-use piola_numerics::{Mask, Real};
+use piola_numerics::Real;
+use piola_numerics::linear::matrix3::{inverse_and_determinant, rows_of};
+use piola_tensor::Symmetric;
 use piola_tensor::internal::rows::{product_transposed, transposed_product};
-use piola_tensor::{Symmetric, TensorError};
 
 use crate::UniformityError;
 use crate::connection::{AffineConnection, ConnectionCoefficients, ConnectionCurvature, LeviCivita};
-use crate::error::check_finite;
+use crate::error::{check_finite, check_metric};
 use crate::map::UniformityMap;
 
 /// M(X) = K⁻ᵀK⁻¹ of a uniform body, as a field of metrics, W(29.8).
@@ -97,7 +97,7 @@ impl<T: Real> MetricGeometry<T> {
     /// Of a field of metrics at a place; of a body by [`CharacteristicMetric`].
     ///
     /// # Errors
-    /// [`UniformityError::NotFinite`]; [`TensorError::NotPositiveDefinite`].
+    /// [`UniformityError::NotFinite`]; [`TensorError::NotPositiveDefinite`](piola_tensor::TensorError::NotPositiveDefinite).
     pub fn of(metric: &impl Field<Value = Symmetric>, place: &Vector3<T>) -> Result<Self, UniformityError> {
         check_finite("X", place.as_slice())?;
         let value = metric.at(place, T::zero());
@@ -108,19 +108,4 @@ impl<T: Real> MetricGeometry<T> {
         let scalar = riemann.scalar(&inverse);
         Ok(Self { metric: value, inverse, christoffel, riemann, ricci: riemann.ricci(), scalar })
     }
-}
-
-/// The leading minors of a metric are positive in every lane.
-pub(crate) fn check_metric<T: Real>(metric: &Symmetric<T>) -> Result<(), UniformityError> {
-    check_finite("M", &metric.components)?;
-    let m = metric.rows();
-    let minors = [m[0][0], m[0][0] * m[1][1] - m[0][1] * m[1][0], determinant(m)];
-    for (index, minor) in minors.into_iter().enumerate() {
-        if !T::zero().less_than(minor).all() {
-            let lane = (0..T::LANES).find(|&lane| minor.primal(lane) <= 0.0).unwrap_or(0);
-            let (order, minor) = (index + 1, minor.primal(lane));
-            return Err(TensorError::NotPositiveDefinite { quantity: "M", order, minor, scale: 1.0 }.into());
-        }
-    }
-    Ok(())
 }

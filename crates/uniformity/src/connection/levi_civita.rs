@@ -58,6 +58,6 @@ impl<G: Field<Value = Symmetric>> AffineConnection for LeviCivita<G> {
     }
 
     fn check_domain<T: Real>(&self, place: &Vector3<T>) -> Result<(), UniformityError> {
-        crate::metric::check_metric(&self.0.at(place, T::zero()))
+        crate::error::check_metric(&self.0.at(place, T::zero()))
     }
 }

@@ -3,7 +3,9 @@
 use piola_solids::isochoric::Isochoric;
 use piola_tensor::{Rows, Symmetric};
 
-use super::{Depths, LaminaMetric, LaminaStress, Lamination, check_lamina, extra_stress, integrate, stress_with};
+use super::{
+    Depths, LaminaMetric, LaminaStress, Lamination, check_lamina, extra_stress, integrate, sizes, stress_with,
+};
 use crate::UniformityError;
 use crate::error::{check_bound, check_finite};
 
@@ -206,7 +208,8 @@ impl<A: Lamination> SheetState<A> {
     /// ∫√det M from the inner face to a depth.
     pub(super) fn volume_to(&self, depth: f64) -> Result<f64, UniformityError> {
         let interfaces = self.lamination.interfaces();
-        let [volume] = integrate(interfaces, (self.depths.inner, depth), |x| Ok([self.lamination.metric(x).volume()]))?;
+        let [volume] =
+            integrate(interfaces, (self.depths.inner, depth), [0.0], |x| Ok([self.lamination.metric(x).volume()]))?;
         Ok(volume)
     }
 
@@ -270,8 +273,9 @@ impl<A: Lamination> SheetState<A> {
             Image::Plane => 0.0,
             Image::Cylinder => {
                 let interfaces = self.lamination.interfaces();
-                let [change] =
-                    integrate(interfaces, (self.depths.inner, depth), |x| Ok([self.rates(law, x)?.normal_stress]))?;
+                let [terms, ..] = self.terms(law)?;
+                let range = (self.depths.inner, depth);
+                let [change] = integrate(interfaces, range, [terms], |x| Ok([self.rates(law, x)?.normal_stress]))?;
                 change
             }
         };
@@ -289,8 +293,12 @@ impl<A: Lamination> SheetState<A> {
         let (interfaces, faces) = (self.lamination.interfaces(), (self.depths.inner, self.depths.outer));
         match self.image {
             Image::Plane => {
+                let (extra, across, slope) = self.extra_stress_at(law, self.depths.middle())?;
+                let size = sizes(&extra) * (self.depths.outer - self.depths.inner) * slope.abs();
+                let moment = size * across.abs();
+                let terms = [size, size, size, moment, moment];
                 let [first_force, second_force, shear, first_moment, second_moment] =
-                    integrate(interfaces, faces, |depth| {
+                    integrate(interfaces, faces, terms, |depth| {
                         let (extra, across, slope) = self.extra_stress_at(law, depth)?;
                         let [t22, t33] = [1, 2].map(|i: usize| extra[i][i] - extra[0][0] + normal_stress);
                         Ok([t22, t33, extra[1][2], t22 * across, t33 * across].map(|x| x * slope.abs()))
@@ -306,7 +314,8 @@ impl<A: Lamination> SheetState<A> {
                 })
             }
             Image::Cylinder => {
-                let [difference, axial, torque, hoop] = integrate(interfaces, faces, |depth| {
+                let terms = self.terms(law)?;
+                let [difference, axial, torque, hoop] = integrate(interfaces, faces, terms, |depth| {
                     let rates = self.rates(law, depth)?;
                     Ok([rates.normal_stress, rates.axial, rates.torque, rates.hoop])
                 })?;
@@ -354,6 +363,13 @@ impl<A: Lamination> SheetState<A> {
         let (normal, in_plane) = self.strain(&lamina, across);
         let slope = lamina.volume() / (self.determinant * self.radius_at(across));
         Ok((extra_stress(law, normal, in_plane)?, across, slope))
+    }
+
+    /// The sizes of the terms of the integrals of a cylindrical image, by the middle of the wall.
+    fn terms(&self, law: &impl Isochoric) -> Result<[f64; 4], UniformityError> {
+        let (extra, radius, slope) = self.extra_stress_at(law, self.depths.middle())?;
+        let size = sizes(&extra) * (self.depths.outer - self.depths.inner) * slope.abs();
+        Ok([size / radius, size * radius, size * radius * radius, size * radius])
     }
 
     /// Integrands over the depth of a cylindrical image.

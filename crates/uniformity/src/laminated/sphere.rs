@@ -4,7 +4,7 @@ use piola_numerics::Real;
 use piola_solids::isochoric::Isochoric;
 use piola_tensor::Symmetric;
 
-use super::{Depths, LaminaMetric, LaminaStress, Lamination, extra_stress, integrate, stress_with};
+use super::{Depths, LaminaMetric, LaminaStress, Lamination, extra_stress, integrate, sizes, stress_with};
 use crate::UniformityError;
 use crate::error::check_bound;
 
@@ -99,7 +99,8 @@ impl<A: Lamination> SphereState<A> {
     /// ∫ m h² dR from the inner face.
     pub(super) fn volume_to(&self, depth: f64) -> Result<f64, UniformityError> {
         let interfaces = self.lamination.interfaces();
-        let [sum] = integrate(interfaces, (self.depths.inner, depth), |x| Ok([volume(&self.lamination.metric(x))]))?;
+        let [sum] =
+            integrate(interfaces, (self.depths.inner, depth), [0.0], |x| Ok([volume(&self.lamination.metric(x))]))?;
         Ok(sum)
     }
 
@@ -155,12 +156,17 @@ impl<A: Lamination> SphereState<A> {
     /// ∫ 2 (T_θθ − T_rr) dr/r from the inner face.
     fn change_to(&self, law: &impl Isochoric, depth: f64) -> Result<f64, UniformityError> {
         let interfaces = self.lamination.interfaces();
-        let [change] = integrate(interfaces, (self.depths.inner, depth), |x| {
-            let (lamina, radius) = (self.lamination.metric(x), self.radius(x)?);
-            let stretch = self.stretch_squared(x, radius);
+        let rate = |depth: f64| {
+            let (lamina, radius) = (self.lamination.metric(depth), self.radius(depth)?);
+            let stretch = self.stretch_squared(depth, radius);
             let extra = extra_stress(law, (stretch * stretch).recip(), [stretch, stretch, 0.0])?;
-            let slope = self.sign * volume(&lamina) / (radius * radius);
-            Ok([2.0 * (extra[1][1] - extra[0][0]) / radius * slope])
+            Ok::<_, UniformityError>((extra, 2.0 * self.sign * volume(&lamina) / radius.powi(3)))
+        };
+        let (extra, slope) = rate(self.depths.middle())?;
+        let terms = sizes(&extra) * slope.abs() * (self.depths.outer - self.depths.inner);
+        let [change] = integrate(interfaces, (self.depths.inner, depth), [terms], |x| {
+            let (extra, slope) = rate(x)?;
+            Ok([(extra[1][1] - extra[0][0]) * slope])
         })?;
         Ok(change)
     }

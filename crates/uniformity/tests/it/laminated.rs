@@ -134,7 +134,14 @@ fn laminated_bodies_reduce_to_homogeneous_ones() {
     let mut compared = 0;
     for case in &golden::load("universal").cases {
         let id = golden::text(&case["id"]);
-        let (p, law) = (&case["params"], Law::of(&case["model"]));
+        let p = &case["params"];
+        if id.starts_with("torsion") {
+            compared += torsion(id, case);
+            continue;
+        } else if !id.starts_with("family") {
+            continue;
+        }
+        let law = Law::of(&case["model"]);
         let number = |key: &str| golden::number(&p[key]);
         if id.starts_with("family1") {
             let plate = LaminatedPlate::new(HomogeneousPlate, [0.25, 3.0]).expect("a plate");
@@ -168,17 +175,16 @@ fn laminated_bodies_reduce_to_homogeneous_ones() {
                 assert_close_at_scale(id, &rows(&stress), &flat(&point["T_phys"]), 1.0, REFERENCE);
                 compared += 1;
             }
-        } else if id.starts_with("torsion") {
-            compared += torsion(id, case, &law);
         }
     }
     assert_eq!(compared, 18, "points of families 1 to 4 with two laws, and two twisted rods");
 }
 
 /// A solid rod, twisted and stretched: axial force and torque.
-fn torsion(id: &str, case: &Value, law: &Law) -> usize {
+fn torsion(id: &str, case: &Value) -> usize {
     let number = |key: &str| golden::number(&case["params"][key]);
     let (stretch, twist) = (number("lam"), number("psi"));
+    let law = &MooneyRivlin::new(number("c10"), number("c01")).expect("moduli");
     let rod = LaminatedTube::new(HomogeneousTube, [0.0, number("R0")]).expect("a rod");
     let state = rod.inflated(0.0, [[1.0, twist], [0.0, stretch]]).expect("a state");
     // The lateral surface is free.
@@ -435,7 +441,7 @@ fn motions_of_family_2_equal_reference() {
             compared[0] += 1;
         }
     }
-    assert_eq!(compared, [4, 1], "points with a potential, and a case without");
+    assert_eq!(compared, [3, 1], "points with a potential, and a case without");
 }
 
 /// A tube that swells, turns apart and lengthens: S₁₁ = A₁₁ A₂₂ holds for ċ = k f.

@@ -11,6 +11,7 @@ mod golden;
 mod laminated;
 
 mod orders;
+mod residual_stress;
 mod transport;
 mod traps;
 
