@@ -4,7 +4,7 @@
 //! T = N(F K)        P = P_N(F K) Kᵀ/det K        W = W_N(F K)/det K        ρ_κ = ρ₀/det K
 //! ```
 //!
-//! N, P_N, W_N and ρ₀ are those of the crystal.
+//! N, `P_N`, `W_N` and ρ₀ are those of the crystal.
 
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola};
@@ -203,7 +203,7 @@ impl<L: Hyperelastic, M: UniformityMap, X: Motion> Field for StressInMotion<'_, 
 
 /// A uniformity map of a given metric: the K with K Kᵀ = M⁻¹ that is upper triangular.
 ///
-/// For an isotropic solid any such K gives the same body: T = N(F K KᵀFᵀ), W(29.22).
+/// For an isotropic solid any such K gives the same body: `T = N(F K KᵀFᵀ)`, W(29.22).
 ///
 /// # Errors
 /// [`TensorError::NotPositiveDefinite`](piola_tensor::TensorError::NotPositiveDefinite).

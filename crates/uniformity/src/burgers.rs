@@ -21,7 +21,7 @@ use crate::map::{LocalMap, UniformityMap, check_map};
 /// The most panels of a quadrature along a circuit.
 const PANELS: usize = 4096;
 
-/// The Burgers vector of a circuit, b^a = ∮ (K⁻¹)^a_A dX^A, with the error of its quadrature.
+/// The Burgers vector of a circuit, `b^a = ∮ (K⁻¹)^a_A dX^A`, with the error of its quadrature.
 ///
 /// # Example
 /// A screw dislocation of Burgers vector ¾ m along X₃: K⁻¹ is known everywhere off the line, where no dislocation is.
@@ -46,12 +46,13 @@ const PANELS: usize = 4096;
 /// ```
 #[doc(alias("closure failure", "dislocation"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BurgersVector {
     /// b, m, in components of the crystal.
     pub value: Vector3<f64>,
     /// The estimated error of each component, m.
     pub error: Vector3<f64>,
-    /// ∮ |(K⁻¹)^a_A dX^A|, m: what the components are sums of.
+    /// `∮ |(K⁻¹)^a_A dX^A|`, m: what the components are sums of.
     pub scale: Vector3<f64>,
 }
 
@@ -100,7 +101,7 @@ impl BurgersVector {
     }
 }
 
-/// α^aD = ε^DAB ∂_A (K⁻¹)^a_B, 1/m: the Burgers vector, in the crystal, of all dislocations through a unit of area with normal D.
+/// `α^aD = ε^DAB ∂_A (K⁻¹)^a_B`, 1/m: the Burgers vector, in the crystal, of all dislocations through a unit of area with normal D.
 ///
 /// # Accuracy
 /// A few ulp of the derivatives of K.
@@ -158,7 +159,7 @@ impl<T: Real> DislocationDensity<T> {
         Ok(Self { value: from_rows(curl), map: value, scale })
     }
 
-    /// From the torsion of the connection of a crystal: α^aD = −½ ε^DAB (K⁻¹)^a_C Y^C_AB.
+    /// From the torsion of the connection of a crystal: `α^aD = −½ ε^DAB (K⁻¹)^a_C Y^C_AB`.
     ///
     /// # Errors
     /// What [`UniformityMap::value`] refuses of K, with the place unknown given as the origin.

@@ -22,6 +22,7 @@ use crate::transport::TransportedFrame;
 
 /// The largest value of a tensor over places, and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LargestDefect {
     /// The largest |component|: torsion 1/m, curvature 1/m².
     pub value: f64,
@@ -56,6 +57,7 @@ pub struct LargestDefect {
 /// # Ok::<(), piola_uniformity::UniformityError>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Flatness {
     /// The largest torsion.
     pub torsion: LargestDefect,
@@ -153,6 +155,7 @@ impl LargestDefect {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CircuitDefects {
     /// The largest |development of a circuit|, m.
     pub closure: f64,

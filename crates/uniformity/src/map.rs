@@ -12,7 +12,7 @@ use crate::indices::{primal, second, variables};
 
 /// K(X) of a materially uniform body, W(26.2): the response at X is that of one crystal, G(F, X) = N(F K(X)).
 ///
-/// The column a of K holds the crystal's basis vector a at X in components of the reference configuration, K^A_a. One formula over any
+/// The column a of K holds the crystal's basis vector a at X in components of the reference configuration, `K^A_a`. One formula over any
 /// scalar, from which connections, torsion and curvature follow by exact derivatives. K is determined up to K(X) H(X)
 /// with H in the symmetry group of N, W(26.5–26.9).
 ///
@@ -181,7 +181,7 @@ impl UniformityMap for ConstantMap {
 pub(crate) struct LocalMap<T> {
     /// `[A][a]`.
     pub(crate) value: Rows<T>,
-    /// ∂_B K^A_a, `[B][A][a]`.
+    /// `∂_B K^A_a`, `[B][A][a]`.
     pub(crate) partials: [Rows<T>; 3],
     /// `[a][A]`.
     pub(crate) inverse: Rows<T>,

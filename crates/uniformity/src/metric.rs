@@ -83,13 +83,13 @@ pub struct MetricGeometry<T = f64> {
     pub metric: Symmetric<T>,
     /// M⁻¹.
     pub inverse: Symmetric<T>,
-    /// Γ^C_AB, W(29.18).
+    /// `Γ^C_AB`, W(29.18).
     pub christoffel: ConnectionCoefficients<T>,
-    /// R^C_ABD, 1/m².
+    /// `R^C_ABD`, 1/m².
     pub riemann: ConnectionCurvature<T>,
-    /// Ric_AB = R^C_ABC, 1/m², positive on spheres.
+    /// `Ric_AB = R^C_ABC`, 1/m², positive on spheres.
     pub ricci: Matrix3<T>,
-    /// R = M^AB Ric_AB, 1/m².
+    /// `R = M^AB Ric_AB`, 1/m².
     pub scalar: T,
 }
 

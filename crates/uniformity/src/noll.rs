@@ -24,6 +24,9 @@ use crate::error::check_finite;
 use crate::indices::{Fourth, Third, fourth, sum, third};
 use crate::map::UniformityMap;
 
+/// F, and the two terms of its covariant derivative.
+type GradientWithTerms<T> = (Rows<T>, Third<(T, T)>);
+
 /// The equations of motion of a uniform body with one of its material connections.
 ///
 /// # Errors
@@ -72,7 +75,7 @@ pub struct NollEquations<'a, L, M, C> {
 }
 
 impl<L: Hyperelastic, M: UniformityMap, C: AffineConnection> NollEquations<'_, L, M, C> {
-    /// ∇_D F^k_C = ∂²x^k/∂X^C∂X^D − F^k_B Γ^B_CD, 1/m, `[k][C][D]`, W(28.24).
+    /// `∇_D F^k_C = ∂²x^k/∂X^C∂X^D − F^k_B Γ^B_CD`, 1/m, `[k][C][D]`, W(28.24).
     ///
     /// # Errors
     /// See [the type](NollEquations#errors).
@@ -101,7 +104,7 @@ impl<L: Hyperelastic, M: UniformityMap, C: AffineConnection> NollEquations<'_, L
         Ok(elasticity)
     }
 
-    /// `H_k^iDC` ∇_D F^k_C = Div P, N/m³ of the reference configuration, with its scale.
+    /// `H_k^iDC ∇_D F^k_C` = Div P, N/m³ of the reference configuration, with its scale.
     ///
     /// # Errors
     /// See [the type](NollEquations#errors).
@@ -166,7 +169,7 @@ impl<L: Hyperelastic, M: UniformityMap, C: AffineConnection> NollEquations<'_, L
         motion: &impl Motion,
         reference: &Vector3<T>,
         t: T,
-    ) -> Result<(Rows<T>, Third<(T, T)>), UniformityError> {
+    ) -> Result<GradientWithTerms<T>, UniformityError> {
         let gradient = rows_of(motion.deformation_gradient(reference, t)?.matrix());
         let second = motion.second_gradient(reference, t)?;
         let gamma = self.connection.coefficients(reference)?.components;

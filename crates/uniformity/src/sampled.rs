@@ -14,6 +14,8 @@ use crate::map::{UniformityMap, check_map};
 /// # Example
 /// See [`SampledUniformityMap`].
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct UniformityMapSamples {
     /// The nodes along X₁, X₂ and X₃, m, each increasing; a single node means that nothing depends on that coordinate.
     pub nodes: [Vec<f64>; 3],
@@ -55,6 +57,8 @@ pub struct UniformityMapSamples {
 /// # Ok::<(), piola_uniformity::UniformityError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UniformityMapSamples", into = "UniformityMapSamples"))]
 pub struct SampledUniformityMap {
     samples: UniformityMapSamples,
     axes: [Axis; 3],
@@ -151,6 +155,19 @@ impl SampledUniformityMap {
             }
         }
         Matrix3::from_fn(|i, j| sum[j][i])
+    }
+}
+
+impl TryFrom<UniformityMapSamples> for SampledUniformityMap {
+    type Error = UniformityError;
+    fn try_from(samples: UniformityMapSamples) -> Result<Self, UniformityError> {
+        Self::new(samples)
+    }
+}
+
+impl From<SampledUniformityMap> for UniformityMapSamples {
+    fn from(map: SampledUniformityMap) -> Self {
+        map.samples
     }
 }
 

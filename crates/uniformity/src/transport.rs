@@ -52,6 +52,7 @@ use crate::map::check_map;
 /// W(27.12), W(27.24).
 #[doc(alias("parallel transport", "holonomy", "development", "Cartan"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TransportedFrame {
     /// P₀, the frame at the start.
     pub start: Matrix3<f64>,

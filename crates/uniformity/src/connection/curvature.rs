@@ -8,7 +8,7 @@ use piola_tensor::{Rows, Symmetric};
 use crate::UniformityError;
 use crate::indices::{fourth, second, sum};
 
-/// R^C_ABD, 1/m², with the size of its terms; minus the common R^C_{A,BD}.
+/// `R^C_ABD`, 1/m², with the size of its terms; minus the common `R^C_{A,BD}`.
 ///
 /// # Example
 /// The sphere r = 2 has Ric = 1/r² of its metric on the sphere; here by components that are given.
@@ -46,13 +46,13 @@ impl<T: Real> ConnectionCurvature<T> {
         piola_fields::Residual { value: self.largest(), scale: self.scale }.relative()
     }
 
-    /// Ric_AB = R^C_ABC, 1/m²: positive on spheres, symmetric without torsion.
+    /// `Ric_AB = R^C_ABC`, 1/m²: positive on spheres, symmetric without torsion.
     #[must_use]
     pub fn ricci(&self) -> Matrix3<T> {
         from_rows(second(|a, b| sum(|c| self.components[c][a][b][c])))
     }
 
-    /// R = M^AB Ric_AB, 1/m², of a metric's inverse.
+    /// `R = M^AB Ric_AB`, 1/m², of a metric's inverse.
     #[must_use]
     pub fn scalar(&self, inverse_metric: &Symmetric<T>) -> T {
         let (ricci, inverse) = (self.ricci(), inverse_metric.rows());

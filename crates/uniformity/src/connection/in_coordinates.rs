@@ -16,7 +16,7 @@ use crate::indices::{second, sum, third, variables};
 /// [`UniformityError::OutOfBounds`] where ∂X/∂q is singular, and what coordinates and connection refuse.
 ///
 /// # Example
-/// Euclid's connection in cylindrical coordinates: Γ^r_θθ = −r.
+/// Euclid's connection in cylindrical coordinates: `Γ^r_θθ = −r`.
 /// ```
 /// use nalgebra::{Matrix3, Vector3};
 /// use piola_fields::Cylindrical;

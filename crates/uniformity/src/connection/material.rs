@@ -18,7 +18,7 @@ use crate::map::{LocalMap, UniformityMap};
 /// Γ is material  ⇔  K⁻¹(∂_D K + Γ_D K) ∈ 𝔤        Γ_D = −(∂_D K) K⁻¹ + K ω_D K⁻¹,  ω_D ∈ 𝔤        (Γ_D)^C_A = Γ^C_AD
 /// ```
 ///
-/// ω minimises the norm of the torsion in the crystal's frame, Σ (Y^c_ab)². For the algebra of a solid there is one minimum, and it does
+/// ω minimises the norm of the torsion in the crystal's frame, `Σ (Y^c_ab)²`. For the algebra of a solid there is one minimum, and it does
 /// not depend on the choice of K; for a fluid it is the minimum with the least ω.
 ///
 /// | symmetry | algebra | ω | torsion |
@@ -95,18 +95,18 @@ impl<M: UniformityMap> AffineConnection for MaterialConnection<M> {
     }
 }
 
-/// Γ^C_AB = −(∂_B K^C_a)(K⁻¹)^a_A, for which the columns of K are parallel.
+/// `Γ^C_AB = −(∂_B K^C_a)(K⁻¹)^a_A`, for which the columns of K are parallel.
 #[inline]
 pub(crate) fn distant_parallelism<T: Real>(map: &LocalMap<T>) -> Third<T> {
     third(|c, a, b| -sum(|e| map.partials[b][c][e] * map.inverse[e][a]))
 }
 
-/// What W(27.33) leaves: the part of K⁻¹(∂_D K + Γ_D K) outside the symmetry algebra.
+/// What W(27.33) leaves: the part of `K⁻¹(∂_D K + Γ_D K)` outside the symmetry algebra.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaterialityResidual<T = f64> {
     /// For each direction D the part outside 𝔤, in the crystal's frame, 1/m.
     pub value: [Matrix3<T>; 3],
-    /// The largest of |K⁻¹∂_D K| + |K⁻¹Γ_D K|, 1/m.
+    /// The largest of `|K⁻¹∂_D K| + |K⁻¹Γ_D K|`, 1/m.
     pub scale: T,
 }
 

@@ -7,7 +7,7 @@
 //! Γ̄^c_ab  = ∂q^c/∂X^C (∂X^A/∂q^a ∂X^B/∂q^b Γ^C_AB + ∂²X^C/∂q^a∂q^b)               W(27.18)  other coordinates
 //! ```
 //!
-//! R is minus the common R^C_{A,BD}; with Ric_AB = R^C_ABC spheres have positive curvature.
+//! R is minus the common `R^C_{A,BD}`; with `Ric_AB = R^C_ABC` spheres have positive curvature.
 //!
 //! | connection | type |
 //! |---|---|
@@ -37,7 +37,7 @@ use crate::UniformityError;
 use crate::error::check_finite;
 use crate::indices::{Fourth, Third, fourth, second, sum, third, variables};
 
-/// An affine connection, given by its coefficients Γ^C_AB in the coordinates of the reference configuration.
+/// An affine connection, given by its coefficients `Γ^C_AB` in the coordinates of the reference configuration.
 ///
 /// # Errors
 /// The methods that return a `Result` refuse places and results that are not finite, [`UniformityError::NotFinite`], and what
@@ -67,7 +67,7 @@ use crate::indices::{Fourth, Third, fourth, second, sum, third, variables};
 /// # Source
 /// W(27.8–27.14).
 pub trait AffineConnection {
-    /// Γ^C_AB at a place, unchecked.
+    /// `Γ^C_AB` at a place, unchecked.
     fn at<T: Real>(&self, place: &Vector3<T>) -> ConnectionCoefficients<T>;
 
     /// Refuses places at which the connection is not defined.
@@ -80,7 +80,7 @@ pub trait AffineConnection {
         Ok(())
     }
 
-    /// Γ^C_AB, 1/m.
+    /// `Γ^C_AB`, 1/m.
     ///
     /// # Errors
     /// See [the trait](AffineConnection#errors).
@@ -91,7 +91,7 @@ pub trait AffineConnection {
         Ok(coefficients)
     }
 
-    /// Y^C_AB, 1/m, W(27.13).
+    /// `Y^C_AB`, 1/m, W(27.13).
     ///
     /// # Errors
     /// See [the trait](AffineConnection#errors).
@@ -99,7 +99,7 @@ pub trait AffineConnection {
         Ok(self.coefficients(place)?.torsion())
     }
 
-    /// R^C_ABD, 1/m², W(27.14), by exact derivatives of Γ.
+    /// `R^C_ABD`, 1/m², W(27.14), by exact derivatives of Γ.
     ///
     /// # Errors
     /// See [the trait](AffineConnection#errors).
@@ -141,7 +141,7 @@ impl<C: AffineConnection + ?Sized> AffineConnection for &C {
     }
 }
 
-/// Γ^C_AB at a point, 1/m.
+/// `Γ^C_AB` at a point, 1/m.
 ///
 /// # Example
 /// ```
@@ -161,7 +161,7 @@ pub struct ConnectionCoefficients<T = f64> {
 }
 
 impl<T: Real> ConnectionCoefficients<T> {
-    /// Y^C_AB = Γ^C_AB − Γ^C_BA.
+    /// `Y^C_AB = Γ^C_AB − Γ^C_BA`.
     #[inline]
     #[must_use]
     pub fn torsion(&self) -> Torsion<T> {
@@ -181,7 +181,7 @@ impl<T: Real> ConnectionCoefficients<T> {
         from_rows(second(|c, b| gradient[(c, b)] + sum(|a| gamma[c][a][b] * vector[a])))
     }
 
-    /// du^C/ds = −Γ^C_AB u^A v^B of a vector carried in parallel along a curve with velocity v, W(27.12).
+    /// `du^C/ds = −Γ^C_AB u^A v^B` of a vector carried in parallel along a curve with velocity v, W(27.12).
     #[inline]
     #[must_use]
     pub fn parallel_rate(&self, vector: &Vector3<T>, velocity: &Vector3<T>) -> Vector3<T> {
@@ -190,7 +190,7 @@ impl<T: Real> ConnectionCoefficients<T> {
     }
 }
 
-/// R^C_ABD of coefficients with their derivatives.
+/// `R^C_ABD` of coefficients with their derivatives.
 #[inline]
 fn curvature_of<T: Real>(gamma: &Third<Gradient<T, 3>>) -> ConnectionCurvature<T> {
     let value = |c: usize, a: usize, b: usize| gamma[c][a][b].value;

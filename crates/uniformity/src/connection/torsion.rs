@@ -7,7 +7,7 @@ use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use crate::UniformityError;
 use crate::indices::{second, sum, third};
 
-/// Y^C_AB = Γ^C_AB − Γ^C_BA, 1/m, with the size of its terms.
+/// `Y^C_AB = Γ^C_AB − Γ^C_BA`, 1/m, with the size of its terms.
 ///
 /// # Example
 /// ```
@@ -23,7 +23,7 @@ use crate::indices::{second, sum, third};
 pub struct Torsion<T = f64> {
     /// `[C][A][B]`.
     pub components: [[[T; 3]; 3]; 3],
-    /// The largest |Γ^C_AB| + |Γ^C_BA|, 1/m.
+    /// The largest `|Γ^C_AB| + |Γ^C_BA|`, 1/m.
     pub scale: T,
 }
 
@@ -40,7 +40,7 @@ impl<T: Real> Torsion<T> {
         piola_fields::Residual { value: self.largest(), scale: self.scale }.relative()
     }
 
-    /// The components in coordinates q, given ∂X/∂q: Y^c_ab = ∂q^c/∂X^C ∂X^A/∂q^a ∂X^B/∂q^b Y^C_AB.
+    /// The components in coordinates q, given ∂X/∂q: `Y^c_ab = ∂q^c/∂X^C ∂X^A/∂q^a ∂X^B/∂q^b Y^C_AB`.
     ///
     /// # Errors
     /// [`UniformityError::NotFinite`], [`UniformityError::OutOfBounds`] for a singular ∂X/∂q.
@@ -54,7 +54,7 @@ impl<T: Real> Torsion<T> {
         Ok(Self { components, scale })
     }
 
-    /// Y as a second-order tensor: ½ ε^DAB Y^C_AB in Cartesian components, `[(C, D)]`; the torsion vector through a plane with
+    /// Y as a second-order tensor: `½ ε^DAB Y^C_AB` in Cartesian components, `[(C, D)]`; the torsion vector through a plane with
     /// normal N is this times N.
     #[must_use]
     pub fn axial(&self) -> Matrix3<T> {
@@ -62,7 +62,7 @@ impl<T: Real> Torsion<T> {
         from_rows(second(|c, d| y[c][(d + 1) % 3][(d + 2) % 3]))
     }
 
-    /// Y^C_AC, the trace, 1/m.
+    /// `Y^C_AC`, the trace, 1/m.
     #[must_use]
     pub fn trace(&self) -> Vector3<T> {
         let y = &self.components;

@@ -25,12 +25,12 @@ pub struct LieAlgebra {
     correction: Option<Box<Correction>>,
 }
 
-/// The linear map from the torsion Y^c_ab of a frame to the ω^c_ab ∈ 𝔤 that leaves the least torsion.
+/// The linear map from the torsion `Y^c_ab` of a frame to the `ω^c_ab` ∈ 𝔤 that leaves the least torsion.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Correction([[f64; 9]; 27]);
 
 impl Correction {
-    /// ω^c_ab of Y^c_ab.
+    /// `ω^c_ab` of `Y^c_ab`.
     #[inline]
     pub(crate) fn of<T: Real>(&self, torsion: &Third<T>) -> Third<T> {
         let independent: [T; 9] = core::array::from_fn(|n| {
@@ -164,7 +164,7 @@ fn without(basis: &[Matrix3<f64>], matrix: &Matrix3<f64>) -> Matrix3<f64> {
     basis.iter().fold(*matrix, |rest, unit| rest - unit * unit.dot(&rest))
 }
 
-/// Least squares of Y^c_ab + ω^c_ab − ω^c_ba = 0 over ω_b = Σᵢ wᵢ_b Eᵢ: the pseudo-inverse, for it is the same at all points.
+/// Least squares of `Y^c_ab + ω^c_ab − ω^c_ba = 0` over `ω_b = Σᵢ wᵢ_b Eᵢ`: the pseudo-inverse, for it is the same at all points.
 fn least_torsion(basis: &[Matrix3<f64>]) -> Option<Box<Correction>> {
     if basis.is_empty() {
         return None;

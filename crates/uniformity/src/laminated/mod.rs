@@ -17,7 +17,7 @@
 //! | [`LaminatedSphere`] | 4 | a sphere: inflated, everted | [`inflated`](LaminatedSphere::inflated) |
 //!
 //! The other two coordinates are mapped linearly by a matrix with the determinant Δ. Stresses are T = −p 1 + g₁ B + g₋₁ B⁻¹ with
-//! B^ij = x^i_A M^AB x^j_B, W(29.25); any [`Isochoric`](piola_solids::isochoric::Isochoric) energy is a law. A body that is left to itself is in
+//! `B^ij = x^i_A M^AB x^j_B`, W(29.25); any [`Isochoric`](piola_solids::isochoric::Isochoric) energy is a law. A body that is left to itself is in
 //! [`residual stress`](LaminatedSphere::at_rest).
 //!
 //! Parameters may depend on time where the acceleration has a potential, W p. 196: see [`SheetMotion`] and [`RadialOscillation`].
@@ -131,6 +131,7 @@ impl Lamination for HomogeneousTube {
 
 /// The stress of a lamina, in physical components of the present coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LaminaStress {
     /// T, Pa: of a plate in x, y, z; of a tube in r, θ, z; of a sphere in r and the two angles.
     pub cauchy: CauchyStress,

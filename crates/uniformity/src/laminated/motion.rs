@@ -230,7 +230,7 @@ impl<'a, A: Lamination> SheetMotion<&'a A> {
         })
     }
 
-    /// T = T_static − ρ ζ 1, Pa, with T₁₁ of the static stress given at the inner face and the density ρ, kg/m³.
+    /// T = `T_static` − ρ ζ 1, Pa, with T₁₁ of the static stress given at the inner face and the density ρ, kg/m³.
     ///
     /// # Errors
     /// As [`SheetState::stress`]; [`UniformityError::OutOfBounds`] for ρ < 0.

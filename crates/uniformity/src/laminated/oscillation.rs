@@ -5,7 +5,7 @@
 //! tube    u̇ ln(r_o/r_i)     = (ΔT_rr − S)/ρ + ½ u² (r_i⁻² − r_o⁻²),     u = r ṙ
 //! ```
 //!
-//! S is the difference of `T_rr` that holds the state at rest, ΔT_rr the given one.
+//! S is the difference of `T_rr` that holds the state at rest, `ΔT_rr` the given one.
 
 use piola_integrators::Field;
 use piola_solids::isochoric::Isochoric;

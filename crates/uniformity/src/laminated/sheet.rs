@@ -189,18 +189,19 @@ pub struct SheetState<A> {
 ///
 /// Of a plane image: forces in N/m and moments in N for a unit of length. Of a cylindrical image: for a radian and a unit of length.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SheetLoads {
     /// T₁₁ at the outer face less T₁₁ at the inner face, Pa: an inflating pressure of a tube. Zero of a plane image.
     pub normal_stress_difference: f64,
-    /// Plane: ∫ T_yy dx, N/m. Cylinder: ∫ T_θθ dr, N/m, the hoop force.
+    /// Plane: ∫ `T_yy` dx, N/m. Cylinder: ∫ `T_θθ` dr, N/m, the hoop force.
     pub first_force: f64,
-    /// Plane: ∫ T_zz dx, N/m. Cylinder: ∫ T_zz r dr, N/rad, the axial force.
+    /// Plane: ∫ `T_zz` dx, N/m. Cylinder: ∫ `T_zz` r dr, N/rad, the axial force.
     pub second_force: f64,
-    /// Plane: ∫ T_yz dx, N/m. Cylinder: ∫ T_θz r² dr, N m/rad, the torque.
+    /// Plane: ∫ `T_yz` dx, N/m. Cylinder: ∫ `T_θz` r² dr, N m/rad, the torque.
     pub shear: f64,
-    /// Plane: ∫ T_yy x dx, N. Cylinder: ∫ T_θθ r dr, N, the bending moment.
+    /// Plane: ∫ `T_yy` x dx, N. Cylinder: ∫ `T_θθ` r dr, N, the bending moment.
     pub first_moment: f64,
-    /// Plane: ∫ T_zz x dx, N. Cylinder: zero.
+    /// Plane: ∫ `T_zz` x dx, N. Cylinder: zero.
     pub second_moment: f64,
 }
 
@@ -245,7 +246,7 @@ impl<A: Lamination> SheetState<A> {
         Ok([[normal, 0.0, 0.0], [0.0, radius * b, radius * c], [0.0, d, e]])
     }
 
-    /// B^ij = x^i_A M^AB x^j_B in physical components: the strain from the natural state, det B = 1.
+    /// `B^ij = x^i_A M^AB x^j_B` in physical components: the strain from the natural state, det B = 1.
     ///
     /// # Errors
     /// As [`place`](Self::place); [`UniformityError::OutOfBounds`] where the metric is not positive definite.
@@ -385,7 +386,7 @@ impl<A: Lamination> SheetState<A> {
     }
 }
 
-/// Equilibrium, dT_rr/dr = (T_θθ − T_rr)/r, and the loads that follow by parts.
+/// Equilibrium, `dT_rr/dr` = (`T_θθ` − `T_rr`)/r, and the loads that follow by parts.
 struct CylinderRates {
     normal_stress: f64,
     axial: f64,

@@ -153,7 +153,7 @@ impl<A: Lamination> SphereState<A> {
         radius * radius / self.lamination.metric(depth).in_plane[0]
     }
 
-    /// ∫ 2 (T_θθ − T_rr) dr/r from the inner face.
+    /// ∫ 2 (`T_θθ` − `T_rr`) dr/r from the inner face.
     fn change_to(&self, law: &impl Isochoric, depth: f64) -> Result<f64, UniformityError> {
         let interfaces = self.lamination.interfaces();
         let rate = |depth: f64| {
