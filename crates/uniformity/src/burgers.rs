@@ -162,7 +162,7 @@ impl<T: Real> DislocationDensity<T> {
     /// From the torsion of the connection of a crystal: `α^aD = −½ ε^DAB (K⁻¹)^a_C Y^C_AB`.
     ///
     /// # Errors
-    /// What [`UniformityMap::value`] refuses of K, with the place unknown given as the origin.
+    /// [`UniformityError::SingularMap`] and [`UniformityError::OrientationReversing`]; the place that they name is the origin.
     pub fn of_torsion(torsion: &Torsion<T>, map: &Matrix3<T>) -> Result<Self, UniformityError> {
         check_map(rows_of(map), &Vector3::from_element(T::zero()))?;
         let inverse = from_rows(inverse_and_determinant(rows_of(map)).0);

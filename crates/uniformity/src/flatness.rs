@@ -20,7 +20,7 @@ use crate::group::LieAlgebra;
 use crate::map::UniformityMap;
 use crate::transport::TransportedFrame;
 
-/// The largest value of a tensor over places, and where it is.
+/// The largest value of a tensor over places, and where it is: see [`Flatness`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LargestDefect {

@@ -18,9 +18,9 @@
 //!
 //! The other two coordinates are mapped linearly by a matrix with the determinant Δ. Stresses are T = −p 1 + g₁ B + g₋₁ B⁻¹ with
 //! `B^ij = x^i_A M^AB x^j_B`, W(29.25); any [`Isochoric`](piola_solids::isochoric::Isochoric) energy is a law. A body that is left to itself is in
-//! [`residual stress`](LaminatedSphere::at_rest).
+//! [residual stress](LaminatedSphere::at_rest).
 //!
-//! Parameters may depend on time where the acceleration has a potential, W p. 196: see [`SheetMotion`] and [`RadialOscillation`].
+//! Parameters may depend on time where the acceleration has a potential, W p. 196: see [`SheetMotion`] and [`LaminatedOscillation`].
 
 mod motion;
 mod oscillation;
@@ -29,7 +29,7 @@ mod sheet;
 mod sphere;
 
 pub use motion::{SheetHistory, SheetMotion};
-pub use oscillation::RadialOscillation;
+pub use oscillation::LaminatedOscillation;
 pub use rest::RestState;
 pub use sheet::{LaminatedPlate, LaminatedTube, SheetLoads, SheetState};
 pub use sphere::{LaminatedSphere, SphereState};
@@ -129,7 +129,7 @@ impl Lamination for HomogeneousTube {
     }
 }
 
-/// The stress of a lamina, in physical components of the present coordinates.
+/// The stress of a lamina, in physical components of the present coordinates: see [`LaminatedPlate`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LaminaStress {

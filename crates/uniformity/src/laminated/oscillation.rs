@@ -25,10 +25,10 @@ use crate::error::check_bound;
 /// ```
 /// use piola_integrators::{DormandPrince853, State, Tolerance};
 /// use piola_solids::isochoric::NeoHookean;
-/// use piola_uniformity::laminated::{HomogeneousTube, LaminatedSphere, RadialOscillation};
+/// use piola_uniformity::laminated::{HomogeneousTube, LaminatedSphere, LaminatedOscillation};
 /// let shell = LaminatedSphere::new(HomogeneousTube, [1.0, 1.25])?;
 /// let law = NeoHookean::new(1.0)?;
-/// let mut swing = RadialOscillation::of_sphere(&shell, &law, 1.0, 0.0)?;
+/// let mut swing = LaminatedOscillation::of_sphere(&shell, &law, 1.0, 0.0)?;
 /// let mut state = State::new(0.0, swing.at_rest_with_radius(1.2).to_vec())?;
 /// let energy = swing.energy([state.values[0], state.values[1]])?;
 /// DormandPrince853::new(Tolerance::relative(1e-9)?).integrate_to(&mut swing, &mut state, 1.0)?;
@@ -40,7 +40,7 @@ use crate::error::check_bound;
 /// # Source
 /// J. K. Knowles, *Large amplitude oscillations of a tube of incompressible elastic material* (1960), for metrics that vary with R.
 #[derive(Clone, Copy, Debug)]
-pub struct RadialOscillation<'a, A, I> {
+pub struct LaminatedOscillation<'a, A, I> {
     shape: Shape<'a, A>,
     law: &'a I,
     density: f64,
@@ -53,7 +53,7 @@ enum Shape<'a, A> {
     Tube(&'a LaminatedTube<A>, [[f64; 2]; 2]),
 }
 
-impl<'a, A: Lamination, I: Isochoric> RadialOscillation<'a, A, I> {
+impl<'a, A: Lamination, I: Isochoric> LaminatedOscillation<'a, A, I> {
     /// Of a shell of density ρ, kg/m³, with `T_rr` at the outer less at the inner face given, Pa.
     ///
     /// # Errors
@@ -150,7 +150,7 @@ impl<'a, A: Lamination, I: Isochoric> RadialOscillation<'a, A, I> {
     }
 }
 
-impl<A: Lamination, I: Isochoric> Field for RadialOscillation<'_, A, I> {
+impl<A: Lamination, I: Isochoric> Field for LaminatedOscillation<'_, A, I> {
     type Error = UniformityError;
 
     fn dimension(&self) -> usize {

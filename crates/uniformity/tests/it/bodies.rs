@@ -8,8 +8,8 @@ use piola_numerics::Real;
 use piola_solids::{Fibre, Hyperelastic, NeoHookeanLogarithmic, ReinforcedNeoHookean};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, difference_quotient};
 use piola_uniformity::{
-    CharacteristicMetric, ConstantMap, LieAlgebra, MapOfMetric, MaterialConnection, MateriallyUniformBody,
-    NollEquations, NominalGroup, StressInMotion, UniformityMap, isomorphism,
+    AffineConnection, CharacteristicMetric, ConstantMap, LieAlgebra, MapOfMetric, MaterialConnection,
+    MateriallyUniformBody, NollEquations, NominalGroup, StressInMotion, UniformityMap, isomorphism,
 };
 use proptest::prelude::*;
 
@@ -50,7 +50,7 @@ fn cubic() -> NominalGroup {
     NominalGroup::generated(&[quarter, diagonal], 24).expect("24 rotations")
 }
 
-/// A law of cubic symmetry: W = Σ (λ_a² − 1)² with λ_a the stretches of the crystal's axes, ⅛ μ each, and ½ μ Σ γ².
+/// A law of cubic symmetry: `W = Σ (λ_a² − 1)²` with `λ_a` the stretches of the crystal's axes, ⅛ μ each, and ½ μ Σ γ².
 #[derive(Clone, Copy)]
 struct Cubic;
 
@@ -61,6 +61,23 @@ impl Hyperelastic for Cubic {
         let stretch = |a: usize| (c(a, a) - T::one()) * (c(a, a) - T::one());
         let shear = c(0, 1) * c(0, 1) + c(1, 2) * c(1, 2) + c(2, 0) * c(2, 0);
         T::lit(0.125) * (stretch(0) + stretch(1) + stretch(2)) + T::lit(0.5) * shear
+    }
+}
+
+/// The reference density of a body whose crystal has 3 kg/m³.
+struct Density<'a>(&'a MateriallyUniformBody<NeoHookeanLogarithmic, Waves>);
+impl Field for Density<'_> {
+    type Value = f64;
+    fn at<T: Real>(&self, place: &Vector3<T>, _t: T) -> T {
+        self.0.reference_density(T::lit(3.0), place).expect("regular")
+    }
+}
+
+/// x = X.
+struct Rest;
+impl Motion for Rest {
+    fn place<T: Real>(&self, reference: &Vector3<T>, _t: T) -> Vector3<T> {
+        *reference
     }
 }
 
@@ -173,13 +190,6 @@ proptest! {
     fn nolls_equations_equal_the_direct_divergence(map in waves(), x in point(), t in 0.0..1.0_f64) {
         let body = MateriallyUniformBody { law: rubber(), map };
         let force = Uniform(Vector3::new(0.5, -9.81, 1.0));
-        struct Density<'a>(&'a MateriallyUniformBody<NeoHookeanLogarithmic, Waves>);
-        impl Field for Density<'_> {
-            type Value = f64;
-            fn at<T: Real>(&self, place: &Vector3<T>, _t: T) -> T {
-                self.0.reference_density(T::lit(3.0), place).expect("regular")
-            }
-        }
         let moving = Body { motion: Bending, reference_density: Density(&body) };
         let stress = Material(StressInMotion { body: &body, motion: &Bending });
         let direct = moving.momentum_residual(&stress, &Material(force), &x, t)?;
@@ -207,13 +217,6 @@ proptest! {
 #[test]
 fn covariant_gradient_of_a_homogeneous_motion_is_minus_the_connection() {
     // x = X: ∇_D F^k_C = −Γ^k_CD.
-    struct Rest;
-    impl Motion for Rest {
-        fn place<T: Real>(&self, reference: &Vector3<T>, _t: T) -> Vector3<T> {
-            *reference
-        }
-    }
-    use piola_uniformity::AffineConnection as _;
     let map = super::fixtures::Golden::Smooth;
     let x = Vector3::new(0.5, -0.25, 0.75);
     let body = MateriallyUniformBody { law: rubber(), map };
@@ -242,12 +245,6 @@ fn energy_of_a_body_at_rest_is_that_of_its_residual_strain() {
     // A block whose crystal is compressed by 0.9 along X₁: W/det K times the volume.
     let map = ConstantMap(Matrix3::from_diagonal(&Vector3::new(0.9, 1.0, 1.0)));
     let body = MateriallyUniformBody { law: rubber(), map };
-    struct Rest;
-    impl Motion for Rest {
-        fn place<T: Real>(&self, reference: &Vector3<T>, _t: T) -> Vector3<T> {
-            *reference
-        }
-    }
     let block = Cuboid::new(Vector3::zeros(), Vector3::new(2.0, 1.0, 1.0)).expect("a block");
     let energy: f64 =
         strain_energy(&Quadrature::of_degree(1).expect("a rule"), &block, &Rest, &body, 0.0).expect("energy");

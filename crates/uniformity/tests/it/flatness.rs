@@ -1,16 +1,17 @@
 //! Torsion and curvature vanish exactly where a body is locally homogeneous, W(28.26): both ways, with counterexamples.
 
 use nalgebra::{Matrix3, Vector3};
+use piola_fields::Motion as _;
 use piola_integrators::Tolerance;
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
 use piola_uniformity::{
-    CharacteristicMetric, CircuitDefects, Flatness, HomogeneousIn, LieAlgebra, MaterialConnection, MoebiusCrystal,
-    NominalGroup, ReferenceCurve, TransportedFrame, UniformityMap, isomorphism,
+    AffineConnection, CharacteristicMetric, CircuitDefects, Flatness, HomogeneousIn, LieAlgebra, MaterialConnection,
+    MoebiusCrystal, NominalGroup, ReferenceCurve, TransportedFrame, UniformityMap, isomorphism,
 };
 use proptest::prelude::*;
 
-use super::fixtures::{Golden, Turned, Waves, point, waves};
+use super::fixtures::{Golden, Turned, point, waves};
 
 const TOLERANCE: f64 = 1e-12;
 
@@ -55,7 +56,6 @@ proptest! {
         let defects = CircuitDefects::of(&connection, &map.value(&x)?, &places, tight())?;
         prop_assert!(defects.closure < 1e-11 && defects.holonomy < 1e-11 && defects.circuits == 3);
         // The development of a line is the difference of the places in it.
-        use piola_fields::Motion as _;
         let line = piola_uniformity::Segment { from: x, to: places[1] };
         let developed = TransportedFrame::along(&connection, &line, &map.value(&x)?, tight())?.development;
         let difference = motion.place(&places[1], 0.0) - motion.place(&x, 0.0);
@@ -118,7 +118,6 @@ fn moebius_crystal_is_homogeneous_locally_and_not_globally() {
         .collect();
     assert!(is_flat(&crystal, LieAlgebra::trivial(), &places));
     assert!(is_flat(&crystal, LieAlgebra::rotations(), &places));
-    use piola_uniformity::AffineConnection as _;
     for place in &places {
         let [a, b] = [crystal, other].map(|map| MaterialConnection::of_crystal(map).coefficients(place).expect("Γ"));
         let flat = |gamma: &[[[f64; 3]; 3]; 3]| gamma.as_flattened().as_flattened().to_vec();
@@ -168,5 +167,4 @@ fn flatness_reports_where_and_how_much() {
     );
     // A larger tolerance accepts it: a circuit in the body closes to that times its size.
     assert!(Flatness::of_body(&Growing, LieAlgebra::trivial(), &places, 10.0, 1e-4).expect("regular").is_flat());
-    let _: Waves = Waves { amplitude: [0.0; 9], wave: [0.0; 3], phase: 0.0 };
 }

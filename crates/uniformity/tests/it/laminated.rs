@@ -8,8 +8,8 @@ use piola_solids::isochoric::{Gent, Isochoric, MooneyRivlin, NeoHookean};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, difference_quotient, golden};
 use piola_uniformity::UniformityError;
 use piola_uniformity::laminated::{
-    HomogeneousPlate, HomogeneousTube, LaminaMetric, LaminaStress, LaminatedPlate, LaminatedSphere, LaminatedTube,
-    Lamination, RadialOscillation, SheetHistory, SheetLoads, SheetMotion, SheetState,
+    HomogeneousPlate, HomogeneousTube, LaminaMetric, LaminaStress, LaminatedOscillation, LaminatedPlate,
+    LaminatedSphere, LaminatedTube, Lamination, SheetHistory, SheetLoads, SheetMotion, SheetState,
 };
 use serde_json::Value;
 
@@ -20,7 +20,7 @@ fn polynomial<T: Real>(coefficients: &[f64], x: T) -> T {
     coefficients.iter().rev().fold(T::zero(), |sum, &c| sum * x + T::lit(c))
 }
 
-/// M = m₁² dX² + h_ab dY^a dY^b with h₁₁ = a², h₁₂ = a c, h₂₂ = b² + c², all polynomials.
+/// `M = m₁² dX² + h_ab dY^a dY^b` with h₁₁ = a², h₁₂ = a c, h₂₂ = b² + c², all polynomials.
 struct Polynomials {
     normal: Vec<f64>,
     a: Vec<f64>,
@@ -459,12 +459,26 @@ impl SheetHistory for Swelling {
     }
 }
 
+/// A tube that is twisted in time: its acceleration has no potential.
+struct Twisting;
+impl SheetHistory for Twisting {
+    fn origin<T: Real>(&self, _t: T) -> T {
+        T::lit(1.0)
+    }
+    fn matrix<T: Real>(&self, t: T) -> [[T; 2]; 2] {
+        [[T::one(), t], [T::zero(), T::one()]]
+    }
+}
+
+/// x of a particle at a time.
+type PlaceAt = fn(&LaminatedTube<Layers>, &LaminatedPlate<Layers>, f64) -> [f64; 3];
+
 #[test]
 fn acceleration_of_a_laminated_tube_is_minus_the_gradient_of_its_potential() {
     let tube = LaminatedTube::new(Layers, [1.0, 2.0]).expect("a tube");
     let plate = LaminatedPlate::new(Layers, [1.0, 2.0]).expect("a plate");
     let (t, particle) = (0.7, [1.25, 0.4, 0.8]);
-    let states: [fn(&LaminatedTube<Layers>, &LaminatedPlate<Layers>, f64) -> [f64; 3]; 2] = [
+    let states: [PlaceAt; 2] = [
         |tube, _, t| {
             let motion = SheetMotion::of_inflated_tube(tube, &Swelling, t).expect("a potential");
             motion.state.place([1.25, 0.4, 0.8]).expect("x")
@@ -511,16 +525,6 @@ fn acceleration_of_a_laminated_tube_is_minus_the_gradient_of_its_potential() {
         ];
         assert_close("−grad ζ", &acceleration, &expected, Tol::stated(1e-8, "differences of the sixth order"));
     }
-    // A tube that is twisted in time has no potential.
-    struct Twisting;
-    impl SheetHistory for Twisting {
-        fn origin<T: Real>(&self, _t: T) -> T {
-            T::lit(1.0)
-        }
-        fn matrix<T: Real>(&self, t: T) -> [[T; 2]; 2] {
-            [[T::one(), t], [T::zero(), T::one()]]
-        }
-    }
     assert!(matches!(
         SheetMotion::of_inflated_tube(&tube, &Twisting, 0.0),
         Err(UniformityError::NoAccelerationPotential { condition: "A12 = 0", .. })
@@ -535,7 +539,7 @@ fn small_oscillations_have_the_linear_frequency_and_large_ones_keep_their_energy
     let half_period = |square: f64| 0.5 * TAU / square.sqrt();
 
     let shell = LaminatedSphere::new(HomogeneousTube, [a, b]).expect("a shell");
-    let mut swing = RadialOscillation::of_sphere(&shell, &law, density, 0.0).expect("a swing");
+    let mut swing = LaminatedOscillation::of_sphere(&shell, &law, density, 0.0).expect("a swing");
     // ω² = 4 (μ/ρ) (a⁻³ − b⁻³)/(a⁻¹ − b⁻¹).
     let square = 4.0 / density * (a.powi(-3) - b.powi(-3)) / (a.recip() - b.recip());
     let amplitude = 1e-6;
@@ -555,7 +559,7 @@ fn small_oscillations_have_the_linear_frequency_and_large_ones_keep_their_energy
     // A tube in plane strain: ω² = 2 (μ/ρ) (a⁻² − b⁻²)/ln(b/a).
     let tube = LaminatedTube::new(HomogeneousTube, [a, b]).expect("a tube");
     let matrix = [[1.0, 0.0], [0.0, 1.0]];
-    let mut swing = RadialOscillation::of_tube(&tube, matrix, &law, density, 0.0).expect("a swing");
+    let mut swing = LaminatedOscillation::of_tube(&tube, matrix, &law, density, 0.0).expect("a swing");
     let square = 2.0 / density * (a.powi(-2) - b.powi(-2)) / (b / a).ln();
     let start = swing.at_rest_with_radius(a + amplitude);
     let end = {
@@ -567,11 +571,12 @@ fn small_oscillations_have_the_linear_frequency_and_large_ones_keep_their_energy
     // Large, of laminated bodies, with a law of both invariants.
     let law = MooneyRivlin::new(0.5, 0.25).expect("moduli");
     let shell = LaminatedSphere::new(Layers, [1.0, 2.0]).expect("a shell");
-    let mut swing = RadialOscillation::of_sphere(&shell, &law, density, 0.0).expect("a swing");
-    keeps_energy(&mut swing, 1.5, |swing, y| swing.energy(y).expect("E"), RadialOscillation::at_rest_with_radius);
+    let mut swing = LaminatedOscillation::of_sphere(&shell, &law, density, 0.0).expect("a swing");
+    keeps_energy(&mut swing, 1.5, |swing, y| swing.energy(y).expect("E"), LaminatedOscillation::at_rest_with_radius);
     let tube = LaminatedTube::new(Layers, [1.0, 2.0]).expect("a tube");
-    let mut swing = RadialOscillation::of_tube(&tube, [[1.1, 0.2], [0.0, 0.9]], &law, density, 0.0).expect("a swing");
-    keeps_energy(&mut swing, 1.5, |swing, y| swing.energy(y).expect("E"), RadialOscillation::at_rest_with_radius);
+    let mut swing =
+        LaminatedOscillation::of_tube(&tube, [[1.1, 0.2], [0.0, 0.9]], &law, density, 0.0).expect("a swing");
+    keeps_energy(&mut swing, 1.5, |swing, y| swing.energy(y).expect("E"), LaminatedOscillation::at_rest_with_radius);
 }
 
 fn integrate<F: Field<Error = UniformityError>>(field: &mut F, state: &mut State, time: f64, tolerance: Tolerance) {

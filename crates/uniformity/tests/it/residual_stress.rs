@@ -115,7 +115,7 @@ fn residual_stress_of_a_cube_converges_to_the_manufactured_one() {
     let cells = [5_usize, 7];
     let errors = cells.map(|cells| {
         let mesh = TetrahedralMesh::of_cuboid(&cube, [cells; 3]).expect("a mesh");
-        let elements = QuadraticTetrahedra::new(mesh, 3).expect("elements");
+        let elements = QuadraticTetrahedra::new(mesh, 4).expect("elements");
         let rest = LinearResidualStress::of(&elements, &stiffness, &Manufactured(compliance), 1e-8).expect("at rest");
         assert!(rest.residual <= 1e-8 && rest.stresses.len() == elements.point_count());
         let (mut error, mut size) = (0.0, 0.0);

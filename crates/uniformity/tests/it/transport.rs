@@ -112,6 +112,17 @@ fn holonomy_of_a_small_circuit_is_the_curvature_times_its_area() {
     assert_order("holonomy", &sizes, &errors, 1.0, 0.25);
 }
 
+/// Two pieces that do not meet.
+struct Jump;
+impl ReferenceCurve for Jump {
+    fn place<T: Real>(&self, piece: usize, s: T) -> Vector3<T> {
+        Vector3::new(s, T::lit(if piece == 0 { 0.0 } else { 0.5 }), T::zero())
+    }
+    fn pieces(&self) -> usize {
+        2
+    }
+}
+
 #[test]
 fn open_broken_and_short_curves_are_refused_by_name() {
     let map = Golden::Smooth;
@@ -128,15 +139,6 @@ fn open_broken_and_short_curves_are_refused_by_name() {
     ));
     assert!(TransportedFrame::along(&connection, &open, &frame, tight()).is_ok());
 
-    struct Jump;
-    impl ReferenceCurve for Jump {
-        fn place<T: Real>(&self, piece: usize, s: T) -> Vector3<T> {
-            Vector3::new(s, T::lit(if piece == 0 { 0.0 } else { 0.5 }), T::zero())
-        }
-        fn pieces(&self) -> usize {
-            2
-        }
-    }
     assert!(matches!(Jump.check(), Err(UniformityError::BrokenCurve { piece: 1, .. })));
     let short = PolygonalCurve::new(vec![Vector3::zeros()]);
     assert!(matches!(short, Err(UniformityError::WrongLength { found: 1, .. })));
