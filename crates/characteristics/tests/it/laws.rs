@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 use piola_characteristics::CharacteristicsError;
 use piola_characteristics::{
-    CauchyProblem, Classification, Covector, DegeneratePoint, FirstOrderPde, Front, InitialManifold, MongeCone,
-    Overlap, ParameterInterval, RayField, RayPoint, Refinement, StripKind,
+    CauchyProblem, CharacteristicField, CharacteristicSolution, Classification, Covector, DegeneratePoint,
+    FirstOrderPde, Front, InitialManifold, MongeCone, Overlap, ParameterInterval, RayField, RayPoint, Refinement,
+    StripKind,
 };
 use piola_integrators::{Field, Tolerance};
 use piola_numerics::Real;
@@ -132,6 +133,26 @@ proptest! {
         assert_close_at_scale("x_τ", &point.jacobian[2..], &by_tau, 1.0, differences);
     }
 
+    /// W(A.19): x′ = Φ_ξ, u′ = ξ·Φ_ξ, ξ′ = −Φ_x − Φ_u ξ, with the slopes of Φ as differences.
+    #[test]
+    fn rate_of_a_characteristic_equals_differences_of_the_equation(y in proptest::array::uniform5(-1.0..1.0_f64)) {
+        let phi = |y: &[f64]| vec![Bent.value(&y[..2], y[2], &y[3..])];
+        let slopes: [f64; 5] = core::array::from_fn(|i| {
+            let direction: [f64; 5] = core::array::from_fn(|j| f64::from(u8::from(i == j)));
+            difference_quotient(phi, &y, &direction)[0]
+        });
+        let [by_x1, by_x2, by_u, by_xi1, by_xi2] = slopes;
+        let expected = [by_xi1, by_xi2, y[3] * by_xi1 + y[4] * by_xi2, -by_x1 - by_u * y[3], -by_x2 - by_u * y[4]];
+        let mut rate = [0.0; 5];
+        CharacteristicField::new(&Bent, 2).rate(0.0, &y, &mut rate).unwrap();
+        assert_close_at_scale("y′", &rate, &expected, 1.0, Tol::stated(1e-9, "difference quotients"));
+        // With neighbours it is the same characteristic.
+        let (mut both, mut start) = ([0.0; 10], [0.0; 10]);
+        start[..5].copy_from_slice(&y);
+        RayField::new(&Bent, 2, 1).rate(0.0, &start, &mut both).unwrap();
+        assert_close_at_scale("with a neighbour", &both[..5], &rate, 1.0, Tol::ulps(8.0));
+    }
+
     #[test]
     fn slope_of_determinant_equals_its_difference(y in proptest::array::uniform10(-1.0..1.0_f64)) {
         let mut field = RayField::new(&Bent, 2, 1);
@@ -166,7 +187,7 @@ fn solution_does_not_depend_on_parameters() {
     let refinement = Refinement::to(1e-2);
     let (other, faster) = (Reparametrised(Wave), Multiplied(Bent));
     let plain = CauchyProblem::new(&Bent, &Wave, 2).unwrap();
-    let solution = plain.solve(&WAVE, (0.0, 0.6), refinement).unwrap();
+    let solution: CharacteristicSolution<_, _> = plain.solve(&WAVE, (0.0, 0.6), refinement).unwrap();
     let renamed = CauchyProblem::new(&Bent, &other, 2).unwrap().solve(&WAVE, (0.0, 0.6), refinement).unwrap();
     let multiplied = CauchyProblem::new(&faster, &Wave, 2).unwrap().solve(&WAVE, (0.0, 0.1), refinement).unwrap();
     for (tau, s) in [(-0.9, 0.1), (-0.3, 0.15), (0.2, 0.05), (0.7, 0.14)] {

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 use piola_kinematics::curve::{Curve, Derivatives, Frenet};
 use piola_kinematics::solids::Solid;
-use piola_kinematics::{Attitude, BodyMotion, EulerAngles, EulerSequence, Inertia, ParticleSystem};
+use piola_kinematics::{Attitude, BodyMotion, EulerAngles, EulerSequence, Inertia, ParticleSystem, RigidBody};
 use piola_numerics::Real;
 use piola_testkit::golden::{load, matrix, number, text, vector};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
@@ -220,7 +220,7 @@ fn inertia_of_solids_equals_reference() {
 fn motion_of_rigid_bodies_equals_reference() {
     for case in &load("rigid_body").cases {
         let name = text(&case["name"]);
-        let body = solid(case).body(number(&case["mass"])).expect("a body");
+        let body: RigidBody = solid(case).body(number(&case["mass"])).expect("a body");
         let euler = EulerAngles::zyz(triple(&case["theta"]));
         let (rates, second) = (triple(&case["theta_dot"]), triple(&case["theta_ddot"]));
         let motion = BodyMotion {

@@ -64,7 +64,7 @@ fn saint_venant_kirchhoff_loses_the_condition_where_its_closed_form_does() {
     let path = |stretch: f64| [stretch, 1.0, 1.0];
     let lost = drucker_path(&svk(), path, 1.0, 0.5, 20, Kinematics::Free).first_loss.expect("a loss");
     assert_close("√½", &[lost], &[0.5_f64.sqrt()], Tol::ulps(64.0));
-    // The nominal stress P = τ/λ of the bar is stationary later, at √⅓: there dτ/dε = τ.
+    // The first Piola–Kirchhoff stress P = τ/λ of the bar is stationary later, at √⅓: there dτ/dε = τ.
     let bar = DeformationGradient::uniaxial(3.0_f64.sqrt().recip(), 1.0).expect("F");
     let tangent = svk().first_piola_tangent(&bar);
     assert_close_at_scale("dP/dλ", &[tangent.entry(0, 0, 0, 0)], &[0.0], 1.0, Tol::ulps(16.0));

@@ -114,15 +114,15 @@ proptest! {
     }
 
     #[test]
-    fn rate_of_the_nominal_stress_equals_its_tangent_times_the_rate_of_f(d in deformation(), rate in rows()) {
+    fn rate_of_first_piola_stress_equals_its_tangent_times_the_rate_of_f(d in deformation(), rate in rows()) {
         for fibres in FIBRES {
             let m = moving(d, rate, fibres);
             let tangent = FirstPiolaTangent(first_piola(d.gradient_rows(), fibres).1);
-            let nominal = tangent.rate(&m.rate);
+            let first_piola = tangent.rate(&m.rate);
             // τ̇ = Ṗ Fᵀ + P Ḟᵀ, P = τ F⁻ᵀ.
             let p = product_transposed(m.kirchhoff.rows(), d.inverse_rows());
             let sum = sum(
-                product_transposed(nominal.rows(), d.gradient_rows()),
+                product_transposed(first_piola.rows(), d.gradient_rows()),
                 product_transposed(p, m.rate.rows()),
             );
             let size = tangent.0.components.as_flattened().iter().fold(1.0_f64, |a, b| a.max(b.abs())) * 16.0;
