@@ -274,20 +274,17 @@ fn loads_equal_integrals_of_the_stresses() {
 
 #[test]
 fn general_form_of_family_0_is_no_solution() {
-    // The trap: a shear y = Y + k X of a laminated plate. T_xy = g₁ B_xy varies with X, and nothing balances it.
+    // The trap: a shear y = Y + k X of a laminated plate. Equilibrium asks for T_xy′ = ∂p/∂y and T_xx′ = ∂p/∂x with stresses that depend on X
+    // alone, so that p = y T_xy′(X) + …, and T_xy″ = 0; but T_xy = g₁ B_xy = μ x_X M^XX y_X is not linear in X.
     let law = NeoHookean::new(1.0).expect("a modulus");
-    let shear = |depth: f64| {
-        let lamina: LaminaMetric = Layers.metric(depth);
-        // B_xy = x_X M^XX y_X with x = X, y = k X + Y, k = ½.
-        2.0 * law.slopes(0.0, 0.0)[0] * 0.5 / (lamina.normal * lamina.normal)
-    };
-    assert!(1e-2 < (shear(1.0) - shear(2.0)).abs());
-    // Of a homogeneous plate it is one.
-    let same = |depth: f64| {
-        let lamina: LaminaMetric = HomogeneousPlate.metric(depth);
-        0.5 / (lamina.normal * lamina.normal)
-    };
-    assert_eq!(same(1.0).to_bits(), same(2.0).to_bits());
+    let shear_modulus = 2.0 * law.slopes(0.0, 0.0)[0];
+    let of_layers = |depth: f64| shear_modulus * 0.5 / Lamination::metric::<f64>(&Layers, depth).normal.powi(2);
+    let bend = of_layers(1.0) - 2.0 * of_layers(1.25) + of_layers(1.5);
+    assert!(1e-4 < bend.abs(), "{bend:e}");
+    // Of a homogeneous plate it is linear.
+    let of_plate =
+        |depth: f64| shear_modulus * 0.5 / Lamination::metric::<f64>(&HomogeneousPlate, depth).normal.powi(2);
+    assert!((of_plate(1.0) - 2.0 * of_plate(1.25) + of_plate(1.5)).abs() <= 0.0);
 }
 
 /// A shell grown along the sphere by 1 + g in its inner half.
