@@ -121,7 +121,7 @@ impl ReferenceCurve for Segment {
 /// use nalgebra::Vector3;
 /// use piola_uniformity::{ReferenceCurve, RoundCircuit};
 /// let circle = RoundCircuit::new(Vector3::zeros(), Vector3::z(), 2.0)?;
-/// assert!((circle.velocity(0, 0.25).norm() - 4.0 * std::f64::consts::PI).abs() < 1e-14);
+/// assert!((circle.velocity(0, 0.25_f64).norm() - 4.0 * std::f64::consts::PI).abs() < 1e-14);
 /// circle.check_closed()?;
 /// # Ok::<(), piola_uniformity::UniformityError>(())
 /// ```

@@ -42,9 +42,9 @@ use crate::map::{LocalMap, UniformityMap};
 ///     }
 /// }
 /// let crystal = MaterialConnection::of_crystal(Turning);
-/// assert_eq!(crystal.torsion(&Vector3::zeros())?.components[0][1][0], 1.0); // Γ¹₂₁ = −∂₁K¹₂
+/// assert_eq!(crystal.torsion(&Vector3::<f64>::zeros())?.components[0][1][0], 1.0); // Γ¹₂₁ = −∂₁K¹₂
 /// let isotropic = MaterialConnection::new(Turning, LieAlgebra::rotations());
-/// assert!(isotropic.coefficients(&Vector3::zeros())?.components[0][1][0].abs() < 1e-15);
+/// assert!(isotropic.coefficients(&Vector3::<f64>::zeros())?.components[0][1][0].abs() < 1e-15);
 /// # Ok::<(), piola_uniformity::UniformityError>(())
 /// ```
 ///

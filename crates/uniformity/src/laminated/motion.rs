@@ -65,10 +65,11 @@ pub trait SheetHistory {
 /// }
 /// let plate = LaminatedPlate::new(HomogeneousPlate, [0.0, 1.0])?;
 /// let start = SheetMotion::of_flat_plate(&plate, &Pull, 0.0)?;
-/// assert_eq!(start.acceleration([1.0, 1.0, 0.0])?, [-2.0, 2.0, 0.0]);
-/// assert_eq!(start.potential([1.0, 1.0, 0.0])?, 0.0); // ½ × 2 (x² − y²)
+/// let [across, along, _] = start.acceleration([1.0, 1.0, 0.0])?;
+/// assert!((across + 2.0).abs() < 1e-15 && along == 2.0);
+/// assert!(start.potential([1.0, 1.0, 0.0])?.abs() < 1e-15); // ½ × 2 (x² − y²)
 /// let stress = start.stress(&NeoHookean::new(1.0)?, 8.0, 0.0, [1.0, 0.0, 0.0])?;
-/// assert_eq!(stress.cauchy.0.components[0], -8.0); // −ρ ζ
+/// assert!((stress.cauchy.0.components[0] + 8.0).abs() < 1e-14); // −ρ ζ
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
