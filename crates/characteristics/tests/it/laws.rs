@@ -68,6 +68,7 @@ proptest! {
     #[test]
     fn equation_is_conserved_and_covector_is_gradient(tau in -2.0..2.0_f64, s in -0.4..0.6_f64) {
         let point = ray(&Bent, &Wave, tau, s);
+        // An integral: what a few dozen steps of local error 1e-13 leave of it.
         prop_assert!(point.equation.abs() < 1e-12, "{}", point.equation);
         let loose = integrated().times(1.0 / point.determinant.abs().min(1.0));
         prop_assert!(point.gradient_residual <= loose.value(), "{point:?}");
@@ -172,7 +173,7 @@ proptest! {
         let generator = cone.generator_over(x_rate, &[point.xi[0] + 0.05, point.xi[1] - 0.05]).unwrap();
         assert_close_at_scale("ξ", &generator.covector, &point.xi, 1.0, integrated());
         let u_rate = generator.u_rate;
-        prop_assert!(cone.monge_residual(x_rate, u_rate, &point.xi).unwrap().largest() < 1e-10);
+        prop_assert!(cone.monge_residual(x_rate, u_rate, &point.xi).unwrap().largest() < integrated().value());
         // Neither a steeper direction nor one across it belongs to the strip.
         prop_assert!(0.01 < cone.monge_residual(x_rate, u_rate + 0.2, &point.xi).unwrap().largest());
         prop_assert!(0.1 < cone.monge_residual(&[-x_rate[1], x_rate[0]], 0.0, &point.xi).unwrap().largest());
@@ -279,6 +280,7 @@ fn front_in_lanes_equals_single_characteristics() {
     }
     let joined: Vec<f64> = pieces.iter().flat_map(|piece| piece.rows().iter().copied()).collect();
     assert!(front.rows().iter().zip(&joined).all(|(a, b)| a.to_bits() == b.to_bits()));
+    // An integral, as above.
     assert!(front.drift(&Bent) < 1e-12);
     for (i, row) in front.rows().chunks(5).enumerate() {
         let point = problem.characteristic(&[-1.5 + 3.0 * i as f64 / 9.0], 0.4).unwrap();
@@ -300,6 +302,7 @@ fn characteristics_do_not_depend_on_each_other() {
     assert_eq!((coarse.rays().len(), fine.rays().len()), (4, 13));
     for (i, ray) in coarse.rays().iter().enumerate() {
         let other = &fine.rays()[4 * i];
+        // The same steps in another order of the rays: a few ulp of states of a few units.
         assert!(ray.states.iter().zip(&other.states).all(|(a, b)| (a - b).abs() < 1e-14));
         assert_eq!(ray.parameters, other.parameters);
     }
@@ -339,7 +342,7 @@ fn solution_in_four_variables_is_refined_and_inverted() {
                 *sides.entry(side).or_default() += 1;
             }
         }
-        assert_close("volume", &[volume], &[12.0], Tol::ulps(200.0));
+        assert_close("volume", &[volume], &[12.0], Tol::ulps(16.0));
         for (side, count) in sides {
             let at_surface = (0..3).any(|k| {
                 let value = tau(side[0])[k];

@@ -123,11 +123,12 @@ fn free_faces_carry_no_traction_and_the_axial_stress_is_that_of_the_stretches() 
             let f = state.deformation.gradient_rows();
             let [a, b, c] = [f[0][0], f[1][1], f[2][2]];
             let scale = 1.0 + a * a * a;
-            let rounding = Tol::ulps(2048.0);
+            let rounding = Tol::ulps(64.0);
             assert_close_at_scale("P₃₃", &[principal(&law, [c, a, b])], &[0.0], scale, rounding);
             let axial = principal(&law, [a, b, c]);
             assert_close_at_scale("P₁₁", &[state.first_piola.0[(0, 0)]], &[axial], scale, rounding);
-            assert!(state.residual <= 1e-10 * scale && state.iterations < 40, "{stretch}: {state:?}");
+            let end = Tol::stated(1e-10, "a residual with which Newton's method may end");
+            assert!(state.residual <= end.value() * scale && state.iterations < 40, "{stretch}: {state:?}");
         }
     }
 }

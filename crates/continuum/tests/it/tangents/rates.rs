@@ -77,7 +77,7 @@ proptest! {
 
             let size = c.0.norm() * 16.0 * stretching.0.norm() + tau_rate.norm() + tau.norm();
             let check = |what: &str, rate: Symmetric, expected: Symmetric| {
-                assert_close_at_scale(what, &nine(&rate), &nine(&expected), size, Tol::ulps(256.0));
+                assert_close_at_scale(what, &nine(&rate), &nine(&expected), size, Tol::ulps_because(256.0, "sums of some hundred products"));
             };
             let lie = tau_rate - both(product(l, tau.rows()));
             check("Lie", c.lie(&d).rate(&stretching).0.0, lie);
@@ -127,7 +127,7 @@ proptest! {
             );
             let size = tangent.0.components.as_flattened().iter().fold(1.0_f64, |a, b| a.max(b.abs())) * 16.0;
             let expected = nine(&m.kirchhoff_rate);
-            assert_close_at_scale("dτ/dt", sum.as_flattened(), &expected, size, Tol::ulps(256.0));
+            assert_close_at_scale("dτ/dt", sum.as_flattened(), &expected, size, Tol::ulps_because(256.0, "sums of some hundred products"));
         }
     }
 }
