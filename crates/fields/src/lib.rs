@@ -26,3 +26,9 @@ pub use motion::{Affine, AffineHistory, Homogeneous, Motion, Rigid, RigidHistory
 pub use residual::{Residual, VectorResidual};
 pub use sampled::{Interpolation, MotionSamples, SampledMotion, SampledTrajectories};
 pub use value::{FieldValue, TensorValue};
+
+/// What only Piola's own crates need: splines along one axis.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::sampled::spline::{Axis, Factors, WIDTH};
+}

@@ -74,6 +74,7 @@
 //! | laws of fluids | [`fluids`] | `fluids` |
 //! | viscometric flows and their inversion | [`viscometry`] | `viscometry` |
 //! | parameters of laws from measurements | [`fit`] | `fit` |
+//! | materially uniform bodies, dislocations, residual stress | [`uniformity`] | `uniformity` |
 //!
 //! The feature `dynamics` is `lagrangian`, `hamiltonian` and `gravitation`; `constitutive` is `solids` and `fluids`.
 //!
@@ -111,6 +112,8 @@ pub use piola_solids as solids;
 pub use piola_specimens as specimens;
 #[cfg(feature = "tensor")]
 pub use piola_tensor as tensor;
+#[cfg(feature = "uniformity")]
+pub use piola_uniformity as uniformity;
 #[cfg(feature = "viscometry")]
 pub use piola_viscometry as viscometry;
 

@@ -56,7 +56,7 @@ pub(super) const COMMAND: Command = Command {
 };
 
 /// Each is a file of that name in `benches/benches`, and its group has the same name.
-const GROUPS: [&str; 10] = [
+const GROUPS: [&str; 11] = [
     "numerics",
     "nbody",
     "lagrangian",
@@ -67,6 +67,7 @@ const GROUPS: [&str; 10] = [
     "constitutive",
     "floor",
     "viscometry",
+    "uniformity",
 ];
 
 /// What to tell cargo: the one bench whose name begins the filter, or all of them.

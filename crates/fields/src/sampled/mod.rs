@@ -19,7 +19,7 @@
 //! on that coordinate.
 
 mod grid;
-mod spline;
+pub(crate) mod spline;
 mod trajectories;
 
 pub use grid::{MotionSamples, SampledMotion};

@@ -11,11 +11,11 @@ use crate::FieldsError;
 use crate::error::check_finite;
 
 /// The most B-splines that do not vanish at a point.
-pub(super) const WIDTH: usize = 6;
+pub const WIDTH: usize = 6;
 
 /// One axis of samples: its nodes and the knots of the spline through them.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Axis {
+pub struct Axis {
     name: &'static str,
     nodes: Box<[f64]>,
     knots: Box<[f64]>,
@@ -24,7 +24,10 @@ pub(super) struct Axis {
 
 impl Axis {
     /// From nodes that increase.
-    pub(super) fn new(name: &'static str, nodes: &[f64], interpolation: Interpolation) -> Result<Self, FieldsError> {
+    ///
+    /// # Errors
+    /// [`FieldsError::WrongLength`] without nodes, [`FieldsError::NotFinite`], [`FieldsError::NotIncreasing`].
+    pub fn new(name: &'static str, nodes: &[f64], interpolation: Interpolation) -> Result<Self, FieldsError> {
         if nodes.is_empty() {
             return Err(FieldsError::WrongLength { quantity: name, found: 0, expected: 1 });
         }
@@ -45,22 +48,29 @@ impl Axis {
     }
 
     /// The number of nodes, and of coefficients.
-    pub(super) fn len(&self) -> usize {
+    #[expect(clippy::len_without_is_empty, reason = "an axis has at least one node")]
+    #[must_use]
+    pub fn len(&self) -> usize {
         self.nodes.len()
     }
 
     /// The nodes.
-    pub(super) fn nodes(&self) -> &[f64] {
+    #[must_use]
+    pub fn nodes(&self) -> &[f64] {
         &self.nodes
     }
 
     /// The number of B-splines that do not vanish at a point.
-    pub(super) fn width(&self) -> usize {
+    #[must_use]
+    pub fn width(&self) -> usize {
         self.degree + 1
     }
 
     /// Refuses what lies outside the nodes; an axis with one node has no outside.
-    pub(super) fn check<T: Real>(&self, x: T) -> Result<(), FieldsError> {
+    ///
+    /// # Errors
+    /// [`FieldsError::OutsideSamples`].
+    pub fn check<T: Real>(&self, x: T) -> Result<(), FieldsError> {
         let (low, high) = (self.nodes[0], self.nodes[self.len() - 1]);
         if self.len() == 1 || (T::lit(low).at_most(x) & x.at_most(T::lit(high))).all() {
             return Ok(());
@@ -71,14 +81,16 @@ impl Axis {
     }
 
     /// The index of the first B-spline that does not vanish at x.
-    pub(super) fn first(&self, x: f64) -> usize {
+    #[must_use]
+    pub fn first(&self, x: f64) -> usize {
         // Knot spans run from knot `degree` to knot `count`; the last one is closed.
         let spans = &self.knots[self.degree..self.len()];
         spans.partition_point(|&knot| knot <= x).saturating_sub(1)
     }
 
     /// Where x lies in the span that begins with B-spline `first`.
-    pub(super) fn within<T: Real>(&self, first: usize, x: T) -> T::Mask {
+    #[must_use]
+    pub fn within<T: Real>(&self, first: usize, x: T) -> T::Mask {
         if self.len() == self.width() {
             return T::Mask::splat(true);
         }
@@ -87,7 +99,8 @@ impl Axis {
     }
 
     /// The B-splines from `first` on at x; the rest of the array is zero.
-    pub(super) fn basis<T: Real>(&self, first: usize, x: T) -> [T; WIDTH] {
+    #[must_use]
+    pub fn basis<T: Real>(&self, first: usize, x: T) -> [T; WIDTH] {
         let mut basis = [T::zero(); WIDTH];
         basis[0] = T::one();
         let span = first + self.degree;
@@ -106,7 +119,8 @@ impl Axis {
     }
 
     /// The collocation matrix, factored.
-    pub(super) fn factor(&self) -> Factors {
+    #[must_use]
+    pub fn factor(&self) -> Factors {
         let (count, p) = (self.len(), self.degree);
         // Row i holds columns i − p … i + p.
         let mut band = vec![0.0; count * (2 * p + 1)];
@@ -136,7 +150,8 @@ impl Axis {
 }
 
 /// The factors of a collocation matrix.
-pub(super) struct Factors {
+#[derive(Debug)]
+pub struct Factors {
     band: Vec<f64>,
     degree: usize,
     count: usize,
@@ -144,7 +159,7 @@ pub(super) struct Factors {
 
 impl Factors {
     /// Turns samples into coefficients along one axis of an array: entries `start + stride · i`.
-    pub(super) fn solve(&self, values: &mut [[f64; 3]], start: usize, stride: usize) {
+    pub fn solve(&self, values: &mut [[f64; 3]], start: usize, stride: usize) {
         let (p, count) = (self.degree, self.count);
         let entry = |i: usize, j: usize| self.band[i * (2 * p + 1) + j + p - i];
         let row = |i: usize| start + stride * i;
