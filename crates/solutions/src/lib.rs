@@ -1,0 +1,12 @@
+//! Exact solutions of nonlinear elasticity: universal deformations and motions, their loads, and their inversion.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+mod error;
+pub mod families;
+mod integral;
+mod law;
+
+pub use error::SolutionsError;
+pub use law::{LocalDeformation, ResponseFunctions};

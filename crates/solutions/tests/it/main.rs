@@ -1,0 +1,3 @@
+//! Exact solutions: reference values, identities, refusals.
+
+mod golden;
