@@ -31,7 +31,9 @@ pub enum SolutionsError {
         bound: &'static str,
     },
     /// The constants of a family change volumes.
-    #[error("{family}: {constraint} is violated: the left side is {value:e}; with the other constants {constant} = {nearest:e}")]
+    #[error(
+        "{family}: {constraint} is violated: the left side is {value:e}; with the other constants {constant} = {nearest:e}"
+    )]
     ConstraintViolated {
         /// The family.
         family: &'static str,
@@ -45,7 +47,9 @@ pub enum SolutionsError {
         nearest: f64,
     },
     /// The map is not defined at a particle: a radicand is not positive.
-    #[error("the map leaves its domain at the reference coordinate {coordinate:e}: {quantity} = {value:e} violates {bound}")]
+    #[error(
+        "the map leaves its domain at the reference coordinate {coordinate:e}: {quantity} = {value:e} violates {bound}"
+    )]
     OutsideDomain {
         /// The quantity that must be positive, such as `A R² + B`.
         quantity: &'static str,
@@ -106,12 +110,26 @@ pub enum SolutionsError {
         /// ∫ |f|.
         size: f64,
     },
+    /// The acceleration of a motion has no potential: no pressure balances it.
+    #[error("the acceleration has no potential at t = {t:e}: {condition} is violated by {residual:e} beside {scale:e}")]
+    NoPotential {
+        /// The condition.
+        condition: &'static str,
+        /// Its left side less its right.
+        residual: f64,
+        /// The sum of the moduli of its terms.
+        scale: f64,
+        /// The time, s.
+        t: f64,
+    },
     /// A motion does not return: no turning point lies within the range.
-    #[error("the motion is not periodic: from {start:e} m it does not turn before {reached:e} m, where {energy:e} J is left to move")]
+    #[error(
+        "the motion is not periodic: from the stretch {start:e} it does not turn before {reached:e}, where {energy:e} J is left to move"
+    )]
     NotPeriodic {
-        /// The place of the start, m.
+        /// The stretch at the start.
         start: f64,
-        /// The end of the range, m.
+        /// The end of the range of stretches.
         reached: f64,
         /// The kinetic energy there, J (of a tube J/m).
         energy: f64,

@@ -13,7 +13,7 @@ const REFUSED: f64 = 1e-9;
 const PANELS: usize = 48;
 
 /// A scalar as a list of floats, so that an integral takes its derivatives with it.
-pub trait Packed: Real {
+pub(crate) trait Packed: Real {
     /// How many floats there are.
     const COUNT: usize;
     /// Writes them.

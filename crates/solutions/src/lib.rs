@@ -3,10 +3,15 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod curve;
+pub mod dynamics;
 mod error;
 pub mod families;
 mod integral;
 mod law;
+pub mod loads;
+mod roots;
 
+pub use curve::{CurvePoint, LoadCurve};
 pub use error::SolutionsError;
 pub use law::{LocalDeformation, ResponseFunctions};
