@@ -60,36 +60,50 @@ impl<const N: usize> Packed for Gradient<f64, N> {
     }
 }
 
-/// Accurate to rounding, as the sizes of the integrands have it.
+/// Accurate to rounding: of the integrands, and of the terms that cancel in them, whose moduli are integrated last.
 struct ToRounding;
 
 impl<const K: usize> Accuracy<K> for ToRounding {
     fn allowed(&self, _values: &[f64; K], sizes: &[f64; K]) -> [f64; K] {
-        sizes.map(|size| ACCURACY * size)
+        let mut allowed = sizes.map(|size| (ACCURACY * size).max(32.0 * f64::EPSILON * sizes[K - 1]));
+        // The moduli have kinks, and are a scale only.
+        allowed[K - 1] = f64::INFINITY;
+        allowed
     }
     fn is_worth_halving(&self, panel: &Panel<K>) -> bool {
         // The rule adds 8 ε ∫ |f| for rounding: below twice that there is nothing to gain.
-        (0..K).any(|k| 16.0 * f64::EPSILON * panel.sizes[k] < panel.errors[k])
+        let floor = 16.0 * f64::EPSILON;
+        (0..K - 1).any(|k| floor * panel.sizes[k].max(panel.sizes[K - 1]) < panel.errors[k])
     }
 }
 
 /// ∫ f ds of M functions from `from` to `to`, with derivatives with respect to whatever the scalar carries, also in the
-/// ends. `K` is at least M · COUNT.
+/// ends. `K` is above M · COUNT.
 ///
-/// The range is the image of (0, 1), so that the derivative is taken under the integral sign.
+/// The function returns its values and the sum of the moduli of the terms that cancel in them. The range is the image of
+/// (0, 1), so that the derivative is taken under the integral sign.
 pub(crate) fn integrate<T: Packed, const M: usize, const K: usize>(
     quantity: &'static str,
     (from, to): (T, T),
-    f: impl Fn(T) -> Result<[T; M], SolutionsError>,
+    f: impl Fn(T) -> Result<([T; M], f64), SolutionsError>,
 ) -> Result<[T; M], SolutionsError> {
-    const { assert!(M * T::COUNT <= K) };
-    let length = to - from;
+    integrate_over::<T, M, K>(quantity, (from, to - from), f)
+}
+
+/// The same over a range of which the length is known without cancellation.
+pub(crate) fn integrate_over<T: Packed, const M: usize, const K: usize>(
+    quantity: &'static str,
+    (from, length): (T, T),
+    f: impl Fn(T) -> Result<([T; M], f64), SolutionsError>,
+) -> Result<[T; M], SolutionsError> {
+    const { assert!(M * T::COUNT < K) };
     let integrand = |_part: usize, u: f64| {
         let mut packed = [0.0; K];
-        let values = f(from + length * T::lit(u))?;
+        let (values, terms) = f(from + length * T::lit(u))?;
         for (value, parts) in values.into_iter().zip(packed.chunks_exact_mut(T::COUNT)) {
             (value * length).write(parts);
         }
+        packed[K - 1] = terms * length.primal(0);
         Ok::<_, SolutionsError>(packed)
     };
     let mut panels = [Panel::<K>::EMPTY; PANELS];
@@ -98,11 +112,9 @@ pub(crate) fn integrate<T: Packed, const M: usize, const K: usize>(
     if let Ending::NotFinite { component, value, .. } = found.ending {
         return Err(SolutionsError::NotFinite { quantity, index: component / T::COUNT, value });
     }
-    // Where components cancel, their own size is no measure of what rounding leaves.
-    let largest = found.sizes.into_iter().fold(0.0, f64::max);
-    for k in 0..K {
+    for k in 0..K - 1 {
         let (error, size) = (found.errors[k], found.sizes[k]);
-        if !(error <= REFUSED * size || error <= ACCURACY * largest) {
+        if !(error <= REFUSED * size || error <= 10.0 * ACCURACY * found.sizes[K - 1]) {
             return Err(SolutionsError::IntegralNotConverged { quantity, error, size });
         }
     }

@@ -115,12 +115,16 @@ impl<T: Real> LocalDeformation<T> {
     }
 
     /// [`extra_stress`](Self::extra_stress) of a law that accepts the deformation.
-    ///
-    /// # Errors
-    /// What the law refuses.
     #[inline(always)]
     pub(crate) fn checked_stress(&self, law: &impl ResponseFunctions) -> Result<Symmetric<T>, SolidsError> {
+        let [direct, inverse] = self.checked_response(law)?;
+        Ok(self.left_cauchy_green * direct + self.inverse * inverse)
+    }
+
+    /// (g₁, g₋₁) of a law that accepts the deformation.
+    #[inline(always)]
+    pub(crate) fn checked_response(&self, law: &impl ResponseFunctions) -> Result<[T; 2], SolidsError> {
         law.check(self.first_minus_three.primal(0), self.second_minus_three.primal(0))?;
-        Ok(self.extra_stress(law))
+        Ok(law.response(self.first_minus_three, self.second_minus_three))
     }
 }

@@ -6,7 +6,7 @@ use piola_numerics::{Dual, Real};
 
 use crate::error::{check_bound, check_finite};
 use crate::families::Orientation;
-use crate::integral::integrate;
+use crate::integral::{integrate, integrate_over};
 use crate::loads::{Ends, SphereInflation, TubeInflation};
 use crate::roots::{bracketed, places};
 use crate::{CurvePoint, LoadCurve, ResponseFunctions, SolutionsError};
@@ -188,7 +188,15 @@ impl<B: Oscillator> RadialOscillation<B> {
         for stretch in [from, to] {
             check_bound("stretch", stretch, "0 < λ", 0.0 < stretch)?;
         }
-        let [work] = integrate::<f64, 1, 1>("pressure", (from, to), |stretch| Ok([self.force(stretch)?]))?;
+        self.work_over(from, to - from)
+    }
+
+    /// The work over a range of a length that is known without cancellation.
+    fn work_over(&self, from: f64, length: f64) -> Result<f64, SolutionsError> {
+        let [work] = integrate_over::<f64, 1, 2>("pressure", (from, length), |stretch| {
+            let (at_rest, slope) = (self.body.pressure_at_rest(stretch)?, self.body.volume_slope(stretch));
+            Ok(([(self.pressure - at_rest) * slope], (self.pressure.abs() + at_rest.abs()) * slope))
+        })?;
         Ok(work)
     }
 
@@ -305,36 +313,39 @@ impl<B: Oscillator> RadialOscillation<B> {
 
     /// 2 ∫ dλ/λ̇ between two turning points, with λ = middle + half · sin φ: the ends are regular.
     fn period_between(&self, [low, high]: [f64; 2]) -> Result<f64, SolutionsError> {
-        let (middle, half) = (f64::midpoint(low, high), 0.5 * (high - low));
-        let [time] = integrate::<f64, 1, 1>("time", (-FRAC_PI_2, FRAC_PI_2), |phi| {
-            let (sin, cos) = phi.sin_cos();
-            let stretch = middle + half * sin;
-            // From the nearer end the work is a sum of terms of one sign.
-            let gained = self.work(if stretch < middle { low } else { high }, stretch)?;
-            let inertia = self.body.inertia(self.density, stretch);
-            Ok([half * cos * (0.5 * inertia / gained).sqrt()])
+        let half = 0.5 * (high - low);
+        let [time] = integrate::<f64, 1, 2>("time", (-FRAC_PI_2, FRAC_PI_2), |phi: f64| {
+            // From the nearer end the work is a sum of terms of one sign, over 1 − |sin φ| = 2 sin²(¼π − ½|φ|).
+            let (end, sign) = if phi < 0.0 { (low, 1.0) } else { (high, -1.0) };
+            let from_end = 2.0 * half * (0.5 * (FRAC_PI_2 - phi.abs())).sin().powi(2);
+            let gained = self.work_over(end, sign * from_end)?;
+            let inertia = self.body.inertia(self.density, end + sign * from_end);
+            let time = half * phi.cos() * (0.5 * inertia / gained).sqrt();
+            Ok(([time], time))
         })?;
         Ok(2.0 * time)
     }
 
-    /// The largest pressure that, applied at once to the body at rest at λ = 1, lets it turn back: the first maximum of the
-    /// mean of `p_static` over the volume gained. None where the mean has no maximum within the range.
+    /// The largest pressure that, applied at once to the body at rest without pressure, lets it turn back: the first maximum of
+    /// the mean of `p_static` over the volume gained, in a range that begins at the state of rest. None where the mean has no
+    /// maximum within the range.
     ///
     /// # Errors
     /// See [the type](RadialOscillation#errors).
     #[doc(alias = "dynamic limit load")]
-    pub fn limit_of_sudden_pressure(&self, high: f64) -> Result<Option<CurvePoint>, SolutionsError> {
+    pub fn limit_of_sudden_pressure(&self, (rest, high): (f64, f64)) -> Result<Option<CurvePoint>, SolutionsError> {
         self.check()?;
-        check_bound("high end of the range", high, "1 < λ", 1.0 < high)?;
-        let volume = |to: f64| integrate::<f64, 1, 1>("volume", (1.0, to), |x| Ok([self.body.volume_slope(x)]));
+        check_bound("stretch", rest, "0 < λ", 0.0 < rest)?;
+        check_bound("high end of the range", high, "λ < high", rest < high)?;
+        let volume = |to: f64| integrate::<f64, 1, 2>("volume", (rest, to), |x| Ok(([self.body.volume_slope(x)], 0.0)));
         let stored = |to: f64| {
-            let density = |x: f64| Ok([self.body.pressure_at_rest(x)? * self.body.volume_slope(x)]);
-            integrate::<f64, 1, 1>("pressure", (1.0, to), density)
+            let density = |x: f64| Ok(([self.body.pressure_at_rest(x)? * self.body.volume_slope(x)], 0.0));
+            integrate::<f64, 1, 2>("pressure", (rest, to), density)
         };
         let mean = |to: f64| Ok::<f64, SolutionsError>(stored(to)?[0] / volume(to)?[0]);
         // The mean grows as long as the pressure is above it.
         let above = |to: f64| Ok(self.body.pressure_at_rest(to)? - mean(to)?);
-        let start = 1.0 + (high - 1.0) / PLACES as f64;
+        let start = rest + (high - rest) / PLACES as f64;
         match self.first_root(start, above(start)?, high, above)? {
             None => Ok(None),
             Some(parameter) => Ok(Some(CurvePoint { parameter, load: mean(parameter)?, slope: 0.0 })),

@@ -1,6 +1,7 @@
 //! Deformations that depend on one radial coordinate: their gradients, and how T₁₁ changes along it.
 
 use piola_numerics::Real;
+use piola_tensor::Symmetric;
 use piola_tensor::internal::rows::Rows;
 
 use crate::integral::{Packed, integrate};
@@ -49,18 +50,57 @@ impl<T: Real> Cylindrical<T> {
         let [b, c, d, e] = self.block;
         [[self.a * k / r, zero, zero], [zero, r * b / k, r * c], [zero, d / k, e]]
     }
-    /// dT_rr/ds = (N_θθ − N_rr) a κ/r², W(25.14–25.16).
+    /// (N, N_θθ − N_rr, the moduli of its terms) at s.
+    ///
+    /// ```text
+    /// B_θθ − B_rr = (κ/r)² ((b q)² − a²) + (r c)²        B⁻¹_θθ − B⁻¹_rr = (κ/r)² ((a e)² − (q/a)²) + (a d/r)²
+    /// q = (r/κ)²,  of a sector a + offset/κ²: for b = 1 nothing cancels near the reference
+    /// ```
     #[inline(always)]
-    pub(crate) fn slope(&self, law: &impl ResponseFunctions, s: T) -> Result<T, SolutionsError> {
-        let extra = LocalDeformation::of(self.gradient(s)).checked_stress(law)?;
-        Ok((extra.components[1] - extra.components[0]) * (self.a * self.scale(s) / self.radicand(s)))
+    pub(crate) fn stresses(
+        &self,
+        law: &impl ResponseFunctions,
+        s: T,
+    ) -> Result<(Symmetric<T>, T, f64), SolutionsError> {
+        let local = LocalDeformation::of(self.gradient(s));
+        let [direct, inverse] = local.checked_response(law)?;
+        let Self { a, offset, block: [b, c, d, e], .. } = *self;
+        let (k, square) = (self.scale(s), self.radicand(s));
+        // b q − a and a e − q/a.
+        let (q, across, along) = if self.is_sector {
+            let more = offset / (k * k);
+            (a + more, (b - T::one()) * a + b * more, (a * e - T::one()) - more / a)
+        } else {
+            (square, b * square - a, a * e - square / a)
+        };
+        let ratio = k * k / square;
+        let left = ratio * across * (b * q + a) + square * c * c;
+        let right = ratio * along * (a * e + q / a) + a * a * d * d / square;
+        let extra = local.left_cauchy_green * direct + local.inverse * inverse;
+        let terms = moduli(&extra, (direct * left).primal(0), (inverse * right).primal(0));
+        Ok((extra, direct * left + inverse * right, terms))
     }
+    /// dT_rr/ds = (N_θθ − N_rr) a κ/r², W(25.14–25.16), with the moduli of its terms.
+    #[inline(always)]
+    pub(crate) fn slope(&self, law: &impl ResponseFunctions, s: T) -> Result<([T; 1], f64), SolutionsError> {
+        let (_, hoop, terms) = self.stresses(law, s)?;
+        let rate = self.a * self.scale(s) / self.radicand(s);
+        Ok(([hoop * rate], terms * rate.primal(0).abs()))
+    }
+}
+
+/// The moduli of the terms of N_θθ − N_rr.
+#[inline(always)]
+fn moduli<T: Real>(extra: &Symmetric<T>, left: f64, right: f64) -> f64 {
+    // Rounding of the gradient is a share of N where the closed forms of the differences are not exact.
+    let size = extra.components[0].primal(0).abs() + extra.components[1].primal(0).abs();
+    left.abs() + right.abs() + 0.125 * size
 }
 
 impl<T: Packed> Cylindrical<T> {
     /// T_rr at `to` less that at `from`.
     pub(crate) fn rise(&self, law: &impl ResponseFunctions, from: T, to: T) -> Result<T, SolutionsError> {
-        let [rise] = integrate::<T, 1, 4>("dT_rr/dR", (from, to), |s| Ok([self.slope(law, s)?]))?;
+        let [rise] = integrate::<T, 1, 4>("dT_rr/dR", (from, to), |s| self.slope(law, s))?;
         Ok(rise)
     }
 }
@@ -93,19 +133,31 @@ impl<T: Real> Spherical<T> {
         let stretch = self.radius(s) / s;
         [[sign / (stretch * stretch), zero, zero], [zero, sign * stretch, zero], [zero, zero, stretch]]
     }
-    /// dT_rr/ds = 2 (N_θθ − N_rr) (±R²)/r³, W(25.20–25.22).
+    /// dT_rr/ds = 2 (N_θθ − N_rr) (±R²)/r³, W(25.20–25.22), with the moduli of its terms.
+    ///
+    /// ```text
+    /// λ = r/R:   B_θθ − B_rr = (λ⁶ − 1)/λ⁴      B⁻¹_θθ − B⁻¹_rr = −(λ⁶ − 1)/λ²      λ³ ∓ 1 = a/R³
+    /// ```
     #[inline(always)]
-    pub(crate) fn slope(&self, law: &impl ResponseFunctions, s: T) -> Result<T, SolutionsError> {
-        let extra = LocalDeformation::of(self.gradient(s)).checked_stress(law)?;
-        let rate = T::lit(2.0 * self.sign) * s * s / self.radicand(s);
-        Ok((extra.components[1] - extra.components[0]) * rate)
+    pub(crate) fn slope(&self, law: &impl ResponseFunctions, s: T) -> Result<([T; 1], f64), SolutionsError> {
+        let [direct, inverse] = LocalDeformation::of(self.gradient(s)).checked_response(law)?;
+        let cube = self.radicand(s);
+        let volume = s * s * s;
+        let ratio = cube / volume;
+        let square = (self.radius(s) / s).powi(2);
+        let power = (self.a / volume) * (ratio + T::lit(self.sign));
+        let left = direct * power / (square * square);
+        let right = inverse * power / square;
+        let rate = T::lit(2.0 * self.sign) * s * s / cube;
+        let terms = (left.primal(0).abs() + right.primal(0).abs()) * rate.primal(0).abs();
+        Ok(([(left - right) * rate], terms))
     }
 }
 
 impl<T: Packed> Spherical<T> {
     /// T_rr at `to` less that at `from`.
     pub(crate) fn rise(&self, law: &impl ResponseFunctions, from: T, to: T) -> Result<T, SolutionsError> {
-        let [rise] = integrate::<T, 1, 4>("dT_rr/dR", (from, to), |s| Ok([self.slope(law, s)?]))?;
+        let [rise] = integrate::<T, 1, 4>("dT_rr/dR", (from, to), |s| self.slope(law, s))?;
         Ok(rise)
     }
 }

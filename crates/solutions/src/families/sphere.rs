@@ -81,10 +81,6 @@ impl SphereDeformation {
     pub fn orientation(&self) -> Orientation {
         if self.profile.sign < 0.0 { Orientation::Everted } else { Orientation::Kept }
     }
-
-    pub(crate) const fn profile(&self) -> &profile::Spherical<f64> {
-        &self.profile
-    }
 }
 
 impl profile::Spherical<f64> {

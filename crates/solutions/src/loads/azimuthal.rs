@@ -63,16 +63,17 @@ impl ShearLoads {
         };
         let mut moments = [0.0; 2];
         for (moment, theta) in moments.iter_mut().zip(angles) {
-            [*moment] = integrate::<f64, 1, 1>("moment", (inner, outer), |r| {
+            [*moment] = integrate::<f64, 1, 2>("moment", (inner, outer), |r| {
                 // P_θΘ = A D (T_θθ − B T_rθ)
-                Ok([a * r * (a * d * ((normal(r, theta)? + (tt - rr)) - b * rt))])
+                let stress = (normal(r, theta)? + (tt - rr)) - b * rt;
+                Ok(([a * r * (a * d * stress)], a * a * d * r * (rr.abs() + tt.abs() + (b * rt).abs())))
             })?;
         }
         // T_rr is linear in θ: its mean over the sector is that at the middle.
         let middle = f64::midpoint(angles[0], angles[1]);
-        let [along] = integrate::<f64, 1, 1>("axial force", (inner, outer), |r| {
+        let [along] = integrate::<f64, 1, 2>("axial force", (inner, outer), |r| {
             // P_zZ = T_zz/D
-            Ok([r * ((normal(r, middle)? + (zz - rr)) / d)])
+            Ok(([r * ((normal(r, middle)? + (zz - rr)) / d)], r * (rr.abs() + zz.abs()) / d))
         })?;
         let couples = [inner, outer].map(|r| r * r * rt * sector.angle());
         Ok(Self { couples, moments, axial_force: along * sector.angle() })

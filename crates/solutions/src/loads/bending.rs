@@ -85,7 +85,7 @@ impl<L: ResponseFunctions> Bending<'_, L> {
     /// [`SolutionsError::OutOfBounds`] unless 0 < α and 0 < λ; what the law refuses.
     pub fn state(&self, angle: f64) -> Result<BentBlock, SolutionsError> {
         let (profile, faces) = self.profile(angle)?;
-        let loads = of_profile::<_, 5>(&profile, self.law, (faces[0], faces[1]), 0.0)?;
+        let loads = of_profile::<_, 6>(&profile, self.law, (faces[0], faces[1]), 0.0)?;
         let [b, c, d, e] = profile.block;
         Ok(BentBlock {
             deformation: BlockBending::isochoric([b, c, d, e])?,
@@ -104,7 +104,7 @@ impl<L: ResponseFunctions> LoadCurve for Bending<'_, L> {
 
     fn load_and_slope(&self, angle: f64) -> Result<[f64; 2], SolutionsError> {
         let (profile, [first, second]) = self.profile(Dual::variable(angle))?;
-        let loads = of_profile::<_, 10>(&profile, self.law, (first, second), Dual::constant(0.0))?;
+        let loads = of_profile::<_, 11>(&profile, self.law, (first, second), Dual::constant(0.0))?;
         let moment = loads.bending_moment * Dual::constant(self.block.height());
         Ok([moment.value, moment.tangent])
     }

@@ -57,7 +57,7 @@ pub fn everted_tube(tube: &Tube, law: &impl ResponseFunctions) -> Result<Everted
     let equations = |[radius, axial]: [Gradient<f64, 2>; 2]| {
         check_bound("radius of the cavity", radius.value, "0 < r", 0.0 < radius.value)?;
         check_bound("axial stretch", axial.value, "0 < λ", 0.0 < axial.value)?;
-        let loads = of_profile::<_, 15>(
+        let loads = of_profile::<_, 16>(
             &everted(tube, radius, axial),
             law,
             (Real::lit(inner), Real::lit(outer)),

@@ -1,12 +1,10 @@
 //! Loads on the faces of bent blocks and of tubes.
 
-use piola_tensor::Symmetric;
-
 use crate::error::{check_bound, check_finite};
 use crate::families::profile::Cylindrical;
 use crate::families::{BlockBending, Family, TubeDeformation};
 use crate::integral::{Packed, integrate};
-use crate::{LocalDeformation, ResponseFunctions, SolutionsError};
+use crate::{ResponseFunctions, SolutionsError};
 
 /// Loads on the faces of a bent block, family 1, or of a sector of a tube, family 3, per unit of the other two reference
 /// coordinates.
@@ -72,7 +70,7 @@ impl SectorLoads {
         bending.check_domain([second, 0.0, 0.0])?;
         check_bound("faces", second, "X₁ < X₂", first < second)?;
         check_finite("T_rr", &[stress])?;
-        of_profile::<_, 5>(bending.profile(), law, (first, second), stress)
+        of_profile::<_, 6>(bending.profile(), law, (first, second), stress)
     }
 
     /// Of a tube or a sector between two R, m, with `T_rr` at the second, Pa. A solid cylinder begins at R = 0.
@@ -95,11 +93,11 @@ impl SectorLoads {
         tube.check_domain([second, 0.0, 0.0])?;
         check_bound("faces", second, "R₁ < R₂", first < second)?;
         check_finite("T_rr", &[stress])?;
-        of_profile::<_, 5>(tube.profile(), law, (first, second), stress)
+        of_profile::<_, 6>(tube.profile(), law, (first, second), stress)
     }
 }
 
-/// Loads of families 1 and 3 as one; K ≥ 5 · COUNT.
+/// Loads of families 1 and 3 as one; K > 5 · COUNT.
 pub(crate) fn of_profile<T: Packed, const K: usize>(
     profile: &Cylindrical<T>,
     law: &impl ResponseFunctions,
@@ -109,21 +107,22 @@ pub(crate) fn of_profile<T: Packed, const K: usize>(
     let Cylindrical { a, block: [b, c, d, e], .. } = *profile;
     let from = profile.area(first);
     let integrand = |s: T| {
-        let extra: Symmetric<T> = LocalDeformation::of(profile.gradient(s)).checked_stress(law)?;
-        let [rr, tt, zz, _, tz, _] = extra.components;
-        let (hoop, axial) = (tt - rr, zz - rr);
+        let (extra, hoop, terms) = profile.stresses(law, s)?;
+        let [rr, _, zz, _, tz, _] = extra.components;
+        let axial = zz - rr;
         let (r, k) = (profile.radius(s), profile.scale(s));
         let slope = hoop * (a * k / (r * r));
         let ak = a * k;
         // T = T_rr 1 + (N − N_rr 1): the share of T_rr is that of Q = ∫ T_rr κ ds = T_rr(s₂) (ξ₂ − ξ₁) − ∫ T_rr' (ξ − ξ₁) ds.
         let uniform = -(slope * (profile.area(s) - from));
-        Ok([
+        let values = [
             slope,
             a * e * uniform + ak * (e * hoop - r * c * tz),
             -(a * d * uniform) + ak * (r * b * tz - d * hoop),
             -(a * c * uniform) + ak * (e * tz / r - c * axial),
             a * b * uniform + ak * (b * axial - d * tz / r),
-        ])
+        ];
+        Ok((values, (terms + zz.primal(0).abs()) * ak.primal(0).abs()))
     };
     let [rise, bending_moment, torque, axial_shear, axial_force] =
         integrate::<T, 5, K>("tractions", (first, second), integrand)?;

@@ -64,11 +64,11 @@ impl BlockLoads {
         straightening.check_domain([second, 0.0, 0.0])?;
         check_bound("faces", second, "R₁ < R₂", first < second)?;
         check_finite("T_xx", &[stress])?;
-        of_constants::<f64, 5>(straightening.constants(), law, (first, second), stress)
+        of_constants::<f64, 6>(straightening.constants(), law, (first, second), stress)
     }
 }
 
-/// K ≥ 5 · COUNT.
+/// K > 5 · COUNT.
 fn of_constants<T: Packed, const K: usize>(
     [a, b, c, d, e]: [T; 5],
     law: &impl ResponseFunctions,
@@ -83,7 +83,9 @@ fn of_constants<T: Packed, const K: usize>(
         let ar = a * r;
         let tension = ar * (e * yy - c * yz);
         let lever = T::lit(0.5) * a * (T::lit(first * first) - r * r);
-        Ok([tension, ar * (b * yz - d * yy), ar * (e * yz - c * zz), ar * (b * zz - d * yz), lever * tension])
+        let terms = xx.primal(0).abs() + yy.primal(0).abs() + zz.primal(0).abs();
+        let values = [tension, ar * (b * yz - d * yy), ar * (e * yz - c * zz), ar * (b * zz - d * yz), lever * tension];
+        Ok((values, terms * ar.primal(0).abs()))
     };
     let ends = (T::lit(first), T::lit(second));
     let [tension, cross_shear, shear, axial_force, bending_moment] =
@@ -127,7 +129,7 @@ impl<L: ResponseFunctions> LoadCurve for Straightening<'_, L> {
         let (b, e, zero) = (Dual::variable(length), Dual::constant(self.axial_stretch), Dual::constant(0.0));
         let constants = [(b * e).recip(), b, zero, zero, e];
         let [first, second] = self.sector.radii();
-        let tension = of_constants::<_, 10>(constants, self.law, (first, second), zero)?.tension;
+        let tension = of_constants::<_, 11>(constants, self.law, (first, second), zero)?.tension;
         Ok([tension.value, tension.tangent])
     }
 }

@@ -77,7 +77,7 @@ fn loads_at(
     [axial, inner, twist]: [Scalar; 3],
 ) -> Result<Loads, SolutionsError> {
     check_stretches(axial.value, inner.value)?;
-    let found = loads::<_, 20>(tube, law, &profile(tube, axial, inner, twist))?;
+    let found = loads::<_, 21>(tube, law, &profile(tube, axial, inner, twist))?;
     let free = if tube.is_solid() {
         inner - Scalar::constant(1.0)
     } else {
@@ -93,7 +93,7 @@ fn state_of(
     [axial_stretch, inner, twist]: [f64; 3],
 ) -> Result<TwistedTube, SolutionsError> {
     let profile = profile(tube, axial_stretch, inner, twist);
-    let found = loads::<_, 5>(tube, law, &profile)?;
+    let found = loads::<_, 6>(tube, law, &profile)?;
     let deformation = TubeDeformation::of_profile(profile);
     let (torque, axial_force) = (TAU * found.torque, TAU * found.axial_force);
     Ok(TwistedTube { deformation, axial_stretch, twist, torque, axial_force })

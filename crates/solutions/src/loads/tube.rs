@@ -96,7 +96,7 @@ impl<L: ResponseFunctions> TubeInflation<'_, L> {
         let state = |[axial, inner]: [Gradient<f64, 2>; 2]| {
             check_stretches(axial.value, inner.value)?;
             let profile = profile(&self.tube, axial, inner, Gradient::constant(0.0));
-            let found = loads::<_, 15>(&self.tube, self.law, &profile)?;
+            let found = loads::<_, 16>(&self.tube, self.law, &profile)?;
             let pressure = -found.normal_stresses[0];
             let force = found.axial_force * Gradient::constant(TAU);
             let cap = inner * inner * Gradient::constant(PI * self.tube.inner() * self.tube.inner());
@@ -127,7 +127,7 @@ impl<L: ResponseFunctions> TubeInflation<'_, L> {
     pub fn state(&self, stretch: f64) -> Result<InflatedTube, SolutionsError> {
         let (axial_stretch, [pressure, _]) = self.solved(stretch)?;
         let profile = profile(&self.tube, axial_stretch, stretch, 0.0);
-        let found = loads::<_, 5>(&self.tube, self.law, &profile)?;
+        let found = loads::<_, 6>(&self.tube, self.law, &profile)?;
         let deformation = TubeDeformation::of_profile(profile);
         Ok(InflatedTube { deformation, axial_stretch, pressure, axial_force: TAU * found.axial_force })
     }

@@ -1,3 +1,10 @@
 //! Exact solutions: reference values, identities, refusals.
 
+mod dynamics;
+mod families;
+mod fixtures;
 mod golden;
+mod loads;
+#[cfg(feature = "integrators")]
+mod oscillations;
+mod refusals;
