@@ -7,10 +7,12 @@ mod curve;
 pub mod dynamics;
 mod error;
 pub mod families;
+pub mod homogeneous;
 mod integral;
 mod law;
 pub mod loads;
 mod roots;
+pub mod universality;
 
 pub use curve::{CurvePoint, LoadCurve};
 pub use error::SolutionsError;

@@ -7,7 +7,7 @@ use piola_numerics::{Dual, Real};
 use crate::error::{check_bound, check_finite};
 use crate::families::Orientation;
 use crate::integral::{integrate, integrate_over};
-use crate::loads::{Ends, SphereInflation, TubeInflation};
+use crate::loads::{Ends, SphereInflation, TubeInflation, shear_modulus};
 use crate::roots::{bracketed, places};
 use crate::{CurvePoint, LoadCurve, ResponseFunctions, SolutionsError};
 
@@ -26,6 +26,9 @@ pub trait Oscillator: LoadCurve {
     /// # Errors
     /// What the law refuses.
     fn pressure_at_rest(&self, stretch: f64) -> Result<f64, SolutionsError>;
+    /// λ d(`p_static`)/dλ at rest, Pa: the size of what rounding of λ changes in the pressure.
+    #[must_use]
+    fn stiffness(&self) -> f64;
     /// Refuses a body that does not oscillate so.
     ///
     /// # Errors
@@ -51,6 +54,10 @@ impl<L: ResponseFunctions> Oscillator for SphereInflation<'_, L> {
     fn pressure_at_rest(&self, stretch: f64) -> Result<f64, SolutionsError> {
         self.pressure(stretch)
     }
+    /// 12 μ (1 − R_i/R_o) and less where the shell is thick.
+    fn stiffness(&self) -> f64 {
+        12.0 * shear_modulus(self.law) * (1.0 - self.shell.inner() / self.shell.outer())
+    }
     fn check(&self) -> Result<(), SolutionsError> {
         let sign = self.orientation.sign();
         check_bound("orientation", sign, "kept", self.orientation == Orientation::Kept)
@@ -72,6 +79,10 @@ impl<L: ResponseFunctions> Oscillator for TubeInflation<'_, L> {
     }
     fn pressure_at_rest(&self, stretch: f64) -> Result<f64, SolutionsError> {
         self.pressure_of_held(stretch)
+    }
+    /// 4 μ ln(R_o/R_i).
+    fn stiffness(&self) -> f64 {
+        4.0 * shear_modulus(self.law) * (self.tube.outer() / self.tube.inner()).ln()
     }
     fn check(&self) -> Result<(), SolutionsError> {
         check_bound("inner radius", self.tube.inner(), "0 < R_i", 0.0 < self.tube.inner())?;
@@ -193,9 +204,10 @@ impl<B: Oscillator> RadialOscillation<B> {
 
     /// The work over a range of a length that is known without cancellation.
     fn work_over(&self, from: f64, length: f64) -> Result<f64, SolutionsError> {
+        let stiffness = self.body.stiffness();
         let [work] = integrate_over::<f64, 1, 2>("pressure", (from, length), |stretch| {
             let (at_rest, slope) = (self.body.pressure_at_rest(stretch)?, self.body.volume_slope(stretch));
-            Ok(([(self.pressure - at_rest) * slope], (self.pressure.abs() + at_rest.abs()) * slope))
+            Ok(([(self.pressure - at_rest) * slope], (self.pressure.abs() + at_rest.abs() + stiffness) * slope))
         })?;
         Ok(work)
     }
@@ -321,7 +333,9 @@ impl<B: Oscillator> RadialOscillation<B> {
             let gained = self.work_over(end, sign * from_end)?;
             let inertia = self.body.inertia(self.density, end + sign * from_end);
             let time = half * phi.cos() * (0.5 * inertia / gained).sqrt();
-            Ok(([time], time))
+            // The share of the work that rounding of λ changes.
+            let noise = self.body.stiffness() * self.body.volume_slope(end) * from_end / gained;
+            Ok(([time], time * (1.0 + noise)))
         })?;
         Ok(2.0 * time)
     }

@@ -4,7 +4,9 @@ mod dynamics;
 mod families;
 mod fixtures;
 mod golden;
+mod homogeneous;
 mod loads;
 #[cfg(feature = "integrators")]
 mod oscillations;
 mod refusals;
+mod universality;
