@@ -25,7 +25,7 @@ mod sphere;
 mod tube;
 
 pub use moving::{AsMovingMotion, MovingFamily};
-pub use oscillation::{Equilibrium, Orbit, Oscillator, RadialOscillation, RadialState};
+pub use oscillation::{Orbit, Oscillator, RadialOscillation, RadialState, RestState};
 pub use sector::{MovingSector, SectorHistory};
 pub use sphere::{MovingSphere, SphereHistory};
 pub use tube::{MovingTube, TubeHistory};

@@ -5,7 +5,7 @@ use piola_fields::{Coordinates, FieldsError, Motion, VectorResidual};
 use piola_numerics::{Gradient, Jet, Real};
 
 use crate::error::{check_bound, check_finite};
-use crate::families::{CartesianCoordinates, Datum, Family, LocalStress, at_normal_stress};
+use crate::families::{Datum, Family, FromCartesian, LocalStress, at_normal_stress};
 use crate::{ResponseFunctions, SolutionsError};
 
 /// A family of universal deformations whose constants depend on time.

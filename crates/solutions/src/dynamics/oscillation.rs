@@ -37,7 +37,7 @@ pub trait Oscillator: LoadCurve {
 }
 
 impl<L: ResponseFunctions> Oscillator for SphereInflation<'_, L> {
-    /// 4π ρ r⁴ (1/r − 1/r_o) R_i².
+    /// `4π ρ r⁴ (1/r − 1/r_o) R_i²`.
     fn inertia<T: Real>(&self, density: f64, stretch: T) -> T {
         let (inner, outer) = (self.shell.inner(), self.shell.outer());
         let r = T::lit(inner) * stretch;
@@ -47,14 +47,14 @@ impl<L: ResponseFunctions> Oscillator for SphereInflation<'_, L> {
         let gap = T::lit(self.shell.outer().powi(3) - inner.powi(3)) / (outer * (outer * outer + outer * r + r * r));
         T::lit(4.0 * PI * density * inner * inner) * cube * gap
     }
-    /// 4π r² R_i.
+    /// 4π r² `R_i`.
     fn volume_slope<T: Real>(&self, stretch: T) -> T {
         T::lit(4.0 * PI * self.shell.inner().powi(3)) * stretch * stretch
     }
     fn pressure_at_rest(&self, stretch: f64) -> Result<f64, SolutionsError> {
         self.pressure(stretch)
     }
-    /// 12 μ (1 − R_i/R_o) and less where the shell is thick.
+    /// `12 μ (1 − R_i/R_o)` and less where the shell is thick.
     fn stiffness(&self) -> f64 {
         12.0 * shear_modulus(self.law) * (1.0 - self.shell.inner() / self.shell.outer())
     }
@@ -65,7 +65,7 @@ impl<L: ResponseFunctions> Oscillator for SphereInflation<'_, L> {
 }
 
 impl<L: ResponseFunctions> Oscillator for TubeInflation<'_, L> {
-    /// 2π ρ r² ln(r_o/r) R_i².
+    /// `2π ρ r² ln(r_o/r) R_i²`.
     fn inertia<T: Real>(&self, density: f64, stretch: T) -> T {
         let (inner, outer) = (self.tube.inner(), self.tube.outer());
         let axial = if let Ends::Stretch(axial) = self.ends { axial } else { f64::NAN };
@@ -73,14 +73,14 @@ impl<L: ResponseFunctions> Oscillator for TubeInflation<'_, L> {
         let ratio = T::lit((outer * outer - inner * inner) / axial) / square;
         T::lit(PI * density * inner * inner) * square * ratio.ln_1p()
     }
-    /// 2π r R_i.
+    /// 2π r `R_i`.
     fn volume_slope<T: Real>(&self, stretch: T) -> T {
         T::lit(2.0 * PI * self.tube.inner() * self.tube.inner()) * stretch
     }
     fn pressure_at_rest(&self, stretch: f64) -> Result<f64, SolutionsError> {
         self.pressure_of_held(stretch)
     }
-    /// 4 μ ln(R_o/R_i).
+    /// `4 μ ln(R_o/R_i)`.
     fn stiffness(&self) -> f64 {
         4.0 * shear_modulus(self.law) * (self.tube.outer() / self.tube.inner()).ln()
     }
@@ -106,7 +106,7 @@ pub struct RadialState {
 
 /// A state of rest under the pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Equilibrium {
+pub struct RestState {
     /// λ.
     pub stretch: f64,
     /// The period of small oscillations, s; none where the state is unstable, a saddle of the phase portrait.
@@ -184,7 +184,7 @@ impl<B: Oscillator> RadialOscillation<B> {
         check_finite("rate", &[state.rate])
     }
 
-    /// (p − p_static) V', the force along λ.
+    /// `(p − p_static) V'`, the force along λ.
     fn force(&self, stretch: f64) -> Result<f64, SolutionsError> {
         let excess = self.pressure - self.body.pressure_at_rest(stretch)?;
         Ok(excess * self.body.volume_slope(stretch))
@@ -248,17 +248,17 @@ impl<B: Oscillator> RadialOscillation<B> {
     ///
     /// # Errors
     /// See [the type](RadialOscillation#errors); as [`LoadCurve::states_at`] where there is none.
-    pub fn equilibria(&self, range: (f64, f64)) -> Result<Vec<Equilibrium>, SolutionsError> {
+    pub fn equilibria(&self, range: (f64, f64)) -> Result<Vec<RestState>, SolutionsError> {
         self.check()?;
         let states = self.body.states_at(self.pressure, range)?;
         Ok(states.iter().map(|point| self.equilibrium(point)).collect())
     }
 
-    fn equilibrium(&self, point: &CurvePoint) -> Equilibrium {
+    fn equilibrium(&self, point: &CurvePoint) -> RestState {
         let stiffness = point.slope * self.body.volume_slope(point.parameter);
         let inertia = self.body.inertia(self.density, point.parameter);
         let small_period = (0.0 < stiffness).then(|| TAU * (inertia / stiffness).sqrt());
-        Equilibrium { stretch: point.parameter, small_period }
+        RestState { stretch: point.parameter, small_period }
     }
 
     /// The periodic motion through a state, its turning points within a range of stretches.
@@ -283,7 +283,7 @@ impl<B: Oscillator> RadialOscillation<B> {
                 };
             }
             let end = if 0.0 < force { range.1 } else { range.0 };
-            let bottom = self.first_root(start.stretch, force, end, |stretch| self.force(stretch))?;
+            let bottom = first_root(start.stretch, force, end, |stretch| self.force(stretch))?;
             let Some(bottom) = bottom else {
                 let energy = self.work(start.stretch, end)?;
                 return Err(SolutionsError::NotPeriodic { start: start.stretch, reached: end, energy });
@@ -297,30 +297,10 @@ impl<B: Oscillator> RadialOscillation<B> {
     /// The first stretch from `from` towards `end` where the energy is spent; the motion has `energy` at `start`.
     fn turning_point(&self, from: f64, (start, energy): (f64, f64), end: f64) -> Result<f64, SolutionsError> {
         let left = |stretch: f64| Ok(energy + self.work(start, stretch)?);
-        match self.first_root(from, left(from)?, end, left)? {
+        match first_root(from, left(from)?, end, left)? {
             Some(root) => Ok(root),
             None => Err(SolutionsError::NotPeriodic { start, reached: end, energy: left(end)? }),
         }
-    }
-
-    /// The first change of sign of f from `from`, where it is `value`, to `end`.
-    fn first_root(
-        &self,
-        from: f64,
-        value: f64,
-        end: f64,
-        f: impl Fn(f64) -> Result<f64, SolutionsError>,
-    ) -> Result<Option<f64>, SolutionsError> {
-        let (mut before, mut at) = (from, value);
-        for next in places((from, end), PLACES).skip(1) {
-            let found = f(next)?;
-            check_finite("energy", &[found])?;
-            if (found < 0.0) != (at < 0.0) {
-                return bracketed(&f, (before, at), (next, found)).map(Some);
-            }
-            (before, at) = (next, found);
-        }
-        Ok(None)
     }
 
     /// 2 ∫ dλ/λ̇ between two turning points, with λ = middle + half · sin φ: the ends are regular.
@@ -360,11 +340,30 @@ impl<B: Oscillator> RadialOscillation<B> {
         // The mean grows as long as the pressure is above it.
         let above = |to: f64| Ok(self.body.pressure_at_rest(to)? - mean(to)?);
         let start = rest + (high - rest) / PLACES as f64;
-        match self.first_root(start, above(start)?, high, above)? {
+        match first_root(start, above(start)?, high, above)? {
             None => Ok(None),
             Some(parameter) => Ok(Some(CurvePoint { parameter, load: mean(parameter)?, slope: 0.0 })),
         }
     }
+}
+
+/// The first change of sign of f from `from`, where it is `value`, to `end`.
+fn first_root(
+    from: f64,
+    value: f64,
+    end: f64,
+    f: impl Fn(f64) -> Result<f64, SolutionsError>,
+) -> Result<Option<f64>, SolutionsError> {
+    let (mut before, mut at) = (from, value);
+    for next in places((from, end), PLACES).skip(1) {
+        let found = f(next)?;
+        check_finite("energy", &[found])?;
+        if (found < 0.0) != (at < 0.0) {
+            return bracketed(&f, (before, at), (next, found)).map(Some);
+        }
+        (before, at) = (next, found);
+    }
+    Ok(None)
 }
 
 #[cfg(feature = "integrators")]

@@ -16,9 +16,9 @@ use crate::{ResponseFunctions, SolutionsError};
 /// ```
 /// use nalgebra::Matrix3;
 /// use piola_solids::isochoric::NeoHookean;
-/// use piola_solutions::families::{Datum, Family, HomogeneousDeformation};
+/// use piola_solutions::families::{Datum, Family, IsochoricDeformation};
 /// let shear = Matrix3::new(1.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-/// let shear = HomogeneousDeformation::new(shear, [0.0; 3])?;
+/// let shear = IsochoricDeformation::new(shear, [0.0; 3])?;
 /// let stress = shear.stress(&NeoHookean::new(2.0)?, &Datum::free_at([0.0; 3]), [1.0, 2.0, 3.0])?;
 /// assert_eq!(stress.cauchy.0.components[3], 1.0); // μ k
 /// assert_eq!(stress.pressure, 2.5); // μ (1 + k²): T₁₁ = 0
@@ -28,12 +28,12 @@ use crate::{ResponseFunctions, SolutionsError};
 /// # Source
 /// W §25.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HomogeneousDeformation {
+pub struct IsochoricDeformation {
     gradient: Rows<f64>,
     translation: [f64; 3],
 }
 
-impl HomogeneousDeformation {
+impl IsochoricDeformation {
     /// From F, by rows, and c, m.
     ///
     /// # Errors
@@ -51,7 +51,7 @@ impl HomogeneousDeformation {
     }
 }
 
-impl Family for HomogeneousDeformation {
+impl Family for IsochoricDeformation {
     type Reference = Cartesian;
     type Current = Cartesian;
 

@@ -69,7 +69,7 @@ impl AzimuthalShearing {
         self.constants
     }
 
-    /// (N_θθ − N_rr) ln(R/R₀) − 2 N_rθ (θ − θ₀).
+    /// `(N_θθ − N_rr) ln(R/R₀) − 2 N_rθ (θ − θ₀)`.
     fn rise_over<T: Real>(
         &self,
         law: &impl ResponseFunctions,

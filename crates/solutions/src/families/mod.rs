@@ -33,10 +33,10 @@ mod sphere;
 mod straightening;
 mod tube;
 
-pub use affine::HomogeneousDeformation;
+pub use affine::IsochoricDeformation;
 pub use azimuthal::AzimuthalShearing;
 pub use bending::BlockBending;
-pub use motion::{AsMotion, CartesianCoordinates};
+pub use motion::{AsMotion, FromCartesian};
 pub use sphere::{Orientation, SphereDeformation};
 pub use straightening::SectorStraightening;
 pub use tube::TubeDeformation;
@@ -92,7 +92,7 @@ pub struct LocalStress {
 /// the map does not reach; what the law refuses; [`SolutionsError::IntegralNotConverged`].
 ///
 /// # Accuracy
-/// Kinematics: a few ulp. Stress: a few ulp of its largest term; where the pressure is an integral, 1e-13 of ∫ |dT₁₁|.
+/// Places and strains: a few ulp. Stress: a few ulp of its largest term; where the pressure is an integral, 1e-13 of ∫ |dT₁₁|.
 ///
 /// # Example
 /// A block of rubber bent to a sector: `T_θθ` at the outer face, where `T_rr` is 0.
@@ -108,9 +108,9 @@ pub struct LocalStress {
 /// ```
 pub trait Family {
     /// The coordinates of the reference configuration.
-    type Reference: CartesianCoordinates;
+    type Reference: FromCartesian;
     /// The coordinates of the deformed body.
-    type Current: CartesianCoordinates;
+    type Current: FromCartesian;
 
     /// The coordinates of the place of a particle, m or rad.
     #[must_use]

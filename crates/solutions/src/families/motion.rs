@@ -8,25 +8,25 @@ use super::Family;
 use crate::SolutionsError;
 
 /// A system of coordinates whose map from Cartesian ones is known.
-pub trait CartesianCoordinates: Coordinates + Default {
+pub trait FromCartesian: Coordinates + Default {
     /// The coordinates of a place, m or rad; angles in (−π, π].
     #[must_use]
     fn of_place<T: Real>(place: [T; 3]) -> [T; 3];
 }
 
-impl CartesianCoordinates for Cartesian {
+impl FromCartesian for Cartesian {
     fn of_place<T: Real>(place: [T; 3]) -> [T; 3] {
         place
     }
 }
 
-impl CartesianCoordinates for Cylindrical {
+impl FromCartesian for Cylindrical {
     fn of_place<T: Real>([x, y, z]: [T; 3]) -> [T; 3] {
         [(x * x + y * y).sqrt(), y.atan2(x), z]
     }
 }
 
-impl CartesianCoordinates for Spherical {
+impl FromCartesian for Spherical {
     fn of_place<T: Real>([x, y, z]: [T; 3]) -> [T; 3] {
         let across = x * x + y * y;
         [(across + z * z).sqrt(), y.atan2(x), across.sqrt().atan2(z)]

@@ -50,7 +50,7 @@ impl<T: Real> Cylindrical<T> {
         let [b, c, d, e] = self.block;
         [[self.a * k / r, zero, zero], [zero, r * b / k, r * c], [zero, d / k, e]]
     }
-    /// (N, N_θθ − N_rr, the moduli of its terms) at s.
+    /// N, `N_θθ − N_rr` and the moduli of its terms, at s.
     ///
     /// ```text
     /// B_θθ − B_rr = (κ/r)² ((b q)² − a²) + (r c)²        B⁻¹_θθ − B⁻¹_rr = (κ/r)² ((a e)² − (q/a)²) + (a d/r)²
@@ -80,7 +80,7 @@ impl<T: Real> Cylindrical<T> {
         let terms = moduli(&extra, (direct * left).primal(0), (inverse * right).primal(0));
         Ok((extra, direct * left + inverse * right, terms))
     }
-    /// dT_rr/ds = (N_θθ − N_rr) a κ/r², W(25.14–25.16), with the moduli of its terms.
+    /// `dT_rr/ds = (N_θθ − N_rr) a κ/r²`, W(25.14–25.16), with the moduli of its terms.
     #[inline(always)]
     pub(crate) fn slope(&self, law: &impl ResponseFunctions, s: T) -> Result<([T; 1], f64), SolutionsError> {
         let (_, hoop, terms) = self.stresses(law, s)?;
@@ -89,7 +89,7 @@ impl<T: Real> Cylindrical<T> {
     }
 }
 
-/// The moduli of the terms of N_θθ − N_rr.
+/// The moduli of the terms of `N_θθ` − `N_rr`.
 #[inline(always)]
 fn moduli<T: Real>(extra: &Symmetric<T>, left: f64, right: f64) -> f64 {
     // Rounding of the gradient is a share of N where the closed forms of the differences are not exact.
@@ -98,7 +98,7 @@ fn moduli<T: Real>(extra: &Symmetric<T>, left: f64, right: f64) -> f64 {
 }
 
 impl<T: Packed> Cylindrical<T> {
-    /// T_rr at `to` less that at `from`.
+    /// `T_rr` at `to` less that at `from`.
     pub(crate) fn rise(&self, law: &impl ResponseFunctions, from: T, to: T) -> Result<T, SolutionsError> {
         let [rise] = integrate::<T, 1, 4>("dT_rr/dR", (from, to), |s| self.slope(law, s))?;
         Ok(rise)
@@ -133,7 +133,7 @@ impl<T: Real> Spherical<T> {
         let stretch = self.radius(s) / s;
         [[sign / (stretch * stretch), zero, zero], [zero, sign * stretch, zero], [zero, zero, stretch]]
     }
-    /// dT_rr/ds = 2 (N_θθ − N_rr) (±R²)/r³, W(25.20–25.22), with the moduli of its terms.
+    /// `dT_rr/ds = 2 (N_θθ − N_rr) (±R²)/r³`, W(25.20–25.22), with the moduli of its terms.
     ///
     /// ```text
     /// λ = r/R:   B_θθ − B_rr = (λ⁶ − 1)/λ⁴      B⁻¹_θθ − B⁻¹_rr = −(λ⁶ − 1)/λ²      λ³ ∓ 1 = a/R³
@@ -155,7 +155,7 @@ impl<T: Real> Spherical<T> {
 }
 
 impl<T: Packed> Spherical<T> {
-    /// T_rr at `to` less that at `from`.
+    /// `T_rr` at `to` less that at `from`.
     pub(crate) fn rise(&self, law: &impl ResponseFunctions, from: T, to: T) -> Result<T, SolutionsError> {
         let [rise] = integrate::<T, 1, 4>("dT_rr/dR", (from, to), |s| self.slope(law, s))?;
         Ok(rise)

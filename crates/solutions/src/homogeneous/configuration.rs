@@ -9,7 +9,7 @@ use crate::error::{check_bound, check_finite};
 /// The symmetry group 𝒢 of a homogeneous body.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum SymmetryGroup {
+pub enum MaterialSymmetry {
     /// All H with |det H| = 1: fluids.
     Unimodular,
     /// All orthogonal H: isotropic solids in an undistorted reference.
@@ -20,7 +20,7 @@ pub enum SymmetryGroup {
     Finite(Vec<Matrix3<f64>>),
 }
 
-impl SymmetryGroup {
+impl MaterialSymmetry {
     /// How far H is from the group: zero for its elements.
     fn distance(&self, h: &Matrix3<f64>) -> f64 {
         let orthogonal = || (h * h.transpose() - Matrix3::identity()).norm();
@@ -53,17 +53,17 @@ impl SymmetryGroup {
 /// for a crystal it is not.
 /// ```
 /// use nalgebra::{Matrix3, Rotation3};
-/// use piola_solutions::homogeneous::{SymmetryGroup, configuration_residual};
+/// use piola_solutions::homogeneous::{MaterialSymmetry, configuration_residual};
 /// let turned = [0.0, 0.4, 0.9].map(|angle| *Rotation3::from_axis_angle(&nalgebra::Vector3::z_axis(), angle).matrix());
-/// assert!(configuration_residual(&turned, &SymmetryGroup::Orthogonal)? < 1e-15);
-/// assert!(0.1 < configuration_residual(&turned, &SymmetryGroup::Finite(vec![-Matrix3::identity()]))?);
+/// assert!(configuration_residual(&turned, &MaterialSymmetry::Orthogonal)? < 1e-15);
+/// assert!(0.1 < configuration_residual(&turned, &MaterialSymmetry::Finite(vec![-Matrix3::identity()]))?);
 /// # Ok::<(), piola_solutions::SolutionsError>(())
 /// ```
 ///
 /// # Source
 /// W(22.3).
-pub fn configuration_residual(gradients: &[Matrix3<f64>], group: &SymmetryGroup) -> Result<f64, SolutionsError> {
-    if let SymmetryGroup::About(axis) = group {
+pub fn configuration_residual(gradients: &[Matrix3<f64>], group: &MaterialSymmetry) -> Result<f64, SolutionsError> {
+    if let MaterialSymmetry::About(axis) = group {
         check_bound("|e|", axis.norm(), "0 < |e|", 0.0 < axis.norm())?;
     }
     let mut worst = 0.0_f64;

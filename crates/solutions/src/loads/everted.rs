@@ -73,7 +73,7 @@ pub fn everted_tube(tube: &Tube, law: &impl ResponseFunctions) -> Result<Everted
     Ok(EvertedTube { deformation: TubeDeformation::of_profile(profile), radii: [radius, largest], axial_stretch })
 }
 
-/// r² = radius² + (R_o² − R²)/λ.
+/// `r² = radius² + (R_o² − R²)/λ`.
 fn everted<T: Real>(tube: &Tube, radius: T, axial: T) -> Cylindrical<T> {
     let a = -axial.recip();
     let offset = radius * radius - a * T::lit(tube.outer() * tube.outer());

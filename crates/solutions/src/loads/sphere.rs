@@ -14,7 +14,7 @@ use crate::{LoadCurve, ResponseFunctions, SolutionsError};
 /// ```text
 /// p = 2 ∫ (N_θθ − N_rr) dr/r from the inner face to the outer,   λ = (radius of the cavity)/R_i
 /// ```
-/// The outer face is free. Where the shell is turned inside out the cavity is bounded by the face R_o; p = 0 then gives the
+/// The outer face is free. Where the shell is turned inside out the cavity is bounded by the face `R_o`; p = 0 then gives the
 /// everted shell without loads.
 ///
 /// The curve of a rubber balloon rises to a limit point, falls, and may rise again.

@@ -100,7 +100,7 @@ fn state_of(
 }
 
 impl<L: ResponseFunctions> Torsion<'_, L> {
-    /// ((λ, λ_i, ψ), (torque, slope)).
+    /// The stretches along the axis and of the inner face, the twist; the torque and its slope.
     fn solved(&self, twist: f64) -> Result<([f64; 3], [f64; 2]), SolutionsError> {
         check_finite("twist", &[twist])?;
         let (guess, prescribed) = match self.ends.check()? {

@@ -18,10 +18,11 @@ use crate::{LoadCurve, ResponseFunctions, SolutionsError};
 /// ```text
 /// p = ∫ (N_θθ − N_rr) dr/r      N = 2π ∫ T_zz r dr      r² = R²/λ_z + B
 /// ```
-/// The ends are held at a stretch, pulled by a force, or closed by caps: then N = π r_i² p.
+/// The ends are held at a stretch, pulled by a force, or closed by caps: then N = π `r_i²` p.
 ///
 /// # Example
-/// A tube of neo-Hookean rubber, its ends held: p = μ (ln λ_i − ln λ_o + ½/λ_o² − ½/λ_i²) + … rises for ever.
+/// A tube of neo-Hookean rubber, its ends held: `p = μ (ln λ_i − ln λ_o + ½/λ_o² − ½/λ_i²)` rises towards
+/// `μ ln(R_o/R_i)`.
 /// ```
 /// use piola_solids::isochoric::NeoHookean;
 /// use piola_solutions::LoadCurve;

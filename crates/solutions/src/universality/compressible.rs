@@ -79,7 +79,7 @@ fn slopes<T: Real>(f: Rows<T>) -> [Rows<T>; 3] {
 /// ```text
 /// P = Σ Wₐ ∂Iₐ/∂F        Div P = Σ Wₐ Div ∂Iₐ/∂F + Σ W_ab (∂Iₐ/∂F) Grad I_b
 /// ```
-/// The nine first and second derivatives Wₐ and W_ab at a particle are independent.
+/// The nine first and second derivatives Wₐ and `W_ab` at a particle are independent.
 ///
 /// | symbol | argument | unit |
 /// |---|---|---|

@@ -53,9 +53,9 @@ fn force<T: Real>(motion: &impl Motion, law: &impl ResponseFunctions, reference:
     let back = inverse_and_determinant(values(f)).0;
     core::array::from_fn(|i| {
         let mut sum = T::zero();
-        for j in 0..3 {
-            for a in 0..3 {
-                sum += stress[i][j].partials[a] * back[a][j];
+        for (a, row) in back.iter().enumerate() {
+            for (j, back) in row.iter().enumerate() {
+                sum += stress[i][j].partials[a] * *back;
             }
         }
         sum

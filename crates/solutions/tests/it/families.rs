@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Vector3};
 use piola_fields::{Coordinates, Motion};
 use piola_numerics::linear::matrix3::determinant;
 use piola_solutions::families::{
-    AsMotion, AzimuthalShearing, BlockBending, Datum, Family, HomogeneousDeformation, Orientation, SectorStraightening,
+    AsMotion, AzimuthalShearing, BlockBending, Datum, Family, IsochoricDeformation, Orientation, SectorStraightening,
     SphereDeformation, TubeDeformation,
 };
 use piola_solutions::{LocalDeformation, ResponseFunctions};
@@ -107,7 +107,7 @@ proptest! {
     ) {
         let f = Matrix3::identity() + Matrix3::from_row_slice(&entries);
         prop_assume!(0.1 < f.determinant());
-        let family = HomogeneousDeformation::new(f / f.determinant().cbrt(), [1.0, 2.0, 3.0]).expect("isochoric");
+        let family = IsochoricDeformation::new(f / f.determinant().cbrt(), [1.0, 2.0, 3.0]).expect("isochoric");
         check(&family, &law, [0.0; 3], at);
     }
 

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use piola_solids::isochoric::{Gent, MooneyRivlin};
 use piola_solutions::ResponseFunctions;
 use piola_solutions::families::{
-    AzimuthalShearing, BlockBending, Datum, Family, HomogeneousDeformation, Orientation, SectorStraightening,
+    AzimuthalShearing, BlockBending, Datum, Family, IsochoricDeformation, Orientation, SectorStraightening,
     SphereDeformation, TubeDeformation,
 };
 use piola_testkit::golden::{load, matrix, number, text, vector};
@@ -63,7 +63,7 @@ fn of_family(case: &Value, law: &impl ResponseFunctions) -> usize {
     match text(&case["family"]) {
         "0" => {
             let rows = matrix(&case["params"]["G"]);
-            let family = HomogeneousDeformation::new(Matrix3::from_fn(|i, j| rows[i][j]), [0.0; 3]).expect("det 1");
+            let family = IsochoricDeformation::new(Matrix3::from_fn(|i, j| rows[i][j]), [0.0; 3]).expect("det 1");
             compare(case, &family, law)
         }
         "1" => compare(case, &BlockBending::new(["A", "B", "C", "D", "E"].map(of)).expect("constants"), law),

@@ -6,8 +6,8 @@ use piola_fields::{AffineHistory, Homogeneous, Motion};
 use piola_numerics::Real;
 use piola_solutions::SolutionsError;
 use piola_solutions::homogeneous::{
-    Kinematics, SymmetryGroup, acceleration_potential, body_force, configuration_residual, lifetime, simple_shearing,
-    steady_extension,
+    MaterialSymmetry, MotionConditions, acceleration_potential, body_force, configuration_residual, lifetime,
+    simple_shearing, steady_extension,
 };
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
@@ -60,7 +60,7 @@ proptest! {
             for share in [0.1, 0.5, 1.0] {
                 prop_assert!(0.0 < det(share * inside), "{end} {share}");
             }
-            let kinematics = Kinematics::of(&motion, 0.5 * inside.clamp(-1.0, 1.0)).expect("kinematics");
+            let kinematics = MotionConditions::of(&motion, 0.5 * inside.clamp(-1.0, 1.0)).expect("kinematics");
             prop_assert!(kinematics.acceleration <= 0.0);
             if end.is_finite() {
                 let size = (rate * end).norm() + start.norm();
@@ -72,7 +72,7 @@ proptest! {
     #[test]
     fn steady_extensions_keep_volume_and_circulation(a in -1.0..1.0_f64, b in -1.0..1.0_f64, t in -1.0..1.0_f64) {
         let extension = steady_extension([a, b, -(a + b)]).expect("extension");
-        let kinematics = Kinematics::of(&extension, t).expect("kinematics");
+        let kinematics = MotionConditions::of(&extension, t).expect("kinematics");
         prop_assert!(kinematics.volume.abs() < 1e-14 && kinematics.volume_rate < 1e-14 && kinematics.circulation < 1e-13);
         // a = −grad ζ: F̈ F⁻¹ = A².
         let x = Vector3::new(1.0, 2.0, -1.0);
@@ -89,12 +89,12 @@ proptest! {
             let rows = strategies::rotation_matrix(q);
             Matrix3::from_fn(|i, j| rows[i][j])
         }).collect();
-        prop_assert!(configuration_residual(&turns, &SymmetryGroup::Orthogonal).expect("residual") < 1e-13);
-        prop_assert!(configuration_residual(&turns, &SymmetryGroup::Unimodular).expect("residual") < 1e-13);
+        prop_assert!(configuration_residual(&turns, &MaterialSymmetry::Orthogonal).expect("residual") < 1e-13);
+        prop_assert!(configuration_residual(&turns, &MaterialSymmetry::Unimodular).expect("residual") < 1e-13);
         let fixed: Vec<_> = turns.iter().map(|turn| turn * 2.0).collect();
-        prop_assert!(configuration_residual(&fixed, &SymmetryGroup::Orthogonal).expect("residual") < 1e-13);
+        prop_assert!(configuration_residual(&fixed, &MaterialSymmetry::Orthogonal).expect("residual") < 1e-13);
         let mixed = [turns[0], turns[1] * 2.0];
-        prop_assert!(1.0 < configuration_residual(&mixed, &SymmetryGroup::Unimodular).expect("residual"));
+        prop_assert!(1.0 < configuration_residual(&mixed, &MaterialSymmetry::Unimodular).expect("residual"));
     }
 }
 
@@ -122,13 +122,13 @@ fn nilpotent_and_turning_rates_last_for_ever() {
 #[test]
 fn motions_that_violate_a_condition_show_by_how_much() {
     let expansion = ExponentialMotion::new(Matrix3::identity(), Matrix3::identity()).expect("motion");
-    let kinematics = Kinematics::of(&expansion, 0.0).expect("kinematics");
+    let kinematics = MotionConditions::of(&expansion, 0.0).expect("kinematics");
     assert_close("tr L", &[kinematics.volume_rate], &[3.0_f64.sqrt()], Tol::ulps(4.0));
     assert!(kinematics.circulation < 1e-15);
     // K = [0 1; 2 0] with a spin: K² = 2 is symmetric; K = [1 1; 0 −1]: K² = 1; K = [1 1 0; 0 1 0; 0 0 −2] is not.
     let generator = matrix([1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -2.0]);
     let motion = ExponentialMotion::new(generator, Matrix3::identity()).expect("motion");
-    let kinematics = Kinematics::of(&motion, 0.5).expect("kinematics");
+    let kinematics = MotionConditions::of(&motion, 0.5).expect("kinematics");
     // K² = [1 2; 0 1] ⊕ 4: skew part √2, norm √22.
     assert_close("skew", &[kinematics.circulation], &[(2.0_f64 / 22.0).sqrt()], Tol::ulps(64.0));
     assert!(matches!(acceleration_potential(&motion, &Vector3::x(), 0.5), Err(SolutionsError::NoPotential { .. })));
@@ -144,13 +144,14 @@ fn configurations_of_crystals_and_fibres_are_told_apart() {
     let about = |angle: f64| *nalgebra::Rotation3::from_axis_angle(&Vector3::z_axis(), angle).matrix();
     let turned = [about(0.0), about(0.7), about(-1.3)];
     let quarter = core::f64::consts::FRAC_PI_2;
-    let fourfold = SymmetryGroup::Finite(vec![about(quarter), about(2.0 * quarter), about(3.0 * quarter)]);
-    let residual =
-        |gradients: &[Matrix3<f64>], group: &SymmetryGroup| configuration_residual(gradients, group).expect("residual");
-    assert!(residual(&turned, &SymmetryGroup::About(Vector3::z())) < 1e-14);
-    assert!(0.1 < residual(&turned, &SymmetryGroup::About(Vector3::x())));
+    let fourfold = MaterialSymmetry::Finite(vec![about(quarter), about(2.0 * quarter), about(3.0 * quarter)]);
+    let residual = |gradients: &[Matrix3<f64>], group: &MaterialSymmetry| {
+        configuration_residual(gradients, group).expect("residual")
+    };
+    assert!(residual(&turned, &MaterialSymmetry::About(Vector3::z())) < 1e-14);
+    assert!(0.1 < residual(&turned, &MaterialSymmetry::About(Vector3::x())));
     assert!(0.1 < residual(&turned, &fourfold));
     assert!(residual(&[about(0.3), about(0.3 + quarter), about(0.3 + 3.0 * quarter)], &fourfold) < 1e-14);
     assert!(configuration_residual(&[Matrix3::zeros()], &fourfold).is_err());
-    assert!(configuration_residual(&turned, &SymmetryGroup::About(Vector3::zeros())).is_err());
+    assert!(configuration_residual(&turned, &MaterialSymmetry::About(Vector3::zeros())).is_err());
 }

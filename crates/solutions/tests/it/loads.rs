@@ -71,7 +71,7 @@ fn check_sector(
     let xi = |s: f64| if is_sector { 0.5 * s * s } else { s };
     let [t1, t2] = loads.normal_stresses;
     let radial = t2 * xi(s2) - t1 * xi(s1);
-    for direction in 0..4 {
+    for (direction, load) in found.into_iter().enumerate() {
         let varied: [Dual<f64>; 4] = core::array::from_fn(|i| {
             if i == direction { Dual::variable(constants[i]) } else { Dual::constant(constants[i]) }
         });
@@ -79,7 +79,7 @@ fn check_sector(
         let stored = integral(s1, s2, |s| {
             energy(law, bent(varied, Dual::constant(offset), s, is_sector)) * Dual::constant(kappa(s))
         });
-        let work = found[direction] + radial * rate_of_a / a;
+        let work = load + radial * rate_of_a / a;
         assert_close_at_scale("dE", &[work], &[stored.tangent], scale, QUADRATURE);
     }
     let varied = constants.map(Dual::constant);
@@ -140,7 +140,7 @@ proptest! {
         assert_close_at_scale("surface integrals", &found, &surface, scale, QUADRATURE);
         let [b, c, d, e] = block;
         let a = 1.0 / (b * e - c * d);
-        for direction in 0..4 {
+        for (direction, load) in found.into_iter().take(4).enumerate() {
             let [b, c, d, e]: [Dual<f64>; 4] = core::array::from_fn(|i| {
                 if i == direction { Dual::variable(block[i]) } else { Dual::constant(block[i]) }
             });
@@ -149,7 +149,7 @@ proptest! {
                 let (r, zero) = (Dual::constant(s), Dual::constant(0.0));
                 energy(&law, [[rate * r, zero, zero], [zero, b / r, c], [zero, d / r, e]]) * r
             });
-            let work = found[direction] + 0.5 * stress * (s2 * s2 - s1 * s1) * rate.tangent / a;
+            let work = load + 0.5 * stress * (s2 * s2 - s1 * s1) * rate.tangent / a;
             assert_close_at_scale("dE", &[work], &[stored.tangent], scale, QUADRATURE);
         }
     }

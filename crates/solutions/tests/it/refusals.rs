@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use piola_solids::isochoric::NeoHookean;
 use piola_solutions::dynamics::{RadialOscillation, RadialState};
 use piola_solutions::families::{
-    AzimuthalShearing, BlockBending, Datum, Family, HomogeneousDeformation, Orientation, SectorStraightening,
+    AzimuthalShearing, BlockBending, Datum, Family, IsochoricDeformation, Orientation, SectorStraightening,
     SphereDeformation, TubeDeformation,
 };
 use piola_solutions::loads::{Ends, SectorLoads, Shell, SphereInflation, Tube, TubeInflation, everted_tube};
@@ -15,7 +15,7 @@ use piola_testkit::{Tol, assert_close};
 fn constants_that_change_volumes_are_refused_with_the_nearest_valid() {
     let stretched = Matrix3::from_diagonal_element(2.0);
     let refused = [
-        (HomogeneousDeformation::new(stretched, [0.0; 3]).err(), 0.5),
+        (IsochoricDeformation::new(stretched, [0.0; 3]).err(), 0.5),
         (BlockBending::new([1.0, 2.0, 0.0, 0.0, 1.0]).err(), 0.5),
         (SectorStraightening::new([1.0, 2.0, 1.0, 1.0, 1.0]).err(), 1.0),
         (TubeDeformation::new([1.0, 0.0, 1.0, 0.5, 0.0, 4.0]).err(), 0.25),

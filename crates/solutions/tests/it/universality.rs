@@ -111,14 +111,6 @@ fn isochoric_deformations_that_are_no_family_are_refuted() {
     let bow = Bow([0.1, 0.2, 0.3]);
     let found = incompressible(&bow, &particles(), 0.0, 1.0).expect("search");
     assert!(found.refutes(1e-3), "{found:?}");
-    // A radial field of angles θ = Θ + ψ(R) that is not logarithmic.
-    struct Swirl;
-    impl Motion for Swirl {
-        fn place<T: Real>(&self, x: &Vector3<T>, _t: T) -> Vector3<T> {
-            let (sin, cos) = (T::lit(0.3) * (x[0] * x[0] + x[1] * x[1])).sin_cos();
-            Vector3::new(x[0] * cos - x[1] * sin, x[0] * sin + x[1] * cos, x[2])
-        }
-    }
     let found = incompressible(&Swirl, &particles(), 0.0, 1.0).expect("search");
     assert!(found.refutes(1e-3), "{found:?}");
     assert!(elastic_fluid(&Swirl, &particles(), 0.0, 1.0).expect("residual") < 1e-13);
@@ -131,11 +123,24 @@ fn bodies_without_particles_or_size_and_changes_of_volume_are_refused() {
     assert!(matches!(elastic_fluid(&bow, &particles(), 0.0, 0.0), Err(SolutionsError::OutOfBounds { .. })));
     let nowhere = [Vector3::new(f64::NAN, 0.0, 0.0)];
     assert!(matches!(incompressible(&bow, &nowhere, 0.0, 1.0), Err(SolutionsError::NotFinite { .. })));
-    struct Swell;
-    impl Motion for Swell {
-        fn place<T: Real>(&self, x: &Vector3<T>, _t: T) -> Vector3<T> {
-            x * T::lit(1.5)
-        }
-    }
     assert!(matches!(incompressible(&Swell, &particles(), 0.0, 1.0), Err(SolutionsError::OutOfBounds { .. })));
+}
+
+/// Angles θ = Θ + 0.3 R²: no logarithm.
+struct Swirl;
+
+impl Motion for Swirl {
+    fn place<T: Real>(&self, x: &Vector3<T>, _t: T) -> Vector3<T> {
+        let (sin, cos) = (T::lit(0.3) * (x[0] * x[0] + x[1] * x[1])).sin_cos();
+        Vector3::new(x[0] * cos - x[1] * sin, x[0] * sin + x[1] * cos, x[2])
+    }
+}
+
+/// The volume changes.
+struct Swell;
+
+impl Motion for Swell {
+    fn place<T: Real>(&self, x: &Vector3<T>, _t: T) -> Vector3<T> {
+        x * T::lit(1.5)
+    }
 }

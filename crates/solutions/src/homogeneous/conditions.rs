@@ -58,8 +58,8 @@ pub fn body_force(
 /// # Example
 /// Steady simple shearing is accelerationless, keeps volumes and so the circulation.
 /// ```
-/// use piola_solutions::homogeneous::{Kinematics, simple_shearing};
-/// let shearing = Kinematics::of(&simple_shearing(2.0)?, 1.5)?;
+/// use piola_solutions::homogeneous::{MotionConditions, simple_shearing};
+/// let shearing = MotionConditions::of(&simple_shearing(2.0)?, 1.5)?;
 /// assert_eq!((shearing.acceleration, shearing.volume, shearing.volume_rate, shearing.circulation), (0.0, 0.0, 0.0, 0.0));
 /// # Ok::<(), piola_solutions::SolutionsError>(())
 /// ```
@@ -67,7 +67,7 @@ pub fn body_force(
 /// # Source
 /// W(22.8), W(22.19–22.23).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kinematics {
+pub struct MotionConditions {
     /// |F̈ F⁻¹| beside |L|²: zero at all times in a motion that is universal for all simple materials, W(22.8).
     pub acceleration: f64,
     /// det F − 1: zero in a motion of an incompressible body.
@@ -78,7 +78,7 @@ pub struct Kinematics {
     pub circulation: f64,
 }
 
-impl Kinematics {
+impl MotionConditions {
     /// Of a motion at a time.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl Kinematics {
 /// pressure that the acceleration asks for.
 ///
 /// # Errors
-/// [`SolutionsError::NoPotential`] where F̈ F⁻¹ is not symmetric to 1e-12; as [`Kinematics::of`].
+/// [`SolutionsError::NoPotential`] where F̈ F⁻¹ is not symmetric to 1e-12; as [`MotionConditions::of`].
 ///
 /// # Example
 /// ```
@@ -169,7 +169,7 @@ pub fn steady_extension(rates: [f64; 3]) -> Result<ExponentialMotion, SolutionsE
 /// [`SolutionsError::OutOfBounds`] for a k that is not finite.
 ///
 /// # Example
-/// See [`Kinematics`].
+/// See [`MotionConditions`].
 ///
 /// # Source
 /// W(22.12–22.14).
