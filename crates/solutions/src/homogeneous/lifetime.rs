@@ -82,6 +82,13 @@ fn real_roots(a: f64, b: f64, c: f64) -> Vec<f64> {
     // Between the zeros of the slope there is at most one zero; all lie within Cauchy's bound.
     let bound = 1.0 + a.abs().max(b.abs()).max(c.abs());
     let inner = a * a - 3.0 * b;
+    let rounding = 64.0 * f64::EPSILON * bound.powi(3);
+    // A triple zero, as of a multiple of the identity, is where the curvature vanishes: searched for it would be lost to its
+    // cube root.
+    let middle = -a / 3.0;
+    if inner.abs() <= rounding && monic(middle).abs() <= rounding {
+        return if f64::EPSILON < middle.abs() { vec![middle.recip()] } else { Vec::new() };
+    }
     let mut ends = vec![-bound];
     if 0.0 < inner {
         let root = inner.sqrt();
