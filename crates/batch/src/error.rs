@@ -26,7 +26,7 @@ pub enum BatchError {
         value: f64,
     },
     /// A list has the wrong length.
-    #[error("{quantity} has length {found}; {expected} is expected")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// What the list is.
         quantity: &'static str,
@@ -36,7 +36,7 @@ pub enum BatchError {
         expected: usize,
     },
     /// Points of a batch are bad; the outputs of all others are computed.
-    #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
+    #[error("{} of {count} points failed: {}", points.len(), first_of(points))]
     BadPoints {
         /// All bad points, in order.
         points: Vec<BadPoint>,

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum CharacteristicsError {
     /// A slice of the wrong length.
-    #[error("`{quantity}` has {found} components where {expected} are needed")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// The name of the argument.
         quantity: &'static str,
@@ -25,7 +25,7 @@ pub enum CharacteristicsError {
         value: f64,
     },
     /// from ≤ 0 ≤ to violated by the span of characteristics, or an end that is not finite.
-    #[error("the characteristics are asked for from {from} to {to}; they start at 0, which must lie between")]
+    #[error("the characteristics start at 0, so their span from {from} to {to} must be finite and contain 0")]
     InvalidSpan {
         /// The lower end.
         from: f64,
@@ -43,7 +43,7 @@ pub enum CharacteristicsError {
         to: f64,
     },
     /// Too few samples to say anything of the motion between them.
-    #[error("{found} samples are given where at least {needed} are needed")]
+    #[error("too few samples: {found} given, at least {needed} needed")]
     TooFewSamples {
         /// The number given.
         found: usize,
@@ -63,7 +63,10 @@ pub enum CharacteristicsError {
         x: Vec<f64>,
     },
     /// A point that no characteristic of the solution reaches.
-    #[error("no characteristic reaches {point:?}; the nearest, of parameters {parameters:?}, stays {distance:e} away")]
+    #[error(
+        "no characteristic reaches the point {point:?}; the nearest one, from the initial parameters {parameters:?}, \
+         passes it at the distance {distance:e}"
+    )]
     OutsideOfCharacteristics {
         /// The point.
         point: Vec<f64>,
@@ -73,7 +76,11 @@ pub enum CharacteristicsError {
         distance: f64,
     },
     /// Several characteristics reach a point: the solution has several sheets there.
-    #[error("{} characteristics reach {point:?}, with u = {values:?}: ask for all sheets or for the first arrival", values.len())]
+    #[error(
+        "{} characteristics reach the point {point:?}, with u = {values:?}: ask for all sheets or for the first \
+         arrival",
+        values.len()
+    )]
     SeveralSheets {
         /// The point.
         point: Vec<f64>,
@@ -82,7 +89,8 @@ pub enum CharacteristicsError {
     },
     /// The one characteristic that reaches a point has passed caustics.
     #[error(
-        "the characteristic that reaches {point:?} with u = {value} has passed {caustics} caustics: ask for all sheets"
+        "the characteristic that reaches the point {point:?} with u = {value} touches a caustic before (caustics \
+         passed: {caustics}): ask for all sheets"
     )]
     BeyondCaustic {
         /// The point.
@@ -94,7 +102,8 @@ pub enum CharacteristicsError {
     },
     /// The initial manifold would need more characteristics than are allowed.
     #[error(
-        "{rays} characteristics leave an error of interpolation of {error:e}: allow more of them, more parts of each, or a coarser resolution"
+        "the error of interpolation is still {error:e} with {rays} characteristics: allow more characteristics, more \
+         parts of each, or a coarser resolution"
     )]
     TooManyCharacteristics {
         /// The characteristics made.
@@ -104,7 +113,8 @@ pub enum CharacteristicsError {
     },
     /// No generator of the Monge cone was found over a direction.
     #[error(
-        "no generator of the Monge cone lies over {direction:?}: at ξ = {covector:?} the conditions are violated by {residual:e}"
+        "no generator of the Monge cone was found over the direction {direction:?}: at ξ = {covector:?} its conditions \
+         Φ_ξ = λ x′, Φ = 0 have the relative residual {residual:e}"
     )]
     NoGenerator {
         /// x′.
@@ -136,8 +146,8 @@ pub enum CharacteristicsError {
 pub enum StripError {
     /// The derivatives of a manifold along its parameters depend on each other.
     #[error(
-        "the initial manifold is singular at {parameters:?}: its derivative along parameter {index} depends on those \
-         before (a share of {share:e} is its own)"
+        "the initial manifold is singular at {parameters:?}: its derivative along parameter {index} depends on the \
+         derivatives along those before (independent part {share:e})"
     )]
     DependentParameters {
         /// τ.
@@ -149,8 +159,8 @@ pub enum StripError {
     },
     /// No ξ near the guess satisfies u_τ = ξ·x_τ and Φ(x, u, ξ) = 0.
     #[error(
-        "no ξ satisfies the data and the equation at {parameters:?} near the guess: at {covector:?} Φ is {residual:e} \
-         and changes by {slope:e} along the normal of the manifold"
+        "no ξ near the guess satisfies the data and the equation at {parameters:?}: at ξ = {covector:?}, Φ is \
+         {residual:e} and its derivative along the normal of the manifold is {slope:e}"
     )]
     NoInitialCovector {
         /// τ.
@@ -164,7 +174,8 @@ pub enum StripError {
     },
     /// A given ξ(τ) is not that of a strip, or does not satisfy the equation.
     #[error(
-        "the ξ given at {parameters:?} violates condition {condition} of a strip (the last is Φ = 0) by {residual:e}"
+        "the ξ given at {parameters:?} violates strip condition {condition} by {residual:e} (u_τ = ξ·x_τ for each \
+         parameter from 0, then Φ = 0)"
     )]
     NotAStrip {
         /// τ.
@@ -176,8 +187,8 @@ pub enum StripError {
     },
     /// An equation that declares itself linear in ξ but is not: its characteristics would be wrong.
     #[error(
-        "the equation is not linear in ξ at {parameters:?} (a second difference is {residual:e}): leave out \
-         `const QUASILINEAR: bool = true`"
+        "the equation is not linear in ξ at {parameters:?} (second difference {residual:e}): leave out `const \
+         QUASILINEAR: bool = true`"
     )]
     NotQuasilinear {
         /// τ.
@@ -214,8 +225,9 @@ pub enum StripError {
     },
     /// A point of the manifold that no characteristic leaves, because ξ is not determined or Φ_ξ = 0.
     #[error(
-        "the initial manifold determines no solution at {parameters:?}: {kind:?}, sine {transversality:e} between it \
-         and the manifold"
+        "the initial manifold determines no solution at {parameters:?}: {} (sine {transversality:e} between the \
+         characteristic and the manifold)",
+        in_words(*kind)
     )]
     Degenerate {
         /// τ.
@@ -225,4 +237,17 @@ pub enum StripError {
         /// What the manifold is there.
         kind: crate::StripKind,
     },
+}
+
+/// Why a point of the initial manifold determines no solution.
+fn in_words(kind: crate::StripKind) -> &'static str {
+    match kind {
+        crate::StripKind::Transversal => "the manifold is transversal there",
+        crate::StripKind::Characteristic => "the strip is characteristic there",
+        crate::StripKind::Monge => "the strip is a Monge strip there, but not a characteristic one",
+        crate::StripKind::Undetermined => "the data do not determine ξ",
+        crate::StripKind::Stationary => "Φ_ξ = 0, so the characteristic stands still",
+        crate::StripKind::NoCovector => "no ξ satisfies the data and the equation",
+        crate::StripKind::Jump => "ξ jumps from one root of Φ to another",
+    }
 }

@@ -34,7 +34,9 @@ pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
             show(&text, flow.json, &folder, &written);
             let lost = recovery.lost();
             if 0 < lost {
-                note(&format!("error: nothing positive is recovered at {lost} rows: noise is stronger than the flow"));
+                note(&format!(
+                    "error: no positive value was recovered at {lost} of the rows: the noise is stronger than the flow"
+                ));
             }
             if lost == 0 && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
         }

@@ -30,7 +30,7 @@ pub enum ContinuumError {
         determinant: f64,
     },
     /// 0 < det F holds, but det F is smaller than the smallest number.
-    #[error("det F = 10^({logarithm}) is positive but below the range of the scalar")]
+    #[error("det F = 10^({logarithm}) is positive but too small for the scalar type")]
     VanishingJacobian {
         /// log₁₀ det F.
         logarithm: f64,
@@ -44,7 +44,7 @@ pub enum ContinuumError {
         value: f64,
     },
     /// λ₁ > λ₂ > λ₃ is violated where single principal axes are asked for.
-    #[error("the principal stretches {stretches:?} coalesce to rounding: their axes have no rate")]
+    #[error("two of the principal stretches {stretches:?} are equal to rounding: the rates of their axes do not exist")]
     CoalescentStretches {
         /// The stretches.
         stretches: [f64; 3],
@@ -53,10 +53,10 @@ pub enum ContinuumError {
     #[error("F has no real principal logarithm: an eigenvalue is zero or negative")]
     NoPrincipalLogarithm,
     /// 0 < |n| is violated: a normal has no direction.
-    #[error("the zero vector has no direction: it is no normal")]
+    #[error("the normal is the zero vector, which has no direction")]
     ZeroNormal,
     /// 0 < |dev T| is violated where a ratio to it is asked for.
-    #[error("the deviator is zero: a stress of mean {mean:e} in all directions has no triaxiality")]
+    #[error("the deviator is zero: a hydrostatic stress, here of mean {mean:e}, has no triaxiality")]
     ZeroDeviator {
         /// ⅓ tr T.
         mean: f64,

@@ -25,7 +25,7 @@ pub enum FieldsError {
         value: f64,
     },
     /// The degree of a quadrature is above the limit.
-    #[error("quadrature of degree {degree} is asked for; the highest is {limit}")]
+    #[error("the quadrature degree {degree} is too high: the highest is {limit}")]
     DegreeTooHigh {
         /// The degree that was asked for.
         degree: usize,
@@ -53,7 +53,7 @@ pub enum FieldsError {
         value: f64,
     },
     /// No rule up to the highest degree gives an integral to the tolerance.
-    #[error("the integral is uncertain by {error:e} at degree {degree}, more than the tolerance {tolerance:e}")]
+    #[error("the integral has the error estimate {error:e} at degree {degree}, above the tolerance {tolerance:e}")]
     IntegralNotConverged {
         /// Difference of the two best rules.
         error: f64,
@@ -90,7 +90,7 @@ pub enum FieldsError {
         vertex: usize,
     },
     /// 0 < V is violated for an element: it is turned inside out.
-    #[error("element {element} is turned inside out: its volume is {volume:e}")]
+    #[error("element {element} is turned inside out: its volume is {volume:e} m³")]
     InvertedElement {
         /// The element.
         element: usize,
@@ -98,7 +98,7 @@ pub enum FieldsError {
         volume: f64,
     },
     /// An element has no volume within rounding, or a volume that is no number.
-    #[error("element {element} is flat: its volume is {volume:e} with an edge of {longest_edge:e}")]
+    #[error("element {element} is flat: its volume is {volume:e} m³, with a longest edge of {longest_edge:e} m")]
     FlatElement {
         /// The element.
         element: usize,
@@ -116,7 +116,7 @@ pub enum FieldsError {
         elements: [usize; 2],
     },
     /// 0 < m is violated for a mass, or it is no number.
-    #[error("mass {index} is {mass}, not positive")]
+    #[error("mass {index} is {mass} kg, not positive")]
     NonPositiveMass {
         /// Which mass: the number of the node or of the element.
         index: usize,
@@ -124,7 +124,7 @@ pub enum FieldsError {
         mass: f64,
     },
     /// 0 ≤ c is violated for the damping of a node.
-    #[error("damping of node {node} is {damping}, negative")]
+    #[error("the damping of node {node} is {damping} kg/s, which is negative")]
     NegativeDamping {
         /// The node.
         node: usize,
@@ -132,7 +132,7 @@ pub enum FieldsError {
         damping: f64,
     },
     /// A list has the wrong length.
-    #[error("{quantity} has length {found}; {expected} is expected")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// What the list is.
         quantity: &'static str,
@@ -143,8 +143,9 @@ pub enum FieldsError {
     },
     /// No particle is found at a place, or none for certain.
     #[error(
-        "no certain particle at {place:?}: the best, {best:?}, misses it by {residual:e} after {iterations} steps \
-         (det F = {determinant:e}, the relative change of F nearby, {change:e}, must be at most 1/2)"
+        "no particle at the place {place:?} could be certified: the best candidate, {best:?}, misses it by \
+         {residual:e} m (Newton steps: {iterations}; det F = {determinant:e}; the relative change of F nearby is \
+         {change:e} and must be at most 1/2)"
     )]
     InversionFailed {
         /// The place x, m.
@@ -161,7 +162,7 @@ pub enum FieldsError {
         iterations: usize,
     },
     /// A list that must increase does not.
-    #[error("{quantity}[{index}] = {value} does not exceed the one before, {previous}")]
+    #[error("{quantity}[{index}] = {value} is not above the entry before it, {previous}")]
     NotIncreasing {
         /// What the list is.
         quantity: &'static str,
@@ -173,7 +174,7 @@ pub enum FieldsError {
         value: f64,
     },
     /// 0 < det F is violated at a corner of a cell of samples.
-    #[error("cell {cell:?} is folded at time {time}: det F = {determinant:e} at a corner")]
+    #[error("cell {cell:?} is folded at time index {time}: det F = {determinant:e} at a corner")]
     FoldedCell {
         /// The cell, from 0 along each axis.
         cell: [usize; 3],
@@ -195,7 +196,7 @@ pub enum FieldsError {
         high: f64,
     },
     /// A particle that does not exist.
-    #[error("particle {particle} does not exist: there are {count}")]
+    #[error("particle {particle} does not exist: the number of particles is {count}")]
     NoSuchParticle {
         /// The index, from 0.
         particle: usize,
@@ -203,7 +204,7 @@ pub enum FieldsError {
         count: usize,
     },
     /// A point where coordinates have no basis: an axis, a pole or a place outside their range.
-    #[error("the coordinates {coordinates:?} have no basis there: volume element {volume_element:e}")]
+    #[error("the coordinates have no basis at {coordinates:?}: the volume element there is {volume_element:e}")]
     SingularCoordinates {
         /// The coordinates.
         coordinates: [f64; 3],
@@ -211,7 +212,7 @@ pub enum FieldsError {
         volume_element: f64,
     },
     /// gᵢ·gⱼ = 0 is violated where physical components are asked for.
-    #[error("the coordinate lines {row} and {column} are not orthogonal: the cosine between them is {cosine:e}")]
+    #[error("coordinate lines {row} and {column} are not orthogonal: the cosine between them is {cosine:e}")]
     NotOrthogonal {
         /// i, from 0.
         row: usize,

@@ -60,6 +60,13 @@ impl<T: Real> Residual<T> {
 }
 
 /// The residual of a vector balance: three [`Residual`]s.
+///
+/// # Example
+/// ```
+/// use piola_fields::{Residual, VectorResidual};
+/// let (balanced, left) = (Residual::zero().plus(2.0).plus(-2.0), Residual::zero().plus(1.0));
+/// assert_eq!(VectorResidual::from([balanced, balanced, left]).relative(), 0.25); // 1/4
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -80,13 +87,6 @@ pub struct VectorResidual<T = f64> {
 
 impl<T: Real> VectorResidual<T> {
     /// The largest component divided by the largest scale, ∈ [0, 1]; zero when all terms are.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::{Residual, VectorResidual};
-    /// let (balanced, left) = (Residual::zero().plus(2.0).plus(-2.0), Residual::zero().plus(1.0));
-    /// assert_eq!(VectorResidual::from([balanced, balanced, left]).relative(), 0.25); // 1/4
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn relative(&self) -> T {

@@ -14,7 +14,7 @@ pub enum FitError {
         test: String,
     },
     /// Two tests have the same name.
-    #[error("there are two tests `{test}`")]
+    #[error("two tests are called `{test}`")]
     TestTwice {
         /// Their name.
         test: String,
@@ -30,7 +30,9 @@ pub enum FitError {
         value: f64,
     },
     /// A stretch of a test, or an amount of shear, is so small or large that no law has a stress there.
-    #[error("test `{test}`, point {index}: at the stretch {value:e} no law has a stress: valid are 1e-30 to 1e30")]
+    #[error(
+        "test `{test}`, point {index}: at the stretch {value:e} no law has a stress; valid stretches are 1e-30 to 1e30"
+    )]
     StretchOutOfRange {
         /// The test.
         test: String,
@@ -50,7 +52,7 @@ pub enum FitError {
         value: f64,
     },
     /// A deformation of a test changes the volume of a material that is incompressible.
-    #[error("test `{test}`, point {index}: det F = {determinant} of an incompressible material is not 1")]
+    #[error("test `{test}`, point {index}: det F = {determinant}, but it must be 1 for an incompressible material")]
     NotIsochoric {
         /// The test.
         test: String,
@@ -60,7 +62,7 @@ pub enum FitError {
         determinant: f64,
     },
     /// An index of a component or axis is not 0, 1 or 2.
-    #[error("test `{test}`, point {index}: {value} is none of the axes 0, 1 and 2")]
+    #[error("test `{test}`, point {index}: there is no axis {value}; the axes are 0, 1 and 2")]
     NoSuchComponent {
         /// The test.
         test: String,
@@ -79,22 +81,23 @@ pub enum FitError {
     },
     /// A model to fit has a name that is not known.
     #[error(
-        "no model is called `{name}`: there are neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n"
+        "no model is called `{name}`; the models are neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, \
+         polynomial:n, ogden:n"
     )]
     UnknownModel {
         /// The name.
         name: String,
     },
     /// A series has no terms, or too many.
-    #[error("a series of {value} terms: valid are 1 to 6")]
+    #[error("the number of terms of a series is {value}; it must be 1 to 6")]
     SeriesLength {
         /// The number of terms.
         value: usize,
     },
     /// Nothing is deformed in any test, where every law has the same stress.
     #[error(
-        "test `{test}`: all its stretches are {value}, at which nothing is deformed, and no other test has one that is not: \
-         the data say nothing of the parameters"
+        "test `{test}`: all its stretches are {value}, so it deforms nothing, and neither does any other test: the \
+         data say nothing of the parameters"
     )]
     NothingDeformed {
         /// The first test.
@@ -103,7 +106,7 @@ pub enum FitError {
         value: f64,
     },
     /// A model or fluid has more parameters than there are points.
-    #[error("{model}: {points} measured points cannot determine {parameters} parameters")]
+    #[error("{model}: too few measured points ({points}) for the number of parameters ({parameters})")]
     TooFewPoints {
         /// The model or fluid.
         model: String,
@@ -122,7 +125,8 @@ pub enum FitError {
     },
     /// A parameter of a model is to have the sign of one that it cannot.
     #[error(
-        "{model}: `{parameter}` is to have the sign of parameter {index}, which the model does not have or is a factor"
+        "{model}: `{parameter}` cannot take the sign of parameter {index}: the model has no such parameter, or the \
+         stress is linear in it"
     )]
     NoSuchSign {
         /// The model.
@@ -133,7 +137,7 @@ pub enum FitError {
         index: usize,
     },
     /// A model is given more or fewer values than it has parameters.
-    #[error("{model} has {parameters} parameters: {values} values are given")]
+    #[error("{model}: the number of parameter values is {values}; it must be {parameters}")]
     NumberOfValues {
         /// The model.
         model: String,
@@ -155,7 +159,7 @@ pub enum FitError {
         upper: f64,
     },
     /// Bounds of a fluid's parameter are not finite, or leave nothing between them.
-    #[error("nothing lies between the bounds {lower:e} and {upper:e} of `{parameter}`, or they are not finite")]
+    #[error("the bounds {lower:e} and {upper:e} of `{parameter}` must be finite, the lower below the upper")]
     EmptyInterval {
         /// The parameter.
         parameter: String,
@@ -171,7 +175,7 @@ pub enum FitError {
         value: f64,
     },
     /// A model or fluid has finite answers at no start of the search.
-    #[error("{model}: at no start of the search are the answers finite and the bounds kept")]
+    #[error("{model}: no starting point of the search has finite answers within the bounds")]
     NoStart {
         /// The model or fluid.
         model: String,

@@ -77,39 +77,77 @@ pub(crate) struct End<M: Misfit> {
 
 /// Searches from the coordinates `start`; nothing if no residuals are finite there, or at the end.
 pub(crate) fn minimise<M: Misfit>(misfit: M, start: Vec<f64>, patience: usize) -> Option<End<M>> {
+    let mut walk = Walk { misfit, state: None };
+    let outcome = walk_down(&mut walk, start, patience)?;
+    Some(End { state: walk.state?, misfit: walk.misfit, outcome })
+}
+
+/// The same for any misfit: the search itself is compiled once.
+fn walk_down(walk: &mut dyn Steps, start: Vec<f64>, patience: usize) -> Option<Outcome> {
     let x = searched::DVector::from_vec(start);
-    let mut walk = Walk { misfit, x: x.clone(), state: None };
-    walk.set_params(&x);
-    walk.state.as_ref()?;
-    let search = LevenbergMarquardt::new().with_ftol(1e-14).with_xtol(1e-12).with_gtol(1e-12).with_patience(patience);
-    let (mut end, report) = search.minimize(walk);
+    let mut search = Search { walk, x: x.clone() };
+    search.set_params(&x);
+    search.walk.residuals()?;
+    let method = LevenbergMarquardt::new().with_ftol(1e-14).with_xtol(1e-12).with_gtol(1e-12).with_patience(patience);
+    let (mut end, report) = method.minimize(search);
     let x = end.x.clone();
     end.set_params(&x);
-    let outcome = match report.termination {
+    Some(match report.termination {
         TerminationReason::ResidualsZero => Outcome::ExactFit,
         TerminationReason::Orthogonal => Outcome::GradientZero,
         TerminationReason::Converged { .. } | TerminationReason::NoImprovementPossible(_) => Outcome::NoFurtherDecrease,
         TerminationReason::LostPatience => Outcome::OutOfPatience,
         _ => Outcome::NotFinite,
-    };
-    Some(End { state: end.state?, misfit: end.misfit, outcome })
+    })
 }
 
-/// One walk of a search.
+/// A misfit and where a search of it stands.
 struct Walk<M: Misfit> {
     misfit: M,
-    x: searched::DVector<f64>,
     state: Option<M::State>,
 }
 
-impl<M: Misfit> LeastSquaresProblem<f64, searched::Dyn, searched::Dyn> for Walk<M> {
+/// What a search asks of a walk.
+trait Steps {
+    /// The number of residuals.
+    fn rows(&self) -> usize;
+    /// Moves to the coordinates x.
+    fn visit(&mut self, x: &[f64]);
+    /// The residuals; nothing where one is not finite.
+    fn residuals(&self) -> Option<&[f64]>;
+    /// The derivatives of the residuals with respect to x, a row for each; nothing where a residual is not finite.
+    fn jacobian(&self, x: &[f64]) -> Option<DMatrix<f64>>;
+}
+
+impl<M: Misfit> Steps for Walk<M> {
+    fn rows(&self) -> usize {
+        self.misfit.rows()
+    }
+    fn visit(&mut self, x: &[f64]) {
+        self.state = self.misfit.visit(x);
+    }
+    fn residuals(&self) -> Option<&[f64]> {
+        Some(self.misfit.residuals(self.state.as_ref()?))
+    }
+    fn jacobian(&self, x: &[f64]) -> Option<DMatrix<f64>> {
+        Some(self.misfit.jacobian(self.state.as_ref()?, x))
+    }
+}
+
+/// A walk as the library of least squares sees it.
+struct Search<'w> {
+    walk: &'w mut dyn Steps,
+    x: searched::DVector<f64>,
+}
+
+impl LeastSquaresProblem<f64, searched::Dyn, searched::Dyn> for Search<'_> {
     type ResidualStorage = searched::Owned<f64, searched::Dyn>;
     type JacobianStorage = searched::Owned<f64, searched::Dyn, searched::Dyn>;
     type ParameterStorage = searched::Owned<f64, searched::Dyn>;
 
     fn set_params(&mut self, x: &searched::DVector<f64>) {
         self.x.copy_from(x);
-        self.state = self.misfit.visit(self.x.as_slice());
+        self.walk.visit(self.x.as_slice());
     }
 
     fn params(&self) -> searched::DVector<f64> {
@@ -117,15 +155,15 @@ impl<M: Misfit> LeastSquaresProblem<f64, searched::Dyn, searched::Dyn> for Walk<
     }
 
     fn residuals(&self) -> Option<searched::DVector<f64>> {
-        Some(match &self.state {
-            Some(state) => searched::DVector::from_column_slice(self.misfit.residuals(state)),
+        Some(match self.walk.residuals() {
+            Some(residuals) => searched::DVector::from_column_slice(residuals),
             // A step to where there is no answer is taken back.
-            None => searched::DVector::from_element(self.misfit.rows(), 1e100),
+            None => searched::DVector::from_element(self.walk.rows(), 1e100),
         })
     }
 
     fn jacobian(&self) -> Option<searched::DMatrix<f64>> {
-        let jacobian = self.misfit.jacobian(self.state.as_ref()?, self.x.as_slice());
+        let jacobian = self.walk.jacobian(self.x.as_slice())?;
         Some(searched::DMatrix::from_column_slice(jacobian.nrows(), jacobian.ncols(), jacobian.as_slice()))
     }
 }

@@ -39,7 +39,7 @@ pub enum FluidsError {
         limit: f64,
     },
     /// No shear rate has this shear stress.
-    #[error("{fluid}: no shear rate was found at the shear stress {stress:e} Pa: {residual:e} Pa remain")]
+    #[error("{fluid}: no shear rate was found at the shear stress {stress:e} Pa (residual {residual:e} Pa)")]
     NoShearRate {
         /// The fluid.
         fluid: &'static str,
@@ -49,7 +49,7 @@ pub enum FluidsError {
         residual: f64,
     },
     /// Entries of a batch of shear rates or stresses have no answer; theirs are NaN, all others are computed.
-    #[error("{fluid}: {count} entries have no answer, first of all {value} at {index}")]
+    #[error("{fluid}: no answer at {count} of the entries; the first is entry {index}, {value}")]
     BadEntries {
         /// The fluid.
         fluid: &'static str,
@@ -61,7 +61,7 @@ pub enum FluidsError {
         count: usize,
     },
     /// A batch has not one answer for each entry.
-    #[error("`{quantity}` has {found} entries where {expected} are needed")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// The name of the argument.
         quantity: &'static str,

@@ -82,7 +82,7 @@ where
 /// |---|---|---|
 /// | ρ, v | `flow` | kg/m³, m/s |
 /// | p | `pressure` | Pa |
-/// | f | `force`, per volume | N/m³ |
+/// | f | `force_per_volume` | N/m³ |
 ///
 /// With derivatives of v to the second order in place, exact. It equals −[`Flow::momentum_residual`] of [`ViscousStress`].
 ///
@@ -101,7 +101,7 @@ pub fn navier_stokes_residual<C, R, V, T>(
     fluid: &LinearViscous,
     flow: &Flow<C, R, V>,
     pressure: &impl Field<Value = f64>,
-    force: &impl Field<Value = Vector3<f64>>,
+    force_per_volume: &impl Field<Value = Vector3<f64>>,
     place: &Vector3<T>,
     t: T,
 ) -> Result<VectorResidual<T>, FluidsError>
@@ -120,7 +120,7 @@ where
     });
     let v: ValueOf<V, _> = flow.velocity.at(&q, Gradient::constant(Gradient::constant(t)));
     let slopes = pressure.at(&q.map(|x| x.value), Gradient::constant(t)).partials;
-    let force = force.at(place, t);
+    let force = force_per_volume.at(place, t);
     let (mu, both) = (T::lit(fluid.shear_viscosity()), T::lit(fluid.second_viscosity() + fluid.shear_viscosity()));
     let residual = core::array::from_fn(|i| {
         let mut residual = Residual::zero().plus(density * acceleration[i]).plus(-force[i]).plus(slopes[i]);

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum GravitationError {
     /// A slice of the wrong length.
-    #[error("`{quantity}` has {found} components where {expected} are needed")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// The name of the argument.
         quantity: &'static str,
@@ -41,7 +41,8 @@ pub enum GravitationError {
     /// Two bodies in one place, or so near that the cube of their distance is no number any more, where
     /// nothing softens what one does to the other.
     #[error(
-        "bodies {first} and {second} are in one place, where their attraction is infinite; separate them or soften the attraction"
+        "bodies {first} and {second} are in one place, where their attraction is infinite: separate them or soften the \
+         attraction"
     )]
     CoincidentBodies {
         /// The first body's index.
@@ -50,7 +51,7 @@ pub enum GravitationError {
         second: usize,
     },
     /// An index beyond the last body.
-    #[error("there is no body {body}: the system has {bodies}")]
+    #[error("there is no body {body}: the number of bodies is {bodies}")]
     NoSuchBody {
         /// The index asked for.
         body: usize,
@@ -58,7 +59,7 @@ pub enum GravitationError {
         bodies: usize,
     },
     /// The attracting centre of the post-Newtonian term has no mass.
-    #[error("body {body} has no mass, so that it cannot be the centre of a post-Newtonian term")]
+    #[error("body {body} has no mass, so it cannot be the centre of a post-Newtonian term")]
     MasslessCentre {
         /// The body's index.
         body: usize,

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum HamiltonianError {
     /// A slice of the wrong length.
-    #[error("`{quantity}` has {found} components where {expected} are needed")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// The name of the argument.
         quantity: &'static str,
@@ -33,7 +33,7 @@ pub enum HamiltonianError {
         value: f64,
     },
     /// Samples of a motion that are not in the order of time.
-    #[error("the time {time} of sample {index} does not come after the {before} of the one before")]
+    #[error("the time {time} of sample {index} is not later than {before}, the time of the sample before it")]
     TimesNotIncreasing {
         /// The sample.
         index: usize,
@@ -43,7 +43,7 @@ pub enum HamiltonianError {
         before: f64,
     },
     /// Too few samples to say anything of the motion between them.
-    #[error("{found} samples are given where at least {needed} are needed")]
+    #[error("too few samples: {found} given, at least {needed} needed")]
     TooFewSamples {
         /// The number given.
         found: usize,
@@ -52,8 +52,8 @@ pub enum HamiltonianError {
     },
     /// Equations that Newton's iteration does not solve from its guess.
     #[error(
-        "{condition} was not found by Newton's iteration: the residual {residual:e} is left, the last correction was \
-         {correction:e} of the largest unknown; start nearer"
+        "Newton's iteration did not converge for {condition}: residual {residual:e}, last correction {correction:e} of \
+         the largest unknown; start nearer"
     )]
     NotSolved {
         /// What was sought.
@@ -65,8 +65,8 @@ pub enum HamiltonianError {
     },
     /// A map of phase space whose Jacobian is not symplectic.
     #[error(
-        "the map is not canonical: entry ({row}, {column}) of JᵀΩJ − Ω is {residual:e}, {relative:e} of the terms it is \
-         made of"
+        "the map is not canonical: entry ({row}, {column}) of JᵀΩJ − Ω is {residual:e}, or {relative:e} relative to \
+         its terms"
     )]
     NotCanonical {
         /// The entry.
@@ -80,8 +80,8 @@ pub enum HamiltonianError {
     },
     /// A field of vectors whose flow does not keep ω.
     #[error(
-        "the field is not locally Hamiltonian: entry ({row}, {column}) of the Lie derivative of ω is {residual:e}, \
-         {relative:e} of the terms it is made of"
+        "the field is not locally Hamiltonian: entry ({row}, {column}) of the Lie derivative of ω is {residual:e}, or \
+         {relative:e} relative to its terms"
     )]
     NotLocallyHamiltonian {
         /// The entry.
@@ -94,7 +94,7 @@ pub enum HamiltonianError {
         column: usize,
     },
     /// A function that is given as an integral and is none.
-    #[error("function {index} is no integral: its rate is {relative:e} of the terms it is made of")]
+    #[error("function {index} is not an integral of the motion: its rate is {relative:e} relative to its terms")]
     NotAnIntegral {
         /// The function.
         index: usize,
@@ -102,7 +102,7 @@ pub enum HamiltonianError {
         relative: f64,
     },
     /// An action that no motion has.
-    #[error("the action {index} is {value}; it must lie between {least} and {greatest}")]
+    #[error("action {index} is {value}; it must lie between {least} and {greatest}")]
     InvalidAction {
         /// Its index.
         index: usize,
@@ -114,7 +114,7 @@ pub enum HamiltonianError {
         greatest: f64,
     },
     /// A body that is not bound to its centre: its orbit is no ellipse.
-    #[error("the energy is {energy} J; elements of an ellipse need a negative one")]
+    #[error("the energy is {energy} J; the elements of an ellipse need a negative energy")]
     NotBound {
         /// The energy.
         energy: f64,
@@ -131,7 +131,7 @@ pub enum HamiltonianError {
         sine_of_inclination: f64,
     },
     /// The iteration for eigenvalues or singular values does not converge.
-    #[error("the eigenvalues of a matrix of {rows} rows were not found")]
+    #[error("the iteration for the eigenvalues of a matrix did not converge (number of rows: {rows})")]
     NoEigenvalues {
         /// The rows of the matrix.
         rows: usize,
@@ -160,7 +160,10 @@ pub enum HamiltonianError {
 #[non_exhaustive]
 pub enum HamiltonJacobiError {
     /// A Hamiltonian that depends on time where one is needed that does not.
-    #[error("the Hamiltonian changes with time, ∂H/∂t = {rate:e}: fronts of one energy need one that does not")]
+    #[error(
+        "the Hamiltonian depends on time (∂H/∂t = {rate:e} W): wave fronts at one energy need a Hamiltonian that does \
+         not"
+    )]
     TimeDependentHamiltonian {
         /// ∂H/∂t, W.
         rate: f64,
@@ -175,8 +178,8 @@ pub enum HamiltonJacobiError {
     },
     /// Two events that an extremal joins at a conjugate point: neighbouring extremals join them too.
     #[error(
-        "the events are conjugate: ∂q₁/∂p₀ along the extremal has singular values of ratio {ratio:e}, so that its action \
-         has no derivatives there"
+        "the events are conjugate: the singular values of ∂q₁/∂p₀ along the extremal have the ratio {ratio:e}, so its \
+         action has no derivatives there"
     )]
     ConjugateEvents {
         /// Smallest over largest singular value of ∂q₁/∂p₀, each made free of units by the size of q and p.
@@ -184,7 +187,8 @@ pub enum HamiltonJacobiError {
     },
     /// No extremal was found between two events.
     #[error(
-        "none of {starts} extremals of the search region could be brought to the event: the nearest misses it by {miss:e}"
+        "none of the {starts} extremals tried from the search region reaches the event: the nearest misses it by \
+         {miss:e}"
     )]
     NoExtremal {
         /// The least distance |q(t₁) − q₁| met.
@@ -193,7 +197,7 @@ pub enum HamiltonJacobiError {
         starts: usize,
     },
     /// Two events at the same time: all extremals leave one place and none arrives at another.
-    #[error("both events are at the time {time} s")]
+    #[error("both events are at the time {time} s; their times must differ")]
     EventsAtOneTime {
         /// The time.
         time: f64,
@@ -209,7 +213,7 @@ pub enum HamiltonJacobiError {
         upper: f64,
     },
     /// A Newton iteration that does not converge.
-    #[error("{unknown} were not found in {iterations} iterations: {residual:e} is left of the equations")]
+    #[error("{unknown} were not found (iterations: {iterations}, residual of the equations: {residual:e})")]
     NotFound {
         /// What was sought.
         unknown: &'static str,
@@ -219,14 +223,15 @@ pub enum HamiltonJacobiError {
         residual: f64,
     },
     /// A complete integral whose constants are not independent: det ∂²U/∂q∂Q = 0.
-    #[error("the integral is not complete: ∂²U/∂q∂Q has singular values of ratio {ratio:e} there")]
+    #[error("the integral is not complete: the singular values of ∂²U/∂q∂Q have the ratio {ratio:e} there")]
     IncompleteIntegral {
         /// Smallest over largest singular value of ∂²U/∂q∂Q scaled to rows and columns of unit size.
         ratio: f64,
     },
     /// A function that does not solve the Hamilton–Jacobi equation where it is to give motions.
     #[error(
-        "the function does not solve the Hamilton–Jacobi equation: it leaves {residual:e} J of terms of {scale:e} J"
+        "the function does not solve the Hamilton–Jacobi equation: the residual is {residual:e} J, the terms are of \
+         size {scale:e} J"
     )]
     NoSolution {
         /// ∂U/∂t + H.
@@ -235,7 +240,7 @@ pub enum HamiltonJacobiError {
         scale: f64,
     },
     /// An initial manifold that the extremals touch: transversals do not leave it.
-    #[error("the extremal touches the initial manifold: dU/dt along it is {rate:e} of terms of {scale:e}")]
+    #[error("the extremal touches the initial manifold: dU/dt along it is {rate:e}, with terms of size {scale:e}")]
     NotTransversal {
         /// U_q·H_p + U_t.
         rate: f64,
@@ -243,7 +248,7 @@ pub enum HamiltonJacobiError {
         scale: f64,
     },
     /// A point on a caustic, where transversals meet and their solution has no second derivatives.
-    #[error("the transversals meet in a caustic: their map has {ratio:e} of the Jacobian that they started with")]
+    #[error("the transversals meet in a caustic: the Jacobian of their map is {ratio:e} of its initial value")]
     OnCaustic {
         /// The Jacobian relative to that of the start.
         ratio: f64,

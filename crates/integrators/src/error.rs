@@ -10,7 +10,7 @@ use core::convert::Infallible;
 #[non_exhaustive]
 pub enum IntegratorsError<E = Infallible> {
     /// A state, or the memory for one, does not fit the field.
-    #[error("`{quantity}` has {found} entries where {expected} are needed")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// The name of the argument.
         quantity: &'static str,
@@ -41,7 +41,8 @@ pub enum IntegratorsError<E = Infallible> {
     },
     /// A tolerance that violates 0 ≤ tolerance < 1, or both tolerances zero.
     #[error(
-        "the relative tolerance {relative} and the absolute tolerance {absolute} must be finite, not negative and not both zero, and the relative one below 1"
+        "the relative tolerance {relative} and the absolute tolerance {absolute} must be finite, not negative and not \
+         both zero; the relative tolerance must be below 1"
     )]
     InvalidTolerance {
         /// The relative tolerance given.
@@ -66,7 +67,9 @@ pub enum IntegratorsError<E = Infallible> {
         step: f64,
     },
     /// The limit on the number of steps was reached.
-    #[error("{steps} steps were taken and only t = {t} was reached; allow more steps or a larger tolerance")]
+    #[error(
+        "the run reached its limit on the number of steps, {steps}, at t = {t}: allow more steps or a larger tolerance"
+    )]
     TooManySteps {
         /// The time reached.
         t: f64,
@@ -75,7 +78,8 @@ pub enum IntegratorsError<E = Infallible> {
     },
     /// The stages of an implicit step did not converge.
     #[error(
-        "the stages of the step from t = {t} did not converge in {iterations} iterations (last change {change:e} of the increment): take a step smaller than {step}"
+        "the stages of the step from t = {t} did not converge in {iterations} iterations (the last one changed the \
+         increment by the fraction {change:e}): take a step smaller than {step}"
     )]
     StagesDiverged {
         /// The time at the start of the step.

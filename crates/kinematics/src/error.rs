@@ -74,7 +74,7 @@ pub enum KinematicsError {
         length: f64,
     },
     /// Q Qᵀ = 1, det Q = 1 is violated beyond rounding.
-    #[error("matrix is not a rotation: deviation of Q Qᵀ from 1 is {deviation}, det Q = {determinant}")]
+    #[error("matrix is not a rotation: the largest entry of Q Qᵀ − 1 is {deviation}, det Q = {determinant}")]
     NotRotation {
         /// Largest entry of Q Qᵀ − 1.
         deviation: f64,
@@ -82,7 +82,7 @@ pub enum KinematicsError {
         determinant: f64,
     },
     /// cond W < 1/ε is violated: at a gimbal point the rates of Eulerian angles do not exist.
-    #[error("theta2 = {theta2} rad is a gimbal point (condition number {condition_number})")]
+    #[error("the second angle, {theta2} rad, is at a gimbal point (condition number {condition_number})")]
     GimbalPoint {
         /// θ² (rad).
         theta2: f64,
@@ -90,7 +90,7 @@ pub enum KinematicsError {
         condition_number: f64,
     },
     /// 2 ≤ threshold < ∞ is violated: below it every chart would have to be left at some attitude.
-    #[error("condition number {threshold} to leave a chart at is not in [{least}, ∞)")]
+    #[error("the condition number at which to leave a chart is {threshold}; it must be finite and at least {least}")]
     ConditionThreshold {
         /// The threshold given.
         threshold: f64,
@@ -98,7 +98,7 @@ pub enum KinematicsError {
         least: f64,
     },
     /// 0 < volume is violated by the vertices of a solid.
-    #[error("vertices span the volume {volume} m³, which is zero to rounding")]
+    #[error("the vertices span the volume {volume} m³, which is zero to rounding")]
     NoVolume {
         /// The volume, in m³.
         volume: f64,
@@ -116,7 +116,7 @@ pub enum KinematicsError {
         vertices: usize,
     },
     /// A triangle has the same vertex at two corners.
-    #[error("triangle {triangle} with the vertices {vertices:?} has one of them twice")]
+    #[error("triangle {triangle} has one vertex at two corners: {vertices:?}")]
     MeshTriangle {
         /// The triangle, from 0.
         triangle: usize,
@@ -132,7 +132,9 @@ pub enum KinematicsError {
         triangle: usize,
     },
     /// Two triangles pass their common edge in the same direction: one of them is turned inside out.
-    #[error("triangles {triangles:?} are turned to opposite sides: both pass the edge {edge:?} the same way")]
+    #[error(
+        "triangles {triangles:?} have opposite orientations: both run along the edge {edge:?} in the same direction"
+    )]
     MeshOrientation {
         /// The two vertices, ascending.
         edge: (usize, usize),
@@ -146,10 +148,10 @@ pub enum KinematicsError {
         volume: f64,
     },
     /// A system has no particles.
-    #[error("a system of particles is empty")]
+    #[error("the system has no particles")]
     NoParticles,
     /// Two sequences that describe the same things differ in length.
-    #[error("`{quantity}` has {found} entries where {expected} are needed")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// What is counted.
         quantity: &'static str,
@@ -160,7 +162,7 @@ pub enum KinematicsError {
     },
     /// direction < number of coordinates is violated (the time of a time-dependent system counts as one
     /// more coordinate, after the others).
-    #[error("direction {direction} does not exist: the system has {directions}")]
+    #[error("direction {direction} does not exist: the number of directions is {directions}")]
     NoSuchDirection {
         /// The direction asked for, from 0.
         direction: usize,

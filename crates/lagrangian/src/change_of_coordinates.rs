@@ -106,7 +106,7 @@ impl<C: ChangeOfCoordinates<N>, const N: usize> ChangeOfCoordinates<N> for &C {
 /// }
 /// let seen = InCoordinates::new(Cartesian, Polar);
 /// assert_eq!(seen.change().old_coordinates(&[3.0, 0.0], 0.0), [3.0, 0.0]);
-/// let metric = Lagrangian::of(seen).inertia_metric(&[3.0, 0.0], 0.0);
+/// let metric = Lagrangian::of(seen).inertia_metric(&[3.0, 0.0], 0.0)?;
 /// assert_eq!((metric[(0, 0)], metric[(0, 1)], metric[(1, 1)]), (4.0, 0.0, 36.0));
 /// assert_eq!(Polar.tangent(&[3.0, 0.0], 0.0, 1), [0.0, 3.0]); // ∂x/∂φ, ∂y/∂φ
 /// let whole = Lagrangian::of(Cartesian).in_coordinates(Polar); // with what acts on it

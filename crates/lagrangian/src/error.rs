@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum LagrangianError {
     /// A slice of the wrong length.
-    #[error("`{quantity}` has {found} components where {expected} are needed")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// The name of the argument.
         quantity: &'static str,
@@ -25,7 +25,7 @@ pub enum LagrangianError {
         value: f64,
     },
     /// A part whose position is infinite or NaN although coordinates and time are finite.
-    #[error("part {part} is nowhere: its position is not finite at these coordinates")]
+    #[error("the position of part {part} is not finite at these coordinates")]
     PartNowhere {
         /// The part's number in the order of placement.
         part: usize,
@@ -63,8 +63,9 @@ pub enum LagrangianError {
     NonlinearPotential,
     /// The inertia metric, or the Hessian ∂²L/∂v∂v, is not positive definite.
     #[error(
-        "the inertia metric is singular: pivot {pivot:e} of coordinate {coordinate} is not positive against {diagonal:e}; \
-         the motion along {direction:?} has no inertia (dependent coordinates, a missing mass, or a singular chart)"
+        "the inertia metric is singular: pivot {pivot:e} of coordinate {coordinate} is not positive beside the \
+         diagonal entry {diagonal:e}; the motion along {direction:?} has no inertia (dependent coordinates, a missing \
+         mass, or a singular chart)"
     )]
     SingularMetric {
         /// The coordinate at which the elimination stopped.
@@ -94,7 +95,7 @@ pub enum LagrangianError {
         squared_length: f64,
     },
     /// An integral over time that does not become accurate, however small the intervals.
-    #[error("the integral still has the error {error:e} after {intervals} intervals: its integrand is not smooth")]
+    #[error("the error of the integral is still {error:e} after {intervals} intervals: the integrand is not smooth")]
     QuadratureNotConverged {
         /// The intervals used.
         intervals: usize,
@@ -102,7 +103,7 @@ pub enum LagrangianError {
         error: f64,
     },
     /// Samples of a motion that are not in the order of time.
-    #[error("the time {time} of sample {index} does not come after the {before} of the one before")]
+    #[error("the time {time} of sample {index} is not later than {before}, the time of the sample before it")]
     TimesNotIncreasing {
         /// The sample.
         index: usize,
@@ -112,7 +113,7 @@ pub enum LagrangianError {
         before: f64,
     },
     /// Too few samples to say anything of the motion between them.
-    #[error("{found} samples are given where at least {needed} are needed")]
+    #[error("too few samples: {found} given, at least {needed} needed")]
     TooFewSamples {
         /// The number given.
         found: usize,
@@ -128,7 +129,7 @@ pub enum LagrangianError {
         source: Box<piola_integrators::IntegratorsError<LagrangianError>>,
     },
     /// A run whose steps are kept failed before its end.
-    #[error("the run stopped at time {time} s after {} steps, which are kept: {source}", run.steps())]
+    #[error("the run stopped at time {time} s and keeps the steps made so far ({}): {source}", run.steps())]
     Unfinished {
         /// The time reached.
         time: f64,
@@ -159,7 +160,11 @@ pub enum LagrangianError {
 #[non_exhaustive]
 pub enum ConstraintError {
     /// A constraint that depends on others, where that is [refused](crate::constraints::Redundancy::Refused).
-    #[error("constraint {constraint}{} depends on others: its gradient is their combination {combination:?}", of(name.as_ref()))]
+    #[error(
+        "constraint {constraint}{} depends on others: its gradient is the combination of theirs with the weights \
+         {combination:?}",
+        of(name.as_ref())
+    )]
     Redundant {
         /// The constraint.
         constraint: usize,
@@ -170,8 +175,8 @@ pub enum ConstraintError {
     },
     /// A constraint that contradicts others: its gradient is a combination of theirs, its residual is not.
     #[error(
-        "constraint {constraint}{} contradicts others: where it should be their combination {combination:?} it differs \
-         by {residual:e}",
+        "constraint {constraint}{} contradicts others: it differs by {residual:e} from their combination with the \
+         weights {combination:?}, which its gradient equals",
         of(name.as_ref())
     )]
     Inconsistent {
@@ -185,7 +190,7 @@ pub enum ConstraintError {
         combination: Vec<f64>,
     },
     /// No state near the guess satisfies the constraints.
-    #[error("no state near the guess satisfies constraint {constraint}{}: {residual:e} is left of it", of(name.as_ref()))]
+    #[error("no state near the guess satisfies constraint {constraint}{} (residual {residual:e})", of(name.as_ref()))]
     NotAssembled {
         /// The constraint that is farthest from being satisfied.
         constraint: usize,
@@ -196,7 +201,8 @@ pub enum ConstraintError {
     },
     /// The number of independent constraints changes: the motion may branch there.
     #[error(
-        "at time {time} s constraint {constraint}{} becomes dependent on others, or ceases to be: the position is singular",
+        "at time {time} s constraint {constraint}{} becomes dependent on others, or independent of them: the position \
+         is singular",
         of(name.as_ref())
     )]
     Singular {
@@ -223,8 +229,8 @@ pub enum ConstraintError {
 pub enum AnholonomicError {
     /// The vectors of a frame, or the quasi-velocities of a coframe, depend on each other.
     #[error(
-        "the frame is singular: quasi-velocity {index} depends on the others (pivot {pivot:e} against {scale:e}); the \
-         combination {combination:?} vanishes"
+        "the frame is singular: quasi-velocity {index} depends on the others (pivot {pivot:e} beside {scale:e}); the \
+         combination with the weights {combination:?} vanishes"
     )]
     SingularFrame {
         /// The quasi-velocity at which the elimination stopped.
@@ -237,7 +243,7 @@ pub enum AnholonomicError {
         combination: Vec<f64>,
     },
     /// An index beyond the last quasi-velocity.
-    #[error("there is no quasi-velocity {index}: the frame has {count}")]
+    #[error("there is no quasi-velocity {index}: the number of quasi-velocities is {count}")]
     NoSuchQuasiVelocity {
         /// The index asked for.
         index: usize,
@@ -265,7 +271,10 @@ pub enum AnholonomicError {
 #[non_exhaustive]
 pub enum SmallMotionsError {
     /// The forces do not balance anywhere near the guess.
-    #[error("no equilibrium was found in {iterations} steps: the forces left are {residual:e} of those that balance")]
+    #[error(
+        "no equilibrium was found (Newton steps: {iterations}): the residual force is {residual:e} of the forces that \
+         balance"
+    )]
     NoEquilibrium {
         /// Newton steps made.
         iterations: usize,
@@ -274,7 +283,8 @@ pub enum SmallMotionsError {
     },
     /// A displacement that changes no force: the equilibrium is not isolated, or cannot be sought from here.
     #[error(
-        "the stiffness is singular ({ratio:e} of the largest) along {direction:?}: no force answers that displacement"
+        "the stiffness is singular (ratio of singular values {ratio:e}): a displacement along {direction:?} changes no \
+         force"
     )]
     SingularStiffness {
         /// Smallest over largest singular value of the stiffness by units of mass.
@@ -283,7 +293,7 @@ pub enum SmallMotionsError {
         direction: Vec<f64>,
     },
     /// The iteration for eigenvalues or singular values does not converge.
-    #[error("the eigenvalues of a matrix of {rows} rows were not found")]
+    #[error("the iteration for the eigenvalues of a matrix did not converge (number of rows: {rows})")]
     NoEigenvalues {
         /// The rows of the matrix.
         rows: usize,

@@ -69,7 +69,7 @@ impl<L: LagrangianFunction> Lagrangian<NoParts, Negative<L>> {
     /// | [`reactions`](Lagrangian::reactions) | no reactions |
     /// | [`system_momentum`](Lagrangian::system_momentum), kinetic energy | zero |
     /// | [`with_gravity`](Lagrangian::with_gravity), forces on parts | no effect: nothing is there to pull |
-    /// | [`inertia_metric_into`](Lagrangian::inertia_metric_into), that of [`InFrame`](crate::anholonomic::InFrame) | [`LagrangianError::NoParts`](crate::LagrangianError::NoParts) |
+    /// | [`inertia_metric`](Lagrangian::inertia_metric), that of [`InFrame`](crate::anholonomic::InFrame), Christoffel symbols | [`LagrangianError::NoParts`](crate::LagrangianError::NoParts) |
     /// | [`equations_into`](Lagrangian::equations_into) | the mass matrix ∂²L/∂q̇∂q̇, which stands for the metric |
     ///
     /// [`geodesic`](Lagrangian::geodesic) refuses every direction: none has a length.

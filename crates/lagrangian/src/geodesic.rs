@@ -177,7 +177,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// Lowers the index of a vector: x_Δ = g_ΔΓ x^Γ.
     ///
     /// # Errors
-    /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`].
+    /// [`LagrangianError::WrongLength`], [`LagrangianError::NotFinite`]; those of
+    /// [`inertia_metric`](Self::inertia_metric).
     ///
     /// # Source
     /// W(6.8).
@@ -186,6 +187,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         check_length("vector", n, vector.len())?;
         let mut work = Workspace::default();
         self.form_inertia_metric(&mut work, q, t);
+        self.refuse_without_parts(q, t, &work.metric)?;
         let row = |i: usize| (0..n).fold(T::zero(), |sum, j| sum + work.metric[i + j * n] * vector[j]);
         let lowered = DVector::from_fn(n, |i, _| row(i));
         self.finite([("q", q), ("vector", vector)], t, ("covector", lowered.as_slice()))?;

@@ -20,9 +20,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// ```
     ///
     /// It is symmetric and positive semidefinite, and definite where the coordinates are independent. The
-    /// unit of an entry is kg m² over the units of its two coordinates. It is that of the parts: zero for a system
-    /// [given by a function](Lagrangian::from_function), which [`inertia_metric_into`](Self::inertia_metric_into)
-    /// refuses.
+    /// unit of an entry is kg m² over the units of its two coordinates.
+    ///
+    /// # Errors
+    /// [`LagrangianError::NoParts`] where a system has none, as one
+    /// [given by its Lagrangian function](Lagrangian::from_function): its mass matrix is that of
+    /// [`equations_into`](Self::equations_into).
     ///
     /// # Accuracy
     /// A few ulp of √(g_ΔΔ g_ΓΓ).
@@ -40,9 +43,9 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///     }
     /// }
     /// let (polar, q) = (Lagrangian::of(Polar), [2.0, 0.0]);
-    /// let g = polar.inertia_metric(&q, 0.0);
+    /// let g = polar.inertia_metric(&q, 0.0)?;
     /// assert_eq!((g[(0, 0)], g[(1, 1)], g[(0, 1)]), (4.0, 16.0, 0.0)); // m dr² + m r² dφ²
-    /// let (first, second) = (polar.christoffel_first(&q, 0.0), polar.christoffel_second(&q, 0.0)?);
+    /// let (first, second) = (polar.christoffel_first(&q, 0.0)?, polar.christoffel_second(&q, 0.0)?);
     /// assert_eq!((first[0][(1, 1)], first[1][(0, 1)]), (-8.0, 8.0)); // [φφ,r] = −m r and [rφ,φ] = m r
     /// assert_eq!((second[0][(1, 1)], second[1][(0, 1)]), (-2.0, 0.5)); // Γ^r_φφ = −r and Γ^φ_rφ = 1/r
     /// // Once around with 3 rad/s: r̈ − r φ̇² = −18 m/s²; and a moment of 32 N m turns with 2 rad/s².
@@ -54,18 +57,18 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     ///
     /// # Source
     /// W(3.16).
-    pub fn inertia_metric<T: Real>(&self, q: &[T], t: T) -> DMatrix<T> {
+    pub fn inertia_metric<T: Real>(&self, q: &[T], t: T) -> Result<DMatrix<T>, LagrangianError> {
         let mut work = Workspace::default();
         self.form_inertia_metric(&mut work, q, t);
-        DMatrix::from_column_slice(q.len(), q.len(), &work.metric)
+        self.refuse_without_parts(q, t, &work.metric)?;
+        Ok(DMatrix::from_column_slice(q.len(), q.len(), &work.metric))
     }
 
     /// [`inertia_metric`](Self::inertia_metric) to the caller's memory, entry (i, j) at `i + j n`, without
     /// allocation once `work` has been used.
     ///
     /// # Errors
-    /// [`LagrangianError::WrongLength`]; [`LagrangianError::NoParts`] where a system has none, as one given by its
-    /// Lagrangian function.
+    /// [`LagrangianError::WrongLength`]; those of [`inertia_metric`](Self::inertia_metric).
     pub fn inertia_metric_into<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -81,7 +84,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// Refuses a metric that is zero because there is nothing that has inertia.
-    pub(crate) fn refuse_without_parts<T: Real>(&self, q: &[T], t: T, metric: &[T]) -> Result<(), LagrangianError> {
+    pub(super) fn refuse_without_parts<T: Real>(&self, q: &[T], t: T, metric: &[T]) -> Result<(), LagrangianError> {
         let nothing = !q.is_empty() && metric.iter().all(T::is_zero) && self.parts(q, t) == 0;
         if nothing { Err(LagrangianError::NoParts) } else { Ok(()) }
     }
@@ -122,12 +125,15 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// [ΔΘ,Σ] = ½ (∂g_ΘΣ/∂q^Δ + ∂g_ΔΣ/∂q^Θ − ∂g_ΔΘ/∂q^Σ)
     /// ```
     ///
+    /// # Errors
+    /// Those of [`inertia_metric`](Self::inertia_metric).
+    ///
     /// # Accuracy
     /// The metric is differentiated exactly: a few ulp of the largest of the three terms.
     ///
     /// # Source
     /// W(6.5).
-    pub fn christoffel_first<T: Real>(&self, q: &[T], t: T) -> Vec<DMatrix<T>> {
+    pub fn christoffel_first<T: Real>(&self, q: &[T], t: T) -> Result<Vec<DMatrix<T>>, LagrangianError> {
         let n = q.len();
         let mut work = Workspace::<Dual<T>>::default();
         let mut coordinates: Vec<Dual<T>> = q.iter().map(|&q| Dual::constant(q)).collect();
@@ -136,13 +142,12 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             coordinates[i] = Dual::variable(q[i]);
             self.form_inertia_metric(&mut work, &coordinates, Dual::constant(t));
             coordinates[i] = Dual::constant(q[i]);
+            self.refuse_without_parts(&coordinates, Dual::constant(t), &work.metric)?;
             rates.push(DMatrix::from_fn(n, n, |row, column| work.metric[row + column * n].tangent));
         }
-        (0..n)
-            .map(|s| {
-                DMatrix::from_fn(n, n, |a, b| T::lit(0.5) * (rates[a][(b, s)] + rates[b][(a, s)] - rates[s][(a, b)]))
-            })
-            .collect()
+        let half = T::lit(0.5);
+        let symbol = |s: usize, a: usize, b: usize| half * (rates[a][(b, s)] + rates[b][(a, s)] - rates[s][(a, b)]);
+        Ok((0..n).map(|s| DMatrix::from_fn(n, n, |a, b| symbol(s, a, b))).collect())
     }
 
     /// The Christoffel symbols of the second kind, entry Γ^Γ_ΔΘ at `[Γ](Δ, Θ)`.
@@ -152,7 +157,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// ```
     ///
     /// # Errors
-    /// [`LagrangianError::Numerics`] when the metric is singular.
+    /// [`LagrangianError::Numerics`] when the metric is singular; those of [`inertia_metric`](Self::inertia_metric).
     ///
     /// # Accuracy
     /// A few ulp times the condition number of the metric.
@@ -161,8 +166,8 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     /// W(6.6).
     pub fn christoffel_second<T: Real>(&self, q: &[T], t: T) -> Result<Vec<DMatrix<T>>, LagrangianError> {
         let n = q.len();
-        let first = self.christoffel_first(q, t);
-        let factors = ldlt::Ldlt::new(&self.inertia_metric(q, t))?;
+        let first = self.christoffel_first(q, t)?;
+        let factors = ldlt::Ldlt::new(&self.inertia_metric(q, t)?)?;
         let mut second = vec![DMatrix::from_element(n, n, T::zero()); n];
         let mut column = vec![T::zero(); n];
         for a in 0..n {

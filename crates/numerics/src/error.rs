@@ -16,7 +16,7 @@
 #[non_exhaustive]
 pub enum NumericsError {
     /// A vector or matrix has the wrong number of entries.
-    #[error("`{quantity}` has {found} entries where {expected} are needed")]
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// The name of the argument.
         quantity: &'static str,
@@ -37,8 +37,8 @@ pub enum NumericsError {
     },
     /// 0 < d violated for a pivot d of L D Lᵀ: the matrix is indefinite, or singular to rounding.
     #[error(
-        "pivot {pivot} is {value:e} where the diagonal entry is {diagonal:e}: the matrix is not positive definite, \
-         its first {pivot} columns and this one are dependent or indefinite"
+        "the matrix is not positive definite: pivot {pivot} is {value:e} where the diagonal entry is {diagonal:e}, so \
+         columns 0 to {pivot} are dependent or indefinite"
     )]
     NotPositiveDefinite {
         /// The index of the pivot, counted from 0.
@@ -50,7 +50,7 @@ pub enum NumericsError {
     },
     /// 0 < |u| violated for a pivot u of an elimination, or 0 < |det A| for a 3×3 matrix: singular to
     /// rounding.
-    #[error("pivot {pivot} is {value:e} where the entries it comes from are of size {scale:e}: the matrix is singular")]
+    #[error("the matrix is singular: pivot {pivot} is {value:e} where the entries it comes from are of size {scale:e}")]
     Singular {
         /// The index of the pivot, counted from 0; 3 when it is the determinant of a 3×3 matrix.
         pivot: usize,

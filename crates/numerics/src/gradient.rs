@@ -5,6 +5,17 @@
 
 use crate::Real;
 
+/// An array from the values of its components: a tenth of the code of `core::array::from_fn`, which must mind values
+/// that are dropped. Each operation of the jets has one, so that it weighs in every build. `any` only fills the array.
+#[inline(always)]
+pub(crate) fn components<T: Copy, const N: usize>(any: T, f: impl Fn(usize) -> T) -> [T; N] {
+    let mut components = [any; N];
+    for (i, component) in components.iter_mut().enumerate() {
+        *component = f(i);
+    }
+    components
+}
+
 /// A value and N partial derivatives, exact to rounding.
 ///
 /// # Example
@@ -43,24 +54,24 @@ impl<T: Real, const N: usize> Gradient<T, N> {
     #[inline(always)]
     fn chain(self, f: T, f1: impl FnOnce() -> T, _f2: impl FnOnce() -> T) -> Self {
         let f1 = f1();
-        Self { value: f, partials: self.partials.map(|x| x * f1) }
+        Self { value: f, partials: components(self.value, |i| self.partials[i] * f1) }
     }
     #[inline(always)]
     fn linear(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         Self {
             value: f(self.value, other.value),
-            partials: core::array::from_fn(|i| f(self.partials[i], other.partials[i])),
+            partials: components(self.value, |i| f(self.partials[i], other.partials[i])),
         }
     }
     #[inline(always)]
     fn each(self, f: impl Fn(T) -> T) -> Self {
-        Self { value: f(self.value), partials: self.partials.map(f) }
+        Self { value: f(self.value), partials: components(self.value, |i| f(self.partials[i])) }
     }
     #[inline(always)]
     fn product(self, o: Self) -> Self {
         Self {
             value: self.value * o.value,
-            partials: core::array::from_fn(|i| self.partials[i] * o.value + self.value * o.partials[i]),
+            partials: components(self.value, |i| self.partials[i] * o.value + self.value * o.partials[i]),
         }
     }
     #[inline(always)]
@@ -68,7 +79,7 @@ impl<T: Real, const N: usize> Gradient<T, N> {
         // The value is divided and not multiplied by r: it is that of the plain scalar, to the last bit.
         let r = T::one() / o.value;
         let value = self.value / o.value;
-        Self { value, partials: core::array::from_fn(|i| (self.partials[i] - value * o.partials[i]) * r) }
+        Self { value, partials: components(self.value, |i| (self.partials[i] - value * o.partials[i]) * r) }
     }
 }
 

@@ -7,9 +7,9 @@ use piola::fit::solids::{AnyModel, Data, Measure, Options, Table, Test, fit};
 use piola::fluids::PowerLaw;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    // Nominal stresses 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ) of C₁₀ = 0.3, C₀₁ = 0.1 MPa, rounded to four decimals.
+    // First Piola–Kirchhoff stresses 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ) of C₁₀ = 0.3, C₀₁ = 0.1 MPa, rounded to four decimals.
     let bar = Table::Uniaxial(vec![[1.25, 0.4636], [1.5, 0.7741], [2.0, 1.2250], [3.0, 1.9259], [4.0, 2.5594]]);
-    let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
+    let data = Data::new(vec![Test::new("bar", bar, Measure::FirstPiola)?])?;
     let rubber = fit(&AnyModel::MooneyRivlin, &data, &Options::default())?;
     for (parameter, by_hand) in rubber.parameters.iter().zip([0.3, 0.1]) {
         println!("{} = {:.5} MPa", parameter.name, parameter.value);

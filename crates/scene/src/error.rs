@@ -27,7 +27,10 @@ pub enum SceneError {
         path: PathBuf,
     },
     /// The file is larger than scenes may be.
-    #[error("`{}` has {bytes} bytes, a scene has at most {most}: put large data in a table that the scene names", path.display())]
+    #[error(
+        "`{}` has {bytes} bytes; a scene has at most {most}: put large data in a table that the scene names",
+        path.display()
+    )]
     TooLarge {
         /// The path as given.
         path: PathBuf,

@@ -44,13 +44,16 @@ pub enum SolidsError {
         limit: f64,
     },
     /// The law has no limit here, but the result overflows the scalar.
-    #[error("the answer `{answer}` is beyond the range of the scalar; valid are deformations at which it is finite")]
+    #[error("`{answer}` overflows the scalar type at this deformation")]
     Overflow {
         /// The requested quantity.
         answer: &'static str,
     },
     /// A constraint is not the same for all observers: its reaction is not symmetric.
-    #[error("the reaction of the constraint has a skew part {skew:e} beside {size:e}: it depends on the observer")]
+    #[error(
+        "the constraint depends on the observer: its reaction has a skew part of {skew:e}, with a largest entry of \
+         {size:e}"
+    )]
     ConstraintDependsOnObserver {
         /// The largest entry of the skew part of F (∂μ/∂F)ᵀ.
         skew: f64,
@@ -70,7 +73,7 @@ pub enum SolidsError {
         share: f64,
     },
     /// Constraints contradict one another.
-    #[error("constraint {index} contradicts the others by {residual:e}")]
+    #[error("constraint {index} contradicts the others (residual {residual:e})")]
     InconsistentConstraints {
         /// The constraint, from 0.
         index: usize,
@@ -78,7 +81,7 @@ pub enum SolidsError {
         residual: f64,
     },
     /// The deformation violates a constraint.
-    #[error("the deformation violates constraint {index}: {value:e} is not zero to {tolerance:e}")]
+    #[error("the deformation violates constraint {index}: its value is {value:e}, beyond the tolerance {tolerance:e}")]
     ConstraintViolated {
         /// The constraint, from 0.
         index: usize,
@@ -88,7 +91,10 @@ pub enum SolidsError {
         tolerance: f64,
     },
     /// Conditions on the stress do not determine the multiplier of a constraint.
-    #[error("the conditions do not determine the multiplier of constraint {index}: only {rank} of {count}")]
+    #[error(
+        "the conditions do not determine the multiplier of constraint {index}: their rank is {rank}, the number of \
+         multipliers {count}"
+    )]
     UndeterminedMultiplier {
         /// The constraint, from 0.
         index: usize,
@@ -98,7 +104,7 @@ pub enum SolidsError {
         count: usize,
     },
     /// No multipliers satisfy a condition on the stress.
-    #[error("no reaction satisfies condition {index}: {residual:e} remains")]
+    #[error("no reaction satisfies condition {index} (residual {residual:e} Pa)")]
     ImpossibleCondition {
         /// The condition, from 0.
         index: usize,
@@ -107,7 +113,7 @@ pub enum SolidsError {
     },
     /// Points of a batch are bad; the outputs of all others are computed.
     #[cfg(feature = "batch")]
-    #[error("{} of {count} points are bad: {}", points.len(), first_of(points))]
+    #[error("{} of {count} points failed: {}", points.len(), first_of(points))]
     BadPoints {
         /// All bad points, in order.
         points: Vec<BadPoint>,

@@ -185,8 +185,8 @@ pub trait Hyperelastic {
         &self,
         deformation: &impl Deformation<T>,
     ) -> (SecondPiola<T>, MaterialTangent<T>) {
-        let (nominal, tangent) = self.first_piola_and_tangent(deformation);
-        let stress = nominal.second_piola(deformation);
+        let (first_piola, tangent) = self.first_piola_and_tangent(deformation);
+        let stress = first_piola.second_piola(deformation);
         (stress, MaterialTangent(tangent.material(&stress, deformation).0.major_part()))
     }
 

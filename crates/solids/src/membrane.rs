@@ -1,7 +1,8 @@
 //! The membrane and the thin plate as models of a displacement field: energies of its first and of its second gradient.
 //!
 //! # Derivation
-//! Let u vanish to sufficient order on the boundary and let f be the body force. Stationary is, for every variation δu,
+//! Let u vanish to sufficient order on the boundary and let f be the force per volume, N/m³. Stationary is, for every
+//! variation δu,
 //!
 //! ```text
 //! membrane   Π = ∫ (½ τ |∇u|² − f · u) dV
@@ -79,11 +80,11 @@ impl Membrane {
         FirstPiolaTangent(FourthOrder { components })
     }
 
-    /// f + τ Δu, N/m³: zero in equilibrium.
+    /// f + τ Δu, N/m³, of the force per volume f, N/m³, and Δu, 1/m: zero in equilibrium.
     #[inline(always)]
     #[must_use]
-    pub fn residual<T: Real>(&self, body_force: &Vector3<T>, laplacian: &Vector3<T>) -> Vector3<T> {
-        body_force + laplacian * T::lit(self.tension)
+    pub fn residual<T: Real>(&self, force_per_volume: &Vector3<T>, laplacian: &Vector3<T>) -> Vector3<T> {
+        force_per_volume + laplacian * T::lit(self.tension)
     }
 
     /// −τ |k|², by which the operator multiplies a wave exp(i k · X), N/m⁴; k in rad/m.
@@ -144,11 +145,11 @@ impl ThinPlate {
         T::lit(self.stiffness)
     }
 
-    /// f − D Δ²u, N/m³: zero in equilibrium.
+    /// f − D Δ²u, N/m³, of the force per volume f, N/m³, and Δ²u, 1/m³: zero in equilibrium.
     #[inline(always)]
     #[must_use]
-    pub fn residual<T: Real>(&self, body_force: &Vector3<T>, bilaplacian: &Vector3<T>) -> Vector3<T> {
-        body_force - bilaplacian * T::lit(self.stiffness)
+    pub fn residual<T: Real>(&self, force_per_volume: &Vector3<T>, bilaplacian: &Vector3<T>) -> Vector3<T> {
+        force_per_volume - bilaplacian * T::lit(self.stiffness)
     }
 
     /// −D |k|⁴, by which the operator multiplies a wave exp(i k · X), N/m⁴; k in rad/m.

@@ -106,6 +106,6 @@ pub(super) fn both<T: Real>(n: [T; 54]) -> (FirstPiola<T>, FirstPiolaTangent<T>)
         [n[16], n[24], n[31], n[37], n[42], n[46], n[49], n[51], n[52]],
         [n[17], n[25], n[32], n[38], n[43], n[47], n[50], n[52], n[53]],
     ];
-    let nominal = FirstPiola(from_rows([[n[0], n[1], n[2]], [n[3], n[4], n[5]], [n[6], n[7], n[8]]]));
-    (nominal, FirstPiolaTangent(FourthOrder { components }))
+    let first_piola = FirstPiola(from_rows([[n[0], n[1], n[2]], [n[3], n[4], n[5]], [n[6], n[7], n[8]]]));
+    (first_piola, FirstPiolaTangent(FourthOrder { components }))
 }

@@ -39,13 +39,13 @@ pub(super) trait StrainEnergy {
     /// P = F S.
     #[inline(always)]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
-        nominal(&self.stress(deformation), deformation)
+        first_piola_of(&self.stress(deformation), deformation)
     }
     /// P and the 45 entries of ∂P/∂F on and above its diagonal: what batches write.
     #[inline(always)]
     fn upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         let (stress, tangent) = self.stress_and_tangent(deformation);
-        nominal_numbers(deformation.gradient_rows(), &stress, &tangent)
+        first_piola_numbers(deformation.gradient_rows(), &stress, &tangent)
     }
     /// Where the law has no answer.
     #[inline(always)]
@@ -89,13 +89,13 @@ impl<L: GreenEnergy> Lanewise<18, 54> for OfGreen<L> {
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
         let [f, h] = packed::gradients(inputs);
         let (stress, tangent) = self.0.green_stress_and_tangent(&green(h));
-        nominal_numbers(f, &stress, &tangent)
+        first_piola_numbers(f, &stress, &tangent)
     }
 }
 
 /// P = F S.
 #[inline(always)]
-pub(super) fn nominal<T: Real>(stress: &Symmetric<T>, deformation: &impl Deformation<T>) -> FirstPiola<T> {
+pub(super) fn first_piola_of<T: Real>(stress: &Symmetric<T>, deformation: &impl Deformation<T>) -> FirstPiola<T> {
     FirstPiola(from_rows(product(deformation.gradient_rows(), stress.rows())))
 }
 
@@ -104,7 +104,7 @@ pub(super) fn nominal<T: Real>(stress: &Symmetric<T>, deformation: &impl Deforma
 /// The kernel of `continuum` serves tangents without major symmetry, too: 81 entries in loops. A loop over lanes around that does
 /// not become vectors (75 ns a point for St. Venant and Kirchhoff's law of any symmetry); 45 entries written out do (9 ns).
 #[inline(always)]
-pub(super) fn nominal_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
+pub(super) fn first_piola_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
     let (s, slots) = (stress.rows(), tangent.slots());
     let mut entries = [[T::zero(); 9]; 9];
     macro_rules! row {
@@ -161,7 +161,7 @@ pub(super) fn constant_tangent<T: Real>(tensor: &MajorSymmetric) -> MajorSymmetr
     MajorSymmetric { components }
 }
 
-/// Stress and the upper triangle of a tangent that is that of strain. Written out as [`nominal_numbers`].
+/// Stress and the upper triangle of a tangent that is that of strain. Written out as [`first_piola_numbers`].
 #[inline(always)]
 pub(super) fn linear_numbers<T: Real>(stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
     let slots = tangent.slots();
@@ -220,13 +220,13 @@ macro_rules! hyperelastic_of_strain {
                 }
                 energy_and_first_piola -> (T, piola_continuum::FirstPiola<T>) {
                     let (energy, stress, _) = self.energy_stress_and_tangent(deformation);
-                    (energy, $crate::strain_energy::nominal(&stress, deformation))
+                    (energy, $crate::strain_energy::first_piola_of(&stress, deformation))
                 }
                 energy_first_piola_and_tangent ->
                     (T, piola_continuum::FirstPiola<T>, piola_continuum::stress::tangents::FirstPiolaTangent<T>) {
                     let (energy, stress, tangent) = self.energy_stress_and_tangent(deformation);
                     let f = deformation.gradient_rows();
-                    let numbers = $crate::strain_energy::nominal_numbers(f, &stress, &tangent);
+                    let numbers = $crate::strain_energy::first_piola_numbers(f, &stress, &tangent);
                     let (stress, tangent) = $crate::packed::both(numbers);
                     (energy, stress, tangent)
                 }

@@ -31,8 +31,8 @@ pub enum SpecimensError {
     },
     /// No state was found in which everything prescribed holds.
     #[error(
-        "equilibrium not reached after {iterations} iterations: at {share} of the load, F = {gradient:?}, \
-         a stress is off by {residual:e} Pa from the whole load"
+        "no equilibrium was reached in {iterations} iterations: the best state, F = {gradient:?}, carries the share \
+         {share} of the load; its largest error from the prescribed stresses is {residual:e} Pa"
     )]
     NotConverged {
         /// The largest difference from the prescribed stresses in the best state, Pa.
@@ -45,7 +45,9 @@ pub enum SpecimensError {
         gradient: [[f64; 3]; 3],
     },
     /// The tangent of the free components is singular: a rotation or another mode is left free.
-    #[error("what is prescribed does not determine the deformation near F = {gradient:?}: the tangent is singular")]
+    #[error(
+        "the prescribed components do not determine the deformation near F = {gradient:?}: the tangent is singular"
+    )]
     Indeterminate {
         /// F where it was found, by rows.
         gradient: [[f64; 3]; 3],
@@ -70,8 +72,8 @@ pub enum SpecimensError {
     },
     /// Displacements that are prescribed violate a constraint, whatever the free components do.
     #[error(
-        "what is prescribed contradicts constraint {index}: it is {value:e} at F = {gradient:?}, where no free component \
-         changes it; valid: 0"
+        "the prescribed components contradict constraint {index}: at F = {gradient:?} its value is {value:e}, and no \
+         free component can make it 0"
     )]
     ContradictedConstraint {
         /// The constraint, from 0.

@@ -18,8 +18,8 @@ pub enum TensorError {
     },
     /// `T_ij` = `T_ji` is violated.
     #[error(
-        "{quantity} is not symmetric: entries ({row},{column}) and ({column},{row}) differ by {difference:e}, \
-         more than rounding of its largest entry {scale:e}"
+        "{quantity} is not symmetric: entries ({row},{column}) and ({column},{row}) differ by {difference:e}, more \
+         than the rounding of its largest entry {scale:e}"
     )]
     NotSymmetric {
         /// What should be symmetric.
@@ -35,8 +35,8 @@ pub enum TensorError {
     },
     /// `W_ij` = −`W_ji` is violated.
     #[error(
-        "not skew: entries ({row},{column}) and ({column},{row}) add up to {sum:e}, \
-         more than rounding of the largest entry {scale:e}"
+        "the tensor is not skew: entries ({row},{column}) and ({column},{row}) add up to {sum:e}, more than the \
+         rounding of the largest entry {scale:e}"
     )]
     NotSkew {
         /// Row of the entry on or above the diagonal, from 0.
@@ -50,8 +50,8 @@ pub enum TensorError {
     },
     /// `C_ijkl` = `C_jikl` or `C_ijkl` = `C_ijlk` is violated.
     #[error(
-        "a fourth-order tensor lacks a minor symmetry: entry {entry:?} differs by {difference:e} from the one with \
-         two indices exchanged, more than rounding of the largest entry {scale:e}"
+        "the fourth-order tensor lacks a minor symmetry: entry {entry:?} differs by {difference:e} from the one with \
+         two indices exchanged, more than the rounding of the largest entry {scale:e}"
     )]
     NotMinorSymmetric {
         /// Indices i, j, k, l of the entry, from 0.
@@ -63,8 +63,8 @@ pub enum TensorError {
     },
     /// `C_ijkl` = `C_klij` is violated.
     #[error(
-        "a fourth-order tensor lacks the major symmetry: entry {entry:?} differs by {difference:e} from the one with \
-         the pairs exchanged, more than rounding of the largest entry {scale:e}"
+        "the fourth-order tensor lacks the major symmetry: entry {entry:?} differs by {difference:e} from the one with \
+         the pairs exchanged, more than the rounding of the largest entry {scale:e}"
     )]
     NotMajorSymmetric {
         /// Indices i, j, k, l of the entry, from 0.
@@ -75,7 +75,7 @@ pub enum TensorError {
         scale: f64,
     },
     /// det A ≠ 0 is violated for a tensor that should be inverted.
-    #[error("the tensor is singular: divided by {scale:e} its determinant, or a pivot, is {relative_determinant:e}")]
+    #[error("the tensor is singular: divided by {scale:e}, it has a determinant or pivot of {relative_determinant:e}")]
     SingularTensor {
         /// The determinant, or the pivot, of A/scale.
         relative_determinant: f64,
@@ -83,7 +83,7 @@ pub enum TensorError {
         scale: f64,
     },
     /// `QᵀQ` = 1 or 0 < det Q is violated for what should be a rotation.
-    #[error("not a rotation: QᵀQ − 1 has an entry {defect:e}, det Q = {determinant}")]
+    #[error("the matrix is not a rotation: the largest entry of QᵀQ − 1 is {defect:e}, det Q = {determinant}")]
     NotARotation {
         /// The largest entry of `QᵀQ` − 1 in modulus.
         defect: f64,
@@ -92,7 +92,8 @@ pub enum TensorError {
     },
     /// A tensor that belongs to a deformation has a negative leading minor.
     #[error(
-        "{quantity} is not positive definite: its leading minor of order {order} is {minor:e} when its entries are divided by {scale:e}"
+        "{quantity} is not positive definite: divided by its largest entry {scale:e}, it has a leading minor of order \
+         {order} of {minor:e}"
     )]
     NotPositiveDefinite {
         /// The tensor, for a strain the squared length that it stands for.

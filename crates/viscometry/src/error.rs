@@ -39,7 +39,7 @@ pub enum ViscometryError {
         slope: f64,
     },
     /// The error of an integral stays large: the integrand jumps or is not smooth.
-    #[error("the integral {value:e} is known to {error:e} only")]
+    #[error("the integral did not converge: its value is {value:e} with the error {error:e}")]
     NotConverged {
         /// The integral.
         value: f64,
@@ -57,7 +57,7 @@ pub enum ViscometryError {
         value: f64,
     },
     /// There is not one answer for each place.
-    #[error("{flow}: `{quantity}` has {found} entries where {expected} are needed")]
+    #[error("{flow}: `{quantity}` has length {found}; length {expected} is needed")]
     WrongLength {
         /// The flow.
         flow: &'static str,
@@ -79,7 +79,7 @@ pub enum ViscometryError {
         value: f64,
     },
     /// Two rows of a table have the same drive.
-    #[error("row {row}: {value:e} stands in the row before too")]
+    #[error("row {row}: {value:e} repeats the value of the row before")]
     RowTwice {
         /// The second row, from 0.
         row: usize,
@@ -87,7 +87,7 @@ pub enum ViscometryError {
         value: f64,
     },
     /// The rows of a table do not rise in the drive.
-    #[error("row {row}: {value:e} follows {previous:e}: rows are not sorted")]
+    #[error("row {row}: {value:e} is below {previous:e} of the row before: sort the rows")]
     RowNotSorted {
         /// The row, from 0.
         row: usize,
@@ -97,7 +97,7 @@ pub enum ViscometryError {
         previous: f64,
     },
     /// The response of a table falls, by more than its noise explains, where the drive rises.
-    #[error("row {row}: the response {value:e} is not above the {previous:e} of a smaller drive")]
+    #[error("row {row}: the response {value:e} is not above {previous:e}, the response at a smaller drive")]
     ResponseFalls {
         /// The row, from 0.
         row: usize,
@@ -107,7 +107,7 @@ pub enum ViscometryError {
         previous: f64,
     },
     /// A table is too short for a derivative.
-    #[error("{rows} rows: {least} at least are needed")]
+    #[error("too few rows: {rows} given, at least {least} needed")]
     TooFewRows {
         /// Its rows.
         rows: usize,
@@ -115,19 +115,19 @@ pub enum ViscometryError {
         least: usize,
     },
     /// Drives of a table are too close together for a curve.
-    #[error("no curve was found through {rows} rows: their drives are too close together")]
+    #[error("no curve was found through the {rows} rows: their drives are too close together")]
     RowsTooClose {
         /// Its rows.
         rows: usize,
     },
     /// A recovered value is not positive: noise is stronger than the flow.
-    #[error("nothing positive is recovered at {at:e}: noise is stronger than the flow")]
+    #[error("no positive value was recovered at {at:e}: the noise is stronger than the flow")]
     NotRecovered {
         /// Where, in the unit of the abscissa.
         at: f64,
     },
     /// A recovered curve is asked for beyond what was measured.
-    #[error("{value:e} is not between {lowest:e} and {highest:e}, where there are measurements")]
+    #[error("{value:e} lies outside the measured range, {lowest:e} to {highest:e}")]
     NotMeasured {
         /// The abscissa.
         value: f64,
@@ -149,9 +149,11 @@ pub enum ViscometryError {
         drive: f64,
     },
     /// The series of coaxial cylinders does not come to a value.
-    #[error("the series at the torque {torque:e} is known to {error:e} only after {terms} terms")]
+    #[error(
+        "the series at the torque per length {torque:e} N did not converge: its error is {error:e} after {terms} terms"
+    )]
     SeriesNotConverged {
-        /// The torque, N.
+        /// The torque per length, N.
         torque: f64,
         /// Its terms.
         terms: usize,
@@ -159,7 +161,7 @@ pub enum ViscometryError {
         error: f64,
     },
     /// A correction needs more tables.
-    #[error("{tables} tables: {least} at least are needed")]
+    #[error("too few tables: {tables} given, at least {least} needed")]
     TooFewTables {
         /// The tables.
         tables: usize,
@@ -167,7 +169,7 @@ pub enum ViscometryError {
         least: usize,
     },
     /// A correction needs geometries that differ.
-    #[error("the {quantity} {value:e} of all tables is the same")]
+    #[error("the {quantity} is {value:e} m in all tables; it must differ between them")]
     SameGeometry {
         /// The quantity that does not differ.
         quantity: &'static str,
@@ -175,7 +177,7 @@ pub enum ViscometryError {
         value: f64,
     },
     /// A correction needs geometries that agree.
-    #[error("the {quantity} of tables differs: {} and {}", values[0], values[1])]
+    #[error("the {quantity} must be the same in all tables; two of them have {} m and {} m", values[0], values[1])]
     DifferentGeometry {
         /// The quantity that differs.
         quantity: &'static str,
@@ -183,7 +185,9 @@ pub enum ViscometryError {
         values: [f64; 2],
     },
     /// Tables that are to be compared do not overlap.
-    #[error("no measurement of the first table is reached by all: they share {lowest:e} to {highest:e}")]
+    #[error(
+        "no measurement of the first table lies between {lowest:e} and {highest:e}, the range that all tables cover"
+    )]
     NothingInCommon {
         /// The lowest that all reach.
         lowest: f64,

@@ -105,7 +105,7 @@ fn word(text: &str) -> String {
 
 /// The text of a message: the string alone, in one line.
 fn said(attribute: &str) -> String {
-    let Some(start) = attribute.find('"') else { return "that of what it wraps".into() };
+    let Some(start) = attribute.find('"') else { return "the message of the wrapped error".into() };
     let rest = &attribute[start + 1..];
     let mut text = String::new();
     let mut characters = rest.chars().peekable();
@@ -133,6 +133,6 @@ mod tests {
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].0, "AError");
         assert_eq!(found[0].1[0], ("Bad".into(), "`{x}` is bad".into()));
-        assert_eq!(found[0].1[1], ("Other".into(), "that of what it wraps".into()));
+        assert_eq!(found[0].1[1], ("Other".into(), "the message of the wrapped error".into()));
     }
 }

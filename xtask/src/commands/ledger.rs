@@ -1,6 +1,8 @@
 //! `cargo xtask ledger`: every numbered equation has a home.
 
+mod binary;
 mod items;
+mod mentions;
 mod page;
 mod rows;
 mod tests_of;
@@ -17,21 +19,27 @@ use rows::Row;
 
 pub(super) const COMMAND: Command = Command {
     name: "ledger",
-    usage: "[--json | --page]",
-    help: "check docs/ledger.toml: each finished row names items that exist and tests that run
+    usage: "[--json | --text | --page]",
+    help: "check docs/ledger.toml: each finished row names items that exist and tests that run and name the items
 The items are compiled as `use` lines (methods as links of rustdoc) and the tests looked up in the lists of the test
-binaries.
+binaries. That a test names an item, by itself or through its helpers, is read from its text.
+--text   check only what is read from text, which compiles nothing
 --json   print {done_ids, missing_ids}; a row whose check fails counts as missing
 --page   write docs/ledger.md from the rows, and check nothing",
     prepare: |shell, workspace, options| {
         let as_json = options.flag("--json");
+        let checks: &[Check] = if options.flag("--text") {
+            &[mentions::missing]
+        } else {
+            &[mentions::missing, tests_of::missing, items::missing]
+        };
         if options.flag("--page") {
             return Ok(vec![Step::check("ledger: page", || write_page(workspace), "the page could not be written")]);
         }
         Ok(vec![Step::check(
             "ledger",
-            move || check(shell, workspace, as_json),
-            "a finished row of docs/ledger.toml names an item or a test that does not exist",
+            move || check(shell, workspace, checks, as_json),
+            "a finished row of docs/ledger.toml names an item or a test that does not exist, or a test of something else",
         )])
     },
 };
@@ -48,7 +56,10 @@ fn write_page(workspace: &Workspace) -> Outcome {
     Ok(format!("wrote {PAGE}"))
 }
 
-fn check(shell: &Shell, workspace: &Workspace, as_json: bool) -> Outcome {
+/// One way to look at the finished rows: what is wrong, each with the id of its row.
+type Check = for<'r> fn(&Shell, &Workspace, &[&'r Row]) -> Result<Vec<(&'r str, String)>, String>;
+
+fn check(shell: &Shell, workspace: &Workspace, checks: &[Check], as_json: bool) -> Outcome {
     let text = read(&workspace.root.join("docs/ledger.toml")).map_err(|problem| vec![problem])?;
     let (rows, mut problems) = rows::parse(&text);
     if read(&workspace.root.join(PAGE)).unwrap_or_default() != page::page(&rows) {
@@ -58,7 +69,7 @@ fn check(shell: &Shell, workspace: &Workspace, as_json: bool) -> Outcome {
     let mut could_not_check = false;
     // Problems by id: one row may have several, and counts as missing with any.
     let mut failed: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    for check in [tests_of::missing, items::missing] {
+    for check in checks {
         match check(shell, workspace, &done) {
             Ok(found) => {
                 for (id, problem) in found {

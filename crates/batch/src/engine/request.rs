@@ -93,6 +93,17 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
 /// One output: what, from what beside the deformation, and where to.
 ///
 /// Made by the functions of this crate, such as [`green_strain`](crate::green_strain).
+///
+/// # Example
+/// ```
+/// use piola_batch as batch;
+/// use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola};
+/// let (f, stress) = (DeformationGradient::diagonal([2.0, 0.5, 0.5])?, [CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?]);
+/// let mut converted = [FirstPiola::zero()];
+/// let request = batch::cauchy_to_first_piola(&stress[..], &mut converted[..]);
+/// assert_eq!(request.at(&f, 0)[0], 2.0); // by rows
+/// # Ok::<(), piola_batch::BatchError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Request<Q, S, V, const I: usize, const K: usize> {
     pub(super) quantity: Q,
@@ -116,17 +127,6 @@ impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
     ///
     /// # Accuracy
     /// The numbers of a batch, but for elementary functions, which are those of the standard library here.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_batch as batch;
-    /// use piola_continuum::{CauchyStress, DeformationGradient, FirstPiola};
-    /// let (f, stress) = (DeformationGradient::diagonal([2.0, 0.5, 0.5])?, [CauchyStress::new(8.0, 0.0, 0.0, 0.0, 0.0, 0.0)?]);
-    /// let mut converted = [FirstPiola::zero()];
-    /// let request = batch::cauchy_to_first_piola(&stress[..], &mut converted[..]);
-    /// assert_eq!(request.at(&f, 0)[0], 2.0); // by rows
-    /// # Ok::<(), piola_batch::BatchError>(())
-    /// ```
     ///
     /// # Panics
     /// When the source has no such index.

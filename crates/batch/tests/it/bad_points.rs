@@ -119,7 +119,7 @@ fn tensors_that_are_not_symmetric_are_named_and_the_others_computed() {
 }
 
 /// P of balanced stresses at deformations of stretches between ½ and 2, one of them spoilt by a moment.
-fn nominal(count: usize, spoilt: &[usize]) -> (Vec<DeformationGradient>, Vec<FirstPiola>) {
+fn first_piola(count: usize, spoilt: &[usize]) -> (Vec<DeformationGradient>, Vec<FirstPiola>) {
     let mut random = Random::new(22);
     let f: Vec<_> = (0..count)
         .map(|_| {
@@ -136,8 +136,8 @@ fn nominal(count: usize, spoilt: &[usize]) -> (Vec<DeformationGradient>, Vec<Fir
 }
 
 #[test]
-fn nominal_stresses_with_a_moment_are_named_and_the_others_computed() {
-    let (f, p) = nominal(1003, &[0, 8, 500, 1002]);
+fn first_piola_stresses_with_a_moment_are_named_and_the_others_computed() {
+    let (f, p) = first_piola(1003, &[0, 8, 500, 1002]);
     let s = Symmetric::zero();
     let (mut t, mut second) = (vec![s; 1003], vec![s; 1003]);
     let alone = points_of(batch::evaluate(&f[..], batch::first_piola_to_cauchy(&p[..], &mut t[..])));
@@ -166,7 +166,7 @@ fn nominal_stresses_with_a_moment_are_named_and_the_others_computed() {
 }
 
 #[test]
-fn nominal_stresses_that_roundings_of_others_made_are_no_moments() {
+fn first_piola_stresses_that_roundings_of_others_made_are_no_moments() {
     // Up to stretch ratios of 1e8: P as the library makes it of T and of S.
     let (f, t) = (deformations(1003), stresses(1003));
     let (mut p, mut back) = (vec![FirstPiola::zero(); 1003], vec![Symmetric::zero(); 1003]);
@@ -176,7 +176,7 @@ fn nominal_stresses_that_roundings_of_others_made_are_no_moments() {
     batch::evaluate(&f[..], batch::second_piola_to_first_piola(&s[..], &mut p[..])).expect("deformations");
     batch::evaluate(&f[..], batch::first_piola_to_second_piola(&p[..], &mut back[..])).expect("no moments");
     // And what the single point accepts to the last digit is accepted.
-    let (f, mut p) = nominal(1003, &[]);
+    let (f, mut p) = first_piola(1003, &[]);
     for (index, p) in p.iter_mut().enumerate() {
         p.0[(index % 3, index / 3 % 3)] *= 1.0 + 4.0 * f64::EPSILON;
     }
@@ -185,10 +185,10 @@ fn nominal_stresses_that_roundings_of_others_made_are_no_moments() {
 
 #[cfg(feature = "rayon")]
 #[test]
-fn nominal_stresses_with_a_moment_are_named_from_any_number_of_threads() {
+fn first_piola_stresses_with_a_moment_are_named_from_any_number_of_threads() {
     let count = batch::PARALLEL_POINTS + 5000;
     let bad = [3, 4095, 4096, 8191, 8192, count - 1];
-    let (f, p) = nominal(count, &bad);
+    let (f, p) = first_piola(count, &bad);
     let mut t = vec![CauchyStress::zero(); count];
     let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
     let result = pool.install(|| batch::evaluate(&f[..], batch::first_piola_to_cauchy(&p[..], &mut t[..])));
@@ -232,13 +232,13 @@ fn inputs_that_are_not_finite_are_named_from_any_number_of_threads_and_the_rest_
     for index in bad_velocity {
         velocity[index][8] = f64::INFINITY;
     }
-    let (mut rate, mut nominal) = (vec![[0.0; 6]; count], vec![[0.0; 9]; count]);
+    let (mut rate, mut first_piola) = (vec![[0.0; 6]; count], vec![[0.0; 9]; count]);
     let mut expected = vec![[0.0; 6]; count];
     let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().expect("threads");
     let result = pool.install(|| {
         let requests = (
             batch::rate_of_deformation(&velocity[..], &mut rate[..]),
-            batch::cauchy_to_first_piola(&stress[..], &mut nominal[..]),
+            batch::cauchy_to_first_piola(&stress[..], &mut first_piola[..]),
         );
         batch::evaluate(&f[..], requests)
     });
@@ -249,7 +249,7 @@ fn inputs_that_are_not_finite_are_named_from_any_number_of_threads_and_the_rest_
     assert!(batch::evaluate(&f[..], good).is_err());
     for index in 0..count {
         if found.contains(&index) {
-            assert!(rate[index].iter().all(|x| x.is_nan()) && nominal[index][0].is_nan(), "point {index}");
+            assert!(rate[index].iter().all(|x| x.is_nan()) && first_piola[index][0].is_nan(), "point {index}");
         } else {
             assert_close("rate", &rate[index], &expected[index], Tol::ulps(0.0));
         }

@@ -3,8 +3,9 @@
 use nalgebra::Vector3;
 use piola_characteristics::CharacteristicsError;
 use piola_characteristics::{
-    CauchyProblem, Classification, Covector, DegeneratePoint, FirstOrderPde, Front, InitialManifold, MongeCone,
-    Overlap, ParameterInterval, RayField, RayPoint, Refinement, StripKind,
+    CauchyProblem, CharacteristicField, CharacteristicSolution, Classification, Covector, DegeneratePoint,
+    FirstOrderPde, Front, InitialManifold, MongeCone, Overlap, ParameterInterval, RayField, RayPoint, Refinement,
+    StripKind,
 };
 use piola_integrators::{Field, Tolerance};
 use piola_numerics::Real;
@@ -67,6 +68,7 @@ proptest! {
     #[test]
     fn equation_is_conserved_and_covector_is_gradient(tau in -2.0..2.0_f64, s in -0.4..0.6_f64) {
         let point = ray(&Bent, &Wave, tau, s);
+        // An integral: what a few dozen steps of local error 1e-13 leave of it.
         prop_assert!(point.equation.abs() < 1e-12, "{}", point.equation);
         let loose = integrated().times(1.0 / point.determinant.abs().min(1.0));
         prop_assert!(point.gradient_residual <= loose.value(), "{point:?}");
@@ -132,6 +134,26 @@ proptest! {
         assert_close_at_scale("x_τ", &point.jacobian[2..], &by_tau, 1.0, differences);
     }
 
+    /// W(A.19): x′ = Φ_ξ, u′ = ξ·Φ_ξ, ξ′ = −Φ_x − Φ_u ξ, with the slopes of Φ as differences.
+    #[test]
+    fn rate_of_a_characteristic_equals_differences_of_the_equation(y in proptest::array::uniform5(-1.0..1.0_f64)) {
+        let phi = |y: &[f64]| vec![Bent.value(&y[..2], y[2], &y[3..])];
+        let slopes: [f64; 5] = core::array::from_fn(|i| {
+            let direction: [f64; 5] = core::array::from_fn(|j| f64::from(u8::from(i == j)));
+            difference_quotient(phi, &y, &direction)[0]
+        });
+        let [by_x1, by_x2, by_u, by_xi1, by_xi2] = slopes;
+        let expected = [by_xi1, by_xi2, y[3] * by_xi1 + y[4] * by_xi2, -by_x1 - by_u * y[3], -by_x2 - by_u * y[4]];
+        let mut rate = [0.0; 5];
+        CharacteristicField::new(&Bent, 2).rate(0.0, &y, &mut rate).unwrap();
+        assert_close_at_scale("y′", &rate, &expected, 1.0, Tol::stated(1e-9, "difference quotients"));
+        // With neighbours it is the same characteristic.
+        let (mut both, mut start) = ([0.0; 10], [0.0; 10]);
+        start[..5].copy_from_slice(&y);
+        RayField::new(&Bent, 2, 1).rate(0.0, &start, &mut both).unwrap();
+        assert_close_at_scale("with a neighbour", &both[..5], &rate, 1.0, Tol::ulps(8.0));
+    }
+
     #[test]
     fn slope_of_determinant_equals_its_difference(y in proptest::array::uniform10(-1.0..1.0_f64)) {
         let mut field = RayField::new(&Bent, 2, 1);
@@ -151,7 +173,7 @@ proptest! {
         let generator = cone.generator_over(x_rate, &[point.xi[0] + 0.05, point.xi[1] - 0.05]).unwrap();
         assert_close_at_scale("ξ", &generator.covector, &point.xi, 1.0, integrated());
         let u_rate = generator.u_rate;
-        prop_assert!(cone.monge_residual(x_rate, u_rate, &point.xi).unwrap().largest() < 1e-10);
+        prop_assert!(cone.monge_residual(x_rate, u_rate, &point.xi).unwrap().largest() < integrated().value());
         // Neither a steeper direction nor one across it belongs to the strip.
         prop_assert!(0.01 < cone.monge_residual(x_rate, u_rate + 0.2, &point.xi).unwrap().largest());
         prop_assert!(0.1 < cone.monge_residual(&[-x_rate[1], x_rate[0]], 0.0, &point.xi).unwrap().largest());
@@ -166,7 +188,7 @@ fn solution_does_not_depend_on_parameters() {
     let refinement = Refinement::to(1e-2);
     let (other, faster) = (Reparametrised(Wave), Multiplied(Bent));
     let plain = CauchyProblem::new(&Bent, &Wave, 2).unwrap();
-    let solution = plain.solve(&WAVE, (0.0, 0.6), refinement).unwrap();
+    let solution: CharacteristicSolution<_, _> = plain.solve(&WAVE, (0.0, 0.6), refinement).unwrap();
     let renamed = CauchyProblem::new(&Bent, &other, 2).unwrap().solve(&WAVE, (0.0, 0.6), refinement).unwrap();
     let multiplied = CauchyProblem::new(&faster, &Wave, 2).unwrap().solve(&WAVE, (0.0, 0.1), refinement).unwrap();
     for (tau, s) in [(-0.9, 0.1), (-0.3, 0.15), (0.2, 0.05), (0.7, 0.14)] {
@@ -258,6 +280,7 @@ fn front_in_lanes_equals_single_characteristics() {
     }
     let joined: Vec<f64> = pieces.iter().flat_map(|piece| piece.rows().iter().copied()).collect();
     assert!(front.rows().iter().zip(&joined).all(|(a, b)| a.to_bits() == b.to_bits()));
+    // An integral, as above.
     assert!(front.drift(&Bent) < 1e-12);
     for (i, row) in front.rows().chunks(5).enumerate() {
         let point = problem.characteristic(&[-1.5 + 3.0 * i as f64 / 9.0], 0.4).unwrap();
@@ -279,6 +302,7 @@ fn characteristics_do_not_depend_on_each_other() {
     assert_eq!((coarse.rays().len(), fine.rays().len()), (4, 13));
     for (i, ray) in coarse.rays().iter().enumerate() {
         let other = &fine.rays()[4 * i];
+        // The same steps in another order of the rays: a few ulp of states of a few units.
         assert!(ray.states.iter().zip(&other.states).all(|(a, b)| (a - b).abs() < 1e-14));
         assert_eq!(ray.parameters, other.parameters);
     }
@@ -318,7 +342,7 @@ fn solution_in_four_variables_is_refined_and_inverted() {
                 *sides.entry(side).or_default() += 1;
             }
         }
-        assert_close("volume", &[volume], &[12.0], Tol::ulps(200.0));
+        assert_close("volume", &[volume], &[12.0], Tol::ulps(16.0));
         for (side, count) in sides {
             let at_surface = (0..3).any(|k| {
                 let value = tau(side[0])[k];

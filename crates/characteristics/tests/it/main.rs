@@ -2,6 +2,7 @@
 
 mod alloc;
 mod classification;
+mod equations;
 mod golden;
 mod laws;
 mod sheets;

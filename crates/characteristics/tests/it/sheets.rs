@@ -74,8 +74,10 @@ fn one_sheet_beyond_a_focus_is_refused_as_the_solution() {
     let interval = [ParameterInterval { from: -0.4, to: 0.5, parts: 4 }];
     let solution = problem.solve(&interval, (0.0, 1.8), Refinement::to(1e-2)).unwrap();
     let refused = solution.at(&[-0.5, 0.01]).err();
+    // Through the centre to the far side.
+    let expected = 1.0 + 0.5_f64.hypot(0.01);
     assert!(
-        matches!(refused, Some(CharacteristicsError::BeyondCaustic { value, caustics: 1, .. }) if (value - 1.5).abs() < 1e-3),
+        matches!(refused, Some(CharacteristicsError::BeyondCaustic { value, caustics: 1, .. }) if (value - expected).abs() < integrated().value()),
         "{refused:?}"
     );
 }
@@ -92,6 +94,7 @@ fn closed_form_of_the_product_equation_on_both_sides_of_the_data() {
         assert_close_at_scale("u", &[sheet.point.u], &[root * root], 1.0, integrated());
         assert_close_at_scale("ξ", &sheet.point.xi, &[0.5 * root, 2.0 * root], 1.0, integrated());
     }
+    // Φ is an integral: a few dozen steps of local error 1e-13 leave this of it.
     assert!(solution.drift() < 1e-12);
     assert!(solution.first_loss_of_invertibility().unwrap().is_none());
     assert!(solution.first_loss_of_invertibility_backwards().unwrap().is_none());
@@ -192,6 +195,7 @@ fn distance_to_a_circle_on_a_grid() {
         }
     }
     assert_eq!(values.covered(), covered);
+    // |∇u| by differences of values that are interpolated to 1e-6, over a tenth.
     assert!(values.largest_residual(0.1) < 1e-4, "{}", values.largest_residual(0.1));
     assert_eq!(values.get(25, 0), None);
 }
@@ -206,7 +210,7 @@ fn breaking_wave_has_three_sheets_on_a_grid() {
     let single = solution.onto_grid(grid, Overlap::Nothing).unwrap();
     let mut folded = 0;
     for j in 0..20 {
-        // Before t = 1 one sheet everywhere; u = sin(q − u t).
+        // Before t = 1 one sheet everywhere; u = sin(q − u t), off by up to 1 + t times what u is, which is interpolated to 1e-4.
         let value = all.get(0, j).unwrap();
         assert_eq!(value.sheets, 1);
         assert!((value.u - (grid.point(0, j)[1] - 0.5 * value.u).sin()).abs() < 1e-3);

@@ -361,13 +361,13 @@ fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
     }
     let cases: [(&[&str], &str); 17] = [
         (&["recover", "bad.csv", "--flow", "pipe"], "bad.csv:5: discharge is -0.589"),
-        (&["recover", "unsorted.csv", "--flow", "pipe"], "unsorted.csv:5: 1.5e0 follows 2e0"),
-        (&["recover", "twice.csv", "--flow", "pipe"], "twice.csv:5: 2e0 stands in the row before too"),
+        (&["recover", "unsorted.csv", "--flow", "pipe"], "unsorted.csv:5: 1.5e0 is below 2e0"),
+        (&["recover", "twice.csv", "--flow", "pipe"], "twice.csv:5: 2e0 repeats the value of the row before"),
         (&["fit-flow", "no-number.csv", "--flow", "pipe"], "no-number.csv:5: discharge is x0.58"),
         (&["recover", "falling.csv", "--flow", "pipe", "--noise", "0"], "falling.csv:5: the response"),
         (&["fit-flow", "unit.csv", "--flow", "pipe"], "unit.csv:2: `m^2/s` is no unit of discharge"),
         (&["fit-flow", "falling.csv", "--flow", "pipe", "--noise", "0"], "falling.csv:5: the response"),
-        (&["fit-flow", "banding.csv", "--flow", "curve"], "banding.csv:4: the response 2e0 is not above the 3e0"),
+        (&["fit-flow", "banding.csv", "--flow", "curve"], "banding.csv:4: the response 2e0 is not above 3e0"),
         (
             &["recover", "gap.csv", "--flow", "couette"],
             "gap.csv:2: inner_radius = 0.02 m, outer_radius = 0.01 m; valid",
@@ -376,7 +376,7 @@ fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
             &["recover", "pipe.csv", "pipe.csv", "--flow", "pipe"],
             "`2 files` is not accepted; valid: one file, or several",
         ),
-        (&["recover", "pipe.csv", "pipe.csv", "--flow", "pipe", "--slip"], "radius 1e0 of all tables is the same"),
+        (&["recover", "pipe.csv", "pipe.csv", "--flow", "pipe", "--slip"], "the radius is 1e0 m in all tables"),
         (&["fit-flow", "pipe.csv", "--flow", "capillary"], "length is not given"),
         (&["recover", "pipe.csv", "--flow", "hose"], "`hose` is not accepted; valid: pipe, capillary, channel"),
         (&["recover", "pipe.csv", "--flow", "channel"], "half_width is not given"),

@@ -1,4 +1,4 @@
-//! Areas, surface forces and body forces carried from the reference to the deformed body.
+//! Areas, forces per area and forces per volume carried from the reference to the deformed body.
 //!
 //! ```text
 //! n da = J F⁻ᵀ N dA = Cof F N dA        N dA = J⁻¹ Fᵀ n da                  Nanson
@@ -122,13 +122,18 @@ pub fn reference_surface_force<T: Real>(
     Vector3::new(force[0] * ratio, force[1] * ratio, force[2] * ratio)
 }
 
-/// f = J f̃: a body force per deformed volume, as one per reference volume.
+/// f = J f̃: a force per deformed volume, N/m³, as one per reference volume.
+///
+/// It is not the body force b, which is per mass and the same in both.
 ///
 /// # Source
 /// B(4.38).
 #[inline(always)]
 #[must_use]
-pub fn reference_body_force<T: Real>(deformation: &impl Deformation<T>, force: &Vector3<T>) -> Vector3<T> {
+pub fn reference_force_per_volume<T: Real>(
+    deformation: &impl Deformation<T>,
+    force_per_volume: &Vector3<T>,
+) -> Vector3<T> {
     let jacobian = deformation.jacobian();
-    Vector3::new(force[0] * jacobian, force[1] * jacobian, force[2] * jacobian)
+    Vector3::from(core::array::from_fn::<T, 3, _>(|i| force_per_volume[i] * jacobian))
 }

@@ -63,7 +63,7 @@
 //! ```
 //! Normals are [`UnitNormal`] in space and [`ReferenceNormal`] in the reference body, of length one by construction.
 //! Methods: [`CauchyStress::traction`], [`CauchyStress::shear_traction`], [`FirstPiola::traction`],
-//! [`ReferenceNormal::deformed`]; functions: [`reference_surface_force`], [`reference_body_force`] and, for Cauchy's
+//! [`ReferenceNormal::deformed`]; functions: [`reference_surface_force`], [`reference_force_per_volume`] and, for Cauchy's
 //! tetrahedron, [`oblique_traction`].
 //!
 //! # Invariants, principal stresses, derivatives
@@ -96,7 +96,7 @@ pub mod tangents;
 mod traction;
 mod transformation;
 
-pub use area::{DeformedArea, reference_body_force, reference_surface_force};
+pub use area::{DeformedArea, reference_force_per_volume, reference_surface_force};
 pub use invariants::HaighWestergaard;
 pub use measures::{BiotStress, CauchyStress, FirstPiola, KirchhoffStress, MandelStress, SecondPiola};
 pub use normal::{ReferenceNormal, UnitNormal};

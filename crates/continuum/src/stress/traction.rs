@@ -104,7 +104,7 @@ impl<T: Real> FirstPiola<T> {
 /// | t̄(eᵢ) | `coordinate_tractions` | 3 vectors | Pa: mean tractions *with* normals +eᵢ |
 /// | n | `normal` | 3, unit | – |
 /// | h | `height` | 1 | m |
-/// | f̄ | `force` | 3 | N/m³: body force less mass times acceleration |
+/// | f̄ | `force_per_volume`, inertia ρ a taken off | 3 | N/m³ |
 ///
 /// With height zero it is Cauchy's theorem: the traction on any plane through a point from those on three, for
 /// normals into any octant.
@@ -132,10 +132,10 @@ pub fn oblique_traction<T: Real>(
     coordinate_tractions: &[Vector3<T>; 3],
     normal: &UnitNormal<T>,
     height: T,
-    force: &Vector3<T>,
+    force_per_volume: &Vector3<T>,
 ) -> Vector3<T> {
     let n = normal.components();
     let third = height / T::lit(3.0);
     let [t1, t2, t3] = coordinate_tractions;
-    Vector3::from(core::array::from_fn::<T, 3, _>(|i| dot(n, [t1[i], t2[i], t3[i]]) - third * force[i]))
+    Vector3::from(core::array::from_fn::<T, 3, _>(|i| dot(n, [t1[i], t2[i], t3[i]]) - third * force_per_volume[i]))
 }

@@ -169,7 +169,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     /// | symbol | argument | unit |
     /// |---|---|---|
     /// | P(X, t) | `stress` | Pa |
-    /// | f(X, t) | `force`, per volume of the reference configuration | N/m³ |
+    /// | f(X, t) | `force_per_volume`, of the reference configuration | N/m³ |
     /// | c(X, t) | `damping`, a field ([`Uniform`](crate::Uniform) when constant) | kg/(m³ s) |
     ///
     /// # Errors
@@ -177,7 +177,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     pub fn damped_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
-        force: &Material<impl Field<Value = Vector3<f64>>>,
+        force_per_volume: &Material<impl Field<Value = Vector3<f64>>>,
         damping: &Material<impl Field<Value = f64>>,
         reference: &Vector3<T>,
         t: T,
@@ -185,7 +185,7 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
         check_event(&self.motion, reference, t)?;
         let divergence = referential_divergence(stress, reference, t);
         let density = self.reference_density.at(reference, t);
-        let (damping, force) = (damping.0.at(reference, t), force.0.at(reference, t));
+        let (damping, force) = (damping.0.at(reference, t), force_per_volume.0.at(reference, t));
         let (velocity, acceleration) = kernels::velocity_and_acceleration(&self.motion, reference, t);
         let component = |i: usize| {
             let inertia = Residual::zero().plus(density * acceleration[i]).plus(damping * velocity[i]);
@@ -203,13 +203,13 @@ impl<M: Motion, R: Field<Value = f64>> Body<M, R> {
     pub fn equilibrium_residual<T: Real>(
         &self,
         stress: &Material<impl Field<Value = FirstPiola>>,
-        force: &Material<impl Field<Value = Vector3<f64>>>,
+        force_per_volume: &Material<impl Field<Value = Vector3<f64>>>,
         reference: &Vector3<T>,
         t: T,
     ) -> Result<VectorResidual<T>, FieldsError> {
         check_event(&self.motion, reference, t)?;
         let divergence = referential_divergence(stress, reference, t);
-        let force = force.0.at(reference, t);
+        let force = force_per_volume.0.at(reference, t);
         checked_vector("equilibrium", [0, 1, 2].map(|i: usize| divergence[i].plus(force[i])))
     }
 

@@ -196,7 +196,7 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
 /// | symbol | argument | unit |
 /// |---|---|---|
 /// | T(q, t) | `stress`, any tensor, physical components | Pa |
-/// | f(q, t) | `force`, per volume | N/m³ |
+/// | f(q, t) | `force_per_volume` | N/m³ |
 /// | t | `t`, a parameter | s |
 ///
 /// # Errors
@@ -225,13 +225,13 @@ impl<C: Coordinates, R: Field<Value = f64>, V: Field<Value = Vector3<f64>>> Flow
 pub fn equilibrium_residual<T: Real>(
     coordinates: &impl Coordinates,
     stress: &impl Field<Value: TensorValue>,
-    force: &impl Field<Value = Vector3<f64>>,
+    force_per_volume: &impl Field<Value = Vector3<f64>>,
     point: &Vector3<T>,
     t: T,
 ) -> Result<VectorResidual<T>, FieldsError> {
     check_point(point, t)?;
     let divergence = divergence_of(coordinates, stress, point, t)?;
-    let force = force.at(point, t);
+    let force = force_per_volume.at(point, t);
     check_finite("force", force.as_slice())?;
     checked_vector("equilibrium", [0, 1, 2].map(|i: usize| divergence[i].plus(force[i])))
 }

@@ -54,9 +54,9 @@ fn checked_vector<T: Real>(quantity: &'static str, terms: [Residual<T>; 3]) -> R
 fn momentum<T: Real>(
     divergence: [Residual<T>; 3],
     density: T,
-    force: &Vector3<T>,
+    body_force: &Vector3<T>,
     acceleration: [Residual<T>; 3],
 ) -> Result<VectorResidual<T>, FieldsError> {
-    let component = |i: usize| divergence[i].plus(density * force[i]).plus_all(acceleration[i], -density);
+    let component = |i: usize| divergence[i].plus(density * body_force[i]).plus_all(acceleration[i], -density);
     checked_vector("momentum", [component(0), component(1), component(2)])
 }

@@ -15,6 +15,15 @@ use crate::motion::kernels::twice_variables;
 use crate::residual::Residual;
 
 /// A symmetric residual with the sums of the moduli of its terms, component by component.
+///
+/// # Example
+/// ```
+/// use piola_continuum::Symmetric;
+/// use piola_fields::compatibility::SymmetricResidual;
+/// let scale = Symmetric::diagonal([4.0, 0.0, 0.0]);
+/// let residual = SymmetricResidual { value: Symmetric::diagonal([1.0, 0.0, 0.0]), scale };
+/// assert_eq!(residual.relative(), 0.25);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -33,15 +42,6 @@ pub struct SymmetricResidual<T = f64> {
 
 impl<T: Real> SymmetricResidual<T> {
     /// The largest component divided by the largest scale, ∈ [0, 1]; zero when all terms are.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::Symmetric;
-    /// use piola_fields::compatibility::SymmetricResidual;
-    /// let scale = Symmetric::diagonal([4.0, 0.0, 0.0]);
-    /// let residual = SymmetricResidual { value: Symmetric::diagonal([1.0, 0.0, 0.0]), scale };
-    /// assert_eq!(residual.relative(), 0.25);
-    /// ```
     #[must_use]
     pub fn relative(&self) -> T {
         let largest = |s: &Symmetric<T>| s.components.iter().fold(T::zero(), |largest, x| largest.max(x.abs()));

@@ -26,6 +26,14 @@ use crate::FieldsError;
 use crate::error::check_finite;
 
 /// What W(14.9) leaves: three residuals for each of the three components of x.
+///
+/// # Example
+/// ```
+/// use nalgebra::Matrix3;
+/// use piola_fields::compatibility::GradientResidual;
+/// let residual = GradientResidual { value: Matrix3::from_element(1.0), scale: Matrix3::from_element(4.0) };
+/// assert_eq!(residual.relative(), 0.25);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -46,14 +54,6 @@ pub struct GradientResidual<T = f64> {
 
 impl<T: Real> GradientResidual<T> {
     /// The largest component divided by the largest scale, ∈ [0, 1]; zero when all terms are.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Matrix3;
-    /// use piola_fields::compatibility::GradientResidual;
-    /// let residual = GradientResidual { value: Matrix3::from_element(1.0), scale: Matrix3::from_element(4.0) };
-    /// assert_eq!(residual.relative(), 0.25);
-    /// ```
     #[must_use]
     pub fn relative(&self) -> T {
         let largest = |m: &Matrix3<T>| m.iter().fold(T::zero(), |largest, x| largest.max(x.abs()));

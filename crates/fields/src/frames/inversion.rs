@@ -62,6 +62,18 @@ impl Default for Inversion {
 /// The particle found at a place, with what is certain about it.
 ///
 /// Lengths are in the maximum norm; over lanes each lane has its own.
+///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_continuum::DeformationGradient;
+/// use piola_fields::{Affine, Inversion, Preimage};
+/// let motion = Affine::new(DeformationGradient::diagonal([2.0, 1.0, 1.0])?, Vector3::zeros())?;
+/// let found: Preimage = Inversion::default().preimage(&motion, &Vector3::new(6.0, 1.0, 5.0), 0.0)?;
+/// assert_eq!(found.reference, Vector3::new(3.0, 1.0, 5.0));
+/// assert!(found.residual <= found.error_bound && found.error_bound < 1e-13);
+/// # Ok::<(), piola_fields::FieldsError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(

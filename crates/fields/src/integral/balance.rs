@@ -23,7 +23,27 @@ use crate::{Body, Field, Material, Motion, Residual, VectorResidual};
 /// The terms of the balances of a part of a body at a time.
 ///
 /// # Example
-/// See [`of`](Self::of).
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_continuum::FirstPiola;
+/// use piola_fields::integral::{Cuboid, IntegralBalance, Quadrature};
+/// use piola_fields::{Body, Material, Motion, Uniform};
+/// use piola_numerics::Real;
+/// struct Fall;
+/// impl Motion for Fall {
+///     fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
+///         reference - Vector3::new(T::lit(0.0), T::lit(0.0), T::lit(5.0) * t * t)
+///     }
+/// }
+/// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+/// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
+/// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
+/// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
+/// let terms = IntegralBalance::of(&rules, &unit, &body, &free, &weight, &pole, 1.0)?;
+/// assert!((terms.body.power - 100.0).abs() < 1e-12); // 10 N at 10 m/s
+/// assert!(terms.momentum_residual().relative() < 1e-15 && terms.power_residual().relative() < 1e-15);
+/// # Ok::<(), piola_fields::FieldsError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IntegralBalance {
@@ -50,29 +70,6 @@ impl IntegralBalance {
     ///
     /// # Errors
     /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::FirstPiola;
-    /// use piola_fields::integral::{Cuboid, IntegralBalance, Quadrature};
-    /// use piola_fields::{Body, Material, Motion, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Fall;
-    /// impl Motion for Fall {
-    ///     fn place<T: Real>(&self, reference: &Vector3<T>, t: T) -> Vector3<T> {
-    ///         reference - Vector3::new(T::lit(0.0), T::lit(0.0), T::lit(5.0) * t * t)
-    ///     }
-    /// }
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let body = Body { motion: Fall, reference_density: Uniform(1.0) };
-    /// let (free, weight) = (Material(Uniform(FirstPiola::zero())), Material(Uniform(Vector3::new(0.0, 0.0, -10.0))));
-    /// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
-    /// let terms = IntegralBalance::of(&rules, &unit, &body, &free, &weight, &pole, 1.0)?;
-    /// assert!((terms.body.power - 100.0).abs() < 1e-12); // 10 N at 10 m/s
-    /// assert!(terms.momentum_residual().relative() < 1e-15 && terms.power_residual().relative() < 1e-15);
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn of(
         quadrature: &Quadrature,
         region: &impl Region<f64>,

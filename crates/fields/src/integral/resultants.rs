@@ -20,6 +20,27 @@ use crate::{Body, Field, Material, Motion, Spatial};
 /// h = ∫ ρ (x − o) × v dv = ∫ ρ_κ (x − o) × ẋ dV                  K = ½ ∫ ρ v·v dv = ½ ∫ ρ_κ ẋ·ẋ dV
 /// ```
 ///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_fields::integral::{Ball, Quadrature, Resultants};
+/// use piola_fields::{Body, Rigid, RigidHistory, Uniform};
+/// use piola_numerics::Real;
+/// struct Spin; // one radian a second about the third axis
+/// impl RigidHistory for Spin {
+///     fn attitude<T: Real>(&self, t: T) -> [T; 4] {
+///         let (s, c) = (T::lit(0.5) * t).sin_cos();
+///         [c, T::lit(0.0), T::lit(0.0), s]
+///     }
+/// }
+/// let ball = Ball::new(Vector3::zeros(), 1.0)?;
+/// let one_kilogram = Uniform(3.0 / (4.0 * core::f64::consts::PI));
+/// let body = Body { motion: Rigid(Spin), reference_density: one_kilogram };
+/// let of = Resultants::in_reference(&Quadrature::of_degree(2)?, &ball, &body, &Vector3::zeros(), 0.5)?;
+/// assert!((of.angular_momentum.z - 0.4).abs() < 1e-15); // 2/5 m R² ω
+/// # Ok::<(), piola_fields::FieldsError>(())
+/// ```
+///
 /// # Source
 /// W(15.8), W(15.12–15.13).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,27 +83,6 @@ impl<T: Real> Resultants<T> {
     ///
     /// # Errors
     /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{Ball, Quadrature, Resultants};
-    /// use piola_fields::{Body, Rigid, RigidHistory, Uniform};
-    /// use piola_numerics::Real;
-    /// struct Spin; // one radian a second about the third axis
-    /// impl RigidHistory for Spin {
-    ///     fn attitude<T: Real>(&self, t: T) -> [T; 4] {
-    ///         let (s, c) = (T::lit(0.5) * t).sin_cos();
-    ///         [c, T::lit(0.0), T::lit(0.0), s]
-    ///     }
-    /// }
-    /// let ball = Ball::new(Vector3::zeros(), 1.0)?;
-    /// let one_kilogram = Uniform(3.0 / (4.0 * core::f64::consts::PI));
-    /// let body = Body { motion: Rigid(Spin), reference_density: one_kilogram };
-    /// let of = Resultants::in_reference(&Quadrature::of_degree(2)?, &ball, &body, &Vector3::zeros(), 0.5)?;
-    /// assert!((of.angular_momentum.z - 0.4).abs() < 1e-15); // 2/5 m R² ω
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn in_reference(
         quadrature: &Quadrature,
         region: &impl Region<f64>,
@@ -158,6 +158,21 @@ fn densities<T: Real>(density: T, arm: Vector3<T>, velocity: Vector3<T>) -> [T; 
 /// f = ∫ ρ_κ b dV + ∮ P N dA,     m = ∫ ρ_κ (x − o) × b dV + ∮ (x − o) × P N dA,     power = ∫ ρ_κ b·ẋ dV + ∮ P N·ẋ dA
 /// ```
 ///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_continuum::DeformationGradient;
+/// use piola_fields::integral::{Cuboid, ForceResultants, Quadrature};
+/// use piola_fields::{Affine, Body, Material, Uniform};
+/// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
+/// let rest = Affine::new(DeformationGradient::identity(), Vector3::zeros())?;
+/// let (body, weight) = (Body { motion: rest, reference_density: Uniform(2.0) }, Vector3::new(0.0, 0.0, -10.0));
+/// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
+/// let of = ForceResultants::of_body_force(&rules, &unit, &body, &Material(Uniform(weight)), &pole, 0.0)?;
+/// assert!((of.force.z + 20.0).abs() < 1e-13 && (of.moment.y - 10.0).abs() < 1e-13); // −(½ m · −20 N)
+/// # Ok::<(), piola_fields::FieldsError>(())
+/// ```
+///
 /// # Source
 /// W(15.16), W(15.18), W(21.4).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -179,21 +194,6 @@ impl ForceResultants {
     ///
     /// # Errors
     /// [`FieldsError::IntegrandNotFinite`]; what the motion refuses.
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_continuum::DeformationGradient;
-    /// use piola_fields::integral::{Cuboid, ForceResultants, Quadrature};
-    /// use piola_fields::{Affine, Body, Material, Uniform};
-    /// let unit = Cuboid::new(Vector3::zeros(), Vector3::repeat(1.0))?;
-    /// let rest = Affine::new(DeformationGradient::identity(), Vector3::zeros())?;
-    /// let (body, weight) = (Body { motion: rest, reference_density: Uniform(2.0) }, Vector3::new(0.0, 0.0, -10.0));
-    /// let (rules, pole) = (Quadrature::of_degree(2)?, Vector3::zeros());
-    /// let of = ForceResultants::of_body_force(&rules, &unit, &body, &Material(Uniform(weight)), &pole, 0.0)?;
-    /// assert!((of.force.z + 20.0).abs() < 1e-13 && (of.moment.y - 10.0).abs() < 1e-13); // −(½ m · −20 N)
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn of_body_force(
         quadrature: &Quadrature,
         region: &impl Region<f64>,

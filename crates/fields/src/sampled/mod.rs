@@ -26,6 +26,12 @@ pub use grid::{MotionSamples, SampledMotion};
 pub use trajectories::SampledTrajectories;
 
 /// The splines between samples.
+///
+/// # Example
+/// ```
+/// use piola_fields::Interpolation;
+/// assert_eq!(Interpolation::Quintic.degree(), 5);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Interpolation {
@@ -40,12 +46,6 @@ pub enum Interpolation {
 
 impl Interpolation {
     /// The degree of the polynomials.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_fields::Interpolation;
-    /// assert_eq!(Interpolation::Quintic.degree(), 5);
-    /// ```
     #[must_use]
     pub const fn degree(self) -> usize {
         match self {

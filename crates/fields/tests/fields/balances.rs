@@ -15,9 +15,9 @@ use super::fixtures::{ByHand, Column, Physical, Stress, Tensor, point, tensor, w
 
 /// A tensor as a first Piola–Kirchhoff stress.
 #[derive(Clone, Copy)]
-struct Nominal(Tensor);
+struct MaterialStress(Tensor);
 
-impl Field for Nominal {
+impl Field for MaterialStress {
     type Value = FirstPiola;
     fn at<T: Real>(&self, place: &Vector3<T>, time: T) -> FirstPiola<T> {
         FirstPiola(self.0.at(place, time))
@@ -55,19 +55,19 @@ proptest! {
 
         // b = a − Div P/ρ_κ, W(17.29), B(4.54).
         let force = a - f.divergence(&x, t) / rho;
-        let residual = body.momentum_residual(&Material(Nominal(f)), &Material(Uniform(force)), &x, t)?;
+        let residual = body.momentum_residual(&Material(MaterialStress(f)), &Material(Uniform(force)), &x, t)?;
         prop_assert!(residual.relative() <= tol, "{residual:?}");
 
         // f = ρ_κ ü + c u̇ − Div P, B(4.58).
         let force = a * rho + v * 0.7 - f.divergence(&x, t);
-        let (stress, damping) = (Material(Nominal(f)), Material(Uniform(0.7)));
+        let (stress, damping) = (Material(MaterialStress(f)), Material(Uniform(0.7)));
         let residual = body.damped_residual(&stress, &Material(Uniform(force)), &damping, &x, t)?;
         prop_assert!(residual.relative() <= tol, "{residual:?}");
 
         // f = −Div P, B(4.59).
         let force = Material(Uniform(-f.divergence(&x, t)));
         prop_assert!(body.equilibrium_residual(&stress, &force, &x, t)?.relative() <= tol);
-        prop_assert!(equilibrium_residual(&Cartesian, &Nominal(f), &force.0, &x, t)?.relative() <= tol);
+        prop_assert!(equilibrium_residual(&Cartesian, &MaterialStress(f), &force.0, &x, t)?.relative() <= tol);
     }
 
     #[test]
@@ -192,8 +192,8 @@ impl Field for Pressure {
 }
 
 /// P = J T F⁻ᵀ of the gas.
-struct NominalPressure(Gas);
-impl Field for NominalPressure {
+struct MaterialPressure(Gas);
+impl Field for MaterialPressure {
     type Value = FirstPiola;
     fn at<T: Real>(&self, _place: &Vector3<T>, time: T) -> FirstPiola<T> {
         let stretch = self.0.stretch(time);
@@ -240,7 +240,7 @@ proptest! {
         let density = Spatial(Density(gas));
         prop_assert!(body.density_residual(&density, &q, t)?.relative() <= tol);
         prop_assert!(body.continuity_residual(&density, &q, t)?.relative() <= tol);
-        let (energy, stress) = (Material(Energy(gas)), Material(NominalPressure(gas)));
+        let (energy, stress) = (Material(Energy(gas)), Material(MaterialPressure(gas)));
         prop_assert!(body.energy_residual(&energy, &stress, &q, t)?.relative() <= tol);
         let none = Uniform(Vector3::zeros());
         // No term at all is left: the pressure is uniform and the particles move uniformly.

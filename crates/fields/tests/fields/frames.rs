@@ -71,6 +71,7 @@ proptest! {
         let found = Inversion::default().preimage(&motion, &place, t)?;
         let error = (found.reference - x).amax();
         prop_assert!(error <= found.error_bound, "{error:e} > {:e}", found.error_bound);
+        // 8 ulp of |x| + |F| |X|, times |F⁻¹|.
         prop_assert!(found.error_bound < 1e-13, "{:e}", found.error_bound);
         prop_assert!(found.iterations <= 12, "{}", found.iterations);
         // u(x, t) is u(X, t), B(4.15).

@@ -56,7 +56,7 @@ fn nodal_forces_masses_and_steps_allocate_nothing() {
     let law = stress(energy);
     let (allocations, ()) = allocations_in(|| {
         fine.add_stress_forces(&u, &law, &mut forces).expect("regular");
-        fine.add_body_forces(|_| Vector3::z(), &mut forces).expect("lengths");
+        fine.add_forces_per_volume(|_| Vector3::z(), &mut forces).expect("lengths");
         fine.add_tractions(|point| point.normal, &mut forces).expect("lengths");
         fine.add_consistent_mass_product(|_| 1.0, &u, &mut forces).expect("lengths");
         let _ = fine.strain_energy(&u, |_, _| Ok(1.0)).expect("regular");

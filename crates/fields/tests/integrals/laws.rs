@@ -343,6 +343,18 @@ fn buoyancy_equals_the_weight_of_the_fluid_displaced() {
     let weight = 9810.0 * 4.0 / 3.0 * core::f64::consts::PI * 0.216;
     assert_close_at_scale("force", of.force.as_slice(), &[0.0, 0.0, weight], 3e4, ROUNDING);
     assert_close_at_scale("moment about the centre", of.moment.as_slice(), &[0.0; 3], 3e4, ROUNDING);
+    // A ball of the same fluid floats: its weight, as a body force, takes up force and moment about any pole.
+    let pole = Vector3::new(-1.0, 2.0, 0.5);
+    let of =
+        ForceResultants::of_tractions(&rules, &unit_ball(), &Still, &Material(Water), &pole, 0.0).expect("regular");
+    let body = Body { motion: Still, reference_density: Uniform(1000.0) };
+    let gravity = Material(Uniform(Vector3::new(0.0, 0.0, -9.81)));
+    let drawn = ForceResultants::of_body_force(&rules, &unit_ball(), &body, &gravity, &pole, 0.0).expect("regular");
+    assert_close_at_scale("weight", drawn.force.as_slice(), (-of.force).as_slice(), 3e4, ROUNDING);
+    assert_close_at_scale("moment", drawn.moment.as_slice(), (-of.moment).as_slice(), 6e4, ROUNDING);
+    let arm = centre - pole;
+    let by_hand = arm.cross(&Vector3::new(0.0, 0.0, -weight));
+    assert_close_at_scale("moment by hand", drawn.moment.as_slice(), by_hand.as_slice(), 6e4, ROUNDING);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod exactness;
 mod laws;
 mod manufactured;
 mod orders;
+mod terms;
 mod traps;
 mod weak;
 

@@ -118,7 +118,7 @@ fn equilibrium<const N: usize>(body: &TetrahedralElements<N>) -> Vec<f64> {
         }
     }
     let mut load = vec![0.0; body.components()];
-    body.add_body_forces(|point| balancing_force(&point.position), &mut load).expect("lengths");
+    body.add_forces_per_volume(|point| balancing_force(&point.position), &mut load).expect("lengths");
     let held = product(&u);
     let mut residual: Vec<f64> = (0..u.len()).map(|k| if is_free[k] { load[k] - held[k] } else { 0.0 }).collect();
     let mut direction = residual.clone();

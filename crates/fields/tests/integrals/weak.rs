@@ -145,7 +145,7 @@ fn check_virtual_work(actions: &Balanced, time: f64) {
         let acceleration = actions.motion.acceleration(&point.position, time).expect("regular");
         (body_force.at(&point.position, time) - acceleration) * actions.density.at(&point.position, time)
     };
-    body.add_body_forces(force, &mut forces).expect("lengths");
+    body.add_forces_per_volume(force, &mut forces).expect("lengths");
     let traction = |x: &Vector3<f64>| stress.at(x, time).matrix();
     body.add_tractions(|point| traction(&point.position) * point.normal, &mut forces).expect("lengths");
     assert_close_at_scale("virtual work", &forces, &vec![0.0; forces.len()], 1.0, ROUNDING);
@@ -188,10 +188,10 @@ fn consistent_mass_of_sampled_fields_equals_their_kinetic_energy() {
 }
 
 #[test]
-fn body_forces_and_tractions_keep_their_resultants() {
+fn forces_per_volume_and_tractions_keep_their_resultants() {
     let body = QuadraticTetrahedra::new(patch(2), 4).expect("a body");
     let mut forces = vec![0.0; body.components()];
-    body.add_body_forces(|point| Vector3::new(point.position.x, 1.0, 0.0), &mut forces).expect("lengths");
+    body.add_forces_per_volume(|point| Vector3::new(point.position.x, 1.0, 0.0), &mut forces).expect("lengths");
     let sum = |forces: &[f64], i: usize| forces.iter().skip(i).step_by(3).sum::<f64>();
     let field = vec![0.0; body.components()];
     let expected = body.integral(&field, |point, _, _| Ok([point.position.x, 1.0, 0.0])).expect("finite");

@@ -2,7 +2,6 @@
 
 use core::f64::consts::PI;
 
-use piola_fluids::{Parameters, ViscometricFluid};
 use piola_numerics::Real;
 use piola_viscometry::recover::{
     ChannelGeometry, ConeGeometry, CouetteGeometry, FlowTable, Noise, PipeGeometry, PlatesGeometry,
@@ -122,7 +121,8 @@ impl FlowData {
         self.rows.is_empty()
     }
 
-    /// The answer of a fluid to the drive of a row, with derivatives with respect to its parameters.
+    /// The answer to the drive of a row of a fluid with shear stresses τ(k) and their inverse ζ(τ), with derivatives with
+    /// respect to its parameters.
     ///
     /// ```text
     /// pipe        Q = (8π/(3c³)) ∫ (T³ − τ(k)³) dk      up to ζ(T),  T = cR/2
@@ -133,14 +133,13 @@ impl FlowData {
     /// ```
     /// W(23.63), W(23.43), W(23.79) by parts: the integrands vanish at their upper ends, so that these may stay where they are while
     /// parameters vary.
-    pub(super) fn answer<F: Parameters<N> + ViscometricFluid, T: Real, const N: usize>(
+    pub(super) fn answer<T: Real>(
         &self,
-        fluid: &F,
-        parameters: [T; N],
+        stress: &dyn Fn(f64) -> T,
+        shear_rate: &dyn Fn(f64) -> Result<f64, FitError>,
         row: usize,
     ) -> Result<T, FitError> {
         let drive = self.rows[row][0];
-        let stress = |k: f64| F::shear_stress_of(parameters, T::lit(k));
         Ok(match self.kind {
             Kind::FlowCurve => stress(drive),
             Kind::Pipe { radius } => {
@@ -150,7 +149,7 @@ impl FlowData {
                     T::one() - share * share * share
                 };
                 // 8π T³/(3c³) = π R³/3.
-                T::lit(PI * radius * radius * radius / 3.0) * below(fluid.shear_rate(wall)?, &inside)
+                T::lit(PI * radius * radius * radius / 3.0) * below(shear_rate(wall)?, &inside)
             }
             Kind::Channel { half_width } => {
                 let wall = drive * half_width;
@@ -158,12 +157,12 @@ impl FlowData {
                     let share = stress(k) / T::lit(wall);
                     T::one() - share * share
                 };
-                T::lit(half_width * half_width) * below(fluid.shear_rate(wall)?, &inside)
+                T::lit(half_width * half_width) * below(shear_rate(wall)?, &inside)
             }
             Kind::Couette { step, stress_per_torque } => {
                 let wall = drive * stress_per_torque;
                 let outer = wall * (-step).exp();
-                let (inner_rate, outer_rate) = (fluid.shear_rate(wall)?, fluid.shear_rate(outer)?);
+                let (inner_rate, outer_rate) = (shear_rate(wall)?, shear_rate(outer)?);
                 let inside = |k: f64| (T::lit(wall) / stress(k)).ln();
                 let between = if 0.0 < outer_rate {
                     between(outer_rate, inner_rate, &inside)
@@ -195,14 +194,14 @@ const GAUSS: [(f64, f64); 4] = [
 const DEEP: f64 = 34.0;
 
 /// ∫ f dk up to a rate, over ln k: rates of all sizes cost the same.
-fn below<T: Real>(rate: f64, f: &impl Fn(f64) -> T) -> T {
+fn below<T: Real>(rate: f64, f: &dyn Fn(f64) -> T) -> T {
     // A rate that is nearly no number has nothing below it that is one.
     let low = rate * (-DEEP).exp();
     if f64::MIN_POSITIVE < low { between(low, rate, f) } else { T::zero() }
 }
 
 /// ∫ f dk between two positive rates: order 16 in panels of ln k no wider than 1.
-fn between<T: Real>(low: f64, high: f64, f: &impl Fn(f64) -> T) -> T {
+fn between<T: Real>(low: f64, high: f64, f: &dyn Fn(f64) -> T) -> T {
     let width = ((high - low) / low).ln_1p();
     if !width.is_finite() {
         // No search may end beyond the range of numbers.

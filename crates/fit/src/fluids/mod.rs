@@ -23,13 +23,15 @@ mod search;
 pub use crate::{Covariance, Criteria, Outcome};
 pub use data::FlowData;
 
+use core::cell::Cell;
+
 use nalgebra::DMatrix;
 use piola_fluids::{Parameters, ViscometricFluid};
 
 use crate::search::Range;
 use crate::statistics::interval;
 use crate::{FitError, student};
-use search::Problem;
+use search::{Model, Problem};
 
 /// Definition of the residuals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -124,31 +126,56 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
     starts: &[[f64; N]],
     options: &Options,
 ) -> Result<FluidFit<F>, FitError> {
+    let residuals = |parameters: &[f64]| {
+        search::residuals::<F, N>(data, options.weighting, core::array::from_fn(|k| parameters[k]))
+    };
+    let model = Model { name: F::NAME, names: &F::NAMES, residuals: &residuals };
+    let starts: Vec<&[f64]> = starts.iter().map(<[f64; N]>::as_slice).collect();
+    let found = fit_model(&model, data, &starts, options)?;
+    let fluid = F::from_parameters(core::array::from_fn(|k| found.parameters[k].value))?;
+    let FluidFit { parameters, covariance, residuals, squares, degrees_of_freedom, criteria, outcome, .. } = found;
+    let FluidFit { evaluations, starts_that_agree, .. } = found;
+    Ok(FluidFit {
+        fluid,
+        parameters,
+        covariance,
+        residuals,
+        squares,
+        degrees_of_freedom,
+        criteria,
+        outcome,
+        evaluations,
+        starts_that_agree,
+    })
+}
+
+/// The same for any model: the fluid is left to the caller.
+fn fit_model(model: &Model, data: &[FlowData], starts: &[&[f64]], options: &Options) -> Result<FluidFit<()>, FitError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
     let rows: usize = data.iter().map(FlowData::len).sum();
-    if rows < N {
-        return Err(FitError::TooFewPoints { model: F::NAME.to_owned(), points: rows, parameters: N });
+    let n = model.names.len();
+    if rows < n {
+        return Err(FitError::TooFewPoints { model: model.name.to_owned(), points: rows, parameters: n });
     }
     data.iter().try_for_each(FlowData::check_rising)?;
-    let ranges = ranges::<F, N>(&options.bounds)?;
-    let problem = Problem::<F, N>::new(data, options.weighting, ranges, options.patience.max(1));
-    let mut found: Vec<_> = starts.iter().filter_map(|start| problem.search(*start)).collect();
+    let ranges = ranges(model, &options.bounds)?;
+    let problem = Problem { model, data, ranges, patience: options.patience.max(1), evaluations: Cell::new(0) };
+    let mut found: Vec<_> = starts.iter().filter_map(|start| problem.search(start)).collect();
     found.sort_by(|a, b| a.squares.total_cmp(&b.squares));
-    let Some(best) = found.first() else { return Err(FitError::NoStart { model: F::NAME.to_owned() }) };
-    let (residuals, slopes) = problem.evaluate(best.parameters)?;
-    let degrees_of_freedom = rows - N;
+    let Some(best) = found.first() else { return Err(FitError::NoStart { model: model.name.to_owned() }) };
+    let (residuals, slopes) = problem.evaluate(&best.parameters)?;
+    let degrees_of_freedom = rows - n;
     let variance = if 0 < degrees_of_freedom { best.squares / degrees_of_freedom as f64 } else { 0.0 };
-    let all: Vec<usize> = (0..N).collect();
-    let covariance =
-        Covariance::new(&DMatrix::from_row_iterator(rows, N, slopes.into_iter().flatten()), &all, variance);
+    let all: Vec<usize> = (0..n).collect();
+    let covariance = Covariance::new(&DMatrix::from_row_slice(rows, n, &slopes), &all, variance);
     let quantile = student(options.confidence, degrees_of_freedom);
     let parameter = |k: usize| {
         let standard_error = covariance.standard_error(k).filter(|_| 0 < degrees_of_freedom);
         let value = best.parameters[k];
         let interval = interval(value, standard_error, quantile);
-        FluidParameter { name: F::NAMES[k], value, standard_error, interval }
+        FluidParameter { name: model.names[k], value, standard_error, interval }
     };
     let mut rest = residuals.as_slice();
     let mut sets = Vec::new();
@@ -158,28 +185,26 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
         rest = others;
     }
     Ok(FluidFit {
-        fluid: F::from_parameters(best.parameters)?,
-        parameters: (0..N).map(parameter).collect(),
+        fluid: (),
+        parameters: (0..n).map(parameter).collect(),
         residuals: sets,
         squares: best.squares,
         degrees_of_freedom,
-        criteria: Criteria::new(rows, N, best.squares),
+        criteria: Criteria::new(rows, n, best.squares),
         outcome: best.outcome,
-        evaluations: problem.evaluations(),
+        evaluations: problem.evaluations.get(),
         starts_that_agree: found.iter().filter(|other| other.squares <= best.squares * (1.0 + 1e-6)).count(),
         covariance,
     })
 }
 
 /// Where each parameter is searched for: within its bounds, or above zero.
-fn ranges<F: Parameters<N> + ViscometricFluid, const N: usize>(
-    given: &[(String, [f64; 2])],
-) -> Result<[Range; N], FitError> {
-    let mut ranges = [Range::POSITIVE; N];
+fn ranges(model: &Model, given: &[(String, [f64; 2])]) -> Result<Vec<Range>, FitError> {
+    let mut ranges = vec![Range::POSITIVE; model.names.len()];
     for (name, [lower, upper]) in given {
         let parameter = name.clone();
-        let Some(k) = F::NAMES.iter().position(|known| known == name) else {
-            return Err(FitError::UnknownParameter { model: F::NAME.to_owned(), parameter });
+        let Some(k) = model.names.iter().position(|known| known == name) else {
+            return Err(FitError::UnknownParameter { model: model.name.to_owned(), parameter });
         };
         if !(lower.is_finite() && upper.is_finite() && lower < upper) {
             return Err(FitError::EmptyInterval { parameter, lower: *lower, upper: *upper });

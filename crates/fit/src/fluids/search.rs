@@ -1,7 +1,6 @@
 //! The search over all parameters of a fluid.
 
 use core::cell::Cell;
-use core::marker::PhantomData;
 
 use nalgebra::DMatrix;
 use piola_fluids::{Parameters, ViscometricFluid};
@@ -11,92 +10,104 @@ use super::{FlowData, Weighting};
 use crate::search::{Misfit, Range, minimise};
 use crate::{FitError, Outcome};
 
-/// The data and bounds of a search.
-pub(super) struct Problem<'a, F, const N: usize> {
-    data: &'a [FlowData],
+/// What a search must know of a fluid: the search is compiled once for all fluids.
+pub(super) struct Model<'f> {
+    pub(super) name: &'static str,
+    /// The names of its parameters.
+    pub(super) names: &'f [&'static str],
+    /// Residuals at parameters.
+    pub(super) residuals: &'f dyn Fn(&[f64]) -> Result<Rows, FitError>,
+}
+
+/// Residuals, and their derivatives row by row.
+pub(super) type Rows = (Vec<f64>, Vec<f64>);
+
+/// Residuals of a fluid with given parameters.
+pub(super) fn residuals<F: Parameters<N> + ViscometricFluid, const N: usize>(
+    data: &[FlowData],
     weighting: Weighting,
-    ranges: [Range; N],
-    patience: usize,
-    evaluations: Cell<usize>,
-    fluid: PhantomData<F>,
+    parameters: [f64; N],
+) -> Result<Rows, FitError> {
+    let fluid = F::from_parameters(parameters)?;
+    let lifted: [Gradient<f64, N>; N] = core::array::from_fn(|k| Gradient::variable(parameters[k], k));
+    let stress = |k: f64| F::shear_stress_of(lifted, Gradient::lit(k));
+    let rate = |stress: f64| Ok(fluid.shear_rate(stress)?);
+    let (mut residuals, mut slopes) = (Vec::new(), Vec::new());
+    for set in data {
+        let largest = set.rows().iter().map(|row| row[1]).fold(0.0, f64::max);
+        for (index, [_, measured]) in set.rows().iter().enumerate() {
+            let answer = set.answer(&stress, &rate, index)?;
+            let residual = match weighting {
+                Weighting::Relative => (answer / Gradient::lit(*measured)).ln(),
+                Weighting::Equal => (answer - Gradient::lit(*measured)) / Gradient::lit(largest),
+            };
+            residuals.push(residual.value);
+            slopes.extend(residual.partials);
+        }
+    }
+    Ok((residuals, slopes))
+}
+
+/// A model, its data and the ranges of its parameters.
+pub(super) struct Problem<'a> {
+    pub(super) model: &'a Model<'a>,
+    pub(super) data: &'a [FlowData],
+    pub(super) ranges: Vec<Range>,
+    pub(super) patience: usize,
+    pub(super) evaluations: Cell<usize>,
 }
 
 /// The end of a search.
 #[derive(Clone, Debug)]
-pub(super) struct Best<const N: usize> {
-    pub(super) parameters: [f64; N],
+pub(super) struct Best {
+    pub(super) parameters: Vec<f64>,
     pub(super) squares: f64,
     pub(super) outcome: Outcome,
 }
 
-/// Residuals and their derivatives, row by row.
-type Rows<const N: usize> = (Vec<f64>, Vec<[f64; N]>);
-
-impl<'a, F: Parameters<N> + ViscometricFluid, const N: usize> Problem<'a, F, N> {
-    pub(super) const fn new(data: &'a [FlowData], weighting: Weighting, ranges: [Range; N], patience: usize) -> Self {
-        Self { data, weighting, ranges, patience, evaluations: Cell::new(0), fluid: PhantomData }
-    }
-
-    pub(super) fn evaluations(&self) -> usize {
-        self.evaluations.get()
-    }
-
+impl Problem<'_> {
     /// Residuals at parameters.
-    pub(super) fn evaluate(&self, parameters: [f64; N]) -> Result<Rows<N>, FitError> {
+    pub(super) fn evaluate(&self, parameters: &[f64]) -> Result<Rows, FitError> {
         self.evaluations.set(self.evaluations.get() + 1);
-        let fluid = F::from_parameters(parameters)?;
-        let lifted: [Gradient<f64, N>; N] = core::array::from_fn(|k| Gradient::variable(parameters[k], k));
-        let (mut residuals, mut slopes) = (Vec::new(), Vec::new());
-        for set in self.data {
-            let largest = set.rows().iter().map(|row| row[1]).fold(0.0, f64::max);
-            for (index, [_, measured]) in set.rows().iter().enumerate() {
-                let answer = set.answer(&fluid, lifted, index)?;
-                let residual = match self.weighting {
-                    Weighting::Relative => (answer / Gradient::lit(*measured)).ln(),
-                    Weighting::Equal => (answer - Gradient::lit(*measured)) / Gradient::lit(largest),
-                };
-                residuals.push(residual.value);
-                slopes.push(residual.partials);
-            }
-        }
-        Ok((residuals, slopes))
+        (self.model.residuals)(parameters)
     }
 
     /// From a start; nothing if it has no finite answers.
-    pub(super) fn search(&self, start: [f64; N]) -> Option<Best<N>> {
-        let x = self.ranges.iter().zip(start).map(|(range, value)| range.inward(value)).collect();
-        let end = minimise(Walk { problem: self, parameters: start }, x, self.patience)?;
+    pub(super) fn search(&self, start: &[f64]) -> Option<Best> {
+        let x = self.ranges.iter().zip(start).map(|(range, value)| range.inward(*value)).collect();
+        let end = minimise(Walk { problem: self, parameters: start.to_vec() }, x, self.patience)?;
         let squares = end.state.0.iter().map(|r| r * r).sum();
         Some(Best { parameters: end.misfit.parameters, squares, outcome: end.outcome })
     }
 }
 
 /// One walk of a search.
-struct Walk<'p, 'a, F, const N: usize> {
-    problem: &'p Problem<'a, F, N>,
-    parameters: [f64; N],
+struct Walk<'p> {
+    problem: &'p Problem<'p>,
+    parameters: Vec<f64>,
 }
 
-impl<F: Parameters<N> + ViscometricFluid, const N: usize> Misfit for Walk<'_, '_, F, N> {
-    type State = Rows<N>;
+impl Misfit for Walk<'_> {
+    type State = Rows;
 
     fn rows(&self) -> usize {
         self.problem.data.iter().map(FlowData::len).sum()
     }
 
-    fn visit(&mut self, x: &[f64]) -> Option<Rows<N>> {
-        self.parameters = core::array::from_fn(|k| self.problem.ranges[k].outward(x[k])[0]);
-        let finite =
-            |(residuals, slopes): &Rows<N>| residuals.iter().chain(slopes.iter().flatten()).all(|x| x.is_finite());
-        self.problem.evaluate(self.parameters).ok().filter(finite)
+    fn visit(&mut self, x: &[f64]) -> Option<Rows> {
+        for ((parameter, range), x) in self.parameters.iter_mut().zip(&self.problem.ranges).zip(x) {
+            *parameter = range.outward(*x)[0];
+        }
+        let finite = |(residuals, slopes): &Rows| residuals.iter().chain(slopes).all(|x| x.is_finite());
+        self.problem.evaluate(&self.parameters).ok().filter(finite)
     }
 
-    fn residuals<'s>(&self, (residuals, _): &'s Rows<N>) -> &'s [f64] {
+    fn residuals<'s>(&self, (residuals, _): &'s Rows) -> &'s [f64] {
         residuals
     }
 
-    fn jacobian(&self, (residuals, slopes): &Rows<N>, x: &[f64]) -> DMatrix<f64> {
-        let outward: [f64; N] = core::array::from_fn(|k| self.problem.ranges[k].outward(x[k])[1]);
-        DMatrix::from_fn(residuals.len(), N, |i, k| slopes[i][k] * outward[k])
+    fn jacobian(&self, (residuals, slopes): &Rows, x: &[f64]) -> DMatrix<f64> {
+        let outward: Vec<f64> = x.iter().zip(&self.problem.ranges).map(|(x, range)| range.outward(*x)[1]).collect();
+        DMatrix::from_fn(residuals.len(), outward.len(), |i, k| slopes[i * outward.len() + k] * outward[k])
     }
 }

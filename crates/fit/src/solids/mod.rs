@@ -188,14 +188,14 @@ impl Fit {
     /// # Example
     /// ```
     /// use piola_fit::solids::{AnyModel, Data, Measure, Options, Table, Test, fit};
-    /// use piola_specimens::homogeneous::{Mode, nominal_stress};
+    /// use piola_specimens::homogeneous::{Mode, first_piola};
     /// use piola_solids::{Hyperelastic, volumetric::SimoTaylor};
     /// use piola_continuum::DeformationGradient;
     /// let bar = Table::Uniaxial(vec![[1.5, 0.4], [2.0, 0.6], [3.0, 1.1]]);
-    /// let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
+    /// let data = Data::new(vec![Test::new("bar", bar, Measure::FirstPiola)?])?;
     /// let fitted = fit(&AnyModel::NeoHookean, &data, &Options::default())?;
     /// let mu = fitted.parameters[0].value;
-    /// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &fitted.law()?);
+    /// let stress: f64 = first_piola(Mode::Uniaxial, 2.0, &fitted.law()?);
     /// assert!((stress - 1.75 * mu).abs() < 1e-15); // μ (λ − λ⁻²)
     /// let solid = fitted.compressible(SimoTaylor::new(1e3)?)?; // for a finite-element code
     /// let sheared = solid.cauchy(&DeformationGradient::simple_shear(0.5)?).0.components[3];

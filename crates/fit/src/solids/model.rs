@@ -104,7 +104,7 @@ impl Parameter {
 ///
 /// // P = 2 μ (1 − λ^(−3/2)): 7/4 μ at λ = 4, 26/27·2 μ at λ = 9.
 /// let bar = Table::Uniaxial(vec![[4.0, 3.5], [9.0, 4.0 * 26.0 / 27.0]]);
-/// let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal)?])?;
+/// let data = Data::new(vec![Test::new("bar", bar, Measure::FirstPiola)?])?;
 /// let fitted = fit(&Varga, &data, &Options::default())?;
 /// assert!((fitted.parameters[0].value - 2.0).abs() < 1e-14);
 /// # Ok::<(), piola_fit::FitError>(())

@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix3;
 use piola_numerics::{Dual, Real};
-use piola_specimens::homogeneous::{Incompressible, Mode, nominal_stress};
+use piola_specimens::homogeneous::{Incompressible, Mode, first_piola};
 
 use crate::FitError;
 
@@ -16,7 +16,9 @@ const ISOCHORIC: f64 = 1e-6;
 pub enum Measure {
     /// Force per area of the reference: the first Piola–Kirchhoff stress.
     #[default]
-    Nominal,
+    #[doc(alias = "nominal")]
+    #[cfg_attr(feature = "serde", serde(alias = "nominal"))]
+    FirstPiola,
     /// Force per area of the deformed body.
     Cauchy,
 }
@@ -83,9 +85,9 @@ impl Table {
 /// # Example
 /// ```
 /// use piola_fit::solids::{Measure, Table, Test};
-/// let bar = Test::new("bar", Table::Uniaxial(vec![[1.5, 0.4], [2.0, 0.6]]), Measure::Nominal)?;
+/// let bar = Test::new("bar", Table::Uniaxial(vec![[1.5, 0.4], [2.0, 0.6]]), Measure::FirstPiola)?;
 /// assert_eq!(bar.largest_stress(), 0.6);
-/// let wrong = Test::new("bar", Table::Uniaxial(vec![[-1.5, 0.4]]), Measure::Nominal);
+/// let wrong = Test::new("bar", Table::Uniaxial(vec![[-1.5, 0.4]]), Measure::FirstPiola);
 /// assert_eq!(wrong.unwrap_err().to_string(), "test `bar`, point 0: the stretch -1.5 is not positive and finite");
 /// # Ok::<(), piola_fit::FitError>(())
 /// ```
@@ -109,7 +111,7 @@ struct Measurement {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum At {
-    /// A mode, its stretch, and what makes of the nominal stress the measured one.
+    /// A mode, its stretch, and what makes of the first Piola–Kirchhoff stress the measured one.
     Mode(Mode, f64, f64),
     /// Principal stretches λₐ, and δλₐ such that the measured stress is Σ δλₐ ∂W/∂λₐ.
     General([f64; 3], [f64; 3]),
@@ -231,7 +233,7 @@ impl Test {
     /// The stress of a law at a point.
     pub(super) fn answer<T: Real>(&self, point: usize, law: &impl Incompressible<T>) -> T {
         match self.points[point].at {
-            At::Mode(mode, stretch, factor) => T::lit(factor) * nominal_stress(mode, T::lit(stretch), law),
+            At::Mode(mode, stretch, factor) => T::lit(factor) * first_piola(mode, T::lit(stretch), law),
             At::General(stretches, along) => {
                 let varied = core::array::from_fn(|a| Dual::new(T::lit(stretches[a]), T::lit(along[a])));
                 law.energy_of_stretches(varied).tangent
@@ -243,15 +245,15 @@ impl Test {
     #[must_use]
     pub fn curve(&self, stretches: &[f64], law: &impl Incompressible<f64>) -> Option<Vec<f64>> {
         let (mode, _) = self.table.mode()?;
-        let answer = |&stretch: &f64| factor(mode, self.measure, stretch) * nominal_stress(mode, stretch, law);
+        let answer = |&stretch: &f64| factor(mode, self.measure, stretch) * first_piola(mode, stretch, law);
         Some(stretches.iter().map(answer).collect())
     }
 }
 
-/// Measured stress over nominal stress: F₁₁, or 1 in simple shear, where F₁₁ is 1.
+/// Measured stress over first Piola–Kirchhoff stress: F₁₁, or 1 in simple shear, where F₁₁ is 1.
 fn factor(mode: Mode, measure: Measure, stretch: f64) -> f64 {
     match (measure, mode) {
-        (Measure::Nominal, _) | (_, Mode::SimpleShear) => 1.0,
+        (Measure::FirstPiola, _) | (_, Mode::SimpleShear) => 1.0,
         (Measure::Cauchy, _) => stretch,
     }
 }
@@ -311,7 +313,7 @@ fn of_component(test: &str, index: usize, measure: Measure, point: &Component) -
         let cauchy = |j: usize| n[i] * n[j] - kronecker(i, j) * n[free] * n[free];
         let share = match measure {
             Measure::Cauchy => cauchy(j),
-            Measure::Nominal => (0..3).map(|m| cauchy(m) * inverse[(j, m)]).sum(),
+            Measure::FirstPiola => (0..3).map(|m| cauchy(m) * inverse[(j, m)]).sum(),
         };
         stretches[a] * share
     });

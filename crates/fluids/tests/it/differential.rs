@@ -108,52 +108,6 @@ fn finger_strain(l: &VelocityGradient, s: f64) -> Symmetric {
     Symmetric::symmetric_part(product_transposed(e, e)) - Symmetric::identity()
 }
 
-#[test]
-fn viscometric_functions_of_oldroyd_fluid_equal_golden() {
-    for case in &load("viscometric").cases {
-        let ("oldroyd_b", "plane_couette") = (text(&case["fluid"]), text(&case["geometry"])) else { continue };
-        let of = |name: &str| number(&case["params"][name]);
-        let fluid = OldroydB::new(of("eta_s"), of("eta_p"), of("lam")).expect("bounds");
-        for state in case["output"]["states"].as_array().expect("states") {
-            let k = number(&state["kappa"]);
-            let of = |name: &str| [number(&state[name])];
-            assert_close("T12", &[fluid.shear_stress(k)], &of("T12"), CLOSED);
-            assert_close("sigma1", &[fluid.sigma1(k)], &of("sigma1"), CLOSED);
-            assert_close("sigma2", &[fluid.sigma2(k)], &of("sigma2"), CLOSED);
-            assert_close("N1", &[fluid.first_normal_stress_difference(k)], &of("N1"), CLOSED);
-            assert_close("viscosity", &[fluid.viscosity(k)], &of("viscosity"), CLOSED);
-        }
-    }
-}
-
-/// Fluid of ηₛ = 1/8, ηₚ = 2, λ = ½; α or ε; k; T₁₂, N₁, N₂ by mpmath at 80 digits from the formulas as published.
-const SHEAR: &[(&str, f64, f64, [f64; 3])] = &[
-    ("giesekus", 0.3, 1e-06, [2.124_999_999_999_64e-06, 1.999_999_999_999_429_7e-12, -2.999_999_999_998_987e-13]),
-    ("giesekus", 0.5, 1e-06, [2.124_999_999_999_5e-06, 1.999_999_999_999_25e-12, -4.999_999_999_997_812e-13]),
-    ("linear", 0.25, 1e-06, [2.124_999_999_999_75e-06, 1.999_999_999_999_5e-12, 0.0]),
-    ("exponential", 0.25, 1e-06, [2.124_999_999_999_75e-06, 1.999_999_999_999_5e-12, 0.0]),
-    ("giesekus", 0.3, 0.001, [0.002_124_999_640_000_143_4, 1.999_999_430_000_258_5e-06, -2.999_998_987_500_482_4e-07]),
-    ("giesekus", 0.5, 0.001, [0.002_124_999_500_000_25, 1.999_999_250_000_421_8e-06, -4.999_997_812_501_29e-07]),
-    ("linear", 0.25, 0.001, [0.002_124_999_750_000_094, 1.999_999_500_000_218_7e-06, 0.0]),
-    ("exponential", 0.25, 0.001, [0.002_124_999_750_000_078_3, 1.999_999_500_000_187_4e-06, 0.0]),
-    ("giesekus", 0.3, 0.7, [1.383_417_471_997_799, 0.867_273_411_042_712, -0.127_168_035_256_512_6]),
-    ("giesekus", 0.5, 0.7, [1.348_388_923_276_401_7, 0.837_624_297_034_986_3, -0.203_928_461_796_474_97]),
-    ("linear", 0.25, 0.7, [1.414_479_808_788_892_6, 0.880_437_706_466_703, 0.0]),
-    ("exponential", 0.25, 0.7, [1.412_734_630_414_608, 0.878_123_412_825_071_2, 0.0]),
-    ("giesekus", 0.3, 40.0, [10.443_978_064_751_564, 50.172_887_554_585_3, -2.818_609_069_001_544_4]),
-    ("giesekus", 0.5, 40.0, [8.901_249_804_748_511, 34.460_425_670_083_104, -3.116_682_412_181_382]),
-    ("linear", 0.25, 40.0, [17.900_961_851_167_118, 83.217_408_342_634_67, 0.0]),
-    ("exponential", 0.25, 40.0, [13.475_548_406_581_714, 35.917_460_396_154_92, 0.0]),
-    ("giesekus", 0.3, 10000.0, [1_256.073_548_385_729_7, 897.147_764_525_548, -3.917_766_077_222_945_7]),
-    ("giesekus", 0.5, 10000.0, [1_253.999_600_02, 565.600_578_499_279_9, -3.943_434_285_861_487]),
-    ("linear", 0.25, 10000.0, [1_336.053_611_984_281_4, 3_702.612_067_770_629, 0.0]),
-    ("exponential", 0.25, 10000.0, [1_265.162_740_064_377_4, 114.954_343_129_938_31, 0.0]),
-    ("giesekus", 0.3, 100_000_000.0, [12_500_006.109_739_842, 90_254.297_874_183_36, -3.999_172_805_687_367_7]),
-    ("giesekus", 0.5, 100_000_000.0, [12_500_003.999_999_96, 56_568.541_646_395_67, -3.999_434_314_577_879_2]),
-    ("linear", 0.25, 100_000_000.0, [12_501_856.629_788_285, 1_723_537.085_375_343_7, 0.0]),
-    ("exponential", 0.25, 100_000_000.0, [12_500_022.623_759_04, 255.917_236_567_320_03, 0.0]),
-];
-
 fn giesekus(alpha: f64) -> Giesekus {
     Giesekus::new(0.125, 2.0, 0.5, alpha).expect("bounds")
 }
@@ -164,7 +118,7 @@ fn exponential(epsilon: f64) -> ExponentialPhanThienTanner {
     ExponentialPhanThienTanner::new(0.125, 2.0, 0.5, epsilon).expect("bounds")
 }
 
-/// The fluid of the table.
+/// The fluid of a name with α or ε.
 fn with_fluid(name: &str, parameter: f64, visit: &mut impl Visit) {
     match name {
         "giesekus" => visit.fluid(&giesekus(parameter)),
@@ -188,26 +142,6 @@ fn small_normal_stresses_of_giesekus_equal_those_of_twice_the_precision() {
             let what = format!("N₂, α = {alpha}, k = {k:e}");
             assert_close(&what, &[fluid.second_normal_stress_difference(k)], &[expected], tolerance);
         }
-    }
-}
-
-#[test]
-fn viscometric_functions_of_nonlinear_fluids_equal_references() {
-    struct Check(f64, [f64; 3]);
-    impl Visit for Check {
-        fn fluid<F: DifferentialFluid<Mode = F> + StressRate>(&mut self, fluid: &F) {
-            let Self(k, [shear, first, second]) = *self;
-            let what = format!("{} at {k:e}", F::NAME);
-            assert_close(&what, &[fluid.shear_stress(k)], &[shear], Tol::ulps(16.0));
-            assert_close(&what, &[fluid.first_normal_stress_difference(k)], &[first], Tol::ulps(16.0));
-            assert_close(&what, &[fluid.second_normal_stress_difference(k)], &[second], Tol::ulps(16.0));
-            let slope = k * fluid.shear_stress(Dual::variable(k)).tangent / shear;
-            let tolerance = Tol::ulps(32.0).times(slope.recip().max(1.0));
-            assert_close(&what, &[fluid.shear_rate(shear).expect("a rate")], &[k], tolerance);
-        }
-    }
-    for &(name, parameter, k, expected) in SHEAR {
-        with_fluid(name, parameter, &mut Check(k, expected));
     }
 }
 
@@ -244,7 +178,13 @@ impl Visit for Steady {
                 let stress = Symmetric::diagonal(values);
                 let scale = fluid.relaxing(&stress).norm() / fluid.time() + 4.0 * rate.abs() * stress.norm();
                 let left = fluid.stress_rate(&stress, &l).components;
-                assert_close_at_scale(F::NAME, &left, &[0.0; 6], scale, Tol::ulps(512.0));
+                assert_close_at_scale(
+                    F::NAME,
+                    &left,
+                    &[0.0; 6],
+                    scale,
+                    Tol::ulps_because(512.0, "a root of each equation, and its left side"),
+                );
             }
         }
     }
@@ -336,7 +276,8 @@ fn small_amplitude_moduli_equal_the_transform_of_the_relaxation_modulus() {
 fn large_oscillations_of_thinning_fluids_have_softer_moduli_and_third_harmonics() {
     let fluid = giesekus(0.3);
     let response = oscillate(&fluid, 10.0, 2.0, 4, 8, 1e-10).expect("runs");
-    assert!(response.residual < 1e-7, "{:e}", response.residual);
+    let left = Tol::stated(1e-7, "tolerance 1e-10 of each step, and e^(−t/λ) of the periods before");
+    assert_close_at_scale("residual", &[response.residual], &[0.0], 1.0, left);
     assert!(response.shear[0][0] < 0.5 * fluid.storage_modulus(2.0));
     assert!(1e-3 * response.shear[0][1].abs() < response.shear[1][0].abs().max(response.shear[1][1].abs()));
     assert!(0.0 < response.first_normal[0][1]);
@@ -425,7 +366,12 @@ fn lanes_equal_scalars() {
                 for (found, scalar) in found.iter().zip(scalar) {
                     assert_close(F::NAME, &[found.primal(lane)], &[scalar], Tol::ulps(32.0));
                 }
-                assert_close(F::NAME, &[rate.primal(lane)], &[k], Tol::ulps(128.0));
+                assert_close(
+                    F::NAME,
+                    &[rate.primal(lane)],
+                    &[k],
+                    Tol::ulps_because(128.0, "an inverse by elementary functions of lanes"),
+                );
             }
         }
     }
@@ -433,6 +379,8 @@ fn lanes_equal_scalars() {
         with_fluid(name, 0.25, &mut Check);
     }
 }
+
+const TURNED: Tol = Tol::ulps_because(256.0, "an exponential, three products and two rotations");
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
@@ -477,7 +425,7 @@ proptest! {
                 let omega = spin.cross_matrix();
                 let expected = *q * rate * q.transpose() + omega * turned.matrix() - turned.matrix() * omega;
                 let seen = fluid.stress_rate(&turned, &l.seen_from(q, spin)).matrix();
-                let tolerance = Tol::ulps(256.0);
+                let tolerance = Tol::ulps_because(256.0, "three products of matrices of entries up to 4");
                 assert_close_at_scale(F::NAME, seen.as_slice(), expected.as_slice(), 1.0, tolerance);
             }
         }
@@ -501,6 +449,6 @@ proptest! {
         let seen = fluid.start_up_stress(&turned, time).expect("bounded").matrix();
         let error = (seen - rotation * stress * rotation.transpose()).norm();
         let amplification = (2.0 * time * l.0.norm()).exp().min(1e6);
-        prop_assert!(error <= Tol::ulps(256.0).value() * (stress.norm() + amplification), "{error:e} of {}", stress.norm());
+        prop_assert!(error <= TURNED.value() * (stress.norm() + amplification), "{error:e} of {}", stress.norm());
     }
 }

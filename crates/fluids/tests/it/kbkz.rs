@@ -7,7 +7,7 @@ use piola_fluids::{
 };
 use piola_numerics::{Dual, Lanes, Real};
 use piola_testkit::golden::{load, number, text};
-use piola_testkit::{Tol, assert_close};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
 const QUADRATURE: Tol = Tol::stated(1e-11, "quadratures");
 
@@ -47,7 +47,8 @@ fn steady_shear_of_rational_damping_equals_golden() {
         for (integral, name) in fluid.steady_shear(k).iter().zip(["tau", "N1"]) {
             let error = (integral.value - of(name)[0]).abs();
             assert!(
-                error <= integral.bound && integral.bound <= 1e-12 * integral.value,
+                // The bound is not idle: a tenth of what the values are compared with.
+                error <= integral.bound && integral.bound <= QUADRATURE.times(0.1).value() * integral.value,
                 "{id}: {error:e}, {integral:?}"
             );
         }
@@ -135,8 +136,8 @@ fn derivatives_and_lanes_equal_those_of_the_closed_form() {
             })
             .sum();
         let scale = fluid.viscosity(k);
-        let error = (fluid.shear_stress(Dual::variable(k)).tangent - slope).abs();
-        assert!(error <= 1e-13 * scale, "{error:e} at {k:e}");
+        let found = fluid.shear_stress(Dual::variable(k)).tangent;
+        assert_close_at_scale(&format!("dτ/dk at {k:e}"), &[found], &[slope], scale, tolerance);
     }
     // The stress of rational damping grows: it has an inverse.
     let fluid = rational(&[(2.0, 0.5)], 8.0);

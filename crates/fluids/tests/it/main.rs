@@ -16,6 +16,8 @@ mod histories;
 mod kbkz;
 #[cfg(feature = "fields")]
 mod navier_stokes;
+#[cfg(feature = "motions")]
+mod nonlinear;
 mod references;
 mod refusals;
 #[cfg(feature = "motions")]

@@ -130,9 +130,16 @@ fn large_oscillations_of_fluids_of_the_present_rate_equal_their_closed_forms() {
         let viscous = if n == 1 { 0.75 * 2.0 } else { 0.0 };
         let sign = if n % 4 == 1 { 1.0 } else { -1.0 };
         let expected = viscous + sign * 4.0 * 0.5 / (core::f64::consts::PI * f64::from(n) * 3.0);
-        assert_close_at_scale("Bingham", parts, &[0.0, expected], 0.1, Tol::ulps(256.0));
+        assert_close_at_scale(
+            "Bingham",
+            parts,
+            &[0.0, expected],
+            0.1,
+            Tol::ulps_because(256.0, "sums over some hundred nodes"),
+        );
     }
-    assert!(bingham.residual < 1e-13, "{:e}", bingham.residual);
+    let left = Tol::ulps_because(450.0, "sums over some hundred nodes");
+    assert_close_at_scale("residual", &[bingham.residual], &[0.0], 1.0, left);
     // Of a power law, by mpmath at 50 digits: (2/√π) Γ(1 + n/2)/Γ(3/2 + n/2) of K (γ₀ ω)ⁿ/γ₀.
     for (exponent, factor) in [(0.05, POWER_005), (0.5, POWER_050), (2.0, POWER_200)] {
         let fluid = PowerLaw::new(1.5, exponent).expect("bounds");
@@ -181,7 +188,9 @@ fn large_oscillations_equal_the_response_to_the_oscillating_motion() {
         let expected = resynthesised(&response, 1.5, 2.0 * time);
         let tolerance = Tol::stated(1e-6, "fifteen harmonics; what is left of the start");
         assert_close_at_scale(fluid.name(), &[t12, t22 - t11], &expected, 1.0, tolerance);
-        assert!(response.residual < 1e-6, "{}: {:e}", fluid.name(), response.residual);
+        // The last two periods differ by what is left of the start: none of a fluid without memory.
+        let left = Tol::stated(1e-6, "tolerance 1e-10 of each step, and e^(−t/λ) of the periods before");
+        assert_close_at_scale(fluid.name(), &[response.residual], &[0.0], 1.0, left);
     }
 }
 
@@ -311,17 +320,24 @@ proptest! {
         l -= Matrix3::from_diagonal_element(l.trace() / 3.0);
         let size = 1e-7;
         let slow = VelocityGradient::new(l * size).expect("finite");
+        let mut compared = 0;
         for fluid in all() {
             let rest = fluid.viscosity(0.0_f64);
-            if !rest.is_finite() || 1e-4 < (fluid.viscosity(size) / rest - 1.0).abs() {
+            // Powers and yield stresses are not Newtonian at 1e-7.
+            let thinned = (fluid.viscosity(size) / rest - 1.0).abs();
+            if !rest.is_finite() || 1e-4 < thinned {
                 continue;
             }
+            compared += 1;
             let newtonian = LinearViscous::new(0.0, rest).expect("bounds");
             let stress = fluid.response_to_steady(&slow).expect("slow");
             let expected = newtonian.response_to_steady(&slow).expect("linear");
-            let error = (stress - expected).norm();
-            prop_assert!(error <= 2e-4 * expected.norm(), "{fluid:?}: {error:e}");
+            // Normal stresses are of the order λ |L| ≤ 1e-6; a viscosity has fallen by what it has at √(2 D : D) ≤ 4 · 1e-7.
+            let tolerance = Tol::stated(2e-6, "λ |L|").or(Tol::stated(8.0, "as much as the viscosity").times(thinned));
+            assert_close(&format!("{fluid:?}"), &stress.components, &expected.components, tolerance);
         }
+        // All fluids with memory, and most of the others.
+        prop_assert!(elastic().len() + 6 < compared, "{compared} fluids");
     }
 
     #[test]
@@ -335,6 +351,7 @@ proptest! {
         let turn = Matrix3::from_fn(|i, j| sign * r[i][j]);
         let turned = VelocityGradient::new(turn * l * turn.transpose()).expect("finite");
         let l = VelocityGradient::new(l).expect("finite");
+        let mut compared = 0;
         for fluid in all() {
             let (stress, seen) = (fluid.response_to_steady(&l), fluid.response_to_steady(&turned));
             let (Ok(stress), Ok(seen)) = (&stress, &seen) else {
@@ -342,9 +359,12 @@ proptest! {
                 continue;
             };
             let expected = turn * stress.matrix() * turn.transpose();
-            let error = (seen.matrix() - expected).norm();
-            prop_assert!(error <= 1e-11 * expected.norm(), "{fluid:?}: {error:e}");
+            let turned = Tol::stated(1e-11, "quadratures, and a search at each stress of a network");
+            assert_close(&format!("{fluid:?}"), seen.matrix().as_slice(), expected.as_slice(), turned);
+            compared += 1;
         }
+        // Only networks without a limit are refused, in strong extensions.
+        prop_assert!(all().len() <= compared + 6, "{compared} fluids");
     }
 }
 

@@ -214,13 +214,24 @@ impl Visit for General<'_> {
         let polymer = stress - l.rate_of_deformation().0 * (2.0 * fluid.solvent_viscosity());
         let scale = fluid.relaxing(&polymer).norm() / fluid.time() + 2.0 * l.0.norm() * polymer.norm();
         let rate = fluid.stress_rate(&polymer, l).components;
-        assert_close_at_scale(&what, &rate, &[0.0; 6], scale, Tol::ulps(512.0));
+        assert_close_at_scale(
+            &what,
+            &rate,
+            &[0.0; 6],
+            scale,
+            Tol::ulps_because(512.0, "six balanced equations by elimination, and their left side"),
+        );
         let turned = VelocityGradient::new(*turn * l.0 * turn.transpose()).expect("finite");
         let seen = fluid.steady_stress(&turned).expect("as before").matrix();
         let expected = *turn * stress.matrix() * turn.transpose();
         // How far rounding of L moves a steady state: a large one is one near its limit.
         let strong = 1.0 + polymer.norm() * fluid.time() / fluid.polymer_viscosity();
-        assert_close(&what, seen.as_slice(), expected.as_slice(), Tol::ulps(256.0).times(strong));
+        assert_close(
+            &what,
+            seen.as_slice(),
+            expected.as_slice(),
+            Tol::ulps_because(256.0, "six balanced equations by elimination, and two rotations").times(strong),
+        );
         let along = VelocityGradient(l.0.zip_map(direction, Dual::new));
         let derivative = fluid.steady_stress(&along).expect("as before").components.map(|x| x.tangent);
         let h = 1e-3 / strong;
@@ -247,7 +258,13 @@ impl Visit for Any<'_> {
         // Of the whole the polymer's part is a difference, and an exponential of it is relaxing.
         let trace = polymer.norm() * fluid.time() / fluid.polymer_viscosity();
         let share = 1.0 + stress.norm() / polymer.norm() + trace;
-        assert_close_at_scale(&what, &rate, &[0.0; 6], scale, Tol::ulps(512.0).times(share));
+        assert_close_at_scale(
+            &what,
+            &rate,
+            &[0.0; 6],
+            scale,
+            Tol::ulps_because(512.0, "six balanced equations by elimination, and their left side").times(share),
+        );
     }
 }
 

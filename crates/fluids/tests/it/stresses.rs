@@ -176,7 +176,8 @@ fn seen_from<F: ViscousFluid>(fluid: &F, l: &VelocityGradient, rotation: &Matrix
     let stress = fluid.extra_stress(l).matrix();
     let seen = fluid.extra_stress(&l.seen_from(rotation, spin)).matrix();
     let size = stress.norm().max(1e-3) * (1.0 + spin.norm() / l.0.norm());
-    (seen - rotation * stress * rotation.transpose()).norm() <= Tol::ulps(256.0).value() * size
+    (seen - rotation * stress * rotation.transpose()).norm()
+        <= Tol::ulps_because(256.0, "two rotations, and squares of rates whose terms cancel").value() * size
 }
 
 proptest! {

@@ -5,7 +5,7 @@ use super::twofold::{TURN, Twofold};
 /// 0 < 1/a is violated: the body is not bound, or falls straight into the centre.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "the motion is no ellipse: 1/a = {inverse_semi_major_axis} 1/m, squared angular momentum {squared_moment} m⁴/s²"
+    "the orbit is not an ellipse: 1/a = {inverse_semi_major_axis} 1/m, squared angular momentum {squared_moment} m⁴/s²"
 )]
 pub struct NotElliptic {
     /// 2/r − v²/μ, 1/m.

@@ -2,7 +2,8 @@
 
 use piola_hamiltonian::hamilton_jacobi::{
     Candidate, CharacteristicStrip, ConjugatePoint, Constants, Event, Extremal, ExtremalField, GeodeticDistance,
-    InitialFront, IntegralConoid, PrincipalFunction, RayField, Residual, SearchRegion, Transversals, WaveFront,
+    InitialFront, IntegralConoid, PrincipalFunction, RayField, Residual, SearchRegion, StationaryCandidate,
+    Transversals, WaveFront,
 };
 use piola_hamiltonian::{HamiltonJacobiError, HamiltonianError};
 use piola_hamiltonian::{InvertiblePhaseMap, PhaseFunction, PhaseMap, PolarCoordinates};
@@ -11,7 +12,10 @@ use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
-use super::systems::{Bowl, ByPolar, FromPlace, OscillatorAction, Particle, PolarBowl, ShakenPendulum, Swaying};
+use super::systems::{
+    Bowl, ByEnergy, ByPolar, FromPlace, OscillatorAction, OscillatorByEnergy, Particle, PolarBowl, ShakenPendulum,
+    Swaying,
+};
 
 fn fine() -> Tolerance {
     Tolerance::relative(1e-13).unwrap()
@@ -29,7 +33,7 @@ fn gradients_of_the_distance_are_momenta_and_energies() {
     let pendulum = ShakenPendulum { amplitude: 1.0 };
     let distance = GeodeticDistance::new(&pendulum);
     let (q0, t0, q1, t1) = (0.3, 0.1, 0.9, 1.0);
-    let found = distance.between(&Event::new(&[q0], t0), &Event::new(&[q1], t1), &[0.0]).unwrap();
+    let found: Extremal = distance.between(&Event::new(&[q0], t0), &Event::new(&[q1], t1), &[0.0]).unwrap();
     let start = found.initial_momenta.clone();
     let g = |a: f64, b: f64, c: f64, d: f64| {
         distance.between(&Event::new(&[q0 + a], t0 + b), &Event::new(&[q1 + c], t1 + d), &start).unwrap().distance
@@ -368,9 +372,6 @@ proptest! {
         let (mass, omega) = (1.5, 1.25);
         let system = Particle::oscillator(mass, omega, 1);
         let solution = FromPlace { action: OscillatorAction { mass, omega }, place: vec![place] };
-        let residual = Candidate::new(&system, &solution).residual(&[q], t0).unwrap();
-        let rounding = Tol::ulps(64.0);
-        assert_close_at_scale("HJ", &[residual.value], &[0.0], residual.energy.abs() + 100.0, rounding);
         let t1 = t0 + dt;
         let end = ExtremalField::new(&system, &solution, 1).follow(&[q], t0, t1, fine()).unwrap();
         let tolerance = Tol::stated(1e-10, "integration with the relative tolerance 1e-13");
@@ -379,6 +380,24 @@ proptest! {
         let b = (q - place * (omega * t0).cos()) / (omega * t0).sin();
         let expected = place * (omega * t1).cos() + b * (omega * t1).sin();
         assert_close_at_scale("q", &end.coordinates, &[expected], 10.0, tolerance);
+    }
+
+    /// H(q, ∂S/∂q) of S(q; E) is E, whatever energy the candidate claims.
+    #[test]
+    fn residual_of_a_stationary_candidate_equals_the_difference_of_energies(
+        mass in 0.5..2.0_f64, omega in 0.5..2.0_f64, energy in 1.0..4.0_f64, claimed in 0.0..8.0_f64, part in -0.9..0.9_f64,
+    ) {
+        let turning = (2.0 * energy / mass).sqrt() / omega;
+        let q = part * turning;
+        let system = Particle::oscillator(mass, omega, 1);
+        let action = ByEnergy { action: OscillatorByEnergy { mass, omega }, energy };
+        let mut candidate = StationaryCandidate::new(&system, &action, claimed);
+        let found = candidate.residual(&[q]).unwrap();
+        // S falls towards the turning points as a root: ∂S/∂q is of 1/(1 − part²) terms.
+        let rounding = Tol::ulps(64.0).times(1.0 / (1.0 - part * part));
+        assert_close_at_scale("H − E", &[found.value], &[energy - claimed], 8.0, rounding);
+        let momentum = mass * omega * turning * (1.0 - part * part).sqrt();
+        assert_close_at_scale("∂S/∂q", candidate.momenta(), &[momentum], mass * omega * turning, rounding);
     }
 
     #[test]

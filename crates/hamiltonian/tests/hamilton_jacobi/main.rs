@@ -1,6 +1,7 @@
 //! Tests of Hamilton–Jacobi theory: solutions, extremals between events, transversals, wave fronts.
 
 mod alloc;
+mod candidates;
 mod fronts;
 mod golden;
 mod laws;

@@ -127,6 +127,19 @@ impl CompleteIntegral for OscillatorByEnergy {
     }
 }
 
+/// The same with E given, at t = 0 the function S(q) alone.
+#[derive(Debug)]
+pub(crate) struct ByEnergy {
+    pub(crate) action: OscillatorByEnergy,
+    pub(crate) energy: f64,
+}
+
+impl PrincipalFunction for ByEnergy {
+    fn value<T: Real>(&self, q: &[T], t: T) -> T {
+        CompleteIntegral::value(&self.action, q, &[T::lit(self.energy)], t)
+    }
+}
+
 /// A particle in a frame that turns, in a hollow that breathes: momenta are no velocities, and the energy is not kept.
 #[derive(Debug)]
 pub(crate) struct Swaying;

@@ -19,6 +19,7 @@ fn foci_of_an_oscillator_are_conjugate_events() {
     let (from, focus) = (Event::new(&[1.0, 0.5], 0.0), Event::new(&[-1.0, -0.5], PI));
     match distance.between(&from, &focus, &[0.3, 0.0]) {
         Err(HamiltonianError::HamiltonJacobi(HamiltonJacobiError::ConjugateEvents { ratio })) => {
+            // sin π of a motion integrated to 1e-13.
             assert!(ratio < 1e-10, "{ratio}");
         }
         other => panic!("{other:?}"),
@@ -92,6 +93,7 @@ fn constants_that_depend_on_each_other_make_no_complete_integral() {
     let motion = Constants::through(&free, &OneConstant, (&[0.0, 0.0], &[2.0, 2.0], 0.0), &[1.0, 1.0]);
     match motion {
         Err(HamiltonianError::HamiltonJacobi(HamiltonJacobiError::IncompleteIntegral { ratio })) => {
+            // A determinant of equal rows, beside its terms.
             assert!(ratio < 1e-15);
         }
         other => panic!("{other:?}"),
@@ -132,6 +134,7 @@ fn a_search_among_arcs_of_kepler_gives_up_what_heads_for_the_centre() {
     let sheets = GeodeticDistance::new(&Kepler).all_between(&from, &to, &region).unwrap();
     // Lambert: one arc either way round, and no time for a whole turn more.
     let turning: Vec<f64> = sheets.iter().map(|sheet| sheet.initial_momenta[1]).collect();
+    // Newton's iteration ends at what the integration, to 1e-13, leaves.
     assert!(sheets.iter().all(|sheet| sheet.miss < 1e-10), "{turning:?}");
     assert!(turning.iter().any(|p| 0.0 < *p) && turning.iter().any(|p| *p < 0.0), "{turning:?}");
 }

@@ -45,6 +45,7 @@ fn crossings_lie_on_the_surface_and_keep_the_energy() {
         let resolution = 4.0 * f64::EPSILON * crossing.time();
         assert!(crossing.q()[0].abs() < resolution && 0.0 < crossing.p()[0]);
         let energy = system.value(crossing.q(), crossing.p(), 0.0);
+        // Ten times the tolerance of the steps, whose errors hardly add up.
         assert!((energy - 1.0 / 12.0).abs() < 1e-11, "{energy}");
     }
 }
@@ -61,6 +62,7 @@ fn a_system_that_separates_crosses_along_a_curve() {
         0.25 * v * v + 0.25 * u * u + u * u * u / 6.0
     };
     assert_eq!(crossings.len(), 100);
+    // As above.
     assert!(crossings.iter().all(|point| (part(point) - part(&crossings[0])).abs() < 1e-11));
 }
 
@@ -72,7 +74,7 @@ fn exponents_come_in_pairs_and_tell_chaos_from_order() {
     let [first, second, third, fourth] = found.exponents[..] else { panic!("four exponents") };
     // M. Hénon and C. Heiles's system at E = 1/6 parts by about 0.12 to 0.14 per unit of time.
     assert!(0.08 < first && first < 0.18, "{first}");
-    // Volumes of phase space are kept at every time; pairs ±λ and the two zeros come out in the limit.
+    // Volumes of phase space are kept at every time, but for a hundred times the tolerance; pairs ±λ and the two zeros come out in the limit.
     assert!((first + second + third + fourth).abs() < 1e-8, "{:?}", found.exponents);
     assert!((first + fourth).abs() < 0.01 && (second + third).abs() < 0.01, "{:?}", found.exponents);
     assert!(second.abs() < 0.02);

@@ -83,7 +83,10 @@ proptest! {
         let x = [q[0], q[1], p[0], p[1]];
         let kept = lie_derivative_of_two_form(&SymplecticGradient(&k), &CanonicalTwoForm, &x).unwrap();
         assert_close_at_scale("L_k ω", kept.as_slice(), &[0.0; 16], 20.0, Tol::ulps(10.0));
-        prop_assert!(locally_hamiltonian_test(&SymplecticGradient(&k), &x).unwrap().relative < 1e-12);
+        // Derivatives of k are sums of a few terms, which may cancel: their rounding is not measured by their size.
+        let rounding = 10.0 * Tol::ulps(10.0).value();
+        let worst = locally_hamiltonian_test(&SymplecticGradient(&k), &x).unwrap();
+        prop_assert!(worst.residual <= 20.0 * rounding, "{worst:?}");
         let other = AnyField(&k, &b);
         // L_k ω = d(L_k θ): the two computed apart.
         let lie = lie_derivative_of_two_form(&other, &CanonicalTwoForm, &x).unwrap();
@@ -111,6 +114,7 @@ proptest! {
         let mut slope = [0.0; 5];
         Differential(Along(&h)).components(&x, &mut slope);
         assert_close_at_scale("L_h θ̃", lie.as_slice(), &slope, 40.0, Tol::ulps(20.0));
+        // Second derivatives of H cancel in pairs.
         prop_assert!(closedness_residual(&ExtendedTwoForm(&h), &x).unwrap() < 1e-13);
     }
 

@@ -221,5 +221,6 @@ fn any_map_is_inverted_by_newton() {
     Inverse(&inverted).map(&new[..2], &new[2..], 0.0, &mut old).unwrap();
     Inverse(map).map(&new[..2], &new[2..], 0.0, &mut by_hand).unwrap();
     assert_close("φ⁻¹", &old, &by_hand, Tol::ulps(8.0));
+    // Some fifty ulp of the entries of J, which four maps make.
     assert!(canonical_test(&Inverse(&inverted), &new[..2], &new[2..], 0.0).unwrap().relative < 1e-14);
 }

@@ -81,6 +81,7 @@ proptest! {
         let flow = symmetry_flow(&function, &KEPLER, &start, 0.1, tolerance()).unwrap();
         let drift = flow.change_of_hamiltonian / flow.hamiltonian.abs().max(1.0);
         if which < 4 {
+            // Rounding of brackets; and what the integration of the flow leaves.
             prop_assert!(test.passes(1e-13) && drift < 1e-10, "{test:?} {drift}");
         } else {
             // The flow changes H at the rate of the bracket.
@@ -229,6 +230,7 @@ fn four_integrals_of_keplers_plane_have_rank_three() {
     let second = Runge(1).value(point.q(), point.p(), 0.0);
     assert_close("{L, A_x}", &[test.brackets[1][2]], &[second], Tol::ulps(40.0));
     assert_close("{A_x, A_y}", &[test.brackets[2][3]], &[-2.0 * KEPLER.mass * energy * moment], Tol::ulps(40.0));
+    // Integrals commute with H: terms of a few units cancel.
     assert!(test.brackets[0].iter().all(|bracket| bracket.abs() < 1e-14));
 }
 

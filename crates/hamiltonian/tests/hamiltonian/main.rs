@@ -7,6 +7,7 @@ mod generating;
 mod golden;
 mod integrals;
 mod laws;
+mod lie_derivatives;
 #[path = "../../../lagrangian/tests/it/systems.rs"]
 #[expect(dead_code, reason = "other tests place more systems than have Hamiltonians here")]
 mod placed;

@@ -22,6 +22,7 @@ fn check(map: &(impl piola_hamiltonian::InvertiblePhaseMap + Copy), q: &[f64], p
     Inverse(*map).map(&new[..q.len()], &new[q.len()..], 0.0, &mut back).expect("a regular point");
     assert_close("φ⁻¹∘φ", &back, &[q, p].concat(), Tol::ulps(20.0).times(condition));
     let test = canonical_test(map, q, p, 0.0).expect("a regular point");
+    // Some fifty ulp of the entries of J, times the condition of the map.
     assert!(test.relative < 1e-14 * condition, "{test:?}");
 }
 

@@ -4,6 +4,7 @@ use piola_testkit::CountingAllocator;
 
 mod alloc;
 mod charts;
+mod equations;
 mod exponential;
 mod golden;
 mod laws;

@@ -242,9 +242,7 @@ impl<S: Holonomic, P: Potential, F: Forces, W: QuasiVelocities> InFrame<S, P, F,
     /// W(6.15).
     pub fn inertia_metric<T: Real>(&self, q: &[T], t: T) -> Result<DMatrix<T>, LagrangianError> {
         let frame = self.frame_matrix(q, t)?;
-        let metric = self.lagrangian.inertia_metric(q, t);
-        self.lagrangian.refuse_without_parts(q, t, metric.as_slice())?;
-        Ok(&frame * metric * frame.transpose())
+        Ok(&frame * self.lagrangian.inertia_metric(q, t)? * frame.transpose())
     }
 
     /// The momenta p̄_A = ∂L̄/∂u^A = k_A^C ∂L/∂q̇^C.

@@ -145,6 +145,10 @@ fn metric_of_a_lagrangian_function_is_refused_and_its_mass_matrix_is_given() {
     let (mut work, mut matrix, mut forcing) = (Workspace::default(), [0.0; 4], [0.0; 2]);
     let free = Lagrangian::from_function(Polar);
     assert_eq!(free.inertia_metric_into(&mut work, &q, 0.0, &mut matrix), Err(LagrangianError::NoParts));
+    assert_eq!(free.inertia_metric(&q, 0.0).unwrap_err(), LagrangianError::NoParts);
+    assert_eq!(free.christoffel_first(&q, 0.0).unwrap_err(), LagrangianError::NoParts);
+    assert_eq!(free.christoffel_second(&q, 0.0).unwrap_err(), LagrangianError::NoParts);
+    assert_eq!(free.lower(&q, &[1.0, 2.0], 0.0).unwrap_err(), LagrangianError::NoParts);
     free.equations_into(&mut work, &q, &[0.0, 1.0], 0.0, &mut matrix, &mut forcing).unwrap();
     assert_close_at_scale("∂²L/∂q̇∂q̇", &matrix, &[2.0, 0.0, 0.0, 18.0], 18.0, Tol::ulps(4.0));
     let framed = free.in_frame(Unit);

@@ -54,6 +54,7 @@ fn bricard_loop_in_six_angles_equals_bricard_loop_in_one_parameter_over_ten_seco
 fn bricard_loop_turning_inside_out_equals_the_same_in_one_parameter() {
     let (run, end) = compare(0.6, 4.0);
     assert!(core::f64::consts::TAU < end, "it turns round: {end}");
+    // The sum of the moduli of all local errors.
     assert!(run.error_estimate() < 1e-9);
 }
 

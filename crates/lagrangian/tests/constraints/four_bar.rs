@@ -39,6 +39,7 @@ fn four_bar_in_three_angles_equals_four_bar_in_one_over_ten_seconds() {
     assert_close_at_scale("angles", q, &expected.0, 1.0, tol);
     assert_close("rates", v, &expected.1, tol);
     assert!(run.residual() <= 4.0 * f64::EPSILON && run.rate_residual() <= 16.0 * f64::EPSILON);
+    // The sum of the moduli of all local errors.
     assert!(run.error_estimate() < 1e-9);
 }
 

@@ -3,12 +3,13 @@
 use core::ops::ControlFlow;
 use std::collections::HashMap;
 
+use nalgebra::DMatrix;
 use piola_integrators::{DormandPrince853, Field, GaussLegendre, Order, State, Tolerance};
 use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_lagrangian::rigid_motion::RigidRotation;
 use piola_lagrangian::{Forces, Holonomic, Lagrangian, Potential};
 use piola_numerics::Real;
-use piola_testkit::{Tol, assert_close, assert_close_at_scale, golden};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale, assert_each_close_at_scales, golden};
 use serde_json::Value;
 
 use crate::systems::*;
@@ -113,9 +114,12 @@ fn flat(value: &Value) -> Vec<f64> {
 #[test]
 fn lagrangian_data_equal_reference() {
     let data = golden::load("lagrange");
+    let mut compared = 0;
     for case in &data.cases {
         with_system!(case, lagrangian => check_case(case, lagrangian));
+        compared += 1;
     }
+    assert_eq!(compared, 13);
 }
 
 fn check_case<S: Holonomic, P: Potential>(case: &Value, bare: Lagrangian<S, P>) {
@@ -142,7 +146,7 @@ fn check_case<S: Holonomic, P: Potential>(case: &Value, bare: Lagrangian<S, P>) 
     check("E", &[energies.kinetic], "E", 1e-13);
     check("V", &[energies.potential], "V", 1e-13);
     check_at_scale("L", energies.lagrangian(), "L");
-    let metric = lagrangian.inertia_metric(&q, t);
+    let metric = lagrangian.inertia_metric(&q, t).unwrap();
     check("metric", metric.transpose().as_slice(), "metric", 1e-13);
     let parts = lagrangian.kinetic_energy_parts(&q, t);
     check("E₀", &[parts.constant], "E_part0", 1e-13);
@@ -153,7 +157,7 @@ fn check_case<S: Holonomic, P: Potential>(case: &Value, bare: Lagrangian<S, P>) 
         .iter()
         .flat_map(|matrix| matrix.transpose().as_slice().to_vec())
         .collect();
-    check("Γ", &christoffel, "christoffel", 1e-12);
+    check_christoffel(case, &lagrangian.christoffel_first(&q, t).unwrap(), &christoffel);
     check("∂L/∂q", lagrangian.coordinate_gradient(&q, &v, t).unwrap().as_slice(), "dL_dq", 1e-13);
     check("p", lagrangian.momenta(&q, &v, t).unwrap().as_slice(), "momenta", 1e-13);
     check_at_scale("∂L/∂t", lagrangian.time_derivative(&q, &v, t).unwrap(), "dL_dt_explicit");
@@ -164,6 +168,33 @@ fn check_case<S: Holonomic, P: Potential>(case: &Value, bare: Lagrangian<S, P>) 
     let power: f64 = generalised.iter().zip(&v).map(|(f, v)| f * v).sum();
     check_at_scale("power", power, "power");
     check_at_scale("dh/dt", power - lagrangian.time_derivative(&q, &v, t).unwrap(), "dh_dt");
+}
+
+/// W(6.5–6.6): [AB, D] = g_DC Γ^C_AB of the reference, and Γ^C_AB, each at its own size: components of one symbol have different units.
+fn check_christoffel(case: &Value, first: &[DMatrix<f64>], second: &[f64]) {
+    let name = golden::text(&case["name"]);
+    let (metric, symbols) = (golden::matrix(&case["metric"]), flat(&case["christoffel"]));
+    let n = metric.len();
+    let reference = |c: usize, a: usize, b: usize| symbols[(c * n + a) * n + b];
+    let contracted = |d: usize, a: usize, b: usize| (0..n).map(|c| metric[d][c] * reference(c, a, b)).sum::<f64>();
+    let terms = |d: usize, a: usize, b: usize| (0..n).map(|c| (metric[d][c] * reference(c, a, b)).abs()).sum::<f64>();
+    // Derivatives of the metric along coordinates of the size of one, in the units of the three places.
+    let unit = |a: usize| metric[a][a].sqrt();
+    let largest = (0..n).map(unit).fold(0.0, f64::max);
+    let scale = |d: usize, a: usize, b: usize| {
+        terms(d, a, b).max(terms(a, b, d)).max(terms(b, a, d)) + unit(a) * unit(b) * largest
+    };
+    let inverse = DMatrix::from_fn(n, n, |i, j| metric[i][j]).try_inverse().expect("a regular metric");
+    let places = || (0..n).flat_map(|c| (0..n).flat_map(move |a| (0..n).map(move |b| (c, a, b))));
+    let found: Vec<f64> = places().map(|(d, a, b)| first[d][(a, b)]).collect();
+    let expected: Vec<f64> = places().map(|(d, a, b)| contracted(d, a, b)).collect();
+    let scales: Vec<f64> = places().map(|(d, a, b)| scale(d, a, b)).collect();
+    let few = Tol::ulps(64.0);
+    assert_each_close_at_scales(&format!("{name}: [AB, D]"), &found, &expected, &scales, few);
+    let scales: Vec<f64> =
+        places().map(|(c, a, b)| (0..n).map(|d| inverse[(c, d)].abs() * scale(d, a, b)).sum()).collect();
+    assert_each_close_at_scales(&format!("{name}: Γ"), second, &symbols, &scales, few);
+    assert_eq!(found.len(), n * n * n, "{name}");
 }
 
 /// 1e-14 of the sensitivity, or 1e-11, whichever is larger, of the state's own size.

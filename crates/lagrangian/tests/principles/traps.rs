@@ -209,7 +209,8 @@ impl Path for Jump {
 fn action_of_a_path_that_jumps_is_given_with_its_error_or_refused() {
     let system = everything();
     match system.action(&Jump, 0.0..1.0, Tolerance::relative(1e-13).unwrap()) {
-        Ok(action) => assert!(action.error <= 1e-10, "{action:?}"),
+        // Ten times what was found.
+        Ok(action) => assert!(action.error <= 2e-11, "{action:?}"),
         Err(found) => assert!(matches!(found, LagrangianError::QuadratureNotConverged { .. }), "{found}"),
     }
     let found = refusal(system.action(&Jump, 0.0..f64::NAN, Tolerance::relative(1e-10).unwrap()));
@@ -296,5 +297,6 @@ fn run_that_fails_keeps_the_steps_before() {
     let (q, _) = run.last();
     assert!(0.9 < q[0] && q[0] <= 1.0, "stopped at {q:?}");
     assert_close("time", &[*time], &[run.times()[run.times().len() - 1]], Tol::ulps(0.0));
-    assert!(run.error_estimate().is_infinite() && run.energy_drift() < 1e-8);
+    // Ten times the tolerance of the steps.
+    assert!(run.error_estimate().is_infinite() && run.energy_drift() < 1e-9);
 }

@@ -11,7 +11,7 @@ use crate::systems::{Acts, GRAVITY, Linear, Standing, Still, standing};
 
 /// κ of the metric scaled to unit diagonal.
 fn condition(lagrangian: &Standing, q: &[f64]) -> f64 {
-    let g = lagrangian.inertia_metric(q, 0.0);
+    let g = lagrangian.inertia_metric(q, 0.0).unwrap();
     let scaled = DMatrix::from_fn(q.len(), q.len(), |i, j| g[(i, j)] / (g[(i, i)] * g[(j, j)]).sqrt());
     // Singular values tell where the factorisation fails already.
     let values = scaled.singular_values();

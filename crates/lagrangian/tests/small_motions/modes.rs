@@ -86,6 +86,7 @@ fn proportional_damping_ratios_equal_closed_form() {
         assert_close("λ", &[mode.eigenvalue.re, mode.eigenvalue.im], expected, Tol::ulps(64.0));
         let ratio = -expected[0] / expected[0].hypot(expected[1]);
         assert_close("ζ", &[mode.damping_ratio()], &[ratio], Tol::ulps(64.0));
+        // A bound by the norm of the whole matrix, beside the smallest eigenvalue.
         assert!(mode.uncertainty < 1e-10 * mode.eigenvalue.norm());
     }
 }
@@ -108,6 +109,7 @@ fn critically_damped_oscillator_knows_its_frequency_to_the_root_of_rounding() {
     let modes = linear(dmatrix![1.0], &dmatrix![6.0], &dmatrix![9.0]).complex_modes().unwrap().modes;
     for mode in &modes {
         let error = (mode.eigenvalue - Complex::new(-3.0, 0.0)).norm();
+        // √ε times the size of λ, with room for the constant of the bound.
         assert!(error <= mode.uncertainty && mode.uncertainty < 1e-6, "{mode:?}");
     }
 }
@@ -126,6 +128,7 @@ fn equal_oscillators_keep_independent_shapes() {
     let expected = [-0.25, (4.0_f64 - 0.0625).sqrt()];
     for mode in &modes {
         assert_close("λ", &[mode.eigenvalue.re, mode.eigenvalue.im], &expected, Tol::ulps(64.0).times(16.0));
+        // Equal eigenvalues with independent shapes are as well known as single ones.
         assert!(mode.uncertainty < 1e-12, "{}", mode.uncertainty);
     }
 }

@@ -194,7 +194,7 @@ fn short(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
     let mut tests = Vec::new();
     for (mode, points) in groups {
         let (lines, points): (Vec<u64>, Vec<[f64; 2]>) = points.into_iter().unzip();
-        tests.extend(test(mode.name(), &Table::of_mode(mode, points), Measure::Nominal, &lines, &mut mistakes));
+        tests.extend(test(mode.name(), &Table::of_mode(mode, points), Measure::FirstPiola, &lines, &mut mistakes));
     }
     if mistakes.is_empty() { Ok(tests) } else { Err(mistakes) }
 }
@@ -261,7 +261,7 @@ fn long(rows: &[Row]) -> Result<Vec<Test>, Vec<TableMistake>> {
             continue;
         }
         let measure = match row.fields[1].to_ascii_lowercase().as_str() {
-            "pk1" | "nominal" => Measure::Nominal,
+            "pk1" | "nominal" => Measure::FirstPiola,
             "cauchy" => Measure::Cauchy,
             other => {
                 mistakes.push(TableMistake::new(row.line, format!("stress_type is `{other}`"), "PK1 or cauchy"));

@@ -81,10 +81,7 @@ fn fitted<F: Parameters<N> + ViscometricFluid, const N: usize>(
     options: &Options,
 ) -> Result<FittedFluid, FitError> {
     let fit = fit_flow::<F, N>(data, starts, options)?;
-    let rates = measured.rows().iter().map(|row| measured.flow.apparent(*row)[1]);
-    let (low, high) = rates.fold((f64::INFINITY, 0.0_f64), |(low, high), rate| (low.min(rate), high.max(rate)));
-    let rate = |k: u32| low * (high / low).powf(f64::from(k) / f64::from(POINTS));
-    let curve = (0..=POINTS).map(|k| [rate(k), fit.fluid.shear_stress(rate(k))]).collect();
+    let curve = curve(measured, &|rate| fit.fluid.shear_stress(rate));
     Ok(FittedFluid {
         parameters: fit.parameters,
         residuals: fit.residuals.into_iter().next().unwrap_or_default(),
@@ -92,6 +89,14 @@ fn fitted<F: Parameters<N> + ViscometricFluid, const N: usize>(
         outcome: fit.outcome,
         curve,
     })
+}
+
+/// Shear rates over the range that was measured, and the stresses there.
+fn curve(measured: &Measured, stress: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    let rates = measured.rows().iter().map(|row| measured.flow.apparent(*row)[1]);
+    let (low, high) = rates.fold((f64::INFINITY, 0.0_f64), |(low, high), rate| (low.min(rate), high.max(rate)));
+    let rate = |k: u32| low * (high / low).powf(f64::from(k) / f64::from(POINTS));
+    (0..=POINTS).map(|k| [rate(k), stress(rate(k))]).collect()
 }
 
 /// The fluids: a name, a type, and where its searches start.

@@ -7,7 +7,7 @@ use core::fmt::Display;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Composition, DormandPrince853, Ending, Field, GaussLegendre, Report, Separable, State, Tolerance,
+    Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Report, Separable, State, Tolerance,
 };
 
 use super::{History, Invariants, Progress};
@@ -22,7 +22,95 @@ pub(super) trait Reading {
     fn invariants(&mut self, time: f64, values: &[f64]) -> Invariants;
 }
 
-pub(super) struct Driver<O> {
+/// The observer of a run: it sees the progress after every step and may stop the run.
+pub(super) type Observer<'o> = &'o mut dyn FnMut(Progress) -> ControlFlow<()>;
+
+/// Takes a driver and a state to an instant.
+type Advance<'a, 'o> = &'a mut dyn FnMut(&mut Driver<'o>, &mut State, f64) -> Result<Report, IntegratorsError<String>>;
+
+/// A field or a separable pair behind a pointer: the integrators are compiled once and not once a system.
+/// Their cost beside the forces of a scene is a call through a pointer, some nanoseconds an evaluation.
+struct AnyField<'f, F: ?Sized>(&'f mut F);
+
+/// What an integrator asks of a field, with errors as text.
+trait FieldWithText {
+    fn dimension(&self) -> usize;
+    fn is_second_order(&self) -> bool;
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), String>;
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String>;
+    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]);
+}
+
+impl<F: Field<Error: Display>> FieldWithText for F {
+    fn dimension(&self) -> usize {
+        Field::dimension(self)
+    }
+    fn is_second_order(&self) -> bool {
+        Field::is_second_order(self)
+    }
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), String> {
+        Field::rate(self, t, y, rate).map_err(|error| error.to_string())
+    }
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
+        Field::project(self, t, y).map_err(|error| error.to_string())
+    }
+    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
+        Field::magnitudes(self, y, magnitudes);
+    }
+}
+
+impl Field for AnyField<'_, dyn FieldWithText + '_> {
+    type Error = String;
+    fn dimension(&self) -> usize {
+        self.0.dimension()
+    }
+    fn is_second_order(&self) -> bool {
+        self.0.is_second_order()
+    }
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), String> {
+        self.0.rate(t, y, rate)
+    }
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
+        self.0.project(t, y)
+    }
+    fn magnitudes(&self, y: &[f64], magnitudes: &mut [f64]) {
+        self.0.magnitudes(y, magnitudes);
+    }
+}
+
+/// What a composition asks of a separable pair, with errors as text.
+trait SeparableWithText {
+    fn freedom(&self) -> usize;
+    fn velocity(&mut self, t: f64, momentum: &[f64], velocity: &mut [f64]) -> Result<(), String>;
+    fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), String>;
+}
+
+impl<F: Separable<Error: Display>> SeparableWithText for F {
+    fn freedom(&self) -> usize {
+        Separable::freedom(self)
+    }
+    fn velocity(&mut self, t: f64, momentum: &[f64], velocity: &mut [f64]) -> Result<(), String> {
+        Separable::velocity(self, t, momentum, velocity).map_err(|error| error.to_string())
+    }
+    fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), String> {
+        Separable::force(self, t, position, force).map_err(|error| error.to_string())
+    }
+}
+
+impl Separable for AnyField<'_, dyn SeparableWithText + '_> {
+    type Error = String;
+    fn freedom(&self) -> usize {
+        self.0.freedom()
+    }
+    fn velocity(&mut self, t: f64, momentum: &[f64], velocity: &mut [f64]) -> Result<(), String> {
+        self.0.velocity(t, momentum, velocity)
+    }
+    fn force(&mut self, t: f64, position: &[f64], force: &mut [f64]) -> Result<(), String> {
+        self.0.force(t, position, force)
+    }
+}
+
+pub(super) struct Driver<'o> {
     history: History,
     report: Report,
     time: f64,
@@ -31,12 +119,12 @@ pub(super) struct Driver<O> {
     /// The first instant that is not recorded yet.
     next: usize,
     landings: Vec<f64>,
-    observer: O,
+    observer: Observer<'o>,
     steps: u64,
 }
 
-impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
-    pub(super) fn new(scene: &Scene, plan: &Plan, observer: O) -> Self {
+impl<'o> Driver<'o> {
+    pub(super) fn new(scene: &Scene, plan: &Plan, observer: Observer<'o>) -> Self {
         let names = scene.names().into_iter().map(str::to_string).collect();
         let mut landings = plan::reference_times(scene).to_vec();
         landings.push(plan.end);
@@ -75,7 +163,7 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
     }
 
     /// Records the state at the start.
-    fn begin(&mut self, state: &State, reading: &mut impl Reading) {
+    fn begin(&mut self, state: &State, reading: &mut dyn Reading) {
         reading.record(state.time, &state.values, &mut self.history);
         let invariants = reading.invariants(state.time, &state.values);
         self.history.invariants.push(invariants);
@@ -85,12 +173,7 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
     }
 
     /// A method of fixed step, from instant to instant.
-    fn fixed<E: Display>(
-        &mut self,
-        state: &mut State,
-        reading: &mut impl Reading,
-        mut advance: impl FnMut(&mut Self, &mut State, f64) -> Result<Report, E>,
-    ) -> Result<(), String> {
+    fn fixed(&mut self, state: &mut State, reading: &mut dyn Reading, advance: Advance<'_, 'o>) -> Result<(), String> {
         self.begin(state, reading);
         while let Some(&instant) = self.instants.get(self.next) {
             let steps_before = self.steps;
@@ -115,42 +198,47 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
     }
 
     /// An explicit composition.
-    pub(super) fn separable<F: Separable>(
+    pub(super) fn separable(
         &mut self,
         method: &mut Composition,
-        field: &mut F,
+        field: &mut impl Separable<Error: Display>,
         state: &mut State,
-        reading: &mut impl Reading,
-    ) -> Result<(), String>
-    where
-        F::Error: Display,
-    {
-        self.fixed(state, reading, |driver, state, instant| {
-            method.integrate(field, state, instant, |step| driver.step_done(step.time))
+        reading: &mut dyn Reading,
+    ) -> Result<(), String> {
+        let mut field = AnyField(field as &mut dyn SeparableWithText);
+        self.fixed(state, reading, &mut |driver, state, instant| {
+            method.integrate(&mut field, state, instant, |step| driver.step_done(step.time))
         })
     }
 
     /// Any other method.
-    pub(super) fn field<F: Field>(
+    pub(super) fn field(
         &mut self,
         plan: &Plan,
-        field: &mut F,
+        field: &mut impl Field<Error: Display>,
         state: &mut State,
-        reading: &mut impl Reading,
-    ) -> Result<(), String>
-    where
-        F::Error: Display,
-    {
+        reading: &mut dyn Reading,
+    ) -> Result<(), String> {
+        self.any_field(plan, AnyField(field as &mut dyn FieldWithText), state, reading)
+    }
+
+    fn any_field(
+        &mut self,
+        plan: &Plan,
+        mut field: AnyField<dyn FieldWithText + '_>,
+        state: &mut State,
+        reading: &mut dyn Reading,
+    ) -> Result<(), String> {
         match plan.method {
             Method::GaussLegendre { order, step } => {
                 let mut method = GaussLegendre::new(order, step).map_err(|error| error.to_string())?;
-                self.fixed(state, reading, |driver, state, instant| {
-                    method.integrate(field, state, instant, |step| driver.step_done(step.time))
+                self.fixed(state, reading, &mut |driver, state, instant| {
+                    method.integrate(&mut field, state, instant, |step| driver.step_done(step.time))
                 })
             }
             Method::DormandPrince { tolerance } => {
                 let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
-                self.adaptive(&mut DormandPrince853::new(tolerance), field, state, reading)
+                self.adaptive(&mut DormandPrince853::new(tolerance), &mut field, state, reading)
             }
             Method::Composition { .. } => {
                 Err("an explicit composition needs forces that depend on positions alone".to_string())
@@ -158,16 +246,13 @@ impl<O: FnMut(Progress) -> ControlFlow<()>> Driver<O> {
         }
     }
 
-    fn adaptive<F: Field>(
+    fn adaptive(
         &mut self,
         method: &mut DormandPrince853,
-        field: &mut F,
+        field: &mut AnyField<dyn FieldWithText + '_>,
         state: &mut State,
-        reading: &mut impl Reading,
-    ) -> Result<(), String>
-    where
-        F::Error: Display,
-    {
+        reading: &mut dyn Reading,
+    ) -> Result<(), String> {
         self.begin(state, reading);
         let mut between = state.values.clone();
         for landing in core::mem::take(&mut self.landings) {

@@ -89,7 +89,12 @@ pub struct Run {
 /// assert!(run.errors.unwrap().largest_relative < 1e-11);
 /// # Ok::<(), piola_scene::SceneError>(())
 /// ```
-pub fn run(scene: &Scene, plan: &Plan, observer: impl FnMut(Progress) -> ControlFlow<()>) -> Run {
+pub fn run(scene: &Scene, plan: &Plan, mut observer: impl FnMut(Progress) -> ControlFlow<()>) -> Run {
+    observed(scene, plan, &mut observer)
+}
+
+/// The same for any observer: whoever calls `run` compiles none of it again.
+fn observed(scene: &Scene, plan: &Plan, observer: drive::Observer) -> Run {
     let begun = Instant::now();
     let mut driver = Driver::new(scene, plan, observer);
     let result = match &scene.system {

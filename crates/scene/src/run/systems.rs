@@ -1,7 +1,6 @@
 //! The equations of each kind of system and the reading of its states.
 
 use core::convert::Infallible;
-use core::ops::ControlFlow;
 
 use nalgebra::Vector3;
 use piola_gravitation as gravitation;
@@ -12,16 +11,12 @@ use piola_lagrangian::{Lagrangian, Workspace};
 use piola_numerics::sums::CompensatedSum;
 
 use super::drive::{Driver, Reading};
-use super::{History, Invariants, Progress};
+use super::{History, Invariants};
 use crate::model::{self, JointTree, NEWTONIAN_CONSTANT};
 use crate::plan::{Method, Plan};
 
 /// Bodies that attract each other.
-pub(super) fn gravitation(
-    system: &model::Gravitation,
-    plan: &Plan,
-    driver: &mut Driver<impl FnMut(Progress) -> ControlFlow<()>>,
-) -> Result<(), String> {
+pub(super) fn gravitation(system: &model::Gravitation, plan: &Plan, driver: &mut Driver) -> Result<(), String> {
     let mut bodies = gravitating(system).map_err(|error| error.to_string())?;
     let positions: Vec<_> = system.bodies.iter().map(|body| body.position).collect();
     let velocities: Vec<_> = system.bodies.iter().map(|body| body.velocity).collect();
@@ -70,11 +65,7 @@ impl Reading for Gravitation {
 }
 
 /// Bodies about a fixed centre.
-pub(super) fn central(
-    system: &model::Central,
-    plan: &Plan,
-    driver: &mut Driver<impl FnMut(Progress) -> ControlFlow<()>>,
-) -> Result<(), String> {
+pub(super) fn central(system: &model::Central, plan: &Plan, driver: &mut Driver) -> Result<(), String> {
     let places = system.bodies.iter().flat_map(|body| body.position);
     let start = places.chain(system.bodies.iter().flat_map(|body| body.velocity)).collect();
     let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
@@ -173,11 +164,7 @@ impl Reading for CentralReading<'_> {
 }
 
 /// Particles and rigid bodies on joints.
-pub(super) fn mechanism(
-    system: &model::Mechanism,
-    plan: &Plan,
-    driver: &mut Driver<impl FnMut(Progress) -> ControlFlow<()>>,
-) -> Result<(), String> {
+pub(super) fn mechanism(system: &model::Mechanism, plan: &Plan, driver: &mut Driver) -> Result<(), String> {
     let n = system.position.len();
     driver.history().coordinate_names.clone_from(&system.coordinates);
     let lagrangian = Lagrangian::of(system.tree.clone()).with_uniform_gravity(system.gravity);

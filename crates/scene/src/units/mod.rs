@@ -50,13 +50,13 @@ pub enum UnitError {
         nearest: Option<&'static str>,
     },
     /// A product follows a division without a sign between.
-    #[error("`{found}` can be read in two ways: put what is divided by in brackets, as in `J/(kg m)`")]
+    #[error("`{found}` can be read in two ways: put the divisor in brackets, as in `J/(kg m)`")]
     AmbiguousDivision {
         /// The unit as written.
         found: String,
     },
     /// An exponent that is not a whole number between −99 and 99.
-    #[error("`{found}` is not a whole exponent between -99 and 99")]
+    #[error("the exponent `{found}` is not a whole number between -99 and 99")]
     BadExponent {
         /// The exponent as written.
         found: String,
@@ -74,7 +74,7 @@ pub enum UnitError {
         found: String,
     },
     /// A vector with another number of components than expected.
-    #[error("{found} components instead of {expected}")]
+    #[error("the number of components is {found}; it must be {expected}")]
     WrongLength {
         /// How many were given.
         found: usize,

@@ -348,10 +348,10 @@ fn pipes_of_several_radii_and_capillaries_of_several_lengths_are_corrected() -> 
     // One table, one radius, or another flow tell nothing.
     let sentence =
         |refused: Result<_, SceneError>| refused.map(|_: piola_scene::rheology::Recovery| ()).unwrap_err().to_string();
-    assert_eq!(sentence(recover(&capillaries[0], &request)), "1 tables: 2 at least are needed");
-    assert_eq!(sentence(recover_without_slip(&pipes[..1], &request)), "1 tables: 2 at least are needed");
+    assert_eq!(sentence(recover(&capillaries[0], &request)), "too few tables: 1 given, at least 2 needed");
+    assert_eq!(sentence(recover_without_slip(&pipes[..1], &request)), "too few tables: 1 given, at least 2 needed");
     let same = recover_without_slip(&[pipes[0].clone(), pipes[0].clone()], &request);
-    assert_eq!(sentence(same), "the radius 5e-1 of all tables is the same");
+    assert_eq!(sentence(same), "the radius is 5e-1 m in all tables; it must differ between them");
     let other = sentence(recover_without_slip(&capillaries, &request));
     assert_eq!(other, "`--slip with --flow capillary` is not accepted; valid: --flow pipe");
     Ok(())

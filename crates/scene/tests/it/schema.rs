@@ -1,25 +1,33 @@
 //! The JSON Schema agrees with the declared keys, and the documentation with both.
 
+use std::path::{Path, PathBuf};
+
 use piola_scene::schema::{self, Absent, Kind, SCENE, Table};
 use serde_json::Value;
 
 #[test]
 fn schema_has_every_key_with_its_documentation() {
-    fn compare(table: &Table, schema: &Value) {
+    /// The number of keys that were compared.
+    fn compare(table: &Table, schema: &Value) -> usize {
         let properties = schema["properties"].as_object().unwrap_or_else(|| panic!("{} has no properties", table.name));
         assert_eq!(properties.len(), table.keys.len());
         assert_eq!(schema["additionalProperties"], false);
+        let mut count = 0;
         for key in table.keys {
             let property = &properties[key.name];
             assert!(property["description"].is_string(), "{}.{}", table.name, key.name);
             match key.kind {
-                Kind::Table(inner) => compare(inner, property),
-                Kind::Tables(inner) => compare(inner, &property["items"]),
-                _ => {}
+                Kind::Table(inner) => count += compare(inner, property),
+                Kind::Tables(inner) => count += compare(inner, &property["items"]),
+                // Of any other kind a key has no keys of its own.
+                _ => assert!(property["properties"].is_null() && property["items"]["properties"].is_null()),
             }
+            count += 1;
         }
+        count
     }
-    compare(&SCENE, &schema::json_schema());
+    let count = compare(&SCENE, &schema::json_schema());
+    assert!(SCENE.keys.len() < count, "{count} keys");
 }
 
 #[test]
@@ -38,11 +46,17 @@ fn names_of_keys_differ_and_everything_is_documented() {
     check(&SCENE);
 }
 
+/// A path of the repository; none where the package stands alone, outside of it.
+fn in_repository(path: &str) -> Option<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    // The repository has the map of the house; a folder in which a package was unpacked has none.
+    root.join("ARCHITECTURE.md").exists().then(|| root.join(path))
+}
+
 #[test]
 fn documentation_holds_the_generated_tables() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/reference/scenes.md");
-    // A package that stands alone has no documentation beside it.
-    let Ok(documentation) = std::fs::read_to_string(path) else { return };
+    let Some(path) = in_repository("docs/reference/scenes.md") else { return };
+    let documentation = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     assert!(
         documentation.contains(&schema::markdown()),
         "docs/reference/scenes.md must end with what `piola schema --markdown` prints"
@@ -51,14 +65,17 @@ fn documentation_holds_the_generated_tables() {
 
 #[test]
 fn scenes_that_come_with_the_program_are_valid() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
-    let Ok(entries) = std::fs::read_dir(folder) else { return };
-    for entry in entries.filter_map(Result::ok) {
-        let path = entry.path();
-        if path.extension().is_some_and(|extension| extension == "toml")
-            && let Err(error) = piola_scene::SceneFile::load(&path, &[])
-        {
-            panic!("{}: {error}", path.display());
+    let Some(folder) = in_repository("scenes") else { return };
+    let entries = std::fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display()));
+    let mut count = 0;
+    for entry in entries {
+        let path = entry.unwrap_or_else(|error| panic!("{}: {error}", folder.display())).path();
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            if let Err(error) = piola_scene::SceneFile::load(&path, &[]) {
+                panic!("{}: {error}", path.display());
+            }
+            count += 1;
         }
     }
+    assert!(7 <= count, "{count} scenes");
 }

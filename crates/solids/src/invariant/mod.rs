@@ -208,8 +208,8 @@ pub fn second_piola_and_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
 ) -> (SecondPiola<T>, MaterialTangent<T>) {
-    let (nominal, tangent) = first_piola_and_tangent(law, deformation);
-    let stress = nominal.second_piola(deformation);
+    let (first_piola, tangent) = first_piola_and_tangent(law, deformation);
+    let stress = first_piola.second_piola(deformation);
     (stress, MaterialTangent(tangent.material(&stress, deformation).0.major_part()))
 }
 

@@ -25,12 +25,12 @@ proptest! {
         let f = DeformationGradient::from_rows(rows).expect("0 < det F");
         let inverse = largest(f.inverse_rows().as_flattened());
         for (law, _) in all() {
-            let (nominal, tangent) = law.first_piola_and_tangent(&f);
+            let (first_piola, tangent) = law.first_piola_and_tangent(&f);
             let moduli = largest(tangent.0.components.as_flattened());
             let close = |what: &str, actual: &[f64], expected: &[f64], scale: f64| {
                 assert_close_at_scale(&format!("{law:?}: {what} at {f:?}"), actual, expected, scale, TOGETHER);
             };
-            close("P", nominal.0.as_slice(), law.first_piola(&f).0.as_slice(), moduli);
+            close("P", first_piola.0.as_slice(), law.first_piola(&f).0.as_slice(), moduli);
             let energy = law.energy(&f);
             let (with_stress, stress) = law.energy_and_first_piola(&f);
             let (with_both, again, whole) = law.energy_first_piola_and_tangent(&f);
@@ -39,8 +39,8 @@ proptest! {
             let work = moduli * strain * (strain + largest(&law.reference_stress().components) / moduli);
             close("W with P", &[with_stress], &[energy], work);
             close("W with both", &[with_both], &[energy], work);
-            close("P with W", stress.0.as_slice(), nominal.0.as_slice(), moduli);
-            close("P with W and ∂P/∂F", again.0.as_slice(), nominal.0.as_slice(), moduli);
+            close("P with W", stress.0.as_slice(), first_piola.0.as_slice(), moduli);
+            close("P with W and ∂P/∂F", again.0.as_slice(), first_piola.0.as_slice(), moduli);
             let (whole, together) = (whole.0.components, tangent.0.components);
             close("∂P/∂F with W", whole.as_flattened(), together.as_flattened(), moduli);
             let apart = law.first_piola_tangent(&f).0.components;

@@ -56,14 +56,14 @@ fn compare_all<T: BatchScalar, L: Hyperelastic + Sync>(
     let n = f.len();
     let zero = T::zero();
     let (mut w, mut energy) = (vec![zero; n], vec![zero; n]);
-    let (mut p, mut nominal, mut along) =
+    let (mut p, mut first_piola, mut along) =
         (vec![FirstPiola::zero(); n], vec![FirstPiola::zero(); n], vec![FirstPiola::zero(); n]);
     let mut a = vec![[zero; 45]; n];
     let direction = vec![Matrix3::from_fn(|i, j| T::lit(0.3 - 0.2 * i as f64 + 0.1 * j as f64)); n];
     let good = "deformations of the law";
     batch::evaluate(f, batch::energy(law, &mut energy[..])).expect(good);
     batch::evaluate(f, batch::first_piola(law, &mut p[..])).expect(good);
-    let all = batch::energy_first_piola_and_tangent(law, &mut w[..], &mut nominal[..], &mut a[..]);
+    let all = batch::energy_first_piola_and_tangent(law, &mut w[..], &mut first_piola[..], &mut a[..]);
     batch::evaluate(f, all).expect(good);
     batch::evaluate(f, batch::first_piola_derivative(law, &direction[..], &mut along[..])).expect(good);
     let (mut work, mut stress) = (vec![zero; n], vec![FirstPiola::zero(); n]);
@@ -85,7 +85,7 @@ fn compare_all<T: BatchScalar, L: Hyperelastic + Sync>(
         for (actual, what) in [(w[i], "W with both"), (work[i], "W with P"), (energy[i], "W")] {
             close(what, &[actual], &[energy_alone], 0.0);
         }
-        for (actual, what) in [(&p[i], "P"), (&nominal[i], "P with W and ∂P/∂F"), (&stress[i], "P with W")] {
+        for (actual, what) in [(&p[i], "P"), (&first_piola[i], "P with W and ∂P/∂F"), (&stress[i], "P with W")] {
             close(what, actual.0.as_slice(), alone.0.as_slice(), 10.0);
         }
         let entries = tangent.0.components;

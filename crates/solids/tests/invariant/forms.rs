@@ -4,7 +4,7 @@ use piola_continuum::{Deformation, DeformationGradient};
 use piola_solids::{
     BlatzKo, Hyperelastic, IsotropicResponse, MooneyRivlin, Polynomial, ResponseForm, SaintVenantKirchhoff,
 };
-use piola_testkit::{Tol, assert_close_at_scale, strategies};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
 const FORMS: [ResponseForm; 4] =
@@ -16,8 +16,9 @@ proptest! {
     #[test]
     fn stress_of_a_law_equals_that_of_every_form(entries in strategies::vector(9, -0.35..0.35)) {
         let row = |i: usize| core::array::from_fn(|j| entries[3 * i + j] + if i == j { 1.0 } else { 0.0 });
-        let Ok(f) = DeformationGradient::from_rows([row(0), row(1), row(2)]) else { return Ok(()) };
-        prop_assume!(0.3 < f.jacobian());
+        let f = DeformationGradient::from_rows([row(0), row(1), row(2)]);
+        prop_assume!(f.as_ref().is_ok_and(|f| 0.3 < f.jacobian()));
+        let f = f.expect("0.3 < det F");
         let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.25).expect("bounds");
         let foam = BlatzKo::foam(0.8).expect("bounds");
         for (stress, response) in [
@@ -48,5 +49,5 @@ fn polynomial_with_coefficients_of_the_text_equals_saint_venant_kirchhoff() {
     let f = DeformationGradient::from_rows([[1.1, 0.2, 0.0], [-0.1, 0.9, 0.3], [0.05, 0.1, 1.2]]).expect("0 < det F");
     let (actual, expected) = (terms.second_piola(&f), closed.second_piola(&f));
     assert_close_at_scale("S", &actual.0.components, &expected.0.components, 1.0, Tol::ulps(16.0));
-    assert_close_at_scale("W", &[terms.energy(&f)], &[closed.energy(&f)], 0.1, Tol::ulps(16.0));
+    assert_close("W", &[terms.energy(&f)], &[closed.energy(&f)], Tol::ulps(32.0));
 }

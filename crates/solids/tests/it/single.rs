@@ -26,10 +26,11 @@ fn states() -> impl Iterator<Item = (f64, DisplacementGradient<f32>, Displacemen
 
 fn agrees(name: &str, law: &impl Hyperelastic) {
     let rounding = Tol::ulps32(16.0);
-    for (size, single, double) in states() {
-        if law.is_incompressible() && 1e-5 < size {
-            continue;
-        }
+    // What is incompressible is compared where the volume changes by rounding alone.
+    let largest = if law.is_incompressible() { 1e-5 } else { 1.0 };
+    let states: Vec<_> = states().filter(|(size, ..)| *size <= largest).collect();
+    assert_eq!(states.len(), if law.is_incompressible() { 2 } else { 6 }, "{name}");
+    for (size, single, double) in states {
         let wide = |entries: &[f32]| entries.iter().map(|x| f64::from(*x)).collect::<Vec<_>>();
         let what = |quantity: &str| format!("{name} at {size:e}: {quantity}");
         assert_close(&what("W"), &wide(&[law.energy(&single)]), &[law.energy(&double)], rounding);

@@ -13,20 +13,22 @@ pub enum Control {
     /// ∂uᵢ/∂Xⱼ = Fᵢⱼ − δᵢⱼ.
     Displacement(f64),
     /// Pᵢⱼ, Pa: zero for a face free of traction.
-    Nominal(f64),
+    #[doc(alias = "nominal")]
+    #[cfg_attr(feature = "serde", serde(alias = "nominal"))]
+    FirstPiola(f64),
     /// Tᵢⱼ, Pa. T is symmetric: of ij and ji at most one can be prescribed.
     Cauchy(f64),
 }
 
 impl Control {
     /// A component of the traction is zero.
-    pub const FREE: Self = Self::Nominal(0.0);
+    pub const FREE: Self = Self::FirstPiola(0.0);
     /// The component of F is that of the reference.
     pub const HELD: Self = Self::Displacement(0.0);
 
     pub(super) const fn value(self) -> f64 {
         match self {
-            Self::Displacement(value) | Self::Nominal(value) | Self::Cauchy(value) => value,
+            Self::Displacement(value) | Self::FirstPiola(value) | Self::Cauchy(value) => value,
         }
     }
 }
@@ -43,7 +45,7 @@ impl Control {
 /// use piola_solids::MooneyRivlin;
 /// use piola_continuum::DisplacementGradient;
 /// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
-/// let controls = Controls::axial([Control::Nominal(1.0), Control::FREE, Control::FREE])?;
+/// let controls = Controls::axial([Control::FirstPiola(1.0), Control::FREE, Control::FREE])?;
 /// let state = equilibrium(&rubber, &controls, &DisplacementGradient::zero())?;
 /// assert!((state.first_piola.0[(0, 0)] - 1.0).abs() < 1e-14);
 /// assert!(state.first_piola.0[(1, 1)].abs() < 1e-14);

@@ -86,7 +86,7 @@ const LEAST_STEP: f64 = 1.0 / 1_048_576.0;
 /// assert!((contraction - 0.4).abs() < 1e-8);
 /// // An incompressible bar that a force pulls to λ = 2: P = μ (λ − λ⁻²).
 /// let rubber = IncompressibleSolid::new(NeoHookean::new(1.0)?);
-/// let pulled = Controls::axial([Control::Nominal(1.75), Control::FREE, Control::FREE])?;
+/// let pulled = Controls::axial([Control::FirstPiola(1.75), Control::FREE, Control::FREE])?;
 /// let bar = equilibrium(&rubber, &pulled, &start)?;
 /// assert!((bar.deformation.matrix()[(0, 0)] - 1.0).abs() < 1e-14);
 /// assert!((bar.pressure + 0.5).abs() < 1e-14); // q = μ (λ⁻¹ − 1)
@@ -136,7 +136,7 @@ pub fn equilibrium(
 /// use piola_continuum::DisplacementGradient;
 /// let rubber = MooneyRivlin::stress_free(0.5, 0.0, 1.0)?; // μ = 1, λ = 4
 /// let cord = Inextensibility::along(Fibre::new([1.0, 0.0, 0.0])?);
-/// let pulled = Controls::axial([Control::Nominal(3.0), Control::FREE, Control::FREE])?;
+/// let pulled = Controls::axial([Control::FirstPiola(3.0), Control::FREE, Control::FREE])?;
 /// let bar = constrained_equilibrium(&rubber, &cord, &pulled, &DisplacementGradient::zero())?;
 /// assert!(bar.state.deformation.matrix().norm() < 1e-14);
 /// assert!((Inextensibility::tension(bar.multipliers[0]) - 3.0).abs() < 1e-14);

@@ -19,7 +19,7 @@ use crate::SpecimensError;
 /// # Example
 /// One term of Ogden's law, and the derivatives of its stress with respect to μ and α in one evaluation.
 /// ```
-/// use piola_specimens::homogeneous::{Incompressible, Mode, nominal_stress};
+/// use piola_specimens::homogeneous::{Incompressible, Mode, first_piola};
 /// use piola_numerics::{Dual, Gradient, Real};
 ///
 /// struct Term<T> { modulus: T, exponent: T }
@@ -33,7 +33,7 @@ use crate::SpecimensError;
 /// }
 ///
 /// let term = Term { modulus: Gradient::<f64, 2>::variable(3.0, 0), exponent: Gradient::variable(2.0, 1) };
-/// let stress = nominal_stress(Mode::Planar, Gradient::constant(2.0), &term);
+/// let stress = first_piola(Mode::Planar, Gradient::constant(2.0), &term);
 /// assert!((stress.value - 3.0 * (2.0 - 0.125)).abs() < 1e-14); // μ (λ^(α−1) − λ^(−α−1))
 /// assert!((stress.partials[0] - 1.875).abs() < 1e-14); // ∂P/∂μ = P/μ
 /// assert!((stress.partials[1] - 3.0 * 2.125 * 2.0_f64.ln()).abs() < 1e-14); // ∂P/∂α
@@ -45,10 +45,10 @@ pub trait Incompressible<T: Real> {
     #[must_use]
     fn energy_of_stretches(&self, stretches: [Dual<T>; 3]) -> Dual<T>;
 
-    /// See [`nominal_stress`].
+    /// See [`first_piola`].
     #[inline]
     #[must_use]
-    fn nominal(&self, mode: Mode, stretch: T) -> T {
+    fn first_piola_of_mode(&self, mode: Mode, stretch: T) -> T {
         let [first, second, third] = mode.elongations(stretch).map(|x| x + T::one());
         // δλ₁ = 1, δλ₃ = −λ₃/λ₁: the volume is kept, and the third face, free of traction, does no work.
         let along = [Dual::variable(first), Dual::constant(second), Dual::new(third, -third / first)];
@@ -68,7 +68,7 @@ impl<T: Real, L: Hyperelastic> Incompressible<T> for L {
     }
 
     /// From the first Piola–Kirchhoff stress, which keeps its digits at small strain.
-    fn nominal(&self, mode: Mode, stretch: T) -> T {
+    fn first_piola_of_mode(&self, mode: Mode, stretch: T) -> T {
         let stress_at =
             |gradient: Rows<T>| self.first_piola(&DisplacementGradient::<T>::zero().lifted(|i, j, _| gradient[i][j])).0;
         let mut gradient = gradient_of(mode, stretch);
@@ -158,7 +158,7 @@ fn gradient_of<T: Real>(mode: Mode, stretch: T) -> Rows<T> {
     }
 }
 
-/// The nominal stress (force per reference area) of an incompressible law in a homogeneous test, Pa.
+/// The first Piola–Kirchhoff stress (force per reference area) of an incompressible law in a homogeneous test, Pa.
 ///
 /// ```text
 /// P₁₁ = ∂W/∂λ₁ − (λ₃/λ₁) ∂W/∂λ₃        simple shear: P₂₁ = dŴ/dk
@@ -180,28 +180,29 @@ fn gradient_of<T: Real>(mode: Mode, stretch: T) -> Rows<T> {
 ///
 /// # Example
 /// ```
-/// use piola_specimens::homogeneous::{Mode, nominal_stress};
+/// use piola_specimens::homogeneous::{Mode, first_piola};
 /// use piola_solids::MooneyRivlin;
 /// let rubber = MooneyRivlin::stress_free(0.5, 0.25, 1.0)?;
 /// // 2 (λ − λ⁻²)(C₁₀ + C₀₁/λ) at λ = 2.
-/// let stress: f64 = nominal_stress(Mode::Uniaxial, 2.0, &rubber);
+/// let stress: f64 = first_piola(Mode::Uniaxial, 2.0, &rubber);
 /// assert!((stress - 2.0 * 1.75 * 0.625).abs() < 1e-14);
 /// # Ok::<(), piola_specimens::SpecimensError>(())
 /// ```
 ///
 /// # Source
 /// W(20.13), W(21.20).
+#[doc(alias = "nominal_stress")]
 #[inline]
 #[must_use]
-pub fn nominal_stress<T: Real, L: Incompressible<T>>(mode: Mode, stretch: T, law: &L) -> T {
-    law.nominal(mode, stretch)
+pub fn first_piola<T: Real, L: Incompressible<T>>(mode: Mode, stretch: T, law: &L) -> T {
+    law.first_piola_of_mode(mode, stretch)
 }
 
-/// (P, dP/dλ), as [`nominal_stress`].
+/// (P, dP/dλ), as [`first_piola`].
 #[inline]
 #[must_use]
-pub fn nominal_stress_and_slope<T: Real, L: Incompressible<Dual<T>>>(mode: Mode, stretch: T, law: &L) -> (T, T) {
-    let stress = law.nominal(mode, Dual::variable(stretch));
+pub fn first_piola_and_slope<T: Real, L: Incompressible<Dual<T>>>(mode: Mode, stretch: T, law: &L) -> (T, T) {
+    let stress = law.first_piola_of_mode(mode, Dual::variable(stretch));
     (stress.value, stress.tangent)
 }
 

@@ -8,7 +8,7 @@
 //! ```
 //! | you have | use |
 //! |---|---|
-//! | an incompressible law, a mode and a stretch; speed and derivatives matter | [`nominal_stress`] |
+//! | an incompressible law, a mode and a stretch; speed and derivatives matter | [`first_piola`] |
 //! | the same, and want pressure and all stresses | [`IncompressibleState`] |
 //! | a law, compressible or not, and a mode | [`uniaxial`], [`equibiaxial`], [`planar`], [`simple_shear`], [`volumetric`] |
 //! | some components of F and the others of P or T | [`equilibrium`] with [`Controls`] |
@@ -16,7 +16,7 @@
 //! | a step of a viscoelastic solid, or a law of your own without an energy | the same, of a [`Response`](piola_solids::Response) |
 //!
 //! The third face is free of traction in every mode; the pressure of an incompressible law follows from that in
-//! closed form by [`nominal_stress`] and [`IncompressibleState`], as an unknown beside F by [`equilibrium`].
+//! closed form by [`first_piola`] and [`IncompressibleState`], as an unknown beside F by [`equilibrium`].
 
 mod controls;
 mod equilibrium;
@@ -29,7 +29,7 @@ pub use equilibrium::{
     ConstrainedState, HomogeneousState, constrained_equilibrium, equibiaxial, equilibrium, planar, simple_shear,
     uniaxial, volumetric,
 };
-pub use incompressible::{Incompressible, IncompressibleState, nominal_stress, nominal_stress_and_slope};
+pub use incompressible::{Incompressible, IncompressibleState, first_piola, first_piola_and_slope};
 pub use mode::Mode;
 
 use piola_numerics::Real;

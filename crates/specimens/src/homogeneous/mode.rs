@@ -4,7 +4,7 @@ use piola_numerics::Real;
 
 /// A mode of a homogeneous test of an incompressible body.
 ///
-/// | mode | stretch | principal stretches | nominal stress |
+/// | mode | stretch | principal stretches | first Piola–Kirchhoff stress |
 /// |---|---|---|---|
 /// | `Uniaxial` | λ along 1 | λ, λ^(−½), λ^(−½) | P₁₁ |
 /// | `Equibiaxial` | λ along 1 and 2 | λ, λ, λ⁻² | P₁₁ |

@@ -90,13 +90,13 @@ impl<L: Response, C> Problem<'_, L, C> {
     where
         C: Constraints<N>,
     {
-        let nominal = self.stress(point);
-        let cauchy = nominal.cauchy(&point.state).0.rows();
+        let first_piola = self.stress(point);
+        let cauchy = first_piola.cauchy(&point.state).0.rows();
         let displacement = point.state.displacement_rows();
         let components = core::array::from_fn(|i| {
             core::array::from_fn(|j| match self.controls.components()[i][j] {
                 Control::Displacement(_) => displacement[i][j],
-                Control::Nominal(_) => nominal.0[(i, j)],
+                Control::FirstPiola(_) => first_piola.0[(i, j)],
                 Control::Cauchy(_) => cauchy[i][j],
             })
         });

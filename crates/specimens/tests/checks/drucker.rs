@@ -46,7 +46,7 @@ fn henckys_modulus_is_the_same_everywhere() {
     for kinematics in [Kinematics::Free, Kinematics::Isochoric] {
         let scan = drucker_scan(&law, &Search { samples: 100, strain: 1.0, ..Search::default() }, kinematics);
         assert!(scan.passes() && scan.samples == 100 && scan.refused == 0, "{scan:?}");
-        let rounding = Tol::ulps(512.0);
+        let rounding = Tol::ulps(64.0);
         assert_close("2 μ", &[scan.worst.modulus], &[1.8], rounding);
         assert_close_at_scale("tr h", &[scan.worst.increment.trace()], &[0.0], 1.0, rounding);
         assert_close("|h|", &[scan.worst.increment.matrix().norm()], &[1.0], Tol::ulps(16.0));
@@ -54,7 +54,7 @@ fn henckys_modulus_is_the_same_everywhere() {
     // λ < 0: the dilation is the softest, 3 λ + 2 μ.
     let law = Hencky::new(-0.3, 0.9).expect("parameters");
     let found = second_order_work(&law, &drawn(&mut Sampler::new(2), 0.5), Kinematics::Free);
-    assert_close("3 λ + 2 μ", &[found.modulus], &[0.9], Tol::ulps(512.0));
+    assert_close("3 λ + 2 μ", &[found.modulus], &[0.9], Tol::ulps(16.0));
 }
 
 #[test]
@@ -64,12 +64,12 @@ fn saint_venant_kirchhoff_loses_the_condition_where_its_closed_form_does() {
     let path = |stretch: f64| [stretch, 1.0, 1.0];
     let lost = drucker_path(&svk(), path, 1.0, 0.5, 20, Kinematics::Free).first_loss.expect("a loss");
     assert_close("√½", &[lost], &[0.5_f64.sqrt()], Tol::ulps(64.0));
-    // The nominal stress P = τ/λ of the bar is stationary later, at √⅓: there dτ/dε = τ.
+    // The first Piola–Kirchhoff stress P = τ/λ of the bar is stationary later, at √⅓: there dτ/dε = τ.
     let bar = DeformationGradient::uniaxial(3.0_f64.sqrt().recip(), 1.0).expect("F");
     let tangent = svk().first_piola_tangent(&bar);
     assert_close_at_scale("dP/dλ", &[tangent.entry(0, 0, 0, 0)], &[0.0], 1.0, Tol::ulps(16.0));
     let found = second_order_work(&svk(), &bar, Kinematics::Free);
-    assert_close("τ", &[found.modulus], &[-2.0 / 9.0], Tol::ulps(128.0));
+    assert_close("τ", &[found.modulus], &[-2.0 / 9.0], Tol::ulps(16.0));
     let mut along = Symmetric::zero();
     along.components[0] = found.increment.components[0].signum();
     assert_close("along the bar", &found.increment.components, &along.components, Tol::ulps(64.0));
@@ -86,7 +86,7 @@ fn saint_venant_kirchhoff_loses_the_condition_where_its_closed_form_does() {
         let found = second_order_work(&svk(), &f, Kinematics::Free).modulus;
         let stretches = StretchAnalysis::of(&f).principal_stretches();
         let scale = stretches.into_iter().map(|x| slope(x).abs()).fold(1.0, f64::max);
-        assert_close_at_scale("modulus", &[found], &[least_of(stretches, stress, slope)], scale, Tol::ulps(1024.0));
+        assert_close_at_scale("modulus", &[found], &[least_of(stretches, stress, slope)], scale, Tol::ulps(64.0));
     }
 }
 
@@ -101,7 +101,7 @@ fn worst_of_a_scan_is_the_least_of_its_samples() {
             assert!(scan.worst.modulus <= part.worst.modulus);
         }
         if kinematics == Kinematics::Isochoric {
-            assert!((scan.gradient.jacobian() - 1.0).abs() < 1e-14);
+            assert_close("det F", &[scan.gradient.jacobian()], &[1.0], Tol::ulps(32.0));
         }
     }
 }
@@ -112,7 +112,7 @@ fn laws_that_keep_the_condition_pass() {
     let mooney = IncompressibleSolid::new(MooneyRivlin::new(0.37, 0.11).expect("parameters"));
     let scan = drucker_scan(&mooney, &wide, Kinematics::Free);
     assert!(scan.passes() && scan.samples == 200, "{scan:?}");
-    assert!(scan.worst.increment.trace().abs() < 1e-14, "{scan:?}");
+    assert_close_at_scale("tr h of |h| = 1", &[scan.worst.increment.trace()], &[0.0], 1.0, Tol::ulps(32.0));
     // W = Σ (μ/α) Σ λᵢ^α is convex in ln λᵢ where 0 < μ α.
     let terms = [OgdenTerm { modulus: 0.6, exponent: 1.3 }, OgdenTerm { modulus: -0.02, exponent: -2.0 }];
     let ogden = Ogden::new(&terms, 4.0).expect("terms");
@@ -139,10 +139,10 @@ fn all_observers_find_the_same_modulus_and_increment() {
                     (second_order_work(law, &f, kinematics), second_order_work(law, &turned, kinematics));
                 let moduli = law.first_piola_tangent(&f).0.components;
                 let scale = moduli.as_flattened().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-                assert_close_at_scale("modulus", &[here.modulus], &[there.modulus], scale, Tol::ulps(256.0));
+                assert_close_at_scale("modulus", &[here.modulus], &[there.modulus], scale, Tol::ulps(64.0));
                 // Up to its sign; where two moduli are near one another their increments mix.
                 let along = here.increment.matrix().dot(&there.increment.matrix()).abs();
-                assert_close("increment", &[along], &[1.0], Tol::stated(1e-9, "rounding by the gap of two moduli"));
+                assert_close("increment", &[along], &[1.0], Tol::ulps(64.0));
             }
         }
     }

@@ -5,8 +5,8 @@ use piola_numerics::{Dual, Gradient, Real};
 use piola_solids::{Hyperelastic, MooneyRivlin};
 use piola_specimens::SpecimensError;
 use piola_specimens::homogeneous::{
-    Control, Controls, Incompressible, IncompressibleState, Mode, equibiaxial, equilibrium, nominal_stress,
-    nominal_stress_and_slope, planar, simple_shear, uniaxial, volumetric,
+    Control, Controls, Incompressible, IncompressibleState, Mode, equibiaxial, equilibrium, first_piola,
+    first_piola_and_slope, planar, simple_shear, uniaxial, volumetric,
 };
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
@@ -56,7 +56,7 @@ fn stretches(mode: Mode) -> impl Iterator<Item = f64> {
 fn mooney_rivlin_equals_the_closed_forms_at_small_and_large_strain() {
     for mode in Mode::ALL {
         for x in stretches(mode) {
-            let stress = nominal_stress(mode, x, &rubber());
+            let stress = first_piola(mode, x, &rubber());
             assert_close(&format!("{} {x:e}", mode.name()), &[stress], &[closed(mode, x)], STRESS);
             let state = IncompressibleState::of(&rubber(), mode, x).expect("state");
             let place = if mode == Mode::SimpleShear { (1, 0) } else { (0, 0) };
@@ -70,7 +70,7 @@ fn energies_of_stretches_give_the_stress_and_its_derivatives_by_parameters() {
     for mode in Mode::ALL {
         for x in stretches(mode) {
             let law = InStretches { c10: Gradient::<f64, 2>::variable(0.37, 0), c01: Gradient::variable(0.11, 1) };
-            let stress = nominal_stress(mode, Gradient::constant(x), &law);
+            let stress = first_piola(mode, Gradient::constant(x), &law);
             let rounding = Tol::ulps(64.0);
             // Only the sum is accurate to the moduli.
             assert_close_at_scale(mode.name(), &[stress.value], &[closed(mode, x)], 1.0 + x.abs().powi(3), rounding);
@@ -85,7 +85,7 @@ fn energies_of_stretches_give_the_stress_and_its_derivatives_by_parameters() {
 fn slope_equals_the_slope_of_the_closed_form() {
     for mode in Mode::ALL {
         for x in [mode.rest(), mode.rest() + 0.7] {
-            let (stress, slope) = nominal_stress_and_slope(mode, x, &rubber());
+            let (stress, slope) = first_piola_and_slope(mode, x, &rubber());
             let along = |h: f64| closed(mode, x + h);
             // Richardson's differences of the closed form.
             let difference = |h: f64| (along(h) - along(-h)) / (2.0 * h);
@@ -123,11 +123,12 @@ fn free_faces_carry_no_traction_and_the_axial_stress_is_that_of_the_stretches() 
             let f = state.deformation.gradient_rows();
             let [a, b, c] = [f[0][0], f[1][1], f[2][2]];
             let scale = 1.0 + a * a * a;
-            let rounding = Tol::ulps(2048.0);
+            let rounding = Tol::ulps(64.0);
             assert_close_at_scale("P₃₃", &[principal(&law, [c, a, b])], &[0.0], scale, rounding);
             let axial = principal(&law, [a, b, c]);
             assert_close_at_scale("P₁₁", &[state.first_piola.0[(0, 0)]], &[axial], scale, rounding);
-            assert!(state.residual <= 1e-10 * scale && state.iterations < 40, "{stretch}: {state:?}");
+            let end = Tol::stated(1e-10, "a residual with which Newton's method may end");
+            assert!(state.residual <= end.value() * scale && state.iterations < 40, "{stretch}: {state:?}");
         }
     }
 }
@@ -165,7 +166,7 @@ fn volumetric_stress_equals_the_derivative_of_the_energy_by_volume() {
 fn mixed_controls_recover_the_deformation_that_made_the_stresses() {
     let law = rubber();
     let target = DisplacementGradient::from_rows([[0.4, 0.1, -0.2], [0.0, -0.2, 0.3], [0.0, 0.0, 0.25]]).expect("F");
-    let nominal = law.first_piola(&target);
+    let first_piola = law.first_piola(&target);
     let cauchy = law.cauchy(&target).0.rows();
     // Stresses on and above the diagonal; below it F is that of the target, which fixes the rotation.
     for spatial in [false, true] {
@@ -176,7 +177,7 @@ fn mixed_controls_recover_the_deformation_that_made_the_stresses() {
                 } else if spatial {
                     Control::Cauchy(cauchy[i][j])
                 } else {
-                    Control::Nominal(nominal.0[(i, j)])
+                    Control::FirstPiola(first_piola.0[(i, j)])
                 }
             })
         });

@@ -34,7 +34,7 @@ impl InternalConstraint for AreaOfPlane {
 
 #[test]
 fn incompressible_sheet_under_a_force_equals_the_law_with_a_pressure() {
-    let controls = Controls::axial([Control::Nominal(0.8), Control::HELD, Control::FREE]).expect("controls");
+    let controls = Controls::axial([Control::FirstPiola(0.8), Control::HELD, Control::FREE]).expect("controls");
     let start = DisplacementGradient::zero();
     let found = constrained_equilibrium(&rubber(), &Incompressibility, &controls, &start).expect("state");
     let expected = equilibrium(&Pressurised::new(rubber()), &controls, &start).expect("state");
@@ -62,7 +62,7 @@ fn cord_takes_the_force_and_the_rest_is_sheared() {
     // A sheet with cords at an angle, pulled along 1, sides free: it shears until the cords have turned.
     let constraints = cord([1.0, 0.5, 0.0]);
     let (free, held) = (Control::FREE, Control::HELD);
-    let pulled = Control::Nominal(0.5);
+    let pulled = Control::FirstPiola(0.5);
     let controls = Controls::new([[pulled, free, held], [held, free, held], [held, held, free]]).expect("controls");
     let found = constrained_equilibrium(&rubber(), &constraints, &controls, &DisplacementGradient::zero());
     let found = found.expect("state");
@@ -81,7 +81,8 @@ fn cord_takes_the_force_and_the_rest_is_sheared() {
 fn incompressible_body_with_a_cord_has_both_reactions() {
     let constraints = (Incompressibility, cord([1.0, 0.0, 0.0]));
     // Force along the cord; the faces across 2 are pressed: λ₁ = 1, λ₂ λ₃ = 1.
-    let controls = Controls::axial([Control::Nominal(2.0), Control::Nominal(-0.6), Control::FREE]).expect("controls");
+    let controls =
+        Controls::axial([Control::FirstPiola(2.0), Control::FirstPiola(-0.6), Control::FREE]).expect("controls");
     let found = constrained_equilibrium(&rubber(), &constraints, &controls, &DisplacementGradient::zero());
     let found = found.expect("state");
     let f = found.state.deformation.gradient_rows();
@@ -104,7 +105,7 @@ impl<C: Constraints<N>, const N: usize> Vanish<C> for piola_specimens::homogeneo
 
 #[test]
 fn constraint_of_ones_own_needs_no_derivatives() {
-    let controls = Controls::axial([Control::Nominal(0.7), Control::FREE, Control::FREE]).expect("controls");
+    let controls = Controls::axial([Control::FirstPiola(0.7), Control::FREE, Control::FREE]).expect("controls");
     let found = constrained_equilibrium(&rubber(), &AreaOfPlane, &controls, &DisplacementGradient::zero());
     let found = found.expect("state");
     assert!(found.values_vanish(&AreaOfPlane) && found.state.residual <= 1e-12, "{found:?}");
@@ -115,9 +116,9 @@ fn constraint_of_ones_own_needs_no_derivatives() {
 #[test]
 fn rigid_body_carries_any_load_unmoved() {
     let controls = Controls::new([
-        [Control::Nominal(1.0), Control::Nominal(0.3), Control::Nominal(0.1)],
-        [Control::HELD, Control::Nominal(-2.0), Control::Nominal(0.2)],
-        [Control::HELD, Control::HELD, Control::Nominal(0.5)],
+        [Control::FirstPiola(1.0), Control::FirstPiola(0.3), Control::FirstPiola(0.1)],
+        [Control::HELD, Control::FirstPiola(-2.0), Control::FirstPiola(0.2)],
+        [Control::HELD, Control::HELD, Control::FirstPiola(0.5)],
     ])
     .expect("controls");
     let found = constrained_equilibrium(&rubber(), &Rigidity, &controls, &DisplacementGradient::zero());

@@ -31,7 +31,7 @@ fn taken<L: Hyperelastic + Clone>(
 }
 
 fn bar_of_force(force: f64) -> Controls {
-    Controls::axial([Control::Nominal(force), Control::FREE, Control::FREE]).expect("controls")
+    Controls::axial([Control::FirstPiola(force), Control::FREE, Control::FREE]).expect("controls")
 }
 
 #[test]

@@ -44,12 +44,13 @@ proptest! {
 
     #[test]
     fn inverse_times_the_tensor_is_the_identity(a in symmetric()) {
-        // Away from singular ones: 1 ≤ |det|/|A|³ up to a factor.
-        if let Ok(inverse) = a.inverse() {
-            let condition = inverse.norm() * a.norm();
-            let one = inverse.product(&a);
-            assert_close_at_scale("A⁻¹A", one.as_flattened(), identity::<f64>().as_flattened(), condition, Tol::ulps(32.0).times(condition));
-        }
+        // Only singular tensors have none.
+        let inverse = a.inverse();
+        prop_assume!(inverse.is_ok());
+        let inverse = inverse.expect("not refused");
+        let condition = inverse.norm() * a.norm();
+        let one = inverse.product(&a);
+        assert_close_at_scale("A⁻¹A", one.as_flattened(), identity::<f64>().as_flattened(), 1.0, Tol::ulps(32.0).times(condition));
     }
 
     #[test]
@@ -161,10 +162,10 @@ proptest! {
         let stiffness = StiffnessMatrix::<f64, Abaqus>::of(&c);
         let compliance = stiffness.compliance().expect("regular");
         let one = stiffness.matrix() * compliance.matrix();
-        assert_close_at_scale("C S", one.as_slice(), nalgebra::Matrix6::<f64>::identity().as_slice(), 1.0, Tol::ulps(256.0));
+        assert_close_at_scale("C S", one.as_slice(), nalgebra::Matrix6::<f64>::identity().as_slice(), 1.0, Tol::ulps(16.0));
         let back = compliance.stiffness().expect("regular").tensor();
-        assert_close("(C⁻¹)⁻¹", &all(&back), &all(&c), Tol::ulps(256.0));
-        assert_close("C⁻¹", &all(&c.inverse().expect("regular")), &all(&compliance.tensor()), Tol::ulps(256.0));
+        assert_close("(C⁻¹)⁻¹", &all(&back), &all(&c), Tol::ulps(16.0));
+        assert_close("C⁻¹", &all(&c.inverse().expect("regular")), &all(&compliance.tensor()), Tol::ulps(16.0));
     }
 
 }

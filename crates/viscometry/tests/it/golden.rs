@@ -12,11 +12,12 @@ use serde_json::Value;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const CLOSED: Tol = Tol::stated(1e-13, "closed forms");
-const QUADRATURE: Tol = Tol::stated(1e-13, "quadratures, asked for 1e-11");
+/// Some ten operations.
+const CLOSED: Tol = Tol::ulps(16.0);
+const QUADRATURE: Tol = Tol::ulps_because(128.0, "quadratures, asked for 1e-11, converge exponentially");
 
 /// Every case of a kind of geometry, with its fluid.
-fn each(geometry: &str, mut check: impl FnMut(&Value, &dyn Flows) -> Outcome) -> Outcome {
+fn each(geometry: &str, expected: usize, mut check: impl FnMut(&Value, &dyn Flows) -> Outcome) -> Outcome {
     let mut count = 0;
     for case in load("viscometric").cases.iter().filter(|case| text(&case["geometry"]) == geometry) {
         let p = |name: &str| number(&case["params"][name]);
@@ -31,13 +32,13 @@ fn each(geometry: &str, mut check: impl FnMut(&Value, &dyn Flows) -> Outcome) ->
         check(case, fluid.as_ref())?;
         count += 1;
     }
-    assert!(9 <= count, "{geometry}: {count} cases");
+    assert_eq!(count, expected, "{geometry}");
     Ok(())
 }
 
 /// Answers, and the fluid forgotten.
 trait Flows {
-    fn channel(&self, flow: Channel, x1: f64) -> Result<[f64; 5], ViscometryError>;
+    fn channel(&self, flow: Channel, x1: f64) -> Result<[f64; 6], ViscometryError>;
     fn channel_whole(&self, flow: Channel) -> Result<[f64; 5], ViscometryError>;
     fn pipe(&self, flow: Poiseuille, r: f64) -> Result<[f64; 6], ViscometryError>;
     fn pipe_whole(&self, flow: Poiseuille) -> Result<[f64; 5], ViscometryError>;
@@ -50,12 +51,13 @@ trait Flows {
 struct Of<F>(F);
 
 impl<F: ViscometricFluid> Flows for Of<F> {
-    fn channel(&self, flow: Channel, x1: f64) -> Result<[f64; 5], ViscometryError> {
+    fn channel(&self, flow: Channel, x1: f64) -> Result<[f64; 6], ViscometryError> {
         let fluid = &self.0;
-        let stresses = flow.stresses(fluid, x1, 0.0)?;
-        let v = flow.velocity(fluid, x1)?.value;
-        assert!(v >= 0.0);
-        Ok([v, flow.shear_rate(fluid, x1)?.abs(), stresses.shear, stresses.flow, stresses.neutral])
+        let Stresses { shear, gradient, flow: along, neutral, .. } = flow.stresses(fluid, x1, 0.0)?;
+        let (v, rate) = (flow.velocity(fluid, x1)?.value, flow.shear_rate(fluid, x1)?);
+        // The reference has the size of the rate; its sign is that of the stress.
+        assert!(0.0 <= v && 0.0 <= rate * shear);
+        Ok([v, rate.abs(), shear, gradient, along, neutral])
     }
 
     fn channel_whole(&self, flow: Channel) -> Result<[f64; 5], ViscometryError> {
@@ -119,7 +121,9 @@ fn compare<const N: usize>(
     names: [&str; N],
     mut at: impl FnMut(f64) -> Result<[f64; N], ViscometryError>,
 ) -> Outcome {
-    let Some(points) = case["output"]["points"].as_array() else { return Ok(()) };
+    let points = case["output"]["points"].as_array().into_iter().flatten().collect::<Vec<_>>();
+    // A fluid that does not flow has no profile.
+    assert_eq!(points.is_empty(), text(&case["id"]).ends_with("no_flow"), "{}", text(&case["id"]));
     let actual = points.iter().map(|point| at(number(&point[place]))).collect::<Result<Vec<_>, _>>()?;
     for (i, name) in names.into_iter().enumerate() {
         let expected = points.iter().map(|point| number(&point[name])).collect::<Vec<_>>();
@@ -139,9 +143,9 @@ fn compare_whole<const N: usize>(case: &Value, output: &Value, names: [&str; N],
 
 #[test]
 fn channels_equal_the_reference() -> Outcome {
-    each("channel", |case, fluid| {
+    each("channel", 11, |case, fluid| {
         let flow = Channel::new(number(&case["input"]["d"]), number(&case["input"]["c"]))?;
-        compare(case, "x1", ["v", "shear_rate_abs", "T12", "T22", "T33"], |x1| fluid.channel(flow, x1))?;
+        compare(case, "x1", ["v", "shear_rate_abs", "T12", "T11", "T22", "T33"], |x1| fluid.channel(flow, x1))?;
         let names = ["Q_per_width", "v_max", "kappa_wall", "tau_wall", "plug_half_width"];
         compare_whole(case, &case["output"], names, fluid.channel_whole(flow)?);
         Ok(())
@@ -150,7 +154,7 @@ fn channels_equal_the_reference() -> Outcome {
 
 #[test]
 fn pipes_equal_the_reference() -> Outcome {
-    each("poiseuille", |case, fluid| {
+    each("poiseuille", 10, |case, fluid| {
         let flow = Poiseuille::new(number(&case["input"]["R0"]), number(&case["input"]["c"]))?;
         let names = ["v", "shear_rate_abs", "T_rz", "T_rr", "T_thth", "T_zz"];
         compare(case, "r", names, |r| fluid.pipe(flow, r))?;
@@ -162,7 +166,7 @@ fn pipes_equal_the_reference() -> Outcome {
 
 #[test]
 fn couette_flows_equal_the_reference_also_in_a_gap_of_a_millionth() -> Outcome {
-    each("couette", |case, fluid| {
+    each("couette", 19, |case, fluid| {
         let input = |name: &str| number(&case["input"][name]);
         let flow = Couette::new(input("R1"), input("R2"), input("M"))?
             .with_inner_speed(input("omega1"))?
@@ -183,7 +187,7 @@ fn couette_flows_equal_the_reference_also_in_a_gap_of_a_millionth() -> Outcome {
 
 #[test]
 fn plane_couette_flows_equal_the_reference() -> Outcome {
-    each("plane_couette", |case, fluid| {
+    each("plane_couette", 9, |case, fluid| {
         for state in case["output"]["states"].as_array().into_iter().flatten() {
             let flow = PlaneCouette::new(number(&state["h"]), number(&state["V"]))?;
             let names = ["T12", "sigma1", "sigma2", "N1", "N2", "viscosity"];
@@ -195,7 +199,7 @@ fn plane_couette_flows_equal_the_reference() -> Outcome {
 
 #[test]
 fn cones_and_discs_equal_the_reference() -> Outcome {
-    each("cone_plate_and_parallel_plate", |case, fluid| {
+    each("cone_plate_and_parallel_plate", 9, |case, fluid| {
         let input = |name: &str| number(&case["input"][name]);
         let cone = ConeAndPlate::new(input("R"), input("alpha"), input("Omega"))?;
         let discs = ParallelPlates::new(input("R"), input("h"), input("Omega"))?;
@@ -220,7 +224,7 @@ fn narrow_gaps_and_flows_just_above_yield_equal_the_reference_to_the_digits_of_t
         let what = format!("{} {name}", text(&case["id"]));
         assert_close(&what, &[actual], &[number(&case["output"][name])], tolerance);
     };
-    each("couette", |case, fluid| {
+    each("couette", 19, |case, fluid| {
         let input = |name: &str| number(&case["input"][name]);
         if text(&case["id"]).ends_with("narrow_gap") && !matches!(text(&case["fluid"]), "carreau_yasuda" | "oldroyd_b")
         {
@@ -229,14 +233,14 @@ fn narrow_gaps_and_flows_just_above_yield_equal_the_reference_to_the_digits_of_t
         }
         Ok(())
     })?;
-    each("channel", |case, fluid| {
+    each("channel", 11, |case, fluid| {
         if text(&case["id"]).ends_with("near_yield") {
             let flow = Channel::new(number(&case["input"]["d"]), number(&case["input"]["c"]))?;
             whole(case, "Q_per_width", fluid.channel_whole(flow)?[0], beside_yield);
         }
         Ok(())
     })?;
-    each("poiseuille", |case, fluid| {
+    each("poiseuille", 10, |case, fluid| {
         if text(&case["id"]).ends_with("near_yield") {
             let flow = Poiseuille::new(number(&case["input"]["R0"]), number(&case["input"]["c"]))?;
             whole(case, "Q", fluid.pipe_whole(flow)?[0], beside_yield);

@@ -2,6 +2,7 @@
 
 mod alloc;
 mod annulus;
+mod by_hand;
 mod every;
 mod extremes;
 mod fluids;

@@ -8,7 +8,10 @@ use piola_viscometry::recover::{
 
 use super::noise::Normal;
 
-const ROUNDING: Tol = Tol::stated(1e-10, "rounding through differences of nearly equal tables");
+const ROUNDING: Tol = Tol::stated(3e-13, "rounding through differences of nearly equal tables");
+
+/// Bands of exact tables of 25 rows at e^0.1: some hundred times as wide as the error.
+const NARROW: Tol = Tol::stated(5e-7, "splines of degree 7 at their ends");
 
 /// A power law k = τ² that slips by u = 0.3 τ^1.5.
 fn slipping(radius: f64, count: u32) -> Result<FlowTable<PipeGeometry>, ViscometryError> {
@@ -30,7 +33,7 @@ fn discharge_without_slip_recovers_the_fluid_that_slipped() {
     for point in &slip.points {
         let exact = 0.3 * point.wall_stress.powf(1.5);
         assert_close("slip", &[point.slip_velocity], &[exact], ROUNDING);
-        assert!(point.slip_error.expect("three pipes") < 1e-10 * exact);
+        assert!(point.slip_error.expect("three pipes") <= ROUNDING.value() * exact);
     }
     let curve = recover::pipe(&slip.table).expect("a curve");
     for point in curve.points() {
@@ -128,11 +131,17 @@ fn bands_of_corrected_exact_tables_hold_the_fluid_and_are_narrow() {
     for (stress, rate, band) in slipping.chain(ending) {
         let truth = stress + stress * stress;
         let [low, high] = band.expect("asked for");
-        assert!(low <= truth && truth <= high && high - low < 1e-3 * truth, "{truth} {low} {high}");
-        assert_close("rate", &[rate], &[truth], Tol::stated(1e-4, "splines of degree 7 at their ends"));
+        let width = (high - low) / truth;
+        assert!(low <= truth && truth <= high && width <= NARROW.value(), "{truth} {low} {high}");
+        assert_close("rate", &[rate], &[truth], Tol::stated(5e-9, "splines of degree 7 at their ends, rows at e^0.1"));
     }
     let middle = slip.at(2.0).expect("measured");
-    assert_close("slip", &[middle.slip_velocity], &[0.3 * 2.0_f64.powf(1.5)], Tol::stated(1e-7, "splines"));
+    assert_close(
+        "slip",
+        &[middle.slip_velocity],
+        &[0.3 * 2.0_f64.powf(1.5)],
+        Tol::stated(1e-12, "splines in their middle"),
+    );
     assert!(matches!(slip.at(1e3), Err(ViscometryError::NotMeasured { .. })));
     assert_eq!(slip.with_band(1.0), Err(ViscometryError::ConfidenceOutOfRange { value: 1.0 }));
 }

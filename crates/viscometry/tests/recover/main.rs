@@ -1,5 +1,6 @@
 //! Tests of `piola_viscometry::recover`.
 
+mod by_hand;
 mod corrections;
 mod errors;
 mod flows;

@@ -27,12 +27,12 @@ fn rows_that_cannot_be_are_named() {
     assert_eq!(sentence(table(&with(2, [3.0, -4.0]))), "row 2, column 1: -4 is not positive and finite");
     assert_eq!(sentence(table(&with(0, [0.0, 1.0]))), "row 0, column 0: 0 is not positive and finite");
     assert_eq!(sentence(table(&with(5, [6.0, f64::INFINITY]))), "row 5, column 1: inf is not positive and finite");
-    assert_eq!(sentence(table(&with(3, [3.0, 6.0]))), "row 3: 3e0 stands in the row before too");
-    assert_eq!(sentence(table(&with(3, [2.5, 6.0]))), "row 3: 2.5e0 follows 3e0: rows are not sorted");
+    assert_eq!(sentence(table(&with(3, [3.0, 6.0]))), "row 3: 3e0 repeats the value of the row before");
+    assert_eq!(sentence(table(&with(3, [2.5, 6.0]))), "row 3: 2.5e0 is below 3e0 of the row before: sort the rows");
     let falls = table(&with(4, [5.0, 5.0])).and_then(|table| recover::pipe(&table.with_noise(Noise::Exact)?));
-    assert_eq!(sentence(falls), "row 4: the response 5e0 is not above the 6e0 of a smaller drive");
+    assert_eq!(sentence(falls), "row 4: the response 5e0 is not above 6e0, the response at a smaller drive");
     let short = table(&ROWS[..4]).and_then(|table| recover::pipe(&table));
-    assert_eq!(sentence(short), "4 rows: 5 at least are needed");
+    assert_eq!(sentence(short), "too few rows: 4 given, at least 5 needed");
     let noise = table(&ROWS).and_then(|table| table.with_noise(Noise::Relative(-0.1)));
     assert_eq!(sentence(noise), "table: relative noise = -1e-1 violates 0 <= noise");
 }
@@ -57,8 +57,8 @@ fn nothing_is_recovered_beyond_the_table() {
     let curve = recover::pipe(&FlowTable::pipe(1.0, &ROWS).expect("a table")).expect("a curve");
     assert!(curve.at(0.5).is_ok() && curve.at(3.0).is_ok());
     let [low, high] = [0.4, 3.1].map(|stress| sentence(curve.at(stress)));
-    assert_eq!(low, "4e-1 is not between 5e-1 and 3e0, where there are measurements");
-    assert_eq!(high, "3.1e0 is not between 5e-1 and 3e0, where there are measurements");
+    assert_eq!(low, "4e-1 lies outside the measured range, 5e-1 to 3e0");
+    assert_eq!(high, "3.1e0 lies outside the measured range, 5e-1 to 3e0");
     assert!(curve.at(f64::NAN).is_err() && curve.viscosity(-1.0).is_err());
     assert_eq!(sentence(curve.with_band(1.0)), "the confidence 1 violates 0 < confidence < 1");
 }
@@ -153,6 +153,6 @@ fn written_tables_are_checked_when_they_are_read() {
         read.expect_err("refused").to_string()
     };
     assert!(refused("1.25", "0.5").contains("violates R1 < R2"));
-    assert!(refused("[2.0,2.5]", "[1.0,2.5]").contains("row 1: 1e0 stands in the row before too"));
+    assert!(refused("[2.0,2.5]", "[1.0,2.5]").contains("row 1: 1e0 repeats the value of the row before"));
     assert!(refused("0.01", "-0.01").contains("violates 0 <= noise"));
 }

@@ -8,8 +8,9 @@ const HEAD: &str = "\
 # The equation ledger
 
 Every numbered equation of the sources has a row in [ledger.toml](ledger.toml): what it is, which crate states it, and, once
-finished, the item that states it and the test that checks it. `cargo xtask ledger` compiles the items and looks the tests
-up, so that no row claims what is not there; `cargo xtask ledger --page` writes this page.
+finished, the item that states it and the test that checks it. `cargo xtask ledger` compiles the items, looks the tests up
+and reads in their text that they name the items, so that no row claims what is not there; `cargo xtask ledger --page` writes
+this page.
 
 An id is the source and the number of the equation, W(2.25) or B(4.33) (see [Notation](reference/notation.md#sources)); a word stands for
 a group of formulas without a number of their own.

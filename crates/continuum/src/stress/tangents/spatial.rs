@@ -36,15 +36,6 @@ impl<T: Real> FirstPiolaTangent<T> {
 
 impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
     /// c/J.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::LieTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let lie: LieTangent = LieTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// assert_eq!(lie.truesdell(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).entry(0, 0, 0, 0), 3.5); // 7/J
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn truesdell(&self, deformation: &impl Deformation<T>) -> TruesdellTangent<T, Y> {
@@ -76,15 +67,6 @@ fn stored<T: Real, Y: Symmetry>(terms: &MajorSymmetric<T>) -> Y::Tensor<T> {
 
 impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     /// c = J × this.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{DeformationGradient, stress::tangents::TruesdellTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// assert_eq!(truesdell.lie(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).entry(0, 0, 0, 0), 14.0); // 7 J
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn lie(&self, deformation: &impl Deformation<T>) -> LieTangent<T, Y> {
@@ -108,16 +90,6 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
 
 impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
     /// The tangent of Truesdell's rate.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_continuum::{CauchyStress, stress::tangents::JaumannTangent};
-    /// use piola_tensor::MajorSymmetric;
-    /// let jaumann: JaumannTangent = JaumannTangent(MajorSymmetric::isotropic(1.0, 3.0));
-    /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
-    /// assert_eq!(jaumann.truesdell(&stress).entry(0, 0, 0, 0), -13.0); // 7 − 2·10
-    /// # Ok::<(), piola_continuum::ContinuumError>(())
-    /// ```
     #[inline(always)]
     #[must_use]
     pub fn truesdell(&self, stress: &CauchyStress<T>) -> TruesdellTangent<T, Y> {

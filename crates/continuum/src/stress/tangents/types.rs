@@ -72,10 +72,28 @@ symmetric_tangent! {
     /// τ̇ − L τ − τ Lᵀ = F Ṡ Fᵀ = c : D. Pa.
     ///
     /// c is the push-forward of ∂S/∂E, J times the [`TruesdellTangent`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, stress::tangents::LieTangent};
+    /// use piola_tensor::MajorSymmetric;
+    /// let lie: LieTangent = LieTangent(MajorSymmetric::isotropic(1.0, 3.0));
+    /// assert_eq!(lie.truesdell(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).entry(0, 0, 0, 0), 3.5); // 7/J
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     LieTangent
 }
 symmetric_tangent! {
     /// The tangent of Truesdell's rate of Cauchy's stress: Ṫ − L T − T Lᵀ + T tr D = (c/J) : D. Pa.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{DeformationGradient, stress::tangents::TruesdellTangent};
+    /// use piola_tensor::MajorSymmetric;
+    /// let truesdell: TruesdellTangent = TruesdellTangent(MajorSymmetric::isotropic(1.0, 3.0));
+    /// assert_eq!(truesdell.lie(&DeformationGradient::diagonal([2.0, 1.0, 1.0])?).entry(0, 0, 0, 0), 14.0); // 7 J
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     TruesdellTangent
 }
 symmetric_tangent! {
@@ -83,6 +101,16 @@ symmetric_tangent! {
     ///
     /// This is the `DDSDDE` of Abaqus' user materials; of the rate of Cauchy's stress itself see
     /// [`TruesdellTangent::of_cauchy_rate`].
+    ///
+    /// # Example
+    /// ```
+    /// use piola_continuum::{CauchyStress, stress::tangents::JaumannTangent};
+    /// use piola_tensor::MajorSymmetric;
+    /// let jaumann: JaumannTangent = JaumannTangent(MajorSymmetric::isotropic(1.0, 3.0));
+    /// let stress = CauchyStress::new(10.0, 0.0, 0.0, 0.0, 0.0, 0.0)?;
+    /// assert_eq!(jaumann.truesdell(&stress).entry(0, 0, 0, 0), -13.0); // 7 − 2·10
+    /// # Ok::<(), piola_continuum::ContinuumError>(())
+    /// ```
     #[doc(alias = "DDSDDE")]
     JaumannTangent
 }

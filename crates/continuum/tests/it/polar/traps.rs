@@ -1,8 +1,7 @@
 //! Where decompositions go wrong: small strain, coalescence, large ratios, half turns, the ends of the range.
 
-use nalgebra::Matrix3;
-use piola_continuum::DeformationGradient;
 use piola_continuum::polar::StretchAnalysis;
+use piola_continuum::{ContinuumError, DeformationGradient};
 use piola_numerics::Real;
 use piola_testkit::spectral::{
     Random, adversarial_set, polar_reference, polar_reference_of_displacement, with_stretches,
@@ -169,16 +168,20 @@ fn the_slow_path_is_taken_at_large_stretch_ratios_only() {
 }
 
 #[test]
-fn gradients_of_size_1e150_have_their_rotation() {
+fn gradients_of_size_1e100_have_their_rotation_and_those_without_a_determinant_are_refused() {
     let mut random = Random::new(12);
-    let mut big = with_stretches(&random.rotation(), [1.5, 1.0, 0.5], &random.rotation());
-    let rotation = analysis(big).rotation();
-    big = big.map(|row| row.map(|x| x * 1e150));
-    let deformation = DeformationGradient::new(Matrix3::from_fn(|i, j| big[i][j]));
-    if let Ok(deformation) = deformation {
-        let scaled = StretchAnalysis::of(&deformation).rotation();
-        assert_close("R", &scaled.concat(), &rotation.concat(), Tol::ulps(16.0));
+    let ordinary = with_stretches(&random.rotation(), [1.5, 1.0, 0.5], &random.rotation());
+    let rotation = analysis(ordinary).rotation();
+    let scaled = |size: f64| DeformationGradient::from_rows(ordinary.map(|row| row.map(|x| x * size)));
+    for size in [1e100, 1e-100] {
+        let analysis = StretchAnalysis::of(&scaled(size).expect("det F = 1e±300"));
+        assert_close("R", &analysis.rotation().concat(), &rotation.concat(), Tol::ulps(16.0));
+        let [longest, ..] = analysis.principal_stretches();
+        assert_close("λ₁", &[longest], &[1.5 * size], Tol::ulps(16.0));
     }
+    // det F = 1e±450.
+    assert!(matches!(scaled(1e150), Err(ContinuumError::NotFinite { quantity: "det F", .. })));
+    assert!(scaled(1e-150).is_err());
 }
 
 #[cfg(feature = "serde")]

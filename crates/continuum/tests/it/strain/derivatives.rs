@@ -276,10 +276,8 @@ proptest! {
     fn derivatives_of_principal_stretches_equal_dyads_of_axes(f in deformation(), d in direction()) {
         let stretch = analysis(&f);
         let stretches = stretch.principal_stretches();
-// Axes are determined to ε over the gap; where that is small there is nothing to compare.
-        if (stretches[0] - stretches[1]).min(stretches[1] - stretches[2]) < 0.05 {
-            return Ok(());
-        }
+        // Axes are determined to ε over the gap; where that is small there is nothing to compare.
+        prop_assume!(0.05 < (stretches[0] - stretches[1]).min(stretches[1] - stretches[2]));
         let moving = f.matrix().zip_map(&d, Dual64::new);
         let tangents = analysis(&DeformationGradient::new(moving).expect("0 < det F")).principal_stretches();
         let (n, q) = (stretch.spatial_axes(), stretch.material_axes());

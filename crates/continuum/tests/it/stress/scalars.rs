@@ -188,7 +188,7 @@ proptest! {
         let distance = (3.0 * t.lode_angle()).sin();
         prop_assume!(1e-3 < distance);
         let radius = t.haigh_westergaard().deviatoric;
-        let tolerance = Tol::ulps(256.0).times(1.0 / distance).times(size / radius);
+        let tolerance = Tol::ulps_because(256.0, "an arc cosine of a quotient of invariants").times(1.0 / distance).times(size / radius);
         check("θ", invariants::lode_angle(&dual), gradients::lode_angle(&t.0), 1.0 / radius, tolerance);
         check("θₛ", invariants::lode_angle_from_shear(&dual), -gradients::lode_angle(&t.0), 1.0 / radius, tolerance);
         check("Tresca", invariants::tresca(&dual), gradients::tresca(&t.0), 1.0, tolerance);

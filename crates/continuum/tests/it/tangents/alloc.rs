@@ -15,8 +15,8 @@ fn tangents_and_their_conversions_allocate_nothing() {
     let cauchy = stress.cauchy(&deformation);
     let (allocations, ()) = allocations_in(|| {
         let material: MaterialTangent = MaterialTangent(MajorSymmetric::isotropic(1.0, 3.0));
-        let nominal = material.first_piola(&stress, &deformation);
-        let back = nominal.material(&stress, &deformation);
+        let first_piola = material.first_piola(&stress, &deformation);
+        let back = first_piola.material(&stress, &deformation);
         let truesdell = back.truesdell(&deformation);
         let naghdi = truesdell.of_cauchy_rate(ObjectiveRate::GreenNaghdi, &cauchy, &deformation);
         let logarithmic = truesdell.of_kirchhoff_rate(ObjectiveRate::Logarithmic, &cauchy, &deformation);

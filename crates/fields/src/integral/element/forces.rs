@@ -52,20 +52,20 @@ impl<const N: usize> TetrahedralElements<N> {
         Ok(())
     }
 
-    /// Adds the forces of a density of force per reference volume on the nodes, ∫ f Nₐ dV, N.
+    /// Adds the forces of a force per reference volume f, N/m³, on the nodes, ∫ f Nₐ dV, N.
     ///
     /// # Errors
     /// [`FieldsError::WrongLength`].
-    pub fn add_body_forces<T: Real>(
+    pub fn add_forces_per_volume<T: Real>(
         &self,
-        mut density: impl FnMut(&MaterialPoint) -> Vector3<T>,
+        mut force_per_volume: impl FnMut(&MaterialPoint) -> Vector3<T>,
         forces: &mut [T],
     ) -> Result<(), FieldsError> {
         check_length("forces", forces.len(), self.components())?;
         for (element, nodes) in self.elements.iter().enumerate() {
             for (number, shape) in self.inside.iter().enumerate() {
                 let point = self.material_point(element, number);
-                let force: [T; 3] = density(&point).into();
+                let force: [T; 3] = force_per_volume(&point).into();
                 for (&node, value) in nodes.iter().zip(shape.values) {
                     add(forces, node, force, T::lit(point.weight * value));
                 }

@@ -64,11 +64,31 @@ pub struct TetrahedralElements<const N: usize> {
 }
 
 /// Elements with nodes at the corners.
+///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_fields::integral::{LinearTetrahedra, TetrahedralMesh};
+/// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+/// let mesh = TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?;
+/// assert_eq!(LinearTetrahedra::new(mesh, 1)?.components(), 12); // 4 corners
+/// # Ok::<(), piola_fields::FieldsError>(())
+/// ```
 pub type LinearTetrahedra = TetrahedralElements<4>;
 
 /// Elements with nodes at the corners and at the midpoints of the edges.
 ///
 /// Edges are straight in the reference configuration. Nodes are numbered vertices first, then edges.
+///
+/// # Example
+/// ```
+/// use nalgebra::Vector3;
+/// use piola_fields::integral::{QuadraticTetrahedra, TetrahedralMesh};
+/// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
+/// let mesh = TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?;
+/// assert_eq!(QuadraticTetrahedra::new(mesh, 2)?.components(), 30); // 4 corners and 6 edges
+/// # Ok::<(), piola_fields::FieldsError>(())
+/// ```
 pub type QuadraticTetrahedra = TetrahedralElements<10>;
 
 /// A point of the rule in a body of elements, in the reference configuration.
@@ -90,21 +110,11 @@ pub struct MaterialPoint {
 impl LinearTetrahedra {
     /// Linear elements on a mesh, integrated by rules of `degree`.
     ///
-    /// Degree 0 is exact for stress, which is constant in an element; 1 for uniform body forces; 2 for the
+    /// Degree 0 is exact for stress, which is constant in an element; 1 for uniform forces per volume; 2 for the
     /// consistent mass of a uniform density.
     ///
     /// # Errors
     /// [`FieldsError::DegreeTooHigh`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{LinearTetrahedra, TetrahedralMesh};
-    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let mesh = TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?;
-    /// assert_eq!(LinearTetrahedra::new(mesh, 1)?.components(), 12); // 4 corners
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn new(mesh: TetrahedralMesh, degree: usize) -> Result<Self, FieldsError> {
         let (nodes, elements) = (mesh.vertices().to_vec(), mesh.tetrahedra().to_vec());
         Self::of_shape(mesh, nodes, elements, degree, shape::linear)
@@ -114,21 +124,11 @@ impl LinearTetrahedra {
 impl QuadraticTetrahedra {
     /// Quadratic elements on a mesh, integrated by rules of `degree`.
     ///
-    /// Degree 2 is exact for stress linear in ∇u and uniform body forces; 4 for the consistent mass of a uniform
+    /// Degree 2 is exact for stress linear in ∇u and uniform forces per volume; 4 for the consistent mass of a uniform
     /// density.
     ///
     /// # Errors
     /// [`FieldsError::DegreeTooHigh`].
-    ///
-    /// # Example
-    /// ```
-    /// use nalgebra::Vector3;
-    /// use piola_fields::integral::{QuadraticTetrahedra, TetrahedralMesh};
-    /// let corners = vec![Vector3::zeros(), Vector3::x(), Vector3::y(), Vector3::z()];
-    /// let mesh = TetrahedralMesh::new(corners, vec![[0, 1, 2, 3]])?;
-    /// assert_eq!(QuadraticTetrahedra::new(mesh, 2)?.components(), 30); // 4 corners and 6 edges
-    /// # Ok::<(), piola_fields::FieldsError>(())
-    /// ```
     pub fn new(mesh: TetrahedralMesh, degree: usize) -> Result<Self, FieldsError> {
         let edges = mesh.edges();
         let mut nodes = mesh.vertices().to_vec();

@@ -4,7 +4,7 @@ use piola_fit::FitError;
 use piola_fit::fluids::{FlowData, Options, fit_flow};
 use piola_fluids::{Bingham, CarreauYasuda, Newtonian, Parameters, PowerLaw, ViscometricFluid};
 use piola_testkit::golden::{self, number, text, vector};
-use piola_testkit::{Tol, assert_close};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use piola_viscometry::recover::FlowTable;
 use serde_json::Value;
 
@@ -40,26 +40,36 @@ fn check<F: Parameters<N> + ViscometricFluid, const N: usize>(case: &Value, star
             assert_close(&format!("{what}: {}", found.name), &[found.value], &[exact], tol);
         }
         let most = fit.residuals.iter().flatten().fold(0.0, |most: f64, r| most.max(r.abs()));
-        assert!(most < 1e-8, "{what}: {most}");
+        let residual =
+            Tol::stated(1e-8, "the tables are exact: parameters to 1e-7 of answers that they change by a tenth of it");
+        assert_close_at_scale(what, &[most], &[0.0], 1.0, residual);
     }
 }
 
 #[test]
 fn discharges_speeds_and_flow_curves_give_the_fluid_that_made_them() {
-    for case in golden::load("viscometric").cases {
-        if text(&case["geometry"]) != "inverse_tables" {
-            continue;
-        }
+    let (mut fitted, mut left_out) = (0, Vec::new());
+    let cases = golden::load("viscometric").cases;
+    for case in cases.iter().filter(|case| text(&case["geometry"]) == "inverse_tables") {
         let parameter = |name: &str| number(&case["params"][name]);
         match text(&case["fluid"]) {
-            "newtonian" => check::<Newtonian, 1>(&case, [1.0], [parameter("mu")]),
-            "power_law" => check::<PowerLaw, 2>(&case, [1.0, 1.0], [parameter("K"), parameter("n")]),
-            "bingham" => check::<Bingham, 2>(&case, [0.4, 1.0], [parameter("tau_y"), parameter("mu")]),
+            "newtonian" => check::<Newtonian, 1>(case, [1.0], [parameter("mu")]),
+            "power_law" => check::<PowerLaw, 2>(case, [1.0, 1.0], [parameter("K"), parameter("n")]),
+            "bingham" => check::<Bingham, 2>(case, [0.4, 1.0], [parameter("tau_y"), parameter("mu")]),
+            // Discharges and speeds know nothing of its normal stresses.
+            "oldroyd_b" => check::<Newtonian, 1>(case, [1.0], [parameter("eta_s") + parameter("eta_p")]),
             "carreau_yasuda" if 0.0 < parameter("eta_inf") => {
                 let truth = ["eta0", "eta_inf", "lam", "n", "a"].map(parameter);
-                check::<CarreauYasuda, 5>(&case, [1.0, 0.1, 1.0, 0.5, 1.5], truth);
+                check::<CarreauYasuda, 5>(case, [1.0, 0.1, 1.0, 0.5, 1.5], truth);
             }
-            _ => {}
+            // Its second viscosity is zero, an end of the interval of the parameter.
+            "carreau_yasuda" => {
+                left_out.push(text(&case["id"]));
+                continue;
+            }
+            other => unreachable!("{other}"),
         }
+        fitted += 1;
     }
+    assert_eq!((fitted, left_out), (8, vec!["carreau_yasuda_6/inverse"]));
 }

@@ -20,7 +20,7 @@ fn impossible_options_are_refused() {
     assert_eq!(sentence(&confidence), "the confidence 1.5 is not between 0 and 1");
     let bounds = |name: &str, pair| Options { bounds: vec![(name.to_owned(), pair)], ..Options::default() };
     assert_eq!(sentence(&bounds("viscosity", [0.0, 1.0])), "power law has no parameter `viscosity`");
-    let crossed = "nothing lies between the bounds 2e0 and 1e0 of `exponent`, or they are not finite";
+    let crossed = "the bounds 2e0 and 1e0 of `exponent` must be finite, the lower below the upper";
     assert_eq!(sentence(&bounds("exponent", [2.0, 1.0])), crossed);
 }
 

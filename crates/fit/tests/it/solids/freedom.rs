@@ -7,7 +7,7 @@ use piola_fit::solids::{
 use piola_testkit::{Tol, assert_close};
 
 fn of(table: Table) -> Data {
-    Data::new(vec![Test::new("bar", table, Measure::Nominal).expect("a test")]).expect("data")
+    Data::new(vec![Test::new("bar", table, Measure::FirstPiola).expect("a test")]).expect("data")
 }
 
 fn fitted(model: AnyModel, points: &[[f64; 2]]) -> Fit {

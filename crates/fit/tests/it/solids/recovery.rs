@@ -1,7 +1,7 @@
 //! Known parameters from made data with seeded errors.
 
 use piola_fit::solids::{AnyModel, Data, Fitted, Measure, Model, Options, Stability, Table, Test, fit};
-use piola_specimens::homogeneous::{Mode, nominal_stress};
+use piola_specimens::homogeneous::{Mode, first_piola};
 use piola_testkit::{Tol, assert_close};
 
 const TRIALS: u64 = 200;
@@ -29,10 +29,10 @@ fn made(model: &AnyModel, parameters: &[f64], error: f64, seed: u64) -> Data {
         let count = 20;
         let stretches: Vec<f64> =
             (1..=count).map(|k| 1.0 + (largest - 1.0) * f64::from(k) / f64::from(count)).collect();
-        let stresses: Vec<f64> = stretches.iter().map(|stretch| nominal_stress(mode, *stretch, &law)).collect();
+        let stresses: Vec<f64> = stretches.iter().map(|stretch| first_piola(mode, *stretch, &law)).collect();
         let scale = error * stresses.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let points = stretches.iter().zip(&stresses).map(|(x, p)| [*x, p + scale * errors.normal()]).collect();
-        Test::new(mode.name(), Table::of_mode(mode, points), Measure::Nominal).expect("a test")
+        Test::new(mode.name(), Table::of_mode(mode, points), Measure::FirstPiola).expect("a test")
     };
     let modes = [(Mode::Uniaxial, 5.0), (Mode::Equibiaxial, 3.0), (Mode::Planar, 4.0)];
     Data::new(modes.map(test).into()).expect("the data")

@@ -7,7 +7,7 @@ use piola_fit::solids::{
 use piola_numerics::Real;
 
 fn bar(points: Vec<[f64; 2]>) -> Result<Test, FitError> {
-    Test::new("bar", Table::Uniaxial(points), Measure::Nominal)
+    Test::new("bar", Table::Uniaxial(points), Measure::FirstPiola)
 }
 
 fn data(count: u32) -> Data {
@@ -30,23 +30,26 @@ fn impossible_tests_are_refused_with_their_point() {
     let good = bar(vec![[1.5, 1.0]]).expect("a test");
     assert_eq!(sentence(good.clone().with_weight(0.0)), "test `bar`: the weight 0 is not positive and finite");
     assert_eq!(sentence(Data::new(vec![])), "there is no test to fit to");
-    assert_eq!(sentence(Data::new(vec![good.clone(), good])), "there are two tests `bar`");
+    assert_eq!(sentence(Data::new(vec![good.clone(), good])), "two tests are called `bar`");
     let component = |deformation, free| Component { deformation, component: [0, 0], free, stress: 1.0 };
-    let general = |point| Test::new("sheet", Table::General(vec![point]), Measure::Nominal);
+    let general = |point| Test::new("sheet", Table::General(vec![point]), Measure::FirstPiola);
     let swollen = component([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 2);
-    assert_eq!(sentence(general(swollen)), "test `sheet`, point 0: det F = 2 of an incompressible material is not 1");
+    assert_eq!(
+        sentence(general(swollen)),
+        "test `sheet`, point 0: det F = 2, but it must be 1 for an incompressible material"
+    );
     let outside = component([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], 3);
-    assert_eq!(sentence(general(outside)), "test `sheet`, point 0: 3 is none of the axes 0, 1 and 2");
+    assert_eq!(sentence(general(outside)), "test `sheet`, point 0: there is no axis 3; the axes are 0, 1 and 2");
 }
 
 #[test]
 fn impossible_models_and_options_are_refused() {
     assert!(sentence("odgen:3".parse::<AnyModel>()).starts_with("no model is called `odgen:3`"));
-    assert_eq!(sentence("ogden:9".parse::<AnyModel>()), "a series of 9 terms: valid are 1 to 6");
+    assert_eq!(sentence("ogden:9".parse::<AnyModel>()), "the number of terms of a series is 9; it must be 1 to 6");
     let ogden: AnyModel = "ogden:3".parse().expect("a model");
     assert_eq!(
         sentence(fit(&ogden, &data(5), &Options::default())),
-        "ogden:3: 5 measured points cannot determine 6 parameters"
+        "ogden:3: too few measured points (5) for the number of parameters (6)"
     );
     let with = |name: &str, bounds| Options { bounds: vec![(name.to_owned(), bounds)], ..Options::default() };
     let gent = |options: &Options| sentence(fit(&AnyModel::Gent, &data(20), options));
@@ -68,18 +71,18 @@ fn impossible_models_and_options_are_refused() {
     let contradiction = fit(&ogden, &data(20), &Options { bounds, ..Options::default() });
     assert_eq!(
         sentence(contradiction),
-        "ogden:1: at no start of the search are the answers finite and the bounds kept"
+        "ogden:1: no starting point of the search has finite answers within the bounds"
     );
 }
 
 /// Stresses beyond a limiting stretch are no numbers: a model asked there has no start, and a fit stays below.
 #[test]
 fn stretches_beyond_a_limit_have_no_stress_and_no_fit_ends_there() {
-    use piola_specimens::homogeneous::{Mode, nominal_stress};
+    use piola_specimens::homogeneous::{Mode, first_piola};
     for (model, parameters) in [(AnyModel::Gent, [1.0, 3.0]), (AnyModel::ArrudaBoyce, [1.0, 2.0])] {
         let law = Fitted::new(&model, parameters).expect("as many");
-        assert!(nominal_stress(Mode::Uniaxial, 2.0_f64, &law).is_finite());
-        assert!(nominal_stress(Mode::Uniaxial, 3.0_f64, &law).is_nan());
+        assert!(first_piola(Mode::Uniaxial, 2.0_f64, &law).is_finite());
+        assert!(first_piola(Mode::Uniaxial, 3.0_f64, &law).is_nan());
         let found = fit(&model, &data(20), &Options::default()).expect("a fit");
         let reach = data(20).largest_first_invariant();
         let limit = if model == AnyModel::Gent { found.values()[1] + 3.0 } else { 3.0 * found.values()[1] };
@@ -123,7 +126,7 @@ fn impossible_models_of_ones_own_are_refused() {
     for values in [vec![], vec![1.0], vec![1.0; 3]] {
         let count = values.len();
         let error = Fitted::new(&AnyModel::Gent, values).expect_err("two parameters");
-        assert_eq!(error.to_string(), format!("gent has 2 parameters: {count} values are given"));
+        assert_eq!(error.to_string(), format!("gent: the number of parameter values is {count}; it must be 2"));
     }
     let patient = Options { patience: usize::MAX, ..Options::default() };
     assert!(fit(&AnyModel::Gent, &data(20), &patient).is_ok());
@@ -147,7 +150,7 @@ fn stretches_at_which_no_law_has_a_stress_are_refused_with_their_point() {
     let error = bar(vec![[1.5, 1.0], [1e200, 1.0]]).expect_err("beyond");
     assert!(matches!(error, FitError::StretchOutOfRange { index: 1, .. }), "{error}");
     assert!(bar(vec![[1e-200, 1.0]]).is_err());
-    let sheared = |k| Test::new("block", Table::SimpleShear(vec![[k, 0.0]]), Measure::Nominal);
+    let sheared = |k| Test::new("block", Table::SimpleShear(vec![[k, 0.0]]), Measure::FirstPiola);
     assert!(sheared(0.0).is_ok() && sheared(-1e-200).is_ok() && sheared(1e200).is_err());
 }
 

@@ -20,7 +20,7 @@ fn treloar() -> Data {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../data/rubber/treloar-1944.csv");
     let text = std::fs::read_to_string(path).expect("the data");
     let test = |label, name, mode| {
-        Test::new(name, Table::of_mode(mode, rows(&text, label)), Measure::Nominal).expect("a test")
+        Test::new(name, Table::of_mode(mode, rows(&text, label)), Measure::FirstPiola).expect("a test")
     };
     Data::new(vec![
         test("UT", "uniaxial", Mode::Uniaxial),

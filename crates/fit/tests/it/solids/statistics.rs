@@ -1,6 +1,8 @@
 //! Covariance, intervals and criteria against the normal equations of two parameters, solved by hand.
 
-use piola_fit::solids::{AnyModel, Data, Measure, Options, Stability, Table, Test, Weighting, fit};
+use piola_fit::solids::{
+    AnyModel, Covariance, Criteria, Data, Measure, Options, Stability, Table, Test, Weighting, fit,
+};
 use piola_testkit::{Tol, assert_close};
 
 /// Of three degrees of freedom at 95 %.
@@ -9,7 +11,7 @@ const STUDENT: f64 = 3.182_446_305_284_263;
 #[test]
 fn statistics_of_mooney_and_rivlin_equal_the_normal_equations() {
     let points = [[1.25, 0.4642], [1.5, 0.7758], [2.0, 1.2247], [3.0, 1.9260], [4.0, 2.5594]];
-    let bar = Test::new("bar", Table::Uniaxial(points.to_vec()), Measure::Nominal).expect("a test");
+    let bar = Test::new("bar", Table::Uniaxial(points.to_vec()), Measure::FirstPiola).expect("a test");
     let data = Data::new(vec![bar]).expect("data");
     for weighting in [Weighting::LargestStress, Weighting::Equal] {
         let options = Options { stability: Stability::Free, weighting, ..Options::default() };
@@ -31,12 +33,8 @@ fn statistics_of_mooney_and_rivlin_equal_the_normal_equations() {
         let tolerance = Tol::stated(1e-9, "residuals of 1e-5, through the condition of the normal equations");
         assert_close("parameters", &found.values(), &values, tolerance);
         assert_close("S", &[found.weighted_squares], &[squares], tolerance);
-        assert_close(
-            "covariance",
-            &found.covariance.as_ref().expect("degrees of freedom").matrix.concat(),
-            &covariance,
-            tolerance,
-        );
+        let Covariance { matrix, .. } = found.covariance.as_ref().expect("degrees of freedom");
+        assert_close("covariance", &matrix.concat(), &covariance, tolerance);
         for (k, estimate) in found.parameters.iter().enumerate() {
             let error = covariance[3 * k].sqrt();
             assert_close("standard error", &[estimate.standard_error.expect("determined")], &[error], tolerance);
@@ -46,7 +44,7 @@ fn statistics_of_mooney_and_rivlin_equal_the_normal_equations() {
         }
         // Five numbers; two parameters and the variance are estimated.
         let misfit = 5.0 * (squares / 5.0).ln();
-        let criteria = &found.criteria;
+        let criteria: &Criteria = &found.criteria;
         assert_close("AIC", &[criteria.aic.expect("2 < 5")], &[misfit + 6.0], tolerance);
         assert_close("AICc", &[criteria.aicc.expect("5 − 3 − 1 = 1")], &[misfit + 6.0 + 24.0], tolerance);
         assert_close("BIC", &[criteria.bic.expect("2 < 5")], &[misfit + 3.0 * 5.0_f64.ln()], tolerance);

@@ -2,7 +2,7 @@
 
 use piola_fit::solids::{AnyModel, Component, Data, Fitted, Measure, Options, Table, Test, fit};
 use piola_solids::volumetric::SimoTaylor;
-use piola_specimens::homogeneous::{IncompressibleState, Mode, nominal_stress};
+use piola_specimens::homogeneous::{IncompressibleState, Mode, first_piola};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
 /// A model of each kind, with parameters.
@@ -39,10 +39,10 @@ fn laws_of_every_model_answer_as_the_model() {
         for mode in Mode::ALL {
             for away in [-0.4, -1e-6, 1e-9, 1e-3, 0.3, 1.0, 2.5] {
                 let stretch = mode.rest() + away;
-                let expected = nominal_stress(mode, stretch, &fitted);
+                let expected = first_piola(mode, stretch, &fitted);
                 let what = format!("{name}, {}, {stretch}", mode.name());
                 for law in [&law, &solid] {
-                    assert_close_at_scale(&what, &[nominal_stress(mode, stretch, law)], &[expected], 1.0, tolerance);
+                    assert_close_at_scale(&what, &[first_piola(mode, stretch, law)], &[expected], 1.0, tolerance);
                 }
                 let state = IncompressibleState::of(&law, mode, stretch).expect("a state");
                 let place = if mode == Mode::SimpleShear { (1, 0) } else { (0, 0) };
@@ -50,7 +50,7 @@ fn laws_of_every_model_answer_as_the_model() {
             }
         }
         let wrong = model.law(&parameters[1..]).expect_err("too few").to_string();
-        assert!(wrong.contains("values are given"), "{wrong}");
+        assert!(wrong.contains("the number of parameter values is"), "{wrong}");
     }
 }
 
@@ -58,7 +58,7 @@ fn laws_of_every_model_answer_as_the_model() {
 fn law_of_a_fit_answers_as_the_fit() {
     let stretches: Vec<f64> = (1..=12).map(|k| 1.0 + 0.25 * f64::from(k)).collect();
     let bar = Table::Uniaxial(stretches.iter().map(|&x| [x, 0.4 * (x - 1.0 / (x * x))]).collect());
-    let data = Data::new(vec![Test::new("bar", bar, Measure::Nominal).expect("a test")]).expect("data");
+    let data = Data::new(vec![Test::new("bar", bar, Measure::FirstPiola).expect("a test")]).expect("data");
     for name in AnyModel::NAMES.map(|name| name.replace(":n", ":2")) {
         let model: AnyModel = name.parse().expect("a model");
         let found = fit(&model, &data, &Options::default()).expect("a fit");
@@ -69,8 +69,8 @@ fn law_of_a_fit_answers_as_the_fit() {
         };
         let fitted = Fitted::new(&model, found.values()).expect("as many");
         for &stretch in &stretches {
-            let expected = nominal_stress(Mode::Uniaxial, stretch, &fitted);
-            let actual = nominal_stress(Mode::Uniaxial, stretch, &law);
+            let expected = first_piola(Mode::Uniaxial, stretch, &fitted);
+            let actual = first_piola(Mode::Uniaxial, stretch, &law);
             assert_close(&name, &[actual], &[expected], Tol::stated(1e-12, "an energy of stretches and a closed form"));
         }
     }
@@ -99,7 +99,7 @@ fn fit_to_components_equals_fit_to_the_mode() {
     let (by_mode, by_component) = (run(cauchy, Measure::Cauchy), run(Table::General(turned), Measure::Cauchy));
     let tolerance = Tol::stated(1e-7, "two searches for the same minimum");
     assert_close("parameters", &by_component.values(), &by_mode.values(), tolerance);
-    assert!(run(bar, Measure::Nominal).values() != by_mode.values(), "other weights");
+    assert!(run(bar, Measure::FirstPiola).values() != by_mode.values(), "other weights");
 }
 
 #[test]
@@ -117,7 +117,7 @@ fn shear_of_a_component_equals_simple_shear() {
         })
         .collect();
     let run = |table| {
-        let data = Data::new(vec![Test::new("block", table, Measure::Nominal).expect("a test")]).expect("data");
+        let data = Data::new(vec![Test::new("block", table, Measure::FirstPiola).expect("a test")]).expect("data");
         fit(&model, &data, &Options::default()).expect("a fit")
     };
     assert_close(

@@ -140,5 +140,6 @@ fn action_of_samples_of_a_path_equals_its_integral_within_the_error_stated() {
     let action = system.action_of_samples(&samples).unwrap();
     let exact = system.action(&Wander, 0.0..2.0, Tolerance::relative(1e-13).unwrap()).unwrap();
     let error = (action.value - exact.value).abs();
-    assert!(error <= action.error && action.error < 1e-3, "{error:e} {action:?} {exact:?}");
+    // Cubic interpolation over sixteenths: h⁴ is 1.5e-5, and the error found 1.8e-5.
+    assert!(error <= action.error && action.error < 1e-4, "{error:e} {action:?} {exact:?}");
 }

@@ -66,7 +66,7 @@ proptest! {
         let symbols = system.christoffel_second(&q, 0.0).unwrap();
         let expected: Vec<f64> = (0..3).map(|i| a[i] + velocity.dot(&(&symbols[i] * &velocity))).collect();
         let actual = system.covariant_acceleration(&q, &v, &a, 0.0).unwrap();
-        let tol = Tol::ulps(128.0).times(condition(&system, (&q, &v, 0.0)));
+        let tol = Tol::ulps(8.0).times(condition(&system, (&q, &v, 0.0)));
         assert_close_at_scale("Γ", actual.as_slice(), &expected, 20.0, tol);
 
         // Along the motion it is the force with its index raised: of what is applied and of gravity.

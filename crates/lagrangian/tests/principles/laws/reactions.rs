@@ -61,7 +61,7 @@ proptest! {
         let work = system.virtual_work(&reactions, &q, t).unwrap();
         // Without potential and generalised forces something is left over of the equations: −Q.
         let rest = driven().driving_forces(&q, &v, a.as_slice(), t).unwrap();
-        let tol = Tol::ulps(256.0).times(condition(&system, (&q, &v, t)));
+        let tol = Tol::ulps(16.0).times(condition(&system, (&q, &v, t)));
         assert_close_at_scale("Q", work.as_slice(), rest.as_slice(), 10.0, tol);
     }
 
@@ -87,7 +87,7 @@ proptest! {
             let arm = reaction.position() - about;
             moment += moment_about_origin(&arm, &external.force, &couple) + reaction.moment_about(&about);
         }
-        let tol = Tol::ulps(128.0).times(condition(&system, (&q, &v, t)));
+        let tol = Tol::ulps(8.0).times(condition(&system, (&q, &v, t)));
         let rates = moving.momentum.map(|x| x.tangent);
         assert_close_at_scale("force", rates.as_slice(), force.as_slice(), 50.0, tol);
         let rates = moving.angular_momentum.map(|x| x.tangent);
@@ -99,7 +99,7 @@ proptest! {
         let system = everything();
         let a = system.acceleration(&q, &v, t).unwrap();
         let more = DVector::from_vec(vec![1.0, -2.0, 0.5]);
-        let tol = Tol::ulps(256.0).times(condition(&system, (&q, &v, t)));
+        let tol = Tol::ulps(16.0).times(condition(&system, (&q, &v, t)));
         let none = system.driving_forces(&q, &v, a.as_slice(), t).unwrap();
         assert_close_at_scale("at rest", none.as_slice(), &[0.0; 3], 50.0, tol);
         let (mut mass_matrix, mut forcing) = (nalgebra::DMatrix::zeros(3, 3), [0.0; 3]);

@@ -136,7 +136,7 @@ proptest! {
         let gap = gap(&path);
         let moving = DeformationGradient::new(path.at(Dual64::from(0.0).derivative())).expect("0 < det F");
         let analysis = StretchAnalysis::of(&moving);
-        let tol = Tol::ulps(256.0).times((1.0 / gap).powi(2) * path.condition());
+        let tol = Tol::ulps_because(256.0, "rates of axes: three products and two gaps").times((1.0 / gap).powi(2) * path.condition());
         let axes = |rows: [[Dual64; 3]; 3]| from_rows(rows).transpose();
         let (material, spatial) = (axes(analysis.material_axes()), axes(analysis.spatial_axes()));
         let twirl = rates.material_twirl().expect("distinct").matrix();

@@ -1,0 +1,7 @@
+//! Laws of solids against values that an independent script computed, and against values by hand.
+
+mod laws;
+mod membrane;
+#[path = "../invariant/once.rs"]
+mod once;
+mod volumes;

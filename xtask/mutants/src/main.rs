@@ -1,0 +1,246 @@
+//! `cargo xtask mutants`: would the tests notice a wrong formula?
+//!
+//! All changed operators are compiled at once into a copy of the project, each behind a switch that an environment variable
+//! turns on; so the project is built once, whatever the number of changes. A test program is run for a change only if it
+//! comes where the change stands.
+#![forbid(unsafe_code)]
+
+mod compile;
+mod draw;
+mod files;
+mod plan;
+mod record;
+mod sites;
+mod trial;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use serde_json::Value;
+use xshell::{Shell, cmd};
+
+use compile::Executable;
+use files::{Copy, read};
+use plan::{Mutant, Plan, Rendered};
+use record::{Fate, Record, Row, Trial};
+use trial::Ending;
+
+/// Without formulas of their own, or not used by users.
+const PASSED_OVER: [&str; 3] = ["cli", "piola", "testkit"];
+
+/// A crate passes when at most one change in twenty is not noticed.
+const NOTICED_OF: usize = 20;
+
+fn main() -> ExitCode {
+    match Options::new(std::env::args().skip(1)).and_then(|options| run(&options)) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(message) => {
+            eprintln!("mutants: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+struct Options {
+    folders: Vec<String>,
+    sample: usize,
+    seed: u64,
+    page: bool,
+}
+
+impl Options {
+    fn new(mut arguments: impl Iterator<Item = String>) -> Result<Self, String> {
+        let mut options = Self { folders: Vec::new(), sample: 40, seed: 1788, page: false };
+        while let Some(argument) = arguments.next() {
+            let mut number = || {
+                let text = arguments.next().unwrap_or_default();
+                text.parse::<u64>().map_err(|_| format!("`{argument} {text}` is no whole number"))
+            };
+            match argument.as_str() {
+                "--sample" => options.sample = usize::try_from(number()?).map_err(|error| error.to_string())?,
+                "--seed" => options.seed = number()?,
+                "--page" => options.page = true,
+                folder if !folder.starts_with('-') => options.folders.push(folder.to_owned()),
+                unknown => return Err(format!("unknown argument `{unknown}`")),
+            }
+        }
+        if options.page && !options.folders.is_empty() {
+            return Err("the page is of all crates: name none".into());
+        }
+        Ok(options)
+    }
+}
+
+fn run(options: &Options) -> Result<bool, String> {
+    let shell = Shell::new().map_err(|error| error.to_string())?;
+    let (root, target) = places(&shell)?;
+    shell.change_dir(&root);
+    let folder = target.join("mutants");
+    std::fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let mut plans = plans(&root, options)?;
+    // All tests, or those of the crates that are named.
+    let packages: Vec<_> =
+        if options.folders.is_empty() { Vec::new() } else { plans.iter().map(|plan| plan.package.clone()).collect() };
+    let copy = Copy::new(&shell, &root, folder.join("tree"))?;
+    let sources = copy.hash()?;
+    let run = format!("{sources:016x} {} {} {}", options.sample, options.seed, packages.join(" "));
+    let mut record = Record::open(folder.join("results.jsonl"), run);
+    let executables = compile::settle(
+        &shell,
+        (&root, &copy, &folder.join("build")),
+        &mut plans,
+        options.sample,
+        &packages,
+        &mut record,
+    )?;
+    for executable in &executables {
+        let key = executable.path.display().to_string();
+        if !record.baselines.contains_key(&key) {
+            let baseline = trial::without(executable, &folder.join("seen"))?;
+            eprintln!(
+                "{:>7.1} s  {:>3} mutants met by {} {}",
+                baseline.seconds,
+                baseline.reached.len(),
+                executable.package,
+                executable.target
+            );
+            record.baseline(&executable.path, &baseline)?;
+        }
+    }
+    for plan in &plans {
+        for mutant in plan.mutants() {
+            if !record.trials.contains_key(&mutant.number) {
+                let trial = attempt(&plan.package, &mutant, &executables, &record)?;
+                eprintln!("{}: {} {}", place(&mutant), trial.fate.name(), trial.by);
+                record.trial(mutant.number, &place(&mutant), &mutant.site.sign.described(mutant.change), &trial)?;
+                // A failed test may leave a file: a random case to repeat, which no other mutant is to profit from.
+                copy.write(&Rendered::new(&root, &plans)?.texts)?;
+            }
+        }
+    }
+    report(&root, &plans, &record, options)
+}
+
+/// The root of the project, and where cargo builds it.
+fn places(shell: &Shell) -> Result<(PathBuf, PathBuf), String> {
+    let text = cmd!(shell, "cargo metadata --no-deps --format-version 1").quiet().read();
+    let metadata: Value =
+        serde_json::from_str(&text.map_err(|error| error.to_string())?).map_err(|error| error.to_string())?;
+    let path = |key: &str| metadata[key].as_str().map(PathBuf::from).ok_or_else(|| format!("cargo named no {key}"));
+    Ok((path("workspace_root")?, path("target_directory")?))
+}
+
+/// A plan for each crate that is asked for.
+fn plans(root: &Path, options: &Options) -> Result<Vec<Plan>, String> {
+    let entries = std::fs::read_dir(root.join("crates")).map_err(|error| error.to_string())?;
+    let mut all: Vec<_> = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    all.retain(|folder| root.join("crates").join(folder).join("src/lib.rs").is_file());
+    all.retain(|folder| !PASSED_OVER.contains(&folder.as_str()));
+    all.sort();
+    if let Some(unknown) = options.folders.iter().find(|folder| !all.contains(folder)) {
+        return Err(format!("there is no crate `{unknown}` with formulas; there are {}", all.join(", ")));
+    }
+    let mut plans = Vec::new();
+    for (index, folder) in (0..).zip(&all) {
+        if options.folders.is_empty() || options.folders.contains(folder) {
+            plans.push(Plan::new(root, folder, &format!("piola-{folder}"), index, options.seed)?);
+        }
+    }
+    Ok(plans)
+}
+
+/// Runs the tests that meet the mutant until one fails: those of its crate before all others, the quick ones first.
+fn attempt(package: &str, mutant: &Mutant, executables: &[Executable], record: &Record) -> Result<Trial, String> {
+    let mut meeting: Vec<_> = executables
+        .iter()
+        .filter_map(|executable| Some((executable, record.baselines.get(&executable.path.display().to_string())?)))
+        .filter(|(_, baseline)| baseline.reached.contains(&mutant.number))
+        .collect();
+    meeting.sort_by(|(a, base_a), (b, base_b)| {
+        let is_other = |executable: &Executable| executable.package != package;
+        is_other(a).cmp(&is_other(b)).then(base_a.seconds.total_cmp(&base_b.seconds))
+    });
+    if meeting.is_empty() {
+        return Ok(Trial { fate: Fate::Unreached, by: String::new() });
+    }
+    for (executable, baseline) in meeting {
+        let (fate, how) = match trial::with(executable, mutant.number, baseline.seconds)? {
+            Ending::Passed => continue,
+            Ending::Failed(test) => (Fate::Caught, test),
+            Ending::Endless => (Fate::Endless, "without end".to_owned()),
+            Ending::Greedy => (Fate::Endless, "without end of memory".to_owned()),
+        };
+        return Ok(Trial { fate, by: format!("{} {}: {how}", executable.package, executable.target) });
+    }
+    Ok(Trial { fate: Fate::Survived, by: String::new() })
+}
+
+fn place(mutant: &Mutant) -> String {
+    let site = &mutant.site;
+    format!("{}:{}:{}: {}", site.file, site.line, site.column, site.sign.described(mutant.change))
+}
+
+/// Prints what survives and writes the page; true if every crate passes.
+fn report(root: &Path, plans: &[Plan], record: &Record, options: &Options) -> Result<bool, String> {
+    let (mut rows, mut passes) = (Vec::new(), true);
+    let mut texts = BTreeMap::new();
+    for plan in plans {
+        let mut row = Row { folder: plan.folder.clone(), operators: plan.operators(), fates: Vec::new() };
+        eprintln!();
+        for mutant in plan.mutants() {
+            let Some(trial) = record.trials.get(&mutant.number) else { continue };
+            row.fates.push(trial.fate);
+            if !trial.fate.is_caught() {
+                let file = mutant.site.file.clone();
+                if !texts.contains_key(&file) {
+                    texts.insert(file.clone(), read(&root.join(&file))?);
+                }
+                let line = texts[&file].lines().nth(mutant.site.line - 1).unwrap_or_default().trim();
+                eprintln!("{}: {}\n    {line}", trial.fate.name(), place(&mutant));
+            }
+        }
+        let (tried, caught) = (row.fates.len(), row.caught());
+        eprintln!(
+            "{}: {caught} of {tried} caught ({} endless), {} not noticed, {} not reached; {} operators, seed {}",
+            plan.folder,
+            row.count(Fate::Endless),
+            row.count(Fate::Survived),
+            row.count(Fate::Unreached),
+            row.operators,
+            options.seed
+        );
+        passes &= (tried - caught) * NOTICED_OF <= tried;
+        rows.push(row);
+    }
+    if options.page {
+        let path = root.join("docs/measurements/mutants.md");
+        std::fs::write(&path, record::page(&rows, options.sample, options.seed)).map_err(|error| error.to_string())?;
+    }
+    Ok(passes)
+}
+
+#[cfg(test)]
+#[path = "../switch.rs"]
+mod switch;
+
+#[cfg(test)]
+mod tests {
+    use super::{Options, switch};
+
+    #[test]
+    fn options_are_understood_or_refused() {
+        let options = |line: &str| Options::new(line.split_whitespace().map(str::to_owned));
+        let given = options("kinematics --sample 3 --seed 5 tensor");
+        assert!(given.is_ok_and(|given| given.folders.len() == 2 && given.sample == 3 && given.seed == 5));
+        for wrong in ["--sample", "--sample x", "--pgae", "--page tensor"] {
+            assert!(options(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn without_the_variable_no_mutant_is_on() {
+        assert!((1..1000).all(|number| !switch::is(number)));
+    }
+}

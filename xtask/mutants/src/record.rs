@@ -1,0 +1,194 @@
+//! What is known of the mutants: a line of JSON each, so that an interrupted run goes on where it was.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::OpenOptions;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+
+use crate::trial::Baseline;
+
+/// The file, and what it says of this run.
+pub(crate) struct Record {
+    path: PathBuf,
+    /// Sources and draw.
+    run: String,
+    pub(crate) trials: BTreeMap<u32, Trial>,
+    pub(crate) baselines: BTreeMap<String, Baseline>,
+    /// Those that did not compile, in the order in which this was found.
+    pub(crate) refused: Vec<u32>,
+}
+
+/// What became of a mutant.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Trial {
+    pub(crate) fate: Fate,
+    /// The test that failed.
+    pub(crate) by: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fate {
+    Caught,
+    /// Caught by the time or the memory that it takes.
+    Endless,
+    Survived,
+    /// No test comes there.
+    Unreached,
+}
+
+impl Fate {
+    const ALL: [(Self, &'static str); 4] = [
+        (Self::Caught, "caught"),
+        (Self::Endless, "endless"),
+        (Self::Survived, "survived"),
+        (Self::Unreached, "not reached"),
+    ];
+
+    pub(crate) fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(fate, _)| *fate == self).map_or("", |(_, name)| name)
+    }
+
+    pub(crate) fn is_caught(self) -> bool {
+        matches!(self, Self::Caught | Self::Endless)
+    }
+}
+
+impl Record {
+    pub(crate) fn open(path: PathBuf, run: String) -> Self {
+        let text = std::fs::read_to_string(&path).unwrap_or_default();
+        let mut record = Self { path, run, trials: BTreeMap::new(), baselines: BTreeMap::new(), refused: Vec::new() };
+        // The last line may be half a line.
+        for line in text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok()) {
+            if line["run"] == record.run.as_str() {
+                record.take(&line);
+            }
+        }
+        record
+    }
+
+    fn take(&mut self, line: &Value) {
+        let number = |value: &Value| value.as_u64().and_then(|number| u32::try_from(number).ok());
+        if let Some(refused) = number(&line["refused"]) {
+            self.refused.push(refused);
+        } else if let Some(executable) = line["executable"].as_str() {
+            let reached: BTreeSet<_> = line["reached"].as_array().into_iter().flatten().filter_map(number).collect();
+            let seconds = line["seconds"].as_f64().unwrap_or(0.0);
+            self.baselines.insert(executable.to_owned(), Baseline { seconds, reached });
+        } else if let Some(mutant) = number(&line["mutant"]) {
+            let fate = Fate::ALL.iter().find(|(_, name)| line["fate"] == *name);
+            if let Some((fate, _)) = fate {
+                self.trials.insert(mutant, Trial { fate: *fate, by: line["by"].as_str().unwrap_or("").to_owned() });
+            }
+        }
+    }
+
+    pub(crate) fn refuse(&mut self, mutant: u32) -> Result<(), String> {
+        self.add(json!({ "refused": mutant }))
+    }
+
+    pub(crate) fn baseline(&mut self, executable: &Path, baseline: &Baseline) -> Result<(), String> {
+        self.add(json!({
+            "executable": executable.display().to_string(),
+            "seconds": baseline.seconds,
+            "reached": baseline.reached,
+        }))
+    }
+
+    pub(crate) fn trial(&mut self, mutant: u32, place: &str, change: &str, trial: &Trial) -> Result<(), String> {
+        let fate = trial.fate.name();
+        self.add(json!({ "mutant": mutant, "place": place, "change": change, "fate": fate, "by": trial.by }))
+    }
+
+    /// Remembers the line and writes it at once.
+    fn add(&mut self, mut line: Value) -> Result<(), String> {
+        line["run"] = self.run.clone().into();
+        self.take(&line);
+        let file = OpenOptions::new().create(true).append(true).open(&self.path);
+        let written = file.and_then(|mut file| file.write_all(format!("\n{line}").as_bytes()));
+        written.map_err(|error| format!("{}: {error}", self.path.display()))
+    }
+}
+
+/// A row of the page: what is known of one crate.
+pub(crate) struct Row {
+    pub(crate) folder: String,
+    pub(crate) operators: usize,
+    pub(crate) fates: Vec<Fate>,
+}
+
+impl Row {
+    pub(crate) fn count(&self, fate: Fate) -> usize {
+        self.fates.iter().filter(|other| **other == fate).count()
+    }
+
+    pub(crate) fn caught(&self) -> usize {
+        self.fates.iter().filter(|fate| fate.is_caught()).count()
+    }
+}
+
+/// The page of docs/measurements.
+pub(crate) fn page(rows: &[Row], sample: usize, seed: u64) -> String {
+    let mut page = format!(
+        "# Wrong formulas
+
+Would the tests notice? In each crate {sample} arithmetic operators are drawn at random (seed {seed}) among those that stand in
+bodies of functions, and changed one at a time: a sum becomes a difference, a product a quotient, a sign is left out; where a
+quotient does not compile, as of matrices, the product changes its sign. A change is caught when a test of the workspace fails
+or does not end; those of the documentation do not count. Some changes leave every result as it was, as the quotient by a sign
+does. Written by `cargo xtask mutants --page`.
+
+| crate | operators | changed | caught | not noticed | not reached | share caught |
+|---|---|---|---|---|---|---|
+"
+    );
+    let line = |name: &str, operators: usize, [tried, caught, survived, unreached]: [usize; 4]| {
+        let share = if tried == 0 { "–".into() } else { format!("{:.0} %", 100.0 * caught as f64 / tried as f64) };
+        format!("| {name} | {operators} | {tried} | {caught} | {survived} | {unreached} | {share} |\n")
+    };
+    let (mut operators, mut total) = (0, [0; 4]);
+    for row in rows {
+        let counts = [row.fates.len(), row.caught(), row.count(Fate::Survived), row.count(Fate::Unreached)];
+        page.push_str(&line(&row.folder, row.operators, counts));
+        operators += row.operators;
+        for (total, count) in total.iter_mut().zip(counts) {
+            *total += count;
+        }
+    }
+    page.push_str(&line("all", operators, total));
+    page
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fate, Record, Row, Trial, page};
+    use crate::trial::Baseline;
+
+    #[test]
+    fn a_record_is_read_as_it_was_written_and_only_of_the_same_run() {
+        let path = std::env::temp_dir().join(format!("piola-mutants-{}.jsonl", std::process::id()));
+        let _ = std::fs::remove_file(&path);
+        let trial = Trial { fate: Fate::Endless, by: "it a::b".into() };
+        let baseline = Baseline { seconds: 0.5, reached: [3, 7].into() };
+        let mut record = Record::open(path.clone(), "one".into());
+        let written = [
+            record.refuse(5),
+            record.trial(7, "a.rs:1", "a + b → a - b", &trial),
+            record.baseline("it".as_ref(), &baseline),
+        ];
+        assert!(written.iter().all(Result::is_ok));
+        let read = Record::open(path.clone(), "one".into());
+        assert_eq!((read.refused, read.trials.get(&7)), (vec![5], Some(&trial)));
+        assert_eq!(read.baselines.get("it").map(|it| (it.seconds, it.reached.len())), Some((0.5, 2)));
+        assert!(Record::open(path.clone(), "two".into()).trials.is_empty());
+        let _ = std::fs::remove_file(path);
+    }
+
+    #[test]
+    fn a_row_adds_up() {
+        let fates = vec![Fate::Caught, Fate::Endless, Fate::Survived, Fate::Unreached];
+        let page = page(&[Row { folder: "tensor".into(), operators: 9, fates }], 4, 7);
+        assert!(page.contains("| tensor | 9 | 4 | 2 | 1 | 1 | 50 % |\n| all | 9 | 4 | 2 | 1 | 1 | 50 % |\n"), "{page}");
+    }
+}
