@@ -8,6 +8,9 @@ use crate::roots::{bracketed, places};
 const INTERVALS: usize = 256;
 
 /// A state on a [`LoadCurve`].
+///
+/// # Example
+/// See [`LoadCurve`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvePoint {
     /// The parameter.

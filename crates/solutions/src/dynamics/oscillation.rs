@@ -14,6 +14,9 @@ use crate::{CurvePoint, LoadCurve, ResponseFunctions, SolutionsError};
 /// A body that oscillates along its [`LoadCurve`]: the stretch λ of the inner face is its coordinate.
 ///
 /// Of a shell energies are in J, of a tube in J per metre of its present length.
+///
+/// # Example
+/// See [`RadialOscillation`].
 pub trait Oscillator: LoadCurve {
     /// m(λ) of the kinetic energy ½ m λ̇², kg m², for the density ρ.
     #[must_use]
@@ -96,6 +99,9 @@ impl<L: ResponseFunctions> Oscillator for TubeInflation<'_, L> {
 }
 
 /// A state of a radial oscillation.
+///
+/// # Example
+/// See [`RadialOscillation`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadialState {
     /// λ of the inner face.
@@ -105,6 +111,9 @@ pub struct RadialState {
 }
 
 /// A state of rest under the pressure.
+///
+/// # Example
+/// See [`RadialOscillation`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestState {
     /// λ.
@@ -114,6 +123,9 @@ pub struct RestState {
 }
 
 /// A periodic motion.
+///
+/// # Example
+/// See [`RadialOscillation`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
     /// λ at the turning points.

@@ -9,6 +9,9 @@ use crate::error::check_finite;
 use crate::families::SectorStraightening;
 
 /// B, C, D, E of family 2 as functions of time.
+///
+/// # Example
+/// See [`MovingSector`].
 pub trait SectorHistory {
     /// (B, C, D, E), in m/rad, 1, m/rad, 1, with B E ≠ C D.
     #[must_use]

@@ -8,6 +8,9 @@ use crate::error::check_finite;
 use crate::families::{Orientation, SphereDeformation};
 
 /// A of family 4 as a function of time.
+///
+/// # Example
+/// See [`AsMovingMotion`](super::AsMovingMotion).
 pub trait SphereHistory {
     /// A, m³.
     #[must_use]

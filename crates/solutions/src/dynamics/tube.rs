@@ -8,6 +8,9 @@ use crate::error::{check_bound, check_finite};
 use crate::families::TubeDeformation;
 
 /// B and F of family 3 as functions of time.
+///
+/// # Example
+/// See [`MovingTube`].
 pub trait TubeHistory {
     /// (B, F), in m² and 1, with F ≠ 0.
     #[must_use]

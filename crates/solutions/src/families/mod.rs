@@ -77,6 +77,9 @@ impl Datum {
 }
 
 /// The stress at a particle.
+///
+/// # Example
+/// See [`Family`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalStress {
     /// p, Pa, of T = −p 1 + g₁ B + g₋₁ B⁻¹.

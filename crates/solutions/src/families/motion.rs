@@ -8,6 +8,9 @@ use super::Family;
 use crate::SolutionsError;
 
 /// A system of coordinates whose map from Cartesian ones is known.
+///
+/// # Example
+/// See [`AsMotion`].
 pub trait FromCartesian: Coordinates + Default {
     /// The coordinates of a place, m or rad; angles in (−π, π].
     #[must_use]

@@ -10,6 +10,9 @@ use crate::error::check_finite;
 use crate::{ResponseFunctions, SolutionsError};
 
 /// Whether a shell is as it was or turned inside out.
+///
+/// # Example
+/// See [`SphereDeformation`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
 pub enum Orientation {
     /// The inner face stays inside: the upper signs.

@@ -7,6 +7,9 @@ use crate::SolutionsError;
 use crate::error::{check_bound, check_finite};
 
 /// The symmetry group 𝒢 of a homogeneous body.
+///
+/// # Example
+/// See [`configuration_residual`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MaterialSymmetry {

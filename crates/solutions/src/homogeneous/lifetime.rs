@@ -7,6 +7,9 @@ use crate::SolutionsError;
 use crate::error::{check_bound, check_finite};
 
 /// The open interval of times about t = 0 in which 0 < det(F₀ t + F₁).
+///
+/// # Example
+/// See [`lifetime`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lifetime {
     /// Its begin, s; −∞ where there is none.

@@ -46,6 +46,9 @@ pub struct Bending<'a, L> {
 }
 
 /// A bent block.
+///
+/// # Example
+/// See [`Bending`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BentBlock {
     /// The deformation; the block lies between [`faces`](Self::faces).

@@ -189,6 +189,9 @@ impl Sector {
 }
 
 /// What holds the ends of a tube.
+///
+/// # Example
+/// See [`TubeInflation`](super::TubeInflation).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ends {
     /// The axial stretch F is prescribed.

@@ -13,6 +13,9 @@ use crate::roots::newton;
 use crate::{ResponseFunctions, SolutionsError};
 
 /// A tube turned inside out, without loads on its curved faces and without a resultant on its ends.
+///
+/// # Example
+/// See [`everted_tube`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EvertedTube {
     /// The deformation: A < 0 and F < 0.

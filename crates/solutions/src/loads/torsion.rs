@@ -48,6 +48,9 @@ pub struct Torsion<'a, L> {
 }
 
 /// A twisted cylinder or tube.
+///
+/// # Example
+/// See [`Torsion`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwistedTube {
     /// The deformation.

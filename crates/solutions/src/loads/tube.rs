@@ -49,6 +49,9 @@ pub struct TubeInflation<'a, L> {
 }
 
 /// A tube under pressure.
+///
+/// # Example
+/// See [`TubeInflation`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InflatedTube {
     /// The deformation.

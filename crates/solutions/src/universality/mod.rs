@@ -28,6 +28,9 @@ use crate::SolutionsError;
 use crate::error::{check_bound, check_finite};
 
 /// The law that leaves most of an equation of equilibrium.
+///
+/// # Example
+/// See [`compressible`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refutation<L> {
     /// The law.
