@@ -73,6 +73,7 @@
 //! | homogeneous specimens, and checks of laws | [`specimens`] | `specimens` |
 //! | laws of fluids | [`fluids`] | `fluids` |
 //! | viscometric flows and their inversion | [`viscometry`] | `viscometry` |
+//! | exact solutions of nonlinear elasticity | [`solutions`] | `solutions` |
 //! | parameters of laws from measurements | [`fit`] | `fit` |
 //! | materially uniform bodies, dislocations, residual stress | [`uniformity`] | `uniformity` |
 //!
@@ -108,6 +109,8 @@ pub use piola_lagrangian as lagrangian;
 pub use piola_numerics as numerics;
 #[cfg(feature = "solids")]
 pub use piola_solids as solids;
+#[cfg(feature = "solutions")]
+pub use piola_solutions as solutions;
 #[cfg(feature = "specimens")]
 pub use piola_specimens as specimens;
 #[cfg(feature = "tensor")]

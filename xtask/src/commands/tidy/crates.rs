@@ -75,6 +75,7 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("fluids", "fields"),
     ("solids", "batch"),
     ("specimens", "fields"),
+    ("solutions", "integrators"),
     ("fit", "specimens"),
     ("fit", "viscometry"),
 ];

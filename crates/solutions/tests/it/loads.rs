@@ -1,0 +1,381 @@
+//! Loads: by surface integrals, by derivatives of the energy, by closed forms; inverse problems.
+
+use core::f64::consts::{PI, TAU};
+
+use piola_numerics::{Dual, Real};
+use piola_solids::isochoric::{Gent, Isochoric, MooneyRivlin, NeoHookean, Rivlin, RivlinTerm};
+use piola_solutions::families::{
+    AzimuthalShearing, BlockBending, Datum, Family, Orientation, SectorStraightening, TubeDeformation,
+};
+use piola_solutions::loads::{
+    AzimuthalShear, Bending, Block, BlockLoads, Ends, Sector, SectorLoads, ShearLoads, Shell, SphereInflation,
+    Straightening, Torsion, Tube, TubeInflation, everted_tube, torsion_under,
+};
+use piola_solutions::{LoadCurve, LocalDeformation, SolutionsError};
+use piola_testkit::golden::{load, number, text};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale};
+use proptest::prelude::*;
+
+use crate::fixtures::{first_piola, integral, rubber};
+
+const QUADRATURE: Tol = Tol::stated(1e-11, "loads by quadrature");
+
+type Rows<T> = [[T; 3]; 3];
+
+fn energy<T: Real>(law: &Rivlin, gradient: Rows<T>) -> T {
+    let local = LocalDeformation::of(gradient);
+    law.energy(local.first_minus_three, local.second_minus_three)
+}
+
+/// F of families 1 and 3, written again.
+fn bent<T: Real>([b, c, d, e]: [T; 4], offset: T, s: f64, is_sector: bool) -> Rows<T> {
+    let a = (b * e - c * d).recip();
+    let (k, xi) = if is_sector { (s, 0.5 * s * s) } else { (1.0, s) };
+    let (k, zero) = (T::lit(k), T::zero());
+    let r = (T::lit(2.0 * xi) * a + offset).sqrt();
+    [[a * k / r, zero, zero], [zero, r * b / k, r * c], [zero, d / k, e]]
+}
+
+fn block() -> impl Strategy<Value = [f64; 4]> {
+    (0.6..1.8, -0.4..0.4, -0.4..0.4, 0.9..1.8).prop_map(|(b, c, d, e)| [b, c, d, e])
+}
+
+/// Loads of a bent block or a tube: the family's own stresses integrated over the faces, and derivatives of the energy.
+fn check_sector(
+    family: &impl Family,
+    law: &Rivlin,
+    loads: &SectorLoads,
+    (constants, offset, is_sector): ([f64; 4], f64, bool),
+    (s1, s2): (f64, f64),
+    outer: f64,
+) {
+    let datum = Datum { reference: [s2, 0.0, 0.0], stress: outer };
+    let nominal = |s: f64| {
+        let local = family.deformation([s, 0.0, 0.0]).expect("deformation");
+        first_piola(family.stress(law, &datum, [s, 0.0, 0.0]).expect("stress").cauchy.0.rows(), &local)
+    };
+    let radius = |s: f64| family.place([s, 0.0, 0.0])[0];
+    let kappa = |s: f64| if is_sector { s } else { 1.0 };
+    let surface = [
+        integral(s1, s2, |s| radius(s) * nominal(s)[1][1]),
+        integral(s1, s2, |s| radius(s) * nominal(s)[1][2] * kappa(s)),
+        integral(s1, s2, |s| nominal(s)[2][1]),
+        integral(s1, s2, |s| nominal(s)[2][2] * kappa(s)),
+    ];
+    let found = [loads.bending_moment, loads.torque, loads.axial_shear, loads.axial_force];
+    let scale = integral(s1, s2, |s| nominal(s).as_flattened().iter().map(|p| p.abs()).sum::<f64>());
+    assert_close_at_scale("surface integrals", &found, &surface, scale, QUADRATURE);
+
+    let [b, c, d, e] = constants;
+    let a = 1.0 / (b * e - c * d);
+    let xi = |s: f64| if is_sector { 0.5 * s * s } else { s };
+    let [t1, t2] = loads.normal_stresses;
+    let radial = t2 * xi(s2) - t1 * xi(s1);
+    for (direction, load) in found.into_iter().enumerate() {
+        let varied: [Dual<f64>; 4] = core::array::from_fn(|i| {
+            if i == direction { Dual::variable(constants[i]) } else { Dual::constant(constants[i]) }
+        });
+        let rate_of_a = (varied[0] * varied[3] - varied[1] * varied[2]).recip().tangent;
+        let stored = integral(s1, s2, |s| {
+            energy(law, bent(varied, Dual::constant(offset), s, is_sector)) * Dual::constant(kappa(s))
+        });
+        let work = load + radial * rate_of_a / a;
+        assert_close_at_scale("dE", &[work], &[stored.tangent], scale, QUADRATURE);
+    }
+    let varied = constants.map(Dual::constant);
+    let stored = integral(s1, s2, |s| {
+        energy(law, bent(varied, Dual::variable(offset), s, is_sector)) * Dual::constant(kappa(s))
+    });
+    assert_close_at_scale("dE/dB", &[(t2 - t1) / (2.0 * a)], &[stored.tangent], scale, QUADRATURE);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn loads_of_a_bent_block_equal_surface_integrals_and_derivatives_of_the_energy(
+        law in rubber(), block in block(), first in 0.3..1.0_f64, thickness in 0.1..1.5_f64, outer in -1.0..1.0_f64,
+    ) {
+        let family = BlockBending::isochoric(block).expect("constants");
+        let ends = (first, first + thickness);
+        let loads = SectorLoads::of_bending(&family, &law, ends, outer).expect("loads");
+        check_sector(&family, &law, &loads, (block, 0.0, false), ends, outer);
+    }
+
+    #[test]
+    fn loads_of_a_tube_equal_surface_integrals_and_derivatives_of_the_energy(
+        law in rubber(), block in block(), b in -0.1..1.0_f64, first in 0.7..1.0_f64, thickness in 0.1..1.0_f64,
+        outer in -1.0..1.0_f64, everted in any::<bool>(),
+    ) {
+        let [c, d, e, f] = block;
+        let (offset, constants) = if everted { (b + 8.0, [c, d, e, -f]) } else { (b, block) };
+        let family = TubeDeformation::isochoric([offset, c, d, e, constants[3]]).expect("constants");
+        let ends = (first, first + thickness);
+        let loads = SectorLoads::of_tube(&family, &law, ends, outer).expect("loads");
+        check_sector(&family, &law, &loads, (constants, offset, true), ends, outer);
+    }
+
+    #[test]
+    fn loads_of_a_straightened_sector_equal_surface_integrals_and_derivatives_of_the_energy(
+        law in rubber(), block in block(), first in 0.5..1.0_f64, thickness in 0.1..1.0_f64, stress in -1.0..1.0_f64,
+    ) {
+        let family = SectorStraightening::isochoric(block).expect("constants");
+        let (s1, s2) = (first, first + thickness);
+        let loads = BlockLoads::of_sector(&family, &law, (s1, s2), stress).expect("loads");
+        let datum = Datum { reference: [s2, 0.0, 0.0], stress };
+        let nominal = |s: f64| {
+            let local = family.deformation([s, 0.0, 0.0]).expect("deformation");
+            first_piola(family.stress(&law, &datum, [s, 0.0, 0.0]).expect("stress").cauchy.0.rows(), &local)
+        };
+        let place = |s: f64| family.place([s, 0.0, 0.0])[0];
+        let surface = [
+            integral(s1, s2, |s| nominal(s)[1][1]),
+            integral(s1, s2, |s| s * nominal(s)[1][2]),
+            integral(s1, s2, |s| nominal(s)[2][1]),
+            integral(s1, s2, |s| s * nominal(s)[2][2]),
+            integral(s1, s2, |s| (place(s1) - place(s)) * nominal(s)[1][1]),
+        ];
+        let found = [loads.tension, loads.cross_shear, loads.shear, loads.axial_force, loads.bending_moment];
+        let scale = integral(s1, s2, |s| nominal(s).as_flattened().iter().map(|p| p.abs()).sum::<f64>());
+        assert_close_at_scale("surface integrals", &found, &surface, scale, QUADRATURE);
+        let [b, c, d, e] = block;
+        let a = 1.0 / (b * e - c * d);
+        for (direction, load) in found.into_iter().take(4).enumerate() {
+            let [b, c, d, e]: [Dual<f64>; 4] = core::array::from_fn(|i| {
+                if i == direction { Dual::variable(block[i]) } else { Dual::constant(block[i]) }
+            });
+            let rate = (b * e - c * d).recip();
+            let stored = integral(s1, s2, |s| {
+                let (r, zero) = (Dual::constant(s), Dual::constant(0.0));
+                energy(&law, [[rate * r, zero, zero], [zero, b / r, c], [zero, d / r, e]]) * r
+            });
+            let work = load + 0.5 * stress * (s2 * s2 - s1 * s1) * rate.tangent / a;
+            assert_close_at_scale("dE", &[work], &[stored.tangent], scale, QUADRATURE);
+        }
+    }
+
+    #[test]
+    fn pressure_of_a_sphere_equals_the_derivative_of_its_energy(
+        law in rubber(), outer in 1.01..3.0_f64, stretch in 0.7..3.0_f64,
+    ) {
+        for orientation in [Orientation::Kept, Orientation::Everted] {
+            let body = SphereInflation { shell: Shell::new(1.0, outer).expect("shell"), law: &law, orientation };
+            let a = Dual::variable(body.deformation(stretch).expect("deformation").constant());
+            let sign = if orientation == Orientation::Kept { 1.0 } else { -1.0 };
+            let stored = integral(1.0, outer, |s| {
+                let (zero, size) = (Dual::constant(0.0), Dual::constant(s));
+                let hoop = (Dual::constant(sign * s * s * s) + a).cbrt() / size;
+                let radial = (hoop * hoop).recip();
+                energy(&law, [[radial, zero, zero], [zero, hoop, zero], [zero, zero, hoop]]) * size * size
+            });
+            // dE = p dV, V = 4π/3 (r of the cavity)³, whose derivative by A is 4π/3.
+            let point = body.point(stretch).expect("point");
+            assert_close("p", &[point.load], &[3.0 * stored.tangent], QUADRATURE);
+        }
+    }
+
+    #[test]
+    fn slopes_of_all_curves_equal_differences_of_their_loads(law in rubber(), x in 1.05..2.0_f64) {
+        let tube = Tube::new(1.0, 1.6).expect("tube");
+        let rod = Tube::solid(1.3).expect("rod");
+        check_slope(&SphereInflation { shell: Shell::new(1.0, 1.2).expect("shell"), law: &law, orientation: Orientation::Kept }, x);
+        for ends in [Ends::Stretch(1.2), Ends::Force(0.3), Ends::Closed] {
+            check_slope(&TubeInflation { tube, law: &law, ends }, x);
+            check_slope(&Torsion { tube, law: &law, ends }, 0.5 * x);
+            check_slope(&Torsion { tube: rod, law: &law, ends }, 0.5 * x);
+        }
+        check_slope(&Bending { block: Block::new(1.0, 2.0, 0.5).expect("block"), law: &law, axial_stretch: 1.1 }, x);
+        let sector = Sector::new([1.0, 2.0], [0.0, 1.0]).expect("sector");
+        check_slope(&Straightening { sector, law: &law, axial_stretch: 1.1 }, x);
+        check_slope(&AzimuthalShear { law: &law, radial_stretch: 1.1, angular_stretch: 0.9 }, x);
+    }
+}
+
+/// A difference of fourth order.
+fn check_slope<C: LoadCurve>(curve: &C, x: f64) {
+    let step = 1e-3;
+    let at = |i: f64| curve.point(x + i * step).expect("point").load;
+    let difference = (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * step);
+    let slope = curve.point(x).expect("point").slope;
+    let scale = at(0.0).abs() / x;
+    assert_close_at_scale(
+        C::LOAD,
+        &[slope],
+        &[difference],
+        scale,
+        Tol::stated(1e-9, "a difference of order 4 at 1e-3"),
+    );
+}
+
+#[test]
+fn torsion_resultants_equal_golden() {
+    let mut count = 0;
+    for case in load("universal").cases.iter().filter(|case| text(&case["kind"]) == "torsion_resultants") {
+        let of = |name: &str| number(&case["params"][name]);
+        let law = MooneyRivlin::new(of("c10"), of("c01")).expect("law");
+        let tube = Tube::solid(of("R0")).expect("radius");
+        let twisted = Torsion { tube, law: &law, ends: Ends::Stretch(of("lam")) }.state(of("psi")).expect("state");
+        assert_close("M", &[twisted.torque], &[number(&case["output"]["M"])], QUADRATURE);
+        assert_close("N", &[twisted.axial_force], &[number(&case["output"]["N"])], QUADRATURE);
+        let found = torsion_under(&tube, &law, twisted.axial_force, twisted.torque).expect("state");
+        assert_close("λ", &[found.axial_stretch, found.twist], &[of("lam"), of("psi")], QUADRATURE);
+        count += 1;
+    }
+    assert_eq!(count, 2);
+}
+
+#[test]
+fn balloon_of_mooney_and_rivlin_has_two_limit_points_and_three_states_between_them() {
+    let law = MooneyRivlin::new(0.5, 0.03).expect("law");
+    let thickness = 1e-5;
+    let shell = Shell::new(1.0, 1.0 + thickness).expect("shell");
+    let balloon = SphereInflation { shell, law: &law, orientation: Orientation::Kept };
+    let limits = balloon.limit_points((1.0, 12.0)).expect("limits");
+    assert_eq!(limits.len(), 2);
+    // The membrane: p = 4 h (1/λ − 1/λ⁷)(C₁₀ + C₀₁ λ²).
+    let membrane = |x: f64| 4.0 * thickness * (1.0 / x - x.powi(-7)) * (0.5 + 0.03 * x * x);
+    for limit in &limits {
+        let x = limit.parameter;
+        assert_close("p", &[limit.load], &[membrane(x)], Tol::stated(4.0 * thickness, "thickness/radius"));
+        assert!(limit.slope.abs() < 1e-12 * limit.load);
+    }
+    let between = 0.5 * (limits[0].load + limits[1].load);
+    let states = balloon.states_at(between, (1.0, 12.0)).expect("states");
+    assert_eq!(states.len(), 3);
+    assert!(0.0 < states[0].slope && states[1].slope < 0.0 && 0.0 < states[2].slope);
+    for state in &states {
+        assert_close("p", &[state.load], &[between], Tol::ulps(256.0).times(1.0 / thickness));
+    }
+    let beyond = balloon.states_at(1.01 * limits[0].load, (1.0, 0.5 * (limits[0].parameter + limits[1].parameter)));
+    let Err(SolutionsError::BeyondLimitPoint { limit, at, .. }) = beyond else { panic!("{beyond:?}") };
+    assert_close(
+        "limit",
+        &[limit, at],
+        &[limits[0].load, limits[0].parameter],
+        Tol::stated(1e-9, "limit points by slope"),
+    );
+    let far = balloon.states_at(-1.0, (1.0, 2.0));
+    assert!(matches!(far, Err(SolutionsError::NotReached { .. })), "{far:?}");
+}
+
+#[test]
+fn closed_thin_tube_carries_the_pressure_of_the_membrane() {
+    let law = Gent::new(1.0, 50.0).expect("law");
+    let thickness = 1e-5;
+    let tube = Tube::new(1.0, 1.0 + thickness).expect("tube");
+    let closed = TubeInflation { tube, law: &law, ends: Ends::Closed };
+    for stretch in [1.1, 1.5, 2.5] {
+        let state = closed.state(stretch).expect("state");
+        // T_θθ = p r/h, T_zz = ½ T_θθ, with h = thickness/(λ λ_z): g (λ² − λ_r²) = 2 g (λ_z² − λ_r²).
+        let (axial, radial) = (state.axial_stretch, 1.0 / (stretch * state.axial_stretch));
+        let hoop = stretch * stretch - radial * radial;
+        let tol = Tol::stated(4.0 * thickness, "thickness/radius");
+        assert_close("½ T_θθ", &[axial * axial - radial * radial], &[0.5 * hoop], tol);
+        let first = stretch * stretch + axial * axial + radial * radial - 3.0;
+        let pressure = thickness * hoop / (1.0 - first / 50.0) / (stretch * stretch * axial);
+        assert_close("p", &[state.pressure], &[pressure], Tol::stated(1e-4, "thickness/radius"));
+        assert_close("N", &[state.axial_force], &[PI * stretch * stretch * state.pressure], QUADRATURE);
+    }
+}
+
+#[test]
+fn bent_block_is_free_of_pressure_and_of_resultant_force() {
+    let law = MooneyRivlin::new(0.4, 0.2).expect("law");
+    for (thickness, axial_stretch) in [(0.5, 1.0), (1.0, 1.3), (2.0, 0.8)] {
+        let bending = Bending { block: Block::new(thickness, 2.0, 3.0).expect("block"), law: &law, axial_stretch };
+        for angle in [0.5, 1.0, 3.0] {
+            let bent = bending.state(angle).expect("state");
+            assert!(bent.loads.normal_stresses[0].abs() < 1e-12);
+            let datum = Datum::free_at([bent.faces[1], 0.0, 0.0]);
+            let hoop =
+                |x: f64| bent.deformation.stress(&law, &datum, [x, 0.0, 0.0]).expect("stress").cauchy.0.components[1];
+            // ∫ T_θθ dr with dr = A/r dX
+            let a = bent.deformation.constants()[0];
+            let pull = integral(bent.faces[0], bent.faces[1], |x| hoop(x) * a / (2.0 * a * x).sqrt());
+            let size = integral(bent.faces[0], bent.faces[1], |x| hoop(x).abs() * a / (2.0 * a * x).sqrt());
+            assert_close_at_scale("force", &[pull], &[0.0], size, QUADRATURE);
+            assert_close("thickness", &[bent.faces[1] - bent.faces[0]], &[thickness], Tol::ulps(64.0));
+            let back = bending.states_at(bent.moment, (0.1, 6.0)).expect("states");
+            assert!(back.iter().any(|state| (state.parameter - angle).abs() < 1e-10), "{angle}: {back:?}");
+        }
+    }
+}
+
+#[test]
+fn everted_bodies_carry_no_loads() {
+    let law = MooneyRivlin::new(0.4, 0.1).expect("law");
+    for outer in [1.05, 1.3, 1.8] {
+        let tube = Tube::new(1.0, outer).expect("tube");
+        let everted = everted_tube(&tube, &law).expect("state");
+        let loads = SectorLoads::of_tube(&everted.deformation, &law, (1.0, outer), 0.0).expect("loads");
+        assert!(loads.normal_stresses[0].abs() < 1e-11, "{loads:?}");
+        assert!(loads.axial_force.abs() < 1e-11, "{loads:?}");
+        let volume = (everted.radii[1].powi(2) - everted.radii[0].powi(2)) * everted.axial_stretch;
+        assert_close("volume", &[volume], &[outer * outer - 1.0], Tol::ulps(64.0));
+
+        let shell = SphereInflation {
+            shell: Shell::new(1.0, outer).expect("shell"),
+            law: &law,
+            orientation: Orientation::Everted,
+        };
+        let free = shell.states_at(0.0, (0.3, 3.0)).expect("states");
+        assert_eq!(free.len(), 1, "{free:?}");
+        assert!(free[0].load.abs() < 1e-13);
+    }
+}
+
+#[test]
+fn couples_on_a_sheared_sector_balance_and_do_the_work_of_its_energy() {
+    let term = |first, second, coefficient| RivlinTerm { first, second, coefficient };
+    let law = Rivlin::new(vec![term(1, 0, 0.6), term(0, 1, 0.2), term(2, 0, 0.05)]).expect("law");
+    let (a, b, c) = (1.2, 0.7, 0.9);
+    let family = AzimuthalShearing::isochoric([a, b, c]).expect("constants");
+    let sector = Sector::new([1.0, 2.0], [0.25, 1.0]).expect("sector");
+    let datum = Datum { reference: [1.5, 0.5, 0.0], stress: -0.3 };
+    let loads = ShearLoads::of_sector(&family, &law, &sector, &datum).expect("loads");
+    let nominal = |r: f64, theta: f64| {
+        let local = family.deformation([r, theta, 0.0]).expect("deformation");
+        first_piola(family.stress(&law, &datum, [r, theta, 0.0]).expect("stress").cauchy.0.rows(), &local)
+    };
+    let ([r1, r2], [t1, t2]) = (sector.radii(), sector.angles());
+    for (k, r) in [r1, r2].into_iter().enumerate() {
+        let couple = integral(t1, t2, |theta| a * r * nominal(r, theta)[1][0] * r);
+        assert_close("couple", &[loads.couples[k]], &[couple], QUADRATURE);
+    }
+    for (k, theta) in [t1, t2].into_iter().enumerate() {
+        let moment = integral(r1, r2, |r| a * r * nominal(r, theta)[1][1]);
+        assert_close("moment", &[loads.moments[k]], &[moment], QUADRATURE);
+    }
+    let axial = integral(r1, r2, |r| integral(t1, t2, |theta| nominal(r, theta)[2][2] * r));
+    assert_close("axial force", &[loads.axial_force], &[axial], QUADRATURE);
+    let sum = loads.couples[1] - loads.couples[0] + loads.moments[1] - loads.moments[0];
+    assert_close_at_scale("balance", &[sum], &[0.0], loads.couples[1], QUADRATURE);
+
+    // dE/dB = ∫ P N · v over all faces, v_θ = r ln R.
+    let arm = |r: f64| a * r * r.ln();
+    let curved = |r: f64| integral(t1, t2, |theta| nominal(r, theta)[1][0] * arm(r) * r);
+    let flat = |theta: f64| integral(r1, r2, |r| nominal(r, theta)[1][1] * arm(r));
+    let work = curved(r2) - curved(r1) + flat(t2) - flat(t1);
+    let (zero, d) = (Dual::constant(0.0), Dual::constant(1.0 / (a * a * c)));
+    let shear = Dual::variable(b) * Dual::constant(a);
+    let stored = energy(&law, [[Dual::constant(a), zero, zero], [shear, Dual::constant(a * c), zero], [zero, zero, d]]);
+    let volume = 0.5 * (r2 * r2 - r1 * r1) * (t2 - t1);
+    assert_close("dE/dB", &[work], &[stored.tangent * volume], QUADRATURE);
+}
+
+#[test]
+fn torsion_without_axial_force_lengthens_and_at_fixed_length_pushes() {
+    let law = NeoHookean::new(2.0).expect("law");
+    for tube in [Tube::solid(1.0).expect("rod"), Tube::new(0.5, 1.0).expect("tube")] {
+        for twist in [1e-3, 0.2, 1.0] {
+            let free = Torsion { tube, law: &law, ends: Ends::Force(0.0) }.state(twist).expect("state");
+            let held = Torsion { tube, law: &law, ends: Ends::Stretch(1.0) }.state(twist).expect("state");
+            assert!(1.0 < free.axial_stretch && held.axial_force < 0.0);
+            let loads = SectorLoads::of_tube(&free.deformation, &law, (tube.inner(), 1.0), 0.0).expect("loads");
+            assert_close_at_scale("N", &[TAU * loads.axial_force], &[0.0], TAU, QUADRATURE);
+            if !tube.is_solid() {
+                assert_close_at_scale("T_rr", &[loads.normal_stresses[0]], &[0.0], 2.0, QUADRATURE);
+            }
+        }
+    }
+}
