@@ -49,7 +49,7 @@ impl TwoForm for Uneven {
     }
 }
 
-/// W(9.15–9.18): d/ds of a form pulled back by the flow, at one point. The signs are those of L_k θ = −ω(k) + d(θ(k)).
+/// W(9.15–9.18): d/ds of a form pulled back by the flow, at one point. The signs are those of `L_k θ = −ω(k) + d(θ(k))`.
 #[test]
 fn lie_derivatives_equal_rates_of_the_forms_pulled_back() {
     let data = load("equations");
@@ -105,7 +105,7 @@ proptest! {
     }
 }
 
-/// Two oscillators, q̇ = p and ṗ = −K q, with one entry of A more: L_k ω = Σ dk^p ∧ dq + dp ∧ dk^q has one pair of entries.
+/// Two oscillators, q̇ = p and ṗ = −K q, with one entry of A more: `L_k ω = Σ dk^p ∧ dq + dp ∧ dk^q` has one pair of entries.
 #[test]
 fn residual_of_a_field_that_is_not_locally_hamiltonian_equals_what_was_added() {
     let oscillators =

@@ -170,7 +170,7 @@ fn check_case<S: Holonomic, P: Potential>(case: &Value, bare: Lagrangian<S, P>) 
     check_at_scale("dh/dt", power - lagrangian.time_derivative(&q, &v, t).unwrap(), "dh_dt");
 }
 
-/// W(6.5–6.6): [AB, D] = g_DC Γ^C_AB of the reference, and Γ^C_AB, each at its own size: components of one symbol have different units.
+/// W(6.5–6.6): `[AB, D] = g_DC Γ^C_AB` of the reference, and `Γ^C_AB`, each at its own size: components of one symbol have different units.
 fn check_christoffel(case: &Value, first: &[DMatrix<f64>], second: &[f64]) {
     let name = golden::text(&case["name"]);
     let (metric, symbols) = (golden::matrix(&case["metric"]), flat(&case["christoffel"]));

@@ -172,7 +172,7 @@ impl<A> LaminatedTube<A> {
 /// Physical components stand in the order x, y, z of a plane image and r, θ, z of a cylindrical one. The stress depends on the depth alone.
 ///
 /// # Accuracy
-/// Integrals through the depth to 64 ulp of their sums for smooth metrics; stresses to a few ulp of the moduli beyond that.
+/// Integrals through the depth to 256 ulp of their terms for smooth metrics; stresses to a few ulp of the moduli beyond that.
 ///
 /// # Example
 /// See [`LaminatedPlate`] and [`LaminatedTube`].

@@ -175,7 +175,8 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10_000))]
+    // A fifth of the deformations have stretches too close to each other for dyads of axes.
+    #![proptest_config(ProptestConfig { max_global_rejects: 10_000, ..ProptestConfig::with_cases(10_000) })]
 
     #[test]
     fn derivatives_along_a_direction_equal_those_of_dual_numbers(f in deformation(), d in direction()) {
