@@ -56,7 +56,7 @@ pub(super) const COMMAND: Command = Command {
 };
 
 /// Each is a file of that name in `benches/benches`, and its group has the same name.
-const GROUPS: [&str; 11] = [
+const GROUPS: [&str; 12] = [
     "numerics",
     "nbody",
     "lagrangian",
@@ -67,6 +67,7 @@ const GROUPS: [&str; 11] = [
     "constitutive",
     "floor",
     "viscometry",
+    "solutions",
     "uniformity",
 ];
 

@@ -17,7 +17,7 @@
 //! | [`LaminatedSphere`] | 4 | a sphere: inflated, everted | [`inflated`](LaminatedSphere::inflated) |
 //!
 //! The other two coordinates are mapped linearly by a matrix with the determinant Δ. Stresses are T = −p 1 + g₁ B + g₋₁ B⁻¹ with
-//! `B^ij = x^i_A M^AB x^j_B`, W(29.25); any [`Isochoric`](piola_solids::isochoric::Isochoric) energy is a law. A body that is left to itself is in
+//! `B^ij = x^i_A M^AB x^j_B`, W(29.25); any [`Isochoric`] energy is a law. A body that is left to itself is in
 //! [residual stress](LaminatedSphere::at_rest).
 //!
 //! Parameters may depend on time where the acceleration has a potential, W p. 196: see [`SheetMotion`] and [`LaminatedOscillation`].
