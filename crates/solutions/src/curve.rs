@@ -151,12 +151,15 @@ fn check_range(parameter: &'static str, (low, high): (f64, f64)) -> Result<(), S
     check_bound(parameter, high, "low end < high end", low < high)
 }
 
-/// The limit points between the points of a trace.
+/// The limit points between the points of a trace, and those that a point of the trace meets exactly.
 fn limits_among<C: LoadCurve + ?Sized>(curve: &C, trace: &[CurvePoint]) -> Result<Vec<CurvePoint>, SolutionsError> {
     let mut limits = Vec::new();
-    for pair in trace.windows(2) {
+    for (index, pair) in trace.windows(2).enumerate() {
         let [low, high] = [pair[0].slope, pair[1].slope];
-        if low * high < 0.0 {
+        let before = if 0 < index { trace[index - 1].slope } else { 0.0 };
+        if low.abs() <= 0.0 && before * high < 0.0 {
+            limits.push(pair[0]);
+        } else if low * high < 0.0 {
             let slope = |x: f64| Ok(curve.load_and_slope(x)?[1]);
             let root = bracketed(slope, (pair[0].parameter, low), (pair[1].parameter, high))?;
             limits.push(curve.point(root)?);
