@@ -1,8 +1,7 @@
 //! The search of Levenberg and Marquardt over unbounded coordinates of bounded parameters.
 
-use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::DMatrix;
-use nalgebra_0_34 as searched;
+use rmpfit::{MPConfig, MPError, MPFitter, MPMaxFev, MPPar, MPResult, MPSide, MPSuccess};
 
 use crate::Outcome;
 
@@ -83,21 +82,27 @@ pub(crate) fn minimise<M: Misfit>(misfit: M, start: Vec<f64>, patience: usize) -
 }
 
 /// The same for any misfit: the search itself is compiled once.
-fn walk_down(walk: &mut dyn Steps, start: Vec<f64>, patience: usize) -> Option<Outcome> {
-    let x = searched::DVector::from_vec(start);
-    let mut search = Search { walk, x: x.clone() };
-    search.set_params(&x);
-    search.walk.residuals()?;
-    let method = LevenbergMarquardt::new().with_ftol(1e-14).with_xtol(1e-12).with_gtol(1e-12).with_patience(patience);
-    let (mut end, report) = method.minimize(search);
-    let x = end.x.clone();
-    end.set_params(&x);
-    Some(match report.termination {
-        TerminationReason::ResidualsZero => Outcome::ExactFit,
-        TerminationReason::Orthogonal => Outcome::GradientZero,
-        TerminationReason::Converged { .. } | TerminationReason::NoImprovementPossible(_) => Outcome::NoFurtherDecrease,
-        TerminationReason::LostPatience => Outcome::OutOfPatience,
-        _ => Outcome::NotFinite,
+fn walk_down(walk: &mut dyn Steps, mut x: Vec<f64>, patience: usize) -> Option<Outcome> {
+    walk.visit(&x);
+    walk.residuals()?;
+    let most = patience.saturating_mul(x.len() + 1);
+    let mut method = MPConfig::new();
+    (method.ftol, method.xtol, method.gtol) = (1e-14, 1e-12, 1e-12);
+    (method.max_iter, method.max_fev) = (usize::MAX, MPMaxFev::Limited(most));
+    let derivatives_given = || MPPar { side: MPSide::User, ..MPPar::new() };
+    let coordinates = x.iter().map(|_| derivatives_given()).collect();
+    let mut search = Search { walk, at: x.clone(), method, coordinates };
+    let ended = search.mpfit(&mut x);
+    search.go_to(&x);
+    let residuals = search.walk.residuals()?;
+    Some(match ended {
+        Ok(_) if residuals.iter().all(|r| r.abs() <= 0.0) => Outcome::ExactFit,
+        Ok(status) => match status.success {
+            MPSuccess::Dir => Outcome::GradientZero,
+            MPSuccess::MaxIter => Outcome::OutOfPatience,
+            _ => Outcome::NoFurtherDecrease,
+        },
+        Err(_) => Outcome::NotFinite,
     })
 }
 
@@ -137,33 +142,50 @@ impl<M: Misfit> Steps for Walk<M> {
 /// A walk as the library of least squares sees it.
 struct Search<'w> {
     walk: &'w mut dyn Steps,
-    x: searched::DVector<f64>,
+    /// The coordinates that the walk visited last.
+    at: Vec<f64>,
+    method: MPConfig,
+    coordinates: Vec<MPPar>,
 }
 
-impl LeastSquaresProblem<f64, searched::Dyn, searched::Dyn> for Search<'_> {
-    type ResidualStorage = searched::Owned<f64, searched::Dyn>;
-    type JacobianStorage = searched::Owned<f64, searched::Dyn, searched::Dyn>;
-    type ParameterStorage = searched::Owned<f64, searched::Dyn>;
+impl Search<'_> {
+    fn go_to(&mut self, x: &[f64]) {
+        if self.at != x {
+            self.at.copy_from_slice(x);
+            self.walk.visit(x);
+        }
+    }
+}
 
-    fn set_params(&mut self, x: &searched::DVector<f64>) {
-        self.x.copy_from(x);
-        self.walk.visit(self.x.as_slice());
+impl MPFitter for Search<'_> {
+    fn number_of_points(&self) -> usize {
+        self.walk.rows()
     }
 
-    fn params(&self) -> searched::DVector<f64> {
-        self.x.clone()
+    fn config(&self) -> &MPConfig {
+        &self.method
     }
 
-    fn residuals(&self) -> Option<searched::DVector<f64>> {
-        Some(match self.walk.residuals() {
-            Some(residuals) => searched::DVector::from_column_slice(residuals),
+    fn parameters(&self) -> &[MPPar] {
+        &self.coordinates
+    }
+
+    fn eval(&mut self, x: &[f64], residuals: &mut [f64]) -> MPResult<()> {
+        self.go_to(x);
+        match self.walk.residuals() {
+            Some(found) => residuals.copy_from_slice(found),
             // A step to where there is no answer is taken back.
-            None => searched::DVector::from_element(self.walk.rows(), 1e100),
-        })
+            None => residuals.fill(1e100),
+        }
+        Ok(())
     }
 
-    fn jacobian(&self) -> Option<searched::DMatrix<f64>> {
-        let jacobian = self.walk.jacobian(self.x.as_slice())?;
-        Some(searched::DMatrix::from_column_slice(jacobian.nrows(), jacobian.ncols(), jacobian.as_slice()))
+    fn jacobian(&mut self, x: &[f64], residuals: &mut [f64], columns: &mut [Option<Vec<f64>>]) -> MPResult<()> {
+        self.eval(x, residuals)?;
+        let jacobian = self.walk.jacobian(x).ok_or(MPError::Nan)?;
+        for (column, derivatives) in columns.iter_mut().flatten().zip(jacobian.column_iter()) {
+            column.iter_mut().zip(&derivatives).for_each(|(entry, derivative)| *entry = *derivative);
+        }
+        Ok(())
     }
 }
