@@ -66,9 +66,6 @@ impl Options {
                 unknown => return Err(format!("unknown argument `{unknown}`")),
             }
         }
-        if options.page && !options.folders.is_empty() {
-            return Err("the page is of all crates: name none".into());
-        }
         Ok(options)
     }
 }
@@ -187,11 +184,11 @@ fn report(root: &Path, plans: &[Plan], record: &Record, options: &Options) -> Re
     let (mut rows, mut passes) = (Vec::new(), true);
     let mut texts = BTreeMap::new();
     for plan in plans {
-        let mut row = Row { folder: plan.folder.clone(), operators: plan.operators(), fates: Vec::new() };
+        let mut fates = Vec::new();
         eprintln!();
         for mutant in plan.mutants() {
             let Some(trial) = record.trials.get(&mutant.number) else { continue };
-            row.fates.push(trial.fate);
+            fates.push(trial.fate);
             if !trial.fate.is_caught() {
                 let file = mutant.site.file.clone();
                 if !texts.contains_key(&file) {
@@ -201,22 +198,22 @@ fn report(root: &Path, plans: &[Plan], record: &Record, options: &Options) -> Re
                 eprintln!("{}: {}\n    {line}", trial.fate.name(), place(&mutant));
             }
         }
-        let (tried, caught) = (row.fates.len(), row.caught());
+        let row = Row::new(&plan.folder, plan.operators(), options.seed, &fates);
+        let [tried, caught, survived, unreached] = row.counts;
+        let endless = fates.iter().filter(|fate| **fate == Fate::Endless).count();
         eprintln!(
-            "{}: {caught} of {tried} caught ({} endless), {} not noticed, {} not reached; {} operators, seed {}",
-            plan.folder,
-            row.count(Fate::Endless),
-            row.count(Fate::Survived),
-            row.count(Fate::Unreached),
-            row.operators,
-            options.seed
+            "{}: {caught} of {tried} caught ({endless} endless), {survived} not noticed, {unreached} not reached; {} operators, \
+             seed {}",
+            row.folder, row.operators, row.seed
         );
         passes &= (tried - caught) * NOTICED_OF <= tried;
         rows.push(row);
     }
     if options.page {
         let path = root.join("docs/measurements/mutants.md");
-        std::fs::write(&path, record::page(&rows, options.sample, options.seed)).map_err(|error| error.to_string())?;
+        // The first time there is no page.
+        let before = std::fs::read_to_string(&path).unwrap_or_default();
+        std::fs::write(&path, record::page(&rows, &before)).map_err(|error| error.to_string())?;
     }
     Ok(passes)
 }
@@ -234,7 +231,7 @@ mod tests {
         let options = |line: &str| Options::new(line.split_whitespace().map(str::to_owned));
         let given = options("kinematics --sample 3 --seed 5 tensor");
         assert!(given.is_ok_and(|given| given.folders.len() == 2 && given.sample == 3 && given.seed == 5));
-        for wrong in ["--sample", "--sample x", "--pgae", "--page tensor"] {
+        for wrong in ["--sample", "--sample x", "--pgae"] {
             assert!(options(wrong).is_err(), "{wrong}");
         }
     }

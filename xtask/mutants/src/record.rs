@@ -112,51 +112,63 @@ impl Record {
 }
 
 /// A row of the page: what is known of one crate.
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Row {
     pub(crate) folder: String,
+    /// The operators that could be changed.
     pub(crate) operators: usize,
-    pub(crate) fates: Vec<Fate>,
+    /// The seed of the draw.
+    pub(crate) seed: u64,
+    /// Those changed, caught, not noticed and not reached.
+    pub(crate) counts: [usize; 4],
 }
 
 impl Row {
-    pub(crate) fn count(&self, fate: Fate) -> usize {
-        self.fates.iter().filter(|other| **other == fate).count()
+    pub(crate) fn new(folder: &str, operators: usize, seed: u64, fates: &[Fate]) -> Self {
+        let count = |fate| fates.iter().filter(|other| **other == fate).count();
+        let caught = fates.iter().filter(|fate| fate.is_caught()).count();
+        let counts = [fates.len(), caught, count(Fate::Survived), count(Fate::Unreached)];
+        Self { folder: folder.to_owned(), operators, seed, counts }
     }
 
-    pub(crate) fn caught(&self) -> usize {
-        self.fates.iter().filter(|fate| fate.is_caught()).count()
+    /// A line of the page, if it is a row of a crate.
+    fn read(line: &str) -> Option<Self> {
+        let cells: Vec<_> = line.split('|').map(str::trim).collect();
+        let [_, folder, operators, seed, changed, caught, survived, unreached, _, _] = cells[..] else { return None };
+        let number = |cell: &str| cell.parse::<usize>().ok();
+        let counts = [number(changed)?, number(caught)?, number(survived)?, number(unreached)?];
+        Some(Self { folder: folder.to_owned(), operators: number(operators)?, seed: seed.parse().ok()?, counts })
     }
 }
 
-/// The page of docs/measurements.
-pub(crate) fn page(rows: &[Row], sample: usize, seed: u64) -> String {
-    let mut page = format!(
-        "# Wrong formulas
-
-Would the tests notice? In each crate {sample} arithmetic operators are drawn at random (seed {seed}) among those that stand in
-bodies of functions, and changed one at a time: a sum becomes a difference, a product a quotient, a sign is left out; where a
-quotient does not compile, as of matrices, the product changes its sign. A change is caught when a test of the workspace fails
-or does not end; those of the documentation do not count. Some changes leave every result as it was, as the quotient by a sign
-does. Written by `cargo xtask mutants --page`.
-
-| crate | operators | changed | caught | not noticed | not reached | share caught |
-|---|---|---|---|---|---|---|
-"
-    );
-    let line = |name: &str, operators: usize, [tried, caught, survived, unreached]: [usize; 4]| {
-        let share = if tried == 0 { "–".into() } else { format!("{:.0} %", 100.0 * caught as f64 / tried as f64) };
-        format!("| {name} | {operators} | {tried} | {caught} | {survived} | {unreached} | {share} |\n")
-    };
-    let (mut operators, mut total) = (0, [0; 4]);
-    for row in rows {
-        let counts = [row.fates.len(), row.caught(), row.count(Fate::Survived), row.count(Fate::Unreached)];
-        page.push_str(&line(&row.folder, row.operators, counts));
-        operators += row.operators;
-        for (total, count) in total.iter_mut().zip(counts) {
-            *total += count;
-        }
+impl std::fmt::Display for Row {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { folder, operators, seed, counts: [tried, caught, survived, unreached] } = self;
+        let share = if *tried == 0 { "–".into() } else { format!("{:.0} %", 100.0 * *caught as f64 / *tried as f64) };
+        writeln!(f, "| {folder} | {operators} | {seed} | {tried} | {caught} | {survived} | {unreached} | {share} |")
     }
-    page.push_str(&line("all", operators, total));
+}
+
+/// The page of docs/measurements: the rows, and those of the page before whose crates were not asked for.
+pub(crate) fn page(rows: &[Row], before: &str) -> String {
+    let all: BTreeMap<_, _> =
+        before.lines().filter_map(Row::read).chain(rows.iter().cloned()).map(|row| (row.folder.clone(), row)).collect();
+    let mut page = "# Wrong formulas
+
+Would the tests notice? In each crate arithmetic operators are drawn at random (the seed is named) among those that stand in
+bodies of functions, and changed one at a time: a sum becomes a difference, a product a quotient, a sign is left out; where a
+quotient does not compile, as of matrices, the product changes its sign. A change is caught when a test fails or does not end:
+a test of the crate where its name was given to `cargo xtask mutants`, else any of the workspace. Tests of the documentation
+do not count. Some changes leave every result as it was, as the quotient by a sign does. Written by
+`cargo xtask mutants [CRATE…] --page`.
+
+| crate | operators | seed | changed | caught | not noticed | not reached | share caught |
+|---|---|---|---|---|---|---|---|
+"
+    .to_owned();
+    for row in all.values() {
+        page.push_str(&row.to_string());
+    }
     page
 }
 
@@ -186,9 +198,16 @@ mod tests {
     }
 
     #[test]
-    fn a_row_adds_up() {
-        let fates = vec![Fate::Caught, Fate::Endless, Fate::Survived, Fate::Unreached];
-        let page = page(&[Row { folder: "tensor".into(), operators: 9, fates }], 4, 7);
-        assert!(page.contains("| tensor | 9 | 4 | 2 | 1 | 1 | 50 % |\n| all | 9 | 4 | 2 | 1 | 1 | 50 % |\n"), "{page}");
+    fn a_row_adds_up_and_is_read_as_it_was_written() {
+        let fates = [Fate::Caught, Fate::Endless, Fate::Survived, Fate::Unreached];
+        let tensor = Row::new("tensor", 9, 7, &fates);
+        let first = page(std::slice::from_ref(&tensor), "");
+        assert!(first.contains("| tensor | 9 | 7 | 4 | 2 | 1 | 1 | 50 % |\n"), "{first}");
+        let both = page(&[Row::new("batch", 2, 7, &fates[..1])], &first);
+        assert!(
+            both.ends_with("| batch | 2 | 7 | 1 | 1 | 0 | 0 | 100 % |\n| tensor | 9 | 7 | 4 | 2 | 1 | 1 | 50 % |\n"),
+            "{both}"
+        );
+        assert_eq!(page(&[tensor], &both), both);
     }
 }

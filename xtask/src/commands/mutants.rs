@@ -15,7 +15,7 @@ test of the workspace fails, or of the named crates where some are named; tests 
 every change that no test notices. An interrupted run goes on where it was, as long as the sources are the same.
 --sample N   how many changes in each crate, drawn at random (40)
 --seed S     the seed of the draw (1788): the same seed draws the same changes of the same sources
---page       of all crates: write docs/measurements/mutants.md",
+--page       write the rows of these crates into docs/measurements/mutants.md",
     prepare: |shell, _, options| {
         let arguments = arguments(options)?;
         // The program is one of its own, so that the other commands do not wait for its parser.
