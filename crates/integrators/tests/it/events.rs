@@ -221,3 +221,37 @@ fn state_of_another_dimension_is_refused_before_events_see_it() {
     let (report, _) = run(&mut precise(), &mut oscillator(), &mut state, 10.0, &mut events);
     assert_eq!(report, Err(IntegratorsError::WrongLength { quantity: "state", expected: 2, found: 1 }));
 }
+
+#[test]
+fn zero_of_an_event_costs_few_evaluations() {
+    // A line is met by the first secant; a cubic with a slope of 0.03 at its zero within a dozen.
+    for (bend, most) in [(0.0, 2), (1.0, 14)] {
+        let (mut field, mut method) = clock();
+        let mut state = State::new(0.0, vec![0.0]).unwrap();
+        let count = core::cell::Cell::new(0);
+        let mut events = [Event::new(Crossing::Rising, EventAction::Report, |_t, y| {
+            count.set(count.get() + 1);
+            let x = y[0] - 1.8;
+            0.03 * x + bend * x.powi(3)
+        })];
+        let mut at_occurrence = 0;
+        method
+            .integrate_with_events(
+                &mut field,
+                &mut state,
+                4.0,
+                &mut events,
+                |occurrence| {
+                    at_occurrence = count.get();
+                    // Four roundings of the dense output, which adds up the whole step of length four.
+                    assert!((occurrence.time - 1.8).abs() <= 16.0 * f64::EPSILON, "{}", occurrence.time);
+                    ControlFlow::Continue(())
+                },
+                |_| ControlFlow::Continue(()),
+            )
+            .unwrap();
+        // One at the start, one at each of the eight places of the step.
+        assert!(at_occurrence <= 9 + most, "{at_occurrence} evaluations");
+        assert!(9 < at_occurrence);
+    }
+}

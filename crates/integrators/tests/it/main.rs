@@ -4,6 +4,7 @@ mod alloc;
 mod coefficients;
 mod dense;
 mod events;
+mod first_step;
 mod golden;
 mod laws;
 mod orders;
