@@ -14,6 +14,7 @@ mod second_order;
 mod shear_stresses;
 mod simple_fluid;
 mod steady;
+mod stokesian;
 mod stress_rate;
 mod viscous;
 
@@ -30,5 +31,6 @@ pub use oscillation::{Oscillation, oscillate};
 pub use shear_stresses::ShearStresses;
 pub use simple_fluid::{Moduli, SimpleFluid};
 pub use steady::SteadyStress;
+pub use stokesian::{CompressibleReinerRivlin, StokesianFluid};
 pub use stress_rate::StressRate;
 pub use viscous::ViscousFluid;
