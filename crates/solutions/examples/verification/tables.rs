@@ -137,10 +137,10 @@ impl Visitor for Writer {
             "datum": { "reference": case.datum.reference, "T11_Pa": case.datum.stress },
             "ranges": case.ranges,
             "loads": loads,
-            "node_columns": NODE_COLUMNS,
+            "node_columns": NODE_COLUMNS[..],
             "nodes": rows,
             "elements": mesh::elements(),
-            "face_columns": FACE_COLUMNS,
+            "face_columns": FACE_COLUMNS[..],
             "faces": sides,
         });
         fs::write(folder.join("case.json"), serde_json::to_string(&document)?)?;

@@ -119,13 +119,12 @@ fn displacements_are_those_of_the_formulas_of_torsion_and_of_the_balloon() {
     tables::write_all(&folder.0).expect("written");
     let mut compared = 0;
     for law in cases::LAWS {
-        // A twisted tube keeps its radii: (R, Θ, Z) → (R, Θ + 20 Z, Z), T_θz = (g₁ − g₋₁) 20 R.
+        // A twisted tube: (R, Θ, Z) → (r(R), Θ + 20 Z, Z).
         for row in csv(&folder.0.join("family-3-torsion").join(law).join("nodes.csv")) {
             let [radius, angle, height] = numbers(&row, ["Q1", "Q2", "Q3"]);
             let place = numbers(&row, ["X", "Y", "Z"]);
             let moved = numbers(&row, ["ux", "uy", "uz"]);
             let (s, c) = (angle + 20.0 * height).sin_cos();
-            // The radii of a tube with free faces change under torsion, alike for both files.
             let [r] = numbers(&row, ["q1"]);
             let expected = [r * c, r * s, height];
             let found = [0, 1, 2].map(|i| place[i] + moved[i]);
