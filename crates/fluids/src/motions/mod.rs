@@ -22,10 +22,7 @@ pub use convected_maxwell::ConvectedMaxwell;
 pub use eulerian::{EulerianFluid, Polytropic};
 pub use following::{Following, follow, follow_shear};
 pub use generalised_newtonian::GeneralisedNewtonian;
-pub use histories::{
-    ConstantStretchHistory, PlaneHistory, Referred, SeenFrom, Viscometric, fluid_indifference, plane_history,
-    reference_indifference, steady_turn, stretch_history, viscometric_motion,
-};
+pub use histories::{PlaneHistory, Referred, SeenFrom, fluid_indifference, plane_history, reference_indifference};
 pub use linear_viscous::LinearViscous;
 pub use oscillation::{Oscillation, oscillate};
 pub use shear_stresses::ShearStresses;
