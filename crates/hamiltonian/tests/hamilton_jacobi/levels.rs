@@ -33,7 +33,7 @@ impl PrincipalFunction for Curved {
     }
 }
 
-/// (U_q, U_t) of [`Curved`], by hand.
+/// The slopes of [`Curved`] by q and t, by hand.
 fn slopes(q: &[f64], t: f64) -> (Vec<f64>, f64) {
     ((0_u8..).zip(q).map(|(i, q)| 1.0 - 0.25 * f64::from(i) + 0.3 * q).collect(), 0.2 * t - 0.5)
 }
