@@ -3,6 +3,7 @@
 //! | part | what |
 //! |---|---|
 //! | `connection`, `torsion`, `curvature` `/<symmetry>` | one point: of a crystal, about an axis, of an isotropic solid |
+//! | `connection_lanes`, `torsion_lanes`, `curvature_lanes` `/<symmetry>` | the same of eight points in lanes |
 //! | `metric/geometry` | one point: metric, Christoffel symbols, Riemann, Ricci and scalar curvature |
 //! | `density/point` | the density of dislocations at a point |
 //! | `noll/divergence` | Div P of a neo-Hookean body by Noll's equations at a point |
@@ -20,7 +21,7 @@ use nalgebra::{Matrix3, Vector3};
 use piola_benches::notes::Notes;
 use piola_fields::{Interpolation, Motion};
 use piola_integrators::Tolerance;
-use piola_numerics::Real;
+use piola_numerics::{Kernel, Lanes, Real, dispatch};
 use piola_solids::NeoHookeanLogarithmic;
 use piola_uniformity::{
     AffineConnection, BurgersVector, CharacteristicMetric, DislocationDensity, LieAlgebra, MaterialConnection,
@@ -61,6 +62,36 @@ impl Motion for Bending {
     }
 }
 
+/// Lanes of the benches in lanes.
+const LANES: usize = 8;
+
+/// Eight points at which a connection is asked.
+struct Points<'a> {
+    connection: &'a MaterialConnection<Lattice>,
+    places: Vector3<Lanes<f64, LANES>>,
+}
+
+macro_rules! in_lanes {
+    ($($name:ident $method:ident $output:ident;)+) => { $(
+        struct $name<'a>(Points<'a>);
+
+        impl Kernel for $name<'_> {
+            type Output = Option<piola_uniformity::$output<Lanes<f64, LANES>>>;
+
+            #[inline(always)]
+            fn run(self) -> Self::Output {
+                self.0.connection.$method(&self.0.places).ok()
+            }
+        }
+    )+ };
+}
+
+in_lanes! {
+    Coefficients coefficients ConnectionCoefficients;
+    Torsions torsion Torsion;
+    Curvatures curvature ConnectionCurvature;
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("uniformity");
@@ -90,6 +121,19 @@ fn points(group: &mut Group<'_>) -> Result<(), Box<dyn Error>> {
         group.bench_function(format!("torsion/{name}"), |b| b.iter(|| connection.torsion(black_box(&place))));
         group.bench_function(format!("curvature/{name}"), |b| b.iter(|| connection.curvature(black_box(&place))));
     }
+    // Eight points around the one.
+    let offsets = Lanes::<f64, LANES>::from(core::array::from_fn(|lane| 1e-3 * lane as f64));
+    let places = place.map(|x| Lanes::splat(x) + offsets);
+    group.throughput(Throughput::Elements(LANES as u64));
+    for (name, algebra) in [("crystal", LieAlgebra::trivial()), ("isotropic", LieAlgebra::rotations())] {
+        let connection = MaterialConnection::new(Lattice, algebra);
+        let case = |what| format!("{what}_lanes/{name}");
+        let at = || Points { connection: &connection, places: black_box(places) };
+        group.bench_function(case("connection"), |b| b.iter(|| dispatch(Coefficients(at()))));
+        group.bench_function(case("torsion"), |b| b.iter(|| dispatch(Torsions(at()))));
+        group.bench_function(case("curvature"), |b| b.iter(|| dispatch(Curvatures(at()))));
+    }
+    group.throughput(Throughput::Elements(1));
     let metric = CharacteristicMetric(Lattice);
     group.bench_function("metric/geometry", |b| b.iter(|| MetricGeometry::of(&metric, black_box(&place))));
     group.bench_function("density/point", |b| b.iter(|| DislocationDensity::of(&Lattice, black_box(&place))));

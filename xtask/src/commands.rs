@@ -15,6 +15,7 @@ mod scenes;
 mod stability;
 mod test;
 mod tidy;
+mod verification;
 mod viscometry_accuracy;
 mod weight;
 mod work_precision;
@@ -52,6 +53,7 @@ const COMMANDS: &[Command] = &[
     work_precision::COMMAND,
     stability::COMMAND,
     continuum_accuracy::COMMAND,
+    verification::COMMAND,
     viscometry_accuracy::COMMAND,
     weight::COMMAND,
     mutants::COMMAND,

@@ -23,6 +23,16 @@ pub enum ContinuumError {
         /// The number itself.
         value: f64,
     },
+    /// A number is outside its bounds.
+    #[error("{quantity} = {value:e} violates {bound}")]
+    OutOfBounds {
+        /// What the number is.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// The bound, such as `0 < horizon`.
+        bound: &'static str,
+    },
     /// 0 < det F is violated: the body is turned inside out or flattened.
     #[error("det F = {determinant:e} is not positive: the body is turned inside out or flattened")]
     NonPositiveJacobian {
@@ -76,4 +86,15 @@ impl From<TensorError> for ContinuumError {
 #[inline]
 pub(crate) fn check_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), ContinuumError> {
     Ok(piola_tensor::internal::check_finite(quantity, values)?)
+}
+
+/// Refuses a number that is not finite or for which `holds` is false.
+pub(crate) fn check_bound(
+    quantity: &'static str,
+    value: f64,
+    bound: &'static str,
+    holds: bool,
+) -> Result<(), ContinuumError> {
+    check_finite(quantity, &[value])?;
+    if holds { Ok(()) } else { Err(ContinuumError::OutOfBounds { quantity, value, bound }) }
 }

@@ -51,10 +51,10 @@ pub use integral::Integral;
 pub use kbkz::{Damping, ExponentialDamping, Kbkz, RationalDamping, Relaxation};
 #[cfg(feature = "motions")]
 pub use motions::{
-    ConstantStretchHistory, ConvectedMaxwell, EulerianFluid, Following, GeneralisedNewtonian, LinearViscous, Moduli,
-    Oscillation, PlaneHistory, Polytropic, Referred, SeenFrom, ShearStresses, SimpleFluid, SteadyStress, StressRate,
-    Viscometric, ViscousFluid, fluid_indifference, follow, follow_shear, oscillate, plane_history,
-    reference_indifference, steady_turn, stretch_history, viscometric_motion,
+    CompressibleReinerRivlin, ConvectedMaxwell, EulerianFluid, Following, GeneralisedNewtonian, LinearViscous, Moduli,
+    Oscillation, PlaneHistory, Polytropic, Referred, SeenFrom, ShearStresses, SimpleFluid, SteadyStress,
+    StokesianFluid, StressRate, ViscousFluid, fluid_indifference, follow, follow_shear, oscillate, plane_history,
+    reference_indifference,
 };
 #[cfg(feature = "fields")]
 pub use navier_stokes::{CartesianCoordinates, ViscousStress, navier_stokes_residual};

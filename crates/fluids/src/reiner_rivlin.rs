@@ -49,7 +49,8 @@ impl ReinerRivlinCoefficients for ConstantCoefficients {
 /// T = −p 1 + g₁ D + g₂ D²      g₁, g₂ functions of I, II, III of D
 /// in shear: τ = g₁ k/2,  σ₁ = σ₂ = g₂ k²/4,  at I = 0, II = −k²/4, III = 0
 /// ```
-/// A multiple of 1, the third coefficient of W(19.21), is part of the pressure of an incompressible fluid.
+/// A multiple of 1, the third coefficient of W(19.21), is part of the pressure of an incompressible fluid; for fluids with an equation of
+/// state see `StokesianFluid` (feature `motions`).
 ///
 /// # Accuracy
 /// 4 ulp of each term.

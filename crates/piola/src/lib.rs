@@ -147,4 +147,6 @@ mod book {
     struct Scalars;
     #[doc = include_str!("../../../docs/how-to/fitting.md")]
     struct Fitting;
+    #[doc = include_str!("../../../docs/how-to/finite-elements.md")]
+    struct FiniteElements;
 }

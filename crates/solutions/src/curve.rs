@@ -93,8 +93,8 @@ pub trait LoadCurve {
     /// All states of a range that carry a load, in order of the parameter.
     ///
     /// # Errors
-    /// See [the trait](LoadCurve#errors). Where there is none: [`SolutionsError::BeyondLimitPoint`] with the nearest limit
-    /// point, or [`SolutionsError::NotReached`] with the nearest load where that is at an end of the range.
+    /// See [the trait](LoadCurve#errors). If no state carries the load: [`SolutionsError::BeyondLimitPoint`] with the
+    /// nearest limit point, or [`SolutionsError::NotReached`] if the nearest load is at an end of the range.
     fn states_at(&self, load: f64, range: (f64, f64)) -> Result<Vec<CurvePoint>, SolutionsError> {
         check_finite(Self::LOAD, &[load])?;
         let trace = self.trace(range, INTERVALS)?;

@@ -95,7 +95,7 @@ pub enum SolutionsError {
     NotConverged {
         /// The loads that are prescribed.
         load: &'static str,
-        /// What is left, relative to the scale of the loads.
+        /// The loads found less those prescribed, relative to the scale of the loads.
         residual: f64,
         /// Iterations.
         iterations: usize,

@@ -10,11 +10,13 @@
 //! | Fₜ(τ), Cₜ; tensors of Rivlin–Ericksen and White–Metzner | [`RelativeDeformation`], [`RivlinEricksen`], [`WhiteMetzner`] |
 //! | exp(Kt), its derivative, ln F of a general F | [`exponential`], [`exponential_derivative`], [`logarithm`] |
 //! | motions F(t) of your own with all rates, linear and exponential ones | [`HomogeneousMotion`], [`LinearMotion`], [`ExponentialMotion`] |
+//! | motions of constant stretch history, viscometric ones, and tests for them | [`ConstantStretchHistory`], [`stretch_history`], [`viscometric_motion`] |
 //!
 //! Ḟ is a [`GradientRate`]; the deformation may be given as F or as ∇u. Strains are those of the reference
 //! configuration or of space as their names say; skew tensors are stored as axial vectors, Ω v = ω × v.
 
 mod exponential;
+mod histories;
 pub(crate) mod kernels;
 mod logarithmic_excess;
 mod motion;
@@ -29,6 +31,7 @@ pub use exponential::{
     exponential, exponential_derivative, exponential_minus_identity, exponential_minus_identity_rows, exponential_rows,
     logarithm, rotation_minus_identity,
 };
+pub use histories::{ConstantStretchHistory, Viscometric, steady_turn, stretch_history, viscometric_motion};
 pub use motion::{ExponentialMotion, HomogeneousMotion, LinearMotion, MotionRates};
 pub use relative::{RelativeDeformation, RivlinEricksen, WhiteMetzner, gradients_of_rates, steady_gradients};
 pub use spins::{LogarithmicSpin, MaterialSpin, MaterialTwirl, PolarSpin, SpatialTwirl};

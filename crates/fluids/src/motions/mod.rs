@@ -14,6 +14,7 @@ mod second_order;
 mod shear_stresses;
 mod simple_fluid;
 mod steady;
+mod stokesian;
 mod stress_rate;
 mod viscous;
 
@@ -21,14 +22,12 @@ pub use convected_maxwell::ConvectedMaxwell;
 pub use eulerian::{EulerianFluid, Polytropic};
 pub use following::{Following, follow, follow_shear};
 pub use generalised_newtonian::GeneralisedNewtonian;
-pub use histories::{
-    ConstantStretchHistory, PlaneHistory, Referred, SeenFrom, Viscometric, fluid_indifference, plane_history,
-    reference_indifference, steady_turn, stretch_history, viscometric_motion,
-};
+pub use histories::{PlaneHistory, Referred, SeenFrom, fluid_indifference, plane_history, reference_indifference};
 pub use linear_viscous::LinearViscous;
 pub use oscillation::{Oscillation, oscillate};
 pub use shear_stresses::ShearStresses;
 pub use simple_fluid::{Moduli, SimpleFluid};
 pub use steady::SteadyStress;
+pub use stokesian::{CompressibleReinerRivlin, StokesianFluid};
 pub use stress_rate::StressRate;
 pub use viscous::ViscousFluid;

@@ -4,6 +4,7 @@ use piola_continuum::Symmetric;
 use piola_continuum::rates::VelocityGradient;
 use piola_numerics::Real;
 
+use super::stokesian::invariants;
 use super::viscous::ViscousFluid;
 use crate::{ReinerRivlin, ReinerRivlinCoefficients};
 
@@ -11,9 +12,7 @@ impl<C: ReinerRivlinCoefficients> ViscousFluid for ReinerRivlin<C> {
     #[inline(always)]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
         let d = velocity_gradient.rate_of_deformation().0;
-        let trace = d.trace();
-        let second = T::lit(0.5) * (trace * trace - d.double_contraction(&d));
-        let invariants = [trace, second, d.determinant()];
+        let invariants = invariants(&d);
         d * self.0.first(invariants) + d.square() * self.0.second(invariants)
     }
 }

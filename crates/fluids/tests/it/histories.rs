@@ -1,15 +1,14 @@
-//! Histories: what every simple fluid says to other observers, from other references and in a plane; motions of constant stretch
-//! history and viscometric ones.
+//! Histories: what every simple fluid says to other observers, from other references and in a plane.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_continuum::rates::{ExponentialMotion, HomogeneousMotion};
+use piola_continuum::rates::{HomogeneousMotion, steady_turn};
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_fluids::{
-    AnyFluid, ConstantStretchHistory, FluidsError, SecondOrder, SimpleFluid, ViscometricFluid, fluid_indifference,
-    plane_history, reference_indifference, steady_turn, stretch_history, viscometric_motion,
+    AnyFluid, FluidsError, SecondOrder, SimpleFluid, ViscometricFluid, fluid_indifference, plane_history,
+    reference_indifference,
 };
 use piola_numerics::Real;
-use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
+use piola_testkit::{Tol, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
 use super::elastic::{all, elastic};
@@ -123,68 +122,6 @@ proptest! {
     }
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1_000))]
-
-    #[test]
-    fn turned_exponential_motions_have_constant_stretch_histories_and_others_none(
-        entries in strategies::vector(9, -1.0..1.0), spin in strategies::vector(3, -2.0..2.0),
-        h in strategies::vector(6, -1.0..1.0), motion in wandering(0.5),
-    ) {
-        let mut generator = Matrix3::from_row_slice(&entries);
-        generator -= Matrix3::from_diagonal_element(generator.trace() / 3.0);
-        let turning = steady_turn(&Vector3::from_column_slice(&spin)).expect("finite");
-        let constant = ConstantStretchHistory { turning, reference: unimodular(&h), generator };
-        let times = [0.0, 0.3, 1.0];
-        let change = stretch_history(&constant, &times, 1.0).expect("a motion");
-        // cond H and exp(K) to the third power, of each of three factors.
-        let rounding = Tol::stated(1e-8, "cond H and |exp K| ≤ e³, each to the third power, of an ulp");
-        assert_close_at_scale("change", &[change], &[0.0], 1.0, rounding);
-        let shape = motion.shears.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-        prop_assume!(0.3 < shape);
-        let other = stretch_history(&motion, &times, 1.0).expect("a motion");
-        prop_assert!(1e-4 < other, "{other:e} of {motion:?}");
-    }
-
-    #[test]
-    fn turned_shears_are_viscometric_and_their_stress_is_that_of_the_functions(
-        log in -3.0..3.0_f64, spin in strategies::vector(3, -2.0..2.0), q in strategies::rotation(), time in 0.0..3.0_f64,
-    ) {
-        let k = 10.0_f64.powf(log);
-        let r = strategies::rotation_matrix(q);
-        let axes = Matrix3::from_fn(|i, j| r[i][j]);
-        let shear = Matrix3::new(0.0, 0.0, 0.0, k, 0.0, 0.0, 0.0, 0.0, 0.0);
-        let turning = steady_turn(&(Vector3::from_column_slice(&spin) * k)).expect("finite");
-        let motion = ConstantStretchHistory {
-            turning, reference: axes.transpose(), generator: Matrix3::zeros(),
-        };
-        // H exp(K t) with K = H⁻¹ shear H is the shear along turned axes.
-        let motion = ConstantStretchHistory { generator: axes * shear * axes.transpose(), ..motion };
-        let found = viscometric_motion(&motion, time / k).expect("a motion").expect("it flows");
-        // Up to k t = 3: F, its rate and its inverse grow by 1 + k t each.
-        let tolerance = Tol::ulps_because(4096.0, "two derivatives of F and its inverse").times((1.0 + time).powi(4));
-        assert_close("k", &[found.shear_rate], &[k], tolerance);
-        assert_close_at_scale("residual", &[found.residual], &[0.0], 1.0, tolerance);
-        // A₁ = k (e₁e₂ + e₂e₁) with e₁ in the turned gradient.
-        let turn = motion.turning.gradient(time / k);
-        assert_close("e₁", &[found.axes[0].dot(&(turn * Vector3::x())).abs()], &[1.0], tolerance);
-    }
-
-    #[test]
-    fn stretching_motions_are_not_viscometric(
-        entries in strategies::vector(9, -1.0..1.0),
-    ) {
-        let mut l = Matrix3::from_row_slice(&entries);
-        l -= Matrix3::from_diagonal_element(l.trace() / 3.0);
-        // det of a nilpotent L, and the sum of its principal minors, are zero.
-        let (d, second) = (l.determinant(), -0.5 * (l * l).trace());
-        prop_assume!(0.05 < d.abs() || 0.05 < second.abs());
-        let motion = ExponentialMotion::new(l, Matrix3::identity()).expect("a motion");
-        let found = viscometric_motion(&motion, 0.5).expect("a motion").expect("it flows");
-        prop_assert!(1e-4 < found.residual, "{found:?}");
-    }
-}
-
 /// A functional of the whole of F, as solids have: refuted.
 struct Solid;
 impl SimpleFluid for Solid {
@@ -245,6 +182,4 @@ fn solids_are_refuted_as_fluids_and_anisotropic_stress_in_a_plane() {
     let report = plane_history(&fluid, &motion, &Vector3::z(), 1.0, 0.0).expect("runs");
     assert!(1e-2 < report.history && 1e-2 < report.stress, "{report:?}");
     assert!(plane_history(&fluid, &motion, &Vector3::zeros(), 1.0, 0.0).is_err());
-    assert!(stretch_history(&motion, &[0.0], 1.0).is_err());
-    assert!(viscometric_motion(&observer, 1.0).expect("a motion").is_none());
 }

@@ -26,6 +26,8 @@ mod shear;
 #[cfg(feature = "motions")]
 mod steady;
 #[cfg(feature = "motions")]
+mod stokesian;
+#[cfg(feature = "motions")]
 mod stresses;
 #[cfg(feature = "motions")]
 mod temperature;

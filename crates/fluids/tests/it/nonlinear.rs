@@ -10,7 +10,7 @@ use serde_json::Value;
 
 /// Closed forms of some ten operations.
 const CLOSED: Tol = Tol::ulps(16.0);
-/// What is asked of each step; where the flow is strong the error of one step is forgotten in the next.
+/// The error allowed in one step. In a strong flow a fading memory forgets the error of earlier steps.
 const STEP: f64 = 1e-12;
 const FOLLOWED: Tol = Tol::stated(STEP, "tolerance of each step");
 

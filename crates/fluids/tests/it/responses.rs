@@ -1,12 +1,12 @@
 //! What every fluid answers to: steady motions, histories, start and stop, oscillations, extension.
 
 use nalgebra::{Matrix3, Vector3};
-use piola_continuum::rates::{ExponentialMotion, HomogeneousMotion, VelocityGradient};
+use piola_continuum::rates::{ExponentialMotion, HomogeneousMotion, VelocityGradient, steady_turn};
 use piola_continuum::{DeformationGradient, Symmetric};
 use piola_fluids::{
     AnyFluid, Bingham, ExponentialDamping, Extension, FluidsError, Giesekus, Kbkz, LinearViscous, OldroydB,
     Oscillation, PowerLaw, RationalDamping, Relaxation, SecondOrder, SimpleFluid, SteadyStress, UpperConvectedMaxwell,
-    ViscometricFluid, steady_turn,
+    ViscometricFluid,
 };
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;

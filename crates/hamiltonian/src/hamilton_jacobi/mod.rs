@@ -16,6 +16,7 @@
 //! | all extremals between two events, with their actions; whether any is missing | [`GeodeticDistance`] |
 //! | all extremals that leave one event | [`IntegralConoid`] |
 //! | the solution with given initial values, its caustics | [`Transversals`] |
+//! | a level of that solution as the envelope of what an earlier one emits | [`Transversals::envelope_event`] |
 //! | wave fronts in the plane and in space | [`WaveFront`] |
 
 mod candidate;
@@ -26,6 +27,7 @@ mod events;
 mod extremal_field;
 mod fronts;
 mod geodetic_distance;
+mod levels;
 mod momentum_length;
 mod morse;
 mod separable;
@@ -41,6 +43,7 @@ pub use events::{Event, SearchRegion};
 pub use extremal_field::{ExtremalField, FieldExtremal};
 pub use fronts::{ArrivedPiece, FrontRay, FrontReport, InitialFront, Mesh, WaveFront};
 pub use geodetic_distance::{Extremal, GeodeticDistance};
+pub use levels::LevelPoint;
 pub use morse::ConjugatePoint;
 pub use separable::{FixedCentres, KeplerParabolic, KeplerPolar, Separable, SeparableMotion, SeparatedIntegral};
 pub use strips::{CharacteristicStrip, Strip, StripResidual};

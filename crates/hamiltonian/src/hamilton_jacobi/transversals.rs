@@ -131,10 +131,10 @@ pub struct TransversalPoint {
 /// W(13.10–13.18).
 #[derive(Clone, Debug)]
 pub struct Transversals<'a, H, U> {
-    hamiltonian: &'a H,
+    pub(super) hamiltonian: &'a H,
     function: &'a U,
     start: Start,
-    tolerance: Tolerance,
+    pub(super) tolerance: Tolerance,
 }
 
 impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
@@ -168,10 +168,7 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
     pub fn start(&self, q: &[f64], t: f64) -> Result<Transversal, HamiltonianError> {
         check_finite("q", q)?;
         let n = q.len();
-        let t = match self.start {
-            Start::Manifold { .. } => t,
-            Start::Values { time } => time,
-        };
+        let t = self.foot_time(t);
         check_finite("t", &[t])?;
         let (momenta, scale) = self.momenta(q, t)?;
         let (slope, value) = self.slope(q, t);
@@ -181,24 +178,18 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
         slopes_of(self.hamiltonian, &mut slopes, (q, &momenta, t));
         check_finite("∂H/∂(q, p, t)", &slopes.partials)?;
         let (h_q, h_p) = (&slopes.partials[..n], &slopes.partials[n..2 * n]);
-        let directions = match self.start {
-            Start::Values { .. } => {
-                let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
-                (0..n).map(|j| (0..=n).map(|i| unit(i, j)).collect()).collect()
+        if let Start::Manifold { .. } = self.start {
+            let along: f64 = (0..n).map(|i| slope[i] * h_p[i]).sum();
+            let terms = |a: &[f64]| a.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let (rate, size) = (along + slope[n], terms(&slope[..n]) * terms(h_p) + slope[n].abs());
+            if rate.is_nan() || rate.abs() <= TOUCHING * size {
+                return Err(HamiltonianError::HamiltonJacobi(HamiltonJacobiError::NotTransversal {
+                    rate,
+                    scale: size,
+                }));
             }
-            Start::Manifold { .. } => {
-                let along: f64 = (0..n).map(|i| slope[i] * h_p[i]).sum();
-                let terms = |a: &[f64]| a.iter().map(|x| x * x).sum::<f64>().sqrt();
-                let (rate, size) = (along + slope[n], terms(&slope[..n]) * terms(h_p) + slope[n].abs());
-                if rate.is_nan() || rate.abs() <= TOUCHING * size {
-                    return Err(HamiltonianError::HamiltonJacobi(HamiltonJacobiError::NotTransversal {
-                        rate,
-                        scale: size,
-                    }));
-                }
-                tangents(&slope)
-            }
-        };
+        }
+        let directions = self.displacements(q, t);
         let mut state: Vec<f64> = q.iter().chain(&momenta).copied().chain([0.0]).collect();
         for direction in &directions {
             let direction: &Vec<f64> = direction;
@@ -213,8 +204,27 @@ impl<'a, H: PhaseFunction, U: PrincipalFunction> Transversals<'a, H, U> {
         Ok(Transversal { foot, momenta, value, scale: scale.primal(0), directions, state })
     }
 
+    /// The time of a foot: that of the values where these are given.
+    pub(super) const fn foot_time(&self, t: f64) -> f64 {
+        match self.start {
+            Start::Manifold { .. } => t,
+            Start::Values { time } => time,
+        }
+    }
+
+    /// n independent displacements (δq₀, δt₀) of a foot: within the level through it, or at one time.
+    pub(super) fn displacements(&self, q: &[f64], t: f64) -> Vec<Vec<f64>> {
+        match self.start {
+            Start::Values { .. } => {
+                let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
+                (0..q.len()).map(|j| (0..=q.len()).map(|i| unit(i, j)).collect()).collect()
+            }
+            Start::Manifold { .. } => tangents(&self.slope(q, t).0),
+        }
+    }
+
     /// (U_q, U_t) and U.
-    fn slope<T: Real>(&self, q: &[T], t: T) -> (Vec<T>, T) {
+    pub(super) fn slope<T: Real>(&self, q: &[T], t: T) -> (Vec<T>, T) {
         let mut slopes = Slopes::new();
         slopes.of(&q.iter().copied().chain([t]), |x| {
             let (t, q) = x.split_last().map_or((Gradient::constant(T::zero()), x), |(t, q)| (*t, q));

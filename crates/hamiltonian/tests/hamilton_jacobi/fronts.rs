@@ -288,6 +288,58 @@ fn swallow_tails_of_surfaces_are_cut_off_where_they_come_late() {
     assert!(gone.step_by(13).all(late));
 }
 
+/// H = √(p·A p) with A = diag(4, 1, 9): rays are not along their momenta.
+#[derive(Debug)]
+struct Crystal;
+
+const SPEEDS: [f64; 3] = [4.0, 1.0, 9.0];
+
+impl PhaseFunction for Crystal {
+    fn value<T: Real>(&self, _q: &[T], p: &[T], _t: T) -> T {
+        let mut sum = T::zero();
+        for (&p, speed) in p.iter().zip(SPEEDS) {
+            sum += T::lit(speed) * p * p;
+        }
+        sum.sqrt()
+    }
+}
+
+#[test]
+fn envelopes_of_curves_and_surfaces_are_their_parallels_also_past_caustics_and_in_crystals() {
+    let tight = Tol::ulps_because(64.0, "a few steps of straight rays");
+    let mut compared = 0;
+    let (even, hollow) = (Graded(false), Parabola(2.0));
+    for (reach, side) in [(0.3, -1.0), (1.5, -1.0), (0.8, 1.0)] {
+        let front = WaveFront::open(&even, &hollow, side, 1.0, (-1.0, 1.0), 9).unwrap();
+        for (index, ray) in front.rays().iter().enumerate() {
+            // The normal (2 a, −1)/√(1 + 4 a²) to the right of the way along the mirror.
+            let [a] = ray.parameters();
+            let length = side * reach / (1.0 + 4.0 * a * a).sqrt();
+            let expected = [a + 2.0 * a * length, a * a - length];
+            let found = front.envelope_point(index, reach, 3).unwrap();
+            assert_close_at_scale("parallel curve", &found, &expected, 1.0, tight);
+            compared += 1;
+        }
+    }
+    // q + ΔS A n/√(n·A n).
+    let crystal = Crystal;
+    let surface = Bowl3(0.5, 1.5);
+    for (reach, side) in [(0.5, 1.0), (2.0, 1.0), (0.5, -1.0)] {
+        let front = WaveFront::surface(&crystal, &surface, (side, 1.0), [(-0.7, 0.7), (-0.5, 0.5)], [4, 4]).unwrap();
+        for (index, ray) in front.rays().iter().enumerate() {
+            let [x, y] = ray.parameters();
+            let normal = [-2.0 * x, -0.5 * y, 1.0];
+            let energy = (0..3).map(|i| SPEEDS[i] * normal[i] * normal[i]).sum::<f64>().sqrt();
+            let place = [x, y, 0.25 * (x * x + y * y) + 0.75 * x * x];
+            let expected: [f64; 3] = core::array::from_fn(|i| place[i] + side * reach * SPEEDS[i] * normal[i] / energy);
+            let found = front.envelope_point(index, reach, 2).unwrap();
+            assert_close_at_scale("surface in a crystal", &found, &expected, 4.0, tight);
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 75);
+}
+
 #[test]
 fn fronts_that_cannot_start_or_go_on_say_so() {
     let curve = Parabola(2.0);

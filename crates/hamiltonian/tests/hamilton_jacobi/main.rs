@@ -5,6 +5,7 @@ mod candidates;
 mod fronts;
 mod golden;
 mod laws;
+mod levels;
 mod separable;
 mod strips;
 mod systems;

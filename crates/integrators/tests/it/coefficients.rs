@@ -1,5 +1,5 @@
-//! The coefficients of the methods, read off what they do to fields that show one coefficient at a time, against the
-//! conditions that define them.
+//! The coefficients of the methods. Each field here shows one coefficient in its result; the tests compare these
+//! coefficients with the conditions that define them.
 
 use core::convert::Infallible;
 

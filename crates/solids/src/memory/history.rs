@@ -91,6 +91,65 @@ impl<G: SimpleMaterial> SimpleMaterial for Reduced<G> {
     }
 }
 
+/// The history Uₜ(t − s) V(t) of a history of deformations, with Uₜ of the relative deformation Fₜ(t − s) = F(t − s) F(t)⁻¹. NaN where
+/// det F is not positive.
+#[expect(missing_debug_implementations, reason = "a history may be a closure")]
+pub struct RelativeStretchHistory<'a>(
+    /// F(t − s).
+    pub &'a dyn History,
+);
+
+impl History for RelativeStretchHistory<'_> {
+    fn gradient(&self, elapsed: f64) -> Matrix3<f64> {
+        let now = self.0.gradient(0.0);
+        let (rotation, stretch) = polar(&now);
+        let left = rotation * stretch * rotation.transpose();
+        let inverse = now.try_inverse().unwrap_or_else(|| Matrix3::from_element(f64::NAN));
+        polar(&(self.0.gradient(elapsed) * inverse)).1 * left
+    }
+}
+
+/// Noll's form of isotropic simple solids: T = G(Uₜ(t − s), V(t)), told as the stress after the history Uₜ(t − s) V(t), W(19.38).
+///
+/// Every frame-indifferent simple material that is isotropic, with or without memory, equals this form of itself. The form of any
+/// functional feels no rotation of the reference, G(F(t − s) Q) = G(F(t − s)), W(19.36); it is frame-indifferent if the functional is
+/// isotropic, G(Q H(s) Qᵀ) = Q G(H(s)) Qᵀ, W(19.39).
+///
+/// # Example
+/// ```
+/// use nalgebra::{Matrix3, Rotation3, Vector3};
+/// use piola_solids::memory::{History, IsotropicForm, SimpleMaterial};
+///
+/// struct Mine;
+/// impl SimpleMaterial for Mine {
+///     fn cauchy(&self, history: &dyn History) -> Matrix3<f64> {
+///         let then = history.gradient(1.0);
+///         then.transpose() * then // not isotropic: it feels rotations of the reference
+///     }
+/// }
+///
+/// let stretch = |elapsed: f64| Matrix3::from_diagonal(&Vector3::new(1.0 + elapsed, 1.0, 1.0));
+/// let turn = Rotation3::new(Vector3::z()).into_inner();
+/// let turned = move |elapsed: f64| stretch(elapsed) * turn;
+/// assert!(0.5 < (Mine.cauchy(&turned) - Mine.cauchy(&stretch)).norm());
+/// let change = IsotropicForm(Mine).cauchy(&turned) - IsotropicForm(Mine).cauchy(&stretch);
+/// assert!(change.norm() < 1e-14);
+/// ```
+///
+/// # Source
+/// W(19.36–19.39).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IsotropicForm<G>(
+    /// G, asked for histories Uₜ(t − s) V(t) only.
+    pub G,
+);
+
+impl<G: SimpleMaterial> SimpleMaterial for IsotropicForm<G> {
+    fn cauchy(&self, history: &dyn History) -> Matrix3<f64> {
+        self.0.cauchy(&RelativeStretchHistory(history))
+    }
+}
+
 /// A viscoelastic solid as a functional: the history is followed from rest in equal steps.
 ///
 /// # Example

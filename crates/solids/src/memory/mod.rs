@@ -9,7 +9,7 @@
 //! | a law of the solid at rest, one of the overstress, and a Prony series | [`Viscoelastic::new`] |
 //! | a law of fast loading that relaxes by a Prony series | [`Viscoelastic::relaxing`] |
 //! | a specimen of it with free sides or held forces | [`Viscoelastic::response`] with `piola_specimens::homogeneous::equilibrium` |
-//! | any functional of histories | [`SimpleMaterial`]; of U-histories: [`Reduced`] |
+//! | any functional of histories | [`SimpleMaterial`]; of U-histories: [`Reduced`]; of an isotropic solid: [`IsotropicForm`] |
 
 mod history;
 mod prony;
@@ -17,7 +17,9 @@ mod response;
 mod scaled;
 mod viscoelastic;
 
-pub use history::{History, Reduced, Remembered, SimpleMaterial, StretchHistory};
+pub use history::{
+    History, IsotropicForm, Reduced, RelativeStretchHistory, Remembered, SimpleMaterial, StretchHistory,
+};
 pub use prony::{Prony, PronyStep, PronyTerm};
 pub use response::ViscoelasticResponse;
 pub use scaled::Scaled;

@@ -1,9 +1,13 @@
 //! One stress in all forms of the response functions.
 
+use piola_continuum::polar::StretchAnalysis;
 use piola_continuum::{Deformation, DeformationGradient};
+use piola_numerics::Real;
 use piola_solids::{
-    BlatzKo, Hyperelastic, IsotropicResponse, MooneyRivlin, Polynomial, ResponseForm, SaintVenantKirchhoff,
+    BlatzKo, Hyperelastic, IsotropicResponse, IsotropicSolid, MooneyRivlin, Polynomial, ResponseForm,
+    SaintVenantKirchhoff,
 };
+use piola_tensor::spectral::{EigenvalueCase, representation};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, strategies};
 use proptest::prelude::*;
 
@@ -39,6 +43,55 @@ proptest! {
                 }
             }
         }
+    }
+}
+
+/// φ₀ = 0.3 ln I₃ − 0.2 I₁, φ₁ = 0.5 + 0.1 I₂, φ₂ = 0.4 I₁ − 0.6: elastic, without an energy.
+struct Elastic;
+
+impl Elastic {
+    fn coefficients<T: Real>([first, second, third]: [T; 3]) -> [T; 3] {
+        let c = T::lit;
+        [c(0.3) * third.ln() - c(0.2) * first, c(0.5) + c(0.1) * second, c(0.4) * first - c(0.6)]
+    }
+}
+
+impl IsotropicSolid for Elastic {
+    fn response<T: Real>(&self, invariants: [T; 3]) -> IsotropicResponse<T> {
+        IsotropicResponse { form: ResponseForm::Stretch, coefficients: Self::coefficients(invariants) }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(5_000))]
+
+    #[test]
+    fn stress_of_an_isotropic_solid_is_that_of_its_principal_stretches_and_has_its_coefficients(
+        entries in strategies::vector(9, -0.35..0.35),
+    ) {
+        let row = |i: usize| core::array::from_fn(|j| entries[3 * i + j] + if i == j { 1.0 } else { 0.0 });
+        let f = DeformationGradient::from_rows([row(0), row(1), row(2)]);
+        prop_assume!(f.as_ref().is_ok_and(|f| 0.3 < f.jacobian()));
+        let f = f.expect("0 < det F");
+        let stress = Elastic.cauchy(&f).0;
+        // By another program's singular values: λ and the axes of V are those of F = W λ Zᵀ.
+        let singular = f.matrix().svd(true, true);
+        let (axes, stretches) = (singular.u.expect("asked for"), singular.singular_values);
+        let [a, b, c] = [0, 1, 2].map(|k| stretches[k] * stretches[k]);
+        let [zeroth, first, second] = Elastic::coefficients([a + b + c, a * b + b * c + c * a, a * b * c]);
+        let principal = stretches.map(|stretch| zeroth + first * stretch + second * stretch * stretch);
+        let expected = axes * nalgebra::Matrix3::from_diagonal(&principal) * axes.transpose();
+        let tol = Tol::ulps_because(256.0, "two decompositions of condition 10");
+        assert_close_at_scale("T", stress.matrix().as_slice(), expected.as_slice(), 8.0, tol);
+
+        // The coefficients again, from V and T alone.
+        let stretch = StretchAnalysis::of(&f).left_stretch();
+        let found = representation(&stretch, &stress, 1e-3).expect("finite");
+        prop_assume!(found.case == EigenvalueCase::Three);
+        let gaps = (stretches[0] - stretches[1]) * (stretches[1] - stretches[2]);
+        let tol = Tol::ulps_because(2048.0, "two decompositions of condition 10");
+        assert_close_at_scale("φ", &found.coefficients, &[zeroth, first, second], 8.0 / gaps, tol);
+        prop_assert!(found.residual * stress.norm() < 1e-12 / gaps);
     }
 }
 

@@ -9,7 +9,7 @@
 //! | det F = 1, F̈ F⁻¹ symmetric, W(22.21) | every incompressible simple material | [`MotionConditions::volume`], [`MotionConditions::circulation`] |
 //!
 //! A motion is a [`HomogeneousMotion`](piola_continuum::rates::HomogeneousMotion). Constant stretch histories and viscometric
-//! motions, W(22.29–22.33), have their tests in `piola_fluids`: `stretch_history` and `viscometric_motion`.
+//! motions, W(22.29–22.33), have their tests in `piola_continuum::rates`: `stretch_history` and `viscometric_motion`.
 //!
 //! # Source
 //! W §22; B. D. Coleman and C. Truesdell, Z. angew. Math. Mech. 45 (1965) 547.

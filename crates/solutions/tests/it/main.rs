@@ -10,3 +10,4 @@ mod loads;
 mod oscillations;
 mod refusals;
 mod universality;
+mod verification;

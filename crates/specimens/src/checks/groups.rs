@@ -247,6 +247,32 @@ impl SymmetryGroup {
         }
     }
 
+    /// How far the group is from being one of rotations: the largest |Hᵀ H − 1| of its elements, of an infinite group of as many as
+    /// are drawn. Zero in an undistorted reference of a solid, W(19.35), where the group is a part of the orthogonal group.
+    ///
+    /// Solids have undistorted references; the group of a fluid, all det H = 1, has none.
+    ///
+    /// # Example
+    /// ```
+    /// use nalgebra::{Matrix3, Vector3};
+    /// use piola_specimens::checks::SymmetryGroup;
+    /// let isotropic = SymmetryGroup::isotropic();
+    /// assert!(isotropic.distortion(100, 1) < 1e-14);
+    /// // Twice as large, the reference is still undistorted; drawn out along one axis it is not.
+    /// assert!(isotropic.under(&(Matrix3::identity() * 2.0))?.distortion(100, 1) < 1e-14);
+    /// let drawn = isotropic.under(&Matrix3::from_diagonal(&Vector3::new(2.0, 1.0, 1.0)))?;
+    /// assert!(1.0 < drawn.distortion(100, 1));
+    /// # Ok::<(), piola_specimens::SpecimensError>(())
+    /// ```
+    #[must_use]
+    pub fn distortion(&self, draws: usize, seed: u64) -> f64 {
+        let mut sampler = Sampler::new(seed);
+        (0..self.order().unwrap_or(draws)).fold(0.0, |largest, k| {
+            let element = self.element(k, &mut sampler);
+            largest.max((element.transpose() * element - Matrix3::identity()).norm())
+        })
+    }
+
     /// The k-th element, counted around; for an infinite group one drawn by the sampler.
     pub fn element(&self, k: usize, sampler: &mut Sampler) -> Matrix3<f64> {
         let element = match &self.kind {

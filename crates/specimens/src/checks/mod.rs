@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | the response turns with the observer | [`frame_indifference`] | W(18.3) |
 //! | the material has these symmetries | [`material_symmetry`] with a [`SymmetryGroup`] | W(18.27), W(19.3) |
+//! | with memory too | [`history_indifference`], [`history_symmetry`] | W(19.36) |
+//! | the reference is undistorted | [`SymmetryGroup::distortion`] | W(19.35) |
 //! | no work is gained in closed circuits | [`hyperelasticity`]; the energy itself: [`potential`] | W(20.31) |
 //! | T symmetric ⇔ response indifferent ⇔ energy indifferent | [`noll`] | W(20.18) |
 //! | plane waves have real speeds | [`ellipticity`], [`ellipticity_scan`], [`first_loss`] | |
@@ -40,7 +42,7 @@ pub use ellipticity::{
     Ellipticity, EllipticityScan, Kinematics, Loss, acoustic_tensor, ellipticity, ellipticity_scan, first_loss,
 };
 pub use groups::{CrystalClass, SymmetryGroup};
-pub use history::history_indifference;
+pub use history::{HistoryImages, history_indifference, history_symmetry};
 pub use indifference::{Observers, frame_indifference};
 pub use inequalities::{BakerEricksen, baker_ericksen};
 pub use law::{Elastic, Stored};

@@ -7,6 +7,7 @@ mod drucker;
 #[path = "../../../solids/tests/any/laws.rs"]
 mod every_law;
 mod homogeneous;
+mod isotropic;
 mod laws;
 mod memory;
 mod refuted;

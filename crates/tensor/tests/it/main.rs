@@ -3,6 +3,7 @@
 mod alloc;
 mod cases;
 mod laws;
+mod representation;
 mod spectral;
 mod traps;
 #[cfg(feature = "serde")]

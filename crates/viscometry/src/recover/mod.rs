@@ -5,7 +5,7 @@
 //! | discharge of a pipe | [`functions::pipe`] | [`pipe`] |
 //! | discharge of a channel | [`functions::channel`] | [`channel`] |
 //! | speeds of coaxial cylinders | [`functions::couette`] | [`couette`] |
-//! | their normal stresses | [`functions::normal_stress_data`], [`functions::couette`] | [`normal_stress`] |
+//! | their normal stresses | [`functions::normal_stress_data`], [`functions::couette`] | [`normal_stress`]; of a fluid with density, [`normal_stress_with_inertia`] |
 //! | torque of parallel plates | [`functions::parallel_plates`] | [`parallel_plates`] |
 //! | thrust of parallel plates | [`functions::parallel_plates_thrust`] | [`parallel_plates_thrust`] |
 //! | torque of cone and plate | [`cone_and_plate`], row by row | [`cone_and_plate_torque`] |
@@ -38,6 +38,7 @@ mod corrections;
 mod curve;
 pub mod functions;
 mod geometry;
+mod inertia;
 mod rotational;
 mod rule;
 mod series;
@@ -49,6 +50,7 @@ pub use corrections::{Capillary, EndCorrection, EndPoint, SlipCorrection, SlipPo
 pub use curve::{BelowSmallest, Monotonicity, Options, Rise};
 pub use functions::{Approximation, FlowPoint, MeasuredCurve, RatePoint, Series};
 pub use geometry::{ChannelGeometry, ConeGeometry, CouetteGeometry, PipeGeometry, PlatesGeometry};
+pub use inertia::{NormalStressRecovery, RadialStressRow, normal_stress_with_inertia};
 pub use rotational::{ConePoint, cone_and_plate};
 pub use smoothing::{Criterion, Smoothing};
 pub use table::{FlowTable, Noise};
@@ -313,7 +315,7 @@ pub fn couette_with(table: &FlowTable<CouetteGeometry>, options: Options) -> Res
 
 /// N₁ = σ₂ − σ₁ over the shear stress at the inner of coaxial cylinders, by the series W(23.92): from a table of torques for each
 /// length, N, and positive differences `T_rr(R₂) − T_rr(R₁)` with the centrifugal part made good
-/// ([`functions::normal_stress_data`]), Pa.
+/// ([`functions::normal_stress_data`]), Pa. [`normal_stress_with_inertia`] makes it good itself, from the flow curve that it recovers.
 ///
 /// # Errors
 /// As [`pipe`].

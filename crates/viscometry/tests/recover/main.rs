@@ -7,6 +7,7 @@ mod flows;
 mod fluids;
 mod golden;
 mod identity;
+mod inertia;
 mod laws;
 mod noise;
 mod traps;

@@ -5,6 +5,7 @@ mod cases;
 #[cfg(feature = "glam")]
 mod edges;
 mod golden;
+mod histories;
 mod laws;
 mod scalars;
 mod traps;

@@ -4,7 +4,7 @@
 //! S(q) = c,   dq/dS = H_p/(p·H_p),   dp/dS = −H_q/(p·H_p)                                  W(13.26–13.28)
 //! ```
 //!
-//! H must not depend on time. The manifolds U = S(q) − E t = const move over these fronts, and the transversals of
+//! H must not depend on time; for others see [`Transversals::level_point`](super::Transversals::level_point). The manifolds U = S(q) − E t = const move over these fronts, and the transversals of
 //! W(13.13) are their rays with λ = 1. Of waves of the speed v(q), H = v |p| and E = 1,
 //! the action is the time of travel.
 //!
