@@ -27,7 +27,7 @@ impl Separable for OneKick {
     }
 }
 
-/// γ₁ … γₛ to the last bit, and what is left of the step after the middle of each: one step of length one from rest.
+/// The weights γ₁ … γₛ, exactly, and the time from the middle of each substep to the end of a step of length one.
 fn stages(order: Order) -> (Vec<f64>, Vec<f64>) {
     let (mut kicks, mut left) = (Vec::new(), Vec::new());
     loop {

@@ -259,7 +259,7 @@ impl<B: Oscillator> RadialOscillation<B> {
     /// The states of rest within a range, in order: centres and saddles.
     ///
     /// # Errors
-    /// See [the type](RadialOscillation#errors); as [`LoadCurve::states_at`] where there is none.
+    /// See [the type](RadialOscillation#errors). If there is none, the error is that of [`LoadCurve::states_at`].
     pub fn equilibria(&self, range: (f64, f64)) -> Result<Vec<RestState>, SolutionsError> {
         self.check()?;
         let states = self.body.states_at(self.pressure, range)?;
