@@ -194,6 +194,10 @@ fn written_tests_are_checked_when_they_are_read() {
     let data = data(3);
     let text = serde_json::to_string(&data).expect("text");
     assert_eq!(serde_json::from_str::<Data>(&text).expect("data"), data);
+    // The name that this measure had in older files.
+    let old = text.replace("first_piola", "nominal");
+    assert_ne!(old, text);
+    assert_eq!(serde_json::from_str::<Data>(&old).expect("data"), data);
     let wrong = text.replacen("1.1", "-1.1", 1);
     assert!(
         serde_json::from_str::<Data>(&wrong).expect_err("refused").to_string().contains("point 0: the stretch -1.1")
