@@ -6,6 +6,7 @@
 //! ∫ (P_law − p Cof F) : ∇δu dV = ∫ t·δu dA        ∫ δp (J − 1) dV = 0
 //! ```
 //! `cargo run --release -p piola --example finite_element --features batch,solutions -- 8` refines to 8³ elements.
+#![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;
 use std::time::Instant;
@@ -95,10 +96,10 @@ impl Mesh {
     fn points(&self) -> Outcome<Vec<Point>> {
         let point = |index: usize| {
             let [(x, wx), (y, wy), (z, wz)] = [index % 3, index / 3 % 3, index / 9 % 3].map(|i| GAUSS[i]);
-            let (element, mut shapes) = (index / 27, shapes([x, y, z]));
+            let (element, shapes) = (index / 27, shapes([x, y, z]));
             let (place, tangents) = self.place(element, &shapes);
             let inverse = tangents.try_inverse().ok_or("an element is singular")?.transpose();
-            shapes.iter_mut().for_each(|(_, slope)| *slope = inverse * *slope);
+            let shapes = shapes.map(|(n, slope)| (n, inverse * slope));
             let weight = tangents.determinant() * wx * wy * wz;
             Ok(Point { element, place, weight, shapes, linear: [1.0, x, y, z] })
         };
@@ -197,8 +198,8 @@ impl Problem {
 
         let (free, base) = (self.unknowns - self.pressures.len(), self.pressures.len());
         let mut right = faer::Mat::<f64>::zeros(free + base, 1);
-        for (number, load) in self.numbers.iter().zip(loads) {
-            number.into_iter().for_each(|row| right[(*row, 0)] += load);
+        for (row, load) in self.numbers.iter().zip(loads).filter_map(|(row, load)| Some(((*row)?, load))) {
+            right[(row, 0)] += load;
         }
         let mut entries = Vec::new();
         for element in 0..self.mesh.elements.len() {

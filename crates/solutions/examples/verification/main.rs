@@ -3,6 +3,8 @@
 //! For each family of universal deformations and for several laws a folder with nodes, elements, faces and loads, as CSV and
 //! as JSON. The README that is written beside them says what each column is.
 
+#![expect(clippy::print_stdout, reason = "an example prints")]
+
 mod cases;
 mod mesh;
 mod tables;
