@@ -1,0 +1,18 @@
+//! The precisions in which fields are stored and computed.
+
+use piola_numerics::{Element, Real};
+
+/// `f32` or `f64`: the precision of the samples of a field.
+///
+/// # Example
+/// ```
+/// use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, Walls};
+/// let grid = BoxGrid::cells([4, 4], [1.0, 1.0])?;
+/// let single = BoxSolver::<f32, 2>::new(grid, Walls::Sliding, BoxOperator::membrane(1.0)?);
+/// assert!(single.is_ok());
+/// # Ok::<(), piola_spectral::SpectralError>(())
+/// ```
+pub trait Precision: Element + Real + rustfft::FftNum {}
+
+impl Precision for f32 {}
+impl Precision for f64 {}
