@@ -9,17 +9,8 @@ use piola_numerics::{Kernel, dispatch};
 use crate::Precision;
 use crate::error::SpectralError;
 use crate::modal::{Modes, load};
-use crate::transform::{Line, LinePlan, TransformMemory, WIDTH};
+use crate::transform::{Direction, Line, LinePlan, TransformMemory, WIDTH};
 use crate::walls::Walls;
-
-/// Which way a transform goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Direction {
-    /// From samples to modes.
-    ToModes,
-    /// From modes to samples.
-    ToSamples,
-}
 
 /// What a pass along the first axis does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,7 +196,7 @@ impl<T: Precision, const D: usize> Kernel for Slab<'_, T, D> {
         let parity = plans.walls.parity(self.component, D - 1);
         for rows in self.samples.chunks_mut(WIDTH * last) {
             gather_rows(rows, last, panel);
-            one_line(&plans.lines[D - 1], self.direction, parity, panel, transform);
+            plans.lines[D - 1].run(self.direction, parity, panel, transform);
             scatter_rows(panel, last, rows);
         }
         if D == 3 {
@@ -216,26 +207,12 @@ impl<T: Precision, const D: usize> Kernel for Slab<'_, T, D> {
                 for (entry, row) in panel.iter_mut().zip(self.samples.chunks_exact(last)) {
                     *entry = load(row, first);
                 }
-                one_line(&plans.lines[1], self.direction, parity, panel, transform);
+                plans.lines[1].run(self.direction, parity, panel, transform);
                 for (entry, row) in panel.iter().zip(self.samples.chunks_exact_mut(last)) {
                     save(*entry, row, first);
                 }
             }
         }
-    }
-}
-
-#[inline(always)]
-fn one_line<T: Precision>(
-    plan: &LinePlan<T>,
-    direction: Direction,
-    parity: crate::walls::Parity,
-    panel: &mut [Line<T>],
-    memory: &mut TransformMemory<T>,
-) {
-    match direction {
-        Direction::ToModes => plan.to_modes(parity, panel, memory),
-        Direction::ToSamples => plan.to_samples(parity, panel, memory),
     }
 }
 
@@ -323,7 +300,7 @@ impl<T: Precision, R: Rows<T>, const D: usize> Kernel for Columns<'_, T, R, D> {
                     *entry = load(rows.row(component, index), first);
                 }
                 if task != Task::Synthesise {
-                    plan.to_modes(plans.walls.parity(component, 0), panel, &mut memory.transform);
+                    plan.run(Direction::ToModes, plans.walls.parity(component, 0), panel, &mut memory.transform);
                 }
             }
             if task == Task::Solve {
@@ -335,7 +312,7 @@ impl<T: Precision, R: Rows<T>, const D: usize> Kernel for Columns<'_, T, R, D> {
             for component in 0..D {
                 let panel = &mut memory.panels[component * points..(component + 1) * points];
                 if task != Task::Analyse {
-                    plan.to_samples(plans.walls.parity(component, 0), panel, &mut memory.transform);
+                    plan.run(Direction::ToSamples, plans.walls.parity(component, 0), panel, &mut memory.transform);
                 }
                 for (index, entry) in panel.iter().enumerate() {
                     save(*entry, rows.row(component, index), first);

@@ -12,7 +12,31 @@ use piola_numerics::{Element, Real};
 /// assert!(single.is_ok());
 /// # Ok::<(), piola_spectral::SpectralError>(())
 /// ```
-pub trait Precision: Element + Real + rustfft::FftNum {}
+pub trait Precision: Element + Real + rustfft::FftNum + sealed::Transforms {}
 
 impl Precision for f32 {}
 impl Precision for f64 {}
+
+pub(crate) mod sealed {
+    use piola_numerics::dispatch;
+
+    use crate::transform::InLanes;
+
+    /// Runs transforms in code that is compiled in this crate.
+    pub trait Transforms: Sized {
+        #[doc(hidden)]
+        fn transform(task: InLanes<'_, Self>);
+    }
+
+    impl Transforms for f32 {
+        fn transform(task: InLanes<'_, Self>) {
+            dispatch(task);
+        }
+    }
+
+    impl Transforms for f64 {
+        fn transform(task: InLanes<'_, Self>) {
+            dispatch(task);
+        }
+    }
+}

@@ -11,7 +11,7 @@ mod fft;
 mod library;
 mod nodal;
 
-use piola_numerics::Lanes;
+use piola_numerics::{Kernel, Lanes};
 use rustfft::num_complex::Complex;
 
 use crate::Precision;
@@ -21,6 +21,15 @@ use crate::walls::Parity;
 use cosine::CosinePlan;
 use library::LibraryPlan;
 use nodal::NodalPlan;
+
+/// Which way a transform goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Direction {
+    /// From samples to modes.
+    ToModes,
+    /// From modes to samples.
+    ToSamples,
+}
 
 /// Lines that are transformed together.
 pub(crate) const WIDTH: usize = 8;
@@ -77,23 +86,44 @@ impl<T: Precision> LinePlan<T> {
         memory.complex.resize(complex.max(memory.complex.len()), Complex::new(zero, zero));
     }
 
-    /// From samples to modes.
-    #[inline(always)]
-    pub(crate) fn to_modes(&self, parity: Parity, panel: &mut [Line<T>], memory: &mut TransformMemory<T>) {
-        match &self.method {
-            Method::Cells(plan) => plan.to_modes(parity, panel, &mut memory.lines),
-            Method::Nodes(plan) => plan.run(parity, panel, &mut memory.lines),
-            Method::Library(plan) => plan.to_modes(parity, panel, &mut memory.complex),
+    /// From samples to modes; or back, with index 0 (and N at nodes) of cosines, and index n of sines at cells, counted half.
+    pub(crate) fn run(
+        &self,
+        direction: Direction,
+        parity: Parity,
+        panel: &mut [Line<T>],
+        memory: &mut TransformMemory<T>,
+    ) {
+        match (&self.method, direction) {
+            (Method::Library(plan), Direction::ToModes) => plan.to_modes(parity, panel, &mut memory.complex),
+            (Method::Library(plan), Direction::ToSamples) => plan.to_samples(parity, panel, &mut memory.complex),
+            _ => T::transform(InLanes { plan: self, direction, parity, panel, memory: &mut memory.lines }),
         }
     }
+}
 
-    /// From modes to samples, with index 0 (and N at nodes) of cosines, and index n of sines at cells, counted half.
+/// A transform of a panel in the processor's widest lanes.
+///
+/// The precisions run it in code that is compiled here, once for each, and not where a solver is used.
+#[derive(Debug)]
+pub struct InLanes<'a, T> {
+    plan: &'a LinePlan<T>,
+    direction: Direction,
+    parity: Parity,
+    panel: &'a mut [Line<T>],
+    memory: &'a mut [Line<T>],
+}
+
+impl<T: Precision> Kernel for InLanes<'_, T> {
+    type Output = ();
     #[inline(always)]
-    pub(crate) fn to_samples(&self, parity: Parity, panel: &mut [Line<T>], memory: &mut TransformMemory<T>) {
-        match &self.method {
-            Method::Cells(plan) => plan.to_samples(parity, panel, &mut memory.lines),
-            Method::Nodes(plan) => plan.run(parity, panel, &mut memory.lines),
-            Method::Library(plan) => plan.to_samples(parity, panel, &mut memory.complex),
+    fn run(self) {
+        let Self { plan, direction, parity, panel, memory } = self;
+        match (&plan.method, direction) {
+            (Method::Cells(plan), Direction::ToModes) => plan.to_modes(parity, panel, memory),
+            (Method::Cells(plan), Direction::ToSamples) => plan.to_samples(parity, panel, memory),
+            (Method::Nodes(plan), _) => plan.run(parity, panel, memory),
+            (Method::Library(_), _) => {}
         }
     }
 }

@@ -2,7 +2,7 @@ use std::f64::consts::PI;
 
 use piola_testkit::{Tol, assert_close_at_scale};
 
-use super::{Line, LinePlan, TransformMemory, WIDTH};
+use super::{Direction, Line, LinePlan, TransformMemory, WIDTH};
 use crate::grid::PointLocation;
 use crate::walls::Parity;
 
@@ -11,10 +11,10 @@ fn sums(x: &[f64], parity: Parity, location: PointLocation) -> Vec<f64> {
     let n = x.len();
     let last = n - 1;
     let entry = |i: usize, m: usize| match (location, parity) {
-        (PointLocation::Cells, Parity::Cosine) => (PI * i as f64 * (m as f64 + 0.5) / n as f64).cos(),
+        (PointLocation::Cells, Parity::Cosine) => (PI * ((2 * m + 1) * i % (4 * n)) as f64 / (2 * n) as f64).cos(),
         (PointLocation::Cells, Parity::Sine) => {
             let i = if i == 0 { n } else { i };
-            (PI * i as f64 * (m as f64 + 0.5) / n as f64).sin()
+            (PI * ((2 * m + 1) * i % (4 * n)) as f64 / (2 * n) as f64).sin()
         }
         (PointLocation::Nodes, Parity::Cosine) => {
             let weight = if m == 0 || m == last { 0.5 } else { 1.0 };
@@ -43,7 +43,7 @@ fn transforms_of_lines_equal_sums() {
                 let plan = LinePlan::<f64>::new(n, location);
                 let mut memory = TransformMemory::new();
                 plan.prepare(&mut memory);
-                plan.to_modes(parity, &mut panel, &mut memory);
+                plan.run(Direction::ToModes, parity, &mut panel, &mut memory);
                 let intervals = if location == PointLocation::Cells { n } else { n - 1 };
                 let what = format!("{n} {location:?} {parity:?}");
                 // The sums in the test have n terms each.
@@ -52,7 +52,7 @@ fn transforms_of_lines_equal_sums() {
                     let actual: Vec<f64> = panel.iter().map(|entry| entry.0[lane]).collect();
                     assert_close_at_scale(&what, &actual, &sums(line, parity, location), (n as f64).sqrt(), tol);
                 }
-                plan.to_samples(parity, &mut panel, &mut memory);
+                plan.run(Direction::ToSamples, parity, &mut panel, &mut memory);
                 for (lane, line) in lines.iter().enumerate() {
                     let actual: Vec<f64> = panel.iter().map(|entry| entry.0[lane] * 2.0 / intervals as f64).collect();
                     let mut expected = line.clone();
