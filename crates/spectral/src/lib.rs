@@ -2,9 +2,14 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod basis;
+mod derivative;
 mod error;
+mod flow;
 mod grid;
+mod lift;
 mod modal;
+mod motion;
 mod operator;
 mod passes;
 mod precision;
@@ -13,9 +18,12 @@ mod transform;
 mod walls;
 mod waves;
 
+pub use basis::{Eigenbasis, ModalSeries, Polarisation};
 pub use error::SpectralError;
+pub use flow::{FlowReport, ViscousFlow};
 pub use grid::{BoxGrid, PointLocation};
+pub use motion::ModalMotion;
 pub use operator::{BoxOperator, LameParameters};
 pub use precision::Precision;
-pub use solver::BoxSolver;
+pub use solver::{BoxSolver, WallForces};
 pub use walls::{Parity, Walls};

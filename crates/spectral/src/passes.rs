@@ -38,6 +38,13 @@ pub(crate) struct Memory<T> {
     transform: TransformMemory<T>,
 }
 
+impl<T> Memory<T> {
+    /// A panel and the memory of its transforms.
+    pub(crate) fn parts(&mut self, points: usize) -> (&mut [Line<T>], &mut TransformMemory<T>) {
+        (&mut self.panels[..points], &mut self.transform)
+    }
+}
+
 impl<T: Precision, const D: usize> Plans<T, D> {
     /// The samples of a slab: a plane of a box, or up to eight lines of a rectangle.
     fn slab(&self) -> usize {
@@ -236,7 +243,7 @@ fn scatter_rows<T: Precision>(panel: &[Line<T>], length: usize, rows: &mut [T]) 
 }
 
 #[inline(always)]
-fn save<T: Precision>(entry: Line<T>, row: &mut [T], first: usize) {
+pub(crate) fn save<T: Precision>(entry: Line<T>, row: &mut [T], first: usize) {
     match row.get_mut(first..first + WIDTH) {
         Some(whole) => whole.copy_from_slice(&entry.0),
         None => entry.store(&mut row[first..]),

@@ -56,12 +56,17 @@ impl<T: Precision> AxisWaves<T> {
         T::lit(self.first * index as f64)
     }
 
-    /// What a transform to modes multiplies the amplitude of an index by.
-    pub(crate) fn gain(&self, index: usize, parity: Parity) -> f64 {
-        let ends = match self.location {
+    /// What a derivative multiplies the result of a transform by, with the transform back.
+    pub(crate) fn derivative(&self, slot: usize) -> T {
+        T::lit(self.scale * self.first * slot as f64)
+    }
+
+    /// What the result of a transform to modes must be multiplied by to give the amplitude of an index.
+    pub(crate) fn amplitude(&self, index: usize, parity: Parity) -> f64 {
+        let is_end = match self.location {
             PointLocation::Cells => index == 0 || index == self.points,
             PointLocation::Nodes => parity == Parity::Cosine && (index == 0 || index + 1 == self.points),
         };
-        if ends { 2.0 / self.scale } else { 1.0 / self.scale }
+        if is_end { 0.5 * self.scale } else { self.scale }
     }
 }

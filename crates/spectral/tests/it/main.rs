@@ -3,6 +3,7 @@
 use piola_testkit::CountingAllocator;
 
 mod fixtures;
+mod golden;
 mod statics;
 
 #[global_allocator]

@@ -5,17 +5,20 @@ use piola_testkit::{Tol, assert_close};
 
 use super::fixtures::{Wave, lame, samples, slices, sum_of};
 
-/// The rounding of the sums over the lines of three axes, there and back, and of the samples of the waves themselves.
-const SUMS: Tol = Tol::ulps(64.0);
+/// The rounding of the sums over the lines of three axes, there and back, and of the samples of the waves themselves, for
+/// forces of equal size; forces of stiff modes are larger, and so is their rounding.
+const SUMS: Tol = Tol::ulps(16.0);
 
 fn compare<const D: usize>(grid: BoxGrid<D>, walls: Walls, waves: &[Wave<D>]) {
     let sides = grid.sides();
+    let squares = waves.iter().map(|wave| wave.wave_vector(sides).iter().map(|q| q * q).sum::<f64>());
+    let (least, largest) = squares.fold((f64::MAX, 0.0_f64), |(least, largest), q| (least.min(q), largest.max(q)));
     let forces: Vec<Wave<D>> = waves.iter().map(|wave| wave.elastic_force(lame(), sides)).collect();
     let mut fields = samples::<f64, D>(&grid, |x| sum_of(&forces, walls, sides, x));
     let expected = samples::<f64, D>(&grid, |x| sum_of(waves, walls, sides, x));
     let mut solver = BoxSolver::<f64, D>::new(grid, walls, BoxOperator::elastic(lame())).expect("plan");
     solver.solve_in_place(slices(&mut fields)).expect("solution");
-    assert_close(&format!("{grid:?} {walls:?}"), &fields.concat(), &expected.concat(), SUMS);
+    assert_close(&format!("{grid:?} {walls:?}"), &fields.concat(), &expected.concat(), SUMS.times(largest / least));
 }
 
 fn waves_in_space() -> Vec<Wave<3>> {
