@@ -2,8 +2,14 @@
 
 use piola_testkit::CountingAllocator;
 
+mod alloc;
 mod fixtures;
+mod flow;
 mod golden;
+mod modes;
+mod motion;
+mod orders;
+mod refusals;
 mod statics;
 
 #[global_allocator]
