@@ -1,10 +1,11 @@
 //! Forces that do not vanish normal to sliding walls: a displacement that balances them at the walls is split off.
 //!
 //! ```text
-//! w_a = p(x_a) g/A,   p(0) = p(L) = 0,   p″ = −(1 − ξ) for the wall ξ = 0 and −ξ for the wall ξ = 1,   ξ = x_a/L
+//! w_a = p(x_a) g,   w_b = r(x_a) ∂g/∂x_b,   ξ = x_a/L,   A = λ + 2μ
+//! p = 0 and r' = 0 at both walls;   A p″ = −(1 − ξ),   A μ r‴ = (λ + μ)(1 − ξ) for the wall ξ = 0
 //! ```
-//! g is the force normal to the wall and A = λ + 2μ. Then f + Lw vanishes normal to the walls, its sines converge faster by
-//! two orders, and u = w + (the solution for f + Lw).
+//! g is the force normal to the wall, b runs along the wall. Then f + Lw has no part normal to the walls, and its tangential
+//! part has the normal derivatives of f. Its modes fall faster by two orders, and u = w + (the solution for f + Lw).
 
 use crate::Precision;
 use crate::grid::{BoxGrid, PointLocation};
@@ -21,20 +22,26 @@ pub(crate) struct NormalForces<T> {
     pub(crate) faces: [Vec<T>; 2],
 }
 
-/// p, p′ and p″ at ξ of a wall at ξ = 0.
-fn profile(xi: f64, side: f64) -> [f64; 3] {
-    let value = -side * side * xi * (xi * (0.5 - xi / 6.0) - 1.0 / 3.0);
-    [value, -side * (xi * (1.0 - 0.5 * xi) - 1.0 / 3.0), xi - 1.0]
-}
-
-/// p, p′ and p″ of both walls at point m of an axis.
-fn profiles<const D: usize>(grid: &BoxGrid<D>, axis: usize, m: usize) -> [[f64; 3]; 2] {
+/// p, p′, p″, r, r′, r″ across the box, each for the two walls of an axis.
+fn profiles<const D: usize>(grid: &BoxGrid<D>, operator: &BoxOperator, axis: usize, m: usize) -> [[f64; 6]; 2] {
+    let [along, across] = operator.stiffnesses;
     let side = grid.sides()[axis];
     let mut indices = [0; D];
     indices[axis] = m;
-    let xi = grid.position(indices)[axis] / side;
-    let [value, slope, curvature] = profile(1.0 - xi, side);
-    [profile(xi, side), [value, -slope, curvature]]
+    let near = grid.position(indices)[axis] / side;
+    let coupling = (along - across) / across;
+    let at = |xi: f64| {
+        let p = [-side * side * xi * (xi * (0.5 - xi / 6.0) - 1.0 / 3.0), -side * (xi * (1.0 - 0.5 * xi) - 1.0 / 3.0), xi - 1.0];
+        let r = [
+            side * side * side * xi * xi * (xi * (1.0 / 6.0 - xi / 24.0) - 1.0 / 6.0),
+            side * side * xi * (xi * (0.5 - xi / 6.0) - 1.0 / 3.0),
+            side * (xi * (1.0 - 0.5 * xi) - 1.0 / 3.0),
+        ];
+        [p.map(|p| p / along), r.map(|r| r * coupling / along)]
+    };
+    let [[p, dp, ddp], [r, dr, ddr]] = at(near);
+    let [[q, dq, ddq], [t, dt, ddt]] = at(1.0 - near);
+    [[p, dp, ddp, r, dr, ddr], [q, -dq, ddq, -t, dt, -ddt]]
 }
 
 /// The position of the first point of each line along an axis, and the distance of its points.
@@ -73,7 +80,7 @@ impl<T: Precision> NormalForces<T> {
         self.faces.each_ref().map(|face| face.iter().map(|value| value.primal(0).abs()).fold(0.0, f64::max))
     }
 
-    /// Adds Lw to the force.
+    /// Adds Lw to the force. Returns ∂g/∂x_b for both walls and each axis along them: `add_to` needs them.
     pub(crate) fn balance<const D: usize>(
         &self,
         grid: &BoxGrid<D>,
@@ -82,46 +89,61 @@ impl<T: Precision> NormalForces<T> {
         waves: &[AxisWaves<T>; D],
         fields: &mut [&mut [T]; D],
         memory: &mut Memory<T>,
-    ) {
+    ) -> [[Vec<T>; D]; 2] {
         let axis = self.axis;
         let [along, across] = operator.stiffnesses;
         let (stride, block) = lines(grid.points(), axis);
-        let zero = T::lit(0.0);
+        let mut slopes = [(); 2].map(|()| [(); D].map(|()| Vec::new()));
         for (which, face) in self.faces.iter().enumerate() {
-            let mut laplacian = vec![zero; face.len()];
+            let mut laplacian = vec![T::lit(0.0); face.len()];
             for other in (0..D).filter(|&other| other != axis) {
-                let first = derivative(plans, waves, axis, other, face, 1, memory);
-                let second = derivative(plans, waves, axis, other, face, 2, memory);
-                for (sum, second) in laplacian.iter_mut().zip(second) {
+                for (sum, second) in laplacian.iter_mut().zip(derivative(plans, waves, axis, other, face, 2, memory)) {
                     *sum += second;
                 }
-                for m in 0..grid.points()[axis] {
-                    let factor = T::lit((along - across) / along * profiles(grid, axis, m)[which][1]);
-                    for (line, slope) in first.iter().enumerate() {
-                        fields[other][line / stride * block + line % stride + m * stride] += factor * *slope;
-                    }
-                }
             }
-            for m in 0..grid.points()[axis] {
-                let [value, _, curvature] = profiles(grid, axis, m)[which];
-                let (value, curvature) = (T::lit(across / along * value), T::lit(curvature));
-                for (line, (force, laplacian)) in face.iter().zip(&laplacian).enumerate() {
-                    fields[axis][line / stride * block + line % stride + m * stride] +=
-                        curvature * *force + value * *laplacian;
+            let mut add = |component: usize, m: usize, factor: f64, values: &[T]| {
+                let factor = T::lit(factor);
+                for (line, value) in values.iter().enumerate() {
+                    fields[component][line / stride * block + line % stride + m * stride] += factor * *value;
                 }
+            };
+            for m in 0..grid.points()[axis] {
+                let [p, _, ddp, _, dr, _] = profiles(grid, operator, axis, m)[which];
+                add(axis, m, along * ddp, face);
+                add(axis, m, across * p + (along - across) * dr, &laplacian);
+            }
+            for other in (0..D).filter(|&other| other != axis) {
+                let slope = derivative(plans, waves, axis, other, face, 1, memory);
+                let third = derivative(plans, waves, axis, other, &laplacian, 1, memory);
+                for m in 0..grid.points()[axis] {
+                    let [_, dp, _, r, _, ddr] = profiles(grid, operator, axis, m)[which];
+                    add(other, m, across * ddr + (along - across) * dp, &slope);
+                    add(other, m, along * r, &third);
+                }
+                slopes[which][other] = slope;
             }
         }
+        slopes
     }
 
     /// Adds w to the displacement.
-    pub(crate) fn add_to<const D: usize>(&self, grid: &BoxGrid<D>, operator: &BoxOperator, field: &mut [T]) {
+    pub(crate) fn add_to<const D: usize>(
+        &self,
+        slopes: &[[Vec<T>; D]; 2],
+        grid: &BoxGrid<D>,
+        operator: &BoxOperator,
+        fields: &mut [&mut [T]; D],
+    ) {
         let (stride, block) = lines(grid.points(), self.axis);
         for m in 0..grid.points()[self.axis] {
-            let profiles = profiles(grid, self.axis, m);
-            for (face, [value, _, _]) in self.faces.iter().zip(profiles) {
-                let value = T::lit(value / operator.stiffnesses[0]);
-                for (line, force) in face.iter().enumerate() {
-                    field[line / stride * block + line % stride + m * stride] += value * *force;
+            let profiles = profiles(grid, operator, self.axis, m);
+            for ((face, slopes), [p, _, _, r, _, _]) in self.faces.iter().zip(slopes).zip(profiles) {
+                for (component, field) in fields.iter_mut().enumerate() {
+                    let (factor, values) = if component == self.axis { (p, face) } else { (r, &slopes[component]) };
+                    let factor = T::lit(factor);
+                    for (line, value) in values.iter().enumerate() {
+                        field[line / stride * block + line % stride + m * stride] += factor * *value;
+                    }
                 }
             }
         }

@@ -168,17 +168,19 @@ impl<T: Precision, const D: usize> BoxSolver<T, D> {
         let forces: [NormalForces<T>; D] = std::array::from_fn(|axis| NormalForces::of(&self.grid, axis, fields[axis]));
         let report = WallForces { largest: forces.each_ref().map(NormalForces::largest) };
         let is_lifted = self.walls == Walls::Sliding && self.operator.order == 1;
-        if is_lifted {
-            for forces in &forces {
-                let (grid, operator) = (&self.grid, &self.operator);
-                forces.balance(grid, operator, &self.plans, &self.modes.axes, &mut fields, &mut self.memory);
-            }
+        if !is_lifted {
+            self.solve_in_place(fields)?;
+            return Ok(report);
+        }
+        let mut slopes = Vec::with_capacity(D);
+        for forces in &forces {
+            let (grid, operator) = (&self.grid, &self.operator);
+            let axes = &self.modes.axes;
+            slopes.push(forces.balance(grid, operator, &self.plans, axes, &mut fields, &mut self.memory));
         }
         self.solve_in_place(reborrow(&mut fields))?;
-        if is_lifted {
-            for (forces, field) in forces.iter().zip(&mut fields) {
-                forces.add_to(&self.grid, &self.operator, field);
-            }
+        for (forces, slopes) in forces.iter().zip(&slopes) {
+            forces.add_to(slopes, &self.grid, &self.operator, &mut fields);
         }
         Ok(report)
     }
