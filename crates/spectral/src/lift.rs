@@ -31,7 +31,11 @@ fn profiles<const D: usize>(grid: &BoxGrid<D>, operator: &BoxOperator, axis: usi
     let near = grid.position(indices)[axis] / side;
     let coupling = (along - across) / across;
     let at = |xi: f64| {
-        let p = [-side * side * xi * (xi * (0.5 - xi / 6.0) - 1.0 / 3.0), -side * (xi * (1.0 - 0.5 * xi) - 1.0 / 3.0), xi - 1.0];
+        let p = [
+            -side * side * xi * (xi * (0.5 - xi / 6.0) - 1.0 / 3.0),
+            -side * (xi * (1.0 - 0.5 * xi) - 1.0 / 3.0),
+            xi - 1.0,
+        ];
         let r = [
             side * side * side * xi * xi * (xi * (1.0 / 6.0 - xi / 24.0) - 1.0 / 6.0),
             side * side * xi * (xi * (0.5 - xi / 6.0) - 1.0 / 3.0),

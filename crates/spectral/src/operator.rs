@@ -31,7 +31,11 @@ impl LameParameters {
         check_bound("μ", shear_modulus, "0 < μ", 0.0 < shear_modulus)?;
         let sum = first + 2.0 * shear_modulus;
         check_bound("λ + 2μ", sum, "", true)?;
-        if 0.0 < sum { Ok(Self { first, shear_modulus }) } else { Err(SpectralError::NotElliptic { first, shear_modulus }) }
+        if 0.0 < sum {
+            Ok(Self { first, shear_modulus })
+        } else {
+            Err(SpectralError::NotElliptic { first, shear_modulus })
+        }
     }
 
     /// From Young's modulus E and Poisson's ratio ν: λ = Eν/((1 + ν)(1 − 2ν)), μ = E/(2(1 + ν)).

@@ -223,11 +223,25 @@ impl<T: Precision, const D: usize> Kernel for Slab<'_, T, D> {
     }
 }
 
-/// Up to eight rows side by side.
+/// Up to eight rows side by side; eight whole rows by squares that fit the registers.
 #[inline(always)]
 fn gather_rows<T: Precision>(rows: &[T], length: usize, panel: &mut [Line<T>]) {
+    let is_whole = rows.len() == WIDTH * length;
+    let squares = if is_whole { length / WIDTH } else { 0 };
+    for square in 0..squares {
+        let mut block = [[T::lit(0.0); WIDTH]; WIDTH];
+        for (lane, block) in block.iter_mut().enumerate() {
+            let start = lane * length + square * WIDTH;
+            block.copy_from_slice(&rows[start..start + WIDTH]);
+        }
+        for (k, entry) in panel[square * WIDTH..(square + 1) * WIDTH].iter_mut().enumerate() {
+            for lane in 0..WIDTH {
+                entry.0[lane] = block[lane][k];
+            }
+        }
+    }
     for (lane, row) in rows.chunks_exact(length).enumerate() {
-        for (entry, value) in panel.iter_mut().zip(row) {
+        for (entry, value) in panel.iter_mut().zip(row).skip(squares * WIDTH) {
             entry.0[lane] = *value;
         }
     }
@@ -235,8 +249,22 @@ fn gather_rows<T: Precision>(rows: &[T], length: usize, panel: &mut [Line<T>]) {
 
 #[inline(always)]
 fn scatter_rows<T: Precision>(panel: &[Line<T>], length: usize, rows: &mut [T]) {
+    let is_whole = rows.len() == WIDTH * length;
+    let squares = if is_whole { length / WIDTH } else { 0 };
+    for square in 0..squares {
+        let mut block = [[T::lit(0.0); WIDTH]; WIDTH];
+        for (k, entry) in panel[square * WIDTH..(square + 1) * WIDTH].iter().enumerate() {
+            for lane in 0..WIDTH {
+                block[lane][k] = entry.0[lane];
+            }
+        }
+        for (lane, block) in block.iter().enumerate() {
+            let start = lane * length + square * WIDTH;
+            rows[start..start + WIDTH].copy_from_slice(block);
+        }
+    }
     for (lane, row) in rows.chunks_exact_mut(length).enumerate() {
-        for (entry, value) in panel.iter().zip(row) {
+        for (entry, value) in panel.iter().zip(row).skip(squares * WIDTH) {
             *value = entry.0[lane];
         }
     }

@@ -1,7 +1,8 @@
 //! Static solutions on a grid.
 
-use crate::error::{SpectralError, check_length};
+use crate::Precision;
 use crate::basis::ModalSeries;
+use crate::error::{SpectralError, check_length};
 use crate::grid::{BoxGrid, PointLocation};
 use crate::lift::NormalForces;
 use crate::modal::Modes;
@@ -10,7 +11,6 @@ use crate::passes::{Memory, Plans, Task};
 use crate::transform::{Direction, LinePlan};
 use crate::walls::Walls;
 use crate::waves::AxisWaves;
-use crate::Precision;
 
 /// The force normal to the walls, where the modes of sliding walls have none.
 ///
@@ -229,7 +229,8 @@ impl<T: Precision, const D: usize> BoxSolver<T, D> {
         for position in 0..self.grid.len() {
             for (component, field) in fields.iter_mut().enumerate() {
                 let mode = self.mode_at(component, position);
-                let amplitude = mode.map_or(0.0, |(indices, factor)| series.amplitudes(indices)[component] * scale / factor);
+                let amplitude =
+                    mode.map_or(0.0, |(indices, factor)| series.amplitudes(indices)[component] * scale / factor);
                 field[position] = T::lit(amplitude);
             }
         }

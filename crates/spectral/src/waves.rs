@@ -27,7 +27,8 @@ impl<T: Precision> AxisWaves<T> {
         let scale = 2.0 / grid.intervals(axis) as f64;
         let slots = points.next_multiple_of(WIDTH);
         let wave = (0..slots).map(|slot| T::lit(first * slot.max(usize::from(points <= slot)) as f64)).collect();
-        let weight = (0..slots).map(|slot| T::lit(if slot < points && slot <= highest { scale } else { 0.0 })).collect();
+        let weight =
+            (0..slots).map(|slot| T::lit(if slot < points && slot <= highest { scale } else { 0.0 })).collect();
         Self { wave, weight, points, first, scale, highest, location: grid.location() }
     }
 

@@ -154,11 +154,7 @@ impl<const D: usize> ModalSeries<D> {
         check_finite("amplitude", &amplitudes)?;
         let Some(position) = self.position(indices) else {
             let axis = (0..D).find(|&axis| self.highest[axis] < indices[axis]).unwrap_or(0);
-            return Err(SpectralError::OutOfBounds {
-                quantity: "index",
-                value: indices[axis] as f64,
-                bound: "i <= N",
-            });
+            return Err(SpectralError::OutOfBounds { quantity: "index", value: indices[axis] as f64, bound: "i <= N" });
         };
         for component in 0..D {
             if !self.is_zero(component, indices) {
@@ -232,7 +228,9 @@ impl<const D: usize> ModalSeries<D> {
     /// B(4.71).
     pub fn strain(&self, place: [f64; D]) -> Result<[[f64; D]; D], SpectralError> {
         let gradient = self.gradient(place)?;
-        Ok(std::array::from_fn(|row| std::array::from_fn(|column| 0.5 * (gradient[row][column] + gradient[column][row]))))
+        Ok(std::array::from_fn(|row| {
+            std::array::from_fn(|column| 0.5 * (gradient[row][column] + gradient[column][row]))
+        }))
     }
 
     /// The stress λ tr ε 1 + 2μ ε, Pa. In a rectangle: plane strain.
@@ -398,10 +396,8 @@ impl<const D: usize> ModalSeries<D> {
         let mut values = self.amplitudes[component].clone();
         for axis in (0..D).rev() {
             let table = &tables[axis];
-            values = values
-                .chunks_exact(table.len())
-                .map(|row| row.iter().zip(table).map(|(a, b)| a * b).sum())
-                .collect();
+            values =
+                values.chunks_exact(table.len()).map(|row| row.iter().zip(table).map(|(a, b)| a * b).sum()).collect();
         }
         values[0]
     }

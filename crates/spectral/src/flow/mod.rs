@@ -251,7 +251,8 @@ impl<T: Precision, const D: usize> ViscousFlow<T, D> {
             for (row, entries) in f.iter_mut().enumerate() {
                 for (column, entry) in entries.iter_mut().enumerate() {
                     let unit = if row == column { 1.0 } else { 0.0 };
-                    *entry = if row < D && column < D { unit - work.gradient[row][column][point].primal(0) } else { unit };
+                    *entry =
+                        if row < D && column < D { unit - work.gradient[row][column][point].primal(0) } else { unit };
                 }
             }
             let jacobian = piola_numerics::linear::matrix3::determinant(f);

@@ -107,7 +107,9 @@ impl<const D: usize> ModalMotion<D> {
             let squared: f64 = q.iter().map(|q| q * q).sum();
             let propagators = match last {
                 Some((before, propagators)) if before == squared => propagators,
-                _ => self.operator.eigenvalues(squared).map(|kappa| Propagator::new(self.density, self.drag, -kappa, h)),
+                _ => {
+                    self.operator.eigenvalues(squared).map(|kappa| Propagator::new(self.density, self.drag, -kappa, h))
+                }
             };
             last = Some((squared, propagators));
             let at = |series: &ModalSeries<D>| -> [f64; D] {

@@ -138,7 +138,8 @@ impl<T: Precision> CosinePlan<T> {
             Method::Half(plan, factors) => {
                 let half = n / 2;
                 // The forward transform with its parts exchanged is the inverse: the imaginary part is stored first.
-                let (even, odd) = (a_half * panel[0], panel[half] * Line::splat(T::lit(std::f64::consts::FRAC_1_SQRT_2)));
+                let (even, odd) =
+                    (a_half * panel[0], panel[half] * Line::splat(T::lit(std::f64::consts::FRAC_1_SQRT_2)));
                 first[1] = even + odd;
                 first[0] = even - odd;
                 for (k, &[t, near, far]) in factors.iter().enumerate().skip(1) {

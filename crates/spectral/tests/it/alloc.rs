@@ -10,8 +10,7 @@ fn static_solution_allocates_nothing() {
     let mut runs = 0;
     for grid in [BoxGrid::cells([16, 12, 10], [0.1; 3]), BoxGrid::nodes([9, 17, 13], [0.1; 3])] {
         let grid = grid.expect("grid");
-        let mut solver =
-            BoxSolver::<f64, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
+        let mut solver = BoxSolver::<f64, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
         let mut fields = samples::<f64, 3>(&grid, |x| [x[0].sin(), x[1], x[2] * x[0]]);
         let (count, result) = allocations_in(|| solver.solve_in_place(slices(&mut fields)));
         assert!(result.is_ok());

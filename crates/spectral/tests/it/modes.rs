@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use piola_spectral::{
-    BoxGrid, BoxOperator, BoxSolver, Eigenbasis, ModalSeries, Polarisation, SpectralError, Walls,
-};
+use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, Eigenbasis, ModalSeries, Polarisation, SpectralError, Walls};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
 use super::fixtures::{lame, samples, slices};
@@ -144,8 +142,7 @@ fn gradient_of_a_series_equals_differences() {
         };
         let (a, b, c, d) = (at(-2.0), at(-1.0), at(1.0), at(2.0));
         for component in 0..3 {
-            let quotient =
-                (a[component] - 8.0 * b[component] + 8.0 * c[component] - d[component]) / (12.0 * step);
+            let quotient = (a[component] - 8.0 * b[component] + 8.0 * c[component] - d[component]) / (12.0 * step);
             // Order 4 with wave numbers of some 12/m.
             let tol = Tol::order(12.0 * step, 4).times(16.0);
             assert_close_at_scale("gradient", &[gradient[component][axis]], &[quotient], 12.0, tol);
@@ -189,9 +186,8 @@ fn walls_and_body_force_balance() {
 fn green_function_is_symmetric_and_solves_for_a_smooth_force() {
     let (x, y) = ([0.3, 0.5], [0.6, 0.2]);
     let operator = BoxOperator::elastic(lame());
-    let green = |a, b| {
-        ModalSeries::<2>::green_function([1.0, 0.75], Walls::Sliding, [24, 24], &operator, a, b).expect("G")
-    };
+    let green =
+        |a, b| ModalSeries::<2>::green_function([1.0, 0.75], Walls::Sliding, [24, 24], &operator, a, b).expect("G");
     let (there, back) = (green(x, y), green(y, x));
     let turned = [[back[0][0], back[1][0]], [back[0][1], back[1][1]]];
     assert_close("G(x, y) = G(y, x)ᵀ", there.as_flattened(), turned.as_flattened(), SUMS);

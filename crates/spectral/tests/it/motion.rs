@@ -43,7 +43,8 @@ fn modal_steps_equal_an_adaptive_integration() {
         .collect();
     let mut compared = 0;
     // Undamped, weak, critical to the last bit for the first mode, near it on both sides, strong, very strong.
-    for drag in [0.0, 0.3, critical, critical * (1.0 - 1e-9), critical * (1.0 + 1e-9), 3.0 * critical, 12.0 * critical] {
+    for drag in [0.0, 0.3, critical, critical * (1.0 - 1e-9), critical * (1.0 + 1e-9), 3.0 * critical, 12.0 * critical]
+    {
         for (h, steps) in [(1.0, 1), (0.125, 8), (1.0 / 64.0, 64)] {
             let operator = BoxOperator::elastic(lame());
             let mut motion = ModalMotion::new(operator, DENSITY, drag, series(&u), series(&v)).expect("motion");
@@ -89,7 +90,8 @@ fn modal_steps_equal_an_adaptive_integration() {
 
 #[test]
 fn energy_without_drag_is_kept() {
-    let (u, v) = (series(&[0.5, 0.0, -0.25, 0.75, 0.0, 1.0, 0.125, -0.5]), series(&[-1.0, 0.0, 2.0, 0.5, 0.0, 0.0, 1.5, 0.2]));
+    let (u, v) =
+        (series(&[0.5, 0.0, -0.25, 0.75, 0.0, 1.0, 0.125, -0.5]), series(&[-1.0, 0.0, 2.0, 0.5, 0.0, 0.0, 1.5, 0.2]));
     let mut motion = ModalMotion::new(BoxOperator::elastic(lame()), DENSITY, 0.0, u, v).expect("motion");
     let energy = |motion: &ModalMotion<2>| motion.kinetic_energy() + motion.elastic_energy(lame());
     let start = energy(&motion);

@@ -52,11 +52,8 @@ fn bad_forces_are_refused_with_their_place() {
             let mut fields = [vec![0.0; 120], vec![0.0; 120], vec![0.0; 120]];
             fields[1][index] = f64::NEG_INFINITY;
             let fields = slices(&mut fields);
-            let refused = if lifted {
-                solver.solve_lifted_in_place(fields).err()
-            } else {
-                solver.solve_in_place(fields).err()
-            };
+            let refused =
+                if lifted { solver.solve_lifted_in_place(fields).err() } else { solver.solve_in_place(fields).err() };
             let value = f64::NEG_INFINITY;
             assert_eq!(refused, Some(SpectralError::NotFinite { quantity: "force", index, value }));
             compared += 1;
@@ -70,11 +67,9 @@ fn other_boxes_and_impossible_motions_are_refused() {
     let series = |side, walls, highest| ModalSeries::<2>::zeros([side, 1.0], walls, highest).expect("series");
     let own = series(1.0, Walls::Sliding, [2, 2]);
     let operator = BoxOperator::elastic(lame());
-    for other in [
-        series(2.0, Walls::Sliding, [2, 2]),
-        series(1.0, Walls::Guided, [2, 2]),
-        series(1.0, Walls::Sliding, [2, 3]),
-    ] {
+    for other in
+        [series(2.0, Walls::Sliding, [2, 2]), series(1.0, Walls::Guided, [2, 2]), series(1.0, Walls::Sliding, [2, 3])]
+    {
         let refused = ModalMotion::new(operator, 1.0, 0.0, own.clone(), other.clone()).err();
         assert_eq!(refused, Some(SpectralError::OtherGrid { quantity: "velocity" }));
         let mut motion = ModalMotion::new(operator, 1.0, 0.0, own.clone(), own.clone()).expect("motion");
