@@ -1,6 +1,7 @@
 //! Elastic and viscous fields on a box by their eigenfunctions.
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
+#![allow(clippy::needless_range_loop, reason = "components and axes are the indices of the equations")]
 
 mod basis;
 mod derivative;
@@ -12,6 +13,7 @@ mod modal;
 mod motion;
 mod operator;
 mod passes;
+mod periodic;
 mod precision;
 mod solver;
 mod transform;
@@ -24,6 +26,7 @@ pub use flow::{FlowReport, ViscousFlow};
 pub use grid::{BoxGrid, PointLocation};
 pub use motion::ModalMotion;
 pub use operator::{BoxOperator, LameParameters};
+pub use periodic::PeriodicSolver;
 pub use precision::Precision;
 pub use solver::{BoxSolver, WallForces};
 pub use walls::{Parity, Walls};

@@ -84,7 +84,7 @@ impl<T: Precision> NormalForces<T> {
         self.faces.each_ref().map(|face| face.iter().map(|value| value.primal(0).abs()).fold(0.0, f64::max))
     }
 
-    /// Adds Lw to the force. Returns ∂g/∂x_b for both walls and each axis along them: `add_to` needs them.
+    /// Adds Lw to the force. Returns the derivatives of g on both walls along each axis: `add_to` needs them.
     pub(crate) fn balance<const D: usize>(
         &self,
         grid: &BoxGrid<D>,

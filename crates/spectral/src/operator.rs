@@ -73,14 +73,14 @@ impl LameParameters {
 
 /// The operator L of Lu + f = 0, with f a force for each unit of volume.
 ///
-/// | operator | L u | −κ of a part along q | −κ of a part across q |
-/// |---|---|---|---|
-/// | `elastic` | μΔu + (λ + μ)∇(∇·u) | (λ + 2μ) q² | μ q² |
-/// | `membrane` | SΔu | S q² | S q² |
-/// | `plate` | −BΔ²u | B q⁴ | B q⁴ |
-///
-/// q is the wave vector, q_a = i_a π/L_a. A viscous fluid in creeping motion has the operator of an elastic solid, with
-/// the velocity in place of the displacement. Membrane and plate act on each component alone.
+/// ```text
+///            L u                        −κ of a part along q   −κ of a part across q
+/// elastic    μΔu + (λ + μ)∇(∇·u)        (λ + 2μ) q²            μ q²
+/// membrane   S Δu                       S q²                   S q²
+/// plate      −B Δ²u                     B q⁴                   B q⁴
+/// ```
+/// q is the wave vector: π times index over side for each axis. A viscous fluid in creeping motion has the operator of an
+/// elastic solid, with the velocity in place of the displacement. Membrane and plate act on each component alone.
 ///
 /// # Example
 /// ```
@@ -109,7 +109,7 @@ impl BoxOperator {
         Self { stiffnesses, order: 1, lame: Some(lame) }
     }
 
-    /// SΔu: a membrane with tension S.
+    /// S Δu: a membrane with tension S.
     ///
     /// # Errors
     /// S not finite, or 0 < S violated.
@@ -118,7 +118,7 @@ impl BoxOperator {
         Ok(Self { stiffnesses: [tension; 2], order: 1, lame: None })
     }
 
-    /// −BΔ²u: a thin plate with bending stiffness B, supported so that u or its normal derivative, and then the same of
+    /// −B Δ²u: a thin plate with bending stiffness B, supported so that u or its normal derivative, and then the same of
     /// Δu, vanish at the walls.
     ///
     /// # Errors

@@ -88,7 +88,7 @@ impl<T: Precision, const D: usize> Plans<T, D> {
                         self.one_slab(component, direction, samples, name.map(|name| (name, index * slab)), memory)
                     },
                 )
-                .reduce(|| Ok(()), |first, second| first.and(second));
+                .reduce(|| Ok(()), Result::and);
         }
         for (index, samples) in field.chunks_mut(slab).enumerate() {
             self.one_slab(component, direction, samples, name.map(|name| (name, index * slab)), memory)?;
@@ -340,9 +340,9 @@ impl<T: Precision, R: Rows<T>, const D: usize> Kernel for Columns<'_, T, R, D> {
             }
             if task == Task::Solve {
                 let mut panels = memory.panels.chunks_exact_mut(points);
-                let panels = std::array::from_fn(|_| panels.next().unwrap_or_default());
+                let mut panels = std::array::from_fn(|_| panels.next().unwrap_or_default());
                 let (row, first) = if D == 3 { (piece, first) } else { (0, piece * plans.piece() + first) };
-                modes.solve_panel(row, first, panels);
+                modes.solve_panel(row, first, &mut panels);
             }
             for component in 0..D {
                 let panel = &mut memory.panels[component * points..(component + 1) * points];

@@ -1,7 +1,7 @@
 //! Static solutions on a grid.
 
 use crate::Precision;
-use crate::basis::ModalSeries;
+use crate::basis::{ModalSeries, is_same_box};
 use crate::error::{SpectralError, check_length};
 use crate::grid::{BoxGrid, PointLocation};
 use crate::lift::NormalForces;
@@ -22,7 +22,7 @@ use crate::waves::AxisWaves;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WallForces<const D: usize> {
-    /// The largest |f·n| on the walls at x_a = 0 and x_a = L, for each axis a, N/m³.
+    /// The largest |f·n| on the near and the far wall of each axis, N/m³.
     pub largest: [[f64; 2]; D],
 }
 
@@ -220,9 +220,7 @@ impl<T: Precision, const D: usize> BoxSolver<T, D> {
     pub fn sample_into(&mut self, series: &ModalSeries<D>, fields: [&mut [T]; D]) -> Result<(), SpectralError> {
         let mut fields = fields;
         self.check_lengths("field", &fields)?;
-        let sides = self.grid.sides();
-        let is_same = (0..D).all(|axis| (series.sides()[axis] - sides[axis]).abs() <= 8.0 * f64::EPSILON * sides[axis]);
-        if !is_same || series.walls() != self.walls {
+        if !is_same_box(&series.sides(), &self.grid.sides()) || series.walls() != self.walls {
             return Err(SpectralError::OtherGrid { quantity: "series" });
         }
         let scale: f64 = (0..D).map(|axis| 2.0 / self.grid.intervals(axis) as f64).product();
@@ -249,7 +247,7 @@ impl<T: Precision, const D: usize> BoxSolver<T, D> {
         Some((indices, factor))
     }
 
-    /// The gradient of sampled fields: ∂u_c/∂x_b into `gradient[c][b]`, exact for the sum of modes that interpolates the
+    /// The gradient of sampled fields, the derivative of component c along axis b into `gradient[c][b]`: exact for the sum of modes that interpolates the
     /// samples.
     ///
     /// # Errors
@@ -314,7 +312,7 @@ impl<T: Precision, const D: usize> BoxSolver<T, D> {
         Ok(())
     }
 
-    /// ∂u_c/∂x_b into `gradient[c][b]`, with lengths that have been checked.
+    /// The derivative of component c along axis b into `gradient[c][b]`, with lengths that have been checked.
     pub(crate) fn differentiate(&mut self, fields: [&[T]; D], gradient: &mut [[Vec<T>; D]; D]) {
         for component in 0..D {
             for axis in 0..D {

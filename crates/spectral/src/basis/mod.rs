@@ -4,6 +4,7 @@ mod point_force;
 mod series;
 
 pub use series::ModalSeries;
+pub(crate) use series::is_same_box;
 
 use std::f64::consts::PI;
 
@@ -43,7 +44,7 @@ impl Polarisation {
     }
 }
 
-/// The eigenfunctions of μΔu + (λ + μ)∇(∇·u) on [0, L₁] × … × [0, L_D] between sliding walls, orthonormal.
+/// The eigenfunctions of μΔu + (λ + μ)∇(∇·u) on a box with sides L₁, L₂, L₃ between sliding walls, orthonormal.
 ///
 /// ```text
 /// φ₁ = α₁ ( n₁ scc,  n₂ csc,  n₃ ccs)

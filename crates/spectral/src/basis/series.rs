@@ -12,7 +12,7 @@ use crate::walls::{Parity, Walls};
 /// ```text
 /// u_c(x) = Σ a_c(i) Π_b sc(i_b π x_b/L_b),   0 ≤ i_b ≤ N_b,
 /// ```
-/// with a sine or a cosine for each axis and component as the walls demand. For each index the D amplitudes a_c are
+/// with a sine or a cosine for each axis and component as the walls demand. For each index the D amplitudes `a_c` are
 /// the same numbers as the D coefficients of the eigenfunctions φ, turned.
 ///
 /// # Example
@@ -76,10 +76,12 @@ impl<const D: usize> ModalSeries<D> {
     ) -> Result<Self, SpectralError> {
         let mut series = Self::zeros(sides, walls, highest)?;
         let rule = gauss_rule(nodes)?;
-        let mut values: [Vec<f64>; D] = std::array::from_fn(|_| Vec::with_capacity(nodes.pow(D as u32)));
-        for point in 0..nodes.pow(D as u32) {
+        let strides: [usize; D] = std::array::from_fn(|axis| (axis + 1..D).fold(1, |product, _| product * nodes));
+        let count = strides[0] * nodes;
+        let mut values: [Vec<f64>; D] = std::array::from_fn(|_| Vec::with_capacity(count));
+        for point in 0..count {
             let place = std::array::from_fn(|axis| {
-                let index = point / nodes.pow((D - 1 - axis) as u32) % nodes;
+                let index = point / strides[axis] % nodes;
                 sides[axis] * rule[index][0]
             });
             let value = function(place);
@@ -174,7 +176,7 @@ impl<const D: usize> ModalSeries<D> {
         polarisation: Polarisation,
         indices: [usize; D],
     ) -> Result<f64, SpectralError> {
-        if self.walls != Walls::Sliding || self.sides != basis.sides() {
+        if self.walls != Walls::Sliding || !is_same_box(&self.sides, &basis.sides()) {
             return Err(SpectralError::OtherGrid { quantity: "basis" });
         }
         let unit = basis.amplitudes(polarisation, indices)?;
@@ -210,7 +212,7 @@ impl<const D: usize> ModalSeries<D> {
         Ok(std::array::from_fn(|component| self.sum(component, place, None)))
     }
 
-    /// ∂u_c/∂x_b in row c, column b.
+    /// The derivative of component c along axis b in row c, column b.
     ///
     /// # Errors
     /// A place that is not finite.
@@ -401,6 +403,11 @@ impl<const D: usize> ModalSeries<D> {
         }
         values[0]
     }
+}
+
+/// Whether two boxes have the same sides, but for the rounding of points times spacing.
+pub(crate) fn is_same_box(one: &[f64], other: &[f64]) -> bool {
+    one.iter().zip(other).all(|(one, other)| (one - other).abs() <= 8.0 * f64::EPSILON * one)
 }
 
 /// λ tr ε 1 + 2μ ε.

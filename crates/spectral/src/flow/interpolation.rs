@@ -17,7 +17,9 @@ pub(crate) fn interpolate<T: Precision, const D: usize>(
         let offset = if grid.location() == PointLocation::Cells { 0.5 } else { 0.0 };
         let x = place[axis] / grid.spacings()[axis] - offset;
         // Far beyond the walls is a user's matter; the index stays in range.
+        // Counted from two points before the first, so that it is no negative number.
         let first = x.floor().clamp(-1.0, points[axis] as f64);
+        let shifted = whole(first + 2.0);
         let t = x - first;
         let weights = [
             -t * (t - 1.0) * (t - 2.0) / 6.0,
@@ -27,13 +29,13 @@ pub(crate) fn interpolate<T: Precision, const D: usize>(
         ];
         let parity = walls.parity(component, axis);
         std::array::from_fn(|k| {
-            let (index, is_mirrored) = mirrored(first as i64 + k as i64 - 1, points[axis] as i64, grid.location());
+            let (index, is_mirrored) = mirrored(shifted + k, points[axis], grid.location());
             let sign = if is_mirrored && parity == Parity::Sine { -1.0 } else { 1.0 };
             (index, sign * weights[k])
         })
     });
     let mut sum = 0.0;
-    for corner in 0..4_usize.pow(D as u32) {
+    for corner in 0..(if D == 3 { 64 } else { 16 }) {
         let (mut position, mut weight, mut rest) = (0, 1.0, corner);
         for axis in 0..D {
             let (index, factor) = stencils[axis][rest % 4];
@@ -46,16 +48,27 @@ pub(crate) fn interpolate<T: Precision, const D: usize>(
     sum
 }
 
-/// The point that a point beyond the walls mirrors, and whether it does.
-fn mirrored(index: i64, points: i64, location: PointLocation) -> (usize, bool) {
+/// A small whole number that is not negative.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "between 1 and the points of an axis plus 2"
+)]
+fn whole(value: f64) -> usize {
+    value as usize
+}
+
+/// The point that a point beyond the walls mirrors, and whether it does. `shifted` is the index plus 3.
+fn mirrored(shifted: usize, points: usize, location: PointLocation) -> (usize, bool) {
+    // Cells mirror −1 to 0, nodes to 1; at the other end n to n − 1 or n − 2.
     let (low, high) = match location {
-        PointLocation::Cells => (-1 - index, 2 * points - 1 - index),
-        PointLocation::Nodes => (-index, 2 * (points - 1) - index),
+        PointLocation::Cells => (2, 2 * points + 2),
+        PointLocation::Nodes => (3, 2 * points + 1),
     };
-    let (index, is_mirrored) = match index {
-        index if index < 0 => (low, true),
-        index if points <= index => (high, true),
-        index => (index, false),
+    let (index, is_mirrored) = match shifted {
+        shifted if shifted < 3 => (low - shifted.min(low), true),
+        shifted if points + 3 <= shifted => (high.saturating_sub(shifted), true),
+        shifted => (shifted - 3, false),
     };
-    (usize::try_from(index.clamp(0, points - 1)).unwrap_or(0), is_mirrored)
+    (index.min(points - 1), is_mirrored)
 }

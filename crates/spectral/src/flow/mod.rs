@@ -20,7 +20,7 @@ pub(crate) use interpolation::interpolate;
 pub struct FlowReport {
     /// The least det(1 − ∇u) at the points of the grid, of the displacement since the last regridding.
     pub least_jacobian: f64,
-    /// The largest h|v_a|/Δx_a: steps beyond about 0.8 are unstable.
+    /// The largest Courant number, h times speed over spacing along an axis: steps beyond about 0.8 are unstable.
     pub largest_courant_number: f64,
     /// Whether the displacement so far was put away before the step.
     pub was_regridded: bool,
@@ -201,9 +201,9 @@ impl<T: Precision, const D: usize> ViscousFlow<T, D> {
     ///
     /// # Errors
     /// A list of the wrong length.
-    pub fn total_displacement_into(&self, out: [&mut [T]; D]) -> Result<(), SpectralError> {
+    pub fn total_displacement_into(&self, out: &mut [Vec<T>; D]) -> Result<(), SpectralError> {
         let grid = self.solver.grid();
-        for out in &out {
+        for out in out.iter() {
             check_length("displacement", out.len(), grid.len())?;
         }
         for point in 0..grid.len() {
@@ -256,12 +256,11 @@ impl<T: Precision, const D: usize> ViscousFlow<T, D> {
                 }
             }
             let jacobian = piola_numerics::linear::matrix3::determinant(f);
-            // A value that is no number counts as folded.
-            if !(least.0 <= jacobian) {
+            if jacobian.is_nan() {
+                return (f64::NEG_INFINITY, point); // overflow: folded
+            }
+            if jacobian < least.0 {
                 least = (jacobian, point);
-                if jacobian.is_nan() {
-                    return (f64::NEG_INFINITY, point);
-                }
             }
         }
         least

@@ -2,7 +2,7 @@
 
 mod oscillator;
 
-use crate::basis::ModalSeries;
+use crate::basis::{ModalSeries, is_same_box};
 use crate::error::{SpectralError, check_bound};
 use crate::operator::{BoxOperator, LameParameters};
 
@@ -106,7 +106,7 @@ impl<const D: usize> ModalMotion<D> {
             let q = self.displacement.wave_vector(indices);
             let squared: f64 = q.iter().map(|q| q * q).sum();
             let propagators = match last {
-                Some((before, propagators)) if before == squared => propagators,
+                Some((before, propagators)) if before.to_bits() == squared.to_bits() => propagators,
                 _ => {
                     self.operator.eigenvalues(squared).map(|kappa| Propagator::new(self.density, self.drag, -kappa, h))
                 }
@@ -167,6 +167,7 @@ fn check_same<const D: usize>(
     other: &ModalSeries<D>,
     quantity: &'static str,
 ) -> Result<(), SpectralError> {
-    let is_same = one.sides() == other.sides() && one.walls() == other.walls() && one.highest() == other.highest();
+    let is_same =
+        is_same_box(&one.sides(), &other.sides()) && one.walls() == other.walls() && one.highest() == other.highest();
     if is_same { Ok(()) } else { Err(SpectralError::OtherGrid { quantity }) }
 }

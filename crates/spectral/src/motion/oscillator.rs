@@ -123,14 +123,16 @@ impl Decay {
         forced
     }
 
-    /// Σ_n S⁽ⁿ⁾(0) m!/(n + m + 1)! h^{n+m+1}, for slow oscillators.
+    /// The sum over n of S⁽ⁿ⁾(0) m!/(n + m + 1)! h^{n+m+1}, for slow oscillators.
     fn series(self, displacement: &mut [f64; DEGREE + 1]) {
         let Self { half_damping, squared, h, .. } = self;
+        let mut power = h * h;
         for (m, sum) in displacement.iter_mut().enumerate() {
             // The derivatives of S times h^{n−1}: 0, 1, −2γh, …
             let (mut derivative, mut next) = (0.0, 1.0);
             // m! h^{m+2}/(n + m + 1)! for n = 0.
-            let mut factor = h.powi(m as i32 + 2) / (m as f64 + 1.0);
+            let mut factor = power / (m as f64 + 1.0);
+            power *= h;
             for n in 0..40_i32 {
                 *sum += factor * derivative;
                 factor /= f64::from(n) + m as f64 + 2.0;
@@ -145,9 +147,11 @@ fn moments(rate: f64, h: f64) -> [f64; DEGREE + 1] {
     let mut moments = [0.0; DEGREE + 1];
     let z = rate * h;
     if z < 1.0 {
+        let mut power = h;
         // h^{m+1} m! Σ_n (−z)^n/(n + m + 1)!
         for (m, moment) in moments.iter_mut().enumerate() {
-            let mut term = h.powi(m as i32 + 1) / (m as f64 + 1.0);
+            let mut term = power / (m as f64 + 1.0);
+            power *= h;
             for n in 0..24 {
                 *moment += term;
                 term *= -z / (f64::from(n) + m as f64 + 2.0);

@@ -4,7 +4,7 @@
 //! to modes:    X_i = Σ_m x_m cos(iπ(m + ½)/n)                   i = 0 … n − 1
 //! to samples:  y_m = ½X_0 + Σ_{0<i} X_i cos(iπ(m + ½)/n)        (n/2 times the inverse)
 //! ```
-//! Those of sines have index n in the place of index 0. They are the same transforms of (−1)^m x_m with the slots i and
+//! Those of sines have index n in the place of index 0. They are the same transforms of the samples with alternating signs, with the slots i and
 //! n − i exchanged.
 //!
 //! Even lengths: the even samples, then the odd ones backwards, are the real and imaginary parts of n/2 complex numbers

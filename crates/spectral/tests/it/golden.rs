@@ -20,8 +20,12 @@ fn family(value: &Value) -> Polarisation {
     }
 }
 
+fn whole(value: &Value) -> usize {
+    value.as_u64().and_then(|value| value.try_into().ok()).expect("a whole number")
+}
+
 fn indices<const D: usize>(value: &Value) -> [usize; D] {
-    let numbers: Vec<usize> = golden::vector(value).iter().map(|&index| index as usize).collect();
+    let numbers: Vec<usize> = value.as_array().expect("indices").iter().map(whole).collect();
     numbers.try_into().expect("D indices")
 }
 
@@ -86,7 +90,7 @@ fn displacements<const D: usize>(case: &Value) -> usize {
     let basis = Eigenbasis::<D>::new([1.0; D], lame()).expect("basis");
     let mut compared = 0;
     for truncation in case["output"]["truncations"].as_array().expect("truncations") {
-        let highest = golden::number(&truncation["N"]) as usize;
+        let highest = whole(&truncation["N"]);
         // Gauss's rule resolves the product of the narrowest bell with the highest wave.
         let nodes = highest + 48;
         let function = |place| force::<D>(case, place);

@@ -9,6 +9,7 @@ mod golden;
 mod modes;
 mod motion;
 mod orders;
+mod periodic;
 mod refusals;
 mod statics;
 

@@ -97,7 +97,7 @@ fn flows_that_fold_in_one_step_are_refused() {
     let fast: Vec<f64> = (0..256).map(|p| (std::f64::consts::PI * grid.position(grid.indices(p))[0]).sin()).collect();
     let rest = vec![0.0; 256];
     let refused = flow.step([&fast, &rest], 0.4);
-    assert!(matches!(refused, Err(SpectralError::Folded { jacobian, bound, .. }) if bound == 0.5 && jacobian < 0.5));
+    assert!(matches!(refused, Err(SpectralError::Folded { jacobian, bound, .. }) if jacobian < 0.5 && 0.5 <= bound));
     assert!(flow.displacement().iter().all(|list| list.iter().all(|u| *u == 0.0)), "as before the step");
     let mut bad = rest.clone();
     bad[17] = f64::INFINITY;
