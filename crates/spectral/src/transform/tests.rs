@@ -1,3 +1,5 @@
+//! Transforms of lines of all lengths against their sums.
+
 use std::f64::consts::PI;
 
 use piola_testkit::{Tol, assert_close_at_scale};
