@@ -76,6 +76,7 @@
 //! | exact solutions of nonlinear elasticity | [`solutions`] | `solutions` |
 //! | parameters of laws from measurements | [`fit`] | `fit` |
 //! | materially uniform bodies, dislocations, residual stress | [`uniformity`] | `uniformity` |
+//! | elastic and viscous fields on a box | [`spectral`] | `spectral` |
 //!
 //! The feature `dynamics` is `lagrangian`, `hamiltonian` and `gravitation`; `constitutive` is `solids` and `fluids`.
 //!
@@ -113,6 +114,8 @@ pub use piola_solids as solids;
 pub use piola_solutions as solutions;
 #[cfg(feature = "specimens")]
 pub use piola_specimens as specimens;
+#[cfg(feature = "spectral")]
+pub use piola_spectral as spectral;
 #[cfg(feature = "tensor")]
 pub use piola_tensor as tensor;
 #[cfg(feature = "uniformity")]

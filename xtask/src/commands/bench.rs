@@ -56,7 +56,7 @@ pub(super) const COMMAND: Command = Command {
 };
 
 /// Each is a file of that name in `benches/benches`, and its group has the same name.
-const GROUPS: [&str; 12] = [
+const GROUPS: [&str; 13] = [
     "numerics",
     "nbody",
     "lagrangian",
@@ -69,6 +69,7 @@ const GROUPS: [&str; 12] = [
     "viscometry",
     "solutions",
     "uniformity",
+    "spectral",
 ];
 
 /// What to tell cargo: the one bench whose name begins the filter, or all of them.

@@ -35,7 +35,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("fit", &["specimens", "viscometry"]),
     ("solutions", &["solids", "fields", "integrators"]),
     ("uniformity", &["solids", "fields", "integrators"]),
-    ("spectral", &["fields"]),
+    // integrators in its tests alone: modal motion against an adaptive integration.
+    ("spectral", &["fields", "integrators"]),
     ("registration", &["spectral"]),
     ("piola", MECHANICS),
     ("scene", MECHANICS),
