@@ -14,7 +14,7 @@ mod motion;
 mod operator;
 mod passes;
 mod periodic;
-mod precision;
+
 mod solver;
 mod transform;
 mod walls;
@@ -27,6 +27,6 @@ pub use grid::{BoxGrid, PointLocation};
 pub use motion::ModalMotion;
 pub use operator::{BoxOperator, LameParameters};
 pub use periodic::PeriodicSolver;
-pub use precision::Precision;
 pub use solver::{BoxSolver, WallForces};
+pub use transform::Precision;
 pub use walls::{Parity, Walls};

@@ -10,13 +10,14 @@ mod cosine;
 mod fft;
 mod library;
 mod nodal;
+mod precision;
 
 use piola_numerics::{Kernel, Lanes};
 use rustfft::num_complex::Complex;
 
-use crate::Precision;
 use crate::grid::PointLocation;
 use crate::walls::Parity;
+pub use precision::Precision;
 
 use cosine::CosinePlan;
 use library::LibraryPlan;

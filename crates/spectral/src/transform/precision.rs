@@ -20,7 +20,7 @@ impl Precision for f64 {}
 pub(crate) mod sealed {
     use piola_numerics::dispatch;
 
-    use crate::transform::InLanes;
+    use super::super::InLanes;
 
     /// Runs transforms in code that is compiled in this crate.
     pub trait Transforms: Sized {
