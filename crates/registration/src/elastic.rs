@@ -18,7 +18,7 @@ use crate::model::RegistrationModel;
 use crate::operator::Response;
 use crate::parallel::{each, sum};
 use crate::standin::Precision;
-use crate::step::{Bounds, Step};
+use crate::step::{Bounds, SHRINKING, SHRINKINGS, Step, scale};
 
 /// Armijo's share of the decrease that the slope promises.
 const SUFFICIENT: f64 = 1e-4;
@@ -102,7 +102,17 @@ impl<const D: usize, T: Precision> ElasticState<D, T> {
     }
 
     /// Compares the images at the first state of a level.
-    pub(crate) fn begin(&mut self, alignment: &mut Alignment<D, T>) -> f64 {
+    ///
+    /// The finer grid may see a fold where the coarser one saw none: the displacement is then made smaller.
+    pub(crate) fn begin(&mut self, alignment: &mut Alignment<D, T>, bounds: &Bounds) -> f64 {
+        for _ in 0..SHRINKINGS {
+            if bounds.least_jacobian <= self.least_jacobian(&alignment.grid, &self.displacement) {
+                break;
+            }
+            for field in [&mut self.displacement, &mut self.body_force] {
+                scale(field, SHRINKING);
+            }
+        }
         self.measure = warped_measure(alignment, &self.displacement, self.factors);
         self.measure
     }
@@ -152,12 +162,7 @@ impl<const D: usize, T: Precision> ElasticState<D, T> {
         for _ in 0..bounds.halvings {
             self.scratch.copy_from_slice(&self.displacement);
             combine(&mut self.scratch, 1.0, length, &self.direction);
-            let least = self
-                .factors
-                .into_iter()
-                .filter(|factor| factor.abs() > 0.0)
-                .map(|factor| least_jacobian(&grid, &self.scratch, factor))
-                .fold(f64::INFINITY, f64::min);
+            let least = self.least_jacobian(&grid, &self.scratch);
             let mut shorter = 0.5 * length;
             if bounds.least_jacobian <= least {
                 let measure = warped_measure(alignment, &self.scratch, self.factors);
@@ -180,11 +185,17 @@ impl<const D: usize, T: Precision> ElasticState<D, T> {
         Ok(None)
     }
 
+    /// The least Jacobian of the maps with the displacement `field`.
+    fn least_jacobian(&self, grid: &ImageGrid<D>, field: &[[T; D]]) -> f64 {
+        let factors = self.factors.into_iter().filter(|factor| factor.abs() > 0.0);
+        factors.map(|factor| least_jacobian(grid, field, factor)).fold(f64::INFINITY, f64::min)
+    }
+
     /// From the fixed image to the moving one, and the two halves composed.
     pub(crate) fn map(&self, grid: &ImageGrid<D>) -> Result<DisplacementMap<D, T>, RegistrationError> {
         let part = |factor: f64| {
             let mut displacements = self.displacement.clone();
-            combine(&mut displacements, factor, 0.0, &self.displacement);
+            scale(&mut displacements, factor);
             DisplacementMap { grid: *grid, displacements }
         };
         let moving = part(self.factors[1]);

@@ -19,7 +19,7 @@ use crate::model::RegistrationModel;
 use crate::operator::Response;
 use crate::parallel::each;
 use crate::standin::Precision;
-use crate::step::{Bounds, Step};
+use crate::step::{Bounds, SHRINKING, SHRINKINGS, Step, scale};
 
 /// The displacements of one image.
 struct Carried<const D: usize, T> {
@@ -115,7 +115,23 @@ impl<const D: usize, T: Precision> FluidState<D, T> {
     }
 
     /// Compares the images at the first state of a level.
-    pub(crate) fn begin(&mut self, alignment: &mut Alignment<D, T>) -> f64 {
+    ///
+    /// The finer grid may see a fold where the coarser one saw none: the displacement is then made smaller.
+    pub(crate) fn begin(&mut self, alignment: &mut Alignment<D, T>, bounds: &Bounds) -> f64 {
+        for side in std::iter::once(&mut self.moving).chain(&mut self.fixed) {
+            for _ in 0..SHRINKINGS {
+                if bounds.least_jacobian <= least_jacobian(&alignment.grid, &side.whole, 1.0) {
+                    break;
+                }
+                scale(&mut side.whole, SHRINKING);
+                side.regrid();
+            }
+        }
+        self.compare(alignment)
+    }
+
+    /// Warps the images by the state, and compares them.
+    fn compare(&mut self, alignment: &mut Alignment<D, T>) -> f64 {
         if let Some(fixed) = &self.fixed {
             alignment.warp(Side::Fixed, &fixed.whole, 1.0);
         }
@@ -172,7 +188,7 @@ impl<const D: usize, T: Precision> FluidState<D, T> {
             }
             length *= 0.5;
         }
-        self.begin(alignment);
+        self.compare(alignment);
         Ok(None)
     }
 

@@ -231,7 +231,7 @@ impl Registration {
             };
             let mut report = LevelReport {
                 grid,
-                measures: [current.begin(&mut alignment); 2],
+                measures: [current.begin(&mut alignment, &bounds); 2],
                 steps: 0,
                 regriddings: 0,
                 ending: RegistrationEnding::StepsTaken,
@@ -345,10 +345,10 @@ impl<const D: usize, T: Precision> State<D, T> {
         })
     }
 
-    fn begin(&mut self, alignment: &mut Alignment<D, T>) -> f64 {
+    fn begin(&mut self, alignment: &mut Alignment<D, T>, bounds: &Bounds) -> f64 {
         match self {
-            Self::Elastic(state) => state.begin(alignment),
-            Self::Fluid(state) => state.begin(alignment),
+            Self::Elastic(state) => state.begin(alignment, bounds),
+            Self::Fluid(state) => state.begin(alignment, bounds),
         }
     }
 

@@ -1,5 +1,25 @@
 //! What steps of both models take and return.
 
+use piola_numerics::Real;
+
+use crate::parallel::each;
+
+/// The factor of a displacement that folds on a finer grid.
+pub(crate) const SHRINKING: f64 = 0.97;
+
+/// How often it is applied at most: the displacement is then 10⁻⁵ of what it was.
+pub(crate) const SHRINKINGS: usize = 400;
+
+/// Multiplies a field.
+pub(crate) fn scale<const D: usize, T: Real>(field: &mut [[T; D]], factor: f64) {
+    let factor = T::lit(factor);
+    each(field, &|_, part: &mut [[T; D]]| {
+        for component in part.as_flattened_mut() {
+            *component *= factor;
+        }
+    });
+}
+
 /// Limits of a step.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bounds {
