@@ -7,6 +7,7 @@
 //! Ribière) are taken in the inner product of the energy: the gradient there is u minus the response to f, one solution for each step.
 
 use piola_numerics::Real;
+use piola_spectral::Precision;
 
 use crate::alignment::Alignment;
 use crate::error::RegistrationError;
@@ -17,7 +18,6 @@ use crate::measure::Side;
 use crate::model::RegistrationModel;
 use crate::operator::Response;
 use crate::parallel::{each, sum};
-use crate::standin::Precision;
 use crate::step::{Bounds, SHRINKING, SHRINKINGS, Step, scale};
 
 /// Armijo's share of the decrease that the slope promises.

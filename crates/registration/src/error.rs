@@ -1,6 +1,7 @@
 //! Violated conditions of registration: each variant names one and holds the numbers.
 
 use piola_numerics::{Mask, Real};
+use piola_spectral::SpectralError;
 
 /// A violated condition on images, grids, maps or the parameters of a registration.
 ///
@@ -101,6 +102,18 @@ pub enum RegistrationError {
         /// The least determinant.
         least: f64,
     },
+    /// The solver of Lu + f = 0 refuses the grid, the operator or the force.
+    #[error(transparent)]
+    Spectral(SpectralError),
+}
+
+impl From<SpectralError> for RegistrationError {
+    fn from(error: SpectralError) -> Self {
+        match error {
+            SpectralError::NotFinite { quantity, index, value } => Self::NotFinite { quantity, index, value },
+            other => Self::Spectral(other),
+        }
+    }
 }
 
 /// Refuses the first number that is infinite or NaN.

@@ -8,6 +8,7 @@
 //! is kept and u begins again from zero (regridding): the map is then x ↦ h₁(h₂(… (x − u))).
 
 use piola_numerics::Real;
+use piola_spectral::Precision;
 
 use crate::alignment::Alignment;
 use crate::error::RegistrationError;
@@ -18,7 +19,6 @@ use crate::measure::Side;
 use crate::model::RegistrationModel;
 use crate::operator::Response;
 use crate::parallel::each;
-use crate::standin::Precision;
 use crate::step::{Bounds, SHRINKING, SHRINKINGS, Step, scale};
 
 /// The displacements of one image.

@@ -17,7 +17,6 @@ mod parallel;
 mod pyramid;
 mod registration;
 mod sampler;
-mod standin;
 mod step;
 
 pub use error::RegistrationError;
@@ -26,5 +25,6 @@ pub use image::Image;
 pub use map::DisplacementMap;
 pub use measure::SimilarityMeasure;
 pub use model::RegistrationModel;
+pub use piola_spectral::Precision;
 pub use registration::{LevelReport, Registered, Registration, RegistrationEnding, RegistrationProgress};
 pub use sampler::{ImageSampler, Interpolant};

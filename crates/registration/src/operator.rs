@@ -1,14 +1,16 @@
 //! The operator of the model: from forces to displacements or velocities.
 
+use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, LameParameters, Precision, Walls};
+
 use crate::error::RegistrationError;
 use crate::grid::ImageGrid;
 use crate::model::RegistrationModel;
 use crate::parallel::each;
-use crate::standin::{Precision, Standin};
 
+#[derive(Debug)]
 /// The solver of Lu + f = 0 on a grid, with its memory.
 pub(crate) struct Response<const D: usize, T> {
-    solver: Standin<T, D>,
+    solver: BoxSolver<T, D>,
     components: [Vec<T>; D],
 }
 
@@ -16,7 +18,8 @@ impl<const D: usize, T: Precision> Response<D, T> {
     /// Plans the solution for `model` on `grid`.
     pub(crate) fn new(grid: &ImageGrid<D>, model: &RegistrationModel) -> Result<Self, RegistrationError> {
         let [first, shear] = model.parameters();
-        let solver = Standin::new(grid.sizes(), grid.sides(), first, shear);
+        let operator = BoxOperator::elastic(LameParameters::new(first, shear)?);
+        let solver = BoxSolver::new(BoxGrid::cells(grid.sizes(), grid.spacing())?, Walls::Sliding, operator)?;
         Ok(Self { solver, components: std::array::from_fn(|_| vec![T::zero(); grid.len()]) })
     }
 
@@ -29,7 +32,7 @@ impl<const D: usize, T: Precision> Response<D, T> {
                 }
             });
         }
-        self.solver.solve_in_place(self.components.each_mut().map(|component| &mut component[..]));
+        self.solver.solve_in_place(self.components.each_mut().map(|component| &mut component[..]))?;
         let components = &self.components;
         each(out, &|start, part: &mut [[T; D]]| {
             for (position, vector) in (start..).zip(part) {

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use piola_spectral::Precision;
+
 use crate::alignment::Alignment;
 use crate::elastic::ElasticState;
 use crate::error::{RegistrationError, check_bound};
@@ -13,7 +15,6 @@ use crate::measure::SimilarityMeasure;
 use crate::model::RegistrationModel;
 use crate::pyramid::halved;
 use crate::sampler::Interpolant;
-use crate::standin::Precision;
 use crate::step::{Bounds, Step};
 
 /// Steps over which the decrease is compared with the tolerance.
