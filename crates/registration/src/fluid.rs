@@ -13,7 +13,7 @@ use piola_spectral::Precision;
 use crate::alignment::Alignment;
 use crate::error::RegistrationError;
 use crate::grid::ImageGrid;
-use crate::jacobian::{least_jacobian, least_nodal_jacobian};
+use crate::jacobian::least_jacobian;
 use crate::map::{DisplacementMap, compose, largest, sample, target};
 use crate::measure::Side;
 use crate::model::RegistrationModel;
@@ -56,7 +56,7 @@ impl<const D: usize, T: Real> Carried<D, T> {
             }
         });
         compose(grid, &self.before, &self.trial_stage, &mut self.trial_whole);
-        [least_nodal_jacobian(grid, &self.trial_stage), least_jacobian(grid, &self.trial_whole, 1.0)]
+        [least_jacobian(grid, &self.trial_stage, 1.0), least_jacobian(grid, &self.trial_whole, 1.0)]
     }
 
     fn accept(&mut self) {

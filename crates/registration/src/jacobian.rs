@@ -64,24 +64,6 @@ fn unit_minus<const D: usize, T: Real>(mut matrix: [[T; D]; D]) -> [[T; D]; D] {
     matrix
 }
 
-/// The least det(1 − ∇u) at the samples.
-pub(crate) fn least_nodal_jacobian<const D: usize, T: Real>(grid: &ImageGrid<D>, field: &[[T; D]]) -> f64 {
-    fold(
-        0..grid.len(),
-        &|start, range: std::ops::Range<usize>| {
-            let mut index = grid.index(start);
-            let mut least = f64::INFINITY;
-            for position in range {
-                let value = determinant(&unit_minus(slopes_at(grid, field, position, &index))).primal(0);
-                least = least.min(value);
-                advance(&mut index, &grid.sizes());
-            }
-            least
-        },
-        &f64::min,
-    )
-}
-
 /// det(1 − ∇u) at the samples.
 pub(crate) fn nodal_jacobian<const D: usize, T: Real>(grid: &ImageGrid<D>, field: &[[T; D]]) -> Vec<T> {
     let mut values = vec![T::zero(); grid.len()];
