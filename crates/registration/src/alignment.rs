@@ -2,10 +2,12 @@
 
 use piola_numerics::Real;
 
+use crate::error::RegistrationError;
+use crate::field::target;
 use crate::grid::{ImageGrid, advance};
 use crate::image::Image;
 use crate::jacobian::slopes_at;
-use crate::map::target;
+use crate::map::DisplacementMap;
 use crate::measure::{Comparison, Side, SimilarityMeasure};
 use crate::parallel::each;
 use crate::sampler::{ImageSampler, Interpolant};
@@ -123,5 +125,42 @@ impl<const D: usize, T: Real> Alignment<D, T> {
                 advance(&mut index, &grid.sizes());
             }
         });
+    }
+}
+
+impl SimilarityMeasure {
+    /// D of the fixed and the warped image, and its force f = −N ∂D/∂u on each of the N samples: the exact derivative.
+    ///
+    /// Means over the box of f·δu are minus the change of D, so f is a force per volume of the box. It drives both models.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of); `UnequalSizes` or `UnequalSpacings` where the grid of the map differs.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_registration::{DisplacementMap, Image, ImageGrid, Interpolant, SimilarityMeasure};
+    /// let grid = ImageGrid::new([4, 4], [1.0, 1.0])?;
+    /// let (fixed, moving) = (Image::from_fn(grid, |[_, x]| x)?, Image::from_fn(grid, |[_, x]| x + 1.0)?);
+    /// let rest = DisplacementMap::identity(grid);
+    /// let (measure, force) = SimilarityMeasure::SumOfSquares.force(&fixed, &moving, &rest, Interpolant::Linear)?;
+    /// assert!((measure - 0.4_f64).abs() < 1e-15); // 1/(2 · 1.25)
+    /// assert!((force[5][1] - 0.8_f64).abs() < 1e-15); // the moving image must go to greater x
+    /// # Ok::<(), piola_registration::RegistrationError>(())
+    /// ```
+    pub fn force<const D: usize, T: Real>(
+        self,
+        fixed: &Image<D, T>,
+        moving: &Image<D, T>,
+        map: &DisplacementMap<D, T>,
+        interpolant: Interpolant,
+    ) -> Result<(f64, Vec<[T; D]>), RegistrationError> {
+        self.of(fixed, moving)?;
+        fixed.grid().check_same(map.grid())?;
+        let mut alignment = Alignment::new(self, interpolant, fixed, moving);
+        alignment.warp(Side::Moving, map.displacements(), 1.0);
+        let measure = alignment.measure();
+        let mut force = vec![[T::zero(); D]; fixed.values().len()];
+        alignment.add_force(Side::Moving, 1.0, &mut force);
+        Ok((measure, force))
     }
 }

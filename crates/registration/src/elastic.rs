@@ -11,9 +11,10 @@ use piola_spectral::Precision;
 
 use crate::alignment::Alignment;
 use crate::error::RegistrationError;
+use crate::field::largest;
 use crate::grid::ImageGrid;
 use crate::jacobian::least_jacobian;
-use crate::map::{DisplacementMap, largest};
+use crate::map::DisplacementMap;
 use crate::measure::Side;
 use crate::model::RegistrationModel;
 use crate::operator::Response;

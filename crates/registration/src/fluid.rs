@@ -12,9 +12,10 @@ use piola_spectral::Precision;
 
 use crate::alignment::Alignment;
 use crate::error::RegistrationError;
+use crate::field::{compose, largest, sample, target};
 use crate::grid::ImageGrid;
 use crate::jacobian::least_jacobian;
-use crate::map::{DisplacementMap, compose, largest, sample, target};
+use crate::map::DisplacementMap;
 use crate::measure::Side;
 use crate::model::RegistrationModel;
 use crate::operator::Response;

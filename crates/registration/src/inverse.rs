@@ -2,9 +2,9 @@
 
 use piola_numerics::Real;
 
+use crate::field::sample;
 use crate::grid::{ImageGrid, advance};
 use crate::jacobian::{corners, determinant};
-use crate::map::sample;
 use crate::parallel::each;
 
 /// Steps of Newton's method; each squares the error, which begins at the second order in the spacing.

@@ -1,9 +1,11 @@
 //! Elastic and viscous-fluid registration of images in two and three dimensions.
+#![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
 mod alignment;
 mod elastic;
 mod error;
+mod field;
 mod fluid;
 mod grid;
 mod image;

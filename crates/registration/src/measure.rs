@@ -65,23 +65,6 @@ impl SimilarityMeasure {
         moving.check_contrast("moving")?;
         Ok(Comparison::new(self, fixed, moving).value(fixed.values(), moving.values()))
     }
-
-    /// N ∂D/∂b for each of the N samples b of `moving`: the derivative of D per share of the box.
-    ///
-    /// # Errors
-    /// As [`of`](Self::of).
-    pub fn slopes<const D: usize, T: Real>(
-        self,
-        fixed: &Image<D, T>,
-        moving: &Image<D, T>,
-    ) -> Result<Vec<T>, RegistrationError> {
-        self.of(fixed, moving)?;
-        let mut comparison = Comparison::new(self, fixed, moving);
-        let mut slopes = vec![T::zero(); fixed.values().len()];
-        comparison.value(fixed.values(), moving.values());
-        comparison.slopes(Side::Moving, fixed.values(), moving.values(), &mut slopes);
-        Ok(slopes)
-    }
 }
 
 /// With respect to which image a derivative is taken.
