@@ -67,7 +67,9 @@ pub enum SpectralError {
         family: usize,
     },
     /// A force that must balance itself does not: its mean pushes the whole body.
-    #[error("component {component} of the force has the mean {mean:e} beside the largest value {largest:e}: nothing holds the body")]
+    #[error(
+        "component {component} of the force has the mean {mean:e} beside the largest value {largest:e}: nothing holds the body"
+    )]
     UnbalancedForce {
         /// The component, from 0.
         component: usize,

@@ -3,7 +3,7 @@
 //! ```text
 //! u = f/(−κ_t) + q (q·f)/q² (1/(−κ_l) − 1/(−κ_t))
 //! ```
-//! κ_l and κ_t are the eigenvalues along and across the wave vector q. No eigenfunction is formed.
+//! `κ_l` and `κ_t` are the eigenvalues along and across the wave vector q. No eigenfunction is formed.
 
 use piola_numerics::Lanes;
 
@@ -18,7 +18,7 @@ use crate::waves::AxisWaves;
 pub(crate) struct Modes<T, const D: usize> {
     pub(crate) axes: [AxisWaves<T>; D],
     pub(crate) walls: Walls,
-    /// 1/(−κ_t) q^(2 order) and the difference from 1/(−κ_l) q^(2 order).
+    /// The compliance across q, times q^(2 order), and what that along q exceeds it by.
     compliances: [T; 2],
     is_plate: bool,
 }
@@ -34,7 +34,7 @@ impl<T: Precision, const D: usize> Modes<T, D> {
     /// Solves for the modes of a panel: index i along axis 0 runs over the entries, `row` is the index along the middle
     /// axis of three, and the lanes are the indices `first`, `first` + 1, … along the last axis.
     #[inline(always)]
-    pub(crate) fn solve_panel(&self, row: usize, first: usize, panels: [&mut [Line<T>]; D]) {
+    pub(crate) fn solve_panel(&self, row: usize, first: usize, panels: &mut [&mut [Line<T>]; D]) {
         let outer = &self.axes[0];
         let last = &self.axes[D - 1];
         let points = panels[0].len();

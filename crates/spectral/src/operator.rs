@@ -31,7 +31,11 @@ impl LameParameters {
         check_bound("μ", shear_modulus, "0 < μ", 0.0 < shear_modulus)?;
         let sum = first + 2.0 * shear_modulus;
         check_bound("λ + 2μ", sum, "", true)?;
-        if 0.0 < sum { Ok(Self { first, shear_modulus }) } else { Err(SpectralError::NotElliptic { first, shear_modulus }) }
+        if 0.0 < sum {
+            Ok(Self { first, shear_modulus })
+        } else {
+            Err(SpectralError::NotElliptic { first, shear_modulus })
+        }
     }
 
     /// From Young's modulus E and Poisson's ratio ν: λ = Eν/((1 + ν)(1 − 2ν)), μ = E/(2(1 + ν)).
@@ -69,14 +73,14 @@ impl LameParameters {
 
 /// The operator L of Lu + f = 0, with f a force for each unit of volume.
 ///
-/// | operator | L u | −κ of a part along q | −κ of a part across q |
-/// |---|---|---|---|
-/// | `elastic` | μΔu + (λ + μ)∇(∇·u) | (λ + 2μ) q² | μ q² |
-/// | `membrane` | SΔu | S q² | S q² |
-/// | `plate` | −BΔ²u | B q⁴ | B q⁴ |
-///
-/// q is the wave vector, q_a = i_a π/L_a. A viscous fluid in creeping motion has the operator of an elastic solid, with
-/// the velocity in place of the displacement. Membrane and plate act on each component alone.
+/// ```text
+///            L u                        −κ of a part along q   −κ of a part across q
+/// elastic    μΔu + (λ + μ)∇(∇·u)        (λ + 2μ) q²            μ q²
+/// membrane   S Δu                       S q²                   S q²
+/// plate      −B Δ²u                     B q⁴                   B q⁴
+/// ```
+/// q is the wave vector: π times index over side for each axis. A viscous fluid in creeping motion has the operator of an
+/// elastic solid, with the velocity in place of the displacement. Membrane and plate act on each component alone.
 ///
 /// # Example
 /// ```
@@ -105,7 +109,7 @@ impl BoxOperator {
         Self { stiffnesses, order: 1, lame: Some(lame) }
     }
 
-    /// SΔu: a membrane with tension S.
+    /// S Δu: a membrane with tension S.
     ///
     /// # Errors
     /// S not finite, or 0 < S violated.
@@ -114,7 +118,7 @@ impl BoxOperator {
         Ok(Self { stiffnesses: [tension; 2], order: 1, lame: None })
     }
 
-    /// −BΔ²u: a thin plate with bending stiffness B, supported so that u or its normal derivative, and then the same of
+    /// −B Δ²u: a thin plate with bending stiffness B, supported so that u or its normal derivative, and then the same of
     /// Δu, vanish at the walls.
     ///
     /// # Errors

@@ -38,6 +38,13 @@ pub(crate) struct Memory<T> {
     transform: TransformMemory<T>,
 }
 
+impl<T> Memory<T> {
+    /// A panel and the memory of its transforms.
+    pub(crate) fn parts(&mut self, points: usize) -> (&mut [Line<T>], &mut TransformMemory<T>) {
+        (&mut self.panels[..points], &mut self.transform)
+    }
+}
+
 impl<T: Precision, const D: usize> Plans<T, D> {
     /// The samples of a slab: a plane of a box, or up to eight lines of a rectangle.
     fn slab(&self) -> usize {
@@ -81,7 +88,7 @@ impl<T: Precision, const D: usize> Plans<T, D> {
                         self.one_slab(component, direction, samples, name.map(|name| (name, index * slab)), memory)
                     },
                 )
-                .reduce(|| Ok(()), |first, second| first.and(second));
+                .reduce(|| Ok(()), Result::and);
         }
         for (index, samples) in field.chunks_mut(slab).enumerate() {
             self.one_slab(component, direction, samples, name.map(|name| (name, index * slab)), memory)?;
@@ -216,11 +223,25 @@ impl<T: Precision, const D: usize> Kernel for Slab<'_, T, D> {
     }
 }
 
-/// Up to eight rows side by side.
+/// Up to eight rows side by side; eight whole rows by squares that fit the registers.
 #[inline(always)]
 fn gather_rows<T: Precision>(rows: &[T], length: usize, panel: &mut [Line<T>]) {
+    let is_whole = rows.len() == WIDTH * length;
+    let squares = if is_whole { length / WIDTH } else { 0 };
+    for square in 0..squares {
+        let mut block = [[T::lit(0.0); WIDTH]; WIDTH];
+        for (lane, block) in block.iter_mut().enumerate() {
+            let start = lane * length + square * WIDTH;
+            block.copy_from_slice(&rows[start..start + WIDTH]);
+        }
+        for (k, entry) in panel[square * WIDTH..(square + 1) * WIDTH].iter_mut().enumerate() {
+            for lane in 0..WIDTH {
+                entry.0[lane] = block[lane][k];
+            }
+        }
+    }
     for (lane, row) in rows.chunks_exact(length).enumerate() {
-        for (entry, value) in panel.iter_mut().zip(row) {
+        for (entry, value) in panel.iter_mut().zip(row).skip(squares * WIDTH) {
             entry.0[lane] = *value;
         }
     }
@@ -228,15 +249,29 @@ fn gather_rows<T: Precision>(rows: &[T], length: usize, panel: &mut [Line<T>]) {
 
 #[inline(always)]
 fn scatter_rows<T: Precision>(panel: &[Line<T>], length: usize, rows: &mut [T]) {
+    let is_whole = rows.len() == WIDTH * length;
+    let squares = if is_whole { length / WIDTH } else { 0 };
+    for square in 0..squares {
+        let mut block = [[T::lit(0.0); WIDTH]; WIDTH];
+        for (k, entry) in panel[square * WIDTH..(square + 1) * WIDTH].iter().enumerate() {
+            for lane in 0..WIDTH {
+                block[lane][k] = entry.0[lane];
+            }
+        }
+        for (lane, block) in block.iter().enumerate() {
+            let start = lane * length + square * WIDTH;
+            rows[start..start + WIDTH].copy_from_slice(block);
+        }
+    }
     for (lane, row) in rows.chunks_exact_mut(length).enumerate() {
-        for (entry, value) in panel.iter().zip(row) {
+        for (entry, value) in panel.iter().zip(row).skip(squares * WIDTH) {
             *value = entry.0[lane];
         }
     }
 }
 
 #[inline(always)]
-fn save<T: Precision>(entry: Line<T>, row: &mut [T], first: usize) {
+pub(crate) fn save<T: Precision>(entry: Line<T>, row: &mut [T], first: usize) {
     match row.get_mut(first..first + WIDTH) {
         Some(whole) => whole.copy_from_slice(&entry.0),
         None => entry.store(&mut row[first..]),
@@ -305,9 +340,9 @@ impl<T: Precision, R: Rows<T>, const D: usize> Kernel for Columns<'_, T, R, D> {
             }
             if task == Task::Solve {
                 let mut panels = memory.panels.chunks_exact_mut(points);
-                let panels = std::array::from_fn(|_| panels.next().unwrap_or_default());
+                let mut panels = std::array::from_fn(|_| panels.next().unwrap_or_default());
                 let (row, first) = if D == 3 { (piece, first) } else { (0, piece * plans.piece() + first) };
-                modes.solve_panel(row, first, panels);
+                modes.solve_panel(row, first, &mut panels);
             }
             for component in 0..D {
                 let panel = &mut memory.panels[component * points..(component + 1) * points];

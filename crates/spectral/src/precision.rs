@@ -25,16 +25,24 @@ pub(crate) mod sealed {
     /// Runs transforms in code that is compiled in this crate.
     pub trait Transforms: Sized {
         #[doc(hidden)]
+        fn unit_roundoff() -> f64;
+        #[doc(hidden)]
         fn transform(task: InLanes<'_, Self>);
     }
 
     impl Transforms for f32 {
+        fn unit_roundoff() -> f64 {
+            f64::from(Self::EPSILON)
+        }
         fn transform(task: InLanes<'_, Self>) {
             dispatch(task);
         }
     }
 
     impl Transforms for f64 {
+        fn unit_roundoff() -> f64 {
+            Self::EPSILON
+        }
         fn transform(task: InLanes<'_, Self>) {
             dispatch(task);
         }

@@ -23,9 +23,9 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Walls {
-    /// u·n = 0 and ∂u_t/∂n = 0.
+    /// The normal displacement and the normal derivative of the tangential one are zero.
     Sliding,
-    /// u_t = 0 and ∂(u·n)/∂n = 0.
+    /// The tangential displacement and the normal derivative of the normal one are zero.
     Guided,
 }
 

@@ -27,7 +27,8 @@ impl<T: Precision> AxisWaves<T> {
         let scale = 2.0 / grid.intervals(axis) as f64;
         let slots = points.next_multiple_of(WIDTH);
         let wave = (0..slots).map(|slot| T::lit(first * slot.max(usize::from(points <= slot)) as f64)).collect();
-        let weight = (0..slots).map(|slot| T::lit(if slot < points && slot <= highest { scale } else { 0.0 })).collect();
+        let weight =
+            (0..slots).map(|slot| T::lit(if slot < points && slot <= highest { scale } else { 0.0 })).collect();
         Self { wave, weight, points, first, scale, highest, location: grid.location() }
     }
 
@@ -56,12 +57,17 @@ impl<T: Precision> AxisWaves<T> {
         T::lit(self.first * index as f64)
     }
 
-    /// What a transform to modes multiplies the amplitude of an index by.
-    pub(crate) fn gain(&self, index: usize, parity: Parity) -> f64 {
-        let ends = match self.location {
+    /// What a derivative multiplies the result of a transform by, with the transform back.
+    pub(crate) fn derivative(&self, slot: usize) -> T {
+        T::lit(self.scale * self.first * slot as f64)
+    }
+
+    /// What the result of a transform to modes must be multiplied by to give the amplitude of an index.
+    pub(crate) fn amplitude(&self, index: usize, parity: Parity) -> f64 {
+        let is_end = match self.location {
             PointLocation::Cells => index == 0 || index == self.points,
             PointLocation::Nodes => parity == Parity::Cosine && (index == 0 || index + 1 == self.points),
         };
-        if ends { 2.0 / self.scale } else { 1.0 / self.scale }
+        if is_end { 0.5 * self.scale } else { self.scale }
     }
 }

@@ -4,7 +4,7 @@
 //! to modes:    X_i = Σ_m x_m cos(iπ(m + ½)/n)                   i = 0 … n − 1
 //! to samples:  y_m = ½X_0 + Σ_{0<i} X_i cos(iπ(m + ½)/n)        (n/2 times the inverse)
 //! ```
-//! Those of sines have index n in the place of index 0. They are the same transforms of (−1)^m x_m with the slots i and
+//! Those of sines have index n in the place of index 0. They are the same transforms of the samples with alternating signs, with the slots i and
 //! n − i exchanged.
 //!
 //! Even lengths: the even samples, then the odd ones backwards, are the real and imaginary parts of n/2 complex numbers
@@ -138,7 +138,8 @@ impl<T: Precision> CosinePlan<T> {
             Method::Half(plan, factors) => {
                 let half = n / 2;
                 // The forward transform with its parts exchanged is the inverse: the imaginary part is stored first.
-                let (even, odd) = (a_half * panel[0], panel[half] * Line::splat(T::lit(std::f64::consts::FRAC_1_SQRT_2)));
+                let (even, odd) =
+                    (a_half * panel[0], panel[half] * Line::splat(T::lit(std::f64::consts::FRAC_1_SQRT_2)));
                 first[1] = even + odd;
                 first[0] = even - odd;
                 for (k, &[t, near, far]) in factors.iter().enumerate().skip(1) {

@@ -28,7 +28,10 @@ pub(super) struct LibraryPlan<T> {
 
 impl<T> fmt::Debug for LibraryPlan<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("LibraryPlan").field("points", &self.points).field("location", &self.location).finish_non_exhaustive()
+        f.debug_struct("LibraryPlan")
+            .field("points", &self.points)
+            .field("location", &self.location)
+            .finish_non_exhaustive()
     }
 }
 

@@ -34,7 +34,7 @@ impl<T: Precision> NodalPlan<T> {
     pub(super) fn new(intervals: usize) -> Option<Self> {
         let mut halves = Vec::new();
         let mut last = intervals;
-        while last % 2 == 0 {
+        while last.is_multiple_of(2) {
             last /= 2;
             halves.push(CosinePlan::new(last)?);
         }

@@ -1,0 +1,125 @@
+//! Convergence of static solutions.
+
+use std::f64::consts::PI;
+
+use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, Walls};
+use piola_testkit::{Tol, assert_close, assert_order, relative_error};
+
+use super::fixtures::{lame, samples, slices};
+
+/// sin πx e^{cos πx}, e^{½ cos πx} and their derivatives of order up to two.
+fn factors(x: f64) -> [[f64; 3]; 2] {
+    let (s, c) = (PI * x).sin_cos();
+    let (e, b) = (c.exp(), (0.5 * c).exp());
+    let sine = [s * e, PI * (c - s * s) * e, PI * PI * e * s * (s * s - 1.0 - 3.0 * c)];
+    [sine, [b, -0.5 * PI * s * b, PI * PI * b * (0.25 * s * s - 0.5 * c)]]
+}
+
+/// A derivative of component c of u: the factor with the sine stands on axis c.
+fn derivative(x: [f64; 3], component: usize, orders: [usize; 3]) -> f64 {
+    (0..3).map(|axis| factors(x[axis])[usize::from(axis != component)][orders[axis]]).product()
+}
+
+fn displacement(x: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|component| derivative(x, component, [0; 3]))
+}
+
+/// −μΔu − (λ + μ)∇(∇·u) by hand.
+fn force(x: [f64; 3]) -> [f64; 3] {
+    let with = |pairs: &[usize]| {
+        let mut orders = [0; 3];
+        for &axis in pairs {
+            orders[axis] += 1;
+        }
+        orders
+    };
+    let (first, mu) = (lame().first(), lame().shear_modulus());
+    [0, 1, 2].map(|c| {
+        let laplacian: f64 = (0..3).map(|axis| derivative(x, c, with(&[axis, axis]))).sum();
+        let dilatation: f64 = (0..3).map(|other| derivative(x, other, with(&[other, c]))).sum();
+        -mu * laplacian - (first + mu) * dilatation
+    })
+}
+
+fn error(grid: BoxGrid<3>) -> f64 {
+    let mut fields = samples::<f64, 3>(&grid, force);
+    let mut solver = BoxSolver::<f64, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
+    solver.solve_in_place(slices(&mut fields)).expect("solution");
+    relative_error(&fields.concat(), &samples::<f64, 3>(&grid, displacement).concat())
+}
+
+#[test]
+fn smooth_problems_converge_spectrally() {
+    let cells = [4, 8, 12, 16, 24].map(|n| error(BoxGrid::cells([n; 3], [1.0 / n as f64; 3]).expect("grid")));
+    let nodes = [4, 8, 12, 16, 24].map(|n| error(BoxGrid::nodes([n + 1; 3], [1.0 / n as f64; 3]).expect("grid")));
+    for errors in [cells, nodes] {
+        for pair in errors[..4].windows(2) {
+            assert!(pair[1] < 0.1 * pair[0], "a factor of ten for four more points: {errors:?}");
+        }
+        assert!(errors[4] < 1e-12, "{errors:?}");
+    }
+}
+
+#[test]
+fn single_precision_equals_double_to_its_rounding() {
+    let grid = BoxGrid::cells([16, 12, 24], [1.0 / 16.0, 1.0 / 12.0, 1.0 / 24.0]).expect("grid");
+    let mut fields = samples::<f32, 3>(&grid, force);
+    let mut solver = BoxSolver::<f32, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
+    solver.solve_in_place(slices(&mut fields)).expect("solution");
+    let wide: Vec<f64> = fields.concat().into_iter().map(f64::from).collect();
+    let mut doubles = samples::<f64, 3>(&grid, force);
+    let mut solver = BoxSolver::<f64, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
+    solver.solve_in_place(slices(&mut doubles)).expect("solution");
+    assert_close("f32", &wide, &doubles.concat(), Tol::ulps32(16.0));
+}
+
+#[test]
+fn uniform_force_is_lifted_exactly() {
+    let mut compared = 0;
+    for grid in [BoxGrid::nodes([9, 7, 5], [0.25, 0.5, 0.5]), BoxGrid::cells([8, 7, 5], [0.25, 0.5, 0.5])] {
+        let grid = grid.expect("grid");
+        let mut fields = samples::<f64, 3>(&grid, |_| [1.5, 0.0, 0.0]);
+        let mut solver = BoxSolver::<f64, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
+        let walls = solver.solve_lifted_in_place(slices(&mut fields)).expect("solution");
+        assert_close("walls", walls.largest.as_flattened(), &[1.5, 1.5, 0.0, 0.0, 0.0, 0.0], Tol::ulps(4.0));
+        // (λ + 2μ) u″ + f = 0 between 0 and 2.
+        let expected = samples::<f64, 3>(&grid, |x| [0.25 * x[0] * (2.0 - x[0]), 0.0, 0.0]);
+        assert_close("u", &fields.concat(), &expected.concat(), Tol::ulps(32.0));
+        compared += 1;
+    }
+    assert_eq!(compared, 2);
+}
+
+/// The largest change of the displacement at common nodes between n and 2n intervals.
+fn change(intervals: usize, is_lifted: bool) -> f64 {
+    let solution = |n: usize| {
+        let grid = BoxGrid::nodes([n + 1; 2], [1.0 / n as f64; 2]).expect("grid");
+        let mut fields = samples::<f64, 2>(&grid, |x| [(1.0 + x[0] * x[0]) * (PI * x[1]).cos(), 0.0]);
+        let mut solver = BoxSolver::<f64, 2>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
+        if is_lifted {
+            solver.solve_lifted_in_place(slices(&mut fields)).expect("solution");
+        } else {
+            solver.solve_in_place(slices(&mut fields)).expect("solution");
+        }
+        fields
+    };
+    let (coarse, fine) = (solution(intervals), solution(2 * intervals));
+    let mut largest = 0.0_f64;
+    for row in 0..=intervals {
+        for column in 0..=intervals {
+            for component in 0..2 {
+                let far = fine[component][2 * row * (2 * intervals + 1) + 2 * column];
+                largest = largest.max((coarse[component][row * (intervals + 1) + column] - far).abs());
+            }
+        }
+    }
+    largest
+}
+
+#[test]
+fn lifted_forces_converge_with_order_four() {
+    let intervals = [16, 32, 64];
+    let steps = intervals.map(|n| 1.0 / n as f64);
+    assert_order("plain", &steps, &intervals.map(|n| change(n, false)), 2.0, 0.3);
+    assert_order("lifted", &steps, &intervals.map(|n| change(n, true)), 4.0, 0.4);
+}
