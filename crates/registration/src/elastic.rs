@@ -192,15 +192,14 @@ impl<const D: usize, T: Precision> ElasticState<D, T> {
         factors.map(|factor| least_jacobian(grid, field, factor)).fold(f64::INFINITY, f64::min)
     }
 
-    /// From the fixed image to the moving one, and the two halves composed.
-    pub(crate) fn map(&self, grid: &ImageGrid<D>) -> Result<DisplacementMap<D, T>, RegistrationError> {
+    /// The maps to the moving image and, in a symmetric registration, to the fixed one.
+    pub(crate) fn maps(&self, grid: &ImageGrid<D>) -> (DisplacementMap<D, T>, Option<DisplacementMap<D, T>>) {
         let part = |factor: f64| {
             let mut displacements = self.displacement.clone();
             scale(&mut displacements, factor);
             DisplacementMap { grid: *grid, displacements }
         };
-        let moving = part(self.factors[1]);
-        if self.factors[0] < 0.0 { moving.after(&part(self.factors[0]).inverse()?) } else { Ok(moving) }
+        (part(self.factors[1]), (self.factors[0] < 0.0).then(|| part(self.factors[0])))
     }
 
     pub(crate) fn measure(&self) -> f64 {

@@ -193,14 +193,10 @@ impl<const D: usize, T: Precision> FluidState<D, T> {
         Ok(None)
     }
 
-    /// From the fixed image to the moving one.
-    pub(crate) fn map(&self, grid: &ImageGrid<D>) -> Result<DisplacementMap<D, T>, RegistrationError> {
+    /// The maps to the moving image and, in a symmetric registration, to the fixed one.
+    pub(crate) fn maps(&self, grid: &ImageGrid<D>) -> (DisplacementMap<D, T>, Option<DisplacementMap<D, T>>) {
         let part = |side: &Carried<D, T>| DisplacementMap { grid: *grid, displacements: side.whole.clone() };
-        let moving = part(&self.moving);
-        match &self.fixed {
-            Some(fixed) => moving.after(&part(fixed).inverse()?),
-            None => Ok(moving),
-        }
+        (part(&self.moving), self.fixed.as_ref().map(part))
     }
 
     pub(crate) fn measure(&self) -> f64 {

@@ -109,6 +109,11 @@ pub struct LevelReport<const D: usize> {
 pub struct Registered<const D: usize, T> {
     /// From the fixed image to the moving one, on the grid of the images.
     pub map: DisplacementMap<D, T>,
+    /// Of a symmetric registration: the maps from the middle to the fixed and to the moving image.
+    ///
+    /// The least Jacobian of each is above its bound. `map` is the second after the inverse of the first, sampled: where the two together
+    /// compress a region below the spacing, the samples of `map` may show a fold although the composition has none.
+    pub halves: Option<[DisplacementMap<D, T>; 2]>,
     /// The levels, coarsest first.
     pub levels: Vec<LevelReport<D>>,
 }
@@ -273,12 +278,21 @@ impl Registration {
                 break;
             }
         }
-        let map = match state {
-            Some((state, grid)) if grid == *fixed.grid() => state.map(&grid)?,
-            Some((state, grid)) => state.map(&grid)?.resampled(*fixed.grid()),
-            None => DisplacementMap::identity(*fixed.grid()),
+        let (moving, fixed) = match state {
+            Some((state, grid)) if grid == *fixed.grid() => state.maps(&grid),
+            Some((state, grid)) => {
+                let (moving, other) = state.maps(&grid);
+                (moving.resampled(*fixed.grid()), other.map(|other| other.resampled(*fixed.grid())))
+            }
+            None => (DisplacementMap::identity(*fixed.grid()), None),
         };
-        Ok(Registered { map, levels: reports })
+        Ok(match fixed {
+            None => Registered { map: moving, halves: None, levels: reports },
+            Some(fixed) => {
+                let map = moving.after(&fixed.inverse()?)?;
+                Registered { map, halves: Some([fixed, moving]), levels: reports }
+            }
+        })
     }
 
     fn bounds(&self) -> Result<Bounds, RegistrationError> {
@@ -360,10 +374,10 @@ impl<const D: usize, T: Precision> State<D, T> {
         }
     }
 
-    fn map(&self, grid: &ImageGrid<D>) -> Result<DisplacementMap<D, T>, RegistrationError> {
+    fn maps(&self, grid: &ImageGrid<D>) -> (DisplacementMap<D, T>, Option<DisplacementMap<D, T>>) {
         match self {
-            Self::Elastic(state) => state.map(grid),
-            Self::Fluid(state) => state.map(grid),
+            Self::Elastic(state) => state.maps(grid),
+            Self::Fluid(state) => state.maps(grid),
         }
     }
 

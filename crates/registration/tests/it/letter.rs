@@ -39,8 +39,12 @@ fn symmetric_fluid_is_inverse_consistent() -> Result<(), RegistrationError> {
     for (found, image, other) in [(&there, &disc, &letter), (&back, &letter, &disc)] {
         let dice = found.map.warp(image, Interpolant::Linear)?.dice(other, 0.5)?;
         assert!(0.98 < dice, "{dice}");
-        assert!(0.0 < found.map.least_jacobian());
+        for half in found.halves.iter().flatten() {
+            assert!(1e-3 <= half.least_jacobian());
+            assert!(half.after(&half.inverse()?)?.largest_displacement() < 1e-12);
+        }
     }
+    assert!(there.halves.is_some() && 0.0 < there.map.least_jacobian());
     let round = there.map.after(&back.map)?;
     let other = back.map.after(&there.map)?;
     let [largest, means] = [round.largest_displacement() * N as f64, mean(&round).max(mean(&other))];
