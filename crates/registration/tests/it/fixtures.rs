@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use piola_registration::{Image, ImageGrid, Precision, RegistrationError};
 
 /// Sums of waves that leave no place flat.
-pub fn texture<const D: usize>(place: [f64; D]) -> f64 {
+pub(crate) fn texture<const D: usize>(place: [f64; D]) -> f64 {
     let waves = (1..=4).map(f64::from).map(|k| {
         let along = |axis: usize| {
             let beside = place[(axis + 1) % D];
@@ -17,7 +17,7 @@ pub fn texture<const D: usize>(place: [f64; D]) -> f64 {
 }
 
 /// A displacement of `amplitude` in the unit box that leaves its walls in place.
-pub fn displacement<const D: usize>(amplitude: f64, place: [f64; D]) -> [f64; D] {
+pub(crate) fn displacement<const D: usize>(amplitude: f64, place: [f64; D]) -> [f64; D] {
     std::array::from_fn(|axis| {
         let beside = place[(axis + 1) % D];
         amplitude * (PI * place[axis]).sin() * (2.0 * PI * beside + 0.4 * axis as f64).cos()
@@ -25,12 +25,12 @@ pub fn displacement<const D: usize>(amplitude: f64, place: [f64; D]) -> [f64; D]
 }
 
 /// The unit box with n samples along each side.
-pub fn unit_box<const D: usize>(n: usize) -> Result<ImageGrid<D>, RegistrationError> {
+pub(crate) fn unit_box<const D: usize>(n: usize) -> Result<ImageGrid<D>, RegistrationError> {
     ImageGrid::new([n; D], [1.0 / n as f64; D])
 }
 
 /// The fixed and the moving image: fixed(x) = moving(x − u(x)) by formula, not by interpolation.
-pub fn phantom<const D: usize, T: Precision>(
+pub(crate) fn phantom<const D: usize, T: Precision>(
     grid: ImageGrid<D>,
     amplitude: f64,
 ) -> Result<[Image<D, T>; 2], RegistrationError> {
@@ -42,7 +42,7 @@ pub fn phantom<const D: usize, T: Precision>(
 }
 
 /// A disc and the letter C in the unit square, with edges some two samples wide.
-pub fn disc_and_letter(n: usize) -> Result<[Image<2, f64>; 2], RegistrationError> {
+pub(crate) fn disc_and_letter(n: usize) -> Result<[Image<2, f64>; 2], RegistrationError> {
     let grid = unit_box(n)?;
     let width = 0.5 / n as f64;
     let soft = |inside: f64| 1.0 / (1.0 + (-inside / width).exp());
