@@ -112,13 +112,24 @@ pub struct Registered<const D: usize, T> {
     /// Of a symmetric registration: the maps from the middle to the fixed and to the moving image.
     ///
     /// The least Jacobian of each is above its bound. `map` is the second after the inverse of the first, sampled: where the two together
-    /// compress a region below the spacing, the samples of `map` may show a fold although the composition has none.
+    /// compress a region below the spacing, the samples of `map` may show a fold although the composition has none; [`inverse`](Self::inverse) does not need them.
     pub halves: Option<[DisplacementMap<D, T>; 2]>,
     /// The levels, coarsest first.
     pub levels: Vec<LevelReport<D>>,
 }
 
-impl<const D: usize, T> Registered<D, T> {
+impl<const D: usize, T: Precision> Registered<D, T> {
+    /// The map from the moving image to the fixed one: the inverse of `map`, in a symmetric registration composed of the halves.
+    ///
+    /// # Errors
+    /// [`RegistrationError::Folded`] where a map has no inverse; after a run that was not interrupted there is one.
+    pub fn inverse(&self) -> Result<DisplacementMap<D, T>, RegistrationError> {
+        match &self.halves {
+            Some([fixed, moving]) => fixed.after(&moving.inverse()?),
+            None => self.map.inverse(),
+        }
+    }
+
     /// Why the last level ended.
     #[must_use]
     pub fn ending(&self) -> RegistrationEnding {
