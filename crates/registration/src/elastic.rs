@@ -136,7 +136,7 @@ impl<const D: usize, T: Precision> ElasticState<D, T> {
         combine(&mut self.scratch, 1.0, -1.0, &self.displacement);
         combine(&mut self.force, 1.0, -1.0, &self.body_force);
         let norm = mean_product(&self.force, &self.scratch);
-        if !(0.0 < norm) {
+        if norm <= 0.0 || !norm.is_finite() {
             return Ok(None);
         }
         let turned = if 0.0 < self.last_norm {
@@ -147,7 +147,7 @@ impl<const D: usize, T: Precision> ElasticState<D, T> {
         combine(&mut self.direction, turned, 1.0, &self.scratch);
         combine(&mut self.direction_force, turned, 1.0, &self.force);
         let mut slope = -mean_product(&self.force, &self.direction);
-        if !(slope <= -0.1 * norm) {
+        if -0.1 * norm < slope {
             self.direction.copy_from_slice(&self.scratch);
             self.direction_force.copy_from_slice(&self.force);
             slope = -norm;

@@ -32,7 +32,7 @@ pub(crate) fn target<const D: usize, T: Real>(
     std::array::from_fn(|axis| T::lit((index[axis] as f64 + 0.5) * spacing[axis]) - factor * displacement[axis])
 }
 
-/// `out`: displacements of x ↦ h(g(x)), h and g with the displacements `outer` and `inner`: w = u_g + u_h(x − u_g).
+/// `out`: displacements of x ↦ h(g(x)), h and g with the displacements `outer` and `inner`: `w = u_g + u_h(x − u_g)`.
 pub(crate) fn compose<const D: usize, T: Real>(
     grid: &ImageGrid<D>,
     outer: &[[T; D]],
@@ -62,7 +62,7 @@ pub(crate) fn sample<const D: usize, T: Real>(grid: &ImageGrid<D>, field: &[[T; 
         // Counted from the ghost sample before the first one.
         let index = place[axis] * T::lit(1.0 / spacing[axis]) + T::lit(0.5);
         let at = index.primal(0);
-        let (cell, share) = if !(0.5 <= at) {
+        let (cell, share) = if at < 0.5 {
             (0, T::lit(0.5))
         } else if last + 0.5 <= at {
             (size, T::lit(0.5))

@@ -76,7 +76,7 @@ fn refine<const D: usize, T: Real>(grid: &ImageGrid<D>, field: &[[T; D]], y: [T;
 /// Cramer's rule for the matrix with these columns.
 fn solve<const D: usize, T: Real>(columns: &[[T; D]; D], right: &[T; D]) -> Option<[T; D]> {
     let whole = determinant(columns);
-    if !(0.0 < whole.primal(0).abs()) {
+    if whole.primal(0).abs() <= 0.0 {
         return None;
     }
     Some(std::array::from_fn(|axis| {
@@ -137,7 +137,7 @@ fn locate<const D: usize, T: Real>(grid: &ImageGrid<D>, field: &[[T; D]]) -> Vec
             let mut index = low;
             loop {
                 let from: [f64; D] = std::array::from_fn(|axis| index[axis] as f64 - image[nodes[0]][axis]);
-                if let Some(shares) = solve(&columns, &from).filter(|shares| is_inside(shares)) {
+                if let Some(shares) = solve(&columns, &from).filter(is_inside) {
                     let position: usize = (0..D).map(|axis| index[axis] * strides[axis]).sum();
                     found[position] = std::array::from_fn(|axis| {
                         // The share of the edges with direction `axis`: x − (first corner), counted in samples.

@@ -28,7 +28,7 @@ pub(crate) fn determinant<const D: usize, T: Real>(m: &[[T; D]; D]) -> T {
     }
 }
 
-/// Rows b ↦ ∂u/∂x_b at a sample, by central differences; reflected beyond the walls.
+/// Rows b ↦ `∂u/∂x_b` at a sample, by central differences; reflected beyond the walls.
 #[inline(always)]
 pub(crate) fn slopes_at<const D: usize, T: Real>(
     grid: &ImageGrid<D>,

@@ -157,7 +157,7 @@ impl<const D: usize, T: Real> DisplacementMap<D, T> {
     /// [`RegistrationError::Folded`] unless 0 < [`least_jacobian`](Self::least_jacobian).
     pub fn inverse(&self) -> Result<Self, RegistrationError> {
         let least = self.least_jacobian();
-        if !(0.0 < least) {
+        if least <= 0.0 {
             return Err(RegistrationError::Folded { least });
         }
         Ok(Self { grid: self.grid, displacements: invert(&self.grid, &self.displacements) })

@@ -17,11 +17,11 @@ type Histogram = [[f64; BINS]; BINS];
 ///
 /// | measure | D(a, b) | use it where |
 /// |---|---|---|
-/// | sum of squares | mean (a − b)² / (σ²_F + σ²_M) | equal things have equal intensities |
-/// | cross-correlation | 1 − cov(a, b)/(σ_a σ_b) | intensities are related linearly |
-/// | mutual information | −Σ p(j,k) ln [p(j,k)/(p(j) p(k))] | intensities are related in any way, as between two kinds of scanner |
+/// | sum of squares | `mean (a − b)² / (σ_F² + σ_M²)` | equal things have equal intensities |
+/// | cross-correlation | `1 − cov(a, b)/(σ_a σ_b)` | intensities are related linearly |
+/// | mutual information | `−Σ p(j,k) ln [p(j,k)/(p(j) p(k))]` | intensities are related in any way, as between two kinds of scanner |
 ///
-/// a is the fixed and b the warped image; σ²_F and σ²_M are the variances of the two images before any deformation. All three are symmetric.
+/// a is the fixed and b the warped image; `σ_F²` and `σ_M²` are the variances of the two images before any deformation. All three are symmetric.
 /// For images of equal mean and variance the first two agree. The joint density p is estimated with 32 × 32 bins over the ranges of the
 /// images, with cubic B-splines as windows, so it is twice continuously differentiable; its unit is the nat.
 ///
@@ -108,7 +108,7 @@ impl Comparison {
         }
     }
 
-    /// 2/(σ²_F + σ²_M) for the mean of half the squares.
+    /// `2/(σ_F² + σ_M²)` for the mean of half the squares.
     fn square_weight(&self) -> f64 {
         2.0 / (self.moments[0][1] + self.moments[1][1])
     }
@@ -169,7 +169,7 @@ impl Comparison {
                 let (own, other, mine, theirs) = if side == Side::Moving { (1, 0, b, a) } else { (0, 1, a, b) };
                 let Joint { means, variances, .. } = self.joint;
                 let product = (variances[0] * variances[1]).sqrt();
-                if !(0.0 < product) {
+                if product <= 0.0 {
                     out.fill(T::zero());
                     return;
                 }

@@ -239,7 +239,7 @@ impl Registration {
         let mut reports = Vec::with_capacity(pyramid.len());
         let mut state: Option<(State<D, T>, ImageGrid<D>)> = None;
         let (mut decrease, mut regriddings) = (0.0, 0);
-        for (level, (fixed, moving)) in pyramid.iter().enumerate().rev() {
+        for (level, [fixed, moving]) in pyramid.iter().enumerate().rev() {
             let grid = *fixed.grid();
             let mut alignment = Alignment::new(self.measure, self.interpolant, fixed, moving);
             let mut current = match &state {
@@ -322,15 +322,15 @@ impl Registration {
         &self,
         fixed: &Image<D, T>,
         moving: &Image<D, T>,
-    ) -> Result<Vec<(Image<D, T>, Image<D, T>)>, RegistrationError> {
+    ) -> Result<Vec<[Image<D, T>; 2]>, RegistrationError> {
         let smallest = |grid: &ImageGrid<D>| grid.sizes().into_iter().min().unwrap_or(0);
         if let Some(levels) = self.levels {
             let most = 1 + (smallest(fixed.grid()) / 4).checked_ilog2().unwrap_or(0) as usize;
             let bound = "1 <= levels, with at least 4 samples along each side of the coarsest image";
             check_bound("levels", levels as f64, bound, 1 <= levels && levels <= most)?;
         }
-        let mut pyramid = vec![(fixed.clone(), moving.clone())];
-        while let Some((fixed, moving)) = pyramid.last() {
+        let mut pyramid = vec![[fixed.clone(), moving.clone()]];
+        while let Some([fixed, moving]) = pyramid.last() {
             let is_enough = match self.levels {
                 Some(levels) => levels <= pyramid.len(),
                 None => smallest(&fixed.grid().halved()) < COARSEST,
@@ -338,7 +338,7 @@ impl Registration {
             if is_enough {
                 break;
             }
-            let coarser = (halved(fixed), halved(moving));
+            let coarser = [halved(fixed), halved(moving)];
             pyramid.push(coarser);
         }
         Ok(pyramid)

@@ -49,7 +49,7 @@ fn position<T: Real>(place: T, spacing: f64, size: usize) -> Position<T> {
     let index = place * T::lit(1.0 / spacing) - T::lit(0.5);
     let last = (size - 1) as f64;
     let at = index.primal(0);
-    if !(0.0 <= at) {
+    if at < 0.0 {
         return Position { cell: 0, share: T::zero(), is_inside: false };
     }
     if last < at {
@@ -118,14 +118,14 @@ impl<const D: usize, T: Real> ImageSampler<D, T> {
                 weight *= pair[corner >> axis & 1];
             }
             value += weight * sample;
-            for axis in 0..D {
+            for (axis, slope) in gradient.iter_mut().enumerate() {
                 let mut weight = if corner >> axis & 1 == 1 { sample } else { -sample };
                 for (other, pair) in weights.iter().enumerate() {
                     if other != axis {
                         weight *= pair[corner >> other & 1];
                     }
                 }
-                gradient[axis] += weight;
+                *slope += weight;
             }
         }
         for axis in 0..D {
@@ -163,13 +163,13 @@ impl<const D: usize, T: Real> ImageSampler<D, T> {
             }
             let sample = self.coefficients[offset];
             value += weight * sample;
-            for axis in 0..D {
+            for (axis, slope) in gradient.iter_mut().enumerate() {
                 let mut weight = sample;
                 for other in 0..D {
                     let digit = corner >> (2 * other) & 3;
                     weight *= if other == axis { slopes[other][digit] } else { weights[other][digit] };
                 }
-                gradient[axis] += weight;
+                *slope += weight;
             }
         }
         (value, gradient)
