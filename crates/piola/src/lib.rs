@@ -76,6 +76,7 @@
 //! | exact solutions of nonlinear elasticity | [`solutions`] | `solutions` |
 //! | parameters of laws from measurements | [`fit`] | `fit` |
 //! | materially uniform bodies, dislocations, residual stress | [`uniformity`] | `uniformity` |
+//! | elastic and fluid registration of images | [`registration`] | `registration` |
 //!
 //! The feature `dynamics` is `lagrangian`, `hamiltonian` and `gravitation`; `constitutive` is `solids` and `fluids`.
 //!
@@ -107,6 +108,8 @@ pub use piola_kinematics as kinematics;
 #[cfg(feature = "lagrangian")]
 pub use piola_lagrangian as lagrangian;
 pub use piola_numerics as numerics;
+#[cfg(feature = "registration")]
+pub use piola_registration as registration;
 #[cfg(feature = "solids")]
 pub use piola_solids as solids;
 #[cfg(feature = "solutions")]

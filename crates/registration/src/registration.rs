@@ -112,7 +112,8 @@ pub struct Registered<const D: usize, T> {
     /// Of a symmetric registration: the maps from the middle to the fixed and to the moving image.
     ///
     /// The least Jacobian of each is above its bound. `map` is the second after the inverse of the first, sampled: where the two together
-    /// compress a region below the spacing, the samples of `map` may show a fold although the composition has none; [`inverse`](Self::inverse) does not need them.
+    /// compress a region below the spacing, the samples of `map` may show a fold although the composition has none.
+    /// [`inverse`](Self::inverse) does not need them.
     pub halves: Option<[DisplacementMap<D, T>; 2]>,
     /// The levels, coarsest first.
     pub levels: Vec<LevelReport<D>>,
