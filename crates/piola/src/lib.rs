@@ -77,6 +77,7 @@
 //! | parameters of laws from measurements | [`fit`] | `fit` |
 //! | materially uniform bodies, dislocations, residual stress | [`uniformity`] | `uniformity` |
 //! | elastic and viscous fields on a box | [`spectral`] | `spectral` |
+//! | elastic and fluid registration of images | [`registration`] | `registration` |
 //!
 //! The feature `dynamics` is `lagrangian`, `hamiltonian` and `gravitation`; `constitutive` is `solids` and `fluids`.
 //!
@@ -108,6 +109,8 @@ pub use piola_kinematics as kinematics;
 #[cfg(feature = "lagrangian")]
 pub use piola_lagrangian as lagrangian;
 pub use piola_numerics as numerics;
+#[cfg(feature = "registration")]
+pub use piola_registration as registration;
 #[cfg(feature = "solids")]
 pub use piola_solids as solids;
 #[cfg(feature = "solutions")]

@@ -1,0 +1,16 @@
+//! Tests of registration.
+
+use piola_testkit::CountingAllocator;
+
+mod alloc;
+mod errors;
+mod fixtures;
+mod images;
+mod letter;
+mod maps;
+mod measures;
+mod phantoms;
+mod runs;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
