@@ -18,7 +18,6 @@ fn looked_at(rate_of_motion: f64, from: f64, start: &[f64], tolerance: Tolerance
             core::ops::ControlFlow::Continue(())
         })
         .unwrap();
-    drop(growth);
     (places, end.unwrap())
 }
 
