@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
         let mut group = criterion.benchmark_group(format!("spectral/threads_{threads}"));
         group.sample_size(10).nresamples(1000);
-        group.warm_up_time(Duration::from_millis(50)).measurement_time(Duration::from_millis(1000));
+        group.warm_up_time(Duration::from_millis(50)).measurement_time(Duration::from_secs(1));
         for points in [32, 64, 96, 128, 256] {
             let spacing = 1.0 / points as f64;
             let cells = BoxGrid::cells([points; 3], [spacing; 3])?;
