@@ -27,7 +27,7 @@ pub enum HamiltonianError {
     /// 0 < x violated.
     #[error("the {quantity} is {value}; it must be positive")]
     NotPositive {
-        /// What it is.
+        /// The name of the quantity.
         quantity: &'static str,
         /// The value given.
         value: f64,

@@ -59,7 +59,7 @@ pub enum RegistrationError {
     /// A quantity is outside its bounds.
     #[error("{quantity} = {value:e} violates {bound}")]
     OutOfBounds {
-        /// What it is.
+        /// The name of the quantity.
         quantity: &'static str,
         /// Its value.
         value: f64,

@@ -6,7 +6,7 @@ use crate::error::{RegistrationError, check_bound};
 ///
 /// Both models have the operator L = μΔ + (λ + μ)∇∇·, with sliding walls, and the drive f of the images:
 ///
-/// | model | equations | what it allows |
+/// | model | equations | deformations |
 /// |---|---|---|
 /// | elastic | L u + f(u) = 0 | small deformations: the stress grows with them and pulls back |
 /// | viscous fluid | L v + f(u) = 0, ∂u/∂t = v − (∇u)v | large deformations: the stress relaxes |

@@ -43,7 +43,8 @@ impl<X: Span, Y: Span> Span for (X, Y) {
     }
 }
 
-/// Runs `leaf(first position, part)` over all parts of `span` and merges what they return, in one order.
+/// Runs `leaf(first position, part)` over all parts of `span`. The results are merged in an order that does not depend on the
+/// number of threads.
 pub(crate) fn fold<P: Span, S: Send>(
     span: P,
     leaf: &(impl Fn(usize, P) -> S + Sync),

@@ -7,7 +7,7 @@ use crate::parallel::each;
 /// The factor of a displacement that folds on a finer grid.
 pub(crate) const SHRINKING: f64 = 0.97;
 
-/// How often it is applied at most: the displacement is then 10⁻⁵ of what it was.
+/// The most shrinkings of a displacement. Together they leave 10⁻⁵ of it.
 pub(crate) const SHRINKINGS: usize = 400;
 
 /// Multiplies a field.

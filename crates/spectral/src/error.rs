@@ -43,7 +43,7 @@ pub enum SpectralError {
     /// A quantity is outside its bounds.
     #[error("{quantity} = {value:e} violates {bound}")]
     OutOfBounds {
-        /// What it is.
+        /// The name of the quantity.
         quantity: &'static str,
         /// Its value.
         value: f64,

@@ -67,7 +67,7 @@ pub trait StokesianFluid {
         CauchyStress(Symmetric::identity() * zeroth + d * first + d.square() * second)
     }
 
-    /// (T + p(ρ) 1) : D, W/m³: what is turned into heat. A fluid of which it is negative in some motion is impossible.
+    /// (T + p(ρ) 1) : D, W/m³: the power turned into heat. No fluid exists for which it is negative in some motion.
     #[inline(always)]
     #[must_use]
     fn dissipation<T: Real>(&self, density: T, velocity_gradient: &VelocityGradient<T>) -> T {

@@ -49,7 +49,7 @@ pub trait ViscousFluid {
         CauchyStress(self.extra_stress(velocity_gradient) - Symmetric::identity() * pressure)
     }
 
-    /// V : D, W/m³: what is turned into heat.
+    /// V : D, W/m³: the power turned into heat.
     #[inline(always)]
     #[must_use]
     fn dissipation<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> T {

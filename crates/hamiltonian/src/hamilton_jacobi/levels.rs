@@ -183,7 +183,7 @@ impl<H: PhaseFunction, U: PrincipalFunction> Transversals<'_, H, U> {
         LevelPoint { event: Event::new(q, time), momenta: p.to_vec(), energy }
     }
 
-    /// p₀ as it would have to change if the conditions were linear in it: δq₀·p₀ − H(p₀) δt₀ is what they come to.
+    /// Newton's correction of p₀. The residuals of the conditions are δq₀·p₀ − H(p₀) δt₀, one for each direction.
     fn correction(&self, foot: &Event, p0: &[f64], displacements: &[Vec<f64>], residual: &DVector<f64>) -> Vec<f64> {
         let n = p0.len();
         let mut slopes = Slopes::new();

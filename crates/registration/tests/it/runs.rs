@@ -1,4 +1,4 @@
-//! How runs end, and what they may depend on.
+//! The endings of runs, and their independence of threads and of the unit of length.
 
 use std::ops::ControlFlow;
 

@@ -31,7 +31,7 @@ pub(crate) struct Case<'a, F, L> {
     pub(crate) loads: Vec<(&'static str, f64)>,
 }
 
-/// What is done with each state.
+/// Receives each state.
 pub(crate) trait Visitor {
     fn visit<F: Family, L: ResponseFunctions>(&mut self, case: &Case<'_, F, L>) -> Result<(), Box<dyn Error>>;
 }
