@@ -17,6 +17,7 @@ const fn colour(family: Family) -> &'static str {
         Family::Composition => "#0072B2",
         Family::GaussLegendre => "#56B4E9",
         Family::CanonicalGaussLegendre => "#009E73",
+        Family::GaussLegendre16 => "#882255",
         Family::DormandPrince => "#D55E00",
         Family::DerivedDormandPrince => "#000000",
         Family::OdeSolvers => "#CC79A7",

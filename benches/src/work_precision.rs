@@ -4,12 +4,14 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use piola_integrators::{
-    Composition, DormandPrince853, Field, GaussLegendre, Order, Report, State, Tolerance, field, separable,
+    Composition, DormandPrince853, Field, GaussLegendre, GaussLegendre16, Order, Report, SecondOrder, State, Tolerance,
+    field, separable,
 };
+use piola_numerics::Real;
 use serde_json::{Value, json};
 
 use crate::peers;
-use crate::problems::{Equations, Force, Problem};
+use crate::problems::{Accelerations, Equations, Force, Problem};
 
 /// The end of one run.
 #[derive(Clone, Debug)]
@@ -37,6 +39,8 @@ pub enum Family {
     GaussLegendre,
     /// Collocation in positions and momenta.
     CanonicalGaussLegendre,
+    /// Collocation of order sixteen, adaptive, its stages in lanes.
+    GaussLegendre16,
     /// The adaptive method on the equations written by hand.
     DormandPrince,
     /// The adaptive method on equations that Piola derives.
@@ -256,6 +260,40 @@ where
     let name = format!("Gauss–Legendre {}, canonical, by placement", order.value());
     let parameters = step_counts(fewest);
     Method { name, family: Family::CanonicalGaussLegendre, order: order.value(), parameters, run: Box::new(run) }
+}
+
+/// The equations of a problem, over any scalar.
+struct Accelerated<'a, E> {
+    equations: &'a E,
+    freedom: usize,
+}
+
+impl<T: Real, E: Accelerations> SecondOrder<T> for Accelerated<'_, E> {
+    type Error = std::convert::Infallible;
+    fn freedom(&self) -> usize {
+        self.freedom
+    }
+    #[inline(always)]
+    fn acceleration(&mut self, _t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Self::Error> {
+        self.equations.accelerations(q, v, acceleration);
+        Ok(())
+    }
+}
+
+/// Collocation of order sixteen, adaptive, on equations written by hand.
+#[must_use]
+pub fn gauss_legendre_16<E: Equations<D> + Accelerations, const D: usize>(problem: &Problem<E, D>) -> Method<'_> {
+    let run = move |tolerance: f64| {
+        let mut state = State::new(0.0, problem.start.to_vec()).map_err(|error| error.to_string())?;
+        let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+        let mut field = Accelerated { equations: &problem.equations, freedom: D / 2 };
+        let mut method = GaussLegendre16::new(tolerance);
+        let report = method.integrate_to(&mut field, &mut state, problem.end).map_err(|error| error.to_string())?;
+        Ok(Outcome::of(report, state))
+    };
+    let name = "Gauss–Legendre 16, in lanes".into();
+    let parameters = (2..=16).map(|k| 10.0_f64.powi(-k)).collect();
+    Method { name, family: Family::GaussLegendre16, order: 16, parameters, run: Box::new(run) }
 }
 
 /// The adaptive method on equations written by hand.

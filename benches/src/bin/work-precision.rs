@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use piola_benches::chain::Chain;
 use piola_benches::figure::figure;
-use piola_benches::problems::{self, Equations, Force, Problem};
+use piola_benches::problems::{self, Accelerations, Equations, Force, Problem};
 use piola_benches::work_precision::{
     Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, dormand_prince, gauss_legendre,
-    measure, peer_methods,
+    gauss_legendre_16, measure, peer_methods,
 };
 use piola_gravitation::Gravitation;
 use piola_integrators::Order;
@@ -70,6 +70,7 @@ fn double_pendulum(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
     };
     let mut methods = vec![
         dormand_prince(&problem),
+        gauss_legendre_16(&problem),
         derived_dormand_prince("by placement", problem.start, problem.end, || lagrangian.motion(2)),
     ];
     methods.extend(COLLOCATION.map(|order| gauss_legendre(&problem, order, 30.0)));
@@ -91,8 +92,8 @@ fn outer_solar_system(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
 }
 
 /// All methods on equations written by hand that separate.
-fn separable_methods<E: Equations<D> + Force, const D: usize>(problem: &Problem<E, D>, fewest: f64) -> Vec<Method<'_>> {
-    let mut methods = vec![dormand_prince(problem)];
+fn separable_methods<E: Equations<D> + Force + Accelerations, const D: usize>(problem: &Problem<E, D>, fewest: f64) -> Vec<Method<'_>> {
+    let mut methods = vec![dormand_prince(problem), gauss_legendre_16(problem)];
     methods.extend(Order::ALL.map(|order| composition(problem, order, fewest)));
     methods.extend(COLLOCATION.map(|order| gauss_legendre(problem, order, fewest)));
     methods.extend(peer_methods(problem));

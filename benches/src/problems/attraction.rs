@@ -1,7 +1,8 @@
 //! Bodies that attract each other, in the plane or in space.
 
 use super::reference::{array, numbers, read};
-use super::{Equations, Force, Problem, ReferenceError};
+use super::{Accelerations, Equations, Force, Problem, ReferenceError};
+use piola_numerics::Real;
 
 /// N bodies with C coordinates each; a state lists all x, all y, …, then the velocities.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +27,32 @@ impl<const N: usize, const C: usize> Force for Attraction<N, C> {
                 }
                 let inverse_cube = 1.0 / (square * square.sqrt());
                 let (on_i, on_j) = (self.parameters[j] * inverse_cube, self.parameters[i] * inverse_cube);
+                for c in 0..C {
+                    f[c][i] += on_i * distance[c];
+                    f[c][j] -= on_j * distance[c];
+                }
+            }
+        }
+    }
+}
+
+impl<const N: usize, const C: usize> Accelerations for Attraction<N, C> {
+    #[inline(always)]
+    fn accelerations<T: Real>(&self, q: &[T], _v: &[T], out: &mut [T]) {
+        let (x, f) = (q.as_chunks::<N>().0, out.as_chunks_mut::<N>().0);
+        let (Some(x), Some(f)) = (x.first_chunk::<C>(), f.first_chunk_mut::<C>()) else { return };
+        *f = [[T::zero(); N]; C];
+        for i in 0..N {
+            for j in i + 1..N {
+                let mut distance = [T::zero(); C];
+                let mut square = T::zero();
+                for c in 0..C {
+                    distance[c] = x[c][j] - x[c][i];
+                    square += distance[c] * distance[c];
+                }
+                let inverse_cube = (square * square.sqrt()).recip();
+                let on_i = T::lit(self.parameters[j]) * inverse_cube;
+                let on_j = T::lit(self.parameters[i]) * inverse_cube;
                 for c in 0..C {
                     f[c][i] += on_i * distance[c];
                     f[c][j] -= on_j * distance[c];

@@ -1,7 +1,8 @@
 //! The double pendulum dropped from the horizontal.
 
 use super::reference::{array, numbers, read};
-use super::{Equations, Problem, ReferenceError};
+use super::{Accelerations, Equations, Problem, ReferenceError};
+use piola_numerics::Real;
 
 /// Two point masses on rods, angles from the downward vertical.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +54,24 @@ impl Equations<4> for DoublePendulum {
     fn rate(&self, y: &[f64; 4], rate: &mut [f64; 4]) {
         let [a, b] = self.acceleration([y[0], y[1]], [y[2], y[3]]);
         *rate = [y[2], y[3], a, b];
+    }
+}
+
+impl Accelerations for DoublePendulum {
+    #[inline(always)]
+    fn accelerations<T: Real>(&self, q: &[T], v: &[T], out: &mut [T]) {
+        let ([m1, m2], [l1, l2]) = (self.masses, self.lengths);
+        let lit = T::lit;
+        let (s1, c1) = q[0].sin_cos();
+        let (s2, c2) = q[1].sin_cos();
+        let (sine, cosine) = (s1 * c2 - c1 * s2, c1 * c2 + s1 * s2);
+        let (a, b, d) = (lit((m1 + m2) * l1 * l1), lit(m2 * l1 * l2) * cosine, lit(m2 * l2 * l2));
+        let coupling = lit(m2 * l1 * l2) * sine;
+        let first = -coupling * v[1] * v[1] - lit((m1 + m2) * self.gravity * l1) * s1;
+        let second = coupling * v[0] * v[0] - lit(m2 * self.gravity * l2) * s2;
+        let inverse = (a * d - b * b).recip();
+        out[0] = (d * first - b * second) * inverse;
+        out[1] = (a * second - b * first) * inverse;
     }
 }
 

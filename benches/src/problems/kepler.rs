@@ -2,7 +2,8 @@
 
 use core::f64::consts::PI;
 
-use super::{Equations, Force, Problem};
+use super::{Accelerations, Equations, Force, Problem};
+use piola_numerics::Real;
 
 /// The attraction of a fixed centre in the plane.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +29,16 @@ impl Equations<4> for Kepler {
         let (moving, force) = rate.split_at_mut(2);
         moving.copy_from_slice(velocity);
         self.force(position, force);
+    }
+}
+
+impl Accelerations for Kepler {
+    #[inline(always)]
+    fn accelerations<T: Real>(&self, q: &[T], _v: &[T], out: &mut [T]) {
+        let square = q[0] * q[0] + q[1] * q[1];
+        let factor = T::lit(-self.parameter) / (square * square.sqrt());
+        out[0] = factor * q[0];
+        out[1] = factor * q[1];
     }
 }
 

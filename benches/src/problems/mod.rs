@@ -10,10 +10,18 @@ pub use double_pendulum::{DoublePendulum, double_pendulum};
 pub use kepler::{Kepler, kepler};
 pub use reference::ReferenceError;
 
+use piola_numerics::Real;
+
 /// Equations of first order, ẏ = f(y), y being a block of positions and a block of velocities.
 pub trait Equations<const D: usize> {
     /// Writes f(y).
     fn rate(&self, y: &[f64; D], rate: &mut [f64; D]);
+}
+
+/// Equations of second order, q̈ = f(q, q̇), over any scalar.
+pub trait Accelerations {
+    /// Writes f(q, q̇).
+    fn accelerations<T: Real>(&self, q: &[T], v: &[T], out: &mut [T]);
 }
 
 /// Equations of second order, q̈ = f(q).

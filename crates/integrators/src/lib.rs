@@ -8,6 +8,8 @@ mod dormand_prince;
 mod error;
 mod field;
 mod gauss_legendre;
+mod gauss_legendre_16;
+mod second_order;
 mod state;
 mod tolerance;
 
@@ -16,5 +18,7 @@ pub use dormand_prince::{Crossing, DenseStep, DormandPrince853, Event, EventActi
 pub use error::IntegratorsError;
 pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
+pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
+pub use second_order::SecondOrder;
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use tolerance::Tolerance;

@@ -1,0 +1,126 @@
+//! An accepted step, with the state at any time within it.
+
+use super::stages::Workspace;
+use super::tableau::LEGENDRE;
+use crate::{IntegratorsError, State};
+
+/// An accepted step of [`GaussLegendre16`](super::GaussLegendre16), with the state at any time within it.
+///
+/// The accelerations of a step are known as a polynomial of degree seven; velocities and positions are its integrals. A
+/// step that is not asked costs nothing, one that is asked needs no evaluation.
+///
+/// # Accuracy
+/// Velocities within the step are accurate to order 9, positions to order 10; at its end to order 16.
+#[doc(alias("interpolation", "continuous output"))]
+#[derive(Debug)]
+pub struct CollocationStep<'a> {
+    work: &'a Workspace,
+    values: &'a [f64],
+    number: u64,
+    start: f64,
+    end: f64,
+    step: f64,
+}
+
+impl<'a> CollocationStep<'a> {
+    pub(super) fn new(work: &'a Workspace, state: &'a State, number: u64, step: f64, start: f64) -> Self {
+        Self { work, values: &state.values, number, start, end: state.time, step }
+    }
+
+    /// The number of the step, from 1.
+    #[must_use]
+    pub const fn number(&self) -> u64 {
+        self.number
+    }
+    /// The time at its start, s.
+    #[must_use]
+    pub const fn start(&self) -> f64 {
+        self.start
+    }
+    /// The time at its end, s.
+    #[must_use]
+    pub const fn time(&self) -> f64 {
+        self.end
+    }
+    /// The state (q, v) at its start.
+    #[must_use]
+    pub fn start_values(&self) -> &[f64] {
+        &self.work.start
+    }
+    /// The state (q, v) at its end.
+    #[must_use]
+    pub const fn values(&self) -> &[f64] {
+        self.values
+    }
+    /// Whether a time lies within the step.
+    #[must_use]
+    pub fn contains(&self, t: f64) -> bool {
+        let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
+        low <= t && t <= high
+    }
+
+    /// Writes the state (q, v) at a time within the step to `out`.
+    ///
+    /// ```text
+    /// v(θ) = v₀ + h Σ γ_k ∫₀^θ P_k,    q(θ) = q₀ + h θ v₀ + h² Σ γ_k ∬₀^θ P_k,    θ = (t − t₀)/h
+    /// ```
+    ///
+    /// # Errors
+    /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::WrongLength`].
+    pub fn at(&self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError> {
+        let n = self.work.previous.len();
+        if out.len() != 2 * n {
+            return Err(IntegratorsError::WrongLength { quantity: "out", expected: 2 * n, found: out.len() });
+        }
+        if !self.contains(t) {
+            return Err(IntegratorsError::OutsideStep { t, start: self.start, end: self.end });
+        }
+        if t.to_bits() == self.end.to_bits() {
+            out.copy_from_slice(self.values);
+            return Ok(());
+        }
+        let h = self.step;
+        let theta = ((t - self.start) / h).clamp(0.0, 1.0);
+        let (once, twice) = integrals(theta);
+        // The weights of the stages: Σ_k (2k + 1) bⱼ P_k(cⱼ) ∫ P_k.
+        let (mut velocity, mut position) = ([0.0; 8], [0.0; 8]);
+        for (k, row) in LEGENDRE.iter().enumerate() {
+            for j in 0..8 {
+                velocity[j] += row.0[j] * once[k];
+                position[j] += row.0[j] * twice[k];
+            }
+        }
+        let (q0, v0) = self.work.start.split_at(n);
+        let (q, v) = out.split_at_mut(n);
+        for (k, a) in self.work.previous.iter().enumerate() {
+            let sum = |weights: &[f64; 8]| weights.iter().zip(a.0).map(|(w, a)| w * a).sum::<f64>();
+            v[k] = v0[k] + h * sum(&velocity);
+            q[k] = q0[k] + h * (theta * v0[k] + h * sum(&position));
+        }
+        Ok(())
+    }
+}
+
+/// ∫₀^θ P_k and ∬₀^θ P_k of the Legendre polynomials on [0, 1].
+///
+/// ```text
+/// ∫₀^θ P_k = (P_{k+1} − P_{k−1}) / 2(2k + 1),  k ≥ 1
+/// ```
+fn integrals(theta: f64) -> ([f64; 8], [f64; 8]) {
+    let x = 2.0 * theta - 1.0;
+    let mut p = [1.0; 10];
+    p[1] = x;
+    for k in 1..9 {
+        let m = k as f64;
+        p[k + 1] = ((2.0 * m + 1.0) * x * p[k] - m * p[k - 1]) / (m + 1.0);
+    }
+    let mut once = [theta; 9];
+    for k in 1..9 {
+        once[k] = (p[k + 1] - p[k - 1]) / (2.0 * (2.0 * k as f64 + 1.0));
+    }
+    let mut twice = [0.5 * theta * theta; 8];
+    for k in 1..8 {
+        twice[k] = (once[k + 1] - once[k - 1]) / (2.0 * (2.0 * k as f64 + 1.0));
+    }
+    (core::array::from_fn(|k| once[k]), twice)
+}

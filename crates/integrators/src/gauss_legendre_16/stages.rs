@@ -1,0 +1,274 @@
+//! The stages of a step: sweeps until they stand still.
+
+use piola_numerics::{Lanes, Real};
+
+use super::tableau::{LEGENDRE, NODES, POSITION, POSITION_WEIGHTS, Stages, VELOCITY, WEIGHTS};
+use crate::state::{check_finite, compensated_add};
+use crate::{IntegratorsError, SecondOrder, State};
+
+/// Sweeps after which a step is given up.
+const MOST_SWEEPS: u64 = 40;
+/// The change of a sweep, relative to the accelerations, below which only rounding can keep it from falling.
+const NEAR_ROUNDING: f64 = 1e-9;
+/// The part of the tolerance that the sweeps may leave.
+const UNSWEPT: f64 = 0.01;
+/// The longest continuation of a polynomial of degree seven, in steps; farther, its first terms are continued.
+const FAR: f64 = 1.6;
+
+/// Memory of a run.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Workspace {
+    /// The accelerations at the stages.
+    pub(super) accelerations: Vec<Stages>,
+    /// Those of the last accepted step.
+    pub(super) previous: Vec<Stages>,
+    positions: Vec<Stages>,
+    velocities: Vec<Stages>,
+    swept: Vec<Stages>,
+    /// The state at the start of the step.
+    pub(super) start: Vec<f64>,
+    next: Vec<f64>,
+    next_carry: Vec<f64>,
+    /// The length of the last accepted step; zero before the first.
+    previous_step: f64,
+    /// The factor of contraction that the next step is expected to have.
+    expected: f64,
+    continuation: Continuation,
+}
+
+/// The matrix that continues the polynomial of a step to the nodes of the next, by columns.
+#[derive(Clone, Debug)]
+struct Continuation {
+    ratio: f64,
+    columns: [Stages; 8],
+}
+
+impl Default for Continuation {
+    fn default() -> Self {
+        Self { ratio: f64::NAN, columns: [Lanes([0.0; 8]); 8] }
+    }
+}
+
+/// What an attempt at a step found.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Attempt {
+    /// Whether the stages stand still.
+    pub(super) converged: bool,
+    /// The last coefficient of the accelerations, relative to the largest of them.
+    pub(super) ratio: f64,
+    /// The factor by which a sweep shortens the change.
+    pub(super) contraction: f64,
+    /// Sweeps made.
+    pub(super) sweeps: u64,
+    /// The last change, relative to the accelerations.
+    change: f64,
+    /// Whether the field failed, or gave what is not finite.
+    failed: bool,
+}
+
+/// The largest of the moduli, NaN when one of them is.
+#[inline(always)]
+fn largest(x: Stages) -> f64 {
+    let mut largest = 0.0_f64;
+    for x in x.0 {
+        largest = if x <= largest || largest.is_nan() { largest } else { x };
+    }
+    largest
+}
+
+/// Σ of the products of two rows of stages, in pairs.
+#[inline(always)]
+fn dot(a: Stages, b: Stages) -> f64 {
+    let p = (a * b).0;
+    ((p[0] + p[7]) + (p[1] + p[6])) + ((p[2] + p[5]) + (p[3] + p[4]))
+}
+
+/// A matrix, by its columns, times a row of stages.
+#[inline(always)]
+fn times(columns: &[Stages; 8], x: Stages) -> Stages {
+    let mut even = columns[0] * Lanes::splat(x.0[0]);
+    let mut odd = columns[1] * Lanes::splat(x.0[1]);
+    for j in [2, 4, 6] {
+        even += columns[j] * Lanes::splat(x.0[j]);
+        odd += columns[j + 1] * Lanes::splat(x.0[j + 1]);
+    }
+    even + odd
+}
+
+impl Continuation {
+    #[inline(always)]
+    fn to(&mut self, ratio: f64) {
+        if self.ratio.to_bits() == ratio.to_bits() {
+            return;
+        }
+        self.ratio = ratio;
+        let terms = if ratio.abs() <= FAR { 8 } else { 3 };
+        // P_k at the nodes of the next step, on the interval of the last one.
+        let x = Lanes::splat(1.0) + Lanes::splat(2.0 * ratio) * NODES;
+        let (mut before, mut now) = (Lanes::splat(1.0), x);
+        self.columns = LEGENDRE[0].0.map(Lanes::splat);
+        for k in 1..terms {
+            for (column, weight) in self.columns.iter_mut().zip(LEGENDRE[k].0) {
+                *column += now * Lanes::splat(weight);
+            }
+            let k = k as f64;
+            let next = (Lanes::splat((2.0 * k + 1.0) / (k + 1.0)) * x) * now - Lanes::splat(k / (k + 1.0)) * before;
+            (before, now) = (now, next);
+        }
+    }
+}
+
+impl Workspace {
+    pub(super) fn begin(&mut self, n: usize) {
+        let zero = Lanes([0.0; 8]);
+        for stages in
+            [&mut self.accelerations, &mut self.previous, &mut self.positions, &mut self.velocities, &mut self.swept]
+        {
+            stages.clear();
+            stages.resize(n, zero);
+        }
+        for values in [&mut self.start, &mut self.next, &mut self.next_carry] {
+            values.clear();
+            values.resize(2 * n, 0.0);
+        }
+        self.previous_step = 0.0;
+        self.expected = 0.1;
+    }
+
+    /// Sweeps over the stages of a step of length h from the state.
+    #[inline(always)]
+    pub(super) fn attempt<F: SecondOrder<Stages>>(
+        &mut self,
+        field: &mut F,
+        state: &State,
+        h: f64,
+        tolerance: f64,
+    ) -> Attempt {
+        let n = self.accelerations.len();
+        let (q, v) = state.values.split_at(n);
+        let (q_carry, v_carry) = state.carry.split_at(n);
+        let accelerations = &mut self.accelerations[..n];
+        let (positions, velocities) = (&mut self.positions[..n], &mut self.velocities[..n]);
+        let swept = &mut self.swept[..n];
+        if self.previous_step.abs() <= 0.0 {
+            accelerations.fill(Lanes([0.0; 8]));
+        } else {
+            self.continuation.to(h / self.previous_step);
+            for (acceleration, &previous) in accelerations.iter_mut().zip(&self.previous[..n]) {
+                *acceleration = times(&self.continuation.columns, previous);
+            }
+        }
+        let time = Lanes::splat(state.time) + Lanes::splat(h) * NODES;
+        let (h_all, square) = (Lanes::splat(h), Lanes::splat(h * h));
+        let h_nodes = h_all * NODES;
+        let mut attempt = Attempt {
+            converged: false,
+            ratio: 0.0,
+            contraction: self.expected,
+            sweeps: 0,
+            change: f64::INFINITY,
+            failed: false,
+        };
+        let mut size = 0.0;
+        while attempt.sweeps < MOST_SWEEPS {
+            for k in 0..n {
+                let a = accelerations[k];
+                let velocity = Lanes::splat(v[k]);
+                let carried = Lanes::splat(v_carry[k]);
+                velocities[k] = velocity + (carried + h_all * times(&VELOCITY, a));
+                let moved = h_nodes * (velocity + carried) + square * times(&POSITION, a);
+                positions[k] = Lanes::splat(q[k]) + (Lanes::splat(q_carry[k]) + moved);
+            }
+            attempt.sweeps += 1;
+            if field.acceleration(time, positions, velocities, swept).is_err() {
+                attempt.failed = true;
+                return attempt;
+            }
+            let (mut change, mut all) = (Lanes([0.0_f64; 8]), Lanes([0.0_f64; 8]));
+            let mut finite = Lanes([0.0_f64; 8]);
+            for k in 0..n {
+                let difference = (swept[k] - accelerations[k]).abs();
+                change = Lanes::select(difference.less_than(change), change, difference);
+                let modulus = swept[k].abs();
+                all = Lanes::select(modulus.less_than(all), all, modulus);
+                finite += swept[k] * Lanes([0.0; 8]);
+            }
+            accelerations.copy_from_slice(swept);
+            size = largest(all);
+            if !finite.0.iter().sum::<f64>().is_finite() {
+                attempt.failed = true;
+                return attempt;
+            }
+            let change = if 0.0 < size { largest(change) / size } else { 0.0 };
+            let fell = change / attempt.change;
+            if attempt.change.is_finite() {
+                // The second sweep from a guess says little; slow convergence is believed at once.
+                attempt.contraction = fell.max(1e-3);
+            }
+            attempt.change = change;
+            let left = change * attempt.contraction.min(1.0);
+            if left <= UNSWEPT * tolerance || (0.5 < fell && change < NEAR_ROUNDING) {
+                attempt.converged = true;
+                break;
+            }
+            if 1.0 < fell && 2 < attempt.sweeps {
+                break;
+            }
+        }
+        // At rounding the fall of the last sweep is no measure.
+        if 0.5 < attempt.contraction && attempt.converged {
+            attempt.contraction = self.expected;
+        }
+        self.expected = attempt.contraction;
+        let mut last = 0.0_f64;
+        for &a in &*accelerations {
+            last = last.max(dot(LEGENDRE[7], a).abs());
+        }
+        attempt.ratio = if 0.0 < size { last / size } else { 0.0 };
+        attempt
+    }
+
+    /// Moves the state to the end of the step; the error of a state that is not finite.
+    #[inline(always)]
+    pub(super) fn accept<E>(&mut self, state: &mut State, h: f64) -> Option<IntegratorsError<E>> {
+        let n = self.accelerations.len();
+        self.start.copy_from_slice(&state.values);
+        self.next.copy_from_slice(&state.values);
+        self.next_carry.copy_from_slice(&state.carry);
+        let (q, v) = self.next.split_at_mut(n);
+        let (q_carry, v_carry) = self.next_carry.split_at_mut(n);
+        for k in 0..n {
+            let a = self.accelerations[k];
+            let moved = h * (v[k] + v_carry[k]) + (h * h) * dot(POSITION_WEIGHTS, a);
+            compensated_add(&mut q[k], &mut q_carry[k], moved);
+            compensated_add(&mut v[k], &mut v_carry[k], h * dot(WEIGHTS, a));
+        }
+        if let Err(error) = check_finite("state", Some(state.time), &self.next) {
+            return Some(error);
+        }
+        core::mem::swap(&mut state.values, &mut self.next);
+        core::mem::swap(&mut state.carry, &mut self.next_carry);
+        core::mem::swap(&mut self.accelerations, &mut self.previous);
+        self.previous_step = h;
+        None
+    }
+}
+
+/// The errors of attempts that failed.
+impl Workspace {
+    /// Why a fixed step cannot be made.
+    pub(super) fn why_failed<E>(&self, attempt: &Attempt, t: f64, step: f64) -> Option<IntegratorsError<E>> {
+        if attempt.converged {
+            return None;
+        }
+        let not_finite = check_finite("rate", Some(t), &self.swept).err();
+        #[expect(clippy::cast_possible_truncation, reason = "at most a few dozen")]
+        let iterations = attempt.sweeps as usize;
+        Some(not_finite.unwrap_or(IntegratorsError::StagesDiverged { t, step, iterations, change: attempt.change }))
+    }
+
+    /// Why no shorter step can be made.
+    pub(super) fn why_too_small<E>(&self, t: f64, step: f64) -> IntegratorsError<E> {
+        check_finite("rate", Some(t), &self.swept).err().unwrap_or(IntegratorsError::StepTooSmall { t, step })
+    }
+}

@@ -1,0 +1,43 @@
+//! Equations of motion solved for the accelerations: q̈ = f(t, q, q̇).
+
+use piola_numerics::Real;
+
+/// A system of second order q̈ = f(t, q, q̇), over any scalar, the time too.
+///
+/// Methods for such systems do not integrate q̇ = v, which they know: they need fewer evaluations and less memory. A field
+/// that is generic over its scalar is evaluated at several times at once, in the lanes of one number.
+///
+/// # Example
+/// ```
+/// use core::convert::Infallible;
+/// use piola_integrators::SecondOrder;
+/// use piola_numerics::{Lanes, Real};
+/// struct Pendulum; // length 1 m, gravity 9.81 m/s²
+/// impl<T: Real> SecondOrder<T> for Pendulum {
+///     type Error = Infallible;
+///     fn freedom(&self) -> usize {
+///         1
+///     }
+///     #[inline(always)] // lanes gain only what is inlined
+///     fn acceleration(&mut self, _t: T, q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
+///         acceleration[0] = -T::lit(9.81) * q[0].sin();
+///         Ok(())
+///     }
+/// }
+/// let mut two = [Lanes([0.0; 2])]; // at two places at once
+/// Pendulum.acceleration(Lanes([0.0, 0.1]), &[Lanes([0.0, 0.5])], &[Lanes([1.0, 0.9])], &mut two)?;
+/// assert_eq!(two[0].0, [0.0, -9.81 * 0.5_f64.sin()]);
+/// # Ok::<(), Infallible>(())
+/// ```
+#[doc(alias("equation of motion", "Nyström", "second-order system"))]
+pub trait SecondOrder<T: Real = f64> {
+    /// Why an evaluation can fail; [`Infallible`](core::convert::Infallible) when it cannot.
+    type Error;
+    /// The number n of coordinates.
+    fn freedom(&self) -> usize;
+    /// Writes q̈ = f(t, q, q̇) to `acceleration`. All slices have the length of [`freedom`](Self::freedom).
+    ///
+    /// # Errors
+    /// Whatever makes the acceleration undefined at (t, q, q̇).
+    fn acceleration(&mut self, t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Self::Error>;
+}
