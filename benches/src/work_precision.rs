@@ -7,7 +7,7 @@ use piola_integrators::{
     Composition, DormandPrince853, Field, GaussLegendre, GaussLegendre16, Order, Report, SecondOrder, State, Tolerance,
     field, separable,
 };
-use piola_numerics::Real;
+use piola_numerics::{Lanes, Real};
 use serde_json::{Value, json};
 
 use crate::peers;
@@ -270,6 +270,7 @@ struct Accelerated<'a, E> {
 
 impl<T: Real, E: Accelerations> SecondOrder<T> for Accelerated<'_, E> {
     type Error = std::convert::Infallible;
+    const VELOCITY_DEPENDENT: bool = E::VELOCITY_DEPENDENT;
     fn freedom(&self) -> usize {
         self.freedom
     }
@@ -283,16 +284,30 @@ impl<T: Real, E: Accelerations> SecondOrder<T> for Accelerated<'_, E> {
 /// Collocation of order sixteen, adaptive, on equations written by hand.
 #[must_use]
 pub fn gauss_legendre_16<E: Equations<D> + Accelerations, const D: usize>(problem: &Problem<E, D>) -> Method<'_> {
+    let field = || Accelerated { equations: &problem.equations, freedom: D / 2 };
+    Method { name: "Gauss–Legendre 16".into(), ..derived_gauss_legendre_16("", problem.start, problem.end, field) }
+}
+
+/// Collocation of order sixteen, adaptive, on a system that Piola derives.
+#[must_use]
+pub fn derived_gauss_legendre_16<'a, F: SecondOrder<Lanes<f64, 8>>, const D: usize>(
+    name: &str,
+    start: [f64; D],
+    end: f64,
+    field: impl Fn() -> F + 'a,
+) -> Method<'a>
+where
+    F::Error: std::error::Error + 'static,
+{
     let run = move |tolerance: f64| {
-        let mut state = State::new(0.0, problem.start.to_vec()).map_err(|error| error.to_string())?;
+        let mut state = State::new(0.0, start.to_vec()).map_err(|error| error.to_string())?;
         let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
-        let mut field = Accelerated { equations: &problem.equations, freedom: D / 2 };
         let mut method = GaussLegendre16::new(tolerance);
-        let report = method.integrate_to(&mut field, &mut state, problem.end).map_err(|error| error.to_string())?;
+        let report = method.integrate_to(&mut field(), &mut state, end).map_err(|error| error.to_string())?;
         Ok(Outcome::of(report, state))
     };
-    let name = "Gauss–Legendre 16, in lanes".into();
-    let parameters = (2..=16).map(|k| 10.0_f64.powi(-k)).collect();
+    let name = format!("Gauss–Legendre 16, {name}");
+    let parameters = (1..=16).map(|k| 10.0_f64.powi(-k)).collect();
     Method { name, family: Family::GaussLegendre16, order: 16, parameters, run: Box::new(run) }
 }
 

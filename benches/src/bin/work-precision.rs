@@ -1,4 +1,4 @@
-//! Error against time on four problems, our methods and the peers': `work-precision.json` and one SVG each.
+//! Error against time on eight problems, our methods and the peers': `work-precision.json` and one SVG each.
 //!
 //! Options: `--out FOLDER` (default: the current one), `--filter PROBLEM` (part of a problem's name).
 
@@ -9,7 +9,7 @@ use piola_benches::chain::Chain;
 use piola_benches::figure::figure;
 use piola_benches::problems::{self, Accelerations, Equations, Force, Problem};
 use piola_benches::work_precision::{
-    Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, dormand_prince, gauss_legendre,
+    Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, derived_gauss_legendre_16, dormand_prince, gauss_legendre,
     gauss_legendre_16, measure, peer_methods,
 };
 use piola_gravitation::Gravitation;
@@ -35,9 +35,21 @@ fn main() -> Result<(), Box<dyn Error>> {
     if "double-pendulum".contains(&filter) {
         records.extend(double_pendulum(&folder)?);
     }
-    if "kepler".contains(&filter) {
-        let problem = problems::kepler();
+    if "henon-heiles".contains(&filter) {
+        let problem = problems::henon_heiles()?;
         records.extend(run(&problem, &separable_methods(&problem, 200.0), &folder)?);
+    }
+    for problem in [problems::kepler_round(), problems::kepler(), problems::kepler_long()] {
+        if problem.name.contains(&filter) {
+            records.extend(run(&problem, &separable_methods(&problem, 200.0), &folder)?);
+        }
+    }
+    if "arenstorf".contains(&filter) {
+        let problem = problems::arenstorf()?;
+        let mut methods = vec![dormand_prince(&problem), gauss_legendre_16(&problem)];
+        methods.extend(COLLOCATION.map(|order| gauss_legendre(&problem, order, 200.0)));
+        methods.extend(peer_methods(&problem));
+        records.extend(run(&problem, &methods, &folder)?);
     }
     if "pleiades".contains(&filter) {
         let problem = problems::pleiades()?;
@@ -48,7 +60,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     if records.is_empty() {
         return Err(format!(
-            "no problem is called {filter}: there are double-pendulum, kepler, pleiades, outer-solar-system"
+            "no problem is called {filter}: there are double-pendulum, henon-heiles, kepler-03, kepler, \
+             kepler-099, arenstorf, pleiades, outer-solar-system"
         )
         .into());
     }
@@ -71,6 +84,7 @@ fn double_pendulum(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
     let mut methods = vec![
         dormand_prince(&problem),
         gauss_legendre_16(&problem),
+        derived_gauss_legendre_16("by placement", problem.start, problem.end, || lagrangian.motion(2)),
         derived_dormand_prince("by placement", problem.start, problem.end, || lagrangian.motion(2)),
     ];
     methods.extend(COLLOCATION.map(|order| gauss_legendre(&problem, order, 30.0)));
@@ -88,6 +102,7 @@ fn outer_solar_system(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
     let mut methods = separable_methods(&problem, 100.0);
     let gravitation = || gravitation.clone();
     methods.insert(1, derived_dormand_prince("Gravitation", problem.start, problem.end, gravitation));
+    methods.insert(2, derived_gauss_legendre_16("Gravitation", problem.start, problem.end, gravitation));
     run(&problem, &methods, folder)
 }
 

@@ -33,6 +33,7 @@ impl Equations<4> for Kepler {
 }
 
 impl Accelerations for Kepler {
+    const VELOCITY_DEPENDENT: bool = false;
     #[inline(always)]
     fn accelerations<T: Real>(&self, q: &[T], _v: &[T], out: &mut [T]) {
         let square = q[0] * q[0] + q[1] * q[1];
@@ -48,14 +49,24 @@ impl Accelerations for Kepler {
 /// v² = (190/10)(1 − e)/(1 + e) = 1. After whole periods 2π √(a³/190) the exact solution is back.
 #[must_use]
 pub fn kepler() -> Problem<Kepler, 4> {
-    let start = [19.0, 0.0, 0.0, 1.0];
-    Problem {
-        name: "kepler",
-        title: "Kepler orbit of eccentricity 0.9, 10 revolutions",
-        equations: Kepler { parameter: 190.0 },
-        start,
-        end: 20.0 * PI * (100.0_f64 / 19.0).sqrt(),
-        reference: start,
-        small: 1.0,
-    }
+    orbit("kepler", "Kepler orbit of eccentricity 0.9, 10 revolutions", [19.0, 10.0, 190.0])
+}
+
+/// The same of eccentricity 0.3: r = 13, and the parameter is 130/7, rounded.
+#[must_use]
+pub fn kepler_round() -> Problem<Kepler, 4> {
+    orbit("kepler-03", "Kepler orbit of eccentricity 0.3, 10 revolutions", [13.0, 10.0, 130.0 / 7.0])
+}
+
+/// The same of eccentricity 0.99: r = 199, a = 100 and the parameter 19900, exactly.
+#[must_use]
+pub fn kepler_long() -> Problem<Kepler, 4> {
+    orbit("kepler-099", "Kepler orbit of eccentricity 0.99, 10 revolutions", [199.0, 100.0, 19_900.0])
+}
+
+/// Ten revolutions from the apocentre r with speed 1 across, half-axis a and parameter ra/(2a − r).
+fn orbit(name: &'static str, title: &'static str, [r, a, parameter]: [f64; 3]) -> Problem<Kepler, 4> {
+    let start = [r, 0.0, 0.0, 1.0];
+    let end = 20.0 * PI * (a * a * a / parameter).sqrt();
+    Problem { name, title, equations: Kepler { parameter }, start, end, reference: start, small: 1.0 }
 }

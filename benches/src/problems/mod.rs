@@ -1,13 +1,17 @@
 //! Initial value problems with known solutions, their equations written by hand as for any library.
 
+mod arenstorf;
 mod attraction;
 mod double_pendulum;
+mod henon_heiles;
 mod kepler;
 mod reference;
 
+pub use arenstorf::{Arenstorf, arenstorf};
 pub use attraction::{Attraction, outer_solar_system, pleiades};
 pub use double_pendulum::{DoublePendulum, double_pendulum};
-pub use kepler::{Kepler, kepler};
+pub use henon_heiles::{HenonHeiles, henon_heiles};
+pub use kepler::{Kepler, kepler, kepler_long, kepler_round};
 pub use reference::ReferenceError;
 
 use piola_numerics::Real;
@@ -20,6 +24,8 @@ pub trait Equations<const D: usize> {
 
 /// Equations of second order, q̈ = f(q, q̇), over any scalar.
 pub trait Accelerations {
+    /// Whether f depends on q̇.
+    const VELOCITY_DEPENDENT: bool = true;
     /// Writes f(q, q̇).
     fn accelerations<T: Real>(&self, q: &[T], v: &[T], out: &mut [T]);
 }

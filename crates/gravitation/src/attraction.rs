@@ -48,6 +48,7 @@ fn inverse_cube<T: Real>([x, y, z]: [T; 3], softening_squared: T) -> T {
 
 /// The sum over any scalar: every pair once. Every body meets the others in their order, as in the sum in
 /// lanes: the results agree bit for bit.
+#[inline(always)]
 pub(super) fn sum_over<T: Real>(parameters: &[f64], softening_squared: f64, positions: &[T], out: &mut [T]) {
     let n = parameters.len();
     let softening_squared = T::lit(softening_squared);

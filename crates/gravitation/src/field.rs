@@ -1,6 +1,6 @@
 //! Gravitation as what integrators follow, over each kind of scalar.
 
-use piola_integrators::{Field, Separable};
+use piola_integrators::{Field, SecondOrder, Separable};
 use piola_numerics::{Dual, Element, Gradient, Lanes, Real};
 
 use super::Gravitation;
@@ -19,6 +19,24 @@ macro_rules! follow_over {
             }
         }
 
+        impl<$($generics)*> SecondOrder<$scalar> for Gravitation {
+            type Error = GravitationError;
+            fn freedom(&self) -> usize {
+                3 * self.bodies()
+            }
+            #[inline(always)]
+            fn acceleration(
+                &mut self,
+                _t: $scalar,
+                q: &[$scalar],
+                v: &[$scalar],
+                acceleration: &mut [$scalar],
+            ) -> Result<(), GravitationError> {
+                self.$accelerations(q, acceleration)?;
+                self.add_post_newtonian(q, v, acceleration)
+            }
+        }
+
         impl<$($generics)*> Field<$scalar> for Gravitation {
             type Error = GravitationError;
             fn dimension(&self) -> usize {
@@ -32,7 +50,7 @@ macro_rules! follow_over {
                 let (rate, accelerations) = rate.split_at_mut(3 * self.bodies());
                 rate.copy_from_slice(velocities);
                 self.$accelerations(positions, accelerations)?;
-                self.add_post_newtonian(y, accelerations)
+                self.add_post_newtonian(positions, velocities, accelerations)
             }
             fn magnitudes(&self, y: &[$scalar], magnitudes: &mut [f64]) {
                 self.magnitudes(y, magnitudes);

@@ -247,6 +247,7 @@ impl Gravitation {
     ///
     /// # Errors
     /// As [`accelerations_into`](Self::accelerations_into).
+    #[inline(always)]
     pub fn accelerations_over<T: Real>(
         &self,
         positions: &[T],
@@ -262,7 +263,7 @@ impl Gravitation {
         check_length("accelerations", 3 * self.bodies(), accelerations.len())
     }
 
-    #[inline]
+    #[inline(always)]
     fn check_accelerations<T: Real>(
         &self,
         positions: &[T],
@@ -309,10 +310,15 @@ impl Gravitation {
             })
     }
 
-    fn add_post_newtonian<T: Real>(&self, state: &[T], accelerations: &mut [T]) -> Result<(), GravitationError> {
+    #[inline(always)]
+    fn add_post_newtonian<T: Real>(
+        &self,
+        positions: &[T],
+        velocities: &[T],
+        accelerations: &mut [T],
+    ) -> Result<(), GravitationError> {
         let Some(term) = self.post_newtonian else { return Ok(()) };
-        post_newtonian::add(&self.parameters, term, state, accelerations);
-        let (positions, velocities) = state.split_at(3 * self.bodies());
+        post_newtonian::add(&self.parameters, term, [positions, velocities], accelerations);
         self.check_accelerations(positions, velocities, accelerations)
     }
 

@@ -66,17 +66,26 @@ pub fn post_newtonian_acceleration<T: Real>(
 }
 
 /// Adds the term to the accelerations, with the reaction on the centre so that Σ m Δa = 0.
-pub(super) fn add<T: Real>(parameters: &[f64], term: PostNewtonian, state: &[T], accelerations: &mut [T]) {
+#[inline(always)]
+pub(super) fn add<T: Real>(
+    parameters: &[f64],
+    term: PostNewtonian,
+    [positions, velocities]: [&[T]; 2],
+    accelerations: &mut [T],
+) {
     let (n, centre) = (parameters.len(), term.centre);
     let mut reaction = [T::zero(); 3];
     for (body, &parameter) in parameters.iter().enumerate() {
         if body == centre {
             continue;
         }
-        let relative =
-            |block: usize| core::array::from_fn(|k| state[(block + k) * n + body] - state[(block + k) * n + centre]);
+        let (mut position, mut velocity) = ([T::zero(); 3], [T::zero(); 3]);
+        for k in 0..3 {
+            position[k] = positions[k * n + body] - positions[k * n + centre];
+            velocity[k] = velocities[k * n + body] - velocities[k * n + centre];
+        }
         let mu = T::lit(parameters[centre]);
-        let change = post_newtonian_acceleration(relative(0), relative(3), mu, T::lit(term.speed_of_light));
+        let change = post_newtonian_acceleration(position, velocity, mu, T::lit(term.speed_of_light));
         for k in 0..3 {
             accelerations[k * n + body] += change[k];
             reaction[k] += T::lit(parameter) * change[k];

@@ -33,6 +33,10 @@ use piola_numerics::Real;
 pub trait SecondOrder<T: Real = f64> {
     /// Why an evaluation can fail; [`Infallible`](core::convert::Infallible) when it cannot.
     type Error;
+    /// Whether f depends on q̇; methods then need not compute it. The default is yes.
+    ///
+    /// Where it is false, the velocities given to [`acceleration`](Self::acceleration) mean nothing.
+    const VELOCITY_DEPENDENT: bool = true;
     /// The number n of coordinates.
     fn freedom(&self) -> usize;
     /// Writes q̈ = f(t, q, q̇) to `acceleration`. All slices have the length of [`freedom`](Self::freedom).

@@ -70,6 +70,19 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         t: T,
         out: &mut [T],
     ) -> Result<(), LagrangianError> {
+        self.accelerate(work, q, v, t, out)
+    }
+
+    /// [`acceleration_into`](Self::acceleration_into), inlined into kernels over lanes.
+    #[inline(always)]
+    pub(super) fn accelerate<T: Real>(
+        &self,
+        work: &mut Workspace<T>,
+        q: &[T],
+        v: &[T],
+        t: T,
+        out: &mut [T],
+    ) -> Result<(), LagrangianError> {
         let n = q.len();
         check_length("q̇", n, v.len())?;
         check_length("q̈", n, out.len())?;

@@ -1,6 +1,6 @@
 //! The motion as a field that any integrator can follow: in (q, q̇), or canonically in (q, p).
 
-use piola_integrators::Field;
+use piola_integrators::{Field, SecondOrder};
 use piola_kinematics::Holonomic;
 use piola_numerics::Real;
 
@@ -36,7 +36,7 @@ pub struct CanonicalMotion<'a, S, P, F, T = f64> {
 }
 
 impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
-    /// The motion of a system of `coordinates` degrees of freedom as a field in (q, q̇).
+    /// The motion of a system of `coordinates` degrees of freedom as a field in (q, q̇), and as one of second order.
     ///
     /// # Example
     /// ```
@@ -108,6 +108,17 @@ impl<S: Holonomic, P: Potential, F: Forces, T: Real> Field<T> for Motion<'_, S, 
         let (velocity, acceleration) = rate.split_at_mut(self.coordinates);
         velocity.copy_from_slice(v);
         self.lagrangian.acceleration_into(&mut self.work, q, v, T::lit(t), acceleration)
+    }
+}
+
+impl<S: Holonomic, P: Potential, F: Forces, T: Real> SecondOrder<T> for Motion<'_, S, P, F, T> {
+    type Error = LagrangianError;
+    fn freedom(&self) -> usize {
+        self.coordinates
+    }
+    #[inline(always)]
+    fn acceleration(&mut self, t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), LagrangianError> {
+        self.lagrangian.accelerate(&mut self.work, q, v, t, acceleration)
     }
 }
 

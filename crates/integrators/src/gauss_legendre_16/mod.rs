@@ -13,10 +13,11 @@
 //! seven suffices, and collocation is accurate to more than twice that degree:
 //!
 //! ```text
-//! r = max|γ₇| / max|A|,    error ≈ r^(16/7),    h ← h (r₀/r)^(1/7),   r₀ = tolerance^(7/16)
+//! r = Σ|γ₇| / Σ|A|,    error ∝ r^(16/7),    h ← h (r₀/r)^(1/7),   r₀ = ¼ tolerance^(7/16)
 //! ```
 //!
-//! Where sweeps converge slowly, shorter steps are cheaper, and are taken.
+//! with sums over the components, and |A| the mean over the stages. Where sweeps converge slowly, shorter steps are
+//! cheaper, and are taken. A step that is too long shows it after two sweeps.
 //!
 //! # References
 //! Hairer, Lubich & Wanner, *Geometric Numerical Integration*, II.1.3, VIII.6; stages in lanes: Antoñana, Alberdi, Makazaga
@@ -93,6 +94,8 @@ enum Control {
 const MOST_STEPS: u64 = 10_000_000;
 /// The smallest tolerance that changes anything.
 const ROUNDING: f64 = 1e-17;
+/// r₀ over the tolerance to the power 7/16: then ten revolutions of eccentric orbits end within the tolerance.
+const AIM: f64 = 0.25;
 /// The factor of contraction of a sweep at which a digit costs least: e⁻² where accelerations depend on positions, and
 /// more where they depend on velocities.
 const BEST_CONTRACTION: f64 = 0.15;
@@ -100,6 +103,12 @@ const BEST_CONTRACTION: f64 = 0.15;
 const REJECTED: f64 = 0.8;
 /// Steps grow at most by this factor.
 const MOST_GROWTH: f64 = 4.0;
+/// The part of the best step that is tried, so that few are rejected.
+const SAFETY: f64 = 0.95;
+/// The trend of the best step, from one step to the next, that is believed.
+const TREND: (f64, f64) = (0.5, 1.0);
+/// Steps whose last coefficient exceeds the aim by this factor after two sweeps are not swept further: 0.65⁻⁷.
+const HOPELESS: f64 = 20.0;
 /// Growth after which a first step is made again rather than kept.
 const TIMID: f64 = 3.0;
 /// Attempts at the first step.
@@ -186,9 +195,11 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
             Control::Fixed(longest) => (ROUNDING, Some(equal_steps(state.time, end, longest)?)),
         };
         // r₀ of the module's head.
-        let aim = tolerance.powf(7.0 / 16.0);
+        let aim = AIM * tolerance.powf(7.0 / 16.0);
         let mut h = equal.map_or_else(|| first_step(state, n, span), |(_, h)| h);
         let (mut first, mut start) = (0, state.time);
+        // The best length of the step before; zero before the first.
+        let mut best_before = 0.0_f64;
         if let Some((count, _)) = equal
             && count == 0
         {
@@ -217,7 +228,8 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
                     return Err(work.why_too_small(state.time, h));
                 }
             }
-            let attempt = work.attempt(field, state, h, tolerance);
+            let most = if equal.is_some() { f64::INFINITY } else { HOPELESS * aim };
+            let attempt = work.attempt(field, state, h, tolerance, most);
             report.evaluations += 8 * attempt.sweeps;
             let factor = factor(&attempt, aim);
             if equal.is_some() {
@@ -253,7 +265,11 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
             }
             if equal.is_none() {
                 start = state.time;
-                h *= factor.min(MOST_GROWTH);
+                // As the best step changed, it will change.
+                let best = h.abs() * factor;
+                let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
+                best_before = best;
+                h *= (SAFETY * factor * trend).min(MOST_GROWTH);
             }
         }
     }
@@ -262,10 +278,10 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
 /// By how much the step should be longer.
 #[inline(always)]
 fn factor(attempt: &Attempt, aim: f64) -> f64 {
-    if !attempt.converged {
-        return 0.3;
-    }
     let accurate = if 0.0 < attempt.ratio { (aim / attempt.ratio).powf(1.0 / 7.0) } else { f64::INFINITY };
+    if !attempt.converged {
+        return if attempt.hopeless { SAFETY * accurate } else { 0.3 };
+    }
     let cheap = if 0.0 < attempt.contraction { (BEST_CONTRACTION / attempt.contraction).sqrt() } else { f64::INFINITY };
     accurate.min(cheap.max(0.85))
 }

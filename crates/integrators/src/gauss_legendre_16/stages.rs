@@ -54,7 +54,7 @@ impl Default for Continuation {
 pub(super) struct Attempt {
     /// Whether the stages stand still.
     pub(super) converged: bool,
-    /// The last coefficient of the accelerations, relative to the largest of them.
+    /// The last coefficient of the accelerations, relative to their mean.
     pub(super) ratio: f64,
     /// The factor by which a sweep shortens the change.
     pub(super) contraction: f64,
@@ -62,25 +62,21 @@ pub(super) struct Attempt {
     pub(super) sweeps: u64,
     /// The last change, relative to the accelerations.
     change: f64,
-    /// Whether the field failed, or gave what is not finite.
-    failed: bool,
+    /// Whether it was given up because its error would be too large.
+    pub(super) hopeless: bool,
 }
 
-/// The largest of the moduli, NaN when one of them is.
+/// The sum over the stages, in pairs.
 #[inline(always)]
-fn largest(x: Stages) -> f64 {
-    let mut largest = 0.0_f64;
-    for x in x.0 {
-        largest = if x <= largest || largest.is_nan() { largest } else { x };
-    }
-    largest
+fn sum(x: Stages) -> f64 {
+    let x = x.0;
+    ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
 }
 
 /// Σ of the products of two rows of stages, in pairs.
 #[inline(always)]
 fn dot(a: Stages, b: Stages) -> f64 {
-    let p = (a * b).0;
-    ((p[0] + p[7]) + (p[1] + p[6])) + ((p[2] + p[5]) + (p[3] + p[4]))
+    sum(a * b)
 }
 
 /// A matrix, by its columns, times a row of stages.
@@ -93,6 +89,13 @@ fn times(columns: &[Stages; 8], x: Stages) -> Stages {
         odd += columns[j + 1] * Lanes::splat(x.0[j + 1]);
     }
     even + odd
+}
+
+/// |γ₇| of all components over their mean modulus at a stage.
+#[inline(always)]
+fn last_coefficient(accelerations: &[Stages], size: f64) -> f64 {
+    let last: f64 = accelerations.iter().map(|&a| dot(LEGENDRE[7], a).abs()).sum();
+    if 0.0 < size { last / (0.125 * size) } else { 0.0 }
 }
 
 impl Continuation {
@@ -135,7 +138,8 @@ impl Workspace {
         self.expected = 0.1;
     }
 
-    /// Sweeps over the stages of a step of length h from the state.
+    /// Sweeps over the stages of a step of length h from the state, until they stand still or their last coefficient
+    /// exceeds `most`.
     #[inline(always)]
     pub(super) fn attempt<F: SecondOrder<Stages>>(
         &mut self,
@@ -143,6 +147,7 @@ impl Workspace {
         state: &State,
         h: f64,
         tolerance: f64,
+        most: f64,
     ) -> Attempt {
         let n = self.accelerations.len();
         let (q, v) = state.values.split_at(n);
@@ -167,39 +172,35 @@ impl Workspace {
             contraction: self.expected,
             sweeps: 0,
             change: f64::INFINITY,
-            failed: false,
+            hopeless: false,
         };
         let mut size = 0.0;
         while attempt.sweeps < MOST_SWEEPS {
             for k in 0..n {
                 let a = accelerations[k];
-                let velocity = Lanes::splat(v[k]);
-                let carried = Lanes::splat(v_carry[k]);
-                velocities[k] = velocity + (carried + h_all * times(&VELOCITY, a));
+                let (velocity, carried) = (Lanes::splat(v[k]), Lanes::splat(v_carry[k]));
+                if F::VELOCITY_DEPENDENT {
+                    velocities[k] = velocity + (carried + h_all * times(&VELOCITY, a));
+                }
                 let moved = h_nodes * (velocity + carried) + square * times(&POSITION, a);
                 positions[k] = Lanes::splat(q[k]) + (Lanes::splat(q_carry[k]) + moved);
             }
             attempt.sweeps += 1;
             if field.acceleration(time, positions, velocities, swept).is_err() {
-                attempt.failed = true;
                 return attempt;
             }
-            let (mut change, mut all) = (Lanes([0.0_f64; 8]), Lanes([0.0_f64; 8]));
-            let mut finite = Lanes([0.0_f64; 8]);
+            // Sums, not maxima: what is not finite stays in them.
+            let (mut change, mut all) = (Lanes([0.0; 8]), Lanes([0.0; 8]));
             for k in 0..n {
-                let difference = (swept[k] - accelerations[k]).abs();
-                change = Lanes::select(difference.less_than(change), change, difference);
-                let modulus = swept[k].abs();
-                all = Lanes::select(modulus.less_than(all), all, modulus);
-                finite += swept[k] * Lanes([0.0; 8]);
+                change += (swept[k] - accelerations[k]).abs();
+                all += swept[k].abs();
+                accelerations[k] = swept[k];
             }
-            accelerations.copy_from_slice(swept);
-            size = largest(all);
-            if !finite.0.iter().sum::<f64>().is_finite() {
-                attempt.failed = true;
+            size = sum(all);
+            if !size.is_finite() {
                 return attempt;
             }
-            let change = if 0.0 < size { largest(change) / size } else { 0.0 };
+            let change = if 0.0 < size { sum(change) / size } else { 0.0 };
             let fell = change / attempt.change;
             if attempt.change.is_finite() {
                 // The second sweep from a guess says little; slow convergence is believed at once.
@@ -214,17 +215,20 @@ impl Workspace {
             if 1.0 < fell && 2 < attempt.sweeps {
                 break;
             }
+            if attempt.sweeps == 2 && most.is_finite() {
+                attempt.ratio = last_coefficient(accelerations, size);
+                if most < attempt.ratio {
+                    attempt.hopeless = true;
+                    return attempt;
+                }
+            }
         }
         // At rounding the fall of the last sweep is no measure.
         if 0.5 < attempt.contraction && attempt.converged {
             attempt.contraction = self.expected;
         }
         self.expected = attempt.contraction;
-        let mut last = 0.0_f64;
-        for &a in &*accelerations {
-            last = last.max(dot(LEGENDRE[7], a).abs());
-        }
-        attempt.ratio = if 0.0 < size { last / size } else { 0.0 };
+        attempt.ratio = last_coefficient(accelerations, size);
         attempt
     }
 
