@@ -9,8 +9,8 @@ use piola_benches::chain::Chain;
 use piola_benches::figure::figure;
 use piola_benches::problems::{self, Accelerations, Equations, Force, Problem};
 use piola_benches::work_precision::{
-    Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, derived_gauss_legendre_16, dormand_prince, gauss_legendre,
-    gauss_legendre_16, measure, peer_methods,
+    Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, derived_gauss_legendre_16,
+    dormand_prince, gauss_legendre, gauss_legendre_16, measure, peer_methods,
 };
 use piola_gravitation::Gravitation;
 use piola_integrators::Order;
@@ -107,7 +107,10 @@ fn outer_solar_system(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
 }
 
 /// All methods on equations written by hand that separate.
-fn separable_methods<E: Equations<D> + Force + Accelerations, const D: usize>(problem: &Problem<E, D>, fewest: f64) -> Vec<Method<'_>> {
+fn separable_methods<E: Equations<D> + Force + Accelerations, const D: usize>(
+    problem: &Problem<E, D>,
+    fewest: f64,
+) -> Vec<Method<'_>> {
     let mut methods = vec![dormand_prince(problem), gauss_legendre_16(problem)];
     methods.extend(Order::ALL.map(|order| composition(problem, order, fewest)));
     methods.extend(COLLOCATION.map(|order| gauss_legendre(problem, order, fewest)));

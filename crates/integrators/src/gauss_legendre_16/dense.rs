@@ -101,7 +101,7 @@ impl<'a> CollocationStep<'a> {
     }
 }
 
-/// ∫₀^θ P_k and ∬₀^θ P_k of the Legendre polynomials on [0, 1].
+/// `∫₀^θ P_k` and `∬₀^θ P_k` of the Legendre polynomials on [0, 1].
 ///
 /// ```text
 /// ∫₀^θ P_k = (P_{k+1} − P_{k−1}) / 2(2k + 1),  k ≥ 1

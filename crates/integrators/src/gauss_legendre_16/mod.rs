@@ -9,7 +9,7 @@
 //! from the polynomial of the step before, continued, and end where the next one would change less than the tolerance.
 //!
 //! # Step size
-//! The accelerations of a step are a polynomial Σ γ_k P_k of degree seven. Its last coefficient tells how well a degree of
+//! The accelerations of a step are a polynomial `Σ γ_k P_k` of degree seven. Its last coefficient tells how well a degree of
 //! seven suffices, and collocation is accurate to more than twice that degree:
 //!
 //! ```text
@@ -25,6 +25,7 @@
 
 mod dense;
 mod stages;
+#[expect(clippy::unreadable_literal, reason = "seventeen digits, to be compared with printed tables")]
 mod tableau;
 
 use core::ops::ControlFlow;
@@ -101,6 +102,10 @@ const AIM: f64 = 0.25;
 const BEST_CONTRACTION: f64 = 0.15;
 /// Steps whose error asks for less than this part of them are made again.
 const REJECTED: f64 = 0.8;
+/// The part of a step that is tried after one whose stages did not converge, or where the field is not defined.
+const UNCONVERGED: f64 = 0.3;
+/// The part of the span within which a refusal of the field explains that steps shrink.
+const HERE: f64 = 1e-6;
 /// Steps grow at most by this factor.
 const MOST_GROWTH: f64 = 4.0;
 /// The part of the best step that is tried, so that few are rejected.
@@ -197,9 +202,11 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
         // r₀ of the module's head.
         let aim = AIM * tolerance.powf(7.0 / 16.0);
         let mut h = equal.map_or_else(|| first_step(state, n, span), |(_, h)| h);
-        let (mut first, mut start) = (0, state.time);
+        let (mut first, start) = (0, state.time);
         // The best length of the step before; zero before the first.
         let mut best_before = 0.0_f64;
+        // When the field last could not be evaluated, and what it said.
+        let mut refused: Option<(f64, F::Error)> = None;
         if let Some((count, _)) = equal
             && count == 0
         {
@@ -225,12 +232,26 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
                     h
                 };
                 if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
-                    return Err(work.why_too_small(state.time, h));
+                    return Err(match refused {
+                        // The last refusal is the reason if it was here.
+                        Some((t, source)) if (state.time - t).abs() <= HERE * span.abs() => {
+                            IntegratorsError::Field { t: state.time, source }
+                        }
+                        _ => work.why_too_small(state.time, h),
+                    });
                 }
             }
             let most = if equal.is_some() { f64::INFINITY } else { HOPELESS * aim };
-            let attempt = work.attempt(field, state, h, tolerance, most);
-            report.evaluations += 8 * attempt.sweeps;
+            let attempt = match work.attempt(field, state, h, tolerance, most, &mut report.evaluations) {
+                Ok(attempt) => attempt,
+                Err(source) if equal.is_some() => return Err(IntegratorsError::Field { t: state.time, source }),
+                Err(source) => {
+                    refused = Some((state.time, source));
+                    report.rejected += 1;
+                    h *= UNCONVERGED;
+                    continue;
+                }
+            };
             let factor = factor(&attempt, aim);
             if equal.is_some() {
                 if let Some(error) = work.why_failed(&attempt, state.time, h) {
@@ -246,6 +267,7 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
                 h *= factor.min(50.0);
                 continue;
             }
+            let from = state.time;
             if let Some(error) = work.accept(state, h) {
                 return Err(error);
             }
@@ -255,7 +277,7 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
                 None if !last => state.advance_time(h),
                 _ => state.set_time(end),
             }
-            let step = CollocationStep::new(work, state, report.steps, h, equal.map_or(start, |_| state.time - h));
+            let step = CollocationStep::new(work, state, report.steps, h, from);
             if observer(&step).is_break() {
                 report.ending = Ending::Stopped;
                 return Ok(report);
@@ -264,7 +286,6 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
                 return Ok(report);
             }
             if equal.is_none() {
-                start = state.time;
                 // As the best step changed, it will change.
                 let best = h.abs() * factor;
                 let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
@@ -280,7 +301,7 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
 fn factor(attempt: &Attempt, aim: f64) -> f64 {
     let accurate = if 0.0 < attempt.ratio { (aim / attempt.ratio).powf(1.0 / 7.0) } else { f64::INFINITY };
     if !attempt.converged {
-        return if attempt.hopeless { SAFETY * accurate } else { 0.3 };
+        return if attempt.hopeless { SAFETY * accurate } else { UNCONVERGED };
     }
     let cheap = if 0.0 < attempt.contraction { (BEST_CONTRACTION / attempt.contraction).sqrt() } else { f64::INFINITY };
     accurate.min(cheap.max(0.85))

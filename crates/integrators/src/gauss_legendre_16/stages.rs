@@ -2,12 +2,14 @@
 
 use piola_numerics::{Lanes, Real};
 
-use super::tableau::{LEGENDRE, NODES, POSITION, POSITION_WEIGHTS, Stages, VELOCITY, WEIGHTS};
+use super::tableau::{LEGENDRE, NODES, OFFSETS, POSITION, POSITION_WEIGHTS, Stages, VELOCITY, WEIGHTS};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, SecondOrder, State};
 
 /// Sweeps after which a step is given up.
 const MOST_SWEEPS: u64 = 40;
+/// Changes larger than the one before after which sweeps are given up.
+const MOST_RISES: u32 = 3;
 /// The change of a sweep, relative to the accelerations, below which only rounding can keep it from falling.
 const NEAR_ROUNDING: f64 = 1e-9;
 /// The part of the tolerance that the sweeps may leave.
@@ -110,8 +112,8 @@ impl Continuation {
         let x = Lanes::splat(1.0) + Lanes::splat(2.0 * ratio) * NODES;
         let (mut before, mut now) = (Lanes::splat(1.0), x);
         self.columns = LEGENDRE[0].0.map(Lanes::splat);
-        for k in 1..terms {
-            for (column, weight) in self.columns.iter_mut().zip(LEGENDRE[k].0) {
+        for (k, row) in LEGENDRE.iter().enumerate().take(terms).skip(1) {
+            for (column, weight) in self.columns.iter_mut().zip(row.0) {
                 *column += now * Lanes::splat(weight);
             }
             let k = k as f64;
@@ -148,7 +150,8 @@ impl Workspace {
         h: f64,
         tolerance: f64,
         most: f64,
-    ) -> Attempt {
+        evaluations: &mut u64,
+    ) -> Result<Attempt, F::Error> {
         let n = self.accelerations.len();
         let (q, v) = state.values.split_at(n);
         let (q_carry, v_carry) = state.carry.split_at(n);
@@ -164,8 +167,8 @@ impl Workspace {
             }
         }
         let time = Lanes::splat(state.time) + Lanes::splat(h) * NODES;
-        let (h_all, square) = (Lanes::splat(h), Lanes::splat(h * h));
-        let h_nodes = h_all * NODES;
+        let square = h * h;
+        let (h_all, square_all) = (Lanes::splat(h), Lanes::splat(square));
         let mut attempt = Attempt {
             converged: false,
             ratio: 0.0,
@@ -174,21 +177,23 @@ impl Workspace {
             change: f64::INFINITY,
             hopeless: false,
         };
-        let mut size = 0.0;
+        let (mut size, mut rises) = (0.0, 0);
         while attempt.sweeps < MOST_SWEEPS {
             for k in 0..n {
                 let a = accelerations[k];
-                let (velocity, carried) = (Lanes::splat(v[k]), Lanes::splat(v_carry[k]));
+                // From the middle of both ends: symmetric in time whatever the rounding of the coefficients.
+                let mean = v_carry[k] + 0.5 * (h * dot(WEIGHTS, a));
                 if F::VELOCITY_DEPENDENT {
-                    velocities[k] = velocity + (carried + h_all * times(&VELOCITY, a));
+                    velocities[k] = Lanes::splat(v[k]) + (Lanes::splat(mean) + h_all * times(&VELOCITY, a));
                 }
-                let moved = h_nodes * (velocity + carried) + square * times(&POSITION, a);
-                positions[k] = Lanes::splat(q[k]) + (Lanes::splat(q_carry[k]) + moved);
+                let moved = h * (v[k] + mean);
+                let middle = q_carry[k] + 0.5 * (moved + square * dot(POSITION_WEIGHTS, a));
+                let about = Lanes::splat(moved) * OFFSETS + square_all * times(&POSITION, a);
+                positions[k] = Lanes::splat(q[k]) + (Lanes::splat(middle) + about);
             }
             attempt.sweeps += 1;
-            if field.acceleration(time, positions, velocities, swept).is_err() {
-                return attempt;
-            }
+            *evaluations += 8;
+            field.acceleration(time, positions, velocities, swept)?;
             // Sums, not maxima: what is not finite stays in them.
             let (mut change, mut all) = (Lanes([0.0; 8]), Lanes([0.0; 8]));
             for k in 0..n {
@@ -198,7 +203,7 @@ impl Workspace {
             }
             size = sum(all);
             if !size.is_finite() {
-                return attempt;
+                return Ok(attempt);
             }
             let change = if 0.0 < size { sum(change) / size } else { 0.0 };
             let fell = change / attempt.change;
@@ -212,14 +217,16 @@ impl Workspace {
                 attempt.converged = true;
                 break;
             }
-            if 1.0 < fell && 2 < attempt.sweeps {
+            // A shorter step is cheaper than waiting; a fixed one waits: changes may grow at first and fall then.
+            rises += u32::from(1.0 < fell);
+            if rises == MOST_RISES && most.is_finite() {
                 break;
             }
             if attempt.sweeps == 2 && most.is_finite() {
                 attempt.ratio = last_coefficient(accelerations, size);
                 if most < attempt.ratio {
                     attempt.hopeless = true;
-                    return attempt;
+                    return Ok(attempt);
                 }
             }
         }
@@ -229,7 +236,7 @@ impl Workspace {
         }
         self.expected = attempt.contraction;
         attempt.ratio = last_coefficient(accelerations, size);
-        attempt
+        Ok(attempt)
     }
 
     /// Moves the state to the end of the step; the error of a state that is not finite.
@@ -243,9 +250,11 @@ impl Workspace {
         let (q_carry, v_carry) = self.next_carry.split_at_mut(n);
         for k in 0..n {
             let a = self.accelerations[k];
-            let moved = h * (v[k] + v_carry[k]) + (h * h) * dot(POSITION_WEIGHTS, a);
-            compensated_add(&mut q[k], &mut q_carry[k], moved);
-            compensated_add(&mut v[k], &mut v_carry[k], h * dot(WEIGHTS, a));
+            let gained = h * dot(WEIGHTS, a);
+            // With the velocities of both ends: symmetric in time whatever the rounding of the weights.
+            let mean = v[k] + (v_carry[k] + 0.5 * gained);
+            compensated_add(&mut q[k], &mut q_carry[k], h * mean + (h * h) * dot(POSITION_WEIGHTS, a));
+            compensated_add(&mut v[k], &mut v_carry[k], gained);
         }
         if let Err(error) = check_finite("state", Some(state.time), &self.next) {
             return Some(error);

@@ -5,6 +5,7 @@ mod coefficients;
 mod dense;
 mod events;
 mod first_step;
+mod gauss_16;
 mod golden;
 mod laws;
 mod orders;

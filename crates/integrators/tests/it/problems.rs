@@ -11,6 +11,20 @@ pub(crate) struct SecondOrder<F> {
     pub(crate) force: F,
 }
 
+impl<T: Real, F: Force> piola_integrators::SecondOrder<T> for SecondOrder<F> {
+    type Error = Infallible;
+    const VELOCITY_DEPENDENT: bool = false;
+    fn freedom(&self) -> usize {
+        self.freedom
+    }
+    // None of these forces depends on the time.
+    #[inline(always)]
+    fn acceleration(&mut self, t: T, q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
+        self.force.force(t.primal(0), q, acceleration);
+        Ok(())
+    }
+}
+
 /// A force ṗ = w(t, q) over any scalar.
 pub(crate) trait Force {
     fn force<T: Real>(&self, t: f64, q: &[T], force: &mut [T]);
@@ -133,6 +147,20 @@ impl<T: Real> Field<T> for DoublePendulum {
     }
     fn is_second_order(&self) -> bool {
         true
+    }
+}
+
+impl<T: Real> piola_integrators::SecondOrder<T> for DoublePendulum {
+    type Error = Infallible;
+    fn freedom(&self) -> usize {
+        2
+    }
+    #[inline(always)]
+    fn acceleration(&mut self, _t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
+        let mut rate = [T::zero(); 4];
+        self.rate(0.0, &[q[0], q[1], v[0], v[1]], &mut rate)?;
+        acceleration.copy_from_slice(&rate[2..]);
+        Ok(())
     }
 }
 
