@@ -99,7 +99,9 @@ const ROUNDING: f64 = 1e-17;
 const AIM: f64 = 0.25;
 /// The factor of contraction of a sweep at which a digit costs least: e⁻² where accelerations depend on positions, and
 /// more where they depend on velocities.
-const BEST_CONTRACTION: f64 = 0.15;
+const BEST_CONTRACTION: f64 = 0.3;
+/// Sweeps that are no reason to shorten a step.
+const FEW_SWEEPS: u64 = 5;
 /// Steps whose error asks for less than this part of them are made again.
 const REJECTED: f64 = 0.8;
 /// The part of a step that is tried after one whose stages did not converge, or where the field is not defined.
@@ -303,8 +305,10 @@ fn factor(attempt: &Attempt, aim: f64) -> f64 {
     if !attempt.converged {
         return if attempt.hopeless { SAFETY * accurate } else { UNCONVERGED };
     }
-    let cheap = if 0.0 < attempt.contraction { (BEST_CONTRACTION / attempt.contraction).sqrt() } else { f64::INFINITY };
-    accurate.min(cheap.max(0.85))
+    // Few sweeps are cheap whatever they contract by.
+    let slow = FEW_SWEEPS < attempt.sweeps;
+    let cheap = if slow { (BEST_CONTRACTION / attempt.contraction).sqrt() } else { f64::INFINITY };
+    accurate.min(cheap.max(REJECTED))
 }
 
 /// A first step to try: a part of the time in which the positions would change as much as their size.

@@ -12,6 +12,8 @@ const MOST_SWEEPS: u64 = 40;
 const MOST_RISES: u32 = 3;
 /// The change of a sweep, relative to the accelerations, below which only rounding can keep it from falling.
 const NEAR_ROUNDING: f64 = 1e-9;
+/// The change of a sweep, relative to the accelerations, whose fall tells of the step.
+const MEASURABLE: f64 = 1e-12;
 /// The part of the tolerance that the sweeps may leave.
 const UNSWEPT: f64 = 0.01;
 /// The longest continuation of a polynomial of degree seven, in steps; farther, its first terms are continued.
@@ -207,8 +209,8 @@ impl Workspace {
             }
             let change = if 0.0 < size { sum(change) / size } else { 0.0 };
             let fell = change / attempt.change;
-            if attempt.change.is_finite() {
-                // The second sweep from a guess says little; slow convergence is believed at once.
+            // Near rounding the changes fall no more, whatever the step.
+            if attempt.change.is_finite() && MEASURABLE < change {
                 attempt.contraction = fell.max(1e-3);
             }
             attempt.change = change;
@@ -230,11 +232,7 @@ impl Workspace {
                 }
             }
         }
-        // At rounding the fall of the last sweep is no measure.
-        if 0.5 < attempt.contraction && attempt.converged {
-            attempt.contraction = self.expected;
-        }
-        self.expected = attempt.contraction;
+        self.expected = attempt.contraction.min(0.5);
         attempt.ratio = last_coefficient(accelerations, size);
         Ok(attempt)
     }
