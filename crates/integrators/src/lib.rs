@@ -6,6 +6,7 @@
 mod composition;
 mod dormand_prince;
 mod error;
+mod estimate;
 mod field;
 mod gauss_legendre;
 mod gauss_legendre_16;
@@ -16,6 +17,7 @@ mod tolerance;
 pub use composition::{Composition, Order};
 pub use dormand_prince::{Crossing, DenseStep, DormandPrince853, Event, EventAction, Occurrence};
 pub use error::IntegratorsError;
+pub use estimate::ErrorEstimate;
 pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};

@@ -134,6 +134,10 @@ impl<T: Real> DormandPrince853<T> {
         self.tolerance
     }
 
+    pub(crate) const fn tolerance_mut(&mut self) -> &mut Tolerance {
+        &mut self.tolerance
+    }
+
     /// Integrates to `end`, unobserved.
     ///
     /// # Errors

@@ -145,6 +145,15 @@ impl GaussLegendre16 {
         self
     }
 
+    /// The same with a part of the tolerance, or with steps of half the length.
+    pub(crate) fn finer(&self, part: f64) -> Self {
+        let control = match self.control {
+            Control::Adaptive(tolerance) => Control::Adaptive((tolerance * part).max(ROUNDING)),
+            Control::Fixed(step) => Control::Fixed(0.5 * step),
+        };
+        Self { control, ..self.clone() }
+    }
+
     /// Integrates to `end`, unobserved.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 mod alloc;
 mod coefficients;
 mod dense;
+mod estimates;
 mod events;
 mod first_step;
 mod gauss_16;
