@@ -6,7 +6,7 @@ use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::output::figures::{Area, Drawn, FINE, FONT, INK, Plane, colour, pixels, plane_chart};
+use crate::output::figures::{Area, Drawn, FINE, FONT, INK, Plane, colour, format_short, pixels, plane_chart};
 
 /// Curves and marks over two axes.
 #[derive(Default)]
@@ -15,6 +15,8 @@ pub(super) struct Panel {
     axes: [String; 2],
     curves: Vec<Curve>,
     marks: Vec<Mark>,
+    /// Whether zero is shown on the upright axis.
+    from_zero: bool,
 }
 
 struct Curve {
@@ -29,6 +31,7 @@ struct Mark {
     place: (f64, f64),
     colour: RGBColor,
     is_filled: bool,
+    is_below: bool,
 }
 
 /// How far the pieces of a dashed curve reach, and the gaps between them.
@@ -54,10 +57,25 @@ impl Panel {
         self
     }
 
-    /// Adds a disc with a name beside it, or a ring.
+    /// Shows zero on the upright axis.
+    pub(super) const fn from_zero(mut self) -> Self {
+        self.from_zero = true;
+        self
+    }
+
+    /// Adds a disc with a name below it.
+    pub(super) fn mark_below(self, name: &str, index: usize, place: (f64, f64)) -> Self {
+        let mut panel = self.mark(name, index, place, true);
+        if let Some(mark) = panel.marks.last_mut() {
+            mark.is_below = true;
+        }
+        panel
+    }
+
+    /// Adds a disc with a name above it, or a ring.
     pub(super) fn mark(mut self, name: &str, index: usize, place: (f64, f64), is_filled: bool) -> Self {
         if place.0.is_finite() && place.1.is_finite() {
-            self.marks.push(Mark { name: name.to_string(), place, colour: colour(index), is_filled });
+            self.marks.push(Mark { name: name.to_string(), place, colour: colour(index), is_filled, is_below: false });
         }
         self
     }
@@ -72,7 +90,10 @@ impl Panel {
             let curves = self.curves.iter().flat_map(|curve| &curve.points);
             curves.chain(self.marks.iter().map(|mark| &mark.place))
         };
-        let ranges = (range(points().map(|p| p.0), 0.02), range(points().map(|p| p.1), 0.06));
+        let ranges = (
+            range(points().map(|p| p.0), 0.02),
+            range(points().map(|p| p.1).chain(self.from_zero.then_some(0.0)), 0.06),
+        );
         let [across, up] = self.axes.clone();
         let mut chart = plane_chart(&plot, ranges, (across, up))?;
         for curve in &self.curves {
@@ -158,16 +179,16 @@ fn range(numbers: impl Iterator<Item = f64>, air: f64) -> Range<f64> {
 
 fn draw_mark(chart: &mut Plane<'_>, mark: &Mark) -> Drawn {
     let inside = if mark.is_filled { mark.colour } else { WHITE };
-    let style = (FONT, pixels(14)).into_font().color(&mark.colour).pos(Pos::new(HPos::Left, VPos::Bottom));
     // Towards the middle, so that no name is cut.
     let range = chart.x_range();
     let is_right = 0.6 * (range.end - range.start) < mark.place.0 - range.start;
-    let style = if is_right { style.pos(Pos::new(HPos::Right, VPos::Bottom)) } else { style };
-    let shift = if is_right { pixels(8) * -1 } else { pixels(8) };
+    let (side, shift) = if is_right { (HPos::Right, -pixels(8)) } else { (HPos::Left, pixels(8)) };
+    let (level, rise) = if mark.is_below { (VPos::Top, pixels(6)) } else { (VPos::Bottom, -pixels(6)) };
+    let style = (FONT, pixels(14)).into_font().color(&mark.colour).pos(Pos::new(side, level));
     chart.draw_series([EmptyElement::at(mark.place)
         + Circle::new((0, 0), pixels(6), mark.colour.filled())
         + Circle::new((0, 0), pixels(4), inside.filled())
-        + Text::new(mark.name.clone(), (shift, -pixels(6)), style)])?;
+        + Text::new(mark.name.clone(), (shift, rise), style)])?;
     Ok(())
 }
 
@@ -178,6 +199,12 @@ pub(super) fn prefixed(unit: &str, largest: f64) -> (String, f64) {
     let fitting = PREFIXES.iter().rev().find(|(_, size)| 0.8 * size <= largest.abs());
     let (prefix, size) = fitting.copied().unwrap_or(("", 1.0));
     (format!("{prefix}{unit}"), size)
+}
+
+/// A quantity in words: `4.5 mm`, `1.06 MPa`.
+pub(super) fn quantity(unit: &str, value: f64) -> String {
+    let (name, size) = prefixed(unit, value);
+    format!("{} {name}", format_short(value / size))
 }
 
 /// The largest size of some numbers.

@@ -9,6 +9,7 @@ use super::balloon::{Balloon, BalloonCurve};
 use super::bending::{BendingCurve, BentBlockStudy};
 use super::dislocation::{BurgersCircuits, ScrewDislocations};
 use super::laminated_tube::{LayeredTube, TubeStresses};
+use super::panel::quantity;
 use super::run::Observer;
 use super::torsion::{RodCurves, TwistedRod};
 use super::{StudyPlan, Subject};
@@ -118,7 +119,7 @@ pub(super) fn outcome<E: core::fmt::Display>(result: Result<bool, E>) -> Outcome
 
 /// A law in words, with the scale of its stresses.
 pub(super) fn material(law: &super::Law) -> String {
-    format!("{} rubber of shear modulus {:.4e} Pa", law.name(), law.shear_modulus())
+    format!("{} rubber of shear modulus {}", law.name(), quantity("Pa", law.shear_modulus()))
 }
 
 impl Builder<'_> {

@@ -31,14 +31,13 @@ impl BalloonCurve {
     fn states_table(&self, asked: &Balloon) -> String {
         let mut text = String::from("state,stretch,pressure_Pa,slope_Pa,inner_radius_m,outer_radius_m\n");
         let [inner, outer] = asked.radii();
-        let limits = self.limits.iter().map(|state| (if self.is_maximum(state) { "maximum" } else { "minimum" }, state));
-        let states =
-            self.states.iter().map(|state| (if is_stable(state) { "stable" } else { "unstable" }, state));
+        let limits =
+            self.limits.iter().map(|state| (if self.is_maximum(state) { "maximum" } else { "minimum" }, state));
+        let states = self.states.iter().map(|state| (if is_stable(state) { "stable" } else { "unstable" }, state));
         for (kind, state) in limits.chain(states) {
             let place = inner * state.parameter;
             let far = (outer.powi(3) - inner.powi(3) + place.powi(3)).cbrt();
-            let _ =
-                writeln!(text, "{kind},{:?},{:?},{:?},{place:?},{far:?}", state.parameter, state.load, state.slope);
+            let _ = writeln!(text, "{kind},{:?},{:?},{:?},{place:?},{far:?}", state.parameter, state.load, state.slope);
         }
         text
     }
@@ -55,8 +54,12 @@ impl BalloonCurve {
             .curve("this shell", 0, self.curve.iter().map(|point| (point.parameter, point.load / unit)))
             .dashed("thin wall", 11, thin);
         for limit in &self.limits {
-            let name = if self.is_maximum(limit) { "maximum" } else { "minimum" };
-            pressure = pressure.mark(name, 1, (limit.parameter, limit.load / unit), true);
+            let place = (limit.parameter, limit.load / unit);
+            pressure = if self.is_maximum(limit) {
+                pressure.mark("maximum", 1, place, true)
+            } else {
+                pressure.mark_below("minimum", 1, place)
+            };
         }
         if asked.pressure.is_some() {
             for (index, state) in self.states.iter().enumerate() {
@@ -64,15 +67,13 @@ impl BalloonCurve {
                 pressure = pressure.mark(&name, 2, (state.parameter, state.load / unit), is_stable(state));
             }
         }
-        let sizes = self.stresses.iter().flatten().flat_map(|at| at.stress);
-        let (pascal, unit) = prefixed("Pa", largest(sizes));
         let [inner, outer] = asked.radii();
         let share = |reference: f64| (reference - inner) / (outer - inner);
-        let mut wall =
-            Panel::new("hoop stress through the wall", "(R − R_i)/(R_o − R_i)", format!("T_θθ ({pascal})"));
+        let mut wall = Panel::new("hoop stress through the wall", "(R − R_i)/(R_o − R_i)", "T_θθ over its mean");
         for (index, (name, particles)) in self.named_states().enumerate() {
             let name = if asked.pressure.is_some() { format!("{}: {name}", index + 1) } else { name };
-            wall = wall.curve(&name, index + 2, particles.iter().map(|at| (share(at.reference), at.stress[1] / unit)));
+            let mean = particles.iter().map(|at| at.stress[1]).sum::<f64>() / particles.len().max(1) as f64;
+            wall = wall.curve(&name, index + 2, particles.iter().map(|at| (share(at.reference), at.stress[1] / mean)));
         }
         figure((1080, 500), title, &|area| {
             let parts = area.split_evenly((1, 2));

@@ -16,6 +16,7 @@ use piola_solutions::families::Orientation;
 use piola_solutions::loads::{Shell, SphereInflation};
 use piola_solutions::{LocalDeformation, ResponseFunctions};
 
+use super::panel::quantity;
 use super::solid::material;
 use super::{Law, StudyPlan};
 
@@ -66,9 +67,8 @@ impl Balloon {
         let across = (stretch * stretch).recip();
         let local = LocalDeformation::of([[across, 0.0, 0.0], [0.0, stretch, 0.0], [0.0, 0.0, stretch]]);
         let [direct, inverse] = self.law.response(local.first_minus_three, local.second_minus_three);
-        let [radial, hoop] = [0, 1].map(|i| {
-            direct * local.left_cauchy_green.components[i] + inverse * local.inverse.components[i]
-        });
+        let [radial, hoop] =
+            [0, 1].map(|i| direct * local.left_cauchy_green.components[i] + inverse * local.inverse.components[i]);
         2.0 * (outer - inner) / inner * stretch.powi(-3) * (hoop - radial)
     }
 
@@ -79,12 +79,13 @@ impl Balloon {
     /// Fills a plan; the tables and figures of this study.
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
         let ([inner, outer], [low, high]) = (self.radii(), self.stretch);
-        plan.system = format!("a spherical shell of radii {inner} m and {outer} m, of {}", material(&self.law));
+        let [inner, outer] = [inner, outer].map(|radius| quantity("m", radius));
+        plan.system = format!("a spherical shell of radii {inner} and {outer}, of {}", material(&self.law));
         plan.method = format!("pressure by quadrature through the wall, stretches from {low} to {high}");
         plan.reason = "a sphere inflated keeps its shape whatever the law: nothing but an integral is left".to_string();
         plan.compute("limit points", "where the exact slope of the pressure changes its sign");
         match self.pressure {
-            Some(pressure) => plan.compute("states", format!("all that carry {pressure} Pa")),
+            Some(pressure) => plan.compute("states", format!("all that carry {}", quantity("Pa", pressure))),
             None => plan.skip("states at a pressure", "no `pressure` is given: stresses are those at the limit points"),
         }
         plan.compute("thin wall", "the pressure of a wall without thickness, for comparison");

@@ -29,7 +29,7 @@ pub struct BalloonCurve {
     pub states: Vec<CurvePoint>,
     /// The stresses of each state through the wall.
     pub stresses: Vec<Vec<StressAt>>,
-    /// The largest |`T_rr` + p| at the inner face, over the largest stress of its state.
+    /// The largest |2π ∫ `T_θθ` r dr − π `r_i²` p| of a half of the balloon, over 2π ∫ |`T_θθ`| r dr.
     pub imbalance: f64,
 }
 
@@ -57,9 +57,7 @@ impl Balloon {
         }
         for state in &found.states {
             let stresses = self.stresses(state.parameter)?;
-            let largest = stresses.iter().flat_map(|at| at.stress).fold(f64::MIN_POSITIVE, |m, t| m.max(t.abs()));
-            let inner = stresses.first().map_or(0.0, |at| at.stress[0]);
-            found.imbalance = found.imbalance.max((inner + state.load).abs() / largest);
+            found.imbalance = found.imbalance.max(imbalance(state.load, &stresses));
             found.stresses.push(stresses);
         }
         Ok(observer(1.0) == ControlFlow::Continue(()))
@@ -77,6 +75,22 @@ impl Balloon {
             })
             .collect()
     }
+}
+
+/// Equilibrium of a half of the balloon: the hoop stress of the cut against the pressure on it, by Simpson's rule.
+fn imbalance(pressure: f64, stresses: &[StressAt]) -> f64 {
+    let (mut force, mut size) = (0.0, 0.0);
+    for triple in stresses.windows(3).step_by(2) {
+        let third = (triple[2].reference - triple[0].reference) / 6.0;
+        for (at, weight) in triple.iter().zip([1.0, 4.0, 1.0]) {
+            // r dr = (R²/r) dR
+            let share = weight * third * at.reference * at.reference / at.radius;
+            force += share * at.stress[1];
+            size += share * at.stress[1].abs();
+        }
+    }
+    let inner = stresses.first().map_or(0.0, |at| at.radius);
+    (2.0 * force - inner * inner * pressure).abs() / (2.0 * size).max(f64::MIN_POSITIVE)
 }
 
 /// Whether a state is stable where the pressure is held.
@@ -113,7 +127,7 @@ impl BalloonCurve {
             "first_limit_point": limits.first(),
             "limit_points": limits,
             "states": states,
-            "largest_imbalance_at_inner_face": self.imbalance,
+            "largest_imbalance_of_a_half": self.imbalance,
         })
     }
 }

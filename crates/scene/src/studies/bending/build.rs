@@ -44,8 +44,7 @@ impl Builder<'_> {
         if let Err(error) = bending.state(most) {
             let most = reach((least, most), |angle| bending.state(angle).is_ok());
             self.wrong(
-                Mistake::new(table.place_of("angle"), error.to_string())
-                    .valid(format!("an angle below {most:.6} rad")),
+                Mistake::new(table.place_of("angle"), error.to_string()).valid(format!("an angle below {most:.6} rad")),
             );
             return None;
         }

@@ -6,7 +6,7 @@ use piola_solutions::loads::BentBlock;
 use plotters::prelude::*;
 
 use super::{BendingCurve, BentBlockStudy};
-use crate::output::figures::{Area, Drawn, FINE, INK, figure};
+use crate::output::figures::{Area, Drawn, FINE, INK, figure, format_short};
 use crate::studies::StressAt;
 use crate::studies::chart::{Canvas, Window, between, colour_bar};
 use crate::studies::panel::{Panel, largest, prefixed};
@@ -17,7 +17,7 @@ const STEPS: u32 = 17;
 const PRESSED: RGBColor = RGBColor(33, 102, 172);
 const PULLED: RGBColor = RGBColor(178, 24, 43);
 /// Points of an arc.
-const ARC: u32 = 48;
+const ARC: u32 = 40;
 
 impl BendingCurve {
     pub(in crate::studies) fn file(&self, asked: &BentBlockStudy, title: &str, name: &str) -> Option<String> {
@@ -47,8 +47,11 @@ impl BendingCurve {
         let (unit_name, unit) = prefixed("N m", largest(self.states.iter().map(|state| state.moment)));
         let degrees = |angle: &f64| angle.to_degrees();
         let curve = self.angles.iter().zip(&self.states);
-        let mut moment = Panel::new("moment on the ends", "angle α (deg)", format!("M ({unit_name})"))
-            .curve("this block", 0, curve.map(|(angle, state)| (degrees(angle), state.moment / unit)));
+        let mut moment = Panel::new("moment on the ends", "angle α (deg)", format!("M ({unit_name})")).curve(
+            "this block",
+            0,
+            core::iter::once((0.0, 0.0)).chain(curve.map(|(angle, state)| (degrees(angle), state.moment / unit))),
+        );
         if asked.small_strain_moment(0.0).is_some() {
             let small = |angle: &f64| asked.small_strain_moment(*angle).map(|m| (degrees(angle), m / unit));
             // As far as it does not flatten the curve.
@@ -64,7 +67,7 @@ impl BendingCurve {
         let (pascal, unit) = prefixed("Pa", largest(first.iter().flat_map(|at| at.stress)));
         let mut through = Panel::new(
             &self.shown.first().map_or_else(String::new, |angle| {
-                format!("stress through the thickness at {:.4} deg", degrees(angle))
+                format!("stress through the thickness at {} deg", format_short(degrees(angle)))
             }),
             format!("X from the inner face ({metre})"),
             format!("T ({pascal})"),
@@ -90,6 +93,10 @@ impl BendingCurve {
 fn draw_block(area: &Area<'_>, asked: &BentBlockStudy, angle: f64, state: &BentBlock, stresses: &[StressAt]) -> Drawn {
     let size = largest(stresses.iter().map(|at| at.stress[1]));
     let (pascal, unit) = prefixed("Pa", size);
+    // Three digits beside the colours.
+    let shown = (size / unit).max(f64::MIN_POSITIVE);
+    let digit = 10.0_f64.powf(shown.log10().floor() - 2.0);
+    let shown = (shown / digit).round() * digit;
     let (width, _) = area.dim_in_pixel();
     let (plot, bar) = area.split_horizontally(width - 90 * FINE);
     // The axis of bending is below, the middle of the block above it.
@@ -104,17 +111,17 @@ fn draw_block(area: &Area<'_>, asked: &BentBlockStudy, angle: f64, state: &BentB
     let left = arc(outer).iter().map(|[x, _]| -x).fold(f64::NEG_INFINITY, f64::max);
     let shift = -(left + 1.1 * half + 0.1 * outer);
     let corner = |x: f64, y: f64| [shift + x, outer - thickness + y];
-    let rectangle = [(-half, 0.0), (half, 0.0), (half, thickness), (-half, thickness), (-half, 0.0)]
-        .map(|(x, y)| corner(x, y));
+    let rectangle =
+        [(-half, 0.0), (half, 0.0), (half, thickness), (-half, thickness), (-half, 0.0)].map(|(x, y)| corner(x, y));
     let window = Window::around(arc(outer).into_iter().chain(arc(inner)).chain(rectangle));
     let mut canvas = Canvas::metres(&plot, window, ("x", "y"))?;
     let colour = |stress: f64| {
         let share = stress / size.max(f64::MIN_POSITIVE);
         if share < 0.0 { between(WHITE, PRESSED, -share) } else { between(WHITE, PULLED, share) }
     };
-    for pair in stresses.windows(2) {
-        let strip = arc(pair[0].radius).into_iter().chain(arc(pair[1].radius).into_iter().rev());
-        canvas.fill(&strip.collect::<Vec<_>>(), colour(0.5 * (pair[0].stress[1] + pair[1].stress[1])))?;
+    for strip in stresses.windows(3).step_by(2) {
+        let outline = arc(strip[0].radius).into_iter().chain(arc(strip[2].radius).into_iter().rev());
+        canvas.fill(&outline.collect::<Vec<_>>(), colour(strip[1].stress[1]))?;
     }
     let thin = INK.mix(0.5).stroke_width(FINE);
     let lines = 12;
@@ -133,5 +140,5 @@ fn draw_block(area: &Area<'_>, asked: &BentBlockStudy, angle: f64, state: &BentB
     canvas.curve(&rectangle, INK.stroke_width(2 * FINE))?;
     let steps: Vec<RGBColor> =
         (0..STEPS).map(|step| colour(size * (2.0 * f64::from(step) / f64::from(STEPS - 1) - 1.0))).collect();
-    colour_bar(&bar, &format!("T_θθ ({pascal})"), &steps, (-size / unit, size / unit))
+    colour_bar(&bar, &format!("T_θθ ({pascal})"), &steps, (-shown, shown))
 }

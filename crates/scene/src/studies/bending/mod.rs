@@ -14,6 +14,7 @@ pub use run::BendingCurve;
 use piola_solids::isochoric::Isochoric;
 use piola_solutions::loads::{Bending, Block};
 
+use super::panel::quantity;
 use super::solid::material;
 use super::{Law, StudyPlan};
 
@@ -78,11 +79,12 @@ impl BentBlockStudy {
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
         let Self { block, angle, .. } = self;
         plan.system = format!(
-            "a block {} m thick, {} m long and {} m high, of {}, bent by {angle:.6} rad",
-            block.thickness(),
-            block.length(),
-            block.height(),
-            material(&self.law)
+            "a block {} thick, {} long and {} high, of {}, bent by {:.4} degrees",
+            quantity("m", block.thickness()),
+            quantity("m", block.length()),
+            quantity("m", block.height()),
+            material(&self.law),
+            angle.to_degrees()
         );
         plan.method = "moment by quadrature through the thickness".to_string();
         plan.reason = "the two curved faces exchange their stretches whatever the law: both are free of stress at once"
@@ -90,7 +92,7 @@ impl BentBlockStudy {
         plan.compute("moment", format!("over the angle, at the stretch {} along the axis", self.axial_stretch));
         plan.compute("axial force", "that holds the stretch along the axis");
         match self.moment {
-            Some(moment) => plan.compute("states", format!("all that carry {moment} N m")),
+            Some(moment) => plan.compute("states", format!("all that carry {}", quantity("N m", moment))),
             None => plan.skip("states at a moment", "no `moment` is given: stresses are those at the largest angle"),
         }
         plan.skip("wrinkles of the inner face", "the solution is the sector's own");

@@ -20,11 +20,6 @@ impl Builder<'_> {
             );
             return None;
         }
-        Some(ScrewDislocations {
-            spread,
-            radii,
-            centre: table.pair("centre")?,
-            tolerance: table.number("tolerance")?,
-        })
+        Some(ScrewDislocations { spread, radii, centre: table.pair("centre")?, tolerance: table.number("tolerance")? })
     }
 }

@@ -6,10 +6,10 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{BurgersCircuits, ScrewDislocations};
-use crate::output::figures::{Area, Drawn, FINE, FONT, INK, colour, figure, pixels};
+use crate::output::figures::{Area, Drawn, FINE, FONT, INK, colour, figure, format_short, pixels};
 use crate::studies::panel::{Panel, largest, prefixed};
 
-/// Circles drawn as a lattice under the circuits.
+/// Cells of the lattice under the circuits, each way.
 const CELLS: i32 = 6;
 
 impl BurgersCircuits {
@@ -28,7 +28,8 @@ impl BurgersCircuits {
         for circuit in &self.circuits {
             let [first, second, third] = circuit.burgers;
             let known = circuit.closed_form.map(|b| format!("{b:?}")).unwrap_or_default();
-            let _ = writeln!(text, "{:?},{first:?},{second:?},{third:?},{:?},{known}", circuit.radius, circuit.error[2]);
+            let _ =
+                writeln!(text, "{:?},{first:?},{second:?},{third:?},{:?},{known}", circuit.radius, circuit.error[2]);
         }
         text
     }
@@ -67,13 +68,14 @@ impl BurgersCircuits {
         let scale = largest(sizes);
         // Powers of a metre: the prefix is that of the length below.
         let (below, unit) = prefixed("m", if 0.0 < scale { scale.recip() } else { 1.0 });
-        let torsion = Panel::new("along a radius", format!("distance from the axis ({metre})"), format!("1/({below})"))
+        let torsion = Panel::new("along a radius", format!("distance from the axis ({metre})"), format!("1/{below}"))
+            .from_zero()
             .curve("screw density", 2, self.torsion.iter().map(|at| (at.distance / length, at.screw * unit)))
             .dashed("largest torsion", 3, self.torsion.iter().map(|at| (at.distance / length, at.torsion * unit)));
-        figure((1120, 900), title, &|area| {
-            let rows = area.split_evenly((2, 1));
-            self.draw_circuit(&rows[0], (&tall, height))?;
-            let parts = rows[1].split_evenly((1, 2));
+        figure((1120, 800), title, &|area| {
+            let (circuits, panels) = area.split_vertically(330 * FINE);
+            self.draw_circuit(&circuits, (&tall, height))?;
+            let parts = panels.split_evenly((1, 2));
             burgers.draw(&parts[0])?;
             torsion.draw(&parts[1])
         })
@@ -83,10 +85,9 @@ impl BurgersCircuits {
     fn draw_circuit(&self, area: &Area<'_>, (unit_name, unit): (&str, f64)) -> Drawn {
         let parts = area.split_evenly((1, 2));
         let start = self.in_body.first().copied().unwrap_or_default();
-        let body: Vec<[f64; 3]> =
-            self.in_body.iter().map(|x| core::array::from_fn(|k| x[k] - start[k])).collect();
+        let body: Vec<[f64; 3]> = self.in_body.iter().map(|x| core::array::from_fn(|k| x[k] - start[k])).collect();
         let gap = self.in_crystal.last().copied().unwrap_or_default();
-        let name = format!("in the crystal it ends b = {:.4} {unit_name} away from its start", gap[2] / unit);
+        let name = format!("in the crystal it ends b = {} {unit_name} from its start", format_short(gap[2] / unit));
         let view = View::of(body.iter().chain(&self.in_crystal));
         view.draw(&parts[0], "a circuit in the body is closed", &body, &[])?;
         view.draw(&parts[1], &name, &self.in_crystal, &[[0.0; 3], gap])
@@ -133,9 +134,8 @@ impl View {
             middle - 0.5 * grain * pixels..middle + 0.5 * grain * pixels
         };
         let (_, plot) = area.split_vertically(28 * FINE);
-        let mut chart = ChartBuilder::on(&plot)
-            .margin(pixels(10))
-            .build_cartesian_2d(range(0, wide), range(1, tall))?;
+        let mut chart =
+            ChartBuilder::on(&plot).margin(pixels(10)).build_cartesian_2d(range(0, wide), range(1, tall))?;
         let [[left, front], [right, back]] = self.base;
         let thin = INK.mix(0.25).stroke_width(FINE);
         for index in 0..=CELLS {

@@ -19,6 +19,7 @@ use piola_numerics::Real;
 use piola_uniformity::UniformityMap;
 
 use super::StudyPlan;
+use super::panel::quantity;
 
 /// A crystal with screws, and circuits in it.
 ///
@@ -123,8 +124,10 @@ impl ScrewDislocations {
     /// Fills a plan; the tables and figures of this study.
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
         let screws = match self.spread {
-            Screws::Uniform { density } => format!("of density {density} 1/m everywhere"),
-            Screws::Core { burgers, radius } => format!("of {burgers} m in all, half of them within {radius} m"),
+            Screws::Uniform { density } => format!("of density {density:e} 1/m everywhere"),
+            Screws::Core { burgers, radius } => {
+                format!("of {} in all, half of them within {}", quantity("m", burgers), quantity("m", radius))
+            }
         };
         let count = self.radii.len();
         plan.system = format!("a crystal with screw dislocations {screws}, and {count} circuit{}", plural(count));

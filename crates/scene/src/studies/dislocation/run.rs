@@ -140,9 +140,8 @@ impl ScrewDislocations {
                 centre + Vector3::new(radius * cosine, radius * sine, 0.3 * radius)
             })
             .collect();
-        let flatness = |algebra: LieAlgebra| {
-            Flatness::of_body(&lattice, algebra, &places, self.reach(), self.tolerance)
-        };
+        let flatness =
+            |algebra: LieAlgebra| Flatness::of_body(&lattice, algebra, &places, self.reach(), self.tolerance);
         found.of_crystal = Some(flatness(LieAlgebra::trivial())?);
         found.of_isotropic_solid = Some(flatness(LieAlgebra::rotations())?);
         Ok(observer(1.0) == ControlFlow::Continue(()))

@@ -70,7 +70,8 @@ fn refused(table: &Record, name: &str, pressure: f64, refusal: Refusal) -> Mista
             format!("{name} does not carry {pressure} Pa up to the stretch {stretch}: it comes to {most:.6e} Pa"),
         )
         .valid(format!("at most {most:.6e} Pa, or a larger `stretch`")),
-        Refusal::Refused(error) => Mistake::new(table.place_of("stretch"), format!("{name}: {error}"))
-            .valid("a smaller largest stretch"),
+        Refusal::Refused(error) => {
+            Mistake::new(table.place_of("stretch"), format!("{name}: {error}")).valid("a smaller largest stretch")
+        }
     }
 }

@@ -11,9 +11,9 @@ impl TubeStresses {
     pub(in crate::studies) fn file(&self, asked: &LayeredTube, title: &str, name: &str) -> Option<String> {
         match name {
             "pressure.csv" => Some(self.pressure_table()),
-            "stress.csv" => Some(stress_table(
-                self.named().map(|(name, state)| (name.to_string(), state.stresses.as_slice())),
-            )),
+            "stress.csv" => {
+                Some(stress_table(self.named().map(|(name, state)| (name.to_string(), state.stresses.as_slice()))))
+            }
             "tube.svg" => Some(self.figure(asked, title)),
             _ => None,
         }
@@ -44,13 +44,17 @@ impl TubeStresses {
         let (pascal, unit) = prefixed("Pa", largest(rest.clone().flat_map(|at| at.stress)));
         let mut residual = Panel::new("residual stress", axis.as_str(), format!("T ({pascal})"));
         for (index, name) in ["T_rr", "T_θθ", "T_zz"].into_iter().enumerate() {
-            residual =
-                residual.curve(name, index + 2, rest.clone().map(|at| (at.reference / length, at.stress[index] / unit)));
+            residual = residual.curve(
+                name,
+                index + 2,
+                rest.clone().map(|at| (at.reference / length, at.stress[index] / unit)),
+            );
         }
         let all = self.named().flat_map(|(_, state)| &state.stresses).map(|at| at.stress[1]);
         let (pascal, unit) = prefixed("Pa", largest(all));
         let mut hoop = Panel::new("hoop stress under pressure", axis.as_str(), format!("T_θθ ({pascal})"));
-        for (index, (name, state)) in [("this tube", &self.loaded), ("homogeneous", &self.homogeneous)].iter().enumerate()
+        for (index, (name, state)) in
+            [("this tube", &self.loaded), ("homogeneous", &self.homogeneous)].iter().enumerate()
         {
             let points = state.iter().flat_map(|state| &state.stresses);
             let points = points.map(|at| (at.reference / length, at.stress[1] / unit));

@@ -15,6 +15,7 @@ pub use run::{TubeState, TubeStresses};
 use piola_numerics::Real;
 use piola_uniformity::laminated::{LaminaMetric, Lamination};
 
+use super::panel::quantity;
 use super::solid::material;
 use super::{Law, StudyPlan};
 
@@ -149,16 +150,17 @@ impl Lamination for Layers {
 impl LayeredTube {
     /// Fills a plan; the tables and figures of this study.
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
-        let ([inner, outer], count) = (self.layers.radii(), self.layers.layers.len());
+        let ([inner, outer], count) =
+            (self.layers.radii().map(|radius| quantity("m", radius)), self.layers.layers.len());
         let plural = if count == 1 { "" } else { "s" };
         plan.system = format!(
-            "a tube of radii {inner} m and {outer} m in {count} layer{plural} of {}, under {} Pa",
+            "a tube of radii {inner} and {outer} in {count} layer{plural} of {}, under {}",
             material(&self.law),
-            self.pressure
+            quantity("Pa", self.pressure)
         );
         plan.method = "quadrature through the layers; stretches by Newton's iteration".to_string();
-        plan.reason = "layers of one law deform as a tube whatever that law: radius and length are left to be found"
-            .to_string();
+        plan.reason =
+            "layers of one law deform as a tube whatever that law: radius and length are left to be found".to_string();
         plan.compute("residual stress", "both faces free, no axial force");
         plan.compute("stress under pressure", "at the axial stretch of the tube without loads");
         plan.compute("homogeneous tube", "of the same radii without growth, at its natural length");

@@ -81,11 +81,9 @@ impl LayeredTube {
 
     fn state(&self, layers: &Layers, held: &HeldTube<'_>, pressure: f64) -> Result<TubeState, UniformityError> {
         let stretch = held.stretch_at(pressure, self.stretch).map_err(|refusal| match refusal {
-            Refusal::Beyond { most, .. } => UniformityError::NotConverged {
-                quantity: "pressure",
-                error: pressure - most,
-                allowed: 0.0,
-            },
+            Refusal::Beyond { most, .. } => {
+                UniformityError::NotConverged { quantity: "pressure", error: pressure - most, allowed: 0.0 }
+            }
             Refusal::Refused(error) => error,
         })?;
         let state = held.state(stretch)?;

@@ -3,7 +3,7 @@
 use core::fmt::Write as _;
 
 use super::{RodCurves, TwistedRod, TwistedState};
-use crate::output::figures::figure;
+use crate::output::figures::{figure, format_short};
 use crate::studies::panel::{Panel, largest, prefixed};
 use crate::studies::solid::{COMPONENTS, stress_table};
 
@@ -20,9 +20,8 @@ impl RodCurves {
     }
 
     fn table(&self) -> String {
-        let mut text = String::from(
-            "twist_rad_per_m,held_torque_N_m,held_axial_force_N,pulled_torque_N_m,pulled_axial_stretch\n",
-        );
+        let mut text =
+            String::from("twist_rad_per_m,held_torque_N_m,held_axial_force_N,pulled_torque_N_m,pulled_axial_stretch\n");
         for TwistedState { held, pulled } in &self.states {
             let _ = writeln!(
                 text,
@@ -54,17 +53,23 @@ impl RodCurves {
             torque = torque.mark("", 2, (point.parameter, point.load / unit), 0.0 < point.slope);
         }
         let (newton, unit) = prefixed("N", largest(self.states.iter().map(|state| state.held.axial_force)));
-        let force = Panel::new("axial force of the rod that is held", TWIST, format!("N ({newton})"))
-            .curve("", 0, over(|state| state.held.axial_force, unit));
-        let stretch = Panel::new("axial stretch of the rod that is not", TWIST, "λ")
-            .curve("", 1, over(|state| state.pulled.axial_stretch, 1.0));
+        let force = Panel::new(&format!("axial force, {held}"), TWIST, format!("N ({newton})")).curve(
+            "",
+            0,
+            over(|state| state.held.axial_force, unit),
+        );
+        let stretch = Panel::new(&format!("axial stretch, {pulled}"), TWIST, "λ").curve(
+            "",
+            1,
+            over(|state| state.pulled.axial_stretch, 1.0),
+        );
         let (pascal, unit) =
             prefixed("Pa", largest(self.stresses.iter().flat_map(|(_, at)| at).flat_map(|at| at.stress)));
         let shown = self.stresses.last();
-        let name = shown.map_or("", |(name, _)| name.as_str());
+        let twist = self.under_torque.last().map_or(asked.twist, |point| point.parameter);
+        let name = format!("stress at {} rad/m, {pulled}", format_short(twist));
         let (metre, length) = prefixed("m", asked.tube.outer());
-        let mut through =
-            Panel::new(&format!("stress, {name}"), format!("R ({metre})"), format!("T ({pascal})"));
+        let mut through = Panel::new(&name, format!("R ({metre})"), format!("T ({pascal})"));
         for (index, component) in COMPONENTS.iter().enumerate() {
             let points = shown.into_iter().flat_map(|(_, particles)| particles);
             through =

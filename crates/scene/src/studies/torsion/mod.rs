@@ -12,6 +12,7 @@ pub use run::{RodCurves, TwistedState};
 
 use piola_solutions::loads::{Ends, Torsion, Tube};
 
+use super::panel::quantity;
 use super::solid::material;
 use super::{Law, StudyPlan};
 
@@ -65,19 +66,25 @@ impl TwistedRod {
 
     /// Fills a plan; the tables and figures of this study.
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
-        let outer = self.tube.outer();
+        let [inner, outer] = [self.tube.inner(), self.tube.outer()].map(|radius| quantity("m", radius));
         let body = if self.tube.is_solid() {
-            format!("a rod of radius {outer} m")
+            format!("a rod of radius {outer}")
         } else {
-            format!("a tube of radii {} m and {outer} m", self.tube.inner())
+            format!("a tube of radii {inner} and {outer}")
         };
         plan.system = format!("{body}, of {}, twisted by up to {} rad/m", material(&self.law), self.twist);
         plan.method = "loads by quadrature, stretches by Newton's iteration with exact slopes".to_string();
-        plan.reason = "a twisted rod keeps its circles whatever the law: two stretches are left to be found".to_string();
+        plan.reason =
+            "a twisted rod keeps its circles whatever the law: two stretches are left to be found".to_string();
         plan.compute("held", format!("torque and axial force at the axial stretch {}", self.axial_stretch));
-        plan.compute("pulled", format!("torque and axial stretch under the axial force {} N", self.axial_force));
+        plan.compute(
+            "pulled",
+            format!("torque and axial stretch under the axial force {}", quantity("N", self.axial_force)),
+        );
         match self.torque {
-            Some(torque) => plan.compute("states", format!("all under the axial force that carry {torque} N m")),
+            Some(torque) => {
+                plan.compute("states", format!("all under the axial force that carry {}", quantity("N m", torque)))
+            }
             None => plan.skip("states at a torque", "no `torque` is given: stresses are those at the largest twist"),
         }
         plan.skip("buckling", "the axis stays straight");
