@@ -199,7 +199,7 @@ fn burgers_vector_of_even_screws_is_density_times_area() {
         assert_small("holonomy", found.holonomy, Tol::stated(1e-9, "tolerance of the transport, 96 arcs"));
         for at in &found.torsion {
             // α₃₃ = ½ everywhere, and no edges; the torsion of a crystal is minus its density.
-            assert_close("density", &[at.screw, at.edge], &[0.5, 0.0], Tol::ulps(64));
+            assert_close("density", &[at.screw, at.edge], &[0.5, 0.0], Tol::ulps(64.0));
             assert!(0.5 <= at.torsion * (1.0 + 1e-12));
         }
         assert!(found.of_crystal.is_some_and(|report| !report.is_flat()));
@@ -217,7 +217,7 @@ fn burgers_vector_of_a_core_grows_to_that_of_all_its_screws() {
     let by_hand = [0.15, 0.3 * 4.0 / 4.25];
     let tolerance = Tol::stated(1e-12, "tolerance of the quadrature");
     assert_close("b", &[found.circuits[0].burgers[2], found.circuits[1].burgers[2]], &by_hand, tolerance);
-    assert_close("axis", &[found.torsion[0].screw], &[0.3 / (PI * 0.25)], Tol::ulps(64));
+    assert_close("axis", &[found.torsion[0].screw], &[0.3 / (PI * 0.25)], Tol::ulps(64.0));
     // Apart from the axis a crystal without a closed form has none.
     let aside = screws(&format!("{text}centre = [1.0, 0.0]\n"));
     assert!(aside.circuits.iter().all(|circuit| circuit.closed_form.is_none()));
@@ -293,7 +293,8 @@ fn studies_of_solids_write_what_they_plan() {
         for file in &written.files {
             let text = std::fs::read_to_string(file).unwrap_or_default();
             assert!(text.len() > 100 && !text.contains("could not be drawn"), "{}", file.display());
-            assert!(!text.contains("NaN") && !text.contains("inf"), "{}", file.display());
+            let is_number = |word: &str| !matches!(word, "NaN" | "inf" | "-inf");
+            assert!(text.split([',', ' ', '\n']).all(is_number), "{}", file.display());
         }
         assert!(run.summary(&plan).contains("\"status\": \"completed\""));
         let _ = std::fs::remove_dir_all(&folder);
@@ -336,8 +337,8 @@ fn loads_and_shapes_that_no_state_has_are_refused_with_the_limit() {
     let text = replaced(BALLOON, "[1.0, 8.0]", "[2.0, 1.0]");
     assert_mistake(&format!("{text}{NEO}"), "[2.0, 1.0]", &["two increasing numbers"]);
     let gent = "[law]\ntype = \"gent\"\nshear_modulus = 1.0\nlimit = 30.0\n";
-    // 2 λ² + λ⁻⁴ − 3 = 30 at λ = 4.062.
-    assert_mistake(&format!("{BALLOON}{gent}"), "[1.0, 8.0]", &["Gent", "stretches below 4.062"]);
+    // 2 λ² + λ⁻⁴ − 3 = 30 at λ = √(33/2 − λ⁻⁴/2) = 4.0618.
+    assert_mistake(&format!("{BALLOON}{gent}"), "[1.0, 8.0]", &["Gent", "stretches below 4.0617"]);
     let text = format!("{ROD}torque = \"100 N m\"\n{NEO}");
     assert_mistake(
         &text,
@@ -345,7 +346,7 @@ fn loads_and_shapes_that_no_state_has_are_refused_with_the_limit() {
         &["no state carries the torque", "is not reached", "another range of the twist"],
     );
     let text = replaced(&format!("{ROD}{gent}"), "0.4 rad/m", "40 rad/m");
-    assert_mistake(&text, "\"40 rad/m\"", &["Gent", "a twist below 3.65"]);
+    assert_mistake(&text, "\"40 rad/m\"", &["Gent", "a twist below 3.6"]);
     let text = format!("{BLOCK}moment = \"100 N m\"\n{NEO}");
     assert_mistake(&text, "\"100 N m\"", &["no state carries the moment", "at most"]);
     let text = replaced(&format!("{BLOCK}{NEO}"), "90 deg", "400 deg");
@@ -353,7 +354,6 @@ fn loads_and_shapes_that_no_state_has_are_refused_with_the_limit() {
     assert_mistake(&replaced(SCREWS, "0.5, 2.0", "0.5, 0.0"), "[0.5, 0.0]", &["a circuit of radius 0 m"]);
     let text = replaced(&format!("{TUBE}{NEO}{LAYERS}"), "0.3", "5.0");
     assert_mistake(&text, "5.0", &["does not carry 5 Pa up to the stretch 2", "or a larger `stretch`"]);
-    // A neo-Hookean tube has no limit point, but softens: Mooney's of negative C₀₁ has one.
     let text = replaced(&format!("{TUBE}{NEO}{LAYERS}"), "inner_pressure = 0.3", "inner_pressure = 0.3\nstretch = 0.5");
     assert_mistake(&text, "0.5\n", &["a largest stretch of 0.5", "greater than 1"]);
 }
