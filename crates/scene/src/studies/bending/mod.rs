@@ -17,6 +17,7 @@ use piola_solutions::loads::{Bending, Block};
 use super::panel::quantity;
 use super::solid::material;
 use super::{Law, StudyPlan};
+use crate::output::figures::format_short;
 
 /// A block, and how far it is bent.
 ///
@@ -79,12 +80,12 @@ impl BentBlockStudy {
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
         let Self { block, angle, .. } = self;
         plan.system = format!(
-            "a block {} thick, {} long and {} high, of {}, bent by {:.4} degrees",
+            "a block {} thick, {} long and {} high, of {}, bent by {} degrees",
             quantity("m", block.thickness()),
             quantity("m", block.length()),
             quantity("m", block.height()),
             material(&self.law),
-            angle.to_degrees()
+            format_short(angle.to_degrees())
         );
         plan.method = "moment by quadrature through the thickness".to_string();
         plan.reason = "the two curved faces exchange their stretches whatever the law: both are free of stress at once"
