@@ -8,7 +8,7 @@ use crate::step::Step;
 pub(super) const COMMAND: Command = Command {
     name: "features",
     usage: "",
-    help: "check the facade with no feature, with each feature alone, with the default ones and with all",
+    help: "check the facade with no feature, with each feature alone, with the default ones and with all; the program with none",
     prepare: |shell, workspace, _| {
         let Some(facade) = workspace.member("piola") else { return Ok(Vec::new()) };
         let check = |name: &str, arguments: &[&str]| {
@@ -25,6 +25,12 @@ pub(super) const COMMAND: Command = Command {
         }
         steps.push(check("default", &[]));
         steps.push(check("all", &["--all-features"]));
+        let command = cmd!(shell, "cargo check --quiet --package piola-cli --no-default-features");
+        steps.push(Step::program(
+            "features: piola-cli, none",
+            command.env("RUSTFLAGS", "-Dwarnings"),
+            "the program does not build without the studies of solids",
+        ));
         Ok(steps)
     },
 };

@@ -10,6 +10,7 @@ mod mechanism;
 mod reference;
 
 use core::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 pub use central::{Central, Orbiter};
@@ -18,7 +19,7 @@ pub use mechanism::{JointTree, Mechanism, PartName};
 pub use reference::{ClosedForm, Reference, ReferenceKind, ReferenceTable};
 
 use crate::document::{Document, Mistake};
-use crate::schema::{SCENE_KINDS, SceneKind};
+use crate::schema::{Kind, SCENE, SCENE_KINDS, SceneKind};
 use crate::validation::{self, Record};
 use crate::{SceneError, words};
 
@@ -207,15 +208,15 @@ impl<'d> Builder<'d> {
             self.wrong(what.valid(format!("exactly one of {}", names.join(", "))));
             return None;
         };
-        for list in SCENE_KINDS.iter().flat_map(|kind| kind.lists) {
-            if record.has(list) && !kind.lists.contains(list) {
-                let lists: Vec<String> = kind.lists.iter().map(|list| format!("[[{list}]]")).collect();
-                let valid = if lists.is_empty() { "no such list".to_string() } else { lists.join(", ") };
-                self.wrong(
-                    Mistake::new(record.place_of(list), format!("[[{list}]] in a scene of [{}]", kind.name))
-                        .valid(valid),
-                );
-            }
+        // Each table once, however many kinds have it.
+        let belongings: BTreeSet<&str> = SCENE_KINDS.iter().flat_map(|kind| kind.lists).copied().collect();
+        for table in belongings.into_iter().filter(|table| record.has(table) && !kind.lists.contains(table)) {
+            let headers: Vec<String> = kind.lists.iter().map(|name| header(name)).collect();
+            let valid = if headers.is_empty() { "no such table".to_string() } else { headers.join(", ") };
+            self.wrong(
+                Mistake::new(record.place_of(table), format!("{} in a scene of [{}]", header(table), kind.name))
+                    .valid(valid),
+            );
         }
         Some(kind)
     }
@@ -384,6 +385,14 @@ impl<'d> Builder<'d> {
             );
         }
         found
+    }
+}
+
+/// The header of a table of the scene: `[law]`, `[[body]]`.
+fn header(name: &str) -> String {
+    match SCENE.key(name).map(|key| &key.kind) {
+        Some(Kind::Tables(_)) => format!("[[{name}]]"),
+        _ => format!("[{name}]"),
     }
 }
 

@@ -161,6 +161,7 @@ pub(crate) fn plane_chart<'a>(
         .set_all_tick_mark_size(pixels(5))
         .x_labels(7)
         .y_labels(7)
+        .max_light_lines(0)
         .light_line_style(WHITE)
         .bold_line_style(GRID.stroke_width(FINE))
         .axis_style(INK.stroke_width(FINE))

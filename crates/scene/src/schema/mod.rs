@@ -5,6 +5,7 @@
 
 mod json;
 mod markdown;
+mod solids;
 mod studies;
 mod tables;
 
@@ -21,7 +22,7 @@ pub struct SceneKind {
     pub name: &'static str,
     /// Whether it is a study, without a span of time.
     pub study: bool,
-    /// Lists of tables that belong to it.
+    /// Other tables and lists of tables that belong to it.
     pub lists: &'static [&'static str],
 }
 

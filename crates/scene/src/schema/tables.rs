@@ -3,7 +3,7 @@
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
 use super::Range::{Any, Fraction, NotNegative, Positive};
-use super::{Kind, SceneKind, Word, quantity, studies, table, word};
+use super::{Kind, SceneKind, Word, quantity, solids, studies, table, word};
 use crate::units::Dimension as D;
 
 const fn vector(dimension: D) -> Kind {
@@ -11,12 +11,17 @@ const fn vector(dimension: D) -> Kind {
 }
 
 /// The kinds of scenes.
-pub static SCENE_KINDS: [SceneKind; 5] = [
+pub static SCENE_KINDS: [SceneKind; 10] = [
     motion("gravity", &["body"]),
     motion("mechanism", &["joint", "particle", "rigid_body"]),
     motion("central", &["body"]),
     study("wavefront", &["medium"]),
     study("room", &[]),
+    study("balloon", &["law"]),
+    study("torsion", &["law"]),
+    study("bending", &["law"]),
+    study("dislocation", &[]),
+    study("laminated_tube", &["law", "layer"]),
 ];
 
 const fn motion(name: &'static str, lists: &'static [&'static str]) -> SceneKind {
@@ -29,7 +34,7 @@ const fn study(name: &'static str, lists: &'static [&'static str]) -> SceneKind 
 
 table! {
     /// A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]` and `[central]`
-    /// move in time and need `[time]`; `[wavefront]` and `[room]` are studies without it.
+    /// move in time and need `[time]`; all others are studies without it.
     pub static SCENE = "scene" {
         /// Name of the scene, of its output folder and in its results. The file's name when absent.
         name: Name, Optional;
@@ -45,6 +50,20 @@ table! {
         wavefront: Kind::Table(&studies::WAVEFRONT), Optional;
         /// First arrival of a signal in a room.
         room: Kind::Table(&studies::ROOM), Optional;
+        /// Inflation of a spherical shell.
+        balloon: Kind::Table(&solids::BALLOON), Optional;
+        /// A twisted rod or tube.
+        torsion: Kind::Table(&solids::TORSION), Optional;
+        /// A bent block.
+        bending: Kind::Table(&solids::BENDING), Optional;
+        /// A crystal with screw dislocations.
+        dislocation: Kind::Table(&solids::DISLOCATION), Optional;
+        /// A tube with residual stress.
+        laminated_tube: Kind::Table(&solids::LAMINATED_TUBE), Optional;
+        /// The law of a `[balloon]`, `[torsion]`, `[bending]` or `[laminated_tube]`.
+        law: Kind::Table(&solids::LAW), Optional;
+        /// The layers of a `[laminated_tube]`, from the innermost.
+        layer: Kind::Tables(&solids::LAYER), Optional;
         /// The bodies of `[gravity]` or `[central]`.
         body: Kind::Tables(&BODY), Optional;
         /// The joints of a `[mechanism]`: a tree that grows from the ground.

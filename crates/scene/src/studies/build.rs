@@ -39,8 +39,22 @@ impl Builder<'_> {
         let table = record.record(kind.name)?;
         let subject = match kind.name {
             "room" => Subject::Room(self.room(table)?),
-            _ => Subject::Wavefront(self.wavefront(record, table)?),
+            "wavefront" => Subject::Wavefront(self.wavefront(record, table)?),
+            _ => self.solid(record, table, kind.name)?,
         };
         Some(Study { name, title: record.text("title").map(str::to_string), subject, output })
+    }
+
+    /// Says that this program has no studies of solids.
+    #[cfg(not(feature = "solutions"))]
+    fn solid(&mut self, scene: &Record, _table: &Record, name: &str) -> Option<Subject> {
+        self.wrong(
+            Mistake::new(
+                scene.place_of(name),
+                format!("a scene of [{name}] needs the feature `solutions`, which this program was built without"),
+            )
+            .valid("a program built with it: `cargo build --release --features solutions`"),
+        );
+        None
     }
 }

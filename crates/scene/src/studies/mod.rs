@@ -4,17 +4,51 @@
 //! |---|---|---|
 //! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_hamiltonian::hamilton_jacobi`] |
 //! | `[room]` | [`Room`]: first arrival of a signal in a room | [`piola_characteristics`] |
+//! | `[balloon]` | `Balloon`: an inflated spherical shell | `piola_solutions` |
+//! | `[torsion]` | `TwistedRod`: a twisted rod or tube, with and without axial force | `piola_solutions` |
+//! | `[bending]` | `BentBlockStudy`: a block bent by couples | `piola_solutions` |
+//! | `[dislocation]` | `ScrewDislocations`: circuits in a crystal with screws | `piola_uniformity` |
+//! | `[laminated_tube]` | `LayeredTube`: a tube with residual stress | `piola_uniformity` |
+//!
+//! The last five need the feature `solutions`.
 //!
 //! They go the way of all scenes: a checked [`Study`] has a [`StudyPlan`], [`run`] makes a [`StudyRun`] of what was found,
 //! and [`StudyRun::write`] leaves the summary, tables and figures. One that fails or is stopped keeps what it had found.
 
+#[cfg(feature = "solutions")]
+pub mod balloon;
+#[cfg(feature = "solutions")]
+pub mod bending;
 mod build;
 mod chart;
 mod contour;
+#[cfg(feature = "solutions")]
+pub mod dislocation;
+#[cfg(feature = "solutions")]
+pub mod laminated_tube;
+#[cfg(feature = "solutions")]
+mod law;
+#[cfg(feature = "solutions")]
+mod panel;
 mod plan;
 pub mod room;
 mod run;
+#[cfg(feature = "solutions")]
+mod solid;
+#[cfg(feature = "solutions")]
+pub mod torsion;
 pub mod wavefront;
+
+#[cfg(feature = "solutions")]
+pub use self::{
+    balloon::Balloon,
+    bending::BentBlockStudy,
+    dislocation::ScrewDislocations,
+    laminated_tube::LayeredTube,
+    law::Law,
+    solid::{SolidFindings, SolidStudy, StressAt},
+    torsion::TwistedRod,
+};
 
 pub use plan::StudyPlan;
 pub use room::Room;
@@ -44,4 +78,7 @@ pub enum Subject {
     Wavefront(Wavefront),
     /// First arrival of a signal in a room.
     Room(Room),
+    /// A balloon, a rod, a block, a crystal or a tube.
+    #[cfg(feature = "solutions")]
+    Solid(SolidStudy),
 }

@@ -62,6 +62,8 @@ impl StudyPlan {
         let (tables, figures) = match &study.subject {
             Subject::Wavefront(wavefront) => wavefront.plan(&mut plan),
             Subject::Room(room) => room.plan(&mut plan),
+            #[cfg(feature = "solutions")]
+            Subject::Solid(solid) => solid.plan(&mut plan),
         };
         for (wanted, files, what) in
             [(study.output.tables, tables, "tables"), (study.output.figures, figures, "figures")]

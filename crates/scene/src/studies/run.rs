@@ -21,6 +21,9 @@ pub enum Findings {
     Wavefront(wavefront::Fronts),
     /// Arrivals of a signal in a room.
     Room(room::Arrivals),
+    /// Of a study of a solid.
+    #[cfg(feature = "solutions")]
+    Solid(super::SolidFindings),
 }
 
 /// A study that was run, however far it came.
@@ -70,6 +73,11 @@ pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> S
             let (found, outcome) = room.run(&mut observer);
             (Findings::Room(found), outcome)
         }
+        #[cfg(feature = "solutions")]
+        Subject::Solid(solid) => {
+            let (found, outcome) = solid.run(&mut observer);
+            (Findings::Solid(found), outcome)
+        }
     };
     StudyRun { outcome, wall_time: begun.elapsed().as_secs_f64(), findings }
 }
@@ -79,6 +87,8 @@ impl StudyRun {
         let results = match &self.findings {
             Findings::Wavefront(found) => found.results(),
             Findings::Room(found) => found.results(),
+            #[cfg(feature = "solutions")]
+            Findings::Solid(found) => found.results(),
         };
         if let Value::Object(map) = results { map } else { Map::new() }
     }
@@ -144,6 +154,8 @@ impl StudyRun {
             _ if name == "summary.json" => Some(self.summary(plan)),
             (Findings::Wavefront(found), Subject::Wavefront(asked)) => found.file(asked, title, name),
             (Findings::Room(found), Subject::Room(asked)) => found.file(asked, title, name),
+            #[cfg(feature = "solutions")]
+            (Findings::Solid(found), Subject::Solid(asked)) => found.file(asked, title, name),
             _ => None,
         };
         Written::of(folder, plan.files.iter().filter_map(|name| Some((name.as_str(), file(name)?))))

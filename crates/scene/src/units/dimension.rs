@@ -46,6 +46,13 @@ impl Dimension {
     /// Gravitational parameter GM, m^3/s^2.
     pub const GRAVITATIONAL_PARAMETER: Self = Self { length: 3, time: -2, ..Self::NONE };
 
+    /// Force, N.
+    pub const FORCE: Self = Self { mass: 1, ..Self::ACCELERATION };
+    /// Pressure and stress, Pa.
+    pub const PRESSURE: Self = Self { length: -1, mass: 1, time: -2, angle: 0 };
+    /// Moment of a force, N m.
+    pub const MOMENT: Self = Self { length: 2, ..Self::FORCE };
+
     /// The dimension of a product.
     #[must_use]
     pub const fn times(self, other: Self) -> Self {
@@ -66,9 +73,13 @@ impl Dimension {
     pub const fn power(self, n: i16) -> Self {
         Self { length: self.length * n, mass: self.mass * n, time: self.time * n, angle: self.angle * n }
     }
-    /// The SI unit, written as a scene would: `kg m^2`, `m/s^2`; empty for a pure number.
+    /// The SI unit, written as a scene would: `kg m^2`, `m/s^2`, `Pa`; empty for a pure number.
     #[must_use]
     pub fn si_unit(self) -> String {
+        let named = [(Self::FORCE, "N"), (Self::PRESSURE, "Pa"), (Self::MOMENT, "N m")];
+        if let Some((_, name)) = named.iter().find(|(dimension, _)| *dimension == self) {
+            return (*name).to_string();
+        }
         self.written(["kg", "m", "rad", "s"], " ")
     }
 

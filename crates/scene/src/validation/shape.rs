@@ -37,6 +37,8 @@ impl Reader {
             Value::Text(text) => Some(text.as_str()),
             _ => None,
         });
+        // A type that is no type is a mistake of its own: any key may go with what it should be.
+        let kind = kind.filter(|kind| known(table, Some(kind)));
         let applies = |key: &Key| key.only_for.is_empty() || kind.is_none_or(|kind| key.only_for.contains(&kind));
         for entry in node.entries() {
             let Some(key) = table.key(&entry.key) else {

@@ -8,6 +8,8 @@ mod rheology;
 mod run;
 mod schema;
 mod settings;
+#[cfg(feature = "solutions")]
+mod solids;
 mod studies;
 mod support;
 mod units;

@@ -79,6 +79,8 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("solutions", "integrators"),
     ("fit", "specimens"),
     ("fit", "viscometry"),
+    ("scene", "solutions"),
+    ("scene", "uniformity"),
 ];
 
 /// No crate is larger, in lines of `src`: its users must take all of it.

@@ -1,0 +1,66 @@
+//! Balloons from checked records.
+
+use piola_solutions::loads::Shell;
+use piola_solutions::{LoadCurve, SolutionsError};
+
+use super::Balloon;
+use crate::document::Mistake;
+use crate::model::Builder;
+use crate::studies::solid::reach;
+use crate::validation::Record;
+use crate::words;
+
+impl Builder<'_> {
+    pub(in crate::studies) fn balloon(&mut self, scene: &Record, table: &Record) -> Option<Balloon> {
+        let law = self.law(scene, "balloon");
+        let radii = self.radii(table);
+        let stretch = table.pair("stretch")?;
+        if !(0.0 < stretch[0] && stretch[0] < stretch[1]) {
+            self.wrong(
+                Mistake::new(table.place_of("stretch"), format!("stretches of {}", words::numbers(&stretch)))
+                    .valid("two increasing numbers greater than zero"),
+            );
+            return None;
+        }
+        let [inner, outer] = radii?;
+        let Ok(shell) = Shell::new(inner, outer) else { return None };
+        let balloon =
+            Balloon { shell, law: law?, stretch, pressure: table.number("pressure"), points: table.count("points")? };
+        let curve = balloon.inflation();
+        if let Err(error) = [stretch[0], stretch[1]].iter().try_for_each(|x| curve.point(*x).map(|_| ())) {
+            let valid = if curve.point(1.0).is_ok() && 1.0 < stretch[1] {
+                let most = reach((1.0, stretch[1]), |x| curve.point(x).is_ok());
+                format!("stretches below {most:.6}")
+            } else {
+                "stretches nearer to 1".to_string()
+            };
+            self.wrong(Mistake::new(table.place_of("stretch"), error.to_string()).valid(valid));
+            return None;
+        }
+        if table.has("pressure") {
+            let pressure = table.number("pressure")?;
+            if let Err(error) = curve.states_at(pressure, (stretch[0], stretch[1])) {
+                let limit = load_limit(&error, "Pa");
+                let place = table.place_of("pressure");
+                self.wrong(Mistake::new(place, format!("no state carries the pressure: {error}")).valid(limit));
+                return None;
+            }
+        }
+        Some(balloon)
+    }
+}
+
+/// The loads that a curve reaches, in words.
+pub(in crate::studies) fn load_limit(error: &SolutionsError, unit: &str) -> String {
+    match error {
+        SolutionsError::BeyondLimitPoint { value, limit, .. } => {
+            let side = if limit < value { "at most" } else { "at least" };
+            format!("{side} {limit:.6e} {unit}, the load of the limit point")
+        }
+        SolutionsError::NotReached { value, nearest, parameter, .. } => {
+            let side = if nearest < value { "at most" } else { "at least" };
+            format!("{side} {nearest:.6e} {unit}, or another range of the {parameter}")
+        }
+        _ => "a load within the range of the curve".to_string(),
+    }
+}

@@ -1,0 +1,55 @@
+//! Twisted rods from checked records.
+
+use piola_solutions::LoadCurve;
+use piola_solutions::loads::Tube;
+
+use super::TwistedRod;
+use crate::document::Mistake;
+use crate::model::Builder;
+use crate::studies::balloon::load_limit;
+use crate::studies::solid::reach;
+use crate::validation::Record;
+
+impl Builder<'_> {
+    pub(in crate::studies) fn twisted_rod(&mut self, scene: &Record, table: &Record) -> Option<TwistedRod> {
+        let law = self.law(scene, "torsion");
+        let [inner, outer] = self.radii(table)?;
+        let tube = if inner <= 0.0 { Tube::solid(outer) } else { Tube::new(inner, outer) };
+        let rod = TwistedRod {
+            tube: tube.ok()?,
+            law: law?,
+            twist: table.number("twist")?,
+            axial_stretch: table.number("axial_stretch")?,
+            axial_force: table.number("axial_force")?,
+            torque: table.number("torque"),
+            points: table.count("points")?,
+        };
+        // What cannot be had without twist is a mistake of the end, otherwise of the twist.
+        for (key, end) in [("axial_stretch", rod.held()), ("axial_force", rod.pulled())] {
+            if let Err(error) = end.state(0.0) {
+                let found = format!("the rod cannot be held so without twist: {error}");
+                let valid = if key == "axial_force" { "a force nearer to zero" } else { "a stretch nearer to 1" };
+                self.wrong(Mistake::new(table.place_of(key), found).valid(valid));
+                return None;
+            }
+            if let Err(error) = end.state(rod.twist) {
+                let most = reach((0.0, rod.twist), |twist| end.state(twist).is_ok());
+                self.wrong(
+                    Mistake::new(table.place_of("twist"), error.to_string())
+                        .valid(format!("a twist below {most:.6e} rad/m")),
+                );
+                return None;
+            }
+        }
+        if let Some(torque) = rod.torque
+            && let Err(error) = rod.pulled().states_at(torque, (0.0, rod.twist))
+        {
+            self.wrong(
+                Mistake::new(table.place_of("torque"), format!("no state carries the torque: {error}"))
+                    .valid(load_limit(&error, "N m")),
+            );
+            return None;
+        }
+        Some(rod)
+    }
+}
