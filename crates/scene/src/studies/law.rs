@@ -4,6 +4,7 @@ use piola_numerics::Real;
 use piola_solids::isochoric::{ArrudaBoyce, Gent, Isochoric, MooneyRivlin, NeoHookean, Yeoh};
 use piola_solids::{AnyIsochoric, SolidsError};
 
+use super::panel::quantity;
 use crate::document::Mistake;
 use crate::model::Builder;
 use crate::validation::Record;
@@ -51,7 +52,7 @@ impl Isochoric for Law {
 impl Law {
     /// The energy.
     #[must_use]
-    pub const fn energy(&self) -> &AnyIsochoric {
+    pub const fn isochoric(&self) -> &AnyIsochoric {
         &self.0
     }
 
@@ -68,6 +69,11 @@ impl Law {
             _ => "incompressible",
         }
     }
+}
+
+/// A law in words, with the scale of its stresses.
+pub(super) fn material(law: &Law) -> String {
+    format!("{} rubber of shear modulus {}", law.name(), quantity("Pa", law.shear_modulus()))
 }
 
 impl Builder<'_> {

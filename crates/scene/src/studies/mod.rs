@@ -29,12 +29,17 @@ pub mod laminated_tube;
 #[cfg(feature = "solutions")]
 mod law;
 #[cfg(feature = "solutions")]
+mod limits;
+mod observer;
+#[cfg(feature = "solutions")]
 mod panel;
 mod plan;
 pub mod room;
 mod run;
 #[cfg(feature = "solutions")]
 mod solid;
+#[cfg(feature = "solutions")]
+mod stresses;
 #[cfg(feature = "solutions")]
 pub mod torsion;
 pub mod wavefront;
@@ -46,7 +51,8 @@ pub use self::{
     dislocation::ScrewDislocations,
     laminated_tube::LayeredTube,
     law::Law,
-    solid::{SolidFindings, SolidStudy, StressAt},
+    solid::{SolidFindings, SolidStudy},
+    stresses::StressAt,
     torsion::TwistedRod,
 };
 

@@ -16,7 +16,7 @@ pub(super) struct Panel {
     curves: Vec<Curve>,
     marks: Vec<Mark>,
     /// Whether zero is shown on the upright axis.
-    from_zero: bool,
+    has_zero: bool,
 }
 
 struct Curve {
@@ -58,8 +58,8 @@ impl Panel {
     }
 
     /// Shows zero on the upright axis.
-    pub(super) const fn from_zero(mut self) -> Self {
-        self.from_zero = true;
+    pub(super) const fn with_zero(mut self) -> Self {
+        self.has_zero = true;
         self
     }
 
@@ -92,7 +92,7 @@ impl Panel {
         };
         let ranges = (
             range(points().map(|p| p.0), 0.02),
-            range(points().map(|p| p.1).chain(self.from_zero.then_some(0.0)), 0.06),
+            range(points().map(|p| p.1).chain(self.has_zero.then_some(0.0)), 0.06),
         );
         let [across, up] = self.axes.clone();
         let mut chart = plane_chart(&plot, ranges, (across, up))?;
@@ -117,12 +117,11 @@ impl Panel {
         let mut free = 0;
         for curve in self.curves.iter().filter(|curve| !curve.name.is_empty()) {
             let needed = entry_width(&curve.name);
-            match rows.last_mut().filter(|_| needed <= free) {
-                Some(row) => row.push(curve),
-                None => {
-                    rows.push(vec![curve]);
-                    free = (width / FINE).saturating_sub(START);
-                }
+            if let Some(row) = rows.last_mut().filter(|_| needed <= free) {
+                row.push(curve);
+            } else {
+                rows.push(vec![curve]);
+                free = (width / FINE).saturating_sub(START);
             }
             free = free.saturating_sub(needed);
         }

@@ -10,9 +10,6 @@ use super::{Study, StudyPlan, Subject, room, wavefront};
 use crate::output::{Folder, Written};
 use crate::run::Outcome;
 
-/// A function that gets the finished part of the run, 0 to 1, and may stop the run.
-pub(super) type Observer<'o> = dyn FnMut(f64) -> ControlFlow<()> + 'o;
-
 /// The results of a study.
 #[derive(Debug, Clone)]
 #[non_exhaustive]

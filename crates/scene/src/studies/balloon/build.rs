@@ -1,12 +1,12 @@
 //! Balloons from checked records.
 
+use piola_solutions::LoadCurve;
 use piola_solutions::loads::Shell;
-use piola_solutions::{LoadCurve, SolutionsError};
 
 use super::Balloon;
 use crate::document::Mistake;
 use crate::model::Builder;
-use crate::studies::solid::reach;
+use crate::studies::limits::{load_limit, reach};
 use crate::validation::Record;
 use crate::words;
 
@@ -27,7 +27,7 @@ impl Builder<'_> {
         let balloon =
             Balloon { shell, law: law?, stretch, pressure: table.number("pressure"), points: table.count("points")? };
         let curve = balloon.inflation();
-        if let Err(error) = [stretch[0], stretch[1]].iter().try_for_each(|x| curve.point(*x).map(|_| ())) {
+        if let Err(error) = stretch.iter().try_for_each(|x| curve.point(*x).map(|_| ())) {
             let valid = if curve.point(1.0).is_ok() && 1.0 < stretch[1] {
                 let most = reach((1.0, stretch[1]), |x| curve.point(x).is_ok());
                 format!("stretches below {most:.6}")
@@ -47,20 +47,5 @@ impl Builder<'_> {
             }
         }
         Some(balloon)
-    }
-}
-
-/// The loads that a curve reaches, in words.
-pub(in crate::studies) fn load_limit(error: &SolutionsError, unit: &str) -> String {
-    match error {
-        SolutionsError::BeyondLimitPoint { value, limit, .. } => {
-            let side = if limit < value { "at most" } else { "at least" };
-            format!("{side} {limit:.6e} {unit}, the load of the limit point")
-        }
-        SolutionsError::NotReached { value, nearest, parameter, .. } => {
-            let side = if nearest < value { "at most" } else { "at least" };
-            format!("{side} {nearest:.6e} {unit}, or another range of the {parameter}")
-        }
-        _ => "a load within the range of the curve".to_string(),
     }
 }

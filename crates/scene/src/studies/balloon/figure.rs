@@ -6,7 +6,7 @@ use super::run::is_stable;
 use super::{Balloon, BalloonCurve};
 use crate::output::figures::figure;
 use crate::studies::panel::{Panel, largest, prefixed};
-use crate::studies::solid::stress_table;
+use crate::studies::stresses::stress_table;
 
 impl BalloonCurve {
     pub(in crate::studies) fn file(&self, asked: &Balloon, title: &str, name: &str) -> Option<String> {

@@ -9,15 +9,14 @@ mod build;
 mod figure;
 mod run;
 
-pub(super) use build::load_limit;
 pub use run::BalloonCurve;
 
 use piola_solutions::families::Orientation;
 use piola_solutions::loads::{Shell, SphereInflation};
 use piola_solutions::{LocalDeformation, ResponseFunctions};
 
+use super::law::material;
 use super::panel::quantity;
-use super::solid::material;
 use super::{Law, StudyPlan};
 
 /// A spherical shell, and the range of its stretch.

@@ -8,8 +8,7 @@ use piola_solutions::loads::Block;
 use super::BentBlockStudy;
 use crate::document::Mistake;
 use crate::model::Builder;
-use crate::studies::balloon::load_limit;
-use crate::studies::solid::reach;
+use crate::studies::limits::{load_limit, reach};
 use crate::validation::Record;
 
 impl Builder<'_> {

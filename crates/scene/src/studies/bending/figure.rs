@@ -10,7 +10,7 @@ use crate::output::figures::{Area, Drawn, FINE, INK, figure, format_short};
 use crate::studies::StressAt;
 use crate::studies::chart::{Canvas, Window, between, colour_bar};
 use crate::studies::panel::{Panel, largest, prefixed};
-use crate::studies::solid::stress_table;
+use crate::studies::stresses::stress_table;
 
 /// Steps of colour, from pressed over white to pulled.
 const STEPS: u32 = 17;

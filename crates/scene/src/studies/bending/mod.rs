@@ -14,8 +14,8 @@ pub use run::BendingCurve;
 use piola_solids::isochoric::Isochoric;
 use piola_solutions::loads::{Bending, Block};
 
+use super::law::material;
 use super::panel::quantity;
-use super::solid::material;
 use super::{Law, StudyPlan};
 use crate::output::figures::format_short;
 

@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 use super::BentBlockStudy;
 use crate::run::Outcome;
 use crate::studies::StressAt;
-use crate::studies::run::Observer;
-use crate::studies::solid::{outcome, through};
+use crate::studies::observer::{Observer, outcome};
+use crate::studies::stresses::through;
 
 /// Parts of the thickness between particles whose stress is computed.
 const PARTS: u32 = 48;

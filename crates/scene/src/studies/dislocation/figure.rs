@@ -69,7 +69,7 @@ impl BurgersCircuits {
         // Powers of a metre: the prefix is that of the length below.
         let (below, unit) = prefixed("m", if 0.0 < scale { scale.recip() } else { 1.0 });
         let torsion = Panel::new("along a radius", format!("distance from the axis ({metre})"), format!("1/{below}"))
-            .from_zero()
+            .with_zero()
             .curve("screw density", 2, self.torsion.iter().map(|at| (at.distance / length, at.screw * unit)))
             .dashed("largest torsion", 3, self.torsion.iter().map(|at| (at.distance / length, at.torsion * unit)));
         figure((1120, 800), title, &|area| {

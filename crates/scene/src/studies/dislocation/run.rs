@@ -14,8 +14,7 @@ use serde_json::{Value, json};
 
 use super::{ScrewDislocations, Screws};
 use crate::run::Outcome;
-use crate::studies::run::Observer;
-use crate::studies::solid::outcome;
+use crate::studies::observer::{Observer, outcome};
 
 /// Arcs in which the largest circuit is developed.
 const ARCS: u32 = 96;
@@ -204,7 +203,7 @@ impl BurgersCircuits {
                 })
             })
             .collect();
-        let flatness = |report: &Option<Flatness>| {
+        let flatness = |report: Option<Flatness>| {
             report.map(|report| {
                 json!({
                     "homogeneous": report.is_flat(),
@@ -221,8 +220,8 @@ impl BurgersCircuits {
             "largest_relative_difference_from_closed_form": self.largest_difference(),
             "gap_of_development_m": self.in_crystal.last(),
             "holonomy_less_one": self.holonomy,
-            "as_a_crystal": flatness(&self.of_crystal),
-            "as_an_isotropic_solid": flatness(&self.of_isotropic_solid),
+            "as_a_crystal": flatness(self.of_crystal),
+            "as_an_isotropic_solid": flatness(self.of_isotropic_solid),
         })
     }
 }

@@ -42,7 +42,7 @@ impl Builder<'_> {
                 }
             };
             if let Err(refusal) = held.stretch_at(pressure, stretch) {
-                self.wrong(refused(table, name, pressure, refusal));
+                self.wrong(refused(table, name, pressure, &refusal));
                 return None;
             }
         }
@@ -55,7 +55,7 @@ fn layer(record: &Record) -> Option<Layer> {
     Some(Layer { thickness: record.number("thickness")?, growth })
 }
 
-fn refused(table: &Record, name: &str, pressure: f64, refusal: Refusal) -> Mistake {
+fn refused(table: &Record, name: &str, pressure: f64, refusal: &Refusal) -> Mistake {
     match refusal {
         Refusal::Beyond { most, stretch, is_end: false } => Mistake::new(
             table.place_of("inner_pressure"),

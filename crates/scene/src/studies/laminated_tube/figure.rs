@@ -5,7 +5,7 @@ use core::fmt::Write as _;
 use super::{LayeredTube, TubeState, TubeStresses};
 use crate::output::figures::figure;
 use crate::studies::panel::{Panel, largest, prefixed};
-use crate::studies::solid::stress_table;
+use crate::studies::stresses::stress_table;
 
 impl TubeStresses {
     pub(in crate::studies) fn file(&self, asked: &LayeredTube, title: &str, name: &str) -> Option<String> {

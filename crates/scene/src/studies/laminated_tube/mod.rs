@@ -15,8 +15,8 @@ pub use run::{TubeState, TubeStresses};
 use piola_numerics::Real;
 use piola_uniformity::laminated::{LaminaMetric, Lamination};
 
+use super::law::material;
 use super::panel::quantity;
-use super::solid::material;
 use super::{Law, StudyPlan};
 
 /// A tube of layers, and the pressure inside.
@@ -81,7 +81,7 @@ pub struct Layer {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
     inner: f64,
-    layers: Vec<Layer>,
+    list: Vec<Layer>,
     /// Outer radii of all layers, m.
     ends: Vec<f64>,
 }
@@ -98,7 +98,7 @@ impl Layers {
                 radius
             })
             .collect();
-        Self { inner, layers, ends }
+        Self { inner, list: layers, ends }
     }
 
     /// The radii of the faces in the reference, m.
@@ -116,24 +116,24 @@ impl Layers {
     /// The layers.
     #[must_use]
     pub fn layers(&self) -> &[Layer] {
-        &self.layers
+        &self.list
     }
 
     /// The same layers without growth.
     #[must_use]
     pub fn homogeneous(&self) -> Self {
         let (inner, ends) = (self.inner, self.ends.clone());
-        let layers = self.layers.iter().map(|layer| Layer { growth: [1.0; 3], ..*layer }).collect();
-        Self { inner, layers, ends }
+        let list = self.list.iter().map(|layer| Layer { growth: [1.0; 3], ..*layer }).collect();
+        Self { inner, list, ends }
     }
 }
 
 impl Lamination for Layers {
     fn metric<T: Real>(&self, depth: T) -> LaminaMetric<T> {
-        let of_outermost = self.layers.last().map_or([1.0; 3], |layer| layer.growth);
+        let of_outermost = self.list.last().map_or([1.0; 3], |layer| layer.growth);
         let mut growth = of_outermost.map(T::lit);
         // Inwards: the last layer that ends beyond the depth is the one.
-        for (layer, end) in self.layers.iter().zip(self.interfaces()).rev() {
+        for (layer, end) in self.list.iter().zip(self.interfaces()).rev() {
             let is_within = depth.less_than(T::lit(*end));
             growth = core::array::from_fn(|k| T::select(is_within, T::lit(layer.growth[k]), growth[k]));
         }
@@ -151,7 +151,7 @@ impl LayeredTube {
     /// Fills a plan; the tables and figures of this study.
     pub(super) fn plan(&self, plan: &mut StudyPlan) -> (&'static [&'static str], &'static [&'static str]) {
         let ([inner, outer], count) =
-            (self.layers.radii().map(|radius| quantity("m", radius)), self.layers.layers.len());
+            (self.layers.radii().map(|radius| quantity("m", radius)), self.layers.layers().len());
         let plural = if count == 1 { "" } else { "s" };
         plan.system = format!(
             "a tube of radii {inner} and {outer} in {count} layer{plural} of {}, under {}",

@@ -10,8 +10,8 @@ use super::pressure::{HeldTube, Refusal};
 use super::{LayeredTube, Layers};
 use crate::run::Outcome;
 use crate::studies::StressAt;
-use crate::studies::run::Observer;
-use crate::studies::solid::{outcome, through};
+use crate::studies::observer::{Observer, outcome};
+use crate::studies::stresses::through;
 
 /// Parts of each layer between particles whose stress is computed.
 const PARTS: u32 = 24;
@@ -134,16 +134,16 @@ impl TubeState {
 
 impl TubeStresses {
     pub(in crate::studies) fn results(&self) -> Value {
-        let state = |state: &Option<TubeState>| state.as_ref().map(TubeState::results);
+        let state = |state: Option<&TubeState>| state.map(TubeState::results);
         let spread = |state: &TubeState| {
             let [least, largest] = state.hoop_stresses();
             largest - least
         };
         let ratio = self.loaded.as_ref().zip(self.homogeneous.as_ref());
         json!({
-            "without_loads": state(&self.at_rest),
-            "under_pressure": state(&self.loaded),
-            "homogeneous_under_pressure": state(&self.homogeneous),
+            "without_loads": state(self.at_rest.as_ref()),
+            "under_pressure": state(self.loaded.as_ref()),
+            "homogeneous_under_pressure": state(self.homogeneous.as_ref()),
             "range_of_hoop_stress_over_homogeneous": ratio.map(|(tube, other)| spread(tube) / spread(other)),
         })
     }

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::{Outline, Room, Speed};
 use crate::run::Outcome;
 use crate::studies::contour::Lattice;
-use crate::studies::run::Observer;
+use crate::studies::observer::Observer;
 
 /// Where the parameter of a closed curve begins: away from the ends of the axes, where caustics have their tips.
 const SEAM: f64 = 0.3;

@@ -6,8 +6,7 @@ use piola_solutions::loads::Tube;
 use super::TwistedRod;
 use crate::document::Mistake;
 use crate::model::Builder;
-use crate::studies::balloon::load_limit;
-use crate::studies::solid::reach;
+use crate::studies::limits::{load_limit, reach};
 use crate::validation::Record;
 
 impl Builder<'_> {

@@ -12,8 +12,8 @@ pub use run::{RodCurves, TwistedState};
 
 use piola_solutions::loads::{Ends, Torsion, Tube};
 
+use super::law::material;
 use super::panel::quantity;
-use super::solid::material;
 use super::{Law, StudyPlan};
 
 /// A rod or a tube, and how far it is twisted.
@@ -83,7 +83,7 @@ impl TwistedRod {
         );
         match self.torque {
             Some(torque) => {
-                plan.compute("states", format!("all under the axial force that carry {}", quantity("N m", torque)))
+                plan.compute("states", format!("all under the axial force that carry {}", quantity("N m", torque)));
             }
             None => plan.skip("states at a torque", "no `torque` is given: stresses are those at the largest twist"),
         }

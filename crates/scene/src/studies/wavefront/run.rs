@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::{Medium, MediumPart, Source, Wavefront};
 use crate::run::Outcome;
-use crate::studies::run::Observer;
+use crate::studies::observer::Observer;
 
 /// Parts of the length between which caustics are looked for and rays are drawn, at least.
 const PARTS: u32 = 240;
