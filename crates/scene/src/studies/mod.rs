@@ -9,8 +9,6 @@
 //! and [`StudyRun::write`] leaves the summary, tables and figures. One that fails or is stopped keeps what it had found.
 
 mod build;
-mod chart;
-mod contour;
 mod plan;
 pub mod room;
 mod run;

@@ -1,13 +1,10 @@
 //! Tests of scenes: every bad input has a clear answer, every good one the right result.
 
 mod bad_input;
-mod fitting;
 mod plan;
 mod reference;
-mod rheology;
 mod run;
 mod schema;
 mod settings;
 mod studies;
 mod support;
-mod units;
