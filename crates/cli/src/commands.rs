@@ -4,8 +4,10 @@ use core::ops::ControlFlow;
 use std::io::Write as _;
 use std::path::Path;
 
-use piola_scene::fitting::{self, Measurements, Request};
-use piola_scene::output::{self, Folder, Summary, Written};
+use piola_charts::{Folder, Written};
+use piola_measured::MeasuredError;
+use piola_measured::fitting::{self, Measurements, Request};
+use piola_scene::output::{self, Summary};
 use piola_scene::run::{self, Outcome};
 use piola_scene::studies::{self, StudyPlan};
 use piola_scene::{Plan, Scene, SceneError, SceneFile, Study, schema};
@@ -25,7 +27,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Exit {
 
 /// The folder of the results: the argument's, or the scene's.
 fn results(arguments: &RunArguments, asked: &Path) -> Result<Folder, SceneError> {
-    Folder::prepare(arguments.out.as_deref().unwrap_or(asked))
+    Ok(Folder::prepare(arguments.out.as_deref().unwrap_or(asked))?)
 }
 
 fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
@@ -141,7 +143,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     });
     let (measurements, fitted, folder) = match prepared {
         Ok(prepared) => prepared,
-        Err(error) => return invalid(&error, arguments.json),
+        Err(error) => return refused(&error, arguments.json),
     };
     let written = fitted.write(&folder, &measurements);
     if arguments.json {
@@ -159,10 +161,10 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     if fitted.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
 }
 
-fn request(arguments: &FitArguments) -> Result<Request, SceneError> {
+fn request(arguments: &FitArguments) -> Result<Request, MeasuredError> {
     let laws = match arguments.laws.as_slice() {
         [] => Request::usual_laws()?,
-        names => names.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, SceneError>>()?,
+        names => names.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?,
     };
     let mut request = Request::of(laws);
     if let Some(weights) = &arguments.mode_weights {
@@ -198,25 +200,40 @@ fn load(arguments: &SceneArguments) -> Result<SceneFile, SceneError> {
     SceneFile::load(&arguments.scene, &arguments.settings)
 }
 
-pub(crate) fn invalid(error: &SceneError, json: bool) -> Exit {
+fn invalid(error: &SceneError, json: bool) -> Exit {
     match error {
         SceneError::Invalid(report) if json => print_json(&serde_json::json!({
             "valid": false,
             "mistakes": report.mistakes,
             "more": report.more,
         })),
-        SceneError::Table(report) if json => print_json(&serde_json::json!({
+        SceneError::Invalid(report) => note(&report.to_string()),
+        _ => failure(error, json),
+    }
+    Exit::Invalid
+}
+
+/// Measurements that are not accepted, or cannot be read.
+pub(crate) fn refused(error: &MeasuredError, json: bool) -> Exit {
+    match error {
+        MeasuredError::Table(report) if json => print_json(&serde_json::json!({
             "valid": false,
             "file": report.path,
             "mistakes": report.mistakes,
             "more": report.more,
         })),
-        _ if json => print_json(&serde_json::json!({ "valid": false, "error": error.to_string() })),
-        SceneError::Table(report) => note(&report.to_string()),
-        SceneError::Invalid(report) => note(&report.to_string()),
-        _ => note(&format!("error: {error}")),
+        MeasuredError::Table(report) => note(&report.to_string()),
+        _ => failure(error, json),
     }
     Exit::Invalid
+}
+
+fn failure(error: &impl core::fmt::Display, json: bool) {
+    if json {
+        print_json(&serde_json::json!({ "valid": false, "error": error.to_string() }));
+    } else {
+        note(&format!("error: {error}"));
+    }
 }
 
 fn print_json(value: &impl serde::Serialize) {

@@ -2,7 +2,7 @@
 
 use core::fmt::Write as _;
 
-use piola_scene::fitting::{Comparison, Fit, Measurements, SolidParameter, State};
+use piola_measured::fitting::{Comparison, Fit, Measurements, SolidParameter, State};
 
 /// Laws with their residuals and criteria, then each law's parameters.
 pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> String {

@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use piola_scene::SceneError;
-use piola_scene::output::{Folder, Written};
-use piola_scene::rheology::{self, FlowKind, FluidName, Measured, Noise, RecoveryRequest, Request, Rise, Weighting};
+use piola_charts::{Folder, Written};
+use piola_measured::MeasuredError;
+use piola_measured::rheology::{self, FlowKind, FluidName, Measured, Noise, RecoveryRequest, Request, Rise, Weighting};
 
 use crate::Exit;
 use crate::arguments::{FitFlowArguments, FlowArguments, RecoverArguments};
-use crate::commands::{invalid, listing, note, print};
+use crate::commands::{listing, note, print, refused};
 
 pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
     let flow = &arguments.flow;
@@ -40,14 +40,14 @@ pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
             }
             if lost == 0 && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
         }
-        Err(error) => invalid(&error, flow.json),
+        Err(error) => refused(&error, flow.json),
     }
 }
 
 /// Several tables of a flow that takes one.
-fn too_many(tables: &[Measured]) -> SceneError {
+fn too_many(tables: &[Measured]) -> MeasuredError {
     let argument = format!("{} files", tables.len());
-    SceneError::Argument { argument, valid: "one file, or several with --slip or --flow capillary" }
+    MeasuredError::Argument { argument, valid: "one file, or several with --slip or --flow capillary" }
 }
 
 pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
@@ -79,7 +79,7 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
             }
             if comparison.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
         }
-        Err(error) => invalid(&error, flow.json),
+        Err(error) => refused(&error, flow.json),
     }
 }
 
@@ -91,7 +91,7 @@ fn noise(arguments: &FlowArguments) -> Noise {
     }
 }
 
-fn load(path: &Path, arguments: &FlowArguments) -> Result<Measured, SceneError> {
+fn load(path: &Path, arguments: &FlowArguments) -> Result<Measured, MeasuredError> {
     let kind: FlowKind = arguments.flow.parse()?;
     let given = [
         ("radius", &arguments.radius),
@@ -106,9 +106,9 @@ fn load(path: &Path, arguments: &FlowArguments) -> Result<Measured, SceneError> 
     Measured::load(path, kind, &sizes)
 }
 
-fn folder(arguments: &FlowArguments, command: &str, name: &str) -> Result<Folder, SceneError> {
+fn folder(arguments: &FlowArguments, command: &str, name: &str) -> Result<Folder, MeasuredError> {
     let beside: PathBuf = Path::new("out").join(format!("{command}-{name}"));
-    Folder::prepare(arguments.out.as_ref().unwrap_or(&beside))
+    Ok(Folder::prepare(arguments.out.as_ref().unwrap_or(&beside))?)
 }
 
 fn show(text: &str, json: bool, folder: &Folder, written: &Written) {

@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
-use crate::document::Document;
+use piola_document::Document;
+
 use crate::model::Builder;
-use crate::{Scene, SceneError, Study, validation};
+use crate::schema::SCENE;
+use crate::{Scene, SceneError, Study};
 
 /// A checked scene file: a motion or a study.
 #[derive(Debug, Clone)]
@@ -43,7 +45,7 @@ impl SceneFile {
     /// # Ok::<(), piola_scene::SceneError>(())
     /// ```
     pub fn from_document(document: &Document) -> Result<Self, SceneError> {
-        let (record, mistakes) = validation::records(document);
+        let (record, mistakes) = document.records(&SCENE);
         let mut builder = Builder::new(document, mistakes);
         // One that has no kind, or several, is answered as a motion is.
         let study = Study::kind(&record).is_some();

@@ -1,9 +1,7 @@
 //! Bodies about a fixed centre of attraction.
 
 use super::Builder;
-use crate::document::Mistake;
-use crate::validation::Record;
-use crate::words;
+use piola_document::{Mistake, Record, words};
 use piola_gravitation::kepler::{Elements, KeplerMotion};
 
 /// Bodies about a fixed centre at the origin, without attraction among themselves.

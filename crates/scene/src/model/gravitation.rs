@@ -1,9 +1,7 @@
 //! Bodies that attract each other.
 
 use super::Builder;
-use crate::document::Mistake;
-use crate::validation::Record;
-use crate::words;
+use piola_document::{Mistake, Record, words};
 
 /// Newton's constant of gravitation, m³ kg⁻¹ s⁻² (CODATA 2018; uncertain in the fifth digit).
 pub const NEWTONIAN_CONSTANT: f64 = 6.674_30e-11;

@@ -5,8 +5,7 @@ use piola_kinematics::{Attitude, Holonomic, Inertia, KinematicsError, Placement,
 use piola_numerics::Real;
 
 use super::{Builder, independence};
-use crate::document::Mistake;
-use crate::validation::Record;
+use piola_document::{Mistake, Record};
 
 /// A mechanism: its joints, the names of its parts and coordinates, its state at the start.
 #[derive(Debug, Clone)]

@@ -18,10 +18,9 @@ pub use gravitation::{Gravitation, MassPoint, NEWTONIAN_CONSTANT, PostNewtonian}
 pub use mechanism::{JointTree, Mechanism, PartName};
 pub use reference::{ClosedForm, Reference, ReferenceKind, ReferenceTable};
 
-use crate::document::{Document, Mistake};
+use crate::SceneError;
 use crate::schema::{Kind, SCENE, SCENE_KINDS, SceneKind};
-use crate::validation::{self, Record};
-use crate::{SceneError, words};
+use piola_document::{Document, Mistake, Record, words};
 
 /// A scene: a system, a span of time, how to integrate it, what to write, what to compare with.
 #[derive(Debug, Clone)]
@@ -154,7 +153,7 @@ impl Scene {
     /// assert_eq!((report.mistakes[0].line, report.mistakes[0].column), (6, 23));
     /// ```
     pub fn from_document(document: &Document) -> Result<Self, SceneError> {
-        let (record, mistakes) = validation::records(document);
+        let (record, mistakes) = document.records(&SCENE);
         let mut builder = Builder { document, mistakes };
         let scene = builder.scene(&record);
         builder.finish(scene)

@@ -5,9 +5,7 @@ use std::io::Read as _;
 use std::path::PathBuf;
 
 use super::{Builder, System, TimeSpan};
-use crate::document::Mistake;
-use crate::validation::Record;
-use crate::words;
+use piola_document::{Mistake, Record, words};
 use piola_gravitation::kepler::KeplerMotion;
 
 /// A reference with the way of measuring errors against it.

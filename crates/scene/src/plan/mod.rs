@@ -8,7 +8,7 @@ use piola_integrators::Order;
 use serde::Serialize;
 
 use crate::model::{ReferenceKind, Scene, System};
-use crate::words;
+use piola_document::words;
 
 /// The plan of a run.
 ///

@@ -3,17 +3,16 @@
 //! [`SCENE`] is a tree of [`Table`]s of [`Key`]s: name, kind, unit, default, documentation. Validation, the JSON Schema
 //! for editors ([`json_schema`]) and the tables of the scene reference ([`markdown`]) all read it.
 
-mod json;
-mod markdown;
 mod solids;
 mod studies;
 mod tables;
 
-pub use json::json_schema;
-pub use markdown::markdown;
+pub use piola_document::schema::{Absent, Key, Kind, Range, Table, Word};
 pub use tables::{JOINT_TYPES, METHODS, SCENE, SCENE_KINDS};
 
-use crate::units::Dimension;
+use piola_document::schema;
+use piola_document::units::Dimension;
+use serde_json::{Value, json};
 
 /// A kind of scene: the table that says so, and what else belongs to it.
 #[derive(Debug)]
@@ -34,184 +33,29 @@ const fn quantity(dimension: Dimension, range: Range) -> Kind {
     Kind::Quantity(dimension, range)
 }
 
-/// Declares a [`Table`]: each key with its documentation, `key: kind, absent;` or `key: kind, absent, only_for types;`.
-macro_rules! table {
-    (
-        $(#[doc = $about:literal])+
-        $visibility:vis static $table:ident = $header:literal {
-            $($(#[doc = $doc:literal])+ $key:ident: $kind:expr, $absent:expr $(, only_for $types:expr)?;)+
-        }
-    ) => {
-        $(#[doc = $about])+
-        $visibility static $table: $crate::schema::Table = $crate::schema::Table {
-            name: $header,
-            doc: concat!($($about),+).trim_ascii(),
-            keys: &[$($crate::schema::Key {
-                name: stringify!($key),
-                kind: $kind,
-                absent: $absent,
-                only_for: $crate::schema::table!(@types $($types)?),
-                doc: concat!($($doc),+).trim_ascii(),
-            }),+],
-        };
-    };
-    (@types) => { &[] };
-    (@types $types:expr) => { $types };
-}
-use table;
-
-/// A table of a scene.
-#[derive(Debug)]
-pub struct Table {
-    /// Header as written: `gravity`, `body`.
-    pub name: &'static str,
-    /// Purpose of the table.
-    pub doc: &'static str,
-    /// Its keys.
-    pub keys: &'static [Key],
+/// The JSON Schema of a scene.
+///
+/// It constrains single values. Conditions that span several keys are left to `piola check`.
+///
+/// # Example
+/// ```
+/// let schema = piola_scene::schema::json_schema();
+/// assert_eq!(schema["properties"]["gravity"]["properties"]["post_newtonian"]["type"], "boolean");
+/// ```
+#[must_use]
+pub fn json_schema() -> Value {
+    let mut schema = schema::json_schema(&SCENE);
+    schema.insert("title".into(), "Piola scene".into());
+    let kinds = SCENE_KINDS.each_ref().map(|kind| {
+        let time: &[&str] = if kind.study { &[] } else { &["time"] };
+        json!({ "required": ([&[kind.name], time].concat()) })
+    });
+    schema.insert("oneOf".into(), kinds.to_vec().into());
+    schema.into()
 }
 
-/// A key of a table.
-#[derive(Debug)]
-pub struct Key {
-    /// The key as written.
-    pub name: &'static str,
-    /// Kind of its value.
-    pub kind: Kind,
-    /// The rule when it is absent.
-    pub absent: Absent,
-    /// Values of the table's `type` for which the key exists; empty for all.
-    pub only_for: &'static [&'static str],
-    /// Meaning.
-    pub doc: &'static str,
-}
-
-/// The kind of a key's value.
-#[derive(Debug, Clone, Copy)]
-pub enum Kind {
-    /// A name of letters, digits, `_`, `-` and spaces.
-    Name,
-    /// Any text.
-    Text,
-    /// The path of a file, relative to the scene.
-    Path,
-    /// `true` or `false`.
-    Flag,
-    /// A whole number from `least` to `most`.
-    Count {
-        /// Smallest value.
-        least: u32,
-        /// Largest value.
-        most: u32,
-    },
-    /// A number with a dimension (or none).
-    Quantity(Dimension, Range),
-    /// Numbers that share a dimension, as many as one of the counts.
-    Numbers(Dimension, &'static [usize]),
-    /// One of several words.
-    Choice(&'static [Word]),
-    /// An inner table.
-    Table(&'static Table),
-    /// A list of tables.
-    Tables(&'static Table),
-}
-
-/// Which numbers are valid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Range {
-    /// Any finite number.
-    Any,
-    /// 0 ≤ x.
-    NotNegative,
-    /// 0 < x.
-    Positive,
-    /// 0 < x < 1.
-    Fraction,
-}
-
-/// A word with its meaning.
-#[derive(Debug)]
-pub struct Word {
-    /// The word.
-    pub name: &'static str,
-    /// Its meaning.
-    pub doc: &'static str,
-}
-
-/// The rule for an absent key.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Absent {
-    /// It may not be absent.
-    Required,
-    /// Nothing is assumed; whether that is allowed depends on other keys.
-    Optional,
-    /// The value that is taken, as it would be written in TOML.
-    Default(&'static str),
-}
-
-impl Range {
-    /// Whether a finite number is valid.
-    #[must_use]
-    pub fn contains(self, x: f64) -> bool {
-        match self {
-            Self::Any => true,
-            Self::NotNegative => 0.0 <= x,
-            Self::Positive => 0.0 < x,
-            Self::Fraction => 0.0 < x && x < 1.0,
-        }
-    }
-
-    /// The condition in words that follow "a number".
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Self::Any => "",
-            Self::NotNegative => " that is zero or more",
-            Self::Positive => " greater than zero",
-            Self::Fraction => " between zero and one",
-        }
-    }
-}
-
-impl Kind {
-    /// The valid values in words: "a length such as "2 m"".
-    #[must_use]
-    pub fn describe(&self) -> String {
-        match self {
-            Self::Name => "a name of letters, digits, `_` and `-`".to_string(),
-            Self::Text => "a text".to_string(),
-            Self::Path => "the path of a file, relative to the scene".to_string(),
-            Self::Flag => "true or false".to_string(),
-            Self::Count { least, most } => format!("a whole number from {least} to {most}"),
-            Self::Quantity(dimension, range) if *dimension == Dimension::NONE => format!("a number{}", range.words()),
-            Self::Quantity(dimension, range) => {
-                let unit = dimension.si_unit();
-                format!("{dimension}, a number{} in {unit} or a text with a unit such as \"1.5 {unit}\"", range.words())
-            }
-            Self::Numbers(dimension, counts) => {
-                let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
-                let counts = counts.join(" or ");
-                let unit = dimension.si_unit();
-                if *dimension == Dimension::NONE {
-                    format!("a list of {counts} numbers")
-                } else {
-                    format!("{dimension}, a list of {counts} numbers in {unit} or a text such as \"[1, …] {unit}\"")
-                }
-            }
-            Self::Choice(words) => {
-                let names: Vec<String> = words.iter().map(|word| format!("\"{}\"", word.name)).collect();
-                format!("one of {}", names.join(", "))
-            }
-            Self::Table(table) => format!("a table, [{}]", table.name),
-            Self::Tables(table) => format!("a list of tables, [[{}]]", table.name),
-        }
-    }
-}
-
-impl Table {
-    /// The key of a name.
-    #[must_use]
-    pub fn key(&self, name: &str) -> Option<&'static Key> {
-        self.keys.iter().find(|key| key.name == name)
-    }
+/// Every table with its keys, the methods, the types of joints and the units, as the reference prints them.
+#[must_use]
+pub fn markdown() -> String {
+    schema::markdown(&SCENE)
 }

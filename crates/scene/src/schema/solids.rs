@@ -3,8 +3,9 @@
 use super::Absent::{Default, Optional, Required};
 use super::Kind::Count;
 use super::Range::{Any, NotNegative, Positive};
-use super::{Kind, Word, quantity, table, word};
-use crate::units::Dimension as D;
+use super::{Kind, Word, quantity, word};
+use piola_document::table;
+use piola_document::units::Dimension as D;
 
 const fn pair(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[2])

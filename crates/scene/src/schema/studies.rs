@@ -1,9 +1,11 @@
 //! The tables of studies.
 
+use piola_document::table;
+use piola_document::units::Dimension as D;
+
 use super::Absent::{Default, Optional, Required};
 use super::Range::{Any, Positive};
-use super::{Kind, Word, quantity, table, word};
-use crate::units::Dimension as D;
+use super::{Kind, Word, quantity, word};
 
 const fn pair(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[2])

@@ -1,10 +1,12 @@
 //! The tables and keys themselves.
 
+use piola_document::table;
+use piola_document::units::Dimension as D;
+
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
 use super::Range::{Any, Fraction, NotNegative, Positive};
-use super::{Kind, SceneKind, Word, quantity, solids, studies, table, word};
-use crate::units::Dimension as D;
+use super::{Kind, SceneKind, Word, quantity, solids, studies, word};
 
 const fn vector(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[3])

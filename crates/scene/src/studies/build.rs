@@ -1,10 +1,10 @@
 //! Studies from checked records.
 
 use super::{Study, Subject};
-use crate::document::Mistake;
 use crate::model::{self, Builder};
 use crate::schema::{SCENE_KINDS, SceneKind};
-use crate::validation::Record;
+use piola_document::Mistake;
+use piola_document::Record;
 
 /// Tables that only scenes with a motion have.
 const OF_MOTIONS: [&str; 3] = ["time", "integrator", "reference"];

@@ -5,9 +5,9 @@ use piola_solids::isochoric::{ArrudaBoyce, Gent, Isochoric, MooneyRivlin, NeoHoo
 use piola_solids::{AnyIsochoric, SolidsError};
 
 use super::panel::quantity;
-use crate::document::Mistake;
 use crate::model::Builder;
-use crate::validation::Record;
+use piola_document::Mistake;
+use piola_document::Record;
 
 /// The law of an incompressible isotropic solid: the one type for which the solutions are compiled.
 ///

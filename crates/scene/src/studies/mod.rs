@@ -20,8 +20,6 @@ pub mod balloon;
 #[cfg(feature = "solutions")]
 pub mod bending;
 mod build;
-mod chart;
-mod contour;
 #[cfg(feature = "solutions")]
 pub mod dislocation;
 #[cfg(feature = "solutions")]

@@ -6,7 +6,7 @@ use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use crate::output::figures::{Area, Drawn, FINE, FONT, INK, Plane, colour, format_short, pixels, plane_chart};
+use piola_charts::{Area, Drawn, FINE, FONT, INK, Plane, colour, format_short, pixels, plane_chart};
 
 /// Curves and marks over two axes.
 #[derive(Default)]

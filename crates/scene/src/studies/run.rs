@@ -7,8 +7,8 @@ use std::time::Instant;
 use serde_json::{Map, Value, json};
 
 use super::{Study, StudyPlan, Subject, room, wavefront};
-use crate::output::{Folder, Written};
 use crate::run::Outcome;
+use piola_charts::{Folder, Written};
 
 /// The results of a study.
 #[derive(Debug, Clone)]

@@ -9,10 +9,10 @@ use super::laminated_tube::{LayeredTube, TubeStresses};
 use super::observer::Observer;
 use super::torsion::{RodCurves, TwistedRod};
 use super::{StudyPlan, Subject};
-use crate::document::Mistake;
 use crate::model::Builder;
 use crate::run::Outcome;
-use crate::validation::Record;
+use piola_document::Mistake;
+use piola_document::Record;
 
 /// A study of a solid.
 #[derive(Debug, Clone)]

@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use piola_charts::ChartsError;
+use piola_document::DocumentError;
 use piola_scene::model::System;
 use piola_scene::output::Folder;
 use piola_scene::{Scene, SceneError};
@@ -226,7 +228,7 @@ fn output_folder_that_is_a_file_is_refused_before_the_run() {
     let file = folder.join("file");
     std::fs::write(&file, "text").unwrap_or_else(|error| panic!("{error}"));
     let error = Folder::prepare(&file.join("results"));
-    assert!(matches!(&error, Err(SceneError::UnwritableFolder { .. })), "{error:?}");
+    assert!(matches!(&error, Err(ChartsError::UnwritableFolder { .. })), "{error:?}");
     assert!(error.is_err_and(|error| error.to_string().contains("cannot write to the output folder")));
     let _ = std::fs::remove_dir_all(folder);
 }
@@ -238,11 +240,14 @@ fn missing_file_folder_and_bytes_that_are_no_text_are_told_apart() {
         Err(error) => error,
         Ok(_) => panic!("{} is no scene", path.display()),
     };
-    assert!(matches!(load(&folder.join("nothing.toml")), SceneError::Unreadable { .. }));
-    assert!(matches!(load(&folder), SceneError::Folder { .. }));
+    assert!(matches!(load(&folder.join("nothing.toml")), SceneError::Document(DocumentError::Unreadable { .. })));
+    assert!(matches!(load(&folder), SceneError::Document(DocumentError::Folder { .. })));
     let bytes = folder.join("bytes.toml");
     std::fs::write(&bytes, b"name = 'x'\nab\xff").unwrap_or_else(|error| panic!("{error}"));
-    assert!(matches!(load(&bytes), SceneError::NotText { line: 2, column: 3, byte: 0xff, .. }));
+    assert!(matches!(
+        load(&bytes),
+        SceneError::Document(DocumentError::NotText { line: 2, column: 3, byte: 0xff, .. })
+    ));
     let _ = std::fs::remove_dir_all(folder);
 }
 
@@ -255,7 +260,10 @@ fn ten_megabytes_of_garbage_are_refused_at_once() {
     let error = Scene::load(&path, &[]);
     // The file is refused by its size: parsing it would take minutes, whatever else the machine does.
     assert!(begun.elapsed() < Duration::from_secs(60));
-    assert!(matches!(&error, Err(SceneError::TooLarge { bytes: 10_000_000, .. })), "{error:?}");
+    assert!(
+        matches!(&error, Err(SceneError::Document(DocumentError::TooLarge { bytes: 10_000_000, .. }))),
+        "{error:?}"
+    );
     let _ = std::fs::remove_dir_all(folder);
 }
 

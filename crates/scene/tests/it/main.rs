@@ -1,10 +1,8 @@
 //! Tests of scenes: every bad input has a clear answer, every good one the right result.
 
 mod bad_input;
-mod fitting;
 mod plan;
 mod reference;
-mod rheology;
 mod run;
 mod schema;
 mod settings;
@@ -12,4 +10,3 @@ mod settings;
 mod solids;
 mod studies;
 mod support;
-mod units;

@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use piola_scene::document::Report;
-use piola_scene::{Plan, Scene, SceneError, run};
+use piola_scene::{Plan, Report, Scene, SceneError, run};
 
 use crate::support::PAIR;
 

@@ -1,7 +1,6 @@
 //! Scenes to break, and readers of reports.
 
-use piola_scene::document::Report;
-use piola_scene::{Document, Scene, SceneError, SceneFile, Study};
+use piola_scene::{Document, Report, Scene, SceneError, SceneFile, Study};
 use piola_testkit::{Tol, assert_close};
 
 /// A valid scene of gravitation.

@@ -39,12 +39,16 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("spectral", &["fields", "integrators"]),
     ("registration", &["spectral"]),
     ("piola", MECHANICS),
-    ("scene", MECHANICS),
-    ("cli", &["scene"]),
+    ("document", &[]),
+    ("charts", &[]),
+    ("measured", &["document", "charts", "fit"]),
+    ("scene", &["document", "charts", "hamiltonian", "characteristics", "gravitation"]),
+    // charts: the folder of the results.
+    ("cli", &["scene", "measured"]),
     ("testkit", &["numerics"]),
 ];
 
-/// Everything below the facade and the scenes.
+/// Everything below the facade and the programs.
 const MECHANICS: &[&str] = &[
     "numerics",
     "tensor",
@@ -289,7 +293,8 @@ mod tests {
         assert_eq!(lagrangian, ["integrators", "kinematics", "numerics"]);
         assert!(!reach("viscometry").is_some_and(|reached| reached.contains("solids")));
         assert!(!reach("solids").is_some_and(|reached| reached.contains("integrators")));
-        assert!(reach("cli").is_some_and(|reached| MECHANICS.iter().all(|crate_| reached.contains(crate_))));
+        assert!(reach("piola").is_some_and(|reached| MECHANICS.iter().all(|crate_| reached.contains(crate_))));
+        assert!(!reach("scene").is_some_and(|reached| reached.contains("measured")));
         assert_eq!(reach("drawer"), None);
     }
 

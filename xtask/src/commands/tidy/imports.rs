@@ -43,15 +43,19 @@ const CIRCLES: &[(&str, &str, &str)] = &[
         "crates/numerics/src/real.rs",
         "a computation in lanes is over scalars, and a scalar runs it",
     ),
-    ("crates/scene/src/rheology/figure.rs", "crates/scene/src/rheology/fluids.rs", "a comparison writes its figure"),
     (
-        "crates/scene/src/rheology/figure.rs",
-        "crates/scene/src/rheology/recovery.rs",
+        "crates/measured/src/rheology/figure.rs",
+        "crates/measured/src/rheology/fluids.rs",
+        "a comparison writes its figure",
+    ),
+    (
+        "crates/measured/src/rheology/figure.rs",
+        "crates/measured/src/rheology/recovery.rs",
         "a recovered curve writes its figure",
     ),
     (
-        "crates/scene/src/units/names.rs",
-        "crates/scene/src/units/unit.rs",
+        "crates/document/src/units/names.rs",
+        "crates/document/src/units/unit.rs",
         "a unit is read by its name, and the names are of units",
     ),
     (

@@ -4,11 +4,11 @@ use piola_solutions::LoadCurve;
 use piola_solutions::loads::Shell;
 
 use super::Balloon;
-use crate::document::Mistake;
 use crate::model::Builder;
 use crate::studies::limits::{load_limit, reach};
-use crate::validation::Record;
-use crate::words;
+use piola_document::Mistake;
+use piola_document::Record;
+use piola_document::words;
 
 impl Builder<'_> {
     pub(in crate::studies) fn balloon(&mut self, scene: &Record, table: &Record) -> Option<Balloon> {

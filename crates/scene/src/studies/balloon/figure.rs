@@ -4,9 +4,9 @@ use core::fmt::Write as _;
 
 use super::run::is_stable;
 use super::{Balloon, BalloonCurve};
-use crate::output::figures::figure;
 use crate::studies::panel::{Panel, largest, prefixed};
 use crate::studies::stresses::stress_table;
+use piola_charts::figure;
 
 impl BalloonCurve {
     pub(in crate::studies) fn file(&self, asked: &Balloon, title: &str, name: &str) -> Option<String> {

@@ -6,10 +6,10 @@ use piola_solutions::LoadCurve;
 use piola_solutions::loads::Block;
 
 use super::BentBlockStudy;
-use crate::document::Mistake;
 use crate::model::Builder;
 use crate::studies::limits::{load_limit, reach};
-use crate::validation::Record;
+use piola_document::Mistake;
+use piola_document::Record;
 
 impl Builder<'_> {
     pub(in crate::studies) fn bent_block(&mut self, scene: &Record, table: &Record) -> Option<BentBlockStudy> {

@@ -6,11 +6,11 @@ use piola_solutions::loads::BentBlock;
 use plotters::prelude::*;
 
 use super::{BendingCurve, BentBlockStudy};
-use crate::output::figures::{Area, Drawn, FINE, INK, figure, format_short};
 use crate::studies::StressAt;
-use crate::studies::chart::{Canvas, Window, between, colour_bar};
 use crate::studies::panel::{Panel, largest, prefixed};
 use crate::studies::stresses::stress_table;
+use piola_charts::{Area, Drawn, FINE, INK, figure, format_short};
+use piola_charts::{Canvas, Window, between, colour_bar};
 
 /// Steps of colour, from pressed over white to pulled.
 const STEPS: u32 = 17;

@@ -17,7 +17,7 @@ use piola_solutions::loads::{Bending, Block};
 use super::law::material;
 use super::panel::quantity;
 use super::{Law, StudyPlan};
-use crate::output::figures::format_short;
+use piola_charts::format_short;
 
 /// A block, and how far it is bent.
 ///

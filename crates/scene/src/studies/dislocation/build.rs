@@ -1,10 +1,10 @@
 //! Crystals with screws from checked records.
 
 use super::{ScrewDislocations, Screws};
-use crate::document::Mistake;
 use crate::model::Builder;
-use crate::validation::Record;
-use crate::words;
+use piola_document::Mistake;
+use piola_document::Record;
+use piola_document::words;
 
 impl Builder<'_> {
     pub(in crate::studies) fn screw_dislocations(&mut self, table: &Record) -> Option<ScrewDislocations> {

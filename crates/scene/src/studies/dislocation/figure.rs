@@ -6,8 +6,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{BurgersCircuits, ScrewDislocations};
-use crate::output::figures::{Area, Drawn, FINE, FONT, INK, colour, figure, format_short, pixels};
 use crate::studies::panel::{Panel, largest, prefixed};
+use piola_charts::{Area, Drawn, FINE, FONT, INK, colour, figure, format_short, pixels};
 
 /// Cells of the lattice under the circuits, each way.
 const CELLS: i32 = 6;

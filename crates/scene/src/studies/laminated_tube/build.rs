@@ -2,9 +2,9 @@
 
 use super::pressure::{HeldTube, Refusal};
 use super::{Layer, LayeredTube, Layers};
-use crate::document::Mistake;
 use crate::model::Builder;
-use crate::validation::Record;
+use piola_document::Mistake;
+use piola_document::Record;
 
 impl Builder<'_> {
     pub(in crate::studies) fn layered_tube(&mut self, scene: &Record, table: &Record) -> Option<LayeredTube> {

@@ -3,9 +3,9 @@
 use core::fmt::Write as _;
 
 use super::{LayeredTube, TubeState, TubeStresses};
-use crate::output::figures::figure;
 use crate::studies::panel::{Panel, largest, prefixed};
 use crate::studies::stresses::stress_table;
+use piola_charts::figure;
 
 impl TubeStresses {
     pub(in crate::studies) fn file(&self, asked: &LayeredTube, title: &str, name: &str) -> Option<String> {

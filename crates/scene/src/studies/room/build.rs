@@ -1,10 +1,10 @@
 //! Rooms from checked records.
 
 use super::{Outline, Room, Speed};
-use crate::document::Mistake;
 use crate::model::Builder;
-use crate::validation::Record;
-use crate::words;
+use piola_document::Mistake;
+use piola_document::Record;
+use piola_document::words;
 
 impl Builder<'_> {
     pub(in crate::studies) fn room(&mut self, table: &Record) -> Option<Room> {

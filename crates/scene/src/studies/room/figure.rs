@@ -3,11 +3,9 @@
 use core::f64::consts::TAU;
 use core::fmt::Write as _;
 
-use plotters::prelude::*;
+use piola_charts::{Canvas, Color as _, FINE, INK, RGBColor, WHITE, Window, colour_bar, figure, viridis};
 
 use super::{Arrivals, Outline, Room};
-use crate::output::figures::{FINE, INK, figure};
-use crate::studies::chart::{Canvas, Window, colour_bar, viridis};
 
 /// Steps of colour.
 const BANDS: u32 = 24;

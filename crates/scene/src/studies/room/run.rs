@@ -4,12 +4,12 @@ use core::f64::consts::TAU;
 
 use piola_characteristics::CharacteristicsError;
 use piola_characteristics::{CauchyProblem, CharacteristicSolution, Grid, Overlap, ParameterInterval, Refinement};
+use piola_charts::Lattice;
 use piola_numerics::Dual;
 use serde_json::{Value, json};
 
 use super::{Outline, Room, Speed};
 use crate::run::Outcome;
-use crate::studies::contour::Lattice;
 use crate::studies::observer::Observer;
 
 /// Where the parameter of a closed curve begins: away from the ends of the axes, where caustics have their tips.

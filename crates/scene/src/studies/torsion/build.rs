@@ -4,10 +4,10 @@ use piola_solutions::LoadCurve;
 use piola_solutions::loads::Tube;
 
 use super::TwistedRod;
-use crate::document::Mistake;
 use crate::model::Builder;
 use crate::studies::limits::{load_limit, reach};
-use crate::validation::Record;
+use piola_document::Mistake;
+use piola_document::Record;
 
 impl Builder<'_> {
     pub(in crate::studies) fn twisted_rod(&mut self, scene: &Record, table: &Record) -> Option<TwistedRod> {

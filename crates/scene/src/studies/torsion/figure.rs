@@ -3,9 +3,9 @@
 use core::fmt::Write as _;
 
 use super::{RodCurves, TwistedRod, TwistedState};
-use crate::output::figures::{figure, format_short};
 use crate::studies::panel::{Panel, largest, prefixed};
 use crate::studies::stresses::{COMPONENTS, stress_table};
+use piola_charts::{figure, format_short};
 
 impl RodCurves {
     pub(in crate::studies) fn file(&self, asked: &TwistedRod, title: &str, name: &str) -> Option<String> {

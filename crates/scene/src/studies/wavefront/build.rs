@@ -4,9 +4,9 @@ use core::f64::consts::TAU;
 
 use super::run::MOST_RAYS;
 use super::{Medium, MediumPart, Source, Wavefront};
-use crate::document::Mistake;
 use crate::model::Builder;
-use crate::validation::Record;
+use piola_document::Mistake;
+use piola_document::Record;
 
 impl Builder<'_> {
     pub(in crate::studies) fn wavefront(&mut self, scene: &Record, table: &Record) -> Option<Wavefront> {

@@ -2,12 +2,9 @@
 
 use core::fmt::Write as _;
 
-use plotters::prelude::*;
+use piola_charts::{Canvas, Color as _, FINE, Lattice, RGBColor, WHITE, Window, between, colour, figure};
 
 use super::{CausticMark, Fronts, Source, Wavefront};
-use crate::output::figures::{FINE, colour, figure};
-use crate::studies::chart::{Canvas, Window, between};
-use crate::studies::contour::Lattice;
 
 /// Steps of the shade of the medium.
 const SHADES: u32 = 12;

@@ -1,0 +1,125 @@
+//! Parameters of laws from tables of measured stresses: files in, comparison of laws, tables and figures out.
+//!
+//! | stage | item |
+//! |---|---|
+//! | read | [`Measurements::load`]: a CSV table, every mistake with its line |
+//! | ask | [`Request`]: laws, weights, bounds, stability |
+//! | fit | [`compare`]: each law on the same data, by [`piola_fit::solids`] |
+//! | write | [`Comparison::write`]: `summary.json`, `curves.csv`, `residuals.csv`, `fit.svg` |
+
+mod figure;
+pub(crate) mod layout;
+mod mistake;
+mod request;
+mod tables;
+
+pub use mistake::{TableMistake, TableReport};
+pub use request::{LawBounds, Request};
+
+pub use piola_fit::solids::{Fit, SolidParameter, Stability, State, Weighting};
+
+use std::path::{Path, PathBuf};
+
+use piola_charts::{Folder, Written};
+use piola_fit::FitError;
+use piola_fit::solids::{AnyModel, Data, fit};
+
+use crate::MeasuredError;
+use crate::comparison::{self, Judged};
+
+/// Measured stresses of one material.
+///
+/// # Example
+/// ```
+/// use piola_measured::fitting::Measurements;
+/// let text = "mode,stretch,stress_MPa\nuniaxial,1.5,0.4\nuniaxial,2.0,0.6\nplanar,1.5,0.5\n";
+/// let measurements = Measurements::parse("rubber.csv", text)?;
+/// assert_eq!(measurements.unit.as_deref(), Some("MPa"));
+/// assert_eq!(measurements.data.tests()[0].len(), 2);
+/// let wrong = Measurements::parse("rubber.csv", "mode,stretch,stress\nuniaxial,-1.5,0.4\n");
+/// assert!(wrong.unwrap_err().to_string().starts_with("rubber.csv:2: "));
+/// # Ok::<(), piola_measured::MeasuredError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Measurements {
+    /// The file.
+    pub path: PathBuf,
+    /// The unit of the stresses, as the file names it.
+    pub unit: Option<String>,
+    /// The numbers.
+    pub data: Data,
+}
+
+impl Measurements {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every
+    /// mistake and its line.
+    pub fn load(path: &Path) -> Result<Self, MeasuredError> {
+        Self::parse(path, &layout::read(path)?)
+    }
+
+    /// Reads the text of a file.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Table`].
+    pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, MeasuredError> {
+        let path = path.into();
+        match layout::parse(text) {
+            Ok((data, unit)) => Ok(Self { path, unit, data }),
+            Err(mistakes) => Err(MeasuredError::Table(TableReport::new(path, mistakes))),
+        }
+    }
+
+    /// The name of the file without folder and ending.
+    #[must_use]
+    pub fn name(&self) -> String {
+        self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+}
+
+/// Laws fitted to the same stresses.
+pub type Comparison = comparison::Comparison<AnyModel, Fit, FitError>;
+
+impl Judged for Fit {
+    fn aicc(&self) -> Option<f64> {
+        self.criteria.aicc
+    }
+    fn is_converged(&self) -> bool {
+        self.outcome.is_converged()
+    }
+}
+
+/// Fits each law that is asked for.
+///
+/// # Errors
+/// Weights of tests that are not in the data. The refusal of a single law stands in its
+/// [`Candidate`](crate::comparison::Candidate).
+pub fn compare(measurements: &Measurements, request: &Request) -> Result<Comparison, MeasuredError> {
+    let data = request.weighted(&measurements.data)?;
+    Ok(Comparison::of(&request.laws, |law| fit(&law, &data, &request.options(law))))
+}
+
+impl Comparison {
+    /// The numbers, as they stand in `summary.json`.
+    #[must_use]
+    pub fn summary(&self, measurements: &Measurements) -> String {
+        tables::summary(measurements, self)
+    }
+
+    /// Writes summary, tables and figure.
+    #[must_use]
+    pub fn write(&self, folder: &Folder, measurements: &Measurements) -> Written {
+        Written::of(
+            folder,
+            [
+                ("summary.json", tables::summary(measurements, self)),
+                ("curves.csv", tables::curves(measurements, self)),
+                ("residuals.csv", tables::residuals(measurements, self)),
+                ("fit.svg", figure::comparison(measurements, self)),
+            ],
+        )
+    }
+}

@@ -1,0 +1,137 @@
+//! Requests: laws, weights, bounds, stability.
+
+use core::str::FromStr;
+
+use piola_fit::solids::{AnyModel, Data, Options, Stability, Weighting};
+
+use crate::MeasuredError;
+
+/// Bounds of a parameter of one law, written `gent.Jm=60..200`; either end may be left out.
+///
+/// # Example
+/// ```
+/// use piola_measured::fitting::LawBounds;
+/// let bounds: LawBounds = "ogden:2.alpha1=0..8".parse()?;
+/// assert_eq!((bounds.parameter.as_str(), bounds.range), ("alpha1", [0.0, 8.0]));
+/// assert!("gent.Jm=large".parse::<LawBounds>().is_err());
+/// # Ok::<(), piola_measured::MeasuredError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LawBounds {
+    /// The law.
+    pub law: AnyModel,
+    /// The parameter.
+    pub parameter: String,
+    /// The least and the greatest value.
+    pub range: [f64; 2],
+}
+
+impl FromStr for LawBounds {
+    type Err = MeasuredError;
+
+    fn from_str(text: &str) -> Result<Self, MeasuredError> {
+        let wrong = || MeasuredError::Argument {
+            argument: text.to_owned(),
+            valid: "LAW.PARAMETER=LEAST..GREATEST, as gent.Jm=60..200 or gent.Jm=60..",
+        };
+        let end = |text: &str, missing: f64| if text.is_empty() { Ok(missing) } else { number(text).ok_or_else(wrong) };
+        let (name, range) = text.split_once('=').ok_or_else(wrong)?;
+        let (law, parameter) = name.rsplit_once('.').ok_or_else(wrong)?;
+        let (low, high) = range.split_once("..").ok_or_else(wrong)?;
+        let range = [end(low, f64::NEG_INFINITY)?, end(high, f64::INFINITY)?];
+        Ok(Self { law: law.parse()?, parameter: parameter.to_owned(), range })
+    }
+}
+
+fn number(text: &str) -> Option<f64> {
+    text.trim().parse().ok().filter(|x: &f64| x.is_finite())
+}
+
+/// Laws to compare, and how.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Request {
+    /// The laws.
+    pub laws: Vec<AnyModel>,
+    /// Weights of tests by name; others weigh 1.
+    pub weights: Vec<(String, f64)>,
+    /// Bounds of parameters.
+    pub bounds: Vec<LawBounds>,
+    /// The scale of residuals.
+    pub weighting: Weighting,
+    /// Whether laws must be stable.
+    pub stability: Stability,
+    /// The probability of the intervals.
+    pub confidence: f64,
+}
+
+impl Request {
+    /// A request for some laws, with everything else by default.
+    #[must_use]
+    pub fn of(laws: Vec<AnyModel>) -> Self {
+        let Options { weighting, stability, confidence, .. } = Options::default();
+        Self { laws, weights: Vec::new(), bounds: Vec::new(), weighting, stability, confidence }
+    }
+
+    /// Laws that are compared when none is named.
+    ///
+    /// # Errors
+    /// None: the names are right.
+    pub fn usual_laws() -> Result<Vec<AnyModel>, MeasuredError> {
+        const NAMES: [&str; 8] =
+            ["neo-hookean", "mooney-rivlin", "yeoh", "gent", "arruda-boyce", "polynomial:2", "ogden:2", "ogden:3"];
+        NAMES.iter().map(|name| Ok(name.parse()?)).collect()
+    }
+
+    /// Weights written `uniaxial=2,planar=0.5`.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Argument`].
+    pub fn weights(text: &str) -> Result<Vec<(String, f64)>, MeasuredError> {
+        let weight = |part: &str| {
+            let (name, value) = part.split_once('=')?;
+            let value = number(value).filter(|value| 0.0 < *value)?;
+            Some((name.trim().to_owned(), value))
+        };
+        let wrong = |part: &str| MeasuredError::Argument {
+            argument: part.to_owned(),
+            valid: "TEST=WEIGHT,…, as uniaxial=2,planar=0.5, weights above 0",
+        };
+        text.split(',').map(|part| weight(part).ok_or_else(|| wrong(part))).collect()
+    }
+
+    pub(super) fn options(&self, law: AnyModel) -> Options {
+        let of_law = self.bounds.iter().filter(|bounds| bounds.law == law);
+        Options {
+            weighting: self.weighting,
+            stability: self.stability,
+            bounds: of_law.map(|bounds| (bounds.parameter.clone(), bounds.range)).collect(),
+            confidence: self.confidence,
+            ..Options::default()
+        }
+    }
+
+    pub(super) fn weighted(&self, data: &Data) -> Result<Data, MeasuredError> {
+        for (name, _) in &self.weights {
+            if data.tests().iter().all(|test| test.name() != name) {
+                let tests = data.tests().iter().map(|test| test.name().to_owned()).collect();
+                return Err(MeasuredError::NoSuchTest { name: name.clone(), tests });
+            }
+        }
+        for bounds in &self.bounds {
+            if !self.laws.contains(&bounds.law) {
+                return Err(MeasuredError::Argument {
+                    argument: format!("{}.{}", bounds.law, bounds.parameter),
+                    valid: "bounds of a law that is fitted: name it with --law",
+                });
+            }
+        }
+        let tests =
+            data.tests().iter().cloned().map(|test| match self.weights.iter().find(|(name, _)| name == test.name()) {
+                Some((_, weight)) => test.with_weight(*weight),
+                None => Ok(test),
+            });
+        Ok(Data::new(tests.collect::<Result<_, _>>()?)?)
+    }
+}

@@ -1,0 +1,339 @@
+//! Parameters of fluids from flow curves, discharges and speeds.
+
+use core::fmt;
+use core::fmt::Write as _;
+use core::str::FromStr;
+
+use piola_charts::{Folder, Written};
+use piola_fit::FitError;
+use piola_fit::fluids::{Criteria, FlowData, FluidParameter, Options, Outcome, Weighting, fit_flow};
+use piola_fluids::{
+    Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters,
+    PowerLaw, Sisko, ViscometricFluid,
+};
+use piola_viscometry::recover::Noise;
+use serde_json::{Value, json};
+
+use super::{Flow, Measured, figure};
+use crate::MeasuredError;
+use crate::comparison::{self, Judged};
+
+/// Points of a curve.
+const POINTS: u32 = 120;
+
+/// A fluid by its name, as `carreau-yasuda`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FluidName(&'static str);
+
+/// Magnitudes of the data, from which searches start.
+struct Look {
+    /// The least and the greatest apparent viscosity, Pa s.
+    viscosity: [f64; 2],
+    /// The least stress, Pa, and the stress in the middle.
+    stress: [f64; 2],
+    /// The rate in the middle, 1/s.
+    rate: f64,
+    /// K and n of a power law through all.
+    power: [f64; 2],
+}
+
+impl Look {
+    fn at(measured: &Measured) -> Self {
+        let apparent: Vec<[f64; 2]> = measured.rows().iter().map(|row| measured.flow.apparent(*row)).collect();
+        let count = apparent.len().max(1) as f64;
+        let logarithms = || apparent.iter().map(|[stress, rate]| [stress.ln(), rate.ln()]);
+        let [y, x] = logarithms().fold([0.0; 2], |sum, l| [sum[0] + l[0] / count, sum[1] + l[1] / count]);
+        let [above, below] =
+            logarithms().fold([0.0; 2], |sum, l| [sum[0] + (l[0] - y) * (l[1] - x), sum[1] + (l[1] - x) * (l[1] - x)]);
+        let exponent = if 0.0 < below { (above / below).clamp(0.05, 3.0) } else { 1.0 };
+        let extremes = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold([f64::INFINITY, 0.0_f64], |[low, high], value| [low.min(value), high.max(value)])
+        };
+        Self {
+            viscosity: extremes(&mut apparent.iter().map(|[stress, rate]| stress / rate)),
+            stress: [extremes(&mut apparent.iter().map(|[stress, _]| *stress))[0], y.exp()],
+            rate: x.exp(),
+            power: [(y - exponent * x).exp(), exponent],
+        }
+    }
+}
+
+/// The fit of a fluid of any type.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct FittedFluid {
+    /// Its parameters.
+    pub parameters: Vec<FluidParameter>,
+    /// Residuals of the rows: ln(answer/measured), or answer − measured over the largest.
+    pub residuals: Vec<f64>,
+    /// Criteria to choose by.
+    pub criteria: Criteria,
+    /// How the search ended.
+    pub outcome: Outcome,
+    /// Shear rates and stresses of the fitted fluid.
+    pub curve: Vec<[f64; 2]>,
+}
+
+fn fitted<F: Parameters<N> + ViscometricFluid, const N: usize>(
+    measured: &Measured,
+    data: &[FlowData],
+    starts: &[[f64; N]],
+    options: &Options,
+) -> Result<FittedFluid, FitError> {
+    let fit = fit_flow::<F, N>(data, starts, options)?;
+    let curve = curve(measured, &|rate| fit.fluid.shear_stress(rate));
+    Ok(FittedFluid {
+        parameters: fit.parameters,
+        residuals: fit.residuals.into_iter().next().unwrap_or_default(),
+        criteria: fit.criteria,
+        outcome: fit.outcome,
+        curve,
+    })
+}
+
+/// Shear rates over the range that was measured, and the stresses there.
+fn curve(measured: &Measured, stress: &dyn Fn(f64) -> f64) -> Vec<[f64; 2]> {
+    let rates = measured.rows().iter().map(|row| measured.flow.apparent(*row)[1]);
+    let (low, high) = rates.fold((f64::INFINITY, 0.0_f64), |(low, high), rate| (low.min(rate), high.max(rate)));
+    let rate = |k: u32| low * (high / low).powf(f64::from(k) / f64::from(POINTS));
+    (0..=POINTS).map(|k| [rate(k), stress(rate(k))]).collect()
+}
+
+/// The fluids: a name, a type, and where its searches start.
+macro_rules! fluids {
+    ($($name:literal => $fluid:ident($count:literal): |$look:ident| $starts:expr),+ $(,)?) => {
+        impl FluidName {
+            /// All of them.
+            pub const ALL: &'static [Self] = &[$(Self($name)),+];
+
+            fn fit(
+                self,
+                measured: &Measured,
+                data: &[FlowData],
+                look: &Look,
+                options: &Options,
+            ) -> Result<FittedFluid, FitError> {
+                $(if self.0 == $name {
+                    let $look = look;
+                    return fitted::<$fluid, $count>(measured, data, &$starts, options);
+                })+
+                Err(FitError::NoStart { model: self.0.to_owned() })
+            }
+        }
+    };
+}
+
+fluids! {
+    "newtonian" => Newtonian(1): |look| [[look.stress[1] / look.rate]],
+    "power-law" => PowerLaw(2): |look| [look.power],
+    "bingham" => Bingham(2): |look| [
+        [0.8 * look.stress[0], look.viscosity[0]],
+        [0.1 * look.stress[0], look.viscosity[0]],
+    ],
+    "casson" => Casson(2): |look| [
+        [0.8 * look.stress[0], 0.5 * look.viscosity[0]],
+        [0.1 * look.stress[0], 0.5 * look.viscosity[0]],
+    ],
+    "herschel-bulkley" => HerschelBulkley(3): |look| [
+        [0.8 * look.stress[0], 0.5 * look.power[0], look.power[1].max(0.4)],
+        [0.1 * look.stress[0], look.power[0], look.power[1]],
+    ],
+    "papanastasiou" => Papanastasiou(4): |look| [
+        [0.8 * look.stress[0], 0.5 * look.power[0], look.power[1].max(0.4), 10.0 / look.rate],
+        [0.1 * look.stress[0], look.power[0], look.power[1], 100.0 / look.rate],
+    ],
+    "eyring" => Eyring(2): |look| [[look.stress[1], look.viscosity[1] / look.stress[1]]],
+    "sisko" => Sisko(3): |look| [[0.5 * look.viscosity[0], look.power[0], look.power[1].min(0.9)]],
+    "ellis" => Ellis(3): |look| [[look.viscosity[1], look.stress[1], (1.0 / look.power[1]).clamp(1.2, 5.0)]],
+    "cross" => Cross(4): |look| [
+        [1.2 * look.viscosity[1], 0.1 * look.viscosity[0], 1.0 / look.rate, (1.0 - look.power[1]).clamp(0.2, 0.95)],
+        [2.0 * look.viscosity[1], 1e-3 * look.viscosity[0], 10.0 / look.rate, (1.0 - look.power[1]).clamp(0.2, 0.95)],
+    ],
+    "carreau-yasuda" => CarreauYasuda(5): |look| [
+        [1.1 * look.viscosity[1], 0.1 * look.viscosity[0], 1.0 / look.rate, look.power[1].clamp(0.1, 0.9), 2.0],
+        [2.0 * look.viscosity[1], 1e-3 * look.viscosity[0], 10.0 / look.rate, look.power[1].clamp(0.1, 0.9), 1.0],
+    ],
+}
+
+impl fmt::Display for FluidName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0)
+    }
+}
+
+impl FromStr for FluidName {
+    type Err = MeasuredError;
+
+    fn from_str(text: &str) -> Result<Self, MeasuredError> {
+        Self::ALL.iter().copied().find(|fluid| fluid.0 == text).ok_or_else(|| MeasuredError::Argument {
+            argument: text.to_owned(),
+            valid: "newtonian, power-law, bingham, casson, herschel-bulkley, papanastasiou, eyring, sisko, ellis, cross or carreau-yasuda",
+        })
+    }
+}
+
+/// Fluids to compare, and how.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Request {
+    /// The fluids.
+    pub fluids: Vec<FluidName>,
+    /// The scale of residuals.
+    pub weighting: Weighting,
+    /// The probability of the intervals.
+    pub confidence: f64,
+    /// The noise of the measurements. A response may fall by this much.
+    pub noise: Noise,
+}
+
+impl Request {
+    /// A request for some fluids, with errors in proportion to each measured response.
+    #[must_use]
+    pub fn of(fluids: Vec<FluidName>) -> Self {
+        Self { fluids, weighting: Weighting::Relative, confidence: 0.95, noise: Noise::Estimated }
+    }
+}
+
+/// Fluids fitted to the same measurements.
+pub type Comparison = comparison::Comparison<FluidName, FittedFluid, FitError>;
+
+impl Judged for FittedFluid {
+    fn aicc(&self) -> Option<f64> {
+        self.criteria.aicc
+    }
+    fn is_converged(&self) -> bool {
+        self.outcome.is_converged()
+    }
+}
+
+/// Fits each fluid that is asked for.
+///
+/// # Errors
+/// [`MeasuredError::Table`] with the line of a row that viscometry refuses, or at which the response falls by more than the noise;
+/// [`MeasuredError::Argument`] for capillaries, whose ends are not known, and thrusts alone. The refusal of a single fluid stands in its
+/// [`Candidate`](crate::comparison::Candidate).
+///
+/// # Example
+/// ```
+/// use piola_measured::rheology::{FlowKind, Measured, Request, compare};
+/// let text = "shear_rate,shear_stress\n1,3\n4,6\n9,9\n100,30\n"; // 3 √k
+/// let measured = Measured::parse("curve.csv", text, FlowKind::Curve, &[])?;
+/// let comparison = compare(&measured, &Request::of(vec!["power-law".parse()?]))?;
+/// let fit = comparison.candidates[0].fit.clone()?;
+/// assert!((fit.parameters[1].value - 0.5).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn compare(measured: &Measured, request: &Request) -> Result<Comparison, MeasuredError> {
+    let is_capillary = matches!(measured.flow, Flow::Capillary { .. });
+    if is_capillary || measured.sheared().is_none() {
+        let column = measured.answers.first().map_or("nothing", |answer| answer.what.column().0);
+        let argument = format!("--flow {} with {column}", measured.flow.kind().name());
+        let valid = "discharges of pipes or channels, speeds of cylinders, torques of plates or cones, or a flow curve";
+        return Err(MeasuredError::Argument { argument, valid });
+    }
+    let checked = |data: FlowData| data.check_rising().map(|()| [data]);
+    let data = measured.data().and_then(|data| data.with_noise(request.noise)).and_then(checked);
+    let data = data.map_err(|error| match error {
+        FitError::Viscometry(error) => measured.refused(error),
+        error => MeasuredError::Fit(error),
+    })?;
+    let look = Look::at(measured);
+    let options = Options { weighting: request.weighting, confidence: request.confidence, ..Options::default() };
+    Ok(Comparison::of(&request.fluids, |fluid| fluid.fit(measured, &data, &look, &options)))
+}
+
+impl Comparison {
+    /// The numbers, as they stand in `summary.json`.
+    #[must_use]
+    pub fn summary(&self, measured: &Measured) -> String {
+        let fluids: Vec<Value> = self
+            .candidates
+            .iter()
+            .map(|candidate| match &candidate.fit {
+                Ok(fit) => json!({
+                    "fluid": candidate.model.0,
+                    "parameters": serde_json::to_value(&fit.parameters).unwrap_or_default(),
+                    "rms_residual": rms(&fit.residuals),
+                    "criteria": serde_json::to_value(fit.criteria).unwrap_or_default(),
+                    "converged": fit.outcome.is_converged(),
+                }),
+                Err(error) => json!({ "fluid": candidate.model.0, "failure": error.to_string() }),
+            })
+            .collect();
+        let summary = json!({
+            "data": measured.path.display().to_string(),
+            "flow": measured.flow.kind().name(),
+            "rows": measured.rows().len(),
+            "best_by_aicc": self.best().map(|(fluid, _)| fluid.0),
+            "fluids": fluids,
+        });
+        let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
+        text.push('\n');
+        text
+    }
+
+    /// A table for a reader.
+    #[must_use]
+    pub fn table(&self, measured: &Measured) -> String {
+        let mut text = String::new();
+        let _ = writeln!(text, "{}\n", measured.heading());
+        let _ = writeln!(text, "{:<18}{:>3}{:>14}{:>10}  search", "fluid", "k", "RMS residual", "AICc");
+        for (fluid, fit) in self.fits() {
+            let aicc = fit.criteria.aicc.map_or_else(|| "-".to_owned(), |x| format!("{x:.1}"));
+            let (count, residual) = (fit.parameters.len(), 100.0 * rms(&fit.residuals));
+            let _ = writeln!(text, "{:<18}{count:>3}{residual:>12.2} %{aicc:>10}  {}", fluid.0, fit.outcome.reason());
+        }
+        text.push_str("\nThe least AICc is the best fluid for these data.\n\n");
+        for (fluid, fit) in self.fits() {
+            let _ = writeln!(text, "{fluid}");
+            for FluidParameter { name, value, standard_error, interval, .. } in &fit.parameters {
+                let _ = write!(text, "  {name:<26}{value:>13.5e}");
+                match (standard_error, interval) {
+                    (Some(error), Some([low, high])) => {
+                        let _ = writeln!(text, " ± {error:.1e}  [{low:.4e}, {high:.4e}]");
+                    }
+                    _ => text.push_str("  not determined by these data\n"),
+                }
+            }
+        }
+        text.push('\n');
+        text
+    }
+
+    /// Writes summary, tables and figure.
+    #[must_use]
+    pub fn write(&self, folder: &Folder, measured: &Measured) -> Written {
+        let mut curves = String::from("fluid,shear_rate [1/s],shear_stress [Pa],viscosity [Pa s]\n");
+        for (fluid, fit) in self.fits() {
+            for [rate, stress] in &fit.curve {
+                let _ = writeln!(curves, "{fluid},{rate:?},{stress:?},{:?}", stress / rate);
+            }
+        }
+        let [drive, response] = measured.first_columns();
+        let mut residuals = format!("{drive},{response}");
+        for (fluid, _) in self.fits() {
+            let _ = write!(residuals, ",residual of {fluid}");
+        }
+        residuals.push('\n');
+        for (row, [drive, response]) in measured.rows().iter().enumerate() {
+            let _ = write!(residuals, "{drive:?},{response:?}");
+            for (_, fit) in self.fits() {
+                let _ = write!(residuals, ",{:?}", fit.residuals.get(row).copied().unwrap_or(f64::NAN));
+            }
+            residuals.push('\n');
+        }
+        Written::of(
+            folder,
+            [
+                ("summary.json", self.summary(measured)),
+                ("curves.csv", curves),
+                ("residuals.csv", residuals),
+                ("fit.svg", figure::comparison(measured, self)),
+            ],
+        )
+    }
+}
+
+fn rms(residuals: &[f64]) -> f64 {
+    (residuals.iter().map(|r| r * r).sum::<f64>() / residuals.len().max(1) as f64).sqrt()
+}
