@@ -54,6 +54,23 @@ pub(crate) fn write(path: &Path, content: &[u8]) -> Result<(), ImagesError> {
     })
 }
 
+/// Writes a file in one piece: another program sees the old one or the new one, and an error leaves nothing behind.
+///
+/// # Errors
+/// [`ImagesError::Unwritable`].
+///
+/// # Example
+/// ```
+/// let path = std::env::temp_dir().join(format!("piola-whole-{}.txt", std::process::id()));
+/// piola_images::write_whole(&path, b"text")?;
+/// assert_eq!(std::fs::read(&path).unwrap_or_default(), b"text");
+/// # std::fs::remove_file(&path).ok();
+/// # Ok::<(), piola_images::ImagesError>(())
+/// ```
+pub fn write_whole(path: impl AsRef<Path>, content: &[u8]) -> Result<(), ImagesError> {
+    write(path.as_ref(), content)
+}
+
 /// A name in the same folder that no other write uses.
 fn beside(path: &Path) -> PathBuf {
     static COUNT: AtomicU64 = AtomicU64::new(0);

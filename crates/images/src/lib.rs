@@ -19,7 +19,7 @@ mod tiff;
 
 pub use error::ImagesError;
 pub use field::DisplacementField;
-pub use file::MOST_SAMPLES;
+pub use file::{MOST_SAMPLES, write_whole};
 pub use npy::write_npy;
 pub use picture::{AnyPicture, Picture, Placement};
 pub use png::Bitmap;

@@ -38,9 +38,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     // integrators in its tests alone: modal motion against an adaptive integration.
     ("spectral", &["fields", "integrators"]),
     ("registration", &["spectral"]),
+    ("images", &["registration"]),
     ("piola", MECHANICS),
     ("scene", MECHANICS),
-    ("cli", &["scene"]),
+    // images, by feature: files of images, for the command `register` alone.
+    ("cli", &["scene", "images"]),
     ("testkit", &["numerics"]),
 ];
 
@@ -79,6 +81,8 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("solutions", "integrators"),
     ("fit", "specimens"),
     ("fit", "viscometry"),
+    ("cli", "images"),
+    ("cli", "registration"),
 ];
 
 /// No crate is larger, in lines of `src`: its users must take all of it.
