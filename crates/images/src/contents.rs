@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::error::ImagesError;
-use crate::nifti::Forms;
+use crate::forms::Forms;
 use crate::sample_type::SampleType;
 
 /// Samples with their places. Axes are in the order of the memory, the last one fastest: the reverse of the order of the files.

@@ -9,7 +9,7 @@ use crate::contents::Contents;
 use crate::error::ImagesError;
 use crate::file;
 use crate::format::{Format, decode, encode};
-use crate::picture::{Picture, Placement};
+use crate::picture::{Picture, PicturePlacement};
 use crate::{npy, sample_type::SampleType};
 
 /// A displacement field with its place in the world: the map of a registration and the picture that it belongs to.
@@ -48,7 +48,7 @@ pub struct DisplacementField<const D: usize> {
     /// The map, in mm.
     pub map: DisplacementMap<D, f64>,
     /// Where its samples lie.
-    pub placement: Placement<D>,
+    pub placement: PicturePlacement<D>,
     like: Picture<D>,
 }
 

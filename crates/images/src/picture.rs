@@ -37,7 +37,7 @@ const PERPENDICULAR: f64 = 1e-4;
 /// # Ok::<(), piola_images::ImagesError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placement<const D: usize> {
+pub struct PicturePlacement<const D: usize> {
     /// The centre of the first sample, mm.
     pub origin: [f64; 3],
     /// Unit vectors along the axes.
@@ -193,7 +193,7 @@ impl<const D: usize> Picture<D> {
     ///
     /// # Errors
     /// [`ImagesError::Registration`] where a number is not finite, or a direction has no length.
-    pub fn with_placement(mut self, placement: Placement<D>) -> Result<Self, ImagesError> {
+    pub fn with_placement(mut self, placement: PicturePlacement<D>) -> Result<Self, ImagesError> {
         let mut directions = placement.directions;
         for direction in &mut directions {
             let length = norm(*direction);
@@ -243,8 +243,8 @@ impl<const D: usize> Picture<D> {
 
     /// Where the picture lies.
     #[must_use]
-    pub fn placement(&self) -> Placement<D> {
-        Placement {
+    pub fn placement(&self) -> PicturePlacement<D> {
+        PicturePlacement {
             origin: self.contents.origin,
             directions: std::array::from_fn(|axis| self.contents.directions[axis]),
         }
@@ -253,7 +253,7 @@ impl<const D: usize> Picture<D> {
     /// The point of the world at these indices, which may lie between samples, mm.
     #[must_use]
     pub fn point(&self, index: [f64; D]) -> [f64; 3] {
-        let Placement { origin, directions } = self.placement();
+        let PicturePlacement { origin, directions } = self.placement();
         let spacing = self.spacing();
         std::array::from_fn(|component| {
             origin[component]
@@ -391,7 +391,7 @@ impl<const D: usize> Picture<D> {
     }
 }
 
-impl<const D: usize> Default for Placement<D> {
+impl<const D: usize> Default for PicturePlacement<D> {
     fn default() -> Self {
         let directions = usual_directions(D);
         Self { origin: [0.0; 3], directions: std::array::from_fn(|axis| directions[axis]) }

@@ -33,8 +33,9 @@ pub(crate) enum Interpolation {
 }
 
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is an option of the command line")]
 pub(crate) struct RegisterArguments {
-    /// The image that stays: PNG, TIFF, NIfTI or NRRD, in two or three dimensions.
+    /// The image that stays: a PNG, TIFF, `NIfTI` or NRRD file of two or three dimensions.
     pub(crate) fixed: PathBuf,
     /// The image that is deformed until it resembles the fixed one.
     pub(crate) moving: PathBuf,

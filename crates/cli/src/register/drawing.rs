@@ -76,7 +76,7 @@ pub(super) fn enlarged(bitmap: &Bitmap, extent: [f64; 2], width: u32) -> Bitmap 
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to some pixels")]
     let height = (f64::from(width) * extent[0] / extent[1]).clamp(1.0, 4.0 * f64::from(width)).round() as u32;
     Bitmap::from_fn(width, height, |row, column| {
-        let source = |at: u32, of: u32, size: u32| (u64::from(at) * u64::from(size) / u64::from(of)) as usize;
+        let source = |at: u32, of: u32, size: u32| at as usize * size as usize / of as usize;
         let (row, column) = (source(row, height, bitmap.height), source(column, width, bitmap.width));
         bitmap.pixels[row * bitmap.width as usize + column]
     })

@@ -81,7 +81,7 @@ impl<'r, const D: usize> Figures<'r, D> {
         let difference = |title, other: &[f64]| {
             let bitmap =
                 slice.bitmap(|position| between(&BLUE_TO_RED, 0.5 + 0.5 * (fixed[position] - other[position])));
-            let ends = ["-100 %".into(), "0".into(), "+100 % of the range".into()];
+            let ends = ["-100 %".into(), "0".into(), "+100 %".into()];
             Panel { title, bitmap, legend: Some((bar(&BLUE_TO_RED), ends)) }
         };
         let logarithm = |value: f64| value.max(1e-6).log2();
@@ -97,11 +97,11 @@ impl<'r, const D: usize> Figures<'r, D> {
         [
             grey("fixed", fixed),
             grey("moving", moving),
-            difference("fixed - moving", moving),
+            difference("fixed - moving, of the range", moving),
             Panel { title: "Jacobian of the map", bitmap: jacobian, legend: Some((bar(&BLUE_TO_RED), ends)) },
             Panel { title: "grid of the moving image, deformed", bitmap: pale, legend: None },
             grey("moving, warped", warped),
-            difference("fixed - warped", warped),
+            difference("fixed - warped, of the range", warped),
             Panel { title: "displacement", bitmap: lengths, legend: Some((bar(&LIGHT_TO_DARK), bounds)) },
         ]
     }

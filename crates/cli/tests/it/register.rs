@@ -70,7 +70,7 @@ mod with_the_feature {
     /// An ellipsoid whose centre lies `shift` samples along the last axis from the middle.
     fn phantom<const D: usize>(shift: f64, name: &str, folder: &Folder) -> Picture<D> {
         let sizes = [20; D];
-        let values = (0..20_usize.pow(D as u32)).map(|position| {
+        let values = (0..sizes.iter().product::<usize>()).map(|position| {
             let mut rest = position;
             let mut square = 0.0;
             for axis in (0..D).rev() {

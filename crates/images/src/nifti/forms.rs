@@ -1,25 +1,13 @@
-//! The two placements of a NIfTI header, `qform` and `sform`.
+//! The place of a picture from the two forms of its header, and back.
 
 use ::nifti::NiftiHeader;
 
 use crate::contents::{Contents, usual_directions};
+use crate::forms::Forms;
 use crate::sample_type::single;
 
 /// Spacings that agree so far are the same number, rounded differently.
 const SAME: f64 = 1e-4;
-
-/// The numbers of the header that place a picture, in RAS and mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Forms {
-    /// The handedness, then the spacings along the axes of the file.
-    pub(crate) pixdim: [f32; 4],
-    pub(crate) qform_code: i16,
-    /// b, c, d of the unit quaternion, then the offset.
-    pub(crate) quaternion: [f32; 6],
-    pub(crate) sform_code: i16,
-    /// The rows of the affine map.
-    pub(crate) rows: [[f32; 4]; 3],
-}
 
 /// From RAS to LPS and back.
 const SIGNS: [f64; 3] = [-1.0, -1.0, 1.0];

@@ -5,7 +5,6 @@
 mod forms;
 mod write;
 
-pub(crate) use forms::Forms;
 pub(crate) use write::encode;
 
 use std::path::Path;
@@ -15,6 +14,7 @@ use ::nifti::{Endianness, NiftiHeader};
 use crate::contents::Contents;
 use crate::error::ImagesError;
 use crate::file;
+use crate::forms::Forms;
 use crate::sample_type::{Order, SampleType};
 
 /// A header, without what follows it.

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::{Forms, HEADER, TYPES, VECTOR};
+use super::{HEADER, TYPES, VECTOR};
 use crate::contents::Contents;
 use crate::error::ImagesError;
+use crate::forms::Forms;
 use crate::sample_type::{Order, single};
 
 /// The header, the four bytes that announce no extension, the samples; the least significant byte first.

@@ -1,6 +1,6 @@
 //! Displacement fields in files.
 
-use piola_images::{Bitmap, DisplacementField, ImagesError, Picture, Placement, SampleType, write_npy};
+use piola_images::{Bitmap, DisplacementField, ImagesError, Picture, PicturePlacement, SampleType, write_npy};
 use piola_registration::{DisplacementMap, ImageGrid};
 use piola_testkit::{Tol, assert_close};
 
@@ -34,7 +34,7 @@ fn field_of_a_plane_comes_back() -> Result<(), ImagesError> {
     let grid = ImageGrid::new([3, 4], [1.0, 2.0])?;
     let map = DisplacementMap::from_fn(grid, |[y, x]| [0.1 * y * x, 0.2 * x])?;
     let flat = Picture::new([3, 4], [1.0, 2.0], vec![0.0; 12], SampleType::U8)?;
-    let upright = Placement { origin: [1.0, 2.0, 3.0], directions: [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0]] };
+    let upright = PicturePlacement { origin: [1.0, 2.0, 3.0], directions: [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0]] };
     for picture in [flat.clone(), flat.with_placement(upright)?] {
         for name in ["a.nii", "a.nrrd"] {
             DisplacementField::of(&map, &picture)?.write(folder.file(name))?;
@@ -49,8 +49,10 @@ fn field_of_a_plane_comes_back() -> Result<(), ImagesError> {
 #[test]
 fn vectors_are_minus_u_in_lps() -> Result<(), ImagesError> {
     let folder = Folder::new("signs");
-    let mirrored =
-        Placement { directions: [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]], ..Placement::default() };
+    let mirrored = PicturePlacement {
+        directions: [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]],
+        ..PicturePlacement::default()
+    };
     let picture = Picture::new([2; 3], [1.0; 3], vec![0.0; 8], SampleType::U8)?.with_placement(mirrored)?;
     let map = DisplacementMap::new(ImageGrid::new([2; 3], [1.0; 3])?, vec![[0.0, 0.0, 2.0]; 8])?;
     DisplacementField::of(&map, &picture)?.write(folder.file("a.nii"))?;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use piola_images::{ImagesError, Picture, Placement, SampleType};
+use piola_images::{ImagesError, Picture, PicturePlacement, SampleType};
 
 /// A folder of its own for each test, removed at its end.
 pub(crate) struct Folder(PathBuf);
@@ -58,9 +58,9 @@ pub(crate) fn plane(sample_type: SampleType) -> Result<Picture<2>, ImagesError> 
 }
 
 /// Oblique axes, turned about two axes, with an origin.
-pub(crate) fn oblique() -> Placement<3> {
+pub(crate) fn oblique() -> PicturePlacement<3> {
     let (s, c) = (0.6, 0.8);
-    Placement { origin: [-12.5, 3.25, 40.0], directions: [[0.0, -s, c], [-s, c * c, s * c], [c, s * c, s * s]] }
+    PicturePlacement { origin: [-12.5, 3.25, 40.0], directions: [[0.0, -s, c], [-s, c * c, s * c], [c, s * c, s * s]] }
 }
 
 pub(crate) fn space(sample_type: SampleType) -> Result<Picture<3>, ImagesError> {

@@ -1,6 +1,6 @@
 //! What is written comes back.
 
-use piola_images::{AnyPicture, ImagesError, Picture, Placement, SampleType};
+use piola_images::{AnyPicture, ImagesError, Picture, PicturePlacement, SampleType};
 use piola_testkit::{Tol, assert_close, assert_each_close};
 
 use crate::fixtures::{Folder, oblique, plane, space};
@@ -76,7 +76,7 @@ fn pictures_in_three_dimensions_come_back_with_their_places() -> Result<(), Imag
 #[test]
 fn nrrd_keeps_every_digit_of_the_place() -> Result<(), ImagesError> {
     let folder = Folder::new("digits");
-    let thirds = Placement { origin: [1.0 / 3.0, -2.0 / 7.0, 1e-17], ..Placement::default() };
+    let thirds = PicturePlacement { origin: [1.0 / 3.0, -2.0 / 7.0, 1e-17], ..PicturePlacement::default() };
     let picture =
         Picture::new([2, 2, 2], [0.1, 1.0 / 3.0, 1e7 / 3.0], vec![0.1; 8], SampleType::F64)?.with_placement(thirds)?;
     picture.write(folder.file("a.nrrd"))?;
@@ -90,7 +90,7 @@ fn nrrd_keeps_every_digit_of_the_place() -> Result<(), ImagesError> {
 #[test]
 fn plane_in_space_keeps_its_place() -> Result<(), ImagesError> {
     let folder = Folder::new("upright");
-    let upright = Placement { origin: [1.0, 2.0, 3.0], directions: [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0]] };
+    let upright = PicturePlacement { origin: [1.0, 2.0, 3.0], directions: [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0]] };
     let picture = plane(SampleType::U8)?.with_spacing([2.0, 3.0])?.with_placement(upright)?;
     for name in ["a.nii.gz", "a.nrrd"] {
         picture.write(folder.file(name))?;
@@ -142,9 +142,9 @@ fn resampled_picture_equals_the_function_it_samples() -> Result<(), ImagesError>
         let index = |position: usize| [position / (n1 * n2), position / n2 % n1, position % n2].map(|i| i as f64);
         empty.with_values((0..empty.values().len()).map(|position| place(empty.point(index(position)))).collect())
     };
-    let fine = sampled([12, 14, 16], [1.0, 1.0, 1.0], Placement::default())?;
+    let fine = sampled([12, 14, 16], [1.0, 1.0, 1.0], PicturePlacement::default())?;
     let tilted =
-        Placement { origin: [4.0, 5.0, 4.0], directions: [[0.0, 0.6, 0.8], [0.0, 0.8, -0.6], [1.0, 0.0, 0.0]] };
+        PicturePlacement { origin: [4.0, 5.0, 4.0], directions: [[0.0, 0.6, 0.8], [0.0, 0.8, -0.6], [1.0, 0.0, 0.0]] };
     let coarse = sampled([3, 4, 5], [1.5, 1.0, 2.0], tilted)?;
     let found = fine.resampled(&coarse)?;
     assert_close("resampled", found.values(), coarse.values(), Tol::ulps(64.0));
@@ -154,7 +154,7 @@ fn resampled_picture_equals_the_function_it_samples() -> Result<(), ImagesError>
 
 #[test]
 fn sheared_axes_are_refused_by_registration_alone() -> Result<(), ImagesError> {
-    let sheared = Placement { directions: [[0.0, 1.0, 0.0], [0.8, 0.6, 0.0]], ..Placement::default() };
+    let sheared = PicturePlacement { directions: [[0.0, 1.0, 0.0], [0.8, 0.6, 0.0]], ..PicturePlacement::default() };
     let refused = plane(SampleType::U8)?.with_placement(sheared)?.to_image::<f64>();
     assert!(matches!(refused, Err(ImagesError::NotPerpendicular { axes: [0, 1], .. })), "{refused:?}");
     Ok(())
