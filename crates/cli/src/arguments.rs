@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Recover(RecoverArguments),
     /// Fit fluids to a flow curve, or straight to discharges or speeds; compare them in a table, a summary and a figure.
     FitFlow(FitFlowArguments),
+    /// Register two images: find the map that deforms one into the other. Needs the feature `register` of the program.
+    Register(crate::register::RegisterArguments),
     /// Print the JSON Schema of scenes, for editors.
     Schema(SchemaArguments),
 }

@@ -9,6 +9,11 @@ mod comparison;
 mod flows;
 mod interrupt;
 mod progress;
+#[cfg(feature = "register")]
+mod register;
+#[cfg(not(feature = "register"))]
+#[path = "register/absent.rs"]
+mod register;
 mod report;
 
 use std::process::ExitCode;
@@ -36,6 +41,7 @@ fn main() -> ExitCode {
         Command::Fit(arguments) => commands::fit(&arguments),
         Command::Recover(arguments) => flows::recover(&arguments),
         Command::FitFlow(arguments) => flows::fit(&arguments),
+        Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
     };
     match exit {

@@ -1,3 +1,4 @@
 //! The program from outside: arguments, exit codes, what goes to which stream, what is written.
 
 mod end_to_end;
+mod register;

@@ -38,13 +38,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     // integrators in its tests alone: modal motion against an adaptive integration.
     ("spectral", &["fields", "integrators"]),
     ("registration", &["spectral"]),
+    ("images", &["registration"]),
     ("piola", MECHANICS),
     ("document", &[]),
     ("charts", &[]),
     ("measured", &["document", "charts", "fit"]),
     ("scene", &["document", "charts", "hamiltonian", "characteristics", "gravitation"]),
     // charts: the folder of the results.
-    ("cli", &["scene", "measured"]),
+    // images, by feature: files of images, for the command `register` alone.
+    ("cli", &["scene", "measured", "images"]),
     ("testkit", &["numerics"]),
 ];
 
@@ -85,6 +87,8 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("fit", "viscometry"),
     ("scene", "solutions"),
     ("scene", "uniformity"),
+    ("cli", "images"),
+    ("cli", "registration"),
 ];
 
 /// No crate is larger, in lines of `src`: its users must take all of it.

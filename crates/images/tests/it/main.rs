@@ -1,0 +1,9 @@
+//! Files of images from outside: what comes back, what is refused, what other programs read.
+
+mod damaged;
+mod fields;
+mod fixtures;
+mod foreign;
+mod headers;
+mod real;
+mod round_trips;
