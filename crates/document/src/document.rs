@@ -5,8 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::schema::Table;
-use crate::{DocumentError, Mistake, Node, Record, Report, Source, parse, settings, shape, source};
+use crate::{DocumentError, Mistake, Node, Report, Source, parse, settings, source};
 
 /// A parsed file, before its meaning is checked.
 ///
@@ -100,14 +99,6 @@ impl Document {
     #[must_use]
     pub fn name(&self) -> &str {
         self.sources.first().map_or("", |source| &source.name)
-    }
-
-    /// The values that the keys of `root` declare, and every mistake: those of syntax and those against the keys.
-    ///
-    /// Each value is in SI units and keeps its place. [`Report`] shows the mistakes.
-    #[must_use]
-    pub fn records(&self, root: &'static Table) -> (Record, Vec<Mistake>) {
-        shape::records(self, root)
     }
 
     /// A report of these mistakes in the order of their places.

@@ -5,8 +5,18 @@ use crate::schema::{Absent, Key, Kind, Range, Table};
 use crate::units::{Dimension, Quantity, UnitError, VectorQuantity};
 use crate::{Document, Entry, Mistake, Node, Place, Record, Value, words};
 
+impl Document {
+    /// The values that the keys of `root` declare, and every mistake: those of syntax and those against the keys.
+    ///
+    /// Each value is in SI units and keeps its place. [`Report`](crate::Report) shows the mistakes.
+    #[must_use]
+    pub fn records(&self, root: &'static Table) -> (Record, Vec<Mistake>) {
+        records(self, root)
+    }
+}
+
 /// The record of a whole document, and every mistake in its shape.
-pub(crate) fn records(document: &Document, root: &'static Table) -> (Record, Vec<Mistake>) {
+fn records(document: &Document, root: &'static Table) -> (Record, Vec<Mistake>) {
     let mut mistakes = document.mistakes().to_vec();
     let damaged = mistakes.iter().any(|mistake| mistake.syntax);
     let mut reader = Reader { root, mistakes: Vec::new(), damaged };

@@ -43,7 +43,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("document", &[]),
     ("charts", &[]),
     ("measured", &["document", "charts", "fit"]),
-    ("scene", &["document", "charts", "hamiltonian", "characteristics", "gravitation"]),
+    // solutions and uniformity, by feature: studies of solids.
+    ("scene", &["document", "charts", "hamiltonian", "characteristics", "gravitation", "solutions", "uniformity"]),
     // charts: the folder of the results.
     // images, by feature: files of images, for the command `register` alone.
     ("cli", &["scene", "measured", "images"]),
@@ -85,6 +86,7 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("solutions", "integrators"),
     ("fit", "specimens"),
     ("fit", "viscometry"),
+    ("scene", "solids"),
     ("scene", "solutions"),
     ("scene", "uniformity"),
     ("cli", "images"),
