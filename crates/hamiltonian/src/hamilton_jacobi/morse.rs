@@ -11,7 +11,8 @@
 
 use core::f64::consts::TAU;
 
-use nalgebra::{Complex, DMatrix, linalg::Schur};
+use nalgebra::{DMatrix, linalg::Schur};
+use num_complex::Complex;
 
 use crate::HamiltonianError;
 use crate::PhaseFunction;

@@ -1,6 +1,7 @@
 //! Small motions with damping, gyroscopic and circulatory forces: (λ² M + λ D + K) φ = 0.
 
-use nalgebra::{Complex, DMatrix, DVector, SVD, Schur};
+use nalgebra::{DMatrix, DVector, SVD, Schur};
+use num_complex::Complex;
 
 use super::reduction::Reduction;
 use super::{Linearisation, Stability};
