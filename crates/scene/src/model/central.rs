@@ -1,39 +1,8 @@
 //! Bodies about a fixed centre of attraction.
 
-use super::Builder;
+use super::{Builder, Central, Orbiter};
 use piola_document::{Mistake, Record, words};
-use piola_gravitation::kepler::{Elements, KeplerMotion};
-
-/// Bodies about a fixed centre at the origin, without attraction among themselves.
-#[derive(Debug, Clone)]
-pub struct Central {
-    /// Gravitational parameter of the centre, m³/s².
-    pub gm: f64,
-    /// The bodies, at least one.
-    pub bodies: Vec<Orbiter>,
-}
-
-/// A body about the centre.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Orbiter {
-    /// Name.
-    pub name: String,
-    /// Mass, kg: a factor of energy and momentum only.
-    pub mass: f64,
-    /// Position at the start, m.
-    pub position: [f64; 3],
-    /// Velocity at the start, m/s.
-    pub velocity: [f64; 3],
-}
-
-impl Central {
-    /// The period of the first body, s; `None` if it escapes.
-    #[must_use]
-    pub fn period(&self) -> Option<f64> {
-        let body = self.bodies.first()?;
-        Some(KeplerMotion::new(self.gm, body.position, body.velocity).ok()?.period())
-    }
-}
+use piola_gravitation::kepler::Elements;
 
 const SHAPE: [&str; 2] = ["semi_major_axis", "eccentricity"];
 const ANGLES: [&str; 4] = ["inclination", "ascending_node", "argument_of_pericentre", "mean_anomaly"];

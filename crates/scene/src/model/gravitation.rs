@@ -1,41 +1,7 @@
 //! Bodies that attract each other.
 
-use super::Builder;
+use super::{Builder, Gravitation, MassPoint, NEWTONIAN_CONSTANT, PostNewtonian};
 use piola_document::{Mistake, Record, words};
-
-/// Newton's constant of gravitation, m³ kg⁻¹ s⁻² (CODATA 2018; uncertain in the fifth digit).
-pub const NEWTONIAN_CONSTANT: f64 = 6.674_30e-11;
-
-/// Point masses with Newton's attraction.
-#[derive(Debug, Clone)]
-pub struct Gravitation {
-    /// The bodies, at least one.
-    pub bodies: Vec<MassPoint>,
-    /// Softening length ε, m; 0 for the true law.
-    pub softening: f64,
-    /// The post-Newtonian term, when asked for.
-    pub post_newtonian: Option<PostNewtonian>,
-}
-
-/// A body without extent.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MassPoint {
-    /// Name.
-    pub name: String,
-    /// Gravitational parameter, m³/s².
-    pub gm: f64,
-    /// Position at the start, m.
-    pub position: [f64; 3],
-    /// Velocity at the start, m/s.
-    pub velocity: [f64; 3],
-}
-
-/// The first post-Newtonian term of one body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct PostNewtonian {
-    /// Index of the central body.
-    pub central: usize,
-}
 
 impl Builder<'_> {
     pub(super) fn gravitation(&mut self, scene: &Record, table: &Record) -> Option<Gravitation> {

@@ -5,17 +5,16 @@
 
 mod central;
 mod gravitation;
-mod independence;
 mod mechanism;
 mod reference;
 
-use core::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-pub use central::{Central, Orbiter};
-pub use gravitation::{Gravitation, MassPoint, NEWTONIAN_CONSTANT, PostNewtonian};
-pub use mechanism::{JointTree, Mechanism, PartName};
+pub use piola_simulation::joints::{JointTree, Mechanism, PartName};
+pub use piola_simulation::motion::{
+    Central, Gravitation, MassPoint, NEWTONIAN_CONSTANT, Orbiter, PostNewtonian, System, TimeSpan,
+};
 pub use reference::{ClosedForm, Reference, ReferenceKind, ReferenceTable};
 
 use crate::SceneError;
@@ -39,63 +38,6 @@ pub struct Scene {
     pub output: OutputRequest,
     /// The reference for the result.
     pub reference: Option<Reference>,
-}
-
-/// The kinds of systems.
-#[derive(Debug, Clone)]
-pub enum System {
-    /// Bodies that attract each other.
-    Gravitation(Gravitation),
-    /// Particles and rigid bodies on a tree of joints.
-    Mechanism(Mechanism),
-    /// Bodies about a fixed centre.
-    Central(Central),
-}
-
-/// A span of time, s. The run goes backwards in time if `end < start`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TimeSpan {
-    /// Start, s.
-    pub start: f64,
-    /// End, s; not the start.
-    pub end: f64,
-}
-
-impl TimeSpan {
-    /// |end − start|, s.
-    #[must_use]
-    pub fn length(&self) -> f64 {
-        (self.end - self.start).abs()
-    }
-
-    /// 1 for a run forward in time, −1 for one backwards.
-    #[must_use]
-    pub fn direction(&self) -> f64 {
-        (self.end - self.start).signum()
-    }
-
-    /// Sorts instants in the order of the run.
-    pub(crate) fn sort(&self, instants: &mut [f64]) {
-        instants.sort_by(|a, b| self.order(*a, *b));
-    }
-
-    /// The order of two instants in the run.
-    pub(crate) fn order(&self, a: f64, b: f64) -> Ordering {
-        // Adding zero makes −0 equal to 0.
-        let along = |t: f64| self.direction() * t + 0.0;
-        along(a).total_cmp(&along(b))
-    }
-
-    /// Whether an instant lies in the span, or outside it by rounding alone.
-    pub(crate) fn holds(&self, t: f64) -> bool {
-        let slack = self.slack();
-        self.start.min(self.end) - slack <= t && t <= self.start.max(self.end) + slack
-    }
-
-    /// Instants nearer to each other than this, s, differ by rounding alone.
-    pub(crate) fn slack(&self) -> f64 {
-        1e-12 * self.length()
-    }
 }
 
 /// The method, step and tolerance of a scene. The planner fills in those that are absent.
@@ -162,11 +104,7 @@ impl Scene {
     /// Names of everything that has a position, in the order of positions.
     #[must_use]
     pub fn names(&self) -> Vec<&str> {
-        match &self.system {
-            System::Gravitation(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
-            System::Mechanism(system) => system.parts.iter().map(|part| part.name.as_str()).collect(),
-            System::Central(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
-        }
+        self.system.names()
     }
 }
 

@@ -73,11 +73,7 @@ impl Builder<'_> {
         // A missing file is found even when the system has mistakes.
         let file = if table.has("file") { Some(self.reference_text(table)?) } else { None };
         let system = system?;
-        let names: Vec<&str> = match system {
-            System::Gravitation(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
-            System::Mechanism(system) => system.parts.iter().map(|part| part.name.as_str()).collect(),
-            System::Central(system) => system.bodies.iter().map(|body| body.name.as_str()).collect(),
-        };
+        let names = system.names();
         let relative_to =
             if table.has("relative_to") { Some(self.find(table, "relative_to", "body", &names)?) } else { None };
         let label = |default: &str| table.text("label").unwrap_or(default).to_string();

@@ -4,7 +4,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use crate::model::Scene;
-use crate::plan::{Item, Method, Plan};
+use crate::plan::{Item, Method, Plan, method_summary};
 use crate::run::{Drift, Outcome, Run};
 
 /// The numbers of a run.
@@ -23,6 +23,7 @@ pub struct Summary {
     /// Name of the method.
     pub method: String,
     /// The method with its order, step or tolerance.
+    #[serde(serialize_with = "method_summary")]
     pub method_details: Method,
     /// Why this method.
     pub method_reason: String,

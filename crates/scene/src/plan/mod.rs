@@ -4,11 +4,13 @@ mod choice;
 
 use core::fmt;
 
-use piola_integrators::Order;
-use serde::Serialize;
+pub use piola_simulation::motion::Method;
+
+use piola_document::words;
+use piola_simulation::motion::Timetable;
+use serde::{Serialize, Serializer};
 
 use crate::model::{ReferenceKind, Scene, System};
-use piola_document::words;
 
 /// The plan of a run.
 ///
@@ -40,6 +42,7 @@ pub struct Plan {
     /// Number of first-order equations.
     pub equations: usize,
     /// Method of integration.
+    #[serde(serialize_with = "method_summary")]
     pub method: Method,
     /// Why this method with this step.
     pub reason: String,
@@ -72,31 +75,6 @@ pub struct Item {
     pub why: String,
 }
 
-/// A method of integration with its step or tolerance.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(into = "MethodSummary")]
-pub enum Method {
-    /// Explicit symplectic composition.
-    Composition {
-        /// Order.
-        order: Order,
-        /// Longest step, s.
-        step: f64,
-    },
-    /// Gauss–Legendre collocation.
-    GaussLegendre {
-        /// Order.
-        order: Order,
-        /// Longest step, s.
-        step: f64,
-    },
-    /// Adaptive Runge–Kutta of order 8(5,3).
-    DormandPrince {
-        /// Relative tolerance of a step.
-        tolerance: f64,
-    },
-}
-
 #[derive(Serialize)]
 struct MethodSummary {
     name: String,
@@ -120,25 +98,9 @@ impl From<Method> for MethodSummary {
     }
 }
 
-impl fmt::Display for Method {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Composition { order, .. } => write!(f, "composition-{}", order.value()),
-            Self::GaussLegendre { order, .. } => write!(f, "gauss-legendre-{}", order.value()),
-            Self::DormandPrince { .. } => f.write_str("dormand-prince-853"),
-        }
-    }
-}
-
-impl Method {
-    /// The longest step of a method of fixed step, s.
-    #[must_use]
-    pub fn step(&self) -> Option<f64> {
-        match self {
-            Self::Composition { step, .. } | Self::GaussLegendre { step, .. } => Some(*step),
-            Self::DormandPrince { .. } => None,
-        }
-    }
+/// Writes a method with its order and whether it is symplectic.
+pub(crate) fn method_summary<S: Serializer>(method: &Method, serializer: S) -> Result<S::Ok, S::Error> {
+    MethodSummary::from(*method).serialize(serializer)
 }
 
 impl Plan {
@@ -146,8 +108,9 @@ impl Plan {
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         let (method, reason) = choice::method(scene);
-        let instants = instants(scene);
-        let steps = method.step().map(|step| steps(&instants, step));
+        let timetable = timetable(scene);
+        let instants = timetable.instants();
+        let steps = method.step().map(|step| steps(instants, step));
         let mut plan = Self {
             name: scene.name.clone(),
             system: describe(&scene.system),
@@ -264,32 +227,13 @@ impl Plan {
     }
 }
 
-/// Samples and instants of the reference in the order of the run, each once.
-pub(crate) fn instants(scene: &Scene) -> Vec<f64> {
-    let time = scene.time;
-    let (start, end) = (time.start, time.end);
-    let last = f64::from(scene.output.samples - 1);
-    let mut instants: Vec<f64> = (0..scene.output.samples)
-        .map(|i| if i + 1 == scene.output.samples { end } else { start + (end - start) * (f64::from(i) / last) })
-        .collect();
-    if let Some(ReferenceKind::Table(table)) = scene.reference.as_ref().map(|reference| &reference.kind) {
-        instants.extend(&table.times);
-    }
-    time.sort(&mut instants);
-    // Two instants that differ by rounding alone are one; an instant of the reference is the one that stays.
-    let wanted = reference_times(scene);
-    let mut merged: Vec<f64> = Vec::with_capacity(instants.len());
-    for t in instants {
-        match merged.last_mut() {
-            Some(last) if (t - *last).abs() <= time.slack() => {
-                if wanted.binary_search_by(|probe| time.order(*probe, t)).is_ok() {
-                    *last = t;
-                }
-            }
-            _ => merged.push(t),
-        }
-    }
-    merged
+/// The instants that are recorded: samples and the instants of a reference table.
+pub(crate) fn timetable(scene: &Scene) -> Timetable {
+    let landings: &[f64] = match scene.reference.as_ref().map(|reference| &reference.kind) {
+        Some(ReferenceKind::Table(table)) => &table.times,
+        _ => &[],
+    };
+    Timetable::new(scene.time, scene.output.samples, landings)
 }
 
 /// Steps of at most `step` that land on every instant.
@@ -298,14 +242,6 @@ fn steps(instants: &[f64], step: f64) -> u64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count, and the cast saturates")]
     let count = |pair: &[f64]| ((pair[1] - pair[0]).abs() / step * (1.0 - 4.0 * f64::EPSILON)).ceil() as u64;
     instants.windows(2).map(count).sum()
-}
-
-/// The instants of a reference table in the order of the run.
-pub(crate) fn reference_times(scene: &Scene) -> &[f64] {
-    match scene.reference.as_ref().map(|reference| &reference.kind) {
-        Some(ReferenceKind::Table(table)) => &table.times,
-        _ => &[],
-    }
 }
 
 fn describe(system: &System) -> String {

@@ -1,45 +1,18 @@
 //! Runs a planned scene and keeps its history.
 
 mod comparison;
-mod drive;
-mod history;
-mod systems;
 
 use core::ops::ControlFlow;
 use std::time::Instant;
 
-use piola_integrators::{Ending, Report};
+use piola_simulation::motion::{MotionRun, simulate};
 
 pub use comparison::{BodyErrors, ErrorAt, Errors};
-pub(crate) use history::DriftAt;
-pub use history::{Drift, Drifts, History, Invariants, Scaled};
+pub use piola_simulation::Outcome;
+pub use piola_simulation::motion::{Drift, DriftAt, Drifts, History, Invariants, Progress, Scaled};
 
-use crate::model::{Scene, System};
-use crate::plan::Plan;
-use drive::Driver;
-
-/// The progress of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub struct Progress {
-    /// Time reached, s.
-    pub time: f64,
-    /// Part of the span that is done, 0 to 1.
-    pub fraction: f64,
-    /// Steps so far.
-    pub steps: u64,
-}
-
-/// How a run ended.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Outcome {
-    /// The end was reached.
-    Completed,
-    /// The observer stopped it.
-    Interrupted,
-    /// The run failed for this reason.
-    Failed(String),
-}
+use crate::model::Scene;
+use crate::plan::{self, Plan};
 
 /// A run with all that it recorded, however far it came.
 #[derive(Debug, Clone)]
@@ -94,23 +67,12 @@ pub fn run(scene: &Scene, plan: &Plan, mut observer: impl FnMut(Progress) -> Con
 }
 
 /// The same for any observer: whoever calls `run` compiles none of it again.
-fn observed(scene: &Scene, plan: &Plan, observer: drive::Observer) -> Run {
+fn observed(scene: &Scene, plan: &Plan, observer: &mut dyn FnMut(Progress) -> ControlFlow<()>) -> Run {
     let begun = Instant::now();
-    let mut driver = Driver::new(scene, plan, observer);
-    let result = match &scene.system {
-        System::Gravitation(system) => systems::gravitation(system, plan, &mut driver),
-        System::Mechanism(system) => systems::mechanism(system, plan, &mut driver),
-        System::Central(system) => systems::central(system, plan, &mut driver),
-    };
-    let (history, report, time) = driver.finish();
+    let run = simulate(&scene.system, plan.method, &plan::timetable(scene), observer);
     let wall_time = begun.elapsed().as_secs_f64();
-    let outcome = match result {
-        Err(why) => Outcome::Failed(why),
-        Ok(()) if report.ending == Ending::Stopped => Outcome::Interrupted,
-        Ok(()) => Outcome::Completed,
-    };
-    let Report { steps, rejected, evaluations, .. } = report;
+    let MotionRun { outcome, time, steps, rejected, force_evaluations, history, .. } = run;
     let drifts = history.drifts();
     let errors = comparison::errors(scene, &history);
-    Run { outcome, time, steps, rejected, force_evaluations: evaluations, wall_time, history, drifts, errors }
+    Run { outcome, time, steps, rejected, force_evaluations, wall_time, history, drifts, errors }
 }

@@ -2,7 +2,7 @@
 //!
 //! | table | study | with |
 //! |---|---|---|
-//! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_hamiltonian::hamilton_jacobi`] |
+//! | `[wavefront]` | [`Wavefront`]: fronts, rays and caustics in a medium | [`piola_simulation::fronts`] |
 //! | `[room]` | [`Room`]: first arrival of a signal in a room | [`piola_characteristics`] |
 //! | `[balloon]` | `Balloon`: an inflated spherical shell | `piola_solutions` |
 //! | `[torsion]` | `TwistedRod`: a twisted rod or tube, with and without axial force | `piola_solutions` |

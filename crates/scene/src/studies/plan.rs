@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::Serialize;
 
-use super::{Study, Subject};
+use super::{Study, Subject, wavefront};
 use crate::plan::Item;
 
 /// The plan of a study.
@@ -60,7 +60,7 @@ impl StudyPlan {
             files: vec!["summary.json".to_string()],
         };
         let (tables, figures) = match &study.subject {
-            Subject::Wavefront(wavefront) => wavefront.plan(&mut plan),
+            Subject::Wavefront(asked) => wavefront::plan(asked, &mut plan),
             Subject::Room(room) => room.plan(&mut plan),
             #[cfg(feature = "solutions")]
             Subject::Solid(solid) => solid.plan(&mut plan),

@@ -82,7 +82,7 @@ pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> S
 impl StudyRun {
     fn results(&self) -> Map<String, Value> {
         let results = match &self.findings {
-            Findings::Wavefront(found) => found.results(),
+            Findings::Wavefront(found) => wavefront::results(found),
             Findings::Room(found) => found.results(),
             #[cfg(feature = "solutions")]
             Findings::Solid(found) => found.results(),
@@ -149,7 +149,7 @@ impl StudyRun {
         let title = study.title.as_deref().unwrap_or(&study.name);
         let file = |name: &str| match (&self.findings, &study.subject) {
             _ if name == "summary.json" => Some(self.summary(plan)),
-            (Findings::Wavefront(found), Subject::Wavefront(asked)) => found.file(asked, title, name),
+            (Findings::Wavefront(found), Subject::Wavefront(asked)) => wavefront::file(found, asked, title, name),
             (Findings::Room(found), Subject::Room(asked)) => found.file(asked, title, name),
             #[cfg(feature = "solutions")]
             (Findings::Solid(found), Subject::Solid(asked)) => found.file(asked, title, name),

@@ -40,11 +40,12 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("registration", &["spectral"]),
     ("images", &["registration"]),
     ("piola", MECHANICS),
+    ("simulation", &["hamiltonian", "gravitation"]),
     ("document", &[]),
     ("charts", &[]),
     ("measured", &["document", "charts", "fit"]),
     // solutions and uniformity, by feature: studies of solids.
-    ("scene", &["document", "charts", "hamiltonian", "characteristics", "gravitation", "solutions", "uniformity"]),
+    ("scene", &["document", "charts", "simulation", "characteristics", "solutions", "uniformity"]),
     // charts: the folder of the results.
     // images, by feature: files of images, for the command `register` alone.
     ("cli", &["scene", "measured", "images"]),

@@ -1,7 +1,7 @@
-//! Drives an integrator over the instants of a plan and records what it passes.
+//! Drives an integrator over the instants of a timetable and records what it passes.
 //!
-//! Methods of fixed step land on every instant. The adaptive method lands on the instants of the reference, gives the
-//! others by dense output, and shows invariants at the ends of its steps.
+//! Methods of fixed step land on every instant. The adaptive method lands on the landings of the timetable, gives the
+//! other instants by dense output, and shows invariants at the ends of its steps.
 
 use core::fmt::Display;
 use core::ops::ControlFlow;
@@ -10,9 +10,7 @@ use piola_integrators::{
     Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Report, Separable, State, Tolerance,
 };
 
-use super::{History, Invariants, Progress};
-use crate::model::{Scene, TimeSpan};
-use crate::plan::{self, Method, Plan};
+use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
 
 /// Reads everything that is recorded out of a state.
 pub(super) trait Reading {
@@ -29,7 +27,7 @@ pub(super) type Observer<'o> = &'o mut dyn FnMut(Progress) -> ControlFlow<()>;
 type Advance<'a, 'o> = &'a mut dyn FnMut(&mut Driver<'o>, &mut State, f64) -> Result<Report, IntegratorsError<String>>;
 
 /// A field or a separable pair behind a pointer: the integrators are compiled once and not once a system.
-/// Their cost beside the forces of a scene is a call through a pointer, some nanoseconds an evaluation.
+/// Their cost beside the forces of a system is a call through a pointer, some nanoseconds an evaluation.
 struct AnyField<'f, F: ?Sized>(&'f mut F);
 
 /// What an integrator asks of a field, with errors as text.
@@ -124,18 +122,18 @@ pub(super) struct Driver<'o> {
 }
 
 impl<'o> Driver<'o> {
-    pub(super) fn new(scene: &Scene, plan: &Plan, observer: Observer<'o>) -> Self {
-        let names = scene.names().into_iter().map(str::to_string).collect();
-        let mut landings = plan::reference_times(scene).to_vec();
-        landings.push(plan.end);
-        landings.retain(|t| scene.time.order(plan.start, *t).is_lt());
-        landings.dedup_by(|a, b| scene.time.order(*a, *b).is_eq());
+    pub(super) fn new(names: Vec<String>, timetable: &Timetable, observer: Observer<'o>) -> Self {
+        let span = timetable.span();
+        let mut landings = timetable.landings.clone();
+        landings.push(span.end);
+        landings.retain(|t| span.order(span.start, *t).is_lt());
+        landings.dedup_by(|a, b| span.order(*a, *b).is_eq());
         Self {
             history: History { names, ..History::default() },
             report: Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached },
-            time: plan.start,
-            span: scene.time,
-            instants: plan::instants(scene),
+            time: span.start,
+            span,
+            instants: timetable.instants().to_vec(),
             next: 0,
             landings,
             observer,
@@ -214,22 +212,22 @@ impl<'o> Driver<'o> {
     /// Any other method.
     pub(super) fn field(
         &mut self,
-        plan: &Plan,
+        method: Method,
         field: &mut impl Field<Error: Display>,
         state: &mut State,
         reading: &mut dyn Reading,
     ) -> Result<(), String> {
-        self.any_field(plan, AnyField(field as &mut dyn FieldWithText), state, reading)
+        self.any_field(method, AnyField(field as &mut dyn FieldWithText), state, reading)
     }
 
     fn any_field(
         &mut self,
-        plan: &Plan,
+        method: Method,
         mut field: AnyField<dyn FieldWithText + '_>,
         state: &mut State,
         reading: &mut dyn Reading,
     ) -> Result<(), String> {
-        match plan.method {
+        match method {
             Method::GaussLegendre { order, step } => {
                 let mut method = GaussLegendre::new(order, step).map_err(|error| error.to_string())?;
                 self.fixed(state, reading, &mut |driver, state, instant| {

@@ -1,14 +1,13 @@
 //! Follows the rays and reads their fronts.
 
+use core::ops::ControlFlow;
 use std::collections::BTreeMap;
 
 use piola_hamiltonian::HamiltonianError;
 use piola_hamiltonian::hamilton_jacobi::{FrontRay, WaveFront};
-use serde_json::{Value, json};
 
 use super::{Medium, MediumPart, Source, Wavefront};
-use crate::run::Outcome;
-use crate::studies::observer::Observer;
+use crate::Outcome;
 
 /// Parts of the length between which caustics are looked for and rays are drawn, at least.
 const PARTS: u32 = 240;
@@ -19,9 +18,12 @@ const STEPS_OVER_RIMS: u32 = 16;
 /// Rays that are kept as curves, about.
 const DRAWN: usize = 48;
 /// Rays are not added beyond this many.
-pub(super) const MOST_RAYS: usize = 40_000;
+pub const MOST_RAYS: usize = 40_000;
 
 /// A front: the places of one optical length.
+///
+/// # Example
+/// See [`Wavefront`].
 #[derive(Debug, Clone)]
 pub struct Front {
     /// The optical length, m.
@@ -33,6 +35,9 @@ pub struct Front {
 }
 
 /// A place where a ray touches a caustic.
+///
+/// # Example
+/// See [`Wavefront`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CausticMark {
     /// The ray: its parameter at the source.
@@ -46,6 +51,9 @@ pub struct CausticMark {
 }
 
 /// The fronts, rays and caustic of a medium.
+///
+/// # Example
+/// See [`Wavefront`].
 #[derive(Debug, Clone, Default)]
 pub struct Fronts {
     /// The fronts, the source not among them.
@@ -69,7 +77,7 @@ pub struct Fronts {
 impl Wavefront {
     /// Parts between two fronts.
     fn parts(&self) -> u32 {
-        PARTS.div_ceil(self.fronts)
+        PARTS.div_ceil(self.fronts.max(1))
     }
 
     fn steps_of_part(&self) -> u32 {
@@ -77,12 +85,17 @@ impl Wavefront {
         if self.medium.parts.iter().any(rim) { STEPS_OVER_RIMS } else { STEPS }
     }
 
-    /// Steps of the integration.
-    pub(super) fn steps(&self) -> u32 {
+    /// Steps of the integration along each ray.
+    #[must_use]
+    pub fn steps(&self) -> u32 {
         self.steps_of_part() * self.parts() * self.fronts
     }
 
-    pub(in crate::studies) fn run(&self, observer: &mut Observer<'_>) -> (Fronts, Outcome) {
+    /// The fronts of the source. The observer gets the finished part of the run, from 0 to 1, and may stop the run.
+    ///
+    /// A run that fails or is stopped returns the fronts that it found until then. It fails where the data of the source or of the
+    /// medium are not valid, or give an index that is not a positive number.
+    pub fn run(&self, observer: &mut dyn FnMut(f64) -> ControlFlow<()>) -> (Fronts, Outcome) {
         let mut found = Fronts::default();
         let outcome = match self.follow(&mut found, observer) {
             Ok(true) => Outcome::Completed,
@@ -92,7 +105,11 @@ impl Wavefront {
         (found, outcome)
     }
 
-    fn follow(&self, found: &mut Fronts, observer: &mut Observer<'_>) -> Result<bool, HamiltonianError> {
+    fn follow(
+        &self,
+        found: &mut Fronts,
+        observer: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<bool, HamiltonianError> {
         let start = if self.source.closed() { WaveFront::closed } else { WaveFront::open };
         let mut front = start(&self.medium, &self.source, 1.0, 1.0, self.source.range(), self.rays as usize)?;
         let every = (self.rays as usize / DRAWN).max(1);
@@ -207,24 +224,6 @@ impl Fronts {
     #[must_use]
     pub fn first_caustic(&self) -> Option<&CausticMark> {
         self.caustic.iter().min_by(|a, b| a.length.total_cmp(&b.length))
-    }
-
-    pub(in crate::studies) fn results(&self) -> Value {
-        json!({
-            "optical_length_m": self.fronts.last().map_or(0.0, |front| front.length),
-            "fronts": self.fronts.len(),
-            "rays": self.count,
-            "largest_distance_of_neighbours_m": self.widest,
-            "fronts_on_which_it_exceeds_the_spacing": self.too_wide,
-            "rays_beyond_a_caustic": self.fronts.last().map_or(0, |front| front.beyond_caustic),
-            "first_caustic": self.first_caustic().map(|first| json!({
-                "optical_length_m": first.length,
-                "place_m": first.place,
-                "ray": first.parameter,
-            })),
-            "largest_relative_error_of_a_step": self.error,
-            "largest_residual_of_eikonal": self.residual,
-        })
     }
 }
 

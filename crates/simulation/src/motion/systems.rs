@@ -11,24 +11,24 @@ use piola_lagrangian::{Lagrangian, Workspace};
 use piola_numerics::sums::CompensatedSum;
 
 use super::drive::{Driver, Reading};
-use super::{History, Invariants};
-use crate::model::{self, JointTree, NEWTONIAN_CONSTANT};
-use crate::plan::{Method, Plan};
+use super::{History, Invariants, Method, NEWTONIAN_CONSTANT, system as model};
+use crate::SimulationError;
+use crate::joints::{JointTree, Mechanism};
 
 /// Bodies that attract each other.
-pub(super) fn gravitation(system: &model::Gravitation, plan: &Plan, driver: &mut Driver) -> Result<(), String> {
+pub(super) fn gravitation(system: &model::Gravitation, method: Method, driver: &mut Driver) -> Result<(), String> {
     let mut bodies = gravitating(system).map_err(|error| error.to_string())?;
     let positions: Vec<_> = system.bodies.iter().map(|body| body.position).collect();
     let velocities: Vec<_> = system.bodies.iter().map(|body| body.velocity).collect();
     let start = bodies.state(&positions, &velocities).map_err(|error| error.to_string())?;
     let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
     let mut reading = bodies.clone();
-    match plan.method {
+    match method {
         Method::Composition { order, step } if system.post_newtonian.is_none() => {
             let mut method = Composition::new(order, step).map_err(|error| error.to_string())?;
             driver.separable(&mut method, &mut bodies, &mut state, &mut reading)
         }
-        _ => driver.field(plan, &mut bodies, &mut state, &mut reading),
+        _ => driver.field(method, &mut bodies, &mut state, &mut reading),
     }
 }
 
@@ -65,17 +65,17 @@ impl Reading for Gravitation {
 }
 
 /// Bodies about a fixed centre.
-pub(super) fn central(system: &model::Central, plan: &Plan, driver: &mut Driver) -> Result<(), String> {
+pub(super) fn central(system: &model::Central, method: Method, driver: &mut Driver) -> Result<(), String> {
     let places = system.bodies.iter().flat_map(|body| body.position);
     let start = places.chain(system.bodies.iter().flat_map(|body| body.velocity)).collect();
     let mut state = State::new(driver.start(), start).map_err(|error| error.to_string())?;
     let mut field = CentralField { gm: system.gm, freedom: 3 * system.bodies.len() };
-    match plan.method {
+    match method {
         Method::Composition { order, step } => {
             let mut method = Composition::new(order, step).map_err(|error| error.to_string())?;
             driver.separable(&mut method, &mut field, &mut state, &mut CentralReading(system))
         }
-        _ => driver.field(plan, &mut field, &mut state, &mut CentralReading(system)),
+        _ => driver.field(method, &mut field, &mut state, &mut CentralReading(system)),
     }
 }
 
@@ -164,11 +164,16 @@ impl Reading for CentralReading<'_> {
 }
 
 /// Particles and rigid bodies on joints.
-pub(super) fn mechanism(system: &model::Mechanism, plan: &Plan, driver: &mut Driver) -> Result<(), String> {
-    let n = system.position.len();
+pub(super) fn mechanism(system: &Mechanism, method: Method, driver: &mut Driver) -> Result<(), String> {
+    let n = system.tree.freedom();
+    for (quantity, values) in [("position", &system.position), ("velocity", &system.velocity)] {
+        if values.len() != n {
+            return Err(SimulationError::WrongLength { quantity, expected: n, found: values.len() }.to_string());
+        }
+    }
     driver.history().coordinate_names.clone_from(&system.coordinates);
     let lagrangian = Lagrangian::of(system.tree.clone()).with_uniform_gravity(system.gravity);
-    let canonical = matches!(plan.method, Method::GaussLegendre { .. });
+    let canonical = matches!(method, Method::GaussLegendre { .. });
     let mut start = system.position.clone();
     if canonical {
         let momenta = lagrangian.momenta(&system.position, &system.velocity, driver.start());
@@ -180,9 +185,9 @@ pub(super) fn mechanism(system: &model::Mechanism, plan: &Plan, driver: &mut Dri
     let mut reading =
         MechanismReading { lagrangian: &lagrangian, canonical, work: Workspace::default(), state: vec![0.0; 2 * n] };
     if canonical {
-        driver.field(plan, &mut lagrangian.canonical_motion(n), &mut state, &mut reading)
+        driver.field(method, &mut lagrangian.canonical_motion(n), &mut state, &mut reading)
     } else {
-        driver.field(plan, &mut lagrangian.motion(n), &mut state, &mut reading)
+        driver.field(method, &mut lagrangian.motion(n), &mut state, &mut reading)
     }
 }
 

@@ -7,7 +7,7 @@ use piola_numerics::Real;
 ///
 /// # Example
 /// ```
-/// use piola_scene::studies::wavefront::{Medium, MediumPart};
+/// use piola_simulation::fronts::{Medium, MediumPart};
 /// let lens = Medium { parts: vec![MediumPart::Luneburg { centre: [0.0, 0.0], radius: 1.0 }] };
 /// assert_eq!(lens.index([0.0, 0.0]), f64::sqrt(2.0));
 /// assert_eq!(lens.index([2.0, 0.0]), 1.0);
@@ -19,6 +19,9 @@ pub struct Medium {
 }
 
 /// A part of a medium.
+///
+/// # Example
+/// See [`Medium`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum MediumPart {
     /// n = `index`.
@@ -79,7 +82,7 @@ impl MediumPart {
 }
 
 impl Medium {
-    /// n at a place.
+    /// n at a place, m.
     #[inline(always)]
     pub fn index<T: Real>(&self, place: [T; 2]) -> T {
         let mut index = T::one();

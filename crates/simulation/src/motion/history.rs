@@ -1,6 +1,9 @@
 //! The record of a run: positions and coordinates at instants, invariants at ends of steps.
 
 /// Positions, coordinates and invariants over time.
+///
+/// # Example
+/// See [`simulate`](super::simulate).
 #[derive(Debug, Clone, Default)]
 #[non_exhaustive]
 pub struct History {
@@ -25,6 +28,9 @@ pub struct History {
 pub type Scaled = ([f64; 3], f64);
 
 /// The invariants of the motion at one time.
+///
+/// # Example
+/// See [`simulate`](super::simulate).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Invariants {
     /// Time, s.
@@ -43,6 +49,9 @@ pub struct Invariants {
 }
 
 /// How far one invariant went from its first value.
+///
+/// # Example
+/// See [`simulate`](super::simulate).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Drift {
@@ -53,6 +62,9 @@ pub struct Drift {
 }
 
 /// The drifts; `None` for what is not conserved.
+///
+/// # Example
+/// See [`simulate`](super::simulate).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Drifts {
@@ -87,7 +99,8 @@ impl History {
     }
 
     /// Relative changes since the first record, one for each record.
-    pub(crate) fn drift_series(&self) -> Vec<DriftAt> {
+    #[must_use]
+    pub fn drift_series(&self) -> Vec<DriftAt> {
         let Some(first) = self.invariants.first() else { return Vec::new() };
         let energy_scale = self.invariants.iter().map(|record| record.energy_scale).fold(first.energy.abs(), f64::max);
         let relative = |change: f64, scale: f64| if 0.0 < scale { change / scale } else { change };
@@ -112,12 +125,21 @@ impl History {
     }
 }
 
-/// Relative changes at one time.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct DriftAt {
-    pub(crate) time: f64,
-    pub(crate) energy: f64,
-    pub(crate) post_newtonian_energy: Option<f64>,
-    pub(crate) momentum: Option<f64>,
-    pub(crate) angular_momentum: Option<f64>,
+/// Relative changes of the invariants at one time, scaled as in [`Drifts`]; `None` for what is not conserved.
+///
+/// # Example
+/// See [`simulate`](super::simulate).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct DriftAt {
+    /// Time, s.
+    pub time: f64,
+    /// Of the energy.
+    pub energy: f64,
+    /// Of the energy with its post-Newtonian part.
+    pub post_newtonian_energy: Option<f64>,
+    /// Of the momentum.
+    pub momentum: Option<f64>,
+    /// Of the angular momentum.
+    pub angular_momentum: Option<f64>,
 }

@@ -1,0 +1,67 @@
+//! What can be wrong with a mechanism.
+
+/// A condition that the data of a mechanism violate.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SimulationError {
+    /// A list of the wrong length.
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
+    WrongLength {
+        /// The name of the list.
+        quantity: &'static str,
+        /// The length needed.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+    /// An infinite or NaN number.
+    #[error("component {index} of `{quantity}` is {value}; it must be finite")]
+    NotFinite {
+        /// The name of the quantity.
+        quantity: &'static str,
+        /// The component, counted over all joints or parts.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// |axis| = 1 violated.
+    #[error("an axis of joint {joint} has the length {length}; it must be a unit vector")]
+    AxisNotUnit {
+        /// The index of the joint.
+        joint: usize,
+        /// The length of the axis.
+        length: f64,
+    },
+    /// 0 < m < ∞ violated.
+    #[error("the mass of part {part} is {value} kg; it must satisfy 0 < m < ∞")]
+    InvalidMass {
+        /// The index of the part.
+        part: usize,
+        /// The value given.
+        value: f64,
+    },
+    /// An index beyond the last joint.
+    #[error("there is no joint {joint}: the number of joints is {joints}")]
+    NoSuchJoint {
+        /// The index given.
+        joint: usize,
+        /// The number of joints.
+        joints: usize,
+    },
+    /// Parents that do not lead to the ground.
+    #[error("joint {joint} is on a cycle of joints; parents must lead to the ground")]
+    CyclicJoints {
+        /// The index of a joint that hangs on the cycle.
+        joint: usize,
+    },
+    /// More joints on a path from the ground than the placement follows.
+    #[error("joint {joint} is joint {depth} on its path from the ground; at most {most} are allowed")]
+    TooDeep {
+        /// The index of the joint.
+        joint: usize,
+        /// Joints on the path from the ground to it, itself included.
+        depth: usize,
+        /// The largest number allowed, [`DEEPEST`](crate::joints::DEEPEST).
+        most: usize,
+    },
+}

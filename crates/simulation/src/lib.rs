@@ -1,0 +1,12 @@
+//! Motions of systems made of data, and wave fronts in layered media.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod error;
+pub mod fronts;
+pub mod joints;
+pub mod motion;
+mod outcome;
+
+pub use error::SimulationError;
+pub use outcome::Outcome;

@@ -1,0 +1,59 @@
+//! Methods of integration.
+
+use core::fmt;
+
+use piola_integrators::Order;
+
+/// A method of integration with its step or tolerance.
+///
+/// # Example
+/// ```
+/// use piola_integrators::Order;
+/// use piola_simulation::motion::Method;
+/// let method = Method::GaussLegendre { order: Order::Eight, step: 0.01 };
+/// assert_eq!(method.to_string(), "gauss-legendre-8");
+/// assert_eq!(method.step(), Some(0.01));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// Explicit symplectic composition.
+    Composition {
+        /// Order.
+        order: Order,
+        /// Longest step, s.
+        step: f64,
+    },
+    /// Gauss–Legendre collocation, symplectic.
+    GaussLegendre {
+        /// Order.
+        order: Order,
+        /// Longest step, s.
+        step: f64,
+    },
+    /// Adaptive Runge–Kutta of order 8(5,3).
+    DormandPrince {
+        /// Relative tolerance of a step.
+        tolerance: f64,
+    },
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Composition { order, .. } => write!(f, "composition-{}", order.value()),
+            Self::GaussLegendre { order, .. } => write!(f, "gauss-legendre-{}", order.value()),
+            Self::DormandPrince { .. } => f.write_str("dormand-prince-853"),
+        }
+    }
+}
+
+impl Method {
+    /// The longest step of a method of fixed step, s.
+    #[must_use]
+    pub fn step(&self) -> Option<f64> {
+        match self {
+            Self::Composition { step, .. } | Self::GaussLegendre { step, .. } => Some(*step),
+            Self::DormandPrince { .. } => None,
+        }
+    }
+}
