@@ -2,9 +2,9 @@
 
 mod alloc;
 mod bad_points;
+#[path = "../cases.rs"]
 mod cases;
 mod every_request;
-mod identical;
 mod requests;
 mod single_precision;
 mod views;

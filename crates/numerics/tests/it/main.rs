@@ -1,11 +1,9 @@
 //! Tests of the numerics: one binary, one module for each kind of evidence.
 
 mod alloc;
-mod elementary;
 mod excess;
 mod formulas;
 mod golden;
-mod lanes;
 mod laws;
 mod least_squares;
 mod linear;

@@ -1,4 +1,9 @@
 //! A batch gives the numbers of single points, to the last bit, at any place and on any number of threads.
+//!
+//! A binary of its own: `cargo xtask test` runs it a second time, compiled for every set of instructions.
+
+#[path = "../cases.rs"]
+mod cases;
 
 use nalgebra::Matrix3;
 use piola_batch as batch;
@@ -9,7 +14,7 @@ use piola_numerics::Lanes;
 use piola_numerics::linear::matrix3::from_rows;
 use piola_testkit::{Tol, assert_close};
 
-use super::cases::{deformations, stresses};
+use cases::{deformations, stresses};
 
 /// R, U and ln U of a batch.
 #[derive(Clone, PartialEq, Debug)]
