@@ -2,7 +2,7 @@
 
 mod alloc;
 mod bad_points;
-#[path = "../cases.rs"]
+#[path = "../cases/mod.rs"]
 mod cases;
 mod every_request;
 mod requests;

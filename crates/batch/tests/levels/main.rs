@@ -2,7 +2,7 @@
 //!
 //! A binary of its own: `cargo xtask test` runs it a second time, compiled for every set of instructions.
 
-#[path = "../cases.rs"]
+#[path = "../cases/mod.rs"]
 mod cases;
 
 use nalgebra::Matrix3;
