@@ -2,16 +2,18 @@
 
 use core::f64::consts::{PI, TAU};
 
+use nalgebra::Matrix3;
 use piola_numerics::{Dual, Real};
 use piola_solids::isochoric::{Gent, Isochoric, MooneyRivlin, NeoHookean, Rivlin};
 use piola_solutions::families::{
-    AzimuthalShearing, BlockBending, Datum, Family, Orientation, SectorStraightening, TubeDeformation,
+    AzimuthalShearing, BlockBending, Datum, Family, IsochoricDeformation, Orientation, SectorStraightening,
+    TubeDeformation,
 };
 use piola_solutions::loads::{
-    AzimuthalShear, Bending, Block, BlockLoads, Ends, Sector, SectorLoads, ShearLoads, Shell, SphereInflation,
-    Straightening, Torsion, Tube, TubeInflation, everted_tube, torsion_under,
+    AzimuthalShear, Bending, Block, BlockLoads, Ends, Extension, FaceForces, Sector, SectorLoads, ShearLoads, Shell,
+    Sides, SphereInflation, Straightening, Torsion, Tube, TubeInflation, everted_tube, torsion_under,
 };
-use piola_solutions::{LoadCurve, LocalDeformation, SolutionsError};
+use piola_solutions::{LoadCurve, LocalDeformation, ResponseFunctions, SolutionsError};
 use piola_testkit::golden::{load, number, text};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
@@ -176,6 +178,56 @@ proptest! {
             // dE = p dV, V = 4π/3 (r of the cavity)³, whose derivative by A is 4π/3.
             let point = body.point(stretch).expect("point");
             assert_close("p", &[point.load], &[3.0 * stored.tangent], QUADRATURE);
+        }
+    }
+
+    #[test]
+    fn forces_on_a_block_equal_derivatives_of_the_energy(
+        law in rubber(), entries in prop::array::uniform9(-0.4..0.4_f64), extents in prop::array::uniform3(0.5..2.0_f64),
+        stress in -1.0..1.0_f64, x in 0.7..2.0_f64,
+    ) {
+        let f = Matrix3::identity() + Matrix3::from_row_slice(&entries);
+        prop_assume!(0.2 < f.determinant());
+        let f = f / f.determinant().cbrt();
+        let family = IsochoricDeformation::new(f, [1.0, 2.0, 3.0]).expect("isochoric");
+        let block = Block::new(extents[0], extents[1], extents[2]).expect("block");
+        let loads = FaceForces::of_block(&family, &law, &block, stress).expect("loads");
+        let volume: f64 = extents.iter().product();
+        let datum = Datum { reference: [0.0; 3], stress };
+        let local = family.deformation([0.0; 3]).expect("F");
+        let nominal = first_piola(family.stress(&law, &datum, [0.5; 3]).expect("T").cauchy.0.rows(), &local);
+        let scale = volume * nominal.as_flattened().iter().map(|p| p.abs()).sum::<f64>();
+        // dF = F L with tr L = 0 keeps volumes: three shears, three more, and two of the stretches.
+        for (i, j) in [(0, 1), (1, 2), (2, 0), (1, 0), (2, 1), (0, 2), (0, 0), (1, 1)] {
+            let mut rate = Matrix3::zeros();
+            rate[(i, j)] = 1.0;
+            if i == j {
+                rate[(2, 2)] = -1.0;
+            }
+            let moved = f * rate;
+            let work: f64 =
+                (0..3).flat_map(|a| (0..3).map(move |k| (a, k))).map(|(a, k)| loads.forces[a][k] * extents[a] * moved[(k, a)]).sum();
+            // E of an isochoric path: F (1 + ε L) has the determinant 1 to first order.
+            let varied = [0, 1, 2].map(|k: usize| [0, 1, 2].map(|a: usize| Dual { value: f[(k, a)], tangent: moved[(k, a)] }));
+            assert_close_at_scale("dE", &[work], &[energy(&law, varied).tangent * volume], scale, QUADRATURE);
+        }
+        for sides in [Sides::Free, Sides::Held, Sides::Pulled] {
+            let curve = Extension { block, law: &law, sides };
+            let state = curve.state(x).expect("state");
+            let [_, on_y, on_z] = FaceForces::of_block(&state.deformation, &law, &block, 0.0).expect("loads").forces;
+            let size = state.force.abs() + state.side_force.abs() + volume / extents[0];
+            let found = [curve.point(x).expect("point").load, state.force, state.side_force];
+            assert_close_at_scale("forces", &found, &[on_y[1], on_y[1], on_z[2]], size, QUADRATURE);
+            let (one, zero, y) = (Dual::constant(1.0), Dual::constant(0.0), Dual::variable(x));
+            let z = match sides {
+                Sides::Free => y.sqrt().recip(),
+                Sides::Held => one,
+                Sides::Pulled => y,
+            };
+            let stored = energy(&law, [[(y * z).recip(), zero, zero], [zero, y, zero], [zero, zero, z]]);
+            // dE = N L_y dλ + N_z L_z dλ_z.
+            let work = state.force * extents[1] + state.side_force * extents[2] * z.tangent;
+            assert_close_at_scale("dE/dλ", &[work], &[stored.tangent * volume], size * (extents[1] + extents[2]), QUADRATURE);
         }
     }
 
@@ -362,6 +414,9 @@ proptest! {
         check_slope(&Bending { block: Block::new(1.0, 2.0, 0.5).expect("block"), law: &law, axial_stretch: 1.1 }, x);
         let sector = Sector::new([1.0, 2.0], [0.0, 1.0]).expect("sector");
         check_slope(&Straightening { sector, law: &law, axial_stretch: 1.1 }, x);
+        for sides in [Sides::Free, Sides::Held, Sides::Pulled] {
+            check_slope(&Extension { block: Block::new(1.0, 2.0, 0.5).expect("block"), law: &law, sides }, x);
+        }
         check_slope(&AzimuthalShear { law: &law, radial_stretch: 1.1, angular_stretch: 0.9 }, x);
     }
 }
@@ -431,6 +486,52 @@ fn balloon_of_mooney_and_rivlin_has_two_limit_points_and_three_states_between_th
     );
     let far = balloon.states_at(-1.0, (1.0, 2.0));
     assert!(matches!(far, Err(SolutionsError::NotReached { .. })), "{far:?}");
+}
+
+/// A load beyond the first limit point of a curve is refused with the limit; below it there are two states.
+fn check_limit<C: LoadCurve>(curve: &C, range: (f64, f64)) {
+    let limits = curve.limit_points(range).expect("limits");
+    assert_eq!(limits.len(), 1, "{} over {}: {limits:?}", C::LOAD, C::PARAMETER);
+    let beyond = curve.states_at(1.001 * limits[0].load, range);
+    let Err(SolutionsError::BeyondLimitPoint { limit, at, load, .. }) = beyond else { panic!("{beyond:?}") };
+    assert_eq!(load, C::LOAD);
+    assert_close("limit", &[limit, at], &[limits[0].load, limits[0].parameter], Tol::ulps(4.0));
+    let states = curve.states_at(0.9 * limits[0].load, range).expect("states");
+    assert_eq!(states.len(), 2, "{states:?}");
+    assert!(0.0 < states[0].slope && states[1].slope < 0.0);
+}
+
+/// g₁ = exp(−(I − 3)/5): a rubber that softens.
+struct Softening;
+
+impl ResponseFunctions for Softening {
+    fn response<T: Real>(&self, first: T, _second: T) -> [T; 2] {
+        [(T::lit(-0.2) * first).exp(), T::zero()]
+    }
+}
+
+#[test]
+fn loads_beyond_a_limit_point_are_refused_with_the_limit_by_every_curve() {
+    let law = NeoHookean::new(1.0).expect("law");
+    let tube = Tube::new(1.0, 1.2).expect("tube");
+    check_limit(&TubeInflation { tube, law: &law, ends: Ends::Closed }, (1.0, 6.0));
+    let shell = Shell::new(1.0, 1.3).expect("shell");
+    check_limit(&SphereInflation { shell, law: &law, orientation: Orientation::Kept }, (1.0, 6.0));
+    let law = Softening;
+    for ends in [Ends::Stretch(1.0), Ends::Force(0.0)] {
+        check_limit(&TubeInflation { tube, law: &law, ends }, (1.0, 4.0));
+        check_limit(&Torsion { tube: Tube::solid(1.0).expect("rod"), law: &law, ends }, (0.0, 5.0));
+    }
+    for sides in [Sides::Free, Sides::Held, Sides::Pulled] {
+        check_limit(&Extension { block: Block::new(1.0, 1.0, 1.0).expect("block"), law: &law, sides }, (1.0, 4.0));
+    }
+    check_limit(&AzimuthalShear { law: &law, radial_stretch: 1.0, angular_stretch: 1.0 }, (0.0, 4.0));
+    check_limit(
+        &Bending { block: Block::new(1.0, 1.0, 1.0).expect("block"), law: &law, axial_stretch: 1.0 },
+        (0.1, 6.0),
+    );
+    let sector = Sector::new([1.0, 1.5], [0.0, 1.0]).expect("sector");
+    check_limit(&Straightening { sector, law: &law, axial_stretch: 1.0 }, (1.3, 6.0));
 }
 
 #[test]
