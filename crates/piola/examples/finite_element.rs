@@ -310,8 +310,8 @@ impl Problem {
 fn picture(bodies: &[(&str, Vec<(usize, [f64; 2])>)]) -> Result<String, std::fmt::Error> {
     let place = |n: f64, error: f64| (90.0 + 130.0 * n.log2(), 40.0 - 65.0 * error.log10());
     let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 760 500\" font-family=\"sans-serif\" font-size=\"14\" fill=\"#222222\">\n\
-         <rect width=\"760\" height=\"500\" fill=\"white\"/>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 780 500\" font-family=\"sans-serif\" font-size=\"14\" fill=\"#222222\">\n\
+         <rect width=\"780\" height=\"500\" fill=\"white\"/>\n",
     );
     let line = |svg: &mut String, points: &[(f64, f64)], style: &str| {
         let path: String = points.iter().map(|(x, y)| format!("{x:.1},{y:.1} ")).collect();
