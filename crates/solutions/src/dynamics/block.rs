@@ -1,10 +1,10 @@
 //! Family 1 in motion: a block bent to a sector of a tube.
 
-use piola_fields::Residual;
 use piola_numerics::{Jet, Real};
 
 use super::MovingFamily;
-use super::moving::{NamedCondition, all_hold, check_conditions};
+use super::cylinder::MovingCylinder;
+use super::moving::{NamedCondition, all_hold, check_conditions, check_jets};
 use crate::SolutionsError;
 use crate::error::check_finite;
 use crate::families::BlockBending;
@@ -23,12 +23,12 @@ pub trait BlockHistory {
 ///
 /// ```text
 /// r = √(2 A X)      θ = B Y + C Z      z = D Y + E Z      A = 1/(B E − C D)
-/// potential  ⇔  B Ċ = C Ḃ,   B C̈ = C B̈,   [A (B Ḃ + C Ċ)]˙ = 0,   D Ë = E D̈
+/// potential  ⇔  B Ċ = C Ḃ,   B C̈ = C B̈,   (A B Ḃ)˙ = 0,   (A C Ċ)˙ = 0,   D Ë = E D̈
 /// ζ = −½ (½ γ − ¼ α²) r² + ½ β² r² θ² − ½ ε z²
 /// α = Ȧ/A      γ = Ä/A      β = A (E Ḃ − D Ċ)      ε = A (B Ë − C D̈)
 /// ```
 /// The conditions say that the vorticity of each particle, A Ḃ (B, C) about the axis and E Ḋ − D Ė along r, is constant in
-/// time: the ratio of B and C is constant, and so are A (B² + C²)˙ and E Ḋ − D Ė.
+/// time: the ratio of B and C is constant, and so are A B Ḃ, A C Ċ and E Ḋ − D Ė.
 ///
 /// | symbol | unit |
 /// |---|---|
@@ -70,15 +70,14 @@ pub struct MovingBlock<H> {
 }
 
 impl<H: BlockHistory> MovingBlock<H> {
-    /// A, B, C, D, E with their rates.
-    fn jets(&self, t: f64) -> Result<[Jet<f64, 0>; 5], SolutionsError> {
+    /// The constants with their rates.
+    fn cylinder(&self, t: f64) -> Result<MovingCylinder, SolutionsError> {
         check_finite("t", &[t])?;
-        let [b, c, d, e] = self.history.constants(Jet::<f64, 0>::time(t));
-        for jet in [b, c, d, e] {
-            check_finite("constants", &[jet.value, jet.rate, jet.second_rate])?;
-        }
+        let block = self.history.constants(Jet::<f64, 0>::time(t));
+        check_jets(&block)?;
         self.at(t)?;
-        Ok([(b * e - c * d).recip(), b, c, d, e])
+        let [b, c, d, e] = block;
+        Ok(MovingCylinder { a: (b * e - c * d).recip(), offset: Jet::constant(0.0), block })
     }
 
     /// The conditions of the type, each as left side less right with its scale: all zero where the acceleration has a potential.
@@ -87,30 +86,14 @@ impl<H: BlockHistory> MovingBlock<H> {
     /// |---|---|
     /// | `B Ċ = C Ḃ` | rad²/(m² s) |
     /// | `B C̈ = C B̈` | rad²/(m² s²) |
-    /// | `[A (B Ḃ + C Ċ)]˙ = 0` | rad²/(m s²) |
+    /// | `(A B Ḃ)˙ = 0`, `(A C Ċ)˙ = 0` | rad²/(m s²) |
     /// | `D Ë = E D̈` | 1/s² |
     ///
     /// # Errors
     /// [`SolutionsError::NotFinite`]; [`SolutionsError::OutOfBounds`] where B E = C D.
-    pub fn potential_conditions(&self, t: f64) -> Result<[NamedCondition; 4], SolutionsError> {
-        let [a, b, c, d, e] = self.jets(t)?;
-        let sum = |terms: &[f64]| terms.iter().copied().fold(Residual::zero(), Residual::plus);
-        let (b1, c1) = (b.rate, c.rate);
-        let (b2, c2, d2, e2) = (b.second_rate, c.second_rate, d.second_rate, e.second_rate);
-        let growth = [
-            a.rate * b.value * b1,
-            a.rate * c.value * c1,
-            a.value * b1 * b1,
-            a.value * b.value * b2,
-            a.value * c1 * c1,
-            a.value * c.value * c2,
-        ];
-        Ok([
-            ("B Ċ = C Ḃ", sum(&[b.value * c1, -(c.value * b1)])),
-            ("B C̈ = C B̈", sum(&[b.value * c2, -(c.value * b2)])),
-            ("[A (B Ḃ + C Ċ)]˙ = 0", sum(&growth)),
-            ("D Ë = E D̈", sum(&[d.value * e2, -(e.value * d2)])),
-        ])
+    pub fn potential_conditions(&self, t: f64) -> Result<[NamedCondition; 5], SolutionsError> {
+        let names = ["B Ċ = C Ḃ", "B C̈ = C B̈", "(A B Ḃ)˙ = 0", "(A C Ċ)˙ = 0", "D Ë = E D̈"];
+        Ok(self.cylinder(t)?.conditions(names))
     }
 
     /// Whether the acceleration has a potential at a time: each condition holds to 1e-12 of its terms.
@@ -136,14 +119,8 @@ impl<H: BlockHistory> MovingFamily for MovingBlock<H> {
         BlockBending::isochoric(self.history.constants(t))
     }
 
-    fn potential<T: Real>(&self, [r, theta, z]: [T; 3], t: f64) -> Result<T, SolutionsError> {
+    fn potential<T: Real>(&self, place: [T; 3], t: f64) -> Result<T, SolutionsError> {
         check_conditions(&self.potential_conditions(t)?, t)?;
-        let [a, b, c, d, e] = self.jets(t)?;
-        let (alpha, gamma) = (a.rate / a.value, a.second_rate / a.value);
-        let beta = a.value * (e.value * b.rate - d.value * c.rate);
-        let epsilon = a.value * (b.value * e.second_rate - c.value * d.second_rate);
-        let turn = T::lit(beta) * theta;
-        let radial = T::lit(0.125 * alpha * alpha - 0.25 * gamma) + T::lit(0.5) * turn * turn;
-        Ok(radial * r * r - T::lit(0.5 * epsilon) * z * z)
+        Ok(self.cylinder(t)?.potential(place))
     }
 }

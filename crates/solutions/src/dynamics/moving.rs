@@ -14,6 +14,16 @@ pub type NamedCondition = (&'static str, Residual);
 /// Share of the terms of a condition that may be left by rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// A sum with the moduli of its terms.
+pub(super) fn sum(terms: &[f64]) -> Residual {
+    terms.iter().copied().fold(Residual::zero(), Residual::plus)
+}
+
+/// Refuses constants whose values or rates are not finite.
+pub(super) fn check_jets(constants: &[Jet<f64, 0>]) -> Result<(), SolutionsError> {
+    constants.iter().try_for_each(|jet| check_finite("constants", &[jet.value, jet.rate, jet.second_rate]))
+}
+
 fn holds((_, residual): &NamedCondition) -> bool {
     residual.relative() <= ROUNDING
 }

@@ -4,7 +4,7 @@ use piola_fields::Residual;
 use piola_numerics::{Jet, Real};
 
 use super::MovingFamily;
-use super::moving::{NamedCondition, all_hold, check_conditions};
+use super::moving::{NamedCondition, all_hold, check_conditions, check_jets, sum};
 use crate::SolutionsError;
 use crate::error::check_finite;
 use crate::families::SectorStraightening;
@@ -62,9 +62,7 @@ impl<H: SectorHistory> MovingSector<H> {
     fn jets(&self, t: f64) -> Result<[Jet<f64, 0>; 4], SolutionsError> {
         check_finite("t", &[t])?;
         let jets = self.history.constants(Jet::<f64, 0>::time(t));
-        for jet in &jets {
-            check_finite("constants", &[jet.value, jet.rate, jet.second_rate])?;
-        }
+        check_jets(&jets)?;
         Ok(jets)
     }
 
@@ -76,7 +74,7 @@ impl<H: SectorHistory> MovingSector<H> {
         let [b, c, d, e] = self.jets(t)?;
         let terms =
             [b.value * c.second_rate, -(c.value * b.second_rate), -(e.value * d.second_rate), d.value * e.second_rate];
-        Ok(terms.into_iter().fold(Residual::zero(), Residual::plus))
+        Ok(sum(&terms))
     }
 
     /// k = B Ċ − C Ḃ − (E Ḋ − D Ė), m²/(rad s): constant in time where the acceleration always has a potential, W(25.36).

@@ -1,10 +1,9 @@
 //! Family 5 in motion: a sector sheared azimuthally.
 
-use piola_fields::Residual;
 use piola_numerics::{Jet, Real};
 
 use super::MovingFamily;
-use super::moving::{NamedCondition, all_hold, check_conditions};
+use super::moving::{NamedCondition, all_hold, check_conditions, check_jets, sum};
 use crate::SolutionsError;
 use crate::error::{check_bound, check_finite};
 use crate::families::AzimuthalShearing;
@@ -23,7 +22,7 @@ pub trait ShearHistory {
 ///
 /// ```text
 /// r = A R      θ = B ln R + C Θ      z = D Z      D = 1/(A² C)
-/// potential  ⇔  Ċ (C Ḃ − B Ċ) = 0,   [A² (C Ḃ − B Ċ)]˙ = 0,   [A² C Ċ]˙ = 0
+/// potential  ⇔  Ċ (C Ḃ − B Ċ) = 0,   [A² (C Ḃ − B Ċ)]˙ = 0,   (A² C Ċ)˙ = 0
 ///            ⇔  C and A² Ḃ are constant, or B/C and A² C Ċ are
 /// ζ = −½ α r² + ½ b² r² (l² − l + ½) + ½ c² r² θ² − ½ δ z²
 /// α = Ä/A      b = Ḃ − B Ċ/C      c = Ċ/C      δ = D̈/D      l = ln(r/A)
@@ -70,9 +69,7 @@ impl<H: ShearHistory> MovingShear<H> {
     fn jets(&self, t: f64) -> Result<[Jet<f64, 0>; 3], SolutionsError> {
         check_finite("t", &[t])?;
         let jets = self.history.constants(Jet::<f64, 0>::time(t));
-        for jet in &jets {
-            check_finite("constants", &[jet.value, jet.rate, jet.second_rate])?;
-        }
+        check_jets(&jets)?;
         let [a, _, c] = jets;
         check_bound("A", a.value, "0 < A", 0.0 < a.value)?;
         check_bound("C", c.value, "C ≠ 0", 0.0 < c.value.abs())?;
@@ -85,13 +82,12 @@ impl<H: ShearHistory> MovingShear<H> {
     /// |---|---|
     /// | `Ċ (C Ḃ − B Ċ) = 0` | rad/s² |
     /// | `[A² (C Ḃ − B Ċ)]˙ = 0` | rad/s² |
-    /// | `[A² C Ċ]˙ = 0` | 1/s² |
+    /// | `(A² C Ċ)˙ = 0` | 1/s² |
     ///
     /// # Errors
     /// [`SolutionsError::NotFinite`]; [`SolutionsError::OutOfBounds`] unless 0 < A and C ≠ 0.
     pub fn potential_conditions(&self, t: f64) -> Result<[NamedCondition; 3], SolutionsError> {
         let [a, b, c] = self.jets(t)?;
-        let sum = |terms: &[f64]| terms.iter().copied().fold(Residual::zero(), Residual::plus);
         let (square, growth) = (a.value * a.value, 2.0 * a.value * a.rate);
         let (forth, back) = (c.value * b.rate, -(b.value * c.rate));
         let shear =
@@ -100,7 +96,7 @@ impl<H: ShearHistory> MovingShear<H> {
         Ok([
             ("Ċ (C Ḃ − B Ċ) = 0", sum(&[c.rate * forth, c.rate * back])),
             ("[A² (C Ḃ − B Ċ)]˙ = 0", sum(&shear)),
-            ("[A² C Ċ]˙ = 0", sum(&turn)),
+            ("(A² C Ċ)˙ = 0", sum(&turn)),
         ])
     }
 

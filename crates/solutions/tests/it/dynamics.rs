@@ -39,8 +39,8 @@ impl SectorHistory for Polynomials {
 }
 
 impl TubeHistory for Polynomials {
-    fn constants<T: Real>(&self, t: T) -> [T; 2] {
-        [self.at(0, t), self.at(1, t)]
+    fn constants<T: Real>(&self, t: T) -> [T; 5] {
+        core::array::from_fn(|i| self.at(i, t))
     }
 }
 
@@ -87,6 +87,21 @@ impl BlockHistory for BlockWithPotential {
         let w = T::lit(start) + T::lit(growth) * w;
         let size = (a * b).recip();
         [b, c * b, w * size, (T::lit(1.0) + c * w) * size]
+    }
+}
+
+/// Family 3 with the constants of the block, and any B.
+#[derive(Clone, Copy, Debug)]
+struct SectorOfTube {
+    offset: [f64; 3],
+    block: BlockWithPotential,
+}
+
+impl TubeHistory for SectorOfTube {
+    fn constants<T: Real>(&self, t: T) -> [T; 5] {
+        let [c, d, e, f] = self.block.constants(t);
+        let [start, rate, second] = self.offset.map(T::lit);
+        [start + t * (rate + t * second), c, d, e, f]
     }
 }
 
@@ -226,10 +241,11 @@ fn motions_without_a_potential_are_refused_with_the_condition_that_they_violate(
         other => panic!("{other:?}"),
     };
     let mut found = Vec::new();
-    let blocks: [&[&[f64]]; 4] = [
+    let blocks: [&[&[f64]]; 5] = [
         &[&[1.0], &[0.0, 1.0], &[], &[1.0]],
         &[&[1.0], &[0.0, 0.0, 1.0], &[], &[1.0]],
         &[&[1.0, 0.0, 1.0], &[], &[], &[1.0]],
+        &[&[], &[1.0, 0.0, 1.0], &[-1.0], &[]],
         &[&[1.0], &[], &[0.0, 0.0, 1.0], &[1.0]],
     ];
     for constants in blocks {
@@ -237,6 +253,19 @@ fn motions_without_a_potential_are_refused_with_the_condition_that_they_violate(
         assert!(!block.has_potential(0.0).expect("conditions"));
         found.push(named(block.potential([1.0, 0.5, 0.25], 0.0)));
         assert!(1e-3 < circulation(&block, [1.0, 0.4, 0.3], 0.0), "{found:?}");
+    }
+    let tubes: [&[&[f64]]; 5] = [
+        &[&[0.5], &[1.0], &[0.0, 1.0], &[], &[1.0]],
+        &[&[0.5], &[1.0], &[0.0, 0.0, 1.0], &[], &[1.0]],
+        &[&[0.5], &[1.0, 0.0, 1.0], &[], &[], &[1.0]],
+        &[&[0.5], &[], &[1.0, 0.0, 1.0], &[-1.0], &[]],
+        &[&[0.5], &[1.0], &[], &[0.0, 0.0, 1.0], &[1.0]],
+    ];
+    for constants in tubes {
+        let tube = MovingTube { history: polynomials(constants) };
+        assert!(!tube.has_potential(0.0).expect("conditions"));
+        found.push(named(tube.potential([1.0, 0.5, 0.25], 0.0)));
+        assert!(1e-3 < circulation(&tube, [1.0, 0.4, 0.3], 0.0), "{found:?}");
     }
     let sectors: [&[&[f64]]; 3] =
         [&[&[1.0], &[0.0, 1.0], &[1.0, 1.0]], &[&[1.0], &[0.0, 0.0, 1.0], &[1.0]], &[&[1.0], &[], &[1.0, 1.0]]];
@@ -249,11 +278,17 @@ fn motions_without_a_potential_are_refused_with_the_condition_that_they_violate(
     let expected = [
         "B Ċ = C Ḃ",
         "B C̈ = C B̈",
-        "[A (B Ḃ + C Ċ)]˙ = 0",
+        "(A B Ḃ)˙ = 0",
+        "(A C Ċ)˙ = 0",
         "D Ë = E D̈",
+        "C Ḋ = D Ċ",
+        "C D̈ = D C̈",
+        "(A C Ċ)˙ = 0",
+        "(A D Ḋ)˙ = 0",
+        "E F̈ = F Ë",
         "Ċ (C Ḃ − B Ċ) = 0",
         "[A² (C Ḃ − B Ċ)]˙ = 0",
-        "[A² C Ċ]˙ = 0",
+        "(A² C Ċ)˙ = 0",
     ];
     assert_eq!(found, expected);
     // The stress and the momentum are refused with the same words.
@@ -283,6 +318,10 @@ proptest! {
             let block = MovingBlock { history };
             check(block, &law, [1.0, 0.0, 0.0], [at.0, at.1, at.2], t);
             prop_assert!(circulation(&block, [at.0, at.1, at.2], t) < POTENTIAL.value());
+            // The same constants for a sector of a tube, family 3, with B that changes in any way.
+            let tube = MovingTube { history: SectorOfTube { offset: [0.5, shear[0], shear[1]], block: history } };
+            check(tube, &law, [1.0, 0.0, 0.0], [at.0, at.1, at.2], t);
+            prop_assert!(circulation(&tube, [at.0, at.1, at.2], t) < POTENTIAL.value());
         }
     }
 
@@ -340,9 +379,13 @@ proptest! {
         at in (1.0..2.0_f64, -1.0..1.0_f64, 0.4..2.0_f64), t in 0.0..1.0_f64,
     ) {
         let at = [at.0, at.1, at.2];
-        let history = || Polynomials(vec![vec![1.0, p[0], p[1], p[2]], vec![1.3, q[0], q[1], q[2]]]);
-        check(MovingTube { history: history() }, &law, [1.2, 0.0, 0.0], at, t);
-        check(MovingSphere { orientation: Orientation::Kept, history: history() }, &law, [1.2, 0.0, 1.0], at, t);
+        // A constant twist: B and F change in any way.
+        let tube = Polynomials(vec![vec![1.0, p[0], p[1], p[2]], vec![1.1], vec![q[1]], vec![], vec![1.3, q[0], q[1], q[2]]]);
+        let tube = MovingTube { history: tube };
+        check(tube.clone(), &law, [1.2, 0.0, 0.0], at, t);
+        prop_assert!(circulation(&tube, at, t) < POTENTIAL.value());
+        let sphere = Polynomials(vec![vec![1.0, p[0], p[1], p[2]]]);
+        check(MovingSphere { orientation: Orientation::Kept, history: sphere }, &law, [1.2, 0.0, 1.0], at, t);
         let wide = Polynomials(vec![vec![10.0, p[0], p[1], p[2]]]);
         check(MovingSphere { orientation: Orientation::Everted, history: wide }, &law, [1.2, 0.0, 1.0], at, t);
     }
