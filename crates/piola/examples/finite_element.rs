@@ -26,6 +26,9 @@ type Outcome<T> = Result<T, Box<dyn Error>>;
 /// Values and slopes of the shape functions of 27 nodes.
 type Shapes = [(f64, Vector3<f64>); 27];
 
+/// A body with the errors of u and T for numbers of elements along an edge.
+type Refinement<'a> = (&'a str, Vec<(usize, [f64; 2])>);
+
 /// Gauss' three points of [−1, 1].
 const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483, 5.0 / 9.0)];
@@ -307,15 +310,15 @@ impl Problem {
 }
 
 /// Errors over the number of elements along an edge, on logarithmic axes: of each body one line for u and one for T.
-fn picture(bodies: &[(&str, Vec<(usize, [f64; 2])>)]) -> Result<String, std::fmt::Error> {
+fn picture(bodies: &[Refinement<'_>]) -> Result<String, std::fmt::Error> {
     let place = |n: f64, error: f64| (90.0 + 130.0 * n.log2(), 40.0 - 65.0 * error.log10());
     let mut svg = String::from(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 780 500\" font-family=\"sans-serif\" font-size=\"14\" fill=\"#222222\">\n\
          <rect width=\"780\" height=\"500\" fill=\"white\"/>\n",
     );
     let line = |svg: &mut String, points: &[(f64, f64)], style: &str| {
-        let path: String = points.iter().map(|(x, y)| format!("{x:.1},{y:.1} ")).collect();
-        writeln!(svg, "<polyline points=\"{}\" fill=\"none\" {style}/>", path.trim_end())
+        let path: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
+        writeln!(svg, "<polyline points=\"{}\" fill=\"none\" {style}/>", path.join(" "))
     };
     for decade in -6..=0 {
         let (left, y) = place(1.0, 10.0_f64.powi(decade));

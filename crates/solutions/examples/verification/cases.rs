@@ -63,7 +63,7 @@ pub(crate) fn about_law(name: &str) -> (&'static str, &'static [(&'static str, f
     }
 }
 
-fn visit<L: ResponseFunctions>(law: &L, visitor: &mut impl Visitor) -> Result<(), Box<dyn Error>> {
+fn visit_homogeneous<L: ResponseFunctions>(law: &L, visitor: &mut impl Visitor) -> Result<(), Box<dyn Error>> {
     let gradient = Matrix3::new(1.25, 0.3, 0.1, 0.0, 0.8, -0.2, 0.0, 0.0, 1.0);
     let family = IsochoricDeformation::new(gradient, [0.0; 3])?;
     let forces = FaceForces::of_block(&family, law, &Block::new(1.0, 1.0, 1.0)?, 0.0)?.forces;
@@ -82,7 +82,11 @@ fn visit<L: ResponseFunctions>(law: &L, visitor: &mut impl Visitor) -> Result<()
             ("force_z_on_Q3_upper_N", forces[2][2]),
             ("shear_force_x_on_Q2_upper_N", forces[1][0]),
         ],
-    })?;
+    })
+}
+
+fn visit<L: ResponseFunctions>(law: &L, visitor: &mut impl Visitor) -> Result<(), Box<dyn Error>> {
+    visit_homogeneous(law, visitor)?;
 
     let bent = Bending { block: Block::new(0.1, 0.4, 0.2)?, law, axial_stretch: 1.1 }.state(1.2)?;
     visitor.visit(&Case {

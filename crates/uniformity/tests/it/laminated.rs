@@ -293,6 +293,9 @@ fn stored(law: &impl Isochoric, strain: &Symmetric) -> f64 {
     law.energy(strain.trace() - 3.0, strain.inverse().expect("B⁻¹").trace() - 3.0)
 }
 
+/// A state of origin and matrix.
+type Make<'a> = Box<dyn Fn(f64, [[f64; 2]; 2]) -> Result<SheetState<&'a Layers>, UniformityError> + 'a>;
+
 #[test]
 fn loads_of_laminated_bodies_equal_derivatives_of_their_energy() {
     let law = MooneyRivlin::new(0.5, 0.25).expect("moduli");
@@ -301,8 +304,6 @@ fn loads_of_laminated_bodies_equal_derivatives_of_their_energy() {
         LaminatedPlate::new(Layers, [1.0, 2.0]).expect("a plate"),
         LaminatedTube::new(Layers, [1.0, 2.0]).expect("a tube"),
     );
-    type State<'a> = SheetState<&'a Layers>;
-    type Make<'a> = Box<dyn Fn(f64, [[f64; 2]; 2]) -> Result<State<'a>, UniformityError> + 'a>;
     let (flat, everted) = ([[0.9, 0.2], [-0.1, 1.2]], [[0.9, 0.2], [0.1, -1.2]]);
     let states: [(Make<'_>, f64, [[f64; 2]; 2], bool); 5] = [
         (Box::new(|x, q| plate.flat(x, q)), 0.5, flat, false),
