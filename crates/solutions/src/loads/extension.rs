@@ -59,9 +59,9 @@ impl FaceForces {
 /// What the faces Z = constant of a block do while it is pulled along Y.
 ///
 /// # Example
-/// See [`Extension`].
+/// See [`BlockExtension`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sides {
+pub enum BlockSides {
     /// They are free: `λ_z` = λ^(−½), simple extension.
     Free,
     /// They are held at their distance: `λ_z` = 1, planar extension.
@@ -82,9 +82,9 @@ pub enum Sides {
 /// ```
 /// use piola_solids::isochoric::NeoHookean;
 /// use piola_solutions::LoadCurve;
-/// use piola_solutions::loads::{Block, Extension, Sides};
+/// use piola_solutions::loads::{Block, BlockExtension, BlockSides};
 /// let law = NeoHookean::new(4.0)?;
-/// let pulled = Extension { block: Block::new(0.5, 2.0, 1.0)?, law: &law, sides: Sides::Free };
+/// let pulled = BlockExtension { block: Block::new(0.5, 2.0, 1.0)?, law: &law, sides: BlockSides::Free };
 /// assert_eq!(pulled.point(2.0)?.load, 3.5); // 2 (2 − ¼)
 /// let states = pulled.states_at(3.5, (0.5, 4.0))?;
 /// assert!(states.len() == 1 && (states[0].parameter - 2.0).abs() < 1e-14);
@@ -95,19 +95,19 @@ pub enum Sides {
 /// W §25, family 0; R. S. Rivlin, Phil. Trans. R. Soc. A 240 (1948) 459.
 #[doc(alias("uniaxial", "biaxial", "pure shear", "dead load"))]
 #[derive(Clone, Copy, Debug)]
-pub struct Extension<'a, L> {
+pub struct BlockExtension<'a, L> {
     /// The block, pulled along its length.
     pub block: Block,
     /// The law.
     pub law: &'a L,
     /// What the faces Z = constant do.
-    pub sides: Sides,
+    pub sides: BlockSides,
 }
 
 /// A block that is pulled.
 ///
 /// # Example
-/// See [`Extension`].
+/// See [`BlockExtension`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExtendedBlock {
     /// The deformation.
@@ -120,12 +120,12 @@ pub struct ExtendedBlock {
     pub side_force: f64,
 }
 
-impl<L: ResponseFunctions> Extension<'_, L> {
+impl<L: ResponseFunctions> BlockExtension<'_, L> {
     fn stretches<T: Real>(&self, stretch: T) -> [T; 3] {
         let across = match self.sides {
-            Sides::Free => stretch.sqrt().recip(),
-            Sides::Held => T::one(),
-            Sides::Pulled => stretch,
+            BlockSides::Free => stretch.sqrt().recip(),
+            BlockSides::Held => T::one(),
+            BlockSides::Pulled => stretch,
         };
         [(stretch * across).recip(), stretch, across]
     }
@@ -137,8 +137,8 @@ impl<L: ResponseFunctions> Extension<'_, L> {
         let [xx, yy, zz, ..] = local.checked_stress(self.law)?.components;
         let area = |extent: f64| T::lit(self.block.thickness() * extent);
         let side = match self.sides {
-            Sides::Free => zero,
-            Sides::Held | Sides::Pulled => (zz - xx) / z * area(self.block.length()),
+            BlockSides::Free => zero,
+            BlockSides::Held | BlockSides::Pulled => (zz - xx) / z * area(self.block.length()),
         };
         Ok([(yy - xx) / y * area(self.block.height()), side])
     }
@@ -157,7 +157,7 @@ impl<L: ResponseFunctions> Extension<'_, L> {
     }
 }
 
-impl<L: ResponseFunctions> LoadCurve for Extension<'_, L> {
+impl<L: ResponseFunctions> LoadCurve for BlockExtension<'_, L> {
     const LOAD: &'static str = "force";
     const PARAMETER: &'static str = "stretch";
 

@@ -2,7 +2,7 @@
 //!
 //! | experiment | type | load over parameter |
 //! |---|---|---|
-//! | a block is pulled, its sides free, held or pulled | [`Extension`] | force over stretch |
+//! | a block is pulled, its sides free, held or pulled | [`BlockExtension`] | force over stretch |
 //! | a spherical shell is inflated, or turned inside out | [`SphereInflation`] | pressure over the stretch of the inner face |
 //! | a tube is inflated, its ends held, pulled or closed | [`TubeInflation`] | pressure over the stretch of the inner face |
 //! | a cylinder is twisted, its ends held or pulled | [`Torsion`] | torque over twist |
@@ -36,7 +36,7 @@ pub use azimuthal::{AzimuthalShear, ShearLoads};
 pub use bending::{Bending, BentBlock};
 pub use bodies::{Block, Ends, Sector, Shell, Tube};
 pub use everted::{EvertedTube, everted_tube};
-pub use extension::{ExtendedBlock, Extension, FaceForces, Sides};
+pub use extension::{BlockExtension, BlockSides, ExtendedBlock, FaceForces};
 pub use resultants::SectorLoads;
 pub use sphere::SphereInflation;
 pub use straightening::{BlockLoads, Straightening};

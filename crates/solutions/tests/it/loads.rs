@@ -10,8 +10,8 @@ use piola_solutions::families::{
     TubeDeformation,
 };
 use piola_solutions::loads::{
-    AzimuthalShear, Bending, Block, BlockLoads, Ends, Extension, FaceForces, Sector, SectorLoads, ShearLoads, Shell,
-    Sides, SphereInflation, Straightening, Torsion, Tube, TubeInflation, everted_tube, torsion_under,
+    AzimuthalShear, Bending, Block, BlockExtension, BlockLoads, BlockSides, Ends, FaceForces, Sector, SectorLoads,
+    ShearLoads, Shell, SphereInflation, Straightening, Torsion, Tube, TubeInflation, everted_tube, torsion_under,
 };
 use piola_solutions::{LoadCurve, LocalDeformation, ResponseFunctions, SolutionsError};
 use piola_testkit::golden::{load, number, text};
@@ -211,8 +211,8 @@ proptest! {
             let varied = [0, 1, 2].map(|k: usize| [0, 1, 2].map(|a: usize| Dual { value: f[(k, a)], tangent: moved[(k, a)] }));
             assert_close_at_scale("dE", &[work], &[energy(&law, varied).tangent * volume], scale, QUADRATURE);
         }
-        for sides in [Sides::Free, Sides::Held, Sides::Pulled] {
-            let curve = Extension { block, law: &law, sides };
+        for sides in [BlockSides::Free, BlockSides::Held, BlockSides::Pulled] {
+            let curve = BlockExtension { block, law: &law, sides };
             let state = curve.state(x).expect("state");
             let [_, on_y, on_z] = FaceForces::of_block(&state.deformation, &law, &block, 0.0).expect("loads").forces;
             let size = state.force.abs() + state.side_force.abs() + volume / extents[0];
@@ -220,9 +220,9 @@ proptest! {
             assert_close_at_scale("forces", &found, &[on_y[1], on_y[1], on_z[2]], size, QUADRATURE);
             let (one, zero, y) = (Dual::constant(1.0), Dual::constant(0.0), Dual::variable(x));
             let z = match sides {
-                Sides::Free => y.sqrt().recip(),
-                Sides::Held => one,
-                Sides::Pulled => y,
+                BlockSides::Free => y.sqrt().recip(),
+                BlockSides::Held => one,
+                BlockSides::Pulled => y,
             };
             let stored = energy(&law, [[(y * z).recip(), zero, zero], [zero, y, zero], [zero, zero, z]]);
             // dE = N L_y dλ + N_z L_z dλ_z.
@@ -414,8 +414,8 @@ proptest! {
         check_slope(&Bending { block: Block::new(1.0, 2.0, 0.5).expect("block"), law: &law, axial_stretch: 1.1 }, x);
         let sector = Sector::new([1.0, 2.0], [0.0, 1.0]).expect("sector");
         check_slope(&Straightening { sector, law: &law, axial_stretch: 1.1 }, x);
-        for sides in [Sides::Free, Sides::Held, Sides::Pulled] {
-            check_slope(&Extension { block: Block::new(1.0, 2.0, 0.5).expect("block"), law: &law, sides }, x);
+        for sides in [BlockSides::Free, BlockSides::Held, BlockSides::Pulled] {
+            check_slope(&BlockExtension { block: Block::new(1.0, 2.0, 0.5).expect("block"), law: &law, sides }, x);
         }
         check_slope(&AzimuthalShear { law: &law, radial_stretch: 1.1, angular_stretch: 0.9 }, x);
     }
@@ -522,8 +522,8 @@ fn loads_beyond_a_limit_point_are_refused_with_the_limit_by_every_curve() {
         check_limit(&TubeInflation { tube, law: &law, ends }, (1.0, 4.0));
         check_limit(&Torsion { tube: Tube::solid(1.0).expect("rod"), law: &law, ends }, (0.0, 5.0));
     }
-    for sides in [Sides::Free, Sides::Held, Sides::Pulled] {
-        check_limit(&Extension { block: Block::new(1.0, 1.0, 1.0).expect("block"), law: &law, sides }, (1.0, 4.0));
+    for sides in [BlockSides::Free, BlockSides::Held, BlockSides::Pulled] {
+        check_limit(&BlockExtension { block: Block::new(1.0, 1.0, 1.0).expect("block"), law: &law, sides }, (1.0, 4.0));
     }
     check_limit(&AzimuthalShear { law: &law, radial_stretch: 1.0, angular_stretch: 1.0 }, (0.0, 4.0));
     check_limit(
