@@ -5,10 +5,12 @@
 //! ```text
 //! ∫ (P_law − p Cof F) : ∇δu dV = ∫ t·δu dA        ∫ δp (J − 1) dV = 0
 //! ```
-//! `cargo run --release -p piola --example finite_element --features batch,solutions -- 8` refines to 8³ elements.
+//! `cargo run --release -p piola --example finite_element --features batch,solutions -- 8` refines to 8³ elements; with the name of a
+//! file behind it, it draws the errors there as SVG.
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;
+use std::fmt::Write;
 use std::time::Instant;
 
 use faer::prelude::Solve;
@@ -23,6 +25,9 @@ use piola::solutions::families::{Datum, Family, FromCartesian, TubeDeformation};
 type Outcome<T> = Result<T, Box<dyn Error>>;
 /// Values and slopes of the shape functions of 27 nodes.
 type Shapes = [(f64, Vector3<f64>); 27];
+
+/// A body with the errors of u and T for numbers of elements along an edge.
+type Refinement<'a> = (&'a str, Vec<(usize, [f64; 2])>);
 
 /// Gauss' three points of [−1, 1].
 const GAUSS: [(f64, f64); 3] =
@@ -304,6 +309,55 @@ impl Problem {
     }
 }
 
+/// Errors over the number of elements along an edge, on logarithmic axes: of each body one line for u and one for T.
+fn picture(bodies: &[Refinement<'_>]) -> Result<String, std::fmt::Error> {
+    let place = |n: f64, error: f64| (90.0 + 130.0 * n.log2(), 40.0 - 65.0 * error.log10());
+    let mut svg = String::from(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 780 500\" font-family=\"sans-serif\" font-size=\"14\" fill=\"#222222\">\n\
+         <rect width=\"780\" height=\"500\" fill=\"white\"/>\n",
+    );
+    let line = |svg: &mut String, points: &[(f64, f64)], style: &str| {
+        let path: Vec<String> = points.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
+        writeln!(svg, "<polyline points=\"{}\" fill=\"none\" {style}/>", path.join(" "))
+    };
+    for decade in -6..=0 {
+        let (left, y) = place(1.0, 10.0_f64.powi(decade));
+        line(&mut svg, &[(left, y), (left + 400.0, y)], "stroke=\"#dddddd\"")?;
+        writeln!(svg, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">1e{decade}</text>", left - 8.0, y + 5.0)?;
+    }
+    for n in [1.0, 2.0, 4.0, 8.0] {
+        let (x, bottom) = place(n, 1e-6);
+        writeln!(svg, "<text x=\"{x}\" y=\"{}\" text-anchor=\"middle\">{n}³</text>", bottom + 22.0)?;
+    }
+    svg += "<text x=\"285\" y=\"480\" text-anchor=\"middle\">elements</text>\n\
+            <text x=\"90\" y=\"24\">error in the mean, relative to the size of u or T</text>\n";
+    for (order, start) in [(3, 8e-4), (2, 6e-2)] {
+        let ends = [1.0, 8.0_f64].map(|n| place(n, start * n.powi(-order)));
+        line(&mut svg, &ends, "stroke=\"#888888\" stroke-dasharray=\"2 4\"")?;
+        writeln!(
+            svg,
+            "<text x=\"{}\" y=\"{}\" fill=\"#666666\">order {order}</text>",
+            ends[1].0 + 8.0,
+            ends[1].1 + 5.0
+        )?;
+    }
+    for ((name, errors), (colour, row)) in bodies.iter().zip([("#0072B2", 0.0), ("#D55E00", 50.0)]) {
+        for (k, (what, dash, below)) in
+            [("u", "", 0.0), ("T", "stroke-dasharray=\"8 4\"", 24.0)].into_iter().enumerate()
+        {
+            let points: Vec<_> = errors.iter().map(|(n, errors)| place(*n as f64, errors[k])).collect();
+            let (style, y) = (format!("stroke=\"{colour}\" stroke-width=\"2\" {dash}"), 60.0 + row + below);
+            line(&mut svg, &points, &style)?;
+            for (x, y) in points {
+                writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{colour}\"/>")?;
+            }
+            line(&mut svg, &[(510.0, y - 5.0), (540.0, y - 5.0)], &style)?;
+            writeln!(svg, "<text x=\"548\" y=\"{y}\">{what}, {name}</text>")?;
+        }
+    }
+    Ok(svg + "</svg>\n")
+}
+
 fn main() -> Outcome<()> {
     let finest = std::env::args().nth(1).and_then(|n| n.parse().ok()).unwrap_or(2);
     // The isochoric law of the exact solution, with any volumetric part: it has nothing to do at J = 1.
@@ -316,9 +370,9 @@ fn main() -> Outcome<()> {
     println!(
         "| body | elements | unknowns | error of u | order | error of T | order | s |\n|---|---|---|---|---|---|---|---|"
     );
-    let mut gradients = Vec::new();
+    let (mut gradients, mut bodies) = (Vec::new(), Vec::new());
     for (name, inner, twist) in [("block, twisted", 1.0, 0.6), ("segment of a tube, inflated", 1.5, 0.0)] {
-        let mut before: Option<[f64; 2]> = None;
+        let (mut before, mut rows): (Option<[f64; 2]>, _) = (None, Vec::new());
         for n in core::iter::successors(Some(1), |n| Some(2 * n)).take_while(|&n| n <= finest) {
             let clock = Instant::now();
             let mut problem = Problem::new(if twist > 0.0 { Mesh::new(n, block) } else { Mesh::new(n, segment) }, law)?;
@@ -333,8 +387,13 @@ fn main() -> Outcome<()> {
             // Order 3 of u and 2 of T, with room for coarse meshes.
             assert!(before.is_none() || (2.4 < order(0) && 1.5 < order(1)), "orders {} and {}", order(0), order(1));
             before = Some(errors);
+            rows.push((n, errors));
             gradients = problem.gradients();
         }
+        bodies.push((name, rows));
+    }
+    if let Some(file) = std::env::args().nth(2) {
+        std::fs::write(file, picture(&bodies)?)?;
     }
 
     // A million points: the same call, whatever the length. Room is made once and used in every step.

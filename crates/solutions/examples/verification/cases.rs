@@ -10,7 +10,8 @@ use piola_solutions::families::{
     AzimuthalShearing, Datum, Family, IsochoricDeformation, Orientation, SectorStraightening,
 };
 use piola_solutions::loads::{
-    Bending, Block, BlockLoads, Ends, Sector, ShearLoads, Shell, SphereInflation, Torsion, Tube, TubeInflation,
+    Bending, Block, BlockLoads, Ends, FaceForces, Sector, ShearLoads, Shell, SphereInflation, Torsion, Tube,
+    TubeInflation,
 };
 
 use super::mesh::Ranges;
@@ -62,19 +63,30 @@ pub(crate) fn about_law(name: &str) -> (&'static str, &'static [(&'static str, f
     }
 }
 
-fn visit<L: ResponseFunctions>(law: &L, visitor: &mut impl Visitor) -> Result<(), Box<dyn Error>> {
+fn visit_homogeneous<L: ResponseFunctions>(law: &L, visitor: &mut impl Visitor) -> Result<(), Box<dyn Error>> {
     let gradient = Matrix3::new(1.25, 0.3, 0.1, 0.0, 0.8, -0.2, 0.0, 0.0, 1.0);
+    let family = IsochoricDeformation::new(gradient, [0.0; 3])?;
+    let forces = FaceForces::of_block(&family, law, &Block::new(1.0, 1.0, 1.0)?, 0.0)?.forces;
     visitor.visit(&Case {
         name: "family-0-homogeneous",
         about: "a block is stretched and sheared: x = F X",
         coordinates: [CARTESIAN, CARTESIAN],
-        family: IsochoricDeformation::new(gradient, [0.0; 3])?,
+        family,
         constants: gradient.transpose().as_slice().to_vec(),
         law,
         datum: Datum::free_at([0.0; 3]),
         ranges: [[0.0, 1.0]; 3],
-        loads: Vec::new(),
-    })?;
+        loads: vec![
+            ("force_x_on_Q1_upper_N", forces[0][0]),
+            ("force_y_on_Q2_upper_N", forces[1][1]),
+            ("force_z_on_Q3_upper_N", forces[2][2]),
+            ("shear_force_x_on_Q2_upper_N", forces[1][0]),
+        ],
+    })
+}
+
+fn visit<L: ResponseFunctions>(law: &L, visitor: &mut impl Visitor) -> Result<(), Box<dyn Error>> {
+    visit_homogeneous(law, visitor)?;
 
     let bent = Bending { block: Block::new(0.1, 0.4, 0.2)?, law, axial_stretch: 1.1 }.state(1.2)?;
     visitor.visit(&Case {

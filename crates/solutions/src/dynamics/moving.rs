@@ -1,12 +1,47 @@
 //! Families whose constants depend on time.
 
 use nalgebra::Vector3;
-use piola_fields::{Coordinates, FieldsError, Motion, VectorResidual};
+use piola_fields::{Coordinates, FieldsError, Motion, Residual, VectorResidual};
 use piola_numerics::{Gradient, Jet, Real};
 
 use crate::error::{check_bound, check_finite};
 use crate::families::{Datum, Family, FromCartesian, LocalStress, at_normal_stress};
 use crate::{ResponseFunctions, SolutionsError};
+
+/// A condition on the constants, such as `B Ċ = C Ḃ`, with its left side less its right.
+pub type NamedCondition = (&'static str, Residual);
+
+/// Share of the terms of a condition that may be left by rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// A sum with the moduli of its terms.
+pub(super) fn sum(terms: &[f64]) -> Residual {
+    terms.iter().copied().fold(Residual::zero(), Residual::plus)
+}
+
+/// Refuses constants whose values or rates are not finite.
+pub(super) fn check_jets(constants: &[Jet<f64, 0>]) -> Result<(), SolutionsError> {
+    constants.iter().try_for_each(|jet| check_finite("constants", &[jet.value, jet.rate, jet.second_rate]))
+}
+
+fn holds((_, residual): &NamedCondition) -> bool {
+    residual.relative() <= ROUNDING
+}
+
+/// Whether all conditions hold to the rounding of their terms.
+pub(super) fn all_hold(conditions: &[NamedCondition]) -> bool {
+    conditions.iter().all(holds)
+}
+
+/// Refuses a motion at a time by the first condition that it violates.
+pub(super) fn check_conditions(conditions: &[NamedCondition], t: f64) -> Result<(), SolutionsError> {
+    match conditions.iter().find(|condition| !holds(condition)) {
+        None => Ok(()),
+        Some(&(condition, Residual { value: residual, scale })) => {
+            Err(SolutionsError::NoPotential { condition, residual, scale, t })
+        }
+    }
+}
 
 /// A family of universal deformations whose constants depend on time.
 ///

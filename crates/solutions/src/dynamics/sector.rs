@@ -4,6 +4,7 @@ use piola_fields::Residual;
 use piola_numerics::{Jet, Real};
 
 use super::MovingFamily;
+use super::moving::{NamedCondition, all_hold, check_conditions, check_jets, sum};
 use crate::SolutionsError;
 use crate::error::check_finite;
 use crate::families::SectorStraightening;
@@ -57,16 +58,11 @@ pub struct MovingSector<H> {
     pub history: H,
 }
 
-/// Share of the terms of W(25.35) that may be left by rounding.
-const ROUNDING: f64 = 1e-12;
-
 impl<H: SectorHistory> MovingSector<H> {
     fn jets(&self, t: f64) -> Result<[Jet<f64, 0>; 4], SolutionsError> {
         check_finite("t", &[t])?;
         let jets = self.history.constants(Jet::<f64, 0>::time(t));
-        for jet in &jets {
-            check_finite("constants", &[jet.value, jet.rate, jet.second_rate])?;
-        }
+        check_jets(&jets)?;
         Ok(jets)
     }
 
@@ -78,7 +74,7 @@ impl<H: SectorHistory> MovingSector<H> {
         let [b, c, d, e] = self.jets(t)?;
         let terms =
             [b.value * c.second_rate, -(c.value * b.second_rate), -(e.value * d.second_rate), d.value * e.second_rate];
-        Ok(terms.into_iter().fold(Residual::zero(), Residual::plus))
+        Ok(sum(&terms))
     }
 
     /// k = B Ċ − C Ḃ − (E Ḋ − D Ė), m²/(rad s): constant in time where the acceleration always has a potential, W(25.36).
@@ -95,7 +91,11 @@ impl<H: SectorHistory> MovingSector<H> {
     /// # Errors
     /// [`SolutionsError::NotFinite`].
     pub fn has_potential(&self, t: f64) -> Result<bool, SolutionsError> {
-        Ok(self.potential_condition(t)?.relative() <= ROUNDING)
+        Ok(all_hold(&[self.named_condition(t)?]))
+    }
+
+    fn named_condition(&self, t: f64) -> Result<NamedCondition, SolutionsError> {
+        Ok(("B C̈ − C B̈ = E D̈ − D Ë", self.potential_condition(t)?))
     }
 
     /// grad a = diag(Ä/A, M̈ M⁻¹), 1/s², by rows.
@@ -131,12 +131,7 @@ impl<H: SectorHistory> MovingFamily for MovingSector<H> {
     }
 
     fn potential<T: Real>(&self, [x, y, z]: [T; 3], t: f64) -> Result<T, SolutionsError> {
-        let condition = self.potential_condition(t)?;
-        if ROUNDING < condition.relative() {
-            let (residual, scale) = (condition.value, condition.scale);
-            let condition = "B C̈ − C B̈ = E D̈ − D Ë";
-            return Err(SolutionsError::NoPotential { condition, residual, scale, t });
-        }
+        check_conditions(&[self.named_condition(t)?], t)?;
         let g = self.acceleration_gradient(t)?.map(|row| row.map(T::lit));
         let across = T::lit(0.5) * (g[1][2] + g[2][1]);
         let square = g[0][0] * x * x + g[1][1] * y * y + g[2][2] * z * z;

@@ -2,6 +2,7 @@
 //!
 //! | experiment | type | load over parameter |
 //! |---|---|---|
+//! | a block is pulled, its sides free, held or pulled | [`BlockExtension`] | force over stretch |
 //! | a spherical shell is inflated, or turned inside out | [`SphereInflation`] | pressure over the stretch of the inner face |
 //! | a tube is inflated, its ends held, pulled or closed | [`TubeInflation`] | pressure over the stretch of the inner face |
 //! | a cylinder is twisted, its ends held or pulled | [`Torsion`] | torque over twist |
@@ -11,7 +12,7 @@
 //! | a tube is turned inside out, all faces free | [`everted_tube`] | |
 //!
 //! Each but the last is a [`LoadCurve`](crate::LoadCurve): it has limit points, and all states under a load. Loads on the
-//! faces of a single state come from [`SectorLoads::of_bending`], [`SectorLoads::of_tube`], [`BlockLoads`] and
+//! faces of a single state come from [`FaceForces`], [`SectorLoads::of_bending`], [`SectorLoads::of_tube`], [`BlockLoads`] and
 //! [`ShearLoads`].
 //!
 //! ```text
@@ -24,6 +25,7 @@ mod azimuthal;
 mod bending;
 mod bodies;
 mod everted;
+mod extension;
 mod resultants;
 mod sphere;
 mod straightening;
@@ -34,6 +36,7 @@ pub use azimuthal::{AzimuthalShear, ShearLoads};
 pub use bending::{Bending, BentBlock};
 pub use bodies::{Block, Ends, Sector, Shell, Tube};
 pub use everted::{EvertedTube, everted_tube};
+pub use extension::{BlockExtension, BlockSides, ExtendedBlock, FaceForces};
 pub use resultants::SectorLoads;
 pub use sphere::SphereInflation;
 pub use straightening::{BlockLoads, Straightening};

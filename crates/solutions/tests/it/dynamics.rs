@@ -1,11 +1,14 @@
 //! Motions with an acceleration potential.
 
+use core::f64::consts::TAU;
+
 use nalgebra::Vector3;
 use piola_fields::{Coordinates, Motion};
 use piola_numerics::{Gradient, Real};
 use piola_solids::isochoric::{Gent, MooneyRivlin};
 use piola_solutions::dynamics::{
-    AsMovingMotion, MovingFamily, MovingSector, MovingSphere, MovingTube, SectorHistory, SphereHistory, TubeHistory,
+    AsMovingMotion, BlockHistory, MovingBlock, MovingFamily, MovingSector, MovingShear, MovingSphere, MovingTube,
+    SectorHistory, ShearHistory, SphereHistory, TubeHistory,
 };
 use piola_solutions::families::{Datum, Family, Orientation};
 use piola_solutions::{ResponseFunctions, SolutionsError};
@@ -36,14 +39,94 @@ impl SectorHistory for Polynomials {
 }
 
 impl TubeHistory for Polynomials {
-    fn constants<T: Real>(&self, t: T) -> [T; 2] {
-        [self.at(0, t), self.at(1, t)]
+    fn constants<T: Real>(&self, t: T) -> [T; 5] {
+        core::array::from_fn(|i| self.at(i, t))
     }
 }
 
 impl SphereHistory for Polynomials {
     fn constant<T: Real>(&self, t: T) -> T {
         self.at(0, t)
+    }
+}
+
+impl BlockHistory for Polynomials {
+    fn constants<T: Real>(&self, t: T) -> [T; 4] {
+        core::array::from_fn(|i| self.at(i, t))
+    }
+}
+
+impl ShearHistory for Polynomials {
+    fn constants<T: Real>(&self, t: T) -> [T; 3] {
+        core::array::from_fn(|i| self.at(i, t))
+    }
+}
+
+/// Family 1 with C = c B, D = w/(A B), E = (1 + c w)/(A B): A B Ḃ = k and ẇ/(A B)² are constant.
+#[derive(Clone, Copy, Debug)]
+struct BlockWithPotential {
+    a: f64,
+    b: f64,
+    ratio: f64,
+    rate: f64,
+    shear: [f64; 2],
+    /// B = b exp(k t), A = a exp(−2 k t); otherwise B² = b² + 2 k t, A = a.
+    is_exponential: bool,
+}
+
+impl BlockHistory for BlockWithPotential {
+    fn constants<T: Real>(&self, t: T) -> [T; 4] {
+        let &Self { a, b, ratio, rate, shear: [start, growth], .. } = self;
+        let (a, b, k, c) = (T::lit(a), T::lit(b), T::lit(rate), T::lit(ratio));
+        let (a, b, w) = if self.is_exponential {
+            let fall = (T::lit(-2.0) * k * t).exp();
+            (a * fall, b * (k * t).exp(), fall)
+        } else {
+            (a, (b * b + T::lit(2.0) * k * t).sqrt(), t * (b * b + k * t))
+        };
+        let w = T::lit(start) + T::lit(growth) * w;
+        let size = (a * b).recip();
+        [b, c * b, w * size, (T::lit(1.0) + c * w) * size]
+    }
+}
+
+/// Family 3 with the constants of the block, and any B.
+#[derive(Clone, Copy, Debug)]
+struct SectorOfTube {
+    offset: [f64; 3],
+    block: BlockWithPotential,
+}
+
+impl TubeHistory for SectorOfTube {
+    fn constants<T: Real>(&self, t: T) -> [T; 5] {
+        let [c, d, e, f] = self.block.constants(t);
+        let [start, rate, second] = self.offset.map(T::lit);
+        [start + t * (rate + t * second), c, d, e, f]
+    }
+}
+
+/// Family 5 with A² = 1/(1 + p t + q t²): C and A² Ḃ are constant, or B/C and A² C Ċ.
+#[derive(Clone, Copy, Debug)]
+struct ShearWithPotential {
+    inflation: [f64; 2],
+    b: f64,
+    c: f64,
+    rate: f64,
+    turns: bool,
+}
+
+impl ShearHistory for ShearWithPotential {
+    fn constants<T: Real>(&self, t: T) -> [T; 3] {
+        let ([p, q], b, c) = (self.inflation.map(T::lit), T::lit(self.b), T::lit(self.c));
+        let a = (T::lit(1.0) + p * t + q * t * t).sqrt().recip();
+        // ∫ dt/A²
+        let grown = T::lit(self.rate) * t * (T::lit(1.0) + t * (p / T::lit(2.0) + q * t / T::lit(3.0)));
+        if self.turns {
+            let c = (c * c + T::lit(2.0) * grown).sqrt();
+            [a, b * c, c]
+        } else {
+            [a, b + grown, c]
+        }
     }
 }
 
@@ -118,7 +201,162 @@ fn check<M: MovingFamily>(motion: M, law: &impl ResponseFunctions, datum: [f64; 
     assert_close_at_scale("a of the motion", &physical, &acceleration, scale, POTENTIAL);
 }
 
+/// The largest circulation of the acceleration, ∮ a·dx, around three circles of particles, beside ∮ |a·dx|: zero exactly where
+/// the acceleration has a potential.
+fn circulation<M: MovingFamily>(motion: &M, centre: [f64; 3], t: f64) -> f64 {
+    const POINTS: u32 = 64;
+    let system = <M::Family as Family>::Current::default();
+    let mut largest = 0.0_f64;
+    for normal in 0..3 {
+        let (mut sum, mut size) = (0.0, 0.0);
+        for point in 0..POINTS {
+            let angle = Gradient::<f64, 1>::variable(TAU * f64::from(point) / f64::from(POINTS), 0);
+            let mut particle = centre.map(Gradient::constant);
+            particle[(normal + 1) % 3] += angle.cos() * Gradient::constant(0.2);
+            particle[(normal + 2) % 3] += angle.sin() * Gradient::constant(0.2);
+            let place = motion.place(particle, Gradient::constant(t));
+            let acceleration = motion.acceleration(particle.map(|x| x.value), t).expect("a");
+            let lengths = system.scale_factors(&Vector3::from(place.map(|q| q.value))).expect("scale factors");
+            for i in 0..3 {
+                let term = acceleration[i] * lengths[i] * place[i].partials[0];
+                sum += term;
+                size += term.abs();
+            }
+        }
+        if 0.0 < size {
+            largest = largest.max(sum.abs() / size);
+        }
+    }
+    largest
+}
+
+#[test]
+fn motions_without_a_potential_are_refused_with_the_condition_that_they_violate() {
+    let polynomials = |constants: &[&[f64]]| Polynomials(constants.iter().map(|c| c.to_vec()).collect());
+    let named = |result: Result<f64, SolutionsError>| match result {
+        Err(SolutionsError::NoPotential { condition, residual, scale, t }) => {
+            assert!(0.0 < residual.abs() && residual.abs() <= scale && t.abs() <= 0.0);
+            condition
+        }
+        other => panic!("{other:?}"),
+    };
+    let mut found = Vec::new();
+    let blocks: [&[&[f64]]; 5] = [
+        &[&[1.0], &[0.0, 1.0], &[], &[1.0]],
+        &[&[1.0], &[0.0, 0.0, 1.0], &[], &[1.0]],
+        &[&[1.0, 0.0, 1.0], &[], &[], &[1.0]],
+        &[&[], &[1.0, 0.0, 1.0], &[-1.0], &[]],
+        &[&[1.0], &[], &[0.0, 0.0, 1.0], &[1.0]],
+    ];
+    for constants in blocks {
+        let block = MovingBlock { history: polynomials(constants) };
+        assert!(!block.has_potential(0.0).expect("conditions"));
+        found.push(named(block.potential([1.0, 0.5, 0.25], 0.0)));
+        assert!(1e-3 < circulation(&block, [1.0, 0.4, 0.3], 0.0), "{found:?}");
+    }
+    let tubes: [&[&[f64]]; 5] = [
+        &[&[0.5], &[1.0], &[0.0, 1.0], &[], &[1.0]],
+        &[&[0.5], &[1.0], &[0.0, 0.0, 1.0], &[], &[1.0]],
+        &[&[0.5], &[1.0, 0.0, 1.0], &[], &[], &[1.0]],
+        &[&[0.5], &[], &[1.0, 0.0, 1.0], &[-1.0], &[]],
+        &[&[0.5], &[1.0], &[], &[0.0, 0.0, 1.0], &[1.0]],
+    ];
+    for constants in tubes {
+        let tube = MovingTube { history: polynomials(constants) };
+        assert!(!tube.has_potential(0.0).expect("conditions"));
+        found.push(named(tube.potential([1.0, 0.5, 0.25], 0.0)));
+        assert!(1e-3 < circulation(&tube, [1.0, 0.4, 0.3], 0.0), "{found:?}");
+    }
+    let sectors: [&[&[f64]]; 3] =
+        [&[&[1.0], &[0.0, 1.0], &[1.0, 1.0]], &[&[1.0], &[0.0, 0.0, 1.0], &[1.0]], &[&[1.0], &[], &[1.0, 1.0]]];
+    for constants in sectors {
+        let sector = MovingShear { history: polynomials(constants) };
+        assert!(!sector.has_potential(0.0).expect("conditions"));
+        found.push(named(sector.potential([1.0, 0.5, 0.25], 0.0)));
+        assert!(1e-3 < circulation(&sector, [1.0, 0.4, 0.3], 0.0), "{found:?}");
+    }
+    let expected = [
+        "B Ċ = C Ḃ",
+        "B C̈ = C B̈",
+        "(A B Ḃ)˙ = 0",
+        "(A C Ċ)˙ = 0",
+        "D Ë = E D̈",
+        "C Ḋ = D Ċ",
+        "C D̈ = D C̈",
+        "(A C Ċ)˙ = 0",
+        "(A D Ḋ)˙ = 0",
+        "E F̈ = F Ë",
+        "Ċ (C Ḃ − B Ċ) = 0",
+        "[A² (C Ḃ − B Ċ)]˙ = 0",
+        "(A² C Ċ)˙ = 0",
+    ];
+    assert_eq!(found, expected);
+    // The stress and the momentum are refused with the same words.
+    let law = MooneyRivlin::new(0.5, 0.1).expect("law");
+    let block = MovingBlock { history: polynomials(blocks[2]) };
+    let at = [1.0, 0.5, 0.25];
+    let stress = block.stress(&law, 1.0, &Datum::free_at(at), at, 0.0).map(|stress| stress.pressure);
+    let residual = block.momentum_residual(&law, 1.0, &Datum::free_at(at), at, 0.0).map(|left| left.relative());
+    assert_eq!([named(stress), named(residual)], [expected[2]; 2]);
+    // Constants that no motion has.
+    let singular = MovingBlock { history: polynomials(&[&[1.0], &[], &[], &[]]) };
+    assert!(matches!(singular.potential(at, 0.0), Err(SolutionsError::OutOfBounds { .. })));
+    let shut = MovingShear { history: polynomials(&[&[1.0], &[], &[]]) };
+    assert!(matches!(shut.potential(at, 0.0), Err(SolutionsError::OutOfBounds { .. })));
+    assert!(matches!(shut.potential_conditions(f64::NAN), Err(SolutionsError::NotFinite { .. })));
+}
+
 proptest! {
+    #[test]
+    fn acceleration_of_a_bent_block_is_the_gradient_of_its_potential(
+        law in elastic(), a in 0.7..1.4_f64, b in 0.7..1.4_f64, ratio in -0.4..0.4_f64, rate in -0.3..0.5_f64,
+        shear in prop::array::uniform2(-0.4..0.4_f64), at in (0.5..2.0_f64, -0.8..0.8_f64, -0.8..0.8_f64),
+        t in 0.0..0.7_f64,
+    ) {
+        for is_exponential in [false, true] {
+            let history = BlockWithPotential { a, b, ratio, rate, shear, is_exponential };
+            let block = MovingBlock { history };
+            check(block, &law, [1.0, 0.0, 0.0], [at.0, at.1, at.2], t);
+            prop_assert!(circulation(&block, [at.0, at.1, at.2], t) < POTENTIAL.value());
+            // The same constants for a sector of a tube, family 3, with B that changes in any way.
+            let tube = MovingTube { history: SectorOfTube { offset: [0.5, shear[0], shear[1]], block: history } };
+            check(tube, &law, [1.0, 0.0, 0.0], [at.0, at.1, at.2], t);
+            prop_assert!(circulation(&tube, [at.0, at.1, at.2], t) < POTENTIAL.value());
+        }
+    }
+
+    #[test]
+    fn acceleration_of_a_sheared_sector_is_the_gradient_of_its_potential(
+        law in elastic(), inflation in prop::array::uniform2(-0.4..0.8_f64), b in -0.8..0.8_f64, c in 0.7..1.4_f64,
+        rate in -0.2..0.6_f64, at in (0.5..2.0_f64, -0.8..0.8_f64, -0.8..0.8_f64), t in 0.0..0.7_f64,
+    ) {
+        for turns in [false, true] {
+            let sector = MovingShear { history: ShearWithPotential { inflation, b, c, rate, turns } };
+            check(sector, &law, [1.0, 0.2, 0.0], [at.0, at.1, at.2], t);
+            prop_assert!(circulation(&sector, [at.0, at.1, at.2], t) < POTENTIAL.value());
+        }
+    }
+
+    /// Random histories violate the conditions, and the acceleration circulates.
+    #[test]
+    fn acceleration_circulates_where_a_condition_is_violated(
+        p in prop::array::uniform8(0.1..0.5_f64), q in prop::array::uniform4(0.1..0.5_f64), t in 0.0..0.5_f64,
+    ) {
+        let constants = |start: [f64; 4]| {
+            Polynomials((0..4).map(|i| vec![start[i], p[i], p[i + 4], q[i]]).collect())
+        };
+        let centre = [1.0, 0.4, 0.3];
+        let relative = |conditions: &[(&str, piola_fields::Residual)]| {
+            conditions.iter().map(|(_, residual)| residual.relative()).fold(0.0, f64::max)
+        };
+        let block = MovingBlock { history: constants([1.0, 0.2, 0.1, 2.0]) };
+        prop_assert!(1e-2 < relative(&block.potential_conditions(t).expect("conditions")));
+        prop_assert!(1e-6 < circulation(&block, centre, t));
+        let sector = MovingShear { history: constants([1.0, 0.2, 1.0, 0.0]) };
+        prop_assert!(1e-2 < relative(&sector.potential_conditions(t).expect("conditions")));
+        prop_assert!(1e-6 < circulation(&sector, centre, t));
+    }
+
     #[test]
     fn acceleration_of_a_straightened_sector_is_the_gradient_of_its_potential(
         law in elastic(), p in prop::array::uniform4(-0.3..0.3_f64), q in prop::array::uniform4(-0.3..0.3_f64),
@@ -141,9 +379,13 @@ proptest! {
         at in (1.0..2.0_f64, -1.0..1.0_f64, 0.4..2.0_f64), t in 0.0..1.0_f64,
     ) {
         let at = [at.0, at.1, at.2];
-        let history = || Polynomials(vec![vec![1.0, p[0], p[1], p[2]], vec![1.3, q[0], q[1], q[2]]]);
-        check(MovingTube { history: history() }, &law, [1.2, 0.0, 0.0], at, t);
-        check(MovingSphere { orientation: Orientation::Kept, history: history() }, &law, [1.2, 0.0, 1.0], at, t);
+        // A constant twist: B and F change in any way.
+        let tube = Polynomials(vec![vec![1.0, p[0], p[1], p[2]], vec![1.1], vec![q[1]], vec![], vec![1.3, q[0], q[1], q[2]]]);
+        let tube = MovingTube { history: tube };
+        check(tube.clone(), &law, [1.2, 0.0, 0.0], at, t);
+        prop_assert!(circulation(&tube, at, t) < POTENTIAL.value());
+        let sphere = Polynomials(vec![vec![1.0, p[0], p[1], p[2]]]);
+        check(MovingSphere { orientation: Orientation::Kept, history: sphere }, &law, [1.2, 0.0, 1.0], at, t);
         let wide = Polynomials(vec![vec![10.0, p[0], p[1], p[2]]]);
         check(MovingSphere { orientation: Orientation::Everted, history: wide }, &law, [1.2, 0.0, 1.0], at, t);
     }

@@ -32,11 +32,15 @@ pub(crate) fn rubber() -> impl Strategy<Value = Rivlin> {
 
 /// ∫ f ds by Kronrod's rule on many panels.
 pub(crate) fn integral<T: Real>(from: f64, to: f64, f: impl Fn(f64) -> T) -> T {
-    const PANELS: usize = 48;
+    integral_by(48, (from, to), f)
+}
+
+/// ∫ f ds by Kronrod's rule on so many panels.
+pub(crate) fn integral_by<T: Real>(panels: usize, (from, to): (f64, f64), f: impl Fn(f64) -> T) -> T {
     let GaussKronrod { nodes, kronrod, .. } = GaussKronrod::POINTS_21;
-    let half = 0.5 * (to - from) / PANELS as f64;
+    let half = 0.5 * (to - from) / panels as f64;
     let mut sum = T::zero();
-    for panel in 0..PANELS {
+    for panel in 0..panels {
         let middle = from + half * (2 * panel + 1) as f64;
         sum += T::lit(kronrod[nodes.len()] * half) * f(middle);
         for (node, weight) in nodes.iter().zip(kronrod) {

@@ -126,6 +126,29 @@ fn bodies_without_particles_or_size_and_changes_of_volume_are_refused() {
     assert!(matches!(incompressible(&Swell, &particles(), 0.0, 1.0), Err(SolutionsError::OutOfBounds { .. })));
 }
 
+#[test]
+fn volumes_that_differ_between_places_refute_elastic_fluids() {
+    // det F = (1 + 2 a X) (1 + 2 b Y): |Grad det F|/det F by hand.
+    let (a, b) = (0.1, 0.05);
+    let found = |places: &[Vector3<f64>]| elastic_fluid(&Uneven([a, b]), places, 0.0, 3.0).expect("residual");
+    let by_hand = |x: &Vector3<f64>| 3.0 * (2.0 * a / (1.0 + 2.0 * a * x[0])).hypot(2.0 * b / (1.0 + 2.0 * b * x[1]));
+    for place in particles() {
+        assert_close_at_scale("Grad det F", &[found(&[place])], &[by_hand(&place)], 1.0, Tol::ulps(32.0));
+    }
+    let largest = particles().iter().map(by_hand).fold(0.0, f64::max);
+    assert_close_at_scale("the largest", &[found(&particles())], &[largest], 1.0, Tol::ulps(32.0));
+}
+
+/// X + a X², Y + b Y².
+struct Uneven([f64; 2]);
+
+impl Motion for Uneven {
+    fn place<T: Real>(&self, x: &Vector3<T>, _t: T) -> Vector3<T> {
+        let [a, b] = self.0.map(T::lit);
+        Vector3::new(x[0] + a * x[0] * x[0], x[1] + b * x[1] * x[1], x[2] + x[0] * x[1])
+    }
+}
+
 /// Angles θ = Θ + 0.3 R²: no logarithm.
 struct Swirl;
 

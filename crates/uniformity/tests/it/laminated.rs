@@ -5,6 +5,7 @@ use core::f64::consts::TAU;
 use piola_integrators::{DormandPrince853, Field, State, Tolerance};
 use piola_numerics::Real;
 use piola_solids::isochoric::{Gent, Isochoric, MooneyRivlin, NeoHookean};
+use piola_tensor::Symmetric;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, difference_quotient, golden};
 use piola_uniformity::UniformityError;
 use piola_uniformity::laminated::{
@@ -270,6 +271,95 @@ fn loads_equal_integrals_of_the_stresses() {
         compared += 1;
     }
     assert_eq!(compared, 5);
+}
+
+/// ∫ f dX over both layers, by Gauss's rule of three points on 64 panels in each.
+fn through_layers(f: impl Fn(f64) -> f64) -> f64 {
+    let node = 0.6_f64.sqrt();
+    let mut sum = 0.0;
+    for low in [1.0, 1.5] {
+        let width = 0.5 / 64.0;
+        for panel in 0..64 {
+            for (x, weight) in [(-node, 5.0 / 18.0), (0.0, 8.0 / 18.0), (node, 5.0 / 18.0)] {
+                sum += weight * width * f(low + width * (f64::from(panel) + 0.5 + 0.5 * x));
+            }
+        }
+    }
+    sum
+}
+
+/// W of a strain B with det B = 1.
+fn stored(law: &impl Isochoric, strain: &Symmetric) -> f64 {
+    law.energy(strain.trace() - 3.0, strain.inverse().expect("B⁻¹").trace() - 3.0)
+}
+
+/// A state of origin and matrix.
+type Make<'a> = Box<dyn Fn(f64, [[f64; 2]; 2]) -> Result<SheetState<&'a Layers>, UniformityError> + 'a>;
+
+#[test]
+fn loads_of_laminated_bodies_equal_derivatives_of_their_energy() {
+    let law = MooneyRivlin::new(0.5, 0.25).expect("moduli");
+    let tol = Tol::stated(1e-8, "differences of the sixth order");
+    let (plate, tube) = (
+        LaminatedPlate::new(Layers, [1.0, 2.0]).expect("a plate"),
+        LaminatedTube::new(Layers, [1.0, 2.0]).expect("a tube"),
+    );
+    let (flat, everted) = ([[0.9, 0.2], [-0.1, 1.2]], [[0.9, 0.2], [0.1, -1.2]]);
+    let states: [(Make<'_>, f64, [[f64; 2]; 2], bool); 5] = [
+        (Box::new(|x, q| plate.flat(x, q)), 0.5, flat, false),
+        (Box::new(|r, q| plate.bent(r, q)), 1.0, flat, true),
+        (Box::new(|x, q| tube.straightened(x, q)), 0.5, flat, false),
+        (Box::new(|r, q| tube.inflated(r, q)), 1.1, flat, true),
+        (Box::new(|r, q| tube.inflated(r, q)), 2.5, everted, true),
+    ];
+    let volume = |depth: f64| Lamination::metric::<f64>(&Layers, depth).volume();
+    let whole = through_layers(volume);
+    let mut compared = 0;
+    for (make, origin, matrix, is_cylinder) in states {
+        // E for a unit of the two coordinates of the reference along the laminae; x = (r₀, Q).
+        let energy = |x: &[f64]| {
+            let state = make(x[0], [[x[1], x[2]], [x[3], x[4]]]).expect("a state");
+            let density = |depth: f64| stored(&law, &state.left_cauchy_green(depth).expect("B")) * volume(depth);
+            vec![through_layers(density)]
+        };
+        let at_inner = 0.25;
+        let state = make(origin, matrix).expect("a state");
+        let loads = state.loads(&law, at_inner).expect("loads");
+        let [[b, c], [d, e]] = matrix;
+        let determinant = b * e - c * d;
+        // δQ = L Q at a fixed place of the inner face: forces, moment and torque, and T₁₁ at the outer face.
+        for l in [[[1.0, 0.0], [0.0, 0.0]], [[0.0, 0.0], [0.0, 1.0]], [[0.0, 1.0], [0.0, 0.0]]] {
+            let [[l11, l12], [_, l22]] = l;
+            let change = [0.0, l11 * b + l12 * d, l11 * c + l12 * e, l22 * d, l22 * e];
+            let slope = difference_quotient(energy, &[origin, b, c, d, e], &change);
+            let along = if is_cylinder { loads.first_moment } else { loads.first_force };
+            let work = determinant.abs() * (along * l11 + loads.second_force * l22 + loads.shear * l12);
+            let outer = (at_inner + loads.normal_stress_difference) * whole * (l11 + l22);
+            assert_close_at_scale("dE", &[work - outer], &slope, 1.0, tol);
+            compared += 1;
+        }
+        // δr₀ of a cylinder: the pressure; a plane is moved only.
+        let slope = difference_quotient(energy, &[origin, b, c, d, e], &[1.0, 0.0, 0.0, 0.0, 0.0]);
+        let work = if is_cylinder { determinant * origin * loads.normal_stress_difference } else { 0.0 };
+        assert_close_at_scale("dE/dr₀", &[work], &slope, 1.0, tol);
+    }
+    assert_eq!(compared, 15);
+
+    let shell = LaminatedSphere::new(Layers, [1.0, 2.0]).expect("a shell");
+    for (sign, radius) in [(1.0, 1.3), (-1.0, 3.0)] {
+        let state = |radius: f64| if 0.0 < sign { shell.inflated(radius) } else { shell.everted(radius) };
+        let energy = |x: &[f64]| {
+            let state = state(x[0]).expect("a state");
+            let density = |depth: f64| {
+                let lamina: LaminaMetric = Layers.metric(depth);
+                stored(&law, &state.left_cauchy_green(depth).expect("B")) * lamina.normal * lamina.in_plane[0]
+            };
+            vec![through_layers(density)]
+        };
+        let difference = state(radius).expect("a state").normal_stress_difference(&law).expect("T");
+        let slope = difference_quotient(energy, &[radius], &[1.0]);
+        assert_close_at_scale("dE/dr₀", &[sign * radius * radius * difference], &slope, 1.0, tol);
+    }
 }
 
 #[test]
