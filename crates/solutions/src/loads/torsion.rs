@@ -148,7 +148,8 @@ impl<L: ResponseFunctions> LoadCurve for Torsion<'_, L> {
 /// [`states_at`](LoadCurve::states_at).
 ///
 /// # Errors
-/// [`SolutionsError::NotConverged`] where no state is found; what the law refuses; [`SolutionsError::NotFinite`].
+/// [`SolutionsError::BeyondLimitPoint`] where the torque is above all that the body can carry under the axial force, with
+/// the limit; [`SolutionsError::NotConverged`] where no state is found; what the law refuses; [`SolutionsError::NotFinite`].
 ///
 /// # Accuracy
 /// Residuals of the loads below 1e-11 of μ R² and μ R³, most often at rounding.
@@ -178,7 +179,29 @@ pub fn torsion_under(
     };
     let mut x = [1.0, 1.0, 0.0];
     for step in 1..=STEPS {
-        x = under(x, f64::from(step) / f64::from(STEPS))?;
+        match under(x, f64::from(step) / f64::from(STEPS)) {
+            Ok(next) => x = next,
+            Err(SolutionsError::NotConverged { .. }) if torque != 0.0 => {
+                return along_the_curve(&Torsion { tube: *tube, law, ends: Ends::Force(axial_force) }, torque);
+            }
+            Err(error) => return Err(error),
+        }
     }
     state_of(tube, law, x)
+}
+
+/// The least twisted state under a torque by way of the curve at the full axial force, which also names its limit point.
+fn along_the_curve<L: ResponseFunctions>(curve: &Torsion<'_, L>, torque: f64) -> Result<TwistedTube, SolutionsError> {
+    const DOUBLINGS: u32 = 10;
+    let mut twist = torque.signum() * 0.125 / curve.tube.outer();
+    for _ in 0..DOUBLINGS {
+        let [load, slope] = curve.load_and_slope(twist)?;
+        if slope < 0.0 || torque.abs() <= load.abs() {
+            break;
+        }
+        twist *= 2.0;
+    }
+    let states = curve.states_at(torque, (twist.min(0.0), twist.max(0.0)))?;
+    let least = states.iter().min_by(|a, b| a.parameter.abs().total_cmp(&b.parameter.abs()));
+    curve.state(least.map_or(twist, |state| state.parameter))
 }

@@ -535,6 +535,38 @@ fn loads_beyond_a_limit_point_are_refused_with_the_limit_by_every_curve() {
 }
 
 #[test]
+fn torque_beyond_the_limit_under_an_axial_force_is_refused_with_the_limit() {
+    let (rod, law) = (Tube::solid(1.0).expect("rod"), Softening);
+    for axial_force in [0.0, 0.1] {
+        let curve = Torsion { tube: rod, law: &law, ends: Ends::Force(axial_force) };
+        let [limit] = curve.limit_points((0.0, 5.0)).expect("limit points")[..] else { panic!("one limit point") };
+        for sign in [1.0, -1.0] {
+            let below = torsion_under(&rod, &law, axial_force, sign * 0.98 * limit.load).expect("a state");
+            let residual =
+                Tol::stated(1e-10, "residuals of the loads are held below 1e-11 of their scales, near a limit");
+            assert_close(
+                "loads",
+                &[below.torque, below.axial_force],
+                &[sign * 0.98 * limit.load, axial_force],
+                residual,
+            );
+            assert!(below.twist.abs() < limit.parameter);
+            let Err(SolutionsError::BeyondLimitPoint { limit: named, at, .. }) =
+                torsion_under(&rod, &law, axial_force, sign * 1.02 * limit.load)
+            else {
+                panic!("a torque above the limit")
+            };
+            assert_close(
+                "limit",
+                &[named, at],
+                &[sign * limit.load, sign * limit.parameter],
+                Tol::stated(1e-7, "of a range of its own"),
+            );
+        }
+    }
+}
+
+#[test]
 fn closed_thin_tube_carries_the_pressure_of_the_membrane() {
     let law = Gent::new(1.0, 50.0).expect("law");
     let thickness = 1e-5;
