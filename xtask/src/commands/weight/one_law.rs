@@ -1,6 +1,5 @@
-//! A program of a user: the stress of one law at many points.
+//! A program of a user: the stress of one law at many points, and its tangent.
 
-use piola_batch::LaneBlocks;
 use piola_continuum::{DeformationGradient, FirstPiola};
 use piola_solids::{MooneyRivlin, batch};
 
@@ -9,9 +8,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let f = vec![DeformationGradient::simple_shear(0.5)?; 1000];
     let mut p = vec![FirstPiola::zero(); 1000];
     batch::evaluate(&f[..], batch::first_piola(&law, &mut p[..]))?;
-    let mut tangents = vec![0.0; 45 * 1000];
-    let blocks = LaneBlocks::new_mut(&mut tangents, 1000)?;
-    batch::evaluate(&f[..], batch::first_piola_tangent(&law, blocks))?;
-    println!("{} {}", p[999].0[(0, 1)], tangents[0]);
+    let mut tangents = vec![[0.0; 45]; 1000];
+    batch::evaluate(&f[..], batch::first_piola_tangent(&law, &mut tangents[..]))?;
+    println!("{} {}", p[999].0[(0, 1)], tangents[0][0]);
     Ok(())
 }
