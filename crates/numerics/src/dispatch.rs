@@ -29,8 +29,8 @@
 //! would save about a third of the operations of a polynomial, at the price of answers that depend on the
 //! machine.
 //!
-//! A build with debug assertions compiles each kernel for [`Level::Base`] alone, a third of the work for the compiler: it
-//! gets the same results, and nobody measures its speed.
+//! A build with debug assertions compiles each kernel once, for [`Level::Base`]: it gets the same results, and nobody
+//! measures its speed.
 
 use std::sync::OnceLock;
 
@@ -61,14 +61,14 @@ pub enum Level {
 }
 
 impl Level {
-    /// The best level of this machine, found out once.
+    /// The best level that this machine has and kernels are compiled for, found out once.
     #[must_use]
     pub fn best() -> Self {
         static BEST: OnceLock<Level> = OnceLock::new();
         *BEST.get_or_init(detect)
     }
 
-    /// All levels that this machine has, the best last.
+    /// All levels up to the best, which is the last.
     pub fn available() -> impl Iterator<Item = Self> {
         [Self::Base, Self::Avx2, Self::Avx512].into_iter().filter(|level| *level <= Self::best())
     }

@@ -9,7 +9,7 @@ pub(super) const COMMAND: Command = Command {
     name: "test",
     usage: "",
     help: "run every test and every example of the documentation, with every feature
-Tests compile kernels for the least set of instructions only. Those of lanes and batches then run again, compiled for every
+Tests compile kernels for the least set of instructions only. Those of lanes then run again, compiled for every
 set that the machine has.",
     prepare: |shell, _, _| {
         let why = "a test failed; its name states the two sides of the identity that does not hold";
@@ -20,7 +20,7 @@ set that the machine has.",
                 "test, every set of instructions",
                 cmd!(
                     shell,
-                    "cargo test --profile levels --package piola-numerics --package piola-batch --all-features --no-fail-fast --test levels"
+                    "cargo test --profile levels --package piola-numerics --package piola-continuum --package piola-batch --all-features --no-fail-fast --test levels"
                 ),
                 why,
             ),

@@ -49,10 +49,10 @@ impl FaceForces {
     ) -> Result<Self, SolutionsError> {
         let datum = Datum { reference: [0.0; 3], stress };
         let cauchy = deformation.stress(law, &datum, [0.0; 3])?.cauchy.0.rows();
-        let nominal = product(cauchy, cofactor(deformation.gradient::<f64>([0.0; 3])));
+        let first_piola = product(cauchy, cofactor(deformation.gradient::<f64>([0.0; 3])));
         let extents = [block.thickness(), block.length(), block.height()];
         let area = |a: usize| extents[(a + 1) % 3] * extents[(a + 2) % 3];
-        Ok(Self { forces: [0, 1, 2].map(|a| [0, 1, 2].map(|i: usize| nominal[i][a] * area(a))) })
+        Ok(Self { forces: [0, 1, 2].map(|a| [0, 1, 2].map(|i: usize| first_piola[i][a] * area(a))) })
     }
 }
 

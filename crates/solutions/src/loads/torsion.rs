@@ -149,7 +149,8 @@ impl<L: ResponseFunctions> LoadCurve for Torsion<'_, L> {
 ///
 /// # Errors
 /// [`SolutionsError::BeyondLimitPoint`] where the torque is above all that the body can carry under the axial force, with
-/// the limit; [`SolutionsError::NotConverged`] where no state is found; what the law refuses; [`SolutionsError::NotFinite`].
+/// the limit; [`SolutionsError::NotConverged`] and [`SolutionsError::NotReached`] where no state is found; what the law
+/// refuses; [`SolutionsError::NotFinite`].
 ///
 /// # Accuracy
 /// Residuals of the loads below 1e-11 of μ R² and μ R³, most often at rounding.
@@ -190,7 +191,7 @@ pub fn torsion_under(
     state_of(tube, law, x)
 }
 
-/// The least twisted state under a torque by way of the curve at the full axial force, which also names its limit point.
+/// The least twisted state that carries a torque on a curve, which names its limit point where there is no such state.
 fn along_the_curve<L: ResponseFunctions>(curve: &Torsion<'_, L>, torque: f64) -> Result<TwistedTube, SolutionsError> {
     const DOUBLINGS: u32 = 10;
     let mut twist = torque.signum() * 0.125 / curve.tube.outer();

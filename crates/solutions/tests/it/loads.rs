@@ -560,7 +560,10 @@ fn torque_beyond_the_limit_under_an_axial_force_is_refused_with_the_limit() {
                 "limit",
                 &[named, at],
                 &[sign * limit.load, sign * limit.parameter],
-                Tol::stated(1e-7, "of a range of its own"),
+                Tol::stated(
+                    1e-7,
+                    "where the slope vanishes the place of a limit is known to the root of rounding only",
+                ),
             );
         }
     }

@@ -5,5 +5,4 @@ mod cases;
 mod derivatives;
 mod golden;
 mod laws;
-mod scalars;
 mod traps;

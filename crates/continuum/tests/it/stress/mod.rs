@@ -8,7 +8,6 @@ mod edges;
 mod golden;
 mod laws;
 mod rounding;
-mod scalars;
 mod traps;
 #[cfg(feature = "serde")]
 mod written;

@@ -7,6 +7,5 @@ mod golden;
 mod laws;
 mod of_stress;
 mod rates;
-mod scalars;
 #[cfg(feature = "serde")]
 mod written;

@@ -1,5 +1,9 @@
 //! The same formulas over single precision, lanes and exact derivatives.
 
+#[expect(dead_code, reason = "the rest serves the tests of `it`")]
+#[path = "../it/stress/cases.rs"]
+mod cases;
+
 use nalgebra::{Matrix3, Vector3};
 use piola_continuum::stress::{gradients, invariants};
 use piola_continuum::{
@@ -9,7 +13,7 @@ use piola_numerics::{Dual, Kernel, Lanes, Level, Real, dispatch_at};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
-use super::cases::{deformation, direction, nine, size, stress};
+use cases::{deformation, direction, nine, size, stress};
 
 /// Everything there is to compute from a stress, a deformation and a direction.
 #[inline(always)]

@@ -1,5 +1,9 @@
 //! The same kernel over singles, lanes, doubled precision and differentiable numbers.
 
+#[expect(dead_code, reason = "the rest serves the tests of `it`")]
+#[path = "../it/polar/cases.rs"]
+mod cases;
+
 use nalgebra::Matrix3;
 use piola_continuum::polar::{StretchAnalysis, polar_hencky};
 use piola_continuum::{DeformationGradient, Symmetric};
@@ -9,7 +13,7 @@ use piola_tensor::spectral::decompose;
 use piola_testkit::spectral::{Random, Rows, adversarial_set, polar_reference, with_stretches};
 use piola_testkit::{DoubleDouble, Tol, assert_close, difference_quotient, ulps_between};
 
-use super::cases::{analysis, gradient, matrix};
+use cases::{analysis, gradient, matrix};
 
 struct Batch<'a>(&'a [DeformationGradient<Lanes<f64, 4>>], &'a mut Vec<[Lanes<f64, 4>; 27]>);
 
