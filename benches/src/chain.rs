@@ -34,7 +34,7 @@ impl<const N: usize, const DECLARED: bool> Chain<N, DECLARED> {
 
 impl<const N: usize, const DECLARED: bool> Holonomic for Chain<N, DECLARED> {
     const TIME_DEPENDENT: bool = DECLARED;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], _t: T, bodies: &mut impl Placement<T>) {
         let (mut x, mut z) = (T::zero(), T::zero());
         for (&angle, (&mass, &length)) in q.iter().zip(self.masses.iter().zip(&self.lengths)) {
@@ -220,7 +220,7 @@ struct Along<const N: usize> {
 }
 
 impl<const N: usize> Placement<Dual2_64> for Along<N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn particle(&mut self, _mass: f64, x: Vector3<Dual2_64>) {
         self.accelerations[self.next] = [-x.x.v2, -x.y.v2, -GRAVITY - x.z.v2];
         self.next += 1;
@@ -236,7 +236,7 @@ struct Across<const N: usize> {
 }
 
 impl<const N: usize> Placement<DualSVec64<N>> for Across<N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn particle(&mut self, mass: f64, x: Vector3<DualSVec64<N>>) {
         let acceleration = self.accelerations[self.next];
         self.next += 1;

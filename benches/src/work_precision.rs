@@ -274,7 +274,7 @@ impl<T: Real, E: Accelerations> SecondOrder<T> for Accelerated<'_, E> {
     fn freedom(&self) -> usize {
         self.freedom
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn acceleration(&mut self, _t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Self::Error> {
         self.equations.accelerations(q, v, acceleration);
         Ok(())

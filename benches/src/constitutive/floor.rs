@@ -30,7 +30,7 @@ impl Step for Copied {
 }
 
 impl Lanewise<9, 9> for Copied {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, f: [T; 9]) -> [T; 9] {
         f
     }
@@ -44,7 +44,7 @@ impl Step for Cofactor {
     const NAME: &'static str = "cofactor";
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn cofactor_and_determinant<T: Real>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> ([T; 9], T) {
     let (k, l, m) = (e * i - f * h, f * g - d * i, d * h - e * g);
     let cofactor = [k, l, m, c * h - b * i, a * i - c * g, b * g - a * h, b * f - c * e, c * d - a * f, a * e - b * d];
@@ -52,7 +52,7 @@ fn cofactor_and_determinant<T: Real>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> ([T
 }
 
 impl Lanewise<9, 9> for Cofactor {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, numbers: [T; 9]) -> [T; 9] {
         let ([a, b, c, d, e, f, g, h, i], j) = cofactor_and_determinant(numbers);
         [j * a, j * b, j * c, j * d, j * e, j * f, j * g, j * h, j * i]
@@ -73,7 +73,7 @@ impl Step for NeoHookean {
 }
 
 impl Lanewise<9, 9> for NeoHookean {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, numbers: [T; 9]) -> [T; 9] {
         let (cofactor, jacobian) = cofactor_and_determinant(numbers);
         let ([a, b, c, d, e, f, g, h, i], [k, l, m, n, o, p, q, r, s]) = (numbers, cofactor);
@@ -106,7 +106,7 @@ struct Run<'a, S> {
 
 impl<S: Step> Kernel for Run<'_, S> {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
         for (from, to) in self.from.iter().zip(self.to) {
             let [a, b, c, d, e, f, g, h, i] = *from;

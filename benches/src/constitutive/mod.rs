@@ -31,12 +31,12 @@ pub struct Printed {
 
 /// The printed formula in lanes.
 impl Hyperelastic for Printed {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         deformation.jacobian()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         let f = deformation.gradient_rows();
         let cofactor = cofactor(f);
@@ -62,12 +62,12 @@ pub struct WithoutTangent(
 );
 
 impl Hyperelastic for WithoutTangent {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         self.0.energy(deformation)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         self.0.first_piola(deformation)
     }

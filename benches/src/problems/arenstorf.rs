@@ -13,7 +13,7 @@ pub struct Arenstorf {
 }
 
 impl Accelerations for Arenstorf {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn accelerations<T: Real>(&self, q: &[T], v: &[T], out: &mut [T]) {
         let (moon, earth) = (T::lit(self.moon), T::lit(1.0 - self.moon));
         let (from_earth, from_moon) = (q[0] + moon, q[0] - earth);

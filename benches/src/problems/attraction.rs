@@ -38,7 +38,7 @@ impl<const N: usize, const C: usize> Force for Attraction<N, C> {
 
 impl<const N: usize, const C: usize> Accelerations for Attraction<N, C> {
     const VELOCITY_DEPENDENT: bool = false;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn accelerations<T: Real>(&self, q: &[T], _v: &[T], out: &mut [T]) {
         let (x, f) = (q.as_chunks::<N>().0, out.as_chunks_mut::<N>().0);
         let (Some(x), Some(f)) = (x.first_chunk::<C>(), f.first_chunk_mut::<C>()) else { return };

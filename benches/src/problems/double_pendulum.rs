@@ -58,7 +58,7 @@ impl Equations<4> for DoublePendulum {
 }
 
 impl Accelerations for DoublePendulum {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn accelerations<T: Real>(&self, q: &[T], v: &[T], out: &mut [T]) {
         let ([m1, m2], [l1, l2]) = (self.masses, self.lengths);
         let lit = T::lit;

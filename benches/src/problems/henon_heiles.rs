@@ -11,7 +11,7 @@ pub struct HenonHeiles;
 
 impl Accelerations for HenonHeiles {
     const VELOCITY_DEPENDENT: bool = false;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn accelerations<T: Real>(&self, q: &[T], _v: &[T], out: &mut [T]) {
         let (x, y) = (q[0], q[1]);
         out[0] = -x - (x + x) * y;

@@ -34,7 +34,7 @@ impl Equations<4> for Kepler {
 
 impl Accelerations for Kepler {
     const VELOCITY_DEPENDENT: bool = false;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn accelerations<T: Real>(&self, q: &[T], _v: &[T], out: &mut [T]) {
         let square = q[0] * q[0] + q[1] * q[1];
         let factor = T::lit(-self.parameter) / (square * square.sqrt());

@@ -40,15 +40,15 @@ macro_rules! scalar_integrand {
     ($([$($parameters:tt)*] $scalar:ty),* $(,)?) => {$(
         impl<$($parameters)*> Integrand for $scalar {
             type Scalar = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn zero() -> Self {
                 Real::lit(0.0)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn components(&self) -> &[Self] {
                 core::slice::from_ref(self)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn components_mut(&mut self) -> &mut [Self] {
                 core::slice::from_mut(self)
             }
@@ -67,15 +67,15 @@ scalar_integrand!(
 
 impl<T: Real> Integrand for Vector3<T> {
     type Scalar = T;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         Self::repeat(T::lit(0.0))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn components(&self) -> &[T] {
         self.as_slice()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn components_mut(&mut self) -> &mut [T] {
         self.as_mut_slice()
     }
@@ -83,15 +83,15 @@ impl<T: Real> Integrand for Vector3<T> {
 
 impl<T: Real> Integrand for Matrix3<T> {
     type Scalar = T;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         Self::repeat(T::lit(0.0))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn components(&self) -> &[T] {
         self.as_slice()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn components_mut(&mut self) -> &mut [T] {
         self.as_mut_slice()
     }
@@ -99,15 +99,15 @@ impl<T: Real> Integrand for Matrix3<T> {
 
 impl<T: Real> Integrand for Symmetric<T> {
     type Scalar = T;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         Self { components: [T::lit(0.0); 6] }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn components(&self) -> &[T] {
         &self.components
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn components_mut(&mut self) -> &mut [T] {
         &mut self.components
     }
@@ -115,15 +115,15 @@ impl<T: Real> Integrand for Symmetric<T> {
 
 impl<T: Real, const N: usize> Integrand for [T; N] {
     type Scalar = T;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         [T::lit(0.0); N]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn components(&self) -> &[T] {
         self
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn components_mut(&mut self) -> &mut [T] {
         self
     }
@@ -137,13 +137,13 @@ pub(crate) struct RunningIntegral<V> {
 }
 
 impl<V: Integrand> RunningIntegral<V> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new() -> Self {
         Self { sum: V::zero(), carry: V::zero() }
     }
 
     /// Adds `weight` × `term`, a value at `position`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn add(
         &mut self,
         term: &V,
@@ -163,7 +163,7 @@ impl<V: Integrand> RunningIntegral<V> {
     }
 
     /// The integral, if it is in the range of numbers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn value(mut self) -> Result<V, FieldsError> {
         for (sum, &carry) in self.sum.components_mut().iter_mut().zip(self.carry.components()) {
             // After an overflow the carry is NaN and the plain sum tells what happened.
@@ -182,14 +182,14 @@ pub(crate) struct FieldIntegral<V: FieldValue, T: Real> {
 }
 
 impl<V: FieldValue, T: Real> FieldIntegral<V, T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn new() -> Self {
         let zero = V::from_components(|_| T::lit(0.0));
         Self { sum: zero, carry: zero }
     }
 
     /// Adds `weight` × `term`, a value at `position`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn add(&mut self, term: &V::Over<T>, weight: T, position: &Vector3<T>) -> Result<(), FieldsError> {
         let not_finite_at = |i: &usize| !V::component::<T>(term, *i).is_finite().all();
         if let Some(component) = (0..V::COMPONENTS).find(not_finite_at) {
@@ -203,7 +203,7 @@ impl<V: FieldValue, T: Real> FieldIntegral<V, T> {
     }
 
     /// The integral, if it is in the range of numbers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn value(self) -> Result<V::Over<T>, FieldsError> {
         let total = V::from_components(|i| {
             let (sum, carry) = (V::component::<T>(&self.sum, i), V::component::<T>(&self.carry, i));

@@ -34,25 +34,25 @@ pub struct Residual<T = f64> {
 
 impl<T: Real> Residual<T> {
     /// The empty sum.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn zero() -> Self {
         Self { value: T::zero(), scale: T::zero() }
     }
     /// With one more term.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn plus(self, term: T) -> Self {
         Self { value: self.value + term, scale: self.scale + term.abs() }
     }
     /// With the terms of another sum, each times a factor.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn plus_all(self, other: Self, factor: T) -> Self {
         Self { value: self.value + other.value * factor, scale: self.scale + other.scale * factor.abs() }
     }
     /// |value|/scale ∈ [0, 1]; zero when all terms are.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn relative(&self) -> T {
         ratio(self.value.abs(), self.scale)
@@ -87,7 +87,7 @@ pub struct VectorResidual<T = f64> {
 
 impl<T: Real> VectorResidual<T> {
     /// The largest component divided by the largest scale, ∈ [0, 1]; zero when all terms are.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn relative(&self) -> T {
         let largest = |v: &Vector3<T>| v[0].abs().max(v[1].abs()).max(v[2].abs());
@@ -96,14 +96,14 @@ impl<T: Real> VectorResidual<T> {
 }
 
 impl<T: Real> From<[Residual<T>; 3]> for VectorResidual<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from(components: [Residual<T>; 3]) -> Self {
         Self { value: components.map(|c| c.value).into(), scale: components.map(|c| c.scale).into() }
     }
 }
 
 /// a/b, or zero when b is.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn ratio<T: Real>(a: T, b: T) -> T {
     let zero = T::zero();
     T::select(b.at_most(zero), zero, a / T::select(b.at_most(zero), T::one(), b))

@@ -34,11 +34,11 @@ pub trait FieldValue: Copy + Debug {
 impl FieldValue for f64 {
     type Over<T: Real> = T;
     const COMPONENTS: usize = 1;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn component<T: Real>(value: &T, _index: usize) -> T {
         *value
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_components<T: Real>(mut component: impl FnMut(usize) -> T) -> T {
         component(0)
     }
@@ -47,11 +47,11 @@ impl FieldValue for f64 {
 impl FieldValue for Vector3<f64> {
     type Over<T: Real> = Vector3<T>;
     const COMPONENTS: usize = 3;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn component<T: Real>(value: &Vector3<T>, index: usize) -> T {
         value[index]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_components<T: Real>(mut component: impl FnMut(usize) -> T) -> Vector3<T> {
         Vector3::from_fn(|i, _| component(i))
     }
@@ -60,11 +60,11 @@ impl FieldValue for Vector3<f64> {
 impl FieldValue for Matrix3<f64> {
     type Over<T: Real> = Matrix3<T>;
     const COMPONENTS: usize = 9;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn component<T: Real>(value: &Matrix3<T>, index: usize) -> T {
         value[(index / 3, index % 3)]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_components<T: Real>(mut component: impl FnMut(usize) -> T) -> Matrix3<T> {
         Matrix3::from_fn(|i, j| component(3 * i + j))
     }
@@ -73,11 +73,11 @@ impl FieldValue for Matrix3<f64> {
 impl FieldValue for Symmetric {
     type Over<T: Real> = Symmetric<T>;
     const COMPONENTS: usize = 6;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn component<T: Real>(value: &Symmetric<T>, index: usize) -> T {
         value.components[index]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_components<T: Real>(component: impl FnMut(usize) -> T) -> Symmetric<T> {
         Symmetric { components: core::array::from_fn(component) }
     }
@@ -88,11 +88,11 @@ macro_rules! values_of_wrapped {
         impl FieldValue for $name {
             type Over<T: Real> = $name<T>;
             const COMPONENTS: usize = <$inner as FieldValue>::COMPONENTS;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn component<T: Real>(value: &$name<T>, index: usize) -> T {
                 <$inner as FieldValue>::component(&value.0, index)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn from_components<T: Real>(component: impl FnMut(usize) -> T) -> $name<T> {
                 $name(<$inner as FieldValue>::from_components(component))
             }
@@ -110,7 +110,7 @@ pub trait TensorValue: FieldValue {
 }
 
 impl TensorValue for Matrix3<f64> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rows<T: Real>(value: &Matrix3<T>) -> Rows<T> {
         rows_of(value)
     }
@@ -119,7 +119,7 @@ impl TensorValue for Matrix3<f64> {
 macro_rules! tensor_values {
     ($($name:ident),*) => {$(
         impl TensorValue for $name {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn rows<T: Real>(value: &$name<T>) -> Rows<T> {
                 value.rows()
             }
@@ -130,7 +130,7 @@ macro_rules! tensor_values {
 tensor_values!(Symmetric, CauchyStress, KirchhoffStress, SecondPiola, FirstPiola, BiotStress, MandelStress);
 
 /// The value with f done to every component.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn map<V: FieldValue, A: Real, B: Real>(value: &V::Over<A>, mut f: impl FnMut(A) -> B) -> V::Over<B> {
     V::from_components(|i| f(V::component(value, i)))
 }

@@ -6,13 +6,13 @@ use super::viscometric::{FlowMoment, ViscometricFluid};
 use crate::FluidsError;
 
 /// `size` with the sign of k, and zero where k is.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn signed<T: Real>(k: T, size: T) -> T {
     T::select(k.less_than(T::zero()), -size, T::select(T::zero().less_than(k), size, T::zero()))
 }
 
 /// k, or 1 where it is zero, so that a quotient or power of it exists before the limit replaces it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn moving<T: Real>(k: T) -> (T::Mask, T) {
     let size = k.abs();
     let rest = size.at_most(T::zero());
@@ -20,7 +20,7 @@ pub(super) fn moving<T: Real>(k: T) -> (T::Mask, T) {
 }
 
 /// τ/k with its limit at rest.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn viscosity_with_limit<F: ViscometricFluid, T: Real>(fluid: &F, k: T, limit: f64) -> T {
     let (rest, k) = moving(k);
     T::select(rest, T::lit(limit), fluid.shear_stress(k) / k)
@@ -28,14 +28,14 @@ pub(super) fn viscosity_with_limit<F: ViscometricFluid, T: Real>(fluid: &F, k: T
 
 /// The part of a stress beyond the yield stress; zero below. Exact: the difference of two numbers less than a factor of two
 /// apart has no rounding.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn beyond<T: Real>(stress: T, yield_stress: T) -> T {
     let excess = stress.abs() - yield_stress;
     T::select(T::zero().less_than(excess), excess, T::select(excess.is_nan(), excess, T::zero()))
 }
 
 /// A rate that a closed form gave, refused where it is not finite.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn finite_rate<F: ViscometricFluid, T: Real>(stress: T, rate: T) -> Result<T, FluidsError> {
     if (stress.is_finite() & rate.is_finite()).all() { Ok(rate) } else { Err(no_rate::<F, T>(stress, rate)) }
 }
@@ -84,7 +84,7 @@ pub(super) trait Relation<T: Real> {
 ///
 /// # Accuracy
 /// 2 ulp beyond the rounding of the relation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn solve_from_above<T: Real>(relation: &impl Relation<T>, x: T, start: T) -> T {
     let wanted = x.frozen();
     let (rest, target) = moving(wanted);
@@ -110,7 +110,7 @@ pub(super) fn solve_from_above<T: Real>(relation: &impl Relation<T>, x: T, start
 ///
 /// # Accuracy
 /// 4 ulp.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn inverse_sinh<T: Real>(x: T) -> T {
     let large = T::lit(1e8).less_than(x);
     let near = T::select(large, T::one(), x);

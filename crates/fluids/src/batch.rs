@@ -54,7 +54,7 @@ macro_rules! quantities {
             struct $kind;
 
             impl Quantity for $kind {
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn of<F: ViscometricFluid + ?Sized, T: Real>($fluid: &F, $entry: T) -> Result<T, FluidsError> {
                     $answer
                 }
@@ -130,7 +130,7 @@ struct Pass<'a, F: ?Sized, Q> {
 impl<F: ViscometricFluid + ?Sized, Q: Quantity> LaneKernel for Pass<'_, F, Q> {
     type Output = Bad;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<const N: usize>(self) -> Bad {
         let mut bad = Bad::default();
         for (number, (chunk, to)) in self.entries.chunks(N).zip(self.answers.chunks_mut(N)).enumerate() {

@@ -55,23 +55,23 @@ impl ViscometricFluid for Bingham {
     const NAME: &'static str = Self::NAME;
     const CLOSED_RATE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         signed(shear_rate, T::lit(self.yield_stress)) + T::lit(self.plastic_viscosity) * shear_rate
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn yield_stress(&self) -> f64 {
         self.yield_stress
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         let limit = if 0.0 < self.yield_stress { f64::INFINITY } else { self.plastic_viscosity };
         viscosity_with_limit(self, shear_rate, limit)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         let rate = if 0.0 < self.yield_stress {
             signed(shear_stress, beyond(shear_stress, T::lit(self.yield_stress)))

@@ -55,7 +55,7 @@ parameters! {
 }
 
 /// η at |k|, 0 < |k|.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn viscosity_of<T: Real>([zero, infinite, time, exponent, transition]: [T; 5], rate: T) -> T {
     let (slow, x) = moving(time * rate);
     // (1 + x^a)^(1/a) = x (1 + x^−a)^(1/a): the power formed is at most one.
@@ -82,12 +82,12 @@ listed! {
 impl ViscometricFluid for CarreauYasuda {
     const NAME: &'static str = Self::NAME;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         Self::shear_stress_of(self.parameters().map(T::lit), shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         let (rest, rate) = moving(shear_rate);
         let viscosity = viscosity_of(self.parameters().map(T::lit), rate);

@@ -53,7 +53,7 @@ listed! {
 }
 
 /// 2 √(τᵧ μ |k|), zero without derivatives where one of them is.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn mixed<T: Real>(yield_stress: T, viscosity: T, shear_rate: T) -> T {
     let (rest, rate) = moving(shear_rate);
     let (never, plastic) = moving(yield_stress);
@@ -65,24 +65,24 @@ impl ViscometricFluid for Casson {
     const NAME: &'static str = Self::NAME;
     const CLOSED_RATE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         let (yield_stress, viscosity) = (T::lit(self.yield_stress), T::lit(self.plastic_viscosity));
         viscosity * shear_rate + signed(shear_rate, yield_stress + mixed(yield_stress, viscosity, shear_rate))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn yield_stress(&self) -> f64 {
         self.yield_stress
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         let limit = if 0.0 < self.yield_stress { f64::INFINITY } else { self.plastic_viscosity };
         viscosity_with_limit(self, shear_rate, limit)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         let yield_stress = T::lit(self.yield_stress);
         if self.yield_stress <= 0.0 {

@@ -55,7 +55,7 @@ parameters! {
 }
 
 /// η at |k|, 0 < |k|.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn viscosity_of<T: Real>([zero, infinite, time, exponent]: [T; 4], rate: T) -> T {
     let (slow, x) = moving(time * rate);
     infinite + (zero - infinite) / (T::one() + T::select(slow, T::zero(), x.powf(exponent)))
@@ -72,12 +72,12 @@ listed! {
 impl ViscometricFluid for Cross {
     const NAME: &'static str = Self::NAME;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         Self::shear_stress_of(self.parameters().map(T::lit), shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         let (rest, rate) = moving(shear_rate);
         let viscosity = viscosity_of(self.parameters().map(T::lit), rate);

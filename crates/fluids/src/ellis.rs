@@ -53,7 +53,7 @@ struct Flow<T> {
 }
 
 impl<T: Real> Relation<T> for Flow<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at(&self, y: Dual<T>) -> Dual<T> {
         y + y.powf(Dual::constant(self.exponent))
     }
@@ -74,13 +74,13 @@ impl ViscometricFluid for Ellis {
     const NAME: &'static str = Self::NAME;
     const CLOSED_RATE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         let stress = Self::shear_stress_of(self.parameters().map(T::lit), shear_rate.abs());
         T::select(shear_rate.less_than(T::zero()), -stress, stress)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         let share = (shear_stress.abs() / T::lit(self.half_stress)).powf(T::lit(self.exponent - 1.0));
         let rate = shear_stress / T::lit(self.zero_rate_viscosity) * (T::one() + share);

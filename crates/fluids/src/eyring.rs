@@ -53,13 +53,13 @@ impl ViscometricFluid for Eyring {
     const NAME: &'static str = Self::NAME;
     const CLOSED_RATE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         let size = Self::shear_stress_of(self.parameters().map(T::lit), shear_rate.abs());
         T::select(shear_rate.less_than(T::zero()), -size, size)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         let rate = (shear_stress / T::lit(self.stress)).sinh() / T::lit(self.time);
         finite_rate::<Self, T>(shear_stress, rate)

@@ -57,18 +57,18 @@ impl ViscometricFluid for HerschelBulkley {
     const NAME: &'static str = Self::NAME;
     const CLOSED_RATE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         let flowing = T::lit(self.consistency) * odd_power(shear_rate, T::lit(self.exponent));
         signed(shear_rate, T::lit(self.yield_stress)) + flowing
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn yield_stress(&self) -> f64 {
         self.yield_stress
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         let limit = if 0.0 < self.yield_stress || self.exponent < 1.0 {
             f64::INFINITY
@@ -80,7 +80,7 @@ impl ViscometricFluid for HerschelBulkley {
         viscosity_with_limit(self, shear_rate, limit)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         let (consistency, inverse) = (T::lit(self.consistency), T::lit(self.exponent.recip()));
         let rate = if 0.0 < self.yield_stress {

@@ -60,7 +60,7 @@ parameters! {
 }
 
 /// β a + (1 − β) b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn mixed<T: Real>(beta: f64, a: T, b: T) -> T {
     T::lit(beta) * a + T::lit(1.0 - beta) * b
 }
@@ -68,7 +68,7 @@ fn mixed<T: Real>(beta: f64, a: T, b: T) -> T {
 impl Damping for RationalDamping {
     const NAME: &'static str = Self::NAME;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn factor<T: Real>(&self, first: T, second: T) -> T {
         (T::one() + mixed(self.beta, first, second) / T::lit(self.alpha)).recip()
     }
@@ -77,7 +77,7 @@ impl Damping for RationalDamping {
 impl Damping for ExponentialDamping {
     const NAME: &'static str = Self::NAME;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn factor<T: Real>(&self, first: T, second: T) -> T {
         let strain = mixed(self.beta, first, second);
         let none = strain.at_most(T::zero());
@@ -171,7 +171,7 @@ const DEPTH: f64 = 3.0;
 const FARTHEST: f64 = 3.9;
 
 /// The number of steps from s₀ = e^`start` λ; at most 4000.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn steps(start: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 30 and 4000")]
     let count = ((DEPTH + FARTHEST - start) / STEP).ceil().min(4000.0) as usize;
@@ -239,7 +239,7 @@ impl<H: Damping> Kbkz<H> {
 
     /// Σ (η/λ) ∫ e⁻ˣ xᵖ h(w² x²) dx · wᵖ with w = λ k: τ for p = 1, N₁ for p = 2. Steps are taken at multiples of
     /// [`STEP`], the first at `offset` of one.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sums<T: Real>(&self, shear_rate: T, power: i32, offset: f64) -> T {
         let mut total = T::zero();
         for term in &self.memory {
@@ -282,13 +282,13 @@ impl<H: Damping> ViscometricFluid for Kbkz<H> {
     const NAME: &'static str = H::NAME;
     const NORMAL_STRESSES: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         let size = self.sums(shear_rate, 1, 0.0);
         T::select(shear_rate.less_than(T::zero()), -size, size)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         self.sums(shear_rate, 2, 0.0)
     }

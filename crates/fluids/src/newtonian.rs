@@ -46,12 +46,12 @@ impl ViscometricFluid for Newtonian {
     const NAME: &'static str = Self::NAME;
     const CLOSED_RATE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         Self::shear_stress_of(self.parameters().map(T::lit), shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         finite_rate::<Self, T>(shear_stress, shear_stress / T::lit(self.viscosity_coefficient))
     }

@@ -58,13 +58,13 @@ listed! {
 impl ViscometricFluid for Papanastasiou {
     const NAME: &'static str = Self::NAME;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         let size = Self::shear_stress_of(self.parameters().map(T::lit), shear_rate.abs());
         T::select(shear_rate.less_than(T::zero()), -size, size)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         let plastic = self.apparent_yield_stress * self.growth_time;
         let limit = if self.exponent < 1.0 {

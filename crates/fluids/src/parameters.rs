@@ -36,7 +36,7 @@ macro_rules! listed {
                 Self::new($($name),+)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn shear_stress_of<T: Real>($parameters: [T; $count], $shear_rate: T) -> T {
                 $stress
             }

@@ -47,7 +47,7 @@ listed! {
 }
 
 /// |x|ⁿ sign x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn odd_power<T: Real>(x: T, exponent: T) -> T {
     let size = x.abs();
     // At rest the power of a constant has no derivative, where the chain rule would make 0 · ∞ of it.
@@ -64,12 +64,12 @@ impl ViscometricFluid for PowerLaw {
     const NAME: &'static str = Self::NAME;
     const CLOSED_RATE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         Self::shear_stress_of(self.parameters().map(T::lit), shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         let rate = odd_power(shear_stress / T::lit(self.consistency), T::lit(self.exponent.recip()));
         finite_rate::<Self, T>(shear_stress, rate)

@@ -32,12 +32,12 @@ parameters! {
 }
 
 impl ReinerRivlinCoefficients for ConstantCoefficients {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first<T: Real>(&self, _invariants: [T; 3]) -> T {
         T::lit(self.linear)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn second<T: Real>(&self, _invariants: [T; 3]) -> T {
         T::lit(self.quadratic)
     }
@@ -73,7 +73,7 @@ pub struct ReinerRivlin<C>(
 );
 
 /// The invariants of D in simple shear.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn invariants<T: Real>(shear_rate: T) -> [T; 3] {
     [T::zero(), T::lit(-0.25) * shear_rate * shear_rate, T::zero()]
 }
@@ -82,17 +82,17 @@ impl<C: ReinerRivlinCoefficients> ViscometricFluid for ReinerRivlin<C> {
     const NAME: &'static str = "Reiner-Rivlin";
     const NORMAL_STRESSES: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         T::lit(0.5) * self.0.first(invariants(shear_rate)) * shear_rate
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
         T::lit(0.25) * self.0.second(invariants(shear_rate)) * shear_rate * shear_rate
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         self.sigma1(shear_rate)
     }

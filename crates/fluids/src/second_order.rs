@@ -48,22 +48,22 @@ impl ViscometricFluid for SecondOrder {
     const NAME: &'static str = Self::NAME;
     const NORMAL_STRESSES: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         T::lit(self.viscosity_coefficient) * shear_rate
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
         T::lit(2.0 * self.alpha1 + self.alpha2) * shear_rate * shear_rate
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         T::lit(self.alpha2) * shear_rate * shear_rate
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
         T::lit(-2.0 * self.alpha1) * shear_rate * shear_rate
     }

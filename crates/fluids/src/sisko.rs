@@ -56,7 +56,7 @@ listed! {
 impl ViscometricFluid for Sisko {
     const NAME: &'static str = Self::NAME;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         Self::shear_stress_of(self.parameters().map(T::lit), shear_rate)
     }

@@ -180,37 +180,37 @@ impl<F: ViscometricFluid> ViscometricFluid for Shifted<F> {
     const NORMAL_STRESSES: bool = F::NORMAL_STRESSES;
     const CLOSED_RATE: bool = F::CLOSED_RATE;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         self.fluid.shear_stress(T::lit(self.factor) * shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
         self.fluid.sigma1(T::lit(self.factor) * shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         self.fluid.sigma2(T::lit(self.factor) * shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
         self.fluid.first_normal_stress_difference(T::lit(self.factor) * shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn yield_stress(&self) -> f64 {
         self.fluid.yield_stress()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         T::lit(self.factor) * self.fluid.viscosity(T::lit(self.factor) * shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         Ok(self.fluid.shear_rate(shear_stress)? / T::lit(self.factor))
     }

@@ -82,7 +82,7 @@ pub trait ViscometricFluid {
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T;
 
     /// σ₁ = T₁₁ − T₃₃, Pa: the second normal stress difference N₂.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
         let _ = shear_rate;
@@ -90,7 +90,7 @@ pub trait ViscometricFluid {
     }
 
     /// σ₂ = T₂₂ − T₃₃, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         let _ = shear_rate;
@@ -98,28 +98,28 @@ pub trait ViscometricFluid {
     }
 
     /// The stress below which the fluid is at rest, Pa; zero for most.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn yield_stress(&self) -> f64 {
         0.0
     }
 
     /// N₁ = T₂₂ − T₁₁ = σ₂ − σ₁, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
         self.sigma2(shear_rate) - self.sigma1(shear_rate)
     }
 
     /// N₂ = T₁₁ − T₃₃ = σ₁, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn second_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
         self.sigma1(shear_rate)
     }
 
     /// τ/k, Pa s; at rest its limit τ′(0), which is infinite where the formula's derivative is.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn viscosity<T: Real>(&self, shear_rate: T) -> T {
         let rest = shear_rate.abs().at_most(T::zero());
@@ -138,14 +138,14 @@ pub trait ViscometricFluid {
     ///
     /// # Errors
     /// [`FluidsError::NoShearRate`] where no rate has this stress, or τ does not grow there.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         rate_at_stress(self, shear_stress)
     }
 
     /// ∫ sᵖ ζ(s) ds from `from` to `to` (0 ≤ from ≤ to, Pa) in closed form, where the fluid has one that keeps its digits;
     /// `None` leaves it to quadrature.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn flow_moment(&self, moment: FlowMoment, from: f64, to: f64) -> Option<f64> {
         let _ = (moment, from, to);
         None

@@ -31,7 +31,7 @@ type Block = [Lanes<f64, LANES>; 3];
 ///
 /// # Source
 /// W(4.2) with Newton's law.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn attraction<T: Real>(distance: [T; 3], parameter: T, softening_squared: T) -> [T; 3] {
     // No closures in kernels: they are compiled for the base level.
@@ -40,7 +40,7 @@ pub fn attraction<T: Real>(distance: [T; 3], parameter: T, softening_squared: T)
 }
 
 /// (|d|² + ε²)^(−3/2).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn inverse_cube<T: Real>([x, y, z]: [T; 3], softening_squared: T) -> T {
     let r2 = x * x + y * y + z * z + softening_squared;
     (r2 * r2.sqrt()).recip()
@@ -48,7 +48,7 @@ fn inverse_cube<T: Real>([x, y, z]: [T; 3], softening_squared: T) -> T {
 
 /// The sum over any scalar: every pair once. Every body meets the others in their order, as in the sum in
 /// lanes: the results agree bit for bit.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn sum_over<T: Real>(parameters: &[f64], softening_squared: f64, positions: &[T], out: &mut [T]) {
     let n = parameters.len();
     let softening_squared = T::lit(softening_squared);
@@ -143,7 +143,7 @@ struct Sum<'a> {
 impl Kernel for Sum<'_> {
     type Output = ();
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
         let Attracting { parameters, softening_squared, positions } = self.attracting;
         let n = parameters.len();
@@ -172,7 +172,7 @@ impl Kernel for Sum<'_> {
 }
 
 /// Adds the attraction of one body to all lanes. Bodies without mass are passed over.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add(sum: &mut Block, target: &Block, source: [f64; 3], parameter: f64, softening_squared: Lanes<f64, LANES>) {
     if 0.0 < parameter {
         let d = distance(target, source);
@@ -181,7 +181,7 @@ fn add(sum: &mut Block, target: &Block, source: [f64; 3], parameter: f64, soften
 }
 
 /// The same for a body that is itself in lane `own`: there it is moved away and loses its mass.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_except(
     sum: &mut Block,
     target: &Block,
@@ -199,12 +199,12 @@ fn add_except(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn distance(target: &Block, [x, y, z]: [f64; 3]) -> Block {
     [Lanes::splat(x) - target[0], Lanes::splat(y) - target[1], Lanes::splat(z) - target[2]]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn accumulate(sum: &mut Block, term: Block) {
     sum[0] += term[0];
     sum[1] += term[1];

@@ -24,7 +24,7 @@ macro_rules! follow_over {
             fn freedom(&self) -> usize {
                 3 * self.bodies()
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn acceleration(
                 &mut self,
                 _t: $scalar,

@@ -247,7 +247,7 @@ impl Gravitation {
     ///
     /// # Errors
     /// As [`accelerations_into`](Self::accelerations_into).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn accelerations_over<T: Real>(
         &self,
         positions: &[T],
@@ -263,7 +263,7 @@ impl Gravitation {
         check_length("accelerations", 3 * self.bodies(), accelerations.len())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check_accelerations<T: Real>(
         &self,
         positions: &[T],
@@ -310,7 +310,7 @@ impl Gravitation {
             })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add_post_newtonian<T: Real>(
         &self,
         positions: &[T],

@@ -48,7 +48,7 @@ impl PostNewtonian {
 ///
 /// # Source
 /// The term of a point mass in harmonic coordinates (Einstein, Infeld & Hoffmann 1938, test-body limit).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn post_newtonian_acceleration<T: Real>(
     position: [T; 3],
@@ -66,7 +66,7 @@ pub fn post_newtonian_acceleration<T: Real>(
 }
 
 /// Adds the term to the accelerations, with the reaction on the centre so that Σ m Δa = 0.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn add<T: Real>(
     parameters: &[f64],
     term: PostNewtonian,

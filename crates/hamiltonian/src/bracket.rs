@@ -44,7 +44,7 @@ fn bracket<T: Real>(left: &impl PhaseFunction, right: &impl PhaseFunction, (q, p
 }
 
 /// The same of n degrees of freedom in one pass of D = 2n directions.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn bracket_at_once<T: Real, const D: usize>(
     left: &impl PhaseFunction,
     right: &impl PhaseFunction,

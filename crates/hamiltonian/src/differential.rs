@@ -58,7 +58,7 @@ pub(crate) fn differentiate<T: Real>(
 }
 
 /// [`differentiate`] of D/2 degrees of freedom in one pass, with numbers of known size.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn differentiate_at_once<T: Real, const D: usize>(
     function: &impl PhaseFunction,
     (q, p, t): (&[T], &[T], T),

@@ -240,7 +240,7 @@ impl<T: Real> Composition<T> {
 }
 
 /// y ← y + h ẏ with compensation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn update<T: Real>(y: &mut [T], carry: &mut [T], rate: &[T], h: f64) {
     let h = T::lit(h);
     for ((y, carry), &rate) in y.iter_mut().zip(carry).zip(rate) {
@@ -249,7 +249,7 @@ fn update<T: Real>(y: &mut [T], carry: &mut [T], rate: &[T], h: f64) {
 }
 
 /// y ← y₀ + h ẏ with compensation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn update_from<T: Real>((start, carry_start): (&[T], &[T]), y: &mut [T], carry: &mut [T], rate: &[T], h: f64) {
     let h = T::lit(h);
     for ((((y, carry), &start), &carry_start), &rate) in y.iter_mut().zip(carry).zip(start).zip(carry_start).zip(rate) {

@@ -75,7 +75,7 @@ pub trait Field<T: Real = f64> {
 }
 
 /// The largest |value| among the lanes of one scalar; NaN when one of them is NaN, so that no lane hides it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn largest_lane<T: Real>(x: T) -> f64 {
     let mut largest = x.primal(0).abs();
     for lane in 1..T::LANES {
@@ -146,7 +146,7 @@ impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Field<T> for FunctionField<F> {
     fn is_second_order(&self) -> bool {
         self.second_order
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rate(&mut self, t: f64, y: &[T], rate: &mut [T]) -> Result<(), Infallible> {
         (self.function)(t, y, rate);
         Ok(())
@@ -163,7 +163,7 @@ impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Separable<T> for FunctionField<F> {
     fn freedom(&self) -> usize {
         self.dimension
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn force(&mut self, t: f64, position: &[T], force: &mut [T]) -> Result<(), Infallible> {
         (self.function)(t, position, force);
         Ok(())

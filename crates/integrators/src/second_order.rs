@@ -18,7 +18,7 @@ use piola_numerics::Real;
 ///     fn freedom(&self) -> usize {
 ///         1
 ///     }
-///     #[inline(always)] // lanes gain only what is inlined
+///     #[cfg_attr(not(debug_assertions), inline(always))] // lanes gain only what is inlined
 ///     fn acceleration(&mut self, _t: T, q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
 ///         acceleration[0] = -T::lit(9.81) * q[0].sin();
 ///         Ok(())

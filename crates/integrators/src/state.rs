@@ -104,7 +104,7 @@ impl<T> From<State<T>> for Unchecked<T> {
 /// y + carry ← y + carry + increment, where y alone is the rounded value.
 ///
 /// The exact sum of two numbers of any size is wanted, not Kahan's for a large y: states start from rest.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn compensated_add<T: Real>(y: &mut T, carry: &mut T, increment: T) {
     (*y, *carry) = two_sum(*y, increment + *carry);
 }
@@ -224,7 +224,7 @@ pub(crate) fn check_finite<T: Real, E>(
 }
 
 /// The first component that is infinite or NaN in some lane, and its value there.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn first_non_finite<T: Real>(values: &[T]) -> Option<(usize, f64)> {
     // One pass without branches where all is well.
     if values.iter().fold(true, |finite, &x| finite & largest_lane(x).is_finite()) {

@@ -199,7 +199,7 @@ impl<T: Real> MovingFrame<T> {
 }
 
 /// xⁱ `e_i`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn combine<T: Real>(basis: &[Vector3<T>; 3], x: &Vector3<T>) -> Vector3<T> {
     scaled(&basis[0], x.x) + scaled(&basis[1], x.y) + scaled(&basis[2], x.z)
 }

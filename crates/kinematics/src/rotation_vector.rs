@@ -198,7 +198,7 @@ impl<T: Real> RotationVector<T> {
     }
 
     /// B, C, D: by their power series below one radian, by closed forms that do not cancel above.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn coefficients(&self) -> Coefficients<T> {
         let t = dot(&self.0, &self.0);
         let (cosine, half_sinc) = crate::attitude::half_angle_functions(t);
@@ -225,14 +225,14 @@ impl<T: Real> RotationVector<T> {
 }
 
 /// (1 + α φ× + β φ×φ×) v.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn apply<T: Real>(phi: &Vector3<T>, alpha: T, beta: T, v: &Vector3<T>) -> Vector3<T> {
     let once = cross(phi, v);
     v + scaled(&once, alpha) + scaled(&cross(phi, &once), beta)
 }
 
 /// 1 + α φ× + β φ×φ×.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn polynomial<T: Real>(phi: &Vector3<T>, alpha: T, beta: T) -> Matrix3<T> {
     let (x, y, z) = (phi.x, phi.y, phi.z);
     let one = T::one();

@@ -4,25 +4,25 @@ use nalgebra::{Matrix3, Vector3};
 use piola_numerics::{Mask, Real};
 
 /// a·b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn dot<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> T {
     a.x * b.x + a.y * b.y + a.z * b.z
 }
 
 /// a×b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cross<T: Real>(a: &Vector3<T>, b: &Vector3<T>) -> Vector3<T> {
     Vector3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
 /// s a.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn scaled<T: Real>(a: &Vector3<T>, s: T) -> Vector3<T> {
     Vector3::new(a.x * s, a.y * s, a.z * s)
 }
 
 /// A a with a constant matrix.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn constant_matrix_times<T: Real>(matrix: &Matrix3<f64>, a: &Vector3<T>) -> Vector3<T> {
     let row = |i: usize| T::lit(matrix[(i, 0)]) * a.x + T::lit(matrix[(i, 1)]) * a.y + T::lit(matrix[(i, 2)]) * a.z;
     Vector3::new(row(0), row(1), row(2))

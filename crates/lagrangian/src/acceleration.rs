@@ -74,7 +74,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// [`acceleration_into`](Self::acceleration_into), inlined into kernels over lanes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn accelerate<T: Real>(
         &self,
         work: &mut Workspace<T>,
@@ -204,7 +204,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn form_in_one_pass<T: Real, const N: usize>(
         &self,
         work: &mut Workspace<T>,
@@ -235,7 +235,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         Formed { metric, force }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn acceleration_in_one_pass<T: Real, const N: usize>(
         &self,
         work: &mut Workspace<T>,
@@ -283,7 +283,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// −∂V/∂q where V does not depend on velocities.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn subtract_gradient<T: Real, const N: usize>(&self, q: &[T], t: T, force: &mut [T]) {
         let n = q.len();
         let mut coordinates = [Gradient::<T, N>::constant(T::zero()); N];
@@ -463,7 +463,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
 
 /// A coordinate that moves at v − ε, and its velocity v + ε, ε in the given direction: what d/dt V along them has
 /// of ε is d/dt(∂V/∂q̇) − ∂V/∂q.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn moving_against<T: Real, const N: usize>(q: T, v: T, direction: usize) -> [Dual<Gradient<T, N>>; 2] {
     let mut slower = Gradient::variable(v, direction);
     slower.partials = slower.partials.map(|partial| -partial);

@@ -151,7 +151,7 @@ impl<S, C: ChangeOfCoordinates<N>, const N: usize> InCoordinates<S, C, N> {
 
 impl<S: Holonomic, C: ChangeOfCoordinates<N>, const N: usize> Holonomic for InCoordinates<S, C, N> {
     const TIME_DEPENDENT: bool = S::TIME_DEPENDENT || C::TIME_DEPENDENT;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
         self.old.place(&self.change.old_coordinates(q, t), t, bodies);
     }

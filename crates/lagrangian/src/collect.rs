@@ -9,7 +9,7 @@ use super::{Forces, Lagrangian, Potential};
 
 /// The vector part of 2 q* r: the angular velocity, in body components, that belongs to the rate r of the
 /// unit quaternion q.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn turning<T: Real>(q: [T; 4], r: [T; 4]) -> [T; 3] {
     // Doubled before and not after, exactly: once for all rates of one attitude.
     let [w, x, y, z] = q.map(|q| q + q);
@@ -20,30 +20,30 @@ pub(super) fn turning<T: Real>(q: [T; 4], r: [T; 4]) -> [T; 3] {
     ]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     piola_numerics::linear::matrix3::cross(a, b)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
     piola_numerics::linear::matrix3::dot(a, b)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn attitude_of<T: Real>([w, x, y, z]: [T; 4]) -> Attitude<T> {
     Attitude { w, x, y, z }
 }
 
 /// I a, with the body's inertia tensor as constants.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn inertia_times<T: Real>(body: &RigidBody, a: [T; 3]) -> [T; 3] {
     let i = body.inertia().matrix();
     core::array::from_fn(|row| T::lit(i[(row, 0)]) * a[0] + T::lit(i[(row, 1)]) * a[1] + T::lit(i[(row, 2)]) * a[2])
 }
 
 /// What acts on one part, given where it is and how it moves.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn applied<T: Real, S, P: Potential, F: Forces>(
     lagrangian: &Lagrangian<S, P, F>,
     part: usize,
@@ -79,14 +79,14 @@ pub(super) struct Equations<'a, T, S, P, F, const N: usize> {
 }
 
 impl<'a, T: Real, S, P: Potential, F: Forces, const N: usize> Equations<'a, T, S, P, F, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(lagrangian: &'a Lagrangian<S, P, F>, t: T) -> Self {
         Self { lagrangian, metric: [[T::zero(); N]; N], force: [T::zero(); N], t, part: 0 }
     }
 
     /// Adds the part of one rate: its derivatives, the same times their inertia, and what is left of the force
     /// at q̈ = 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn add(&mut self, row: [T; N], weigh: impl FnOnce([T; N]) -> [T; N], residual: T) {
         // Nothing moves across the plane of a plane system. A force that is not a number is not lost with it.
         if 2 < N && row.iter().all(T::is_zero) {
@@ -99,7 +99,7 @@ impl<'a, T: Real, S, P: Potential, F: Forces, const N: usize> Equations<'a, T, S
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn translation(&mut self, mass: f64, x: Vector3<Jet<T, N>>) {
         let m = T::lit(mass);
         let x = [x.x, x.y, x.z];
@@ -112,13 +112,13 @@ impl<'a, T: Real, S, P: Potential, F: Forces, const N: usize> Equations<'a, T, S
 }
 
 impl<T: Real, S, P: Potential, F: Forces, const N: usize> Placement<Jet<T, N>> for Equations<'_, T, S, P, F, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn particle(&mut self, mass: f64, position: Vector3<Jet<T, N>>) {
         self.translation(mass, position);
         self.part += 1;
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn body(&mut self, body: &RigidBody, centre: Vector3<Jet<T, N>>, attitude: Attitude<Jet<T, N>>) {
         self.translation(body.mass(), centre);
         let jets = [attitude.w, attitude.x, attitude.y, attitude.z];
@@ -156,7 +156,7 @@ pub(super) struct Metric<T, const N: usize>(pub(super) [[T; N]; N]);
 
 /// Adds the products of a row with itself, weighted, to the lower triangle of a metric, by columns. Columns begin
 /// at even rows, so that they are added in pairs.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add_products<T: Real, const N: usize>(metric: &mut [[T; N]; N], row: [T; N], weighted: [T; N]) {
     for j in 0..N {
         let first = if N <= 3 { j } else { j & !1 };
@@ -167,7 +167,7 @@ fn add_products<T: Real, const N: usize>(metric: &mut [[T; N]; N], row: [T; N], 
 }
 
 impl<T: Real, const N: usize> Placement<Gradient<T, N>> for Metric<T, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn particle(&mut self, mass: f64, position: Vector3<Gradient<T, N>>) {
         let m = T::lit(mass);
         for x in [position.x, position.y, position.z] {
@@ -177,7 +177,7 @@ impl<T: Real, const N: usize> Placement<Gradient<T, N>> for Metric<T, N> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn body(&mut self, body: &RigidBody, centre: Vector3<Gradient<T, N>>, attitude: Attitude<Gradient<T, N>>) {
         self.particle(body.mass(), centre);
         let quaternion = [attitude.w, attitude.x, attitude.y, attitude.z];
@@ -351,7 +351,7 @@ impl<'a, T: Real, S, P: Potential, F: Forces> Pass<'a, T, S, P, F> {
         Self { lagrangian, rows, row: 0, part: 0, t }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn store(&mut self, partials: [T; CHUNK], weight: f64) {
         if !partials.iter().all(T::is_zero) {
             self.rows.entries.push(partials);
@@ -376,7 +376,7 @@ fn root(body: &RigidBody) -> [[f64; 3]; 3] {
 }
 
 /// Lᵀ a.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn upper_times<T: Real>(l: &[[f64; 3]; 3], a: [T; 3]) -> [T; 3] {
     core::array::from_fn(|k| {
         let mut sum = T::zero();
@@ -388,7 +388,7 @@ fn upper_times<T: Real>(l: &[[f64; 3]; 3], a: [T; 3]) -> [T; 3] {
 }
 
 /// The solution of L y = b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn lower_solve<T: Real>(l: &[[f64; 3]; 3], b: [T; 3]) -> [T; 3] {
     let y0 = b[0] / T::lit(l[0][0]);
     let y1 = (b[1] - T::lit(l[1][0]) * y0) / T::lit(l[1][1]);
@@ -418,7 +418,7 @@ impl<T: Real, S, P: Potential, F: Forces> Placement<Gradient<T, CHUNK>> for Pass
 }
 
 /// Lᵀ ω_Δ for the directions of one pass.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn turning_rows<T: Real>(body: &RigidBody, q: [T; 4], partials: impl Fn(usize) -> [T; 4]) -> [[T; CHUNK]; 3] {
     let l = root(body);
     let mut rows = [[T::zero(); CHUNK]; 3];
@@ -480,12 +480,12 @@ pub(super) struct EnergySums<T> {
 }
 
 impl<T: Real> EnergySums<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn new(gravity: [f64; 3]) -> Self {
         Self { kinetic: T::zero(), gravitational: T::zero(), gravity }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn translation(&mut self, mass: f64, x: [T; 3], v: [T; 3]) {
         let m = T::lit(mass);
         self.kinetic += T::lit(0.5) * m * dot(v, v);
@@ -494,13 +494,13 @@ impl<T: Real> EnergySums<T> {
 }
 
 impl<T: Real> Placement<piola_numerics::Dual<T>> for EnergySums<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn particle(&mut self, mass: f64, x: Vector3<piola_numerics::Dual<T>>) {
         let x = [x.x, x.y, x.z];
         self.translation(mass, x.map(|x| x.value), x.map(|x| x.tangent));
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn body(
         &mut self,
         body: &RigidBody,

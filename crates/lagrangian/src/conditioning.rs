@@ -24,7 +24,7 @@ const TRUSTED_ROW: f64 = 1e-11;
 const TRUSTED_ROW_SINGLE: f64 = 1e-5;
 
 /// The share of its diagonal entry that a pivot must exceed for the metric to be solved as it is.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn trusted_pivot<T: Real>() -> f64 {
     if is_single::<T>() { TRUSTED_PIVOT_SINGLE } else { TRUSTED_PIVOT }
 }

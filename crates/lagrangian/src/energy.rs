@@ -312,7 +312,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         );
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn differentiate_in_one_pass<T: Real, const N: usize>(&self, q: &[T], v: &[T], t: T, with: With, out: &mut [T]) {
         let n = q.len();
         let zero = Gradient::<T, N>::constant(T::zero());

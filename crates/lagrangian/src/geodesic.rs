@@ -24,7 +24,7 @@ use crate::check::{check_finite, check_length};
 struct Still<'a, S>(&'a S);
 
 impl<S: Holonomic> Holonomic for Still<'_, S> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
         self.0.place(q, t, bodies);
     }

@@ -249,7 +249,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
     }
 
     /// Refuses a result that is not finite, by the name of what is not finite of the state it comes from.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn finite<T: Real>(
         &self,
         state: [(&'static str, &[T]); 2],

@@ -99,7 +99,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         });
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn form_inertia_metric_in_one_pass<T: Real, const N: usize>(&self, work: &mut Workspace<T>, q: &[T], t: T) {
         let n = q.len();
         let mut coordinates = [Gradient::<T, N>::constant(T::zero()); N];

@@ -116,7 +116,7 @@ impl<S: Holonomic, P: Potential, F: Forces, T: Real> SecondOrder<T> for Motion<'
     fn freedom(&self) -> usize {
         self.coordinates
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn acceleration(&mut self, t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), LagrangianError> {
         self.lagrangian.accelerate(&mut self.work, q, v, t, acceleration)
     }

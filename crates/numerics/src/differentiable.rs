@@ -7,7 +7,7 @@
 //! closures that types of first order never call.
 
 /// 1 − x², without cancellation in its value near |x| = 1 or in its derivative −2x near x = 0.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn one_minus_square<T: crate::Real>(x: T) -> T {
     let one = T::one();
     T::select(x.abs().less_than(T::lit(0.5)), one - x * x, (one - x) * (one + x))
@@ -18,75 +18,75 @@ macro_rules! implement_real {
     ($type:ty, $order:literal, [$($parameters:tt)*], [$($constants:tt)*]) => {
         impl<$($parameters)*> core::ops::Add for $type {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn add(self, other: Self) -> Self {
                 self.linear(other, |a, b| a + b)
             }
         }
         impl<$($parameters)*> core::ops::Sub for $type {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sub(self, other: Self) -> Self {
                 self.linear(other, |a, b| a - b)
             }
         }
         impl<$($parameters)*> core::ops::Mul for $type {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn mul(self, other: Self) -> Self {
                 self.product(other)
             }
         }
         impl<$($parameters)*> core::ops::Div for $type {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn div(self, other: Self) -> Self {
                 self.quotient(other)
             }
         }
         impl<$($parameters)*> core::ops::Neg for $type {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn neg(self) -> Self {
                 self.each(|a| -a)
             }
         }
         impl<$($parameters)*> core::ops::AddAssign for $type {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn add_assign(&mut self, other: Self) {
                 *self = *self + other;
             }
         }
         impl<$($parameters)*> core::ops::SubAssign for $type {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sub_assign(&mut self, other: Self) {
                 *self = *self - other;
             }
         }
         impl<$($parameters)*> core::ops::MulAssign for $type {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn mul_assign(&mut self, other: Self) {
                 *self = *self * other;
             }
         }
         impl<$($parameters)*> core::ops::DivAssign for $type {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn div_assign(&mut self, other: Self) {
                 *self = *self / other;
             }
         }
         impl<$($parameters)*> num_traits::Zero for $type {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn zero() -> Self {
                 Self::constant(T::zero())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn is_zero(&self) -> bool {
                 *self == Self::zero()
             }
         }
         impl<$($parameters)*> num_traits::One for $type {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn one() -> Self {
                 Self::constant(T::one())
             }
@@ -97,60 +97,60 @@ macro_rules! implement_real {
             const LANES: usize = T::LANES;
             const ORDER: usize = T::ORDER + $order;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn lit(value: f64) -> Self {
                 Self::constant(T::lit(value))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn primal(self, lane: usize) -> f64 {
                 self.value.primal(lane)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn frozen(self) -> Self {
                 Self::constant(self.value.frozen())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn less_than(self, other: Self) -> Self::Mask {
                 self.value.less_than(other.value)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn at_most(self, other: Self) -> Self::Mask {
                 self.value.at_most(other.value)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self {
                 if_true.linear(if_false, |a, b| T::select(mask, a, b))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn is_finite(self) -> Self::Mask {
                 self.value.is_finite()
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn recip(self) -> Self {
                 let r = self.value.recip();
                 let r2 = r * r;
                 self.chain(r, || -r2, || (r2 + r2) * r)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sqrt(self) -> Self {
                 let r = self.value.sqrt();
                 let half = T::lit(0.5) / r;
                 self.chain(r, || half, || -(T::lit(0.5) * half / self.value))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn cbrt(self) -> Self {
                 let r = self.value.cbrt();
                 let f1 = T::lit(1.0) / (T::lit(3.0) * r * r);
                 self.chain(r, || f1, || -(T::lit(2.0) * f1 / (T::lit(3.0) * self.value)))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn recip_cbrt(self) -> Self {
                 let r = self.value.recip_cbrt();
                 let square = r * r;
                 let fourth = square * square;
                 self.chain(r, || fourth * T::lit(-1.0 / 3.0), || T::lit(4.0 / 9.0) * (fourth * square * r))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powi(self, n: i32) -> Self {
                 // x⁰ and x¹ have no term in x⁻¹, so their derivatives stay finite at x = 0.
                 let degree = f64::from(n);
@@ -166,7 +166,7 @@ macro_rules! implement_real {
                     },
                 )
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powf(self, exponent: Self) -> Self {
                 let (x, y) = (self.value, exponent.value);
                 let z = x.powf(y);
@@ -195,62 +195,62 @@ macro_rules! implement_real {
                 let at_zero = if self == Self::constant(x) { Self::constant(z) } else { in_base };
                 Self::select(base_is_zero & T::zero().less_than(y), at_zero, in_both)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn exp(self) -> Self {
                 let e = self.value.exp();
                 self.chain(e, || e, || e)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn exp_m1(self) -> Self {
                 let e = self.value.exp();
                 self.chain(self.value.exp_m1(), || e, || e)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn ln(self) -> Self {
                 let r = self.value.recip();
                 self.chain(self.value.ln(), || r, || -(r * r))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn ln_1p(self) -> Self {
                 let r = (T::one() + self.value).recip();
                 self.chain(self.value.ln_1p(), || r, || -(r * r))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn ln_1p_given(self, sum: Self) -> Self {
                 let r = sum.value.recip();
                 let near = self.value.abs().at_most(T::lit(0.5));
                 Self::select(near, self, sum).chain(self.value.ln_1p_given(sum.value), || r, || -(r * r))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sin_cos(self) -> (Self, Self) {
                 let (s, c) = self.value.sin_cos();
                 (self.chain(s, || c, || -s), self.chain(c, || -s, || -c))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn tan(self) -> Self {
                 let t = self.value.tan();
                 let f1 = T::one() + t * t;
                 self.chain(t, || f1, || T::lit(2.0) * t * f1)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn asin(self) -> Self {
                 let x = self.value;
                 let f1 = crate::differentiable::one_minus_square(x).sqrt().recip();
                 self.chain(x.asin(), || f1, || x * f1 * f1 * f1)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn acos(self) -> Self {
                 let x = self.value;
                 let f1 = crate::differentiable::one_minus_square(x).sqrt().recip();
                 self.chain(x.acos(), || -f1, || -(x * f1 * f1 * f1))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan(self) -> Self {
                 let x = self.value;
                 let f1 = (T::one() + x * x).recip();
                 self.chain(x.atan(), || f1, || -(T::lit(2.0) * x * f1 * f1))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(self, x: Self) -> Self {
                 // The angle is θ₀ + arctan(η/ξ), where (ξ, η) is the point turned back by the constant θ₀,
                 // so that the quotient vanishes at the value and all its derivatives are regular. Only the
@@ -262,30 +262,30 @@ macro_rules! implement_real {
                 let turned = (self * c - x * s) / (x * c + self * s);
                 turned.chain(y0.atan2(x0), T::one, T::zero)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sinh(self) -> Self {
                 let (s, c) = (self.value.sinh(), self.value.cosh());
                 self.chain(s, || c, || s)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn cosh(self) -> Self {
                 let (s, c) = (self.value.sinh(), self.value.cosh());
                 self.chain(c, || s, || c)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn tanh(self) -> Self {
                 let t = self.value.tanh();
                 let c = self.value.cosh();
                 let f1 = (c * c).recip();
                 self.chain(t, || f1, || -(T::lit(2.0) * t * f1))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn abs(self) -> Self {
                 let negative = self.value.less_than(T::zero());
                 let sign = T::select(negative, -T::one(), T::one());
                 self.chain(self.value.abs(), || sign, T::zero)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn copysign(self, sign: Self) -> Self {
                 let flip = T::one().copysign(self.value) * T::one().copysign(sign.value);
                 self.each(|a| a * flip)

@@ -9,7 +9,7 @@
 //! struct Cosines<'a>(&'a [Lanes<f64, 8>], &'a mut [Lanes<f64, 8>]);
 //! impl Kernel for Cosines<'_> {
 //!     type Output = ();
-//!     #[inline(always)] // and so on everything it calls
+//!     #[cfg_attr(not(debug_assertions), inline(always))] // and so on everything it calls
 //!     fn run(self) {
 //!         for (x, y) in self.0.iter().zip(self.1) {
 //!             *y = x.cos();
@@ -20,7 +20,7 @@
 //! dispatch(Cosines(&[Lanes::splat(0.0)], &mut y));
 //! assert_eq!(y[0], Lanes::splat(1.0));
 //! ```
-//! **Everything that a kernel calls must be `#[inline(always)]`**: a function that is not inlined is
+//! **Everything that a kernel calls must be `#[cfg_attr(not(debug_assertions), inline(always))]`**: a function that is not inlined is
 //! compiled for the base level, and each call to it saves and restores the wide registers. Closures cannot
 //! be marked; large ones are better written as functions.
 //!
@@ -38,7 +38,7 @@ use std::sync::OnceLock;
 pub trait Kernel {
     /// What it returns.
     type Output;
-    /// Computes; to be marked `#[inline(always)]`.
+    /// Computes; to be marked `#[cfg_attr(not(debug_assertions), inline(always))]`.
     fn run(self) -> Self::Output;
 }
 
@@ -108,7 +108,7 @@ pub fn dispatch_at<K: Kernel>(level: Level, kernel: K) -> K::Output {
 pub trait LaneKernel {
     /// What it returns.
     type Output;
-    /// Computes with N lanes; to be marked `#[inline(always)]`.
+    /// Computes with N lanes; to be marked `#[cfg_attr(not(debug_assertions), inline(always))]`.
     fn run<const N: usize>(self) -> Self::Output;
 }
 
@@ -123,7 +123,7 @@ pub trait LaneKernel {
 /// struct Sum<'a>(&'a [f64]);
 /// impl LaneKernel for Sum<'_> {
 ///     type Output = f64;
-///     #[inline(always)]
+///     #[cfg_attr(not(debug_assertions), inline(always))]
 ///     fn run<const N: usize>(self) -> f64 {
 ///         let chunks = self.0.chunks(N).map(|chunk| Lanes::<f64, N>::load(chunk, 0.0));
 ///         chunks.fold(Lanes::splat(0.0), |sum, chunk| sum + chunk).0.iter().sum()
@@ -143,7 +143,7 @@ struct Of<K, const N: usize>(K);
 
 impl<K: LaneKernel, const N: usize> Kernel for Of<K, N> {
     type Output = K::Output;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> K::Output {
         self.0.run::<N>()
     }

@@ -28,37 +28,37 @@ pub struct Dual<T> {
 
 impl<T: Real> Dual<T> {
     /// A value with a given derivative.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn new(value: T, tangent: T) -> Self {
         Self { value, tangent }
     }
     /// The variable itself: derivative one.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn variable(value: T) -> Self {
         Self { value, tangent: T::one() }
     }
     /// A constant: derivative zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn constant(value: T) -> Self {
         Self { value, tangent: T::zero() }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, f: T, f1: impl FnOnce() -> T, _f2: impl FnOnce() -> T) -> Self {
         Self { value: f, tangent: self.tangent * f1() }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn linear(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         Self { value: f(self.value, other.value), tangent: f(self.tangent, other.tangent) }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn each(self, f: impl Fn(T) -> T) -> Self {
         Self { value: f(self.value), tangent: f(self.tangent) }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn product(self, o: Self) -> Self {
         Self { value: self.value * o.value, tangent: self.tangent * o.value + self.value * o.tangent }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn quotient(self, o: Self) -> Self {
         // The value is divided and not multiplied by r: it is that of the plain scalar, to the last bit.
         let r = T::one() / o.value;

@@ -6,7 +6,7 @@ use crate::{Mask, Real};
 ///
 /// # Accuracy
 /// 4 ulp for |x| ≤ ½; beyond, the difference itself, 8 ulp.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn excess_over_logarithm<T: Real>(x: T) -> T {
     let small = x.abs().at_most(T::lit(0.5));
     if small.all() {
@@ -17,7 +17,7 @@ pub fn excess_over_logarithm<T: Real>(x: T) -> T {
 }
 
 /// x − ln(1 + x) of |x| ≤ ½.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn small_excess<T: Real>(x: T) -> T {
     if T::ORDER == 0 { series(x) } else { series_apart(x) }
 }
@@ -31,7 +31,7 @@ fn series_apart<T: Real>(x: T) -> T {
 /// ```text
 /// s = x/(2 + x):   x − ln(1 + x) = x s − 2 (s³/3 + s⁵/5 + …)
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn series<T: Real>(x: T) -> T {
     let s = x / (T::lit(2.0) + x);
     let q = s * s;
@@ -50,7 +50,7 @@ fn series<T: Real>(x: T) -> T {
 ///
 /// # Accuracy
 /// That of [`excess_over_logarithm`]; for x → −1 and its derivatives that of the logarithm.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn excess_over_given<T: Real>(x: T, logarithm: T) -> T {
     let small = x.abs().at_most(T::lit(0.5));
     if small.all() {
@@ -65,7 +65,7 @@ pub fn excess_over_given<T: Real>(x: T, logarithm: T) -> T {
 ///
 /// # Accuracy
 /// As [`excess_over_given`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn volume_excess<T: Real>(change: T, jacobian: T) -> T {
     let small = change.abs().at_most(T::lit(0.5));
     if small.all() {
@@ -79,7 +79,7 @@ pub fn volume_excess<T: Real>(change: T, jacobian: T) -> T {
 ///
 /// # Accuracy
 /// 4 ulp for |x| ≤ ½; beyond, the difference itself, 8 ulp.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn excess_of_exponential<T: Real>(x: T) -> T {
     let small = x.abs().at_most(T::lit(0.5));
     let plain = x.exp_m1() - x;

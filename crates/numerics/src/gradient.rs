@@ -25,7 +25,7 @@ pub struct Gradient<T, const N: usize> {
 impl<T: Real, const N: usize> Gradient<T, N> {
     /// The variable number `direction`: its own partial derivative is one. A `direction` of N or more
     /// gives a constant, so that chunks of directions need no special case.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn variable(value: T, direction: usize) -> Self {
         let mut partials = [T::zero(); N];
         for (i, partial) in partials.iter_mut().enumerate() {
@@ -36,34 +36,34 @@ impl<T: Real, const N: usize> Gradient<T, N> {
         Self { value, partials }
     }
     /// A constant: all derivatives zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn constant(value: T) -> Self {
         Self { value, partials: [T::zero(); N] }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, f: T, f1: impl FnOnce() -> T, _f2: impl FnOnce() -> T) -> Self {
         let f1 = f1();
         Self { value: f, partials: self.partials.map(|x| x * f1) }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn linear(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         Self {
             value: f(self.value, other.value),
             partials: core::array::from_fn(|i| f(self.partials[i], other.partials[i])),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn each(self, f: impl Fn(T) -> T) -> Self {
         Self { value: f(self.value), partials: self.partials.map(f) }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn product(self, o: Self) -> Self {
         Self {
             value: self.value * o.value,
             partials: core::array::from_fn(|i| self.partials[i] * o.value + self.value * o.partials[i]),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn quotient(self, o: Self) -> Self {
         // The value is divided and not multiplied by r: it is that of the plain scalar, to the last bit.
         let r = T::one() / o.value;

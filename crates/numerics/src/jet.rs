@@ -37,7 +37,7 @@ pub struct Jet<T, const N: usize> {
 impl<T: Real, const N: usize> Jet<T, N> {
     /// The coordinate number `direction`, moving at `rate` without acceleration. A `direction` of N or
     /// more has no partial derivatives, so that chunks of directions need no special case.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn coordinate(value: T, rate: T, direction: usize) -> Self {
         let mut jet = Self { value, partials: [T::zero(); N], rate, second_rate: T::zero() };
         for (i, partial) in jet.partials.iter_mut().enumerate() {
@@ -48,16 +48,16 @@ impl<T: Real, const N: usize> Jet<T, N> {
         jet
     }
     /// A constant: all derivatives zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn constant(value: T) -> Self {
         Self { value, partials: [T::zero(); N], rate: T::zero(), second_rate: T::zero() }
     }
     /// The time itself: rate one, no partial derivatives.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn time(value: T) -> Self {
         Self { value, partials: [T::zero(); N], rate: T::one(), second_rate: T::zero() }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, f: T, f1: impl FnOnce() -> T, f2: impl FnOnce() -> T) -> Self {
         let (f1, f2) = (f1(), f2());
         Self {
@@ -67,7 +67,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
             second_rate: self.second_rate * f1 + self.rate * self.rate * f2,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn linear(self, other: Self, f: impl Fn(T, T) -> T) -> Self {
         Self {
             value: f(self.value, other.value),
@@ -76,7 +76,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
             second_rate: f(self.second_rate, other.second_rate),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn each(self, f: impl Fn(T) -> T) -> Self {
         Self {
             value: f(self.value),
@@ -85,7 +85,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
             second_rate: f(self.second_rate),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn product(self, o: Self) -> Self {
         let cross = self.rate * o.rate;
         Self {
@@ -95,7 +95,7 @@ impl<T: Real, const N: usize> Jet<T, N> {
             second_rate: self.second_rate * o.value + self.value * o.second_rate + (cross + cross),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn quotient(self, o: Self) -> Self {
         // The value is divided and not multiplied by r: it is that of the plain scalar, to the last bit.
         let r = T::one() / o.value;

@@ -9,7 +9,7 @@ use crate::Real;
 /// whole, if the computation is straight: no loop of a length that is known at run time only, no call that is not
 /// inlined, and of two sides of a branch both may be computed.
 pub trait Lanewise<const I: usize, const O: usize> {
-    /// Computes; to be marked `#[inline(always)]`, as everything that it calls.
+    /// Computes; to be marked `#[cfg_attr(not(debug_assertions), inline(always))]`, as everything that it calls.
     #[must_use]
     fn run<T: Real>(&self, inputs: [T; I]) -> [T; O];
 }

@@ -9,7 +9,7 @@ const LINE: usize = 64;
 ///
 /// Processors guess what will be read next. A long computation that reads the lines of an element in an order of its
 /// own leaves them guessing wrong.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn prefetch<T>(elements: &[T], index: usize) {
     #[cfg(target_arch = "x86_64")]
     ask::<T, { core::arch::x86_64::_MM_HINT_T0 }>(elements, index);
@@ -18,7 +18,7 @@ pub fn prefetch<T>(elements: &[T], index: usize) {
 }
 
 /// As [`prefetch`], of an element that will be written: a line that is only read must be asked for again to be written.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn prefetch_for_writing<T>(elements: &[T], index: usize) {
     #[cfg(target_arch = "x86_64")]
     ask::<T, { core::arch::x86_64::_MM_HINT_ET0 }>(elements, index);
@@ -27,7 +27,7 @@ pub fn prefetch_for_writing<T>(elements: &[T], index: usize) {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn ask<T, const HINT: i32>(elements: &[T], index: usize) {
     if let Some(element) = elements.get(index) {
         let address = core::ptr::from_ref(element).cast::<i8>();

@@ -38,15 +38,15 @@ pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output
 }
 
 impl Mask for bool {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn splat(value: bool) -> Self {
         value
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn any(self) -> bool {
         self
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn all(self) -> bool {
         self
     }
@@ -182,7 +182,7 @@ pub trait Real:
     fn copysign(self, sign: Self) -> Self;
 
     /// 1/x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn recip(self) -> Self {
         Self::one() / self
@@ -193,7 +193,7 @@ pub trait Real:
     /// use piola_numerics::{Lanes, Real};
     /// assert_eq!(Lanes([8.0, -0.125, 0.0, f64::INFINITY]).recip_cbrt(), Lanes([0.5, -2.0, f64::INFINITY, 0.0]));
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn recip_cbrt(self) -> Self {
         self.cbrt().recip()
@@ -206,7 +206,7 @@ pub trait Real:
     /// assert_eq!(1e-20_f64.ln_1p_given(1.0), 1e-20);
     /// assert_eq!((-1.0_f64).ln_1p_given(1e-20), 1e-20_f64.ln());
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn ln_1p_given(self, sum: Self) -> Self {
         let near = self.abs().at_most(Self::lit(0.5));
@@ -217,32 +217,32 @@ pub trait Real:
         if near.any() { Self::select(near, self.ln_1p(), plain) } else { plain }
     }
     /// sin x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
     /// cos x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn cos(self) -> Self {
         self.sin_cos().1
     }
     /// tan x.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn tan(self) -> Self {
         let (s, c) = self.sin_cos();
         s / c
     }
     /// The smaller of two values; NaN when either is.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn min(self, other: Self) -> Self {
         Self::select(self.at_most(other) | self.is_nan(), self, other)
     }
     /// The larger of two values; NaN when either is.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn max(self, other: Self) -> Self {
         Self::select(other.at_most(self) | self.is_nan(), self, other)
@@ -254,7 +254,7 @@ pub trait Real:
     /// use piola_numerics::{Lanes, Real};
     /// struct Hypotenuse;
     /// impl Lanewise<2, 1> for Hypotenuse {
-    ///     #[inline(always)]
+    ///     #[cfg_attr(not(debug_assertions), inline(always))]
     ///     fn run<T: Real>(&self, [x, y]: [T; 2]) -> [T; 1] {
     ///         [(x * x + y * y).sqrt()]
     ///     }
@@ -262,13 +262,13 @@ pub trait Real:
     /// assert_eq!(f64::lanewise(&Hypotenuse, [3.0, 4.0]), [5.0]);
     /// assert_eq!(Lanes::lanewise(&Hypotenuse, [Lanes([3.0, 5.0]), Lanes([4.0, 12.0])]), [Lanes([5.0, 13.0])]);
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn lanewise<const I: usize, const O: usize>(computation: &impl Lanewise<I, O>, inputs: [Self; I]) -> [Self; O] {
         computation.run(inputs)
     }
     /// Where the value is not a number.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn is_nan(self) -> Self::Mask {
         // Every number is at most itself.
@@ -279,7 +279,7 @@ pub trait Real:
 /// Functions of one number that the standard library has under the same name.
 macro_rules! float_functions {
     ($float:ident: $($name:ident)*) => {$(
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn $name(self) -> Self {
             $float::$name(self)
         }
@@ -293,7 +293,7 @@ macro_rules! real_for_float {
             const LANES: usize = 1;
             const ORDER: usize = 0;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[expect(
                 clippy::allow_attributes,
                 reason = "one macro serves f32, where the cast rounds, and f64, where it is the identity"
@@ -302,48 +302,48 @@ macro_rules! real_for_float {
             fn lit(value: f64) -> Self {
                 value as $float
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn primal(self, _lane: usize) -> f64 {
                 f64::from(self)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn frozen(self) -> Self {
                 self
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn less_than(self, other: Self) -> bool {
                 self < other
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn at_most(self, other: Self) -> bool {
                 self <= other
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn select(mask: bool, if_true: Self, if_false: Self) -> Self {
                 if mask { if_true } else { if_false }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn is_finite(self) -> bool {
                 $float::is_finite(self)
             }
             float_functions!($float: sqrt cbrt exp exp_m1 ln ln_1p sin cos tan asin acos atan sinh cosh tanh abs);
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powi(self, n: i32) -> Self {
                 $float::powi(self, n)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powf(self, exponent: Self) -> Self {
                 $float::powf(self, exponent)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sin_cos(self) -> (Self, Self) {
                 $float::sin_cos(self)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(self, x: Self) -> Self {
                 $float::atan2(self, x)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn copysign(self, sign: Self) -> Self {
                 $float::copysign(self, sign)
             }

@@ -27,7 +27,7 @@ use crate::{NumericsError, Real};
 ///
 /// # Accuracy
 /// Exact unless the sum overflows, when the error is NaN.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
     let sum = a + b;
@@ -41,7 +41,7 @@ pub fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
 /// # Accuracy
 /// Exact in f64 for factors below 2⁹⁹⁶ in size and a product that neither overflows nor falls below 2⁻⁹⁶⁹
 /// (f32: 2¹¹⁵ and 2⁻¹⁰²).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn two_product<T: Real>(a: T, b: T) -> (T, T) {
     let product = a * b;
@@ -52,7 +52,7 @@ pub fn two_product<T: Real>(a: T, b: T) -> (T, T) {
 }
 
 /// Two halves of a number with half its digits each, so that products of halves are exact (Veltkamp).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn split<T: Real>(x: T) -> (T, T) {
     let splitter = T::lit(if unit_in_last_place::<T>() < 1e-10 { 134_217_729.0 } else { 4097.0 });
     let scaled = splitter * x;
@@ -61,7 +61,7 @@ fn split<T: Real>(x: T) -> (T, T) {
 }
 
 /// The distance from one to the next number of `T`: 2⁻⁵² over f64, 2⁻²³ over f32.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn unit_in_last_place<T: Real>() -> f64 {
     let next = T::one() + T::lit(f64::EPSILON);
@@ -97,27 +97,27 @@ pub struct CompensatedSum<T> {
 
 impl<T: Real> CompensatedSum<T> {
     /// The empty sum.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn new() -> Self {
         Self { sum: T::zero(), carry: T::zero() }
     }
     /// Adds a term.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn add(&mut self, term: T) {
         let (sum, error) = two_sum(self.sum, term);
         self.sum = sum;
         self.carry += error;
     }
     /// Adds the product of two factors with its rounding error.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn add_product(&mut self, a: T, b: T) {
         let (product, error) = two_product(a, b);
         self.add(product);
         self.carry += error;
     }
     /// The sum.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn value(self) -> T {
         // After an overflow the carry is NaN and the plain sum tells what happened.

@@ -20,7 +20,7 @@ pub(crate) fn largest<const D: usize, T: Real>(vectors: &[[T; D]]) -> f64 {
 }
 
 /// x − `factor` u for the sample at `position`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn target<const D: usize, T: Real>(
     grid: &ImageGrid<D>,
     position: usize,
@@ -49,7 +49,7 @@ pub(crate) fn compose<const D: usize, T: Real>(
 }
 
 /// A vector field at a place: multilinear, continued by reflection beyond the outermost samples.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sample<const D: usize, T: Real>(grid: &ImageGrid<D>, field: &[[T; D]], place: [T; D]) -> [T; D] {
     let (sizes, spacing, strides) = (grid.sizes(), grid.spacing(), grid.strides());
     let mut weights = [[T::zero(); 2]; D];

@@ -141,7 +141,7 @@ impl<const D: usize> ImageGrid<D> {
 }
 
 /// Moves `index` to the next sample in row-major order.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn advance<const D: usize>(index: &mut [usize; D], sizes: &[usize; D]) {
     for axis in (0..D).rev() {
         index[axis] += 1;

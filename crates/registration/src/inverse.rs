@@ -23,7 +23,7 @@ pub(crate) fn invert<const D: usize, T: Real>(grid: &ImageGrid<D>, field: &[[T; 
 }
 
 /// −(h(x) − y) for x = y − w.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn defect<const D: usize, T: Real>(grid: &ImageGrid<D>, field: &[[T; D]], y: &[T; D], w: &[T; D]) -> [T; D] {
     let x = std::array::from_fn(|axis| y[axis] - w[axis]);
     let u = sample(grid, field, x);

@@ -6,7 +6,7 @@ use crate::grid::{ImageGrid, advance};
 use crate::parallel::{each, fold};
 
 /// Index and sign of the normal component of a neighbour, counted from the ghost sample before the first one.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn reflected(index: usize, size: usize) -> (usize, bool) {
     if index == 0 {
         (0, true)
@@ -18,7 +18,7 @@ pub(crate) fn reflected(index: usize, size: usize) -> (usize, bool) {
 }
 
 /// The determinant of a 2×2 or 3×3 matrix of rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn determinant<const D: usize, T: Real>(m: &[[T; D]; D]) -> T {
     if D == 2 {
         m[0][0] * m[1][1] - m[0][1] * m[1][0]
@@ -29,7 +29,7 @@ pub(crate) fn determinant<const D: usize, T: Real>(m: &[[T; D]; D]) -> T {
 }
 
 /// Rows b ↦ `∂u/∂x_b` at a sample, by central differences; reflected beyond the walls.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn slopes_at<const D: usize, T: Real>(
     grid: &ImageGrid<D>,
     field: &[[T; D]],
@@ -53,7 +53,7 @@ pub(crate) fn slopes_at<const D: usize, T: Real>(
     slopes
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn unit_minus<const D: usize, T: Real>(mut matrix: [[T; D]; D]) -> [[T; D]; D] {
     for (row, entries) in matrix.iter_mut().enumerate() {
         for (column, entry) in entries.iter_mut().enumerate() {
@@ -79,7 +79,7 @@ pub(crate) fn nodal_jacobian<const D: usize, T: Real>(grid: &ImageGrid<D>, field
 
 /// `factor` u at the corners of the cell whose first corner is counted from the ghost sample before the first one; bit a of a corner is its step
 /// along axis a. Only the first 2^D entries are used.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn corners<const D: usize, T: Real>(
     grid: &ImageGrid<D>,
     field: &[[T; D]],
@@ -128,7 +128,7 @@ const fn tetrahedra() -> [[usize; 3]; 24] {
 }
 
 /// The least determinant over the simplices of one cell, along all its diagonals; infinite where all exceed `known`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn least_of_cell<const D: usize, T: Real>(u: &[[T; D]; 8], factors: &[T; D], known: f64) -> T {
     // ∂h/∂x_a along each edge of direction a, by its lower corner.
     let mut edges = [[[T::zero(); D]; 8]; D];
@@ -194,7 +194,7 @@ impl<const D: usize, T: Real> Row<D, T> {
     }
 
     /// Loads the corners at `index` along the last axis, on the near or the far side.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load(&self, field: &[[T; D]], size: usize, index: usize, side: usize, u: &mut [[T; D]; 8]) {
         let (index, is_turned) = reflected(index, size);
         for corner in 0..1 << (D - 1) {

@@ -245,7 +245,7 @@ fn joint<T: Real>(a: &[T], b: &[T], about: [f64; 2]) -> Joint {
 }
 
 /// The first of four bins that a value touches, its share of the way in the cell, and whether it lies in the range.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn window(range: &[f64; 2], value: f64) -> (usize, f64, bool) {
     let cells = (BINS - 3) as f64;
     let at = (value - range[0]) / (range[1] - range[0]) * cells;

@@ -44,7 +44,7 @@ struct Position<T> {
     is_inside: bool,
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn position<T: Real>(place: T, spacing: f64, size: usize) -> Position<T> {
     let index = place * T::lit(1.0 / spacing) - T::lit(0.5);
     let last = (size - 1) as f64;
@@ -93,7 +93,7 @@ impl<const D: usize, T: Real> ImageSampler<D, T> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn linear(&self, place: [T; D]) -> (T, [T; D]) {
         let (sizes, spacing, strides) = (self.grid.sizes(), self.grid.spacing(), self.grid.strides());
         let mut weights = [[T::zero(); 2]; D];
@@ -177,7 +177,7 @@ impl<const D: usize, T: Real> ImageSampler<D, T> {
 }
 
 /// The four cubic B-splines that do not vanish at the share `t` of a cell.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cubic_weights<T: Real>(t: T) -> [T; 4] {
     let sixth = T::lit(1.0 / 6.0);
     let s = T::one() - t;
@@ -190,7 +190,7 @@ pub(crate) fn cubic_weights<T: Real>(t: T) -> [T; 4] {
 }
 
 /// Their derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cubic_slopes<T: Real>(t: T) -> [T; 4] {
     let half = T::lit(0.5);
     let s = T::one() - t;

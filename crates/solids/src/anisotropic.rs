@@ -56,12 +56,12 @@ impl AnisotropicLinear {
         &self.stiffness
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tensor<T: Real>(&self) -> MajorSymmetric<T> {
         constant_tangent(self.stiffness.tensor())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
         let [[a, b, c], [d, e, f], [g, h, i]] = deformation.displacement_rows();
         Symmetric { components: T::lanewise(&Linear(*self), [a, b, c, d, e, f, g, h, i]) }
@@ -72,7 +72,7 @@ impl AnisotropicLinear {
 struct Linear(AnisotropicLinear);
 
 impl Lanewise<18, 54> for Linear {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
         let [_, h] = packed::gradients(inputs);
         let tensor = self.0.tensor();
@@ -81,48 +81,48 @@ impl Lanewise<18, 54> for Linear {
 }
 
 impl Lanewise<9, 6> for Linear {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, [a, b, c, d, e, f, g, h, i]: [T; 9]) -> [T; 6] {
         self.0.tensor().contract(&Symmetric::symmetric_part([[a, b, c], [d, e, f], [g, h, i]])).components
     }
 }
 
 impl Hyperelastic for AnisotropicLinear {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let strain = LinearStrain::of(deformation).0;
         T::lit(0.5) * self.tensor().quadratic_form(&strain, &strain)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         FirstPiola(self.stress(deformation).matrix())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn second_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
         SecondPiola(self.stress(deformation))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kirchhoff<T: Real>(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
         KirchhoffStress(self.stress(deformation))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cauchy<T: Real>(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         CauchyStress(self.stress(deformation))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         FirstPiolaTangent(self.tensor().general())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn material_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MaterialTangent<T> {
         MaterialTangent(self.tensor())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn truesdell_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
         TruesdellTangent(self.tensor())
     }
     crate::strain_energy::linear_pairs!();
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         T::lanewise(&Linear(*self), packed::of_deformation(deformation))
     }
@@ -173,11 +173,11 @@ impl AnisotropicSaintVenantKirchhoff {
 }
 
 impl GreenEnergy for AnisotropicSaintVenantKirchhoff {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn green_stress<T: Real>(&self, strain: &Symmetric<T>) -> Symmetric<T> {
         constant_tangent(self.stiffness.tensor()).contract(strain)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn green_stress_and_tangent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         let tangent = constant_tangent(self.stiffness.tensor());
         (tangent.contract(strain), tangent)
@@ -185,29 +185,29 @@ impl GreenEnergy for AnisotropicSaintVenantKirchhoff {
 }
 
 impl StrainEnergy for AnisotropicSaintVenantKirchhoff {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let strain = GreenStrain::of(deformation).0;
         T::lit(0.5) * constant_tangent(self.stiffness.tensor()).quadratic_form(&strain, &strain)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
         self.green_stress(&GreenStrain::of(deformation).0)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MajorSymmetric<T> {
         constant_tangent(self.stiffness.tensor())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         self.both_in_lanes(deformation)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         self.in_lanes(deformation)
     }
     /// W = ½ S : E.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_stress_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,

@@ -76,7 +76,7 @@ impl BlatzKo {
     }
 
     /// J^(−2β) − 1 and J^(2β) − 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn powers<T: Real>(&self, logarithm: T) -> (T, T) {
         let exponent = T::lit(2.0 * self.exponent()) * logarithm;
         let exponent = within(exponent.abs(), T::lit(self.limit::<T>()), exponent);
@@ -84,7 +84,7 @@ impl BlatzKo {
     }
 
     /// Upper bound of |2 β ln J| that keeps the tangent within the range of the scalar.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn limit<T: Real>(&self) -> f64 {
         largest_exponent::<T>(4.0 * self.shear_modulus * (1.0 + self.exponent()))
     }
@@ -97,7 +97,7 @@ impl InvariantEnergy for BlatzKo {
     /// To the rounding of ln J.
     const REFUSED_IS_NOT_FINITE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         let (jacobian, limit) = (deformation.jacobian(), self.limit::<T>());
         // |2 β ln J| < 60.
@@ -110,7 +110,7 @@ impl InvariantEnergy for BlatzKo {
     }
 
     /// With z = J^(∓2β) − 1 the brackets are I₁ − 3 − 2 ln J and I₂/J² − 3 + 2 ln J, each with (z − ln(1 + z))/β.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let (solid, foam) = self.moduli();
         let (down, up) = self.powers(deformation.ln_jacobian());
@@ -121,7 +121,7 @@ impl InvariantEnergy for BlatzKo {
             + T::lit(0.5 * foam) * (inverse_excess(deformation) + reciprocal * excess_over_given(up, exponent))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let (solid, foam) = self.moduli();
         let change = invariants.change;
@@ -139,7 +139,7 @@ impl InvariantEnergy for BlatzKo {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let (solid, foam) = self.moduli();
         let (one, beta) = (T::one(), self.exponent());

@@ -108,7 +108,7 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
 }
 
 /// Ī₁ − 3 and Ī₂ − 3 within a few ulp of themselves.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn shape_of<T: Real, I: Isochoric>(deformation: &impl Deformation<T>) -> [T; 2] {
     if I::SECOND {
         invariants::isochoric_minus_three(deformation)
@@ -118,7 +118,7 @@ fn shape_of<T: Real, I: Isochoric>(deformation: &impl Deformation<T>) -> [T; 2] 
 }
 
 /// g = J^(−2/3), Ī₁ − 3 and Ī₂ − 3 within an ulp of the strain.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn isochoric_of<T: Real, I: Isochoric>(invariants: &Invariants<T>) -> (T, T, T) {
     let three = T::lit(3.0);
     let Unimodular { two_thirds: power, two_thirds_change: power_change, .. } =
@@ -145,31 +145,31 @@ impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
     const REFUSED_IS_NOT_FINITE: bool = I::REFUSED_IS_NOT_FINITE;
     const STRAIGHT: bool = I::STRAIGHT && U::STRAIGHT;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let [first, second] = shape_of::<T, I>(deformation);
         self.isochoric.energy(first, second)
             + self.volumetric.energy(deformation.volume_change(), deformation.jacobian())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         let [first, second] = shape_of::<T, I>(deformation);
         isochoric::check_lanes(&self.isochoric, first, second)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let (power, x, y) = isochoric_of::<T, I>(invariants);
         self.slopes_of(invariants, power, self.isochoric.slopes(x, y))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         self.slopes_and_curvatures(invariants).1
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes_and_curvatures<T: Real>(&self, invariants: &Invariants<T>) -> (Slopes<T>, Curvatures<T>) {
         let (power, x, y) = isochoric_of::<T, I>(invariants);
         let ([a, b], [xx, xy, yy]) = self.isochoric.slopes_and_curvatures(x, y);
@@ -199,7 +199,7 @@ impl<I: Isochoric, U: Volumetric> InvariantEnergy for Compressible<I, U> {
 
 impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
     /// The slopes, given J^(−2/3) and those of W̄.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes_of<T: Real>(&self, invariants: &Invariants<T>, power: T, [a, b]: [T; 2]) -> Slopes<T> {
         let first = a * power;
         let volume = self.volumetric.mean_kirchhoff(invariants.change, invariants.jacobian);

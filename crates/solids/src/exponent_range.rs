@@ -8,13 +8,13 @@ use crate::SolidsError;
 const SHARE: f64 = 0.42;
 
 /// ln of the largest number of the scalar: 709 in double precision, 88 in single.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn largest_logarithm<T: Real>() -> f64 {
     if T::lit(f64::MAX).is_finite().all() { 709.0 } else { 88.0 }
 }
 
 /// The exponent that is admitted without a closer look.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn small_exponent<T: Real>() -> f64 {
     SHARE * largest_logarithm::<T>()
 }
@@ -22,7 +22,7 @@ pub(super) fn small_exponent<T: Real>() -> f64 {
 /// Refuses `factor` · e^`exponent` beyond the range of the scalar.
 ///
 /// The factor is a bound of all that multiplies the exponential in the tangent.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn check_exponent<T: Real>(
     law: &'static str,
     quantity: &'static str,
@@ -36,7 +36,7 @@ pub(super) fn check_exponent<T: Real>(
 }
 
 /// As [`check_exponent`], where `factor` · e^`exponent` itself tells: for laws that compute it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn check_range<T: Real>(
     law: &'static str,
     quantity: &'static str,
@@ -64,7 +64,7 @@ fn beyond<T: Real>(law: &'static str, quantity: &'static str, exponent: T, facto
 }
 
 /// True if both are clearly within the range.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn are_small<T: Real>(exponent: T, factor: T) -> bool {
     let (most, great) = if largest_logarithm::<T>() < 100.0 { (36.0, 1e16) } else { (297.0, 1e129) };
     (exponent.less_than(T::lit(most)) & factor.less_than(T::lit(great))).all()
@@ -72,14 +72,14 @@ fn are_small<T: Real>(exponent: T, factor: T) -> bool {
 
 /// The exponent below which 0 < `factor` · e^exponent is within the range of the scalar: the binary exponent of the factor
 /// and one more bound its logarithm.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn largest_exponent<T: Real>(factor: f64) -> f64 {
     let binary = (factor.to_bits() >> 52).saturating_sub(1022);
     largest_logarithm::<T>() - core::f64::consts::LN_2 * f64::from(u32::try_from(binary).unwrap_or(u32::MAX))
 }
 
 /// Refuses an exponent that reaches the limit.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn check_below<T: Real>(
     law: &'static str,
     quantity: &'static str,
@@ -94,7 +94,7 @@ pub(super) fn check_below<T: Real>(
 /// `value` where `x` is below its limit, NaN beyond.
 ///
 /// A product, so that every derivative that the scalar carries is NaN too: those of a constant NaN would be zero.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn within<T: Real>(x: T, limit: T, value: T) -> T {
     value * T::select(x.less_than(limit), T::one(), T::lit(f64::NAN))
 }

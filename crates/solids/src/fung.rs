@@ -78,33 +78,33 @@ impl Fung {
     }
 
     /// A : E and Q.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exponent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, T) {
         let image = constant_tangent(self.exponents.tensor()).contract(strain);
         (image, strain.double_contraction(&image))
     }
 
     /// Upper bound of the factor of e^Q in ∂P/∂F: (A : E)² ≤ |A| Q, and |F|² = tr C.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn factor<T: Real>(&self, strain: &Symmetric<T>, q: T) -> T {
         let two = T::lit(2.0);
         T::lit(self.size) * ((T::one() + two * q) * (T::lit(4.0) + two * strain.trace()))
     }
 
     /// 1 where the tangent is within the range of the scalar, NaN elsewhere; e^Q is given.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn within<T: Real>(&self, strain: &Symmetric<T>, q: T, power: T) -> T {
         T::select((self.factor(strain, q) * power).is_finite(), T::one(), T::lit(f64::NAN))
     }
 
     /// e^Q − 1, NaN where e^Q is refused.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn growth<T: Real>(&self, strain: &Symmetric<T>, q: T) -> T {
         q.exp_m1() * self.within(strain, q, q.exp())
     }
 
     /// S and ∂S/∂E of A : E and e^Q.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn scaled<T: Real>(&self, image: &Symmetric<T>, power: T) -> (Symmetric<T>, MajorSymmetric<T>) {
         let scale = T::lit(self.modulus) * power;
         let whole = constant_tangent(self.exponents.tensor()) + MajorSymmetric::dyad(image) * T::lit(2.0);
@@ -113,11 +113,11 @@ impl Fung {
 }
 
 impl GreenEnergy for Fung {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn green_stress<T: Real>(&self, strain: &Symmetric<T>) -> Symmetric<T> {
         self.green_stress_and_tangent(strain).0
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn green_stress_and_tangent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         let (image, q) = self.exponent(strain);
         let power = q.exp();
@@ -128,33 +128,33 @@ impl GreenEnergy for Fung {
 impl StrainEnergy for Fung {
     const REFUSED_IS_NOT_FINITE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let strain = GreenStrain::of(deformation).0;
         let q = self.exponent(&strain).1;
         T::lit(0.5 * self.modulus) * self.growth(&strain, q)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
         self.green_stress(&GreenStrain::of(deformation).0)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MajorSymmetric<T> {
         self.stress_and_tangent(deformation).1
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         self.green_stress_and_tangent(&GreenStrain::of(deformation).0)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         self.in_lanes(deformation)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         self.both_in_lanes(deformation)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_stress_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
@@ -165,7 +165,7 @@ impl StrainEnergy for Fung {
         let (stress, tangent) = self.scaled(&image, T::one() + growth);
         (T::lit(0.5 * self.modulus) * growth, stress, tangent)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         let strain = GreenStrain::of(deformation).0;
         let q = self.exponent(&strain).1;

@@ -107,31 +107,31 @@ impl<U: Volumetric> Hencky<U> {
 impl<U: Volumetric> StretchEnergy for Hencky<U> {
     const ISOCHORIC: bool = false;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn part<T: Real>(&self, x: T) -> T {
         T::lit(self.shear_modulus) * (x * x)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slope<T: Real>(&self, x: T) -> T {
         T::lit(2.0 * self.shear_modulus) * x
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, _x: T) -> T {
         T::lit(2.0 * self.shear_modulus)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn secant<T: Real>(&self, _x: T, _y: T) -> T {
         T::lit(2.0 * self.shear_modulus)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_energy<T: Real>(&self, volume: &Volume<T>) -> T {
         self.volumetric.energy(volume.change, volume.jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_slope<T: Real>(&self, volume: &Volume<T>) -> T {
         self.volumetric.mean_kirchhoff(volume.change, volume.jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_curvature<T: Real>(&self, volume: &Volume<T>) -> T {
         self.volumetric.stiffness(volume.change, volume.jacobian)
     }

@@ -74,7 +74,7 @@ parameters! {
 
 impl HolzapfelGasserOgden {
     /// H = d 1 + (1 − 3 d) a ⊗ a, tr H = 1: Eₐ = J^(−2/3) C : H − 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn structure(&self, family: usize) -> Symmetric {
         let [x, y, z] = self.fibres[family].direction();
         let (d, rest) = (self.dispersion, 1.0 - 3.0 * self.dispersion);
@@ -83,7 +83,7 @@ impl HolzapfelGasserOgden {
     }
 
     /// ⟨E⟩, 1 where it answers, and k₂ ⟨E⟩².
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tension<T: Real>(&self, strain: T) -> (T, T, T) {
         let taut = T::zero().less_than(strain);
         let tension = T::select(taut, strain, T::zero());
@@ -92,7 +92,7 @@ impl HolzapfelGasserOgden {
     }
 
     /// S and ∂S/∂E; e^x of each family's exponent is given.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_metric<T: Real>(
         &self,
         metric: &Metric<T>,
@@ -122,13 +122,13 @@ impl HolzapfelGasserOgden {
     }
 
     /// k₂ ⟨E⟩² of each family.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exponents<T: Real>(&self, metric: &Metric<T>) -> [T; 2] {
         [self.tension(metric.excess(&self.structure(0), 1.0)).2, self.tension(metric.excess(&self.structure(1), 1.0)).2]
     }
 
     /// W of e^x − 1 of each family's exponent.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn parts<T: Real>(&self, deformation: &impl Deformation<T>, change: T, growth: [T; 2]) -> T {
         T::lit(0.5 * self.shear_modulus) * invariants::isochoric_first_minus_three(deformation)
             + T::lit(0.5 * self.bulk_modulus) * (change * change)
@@ -157,7 +157,7 @@ struct Invariant<T> {
 }
 
 impl<T: Real> Metric<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(deformation: &impl Deformation<T>) -> Self {
         let (inverse, less_inverse) = inverse_metric(deformation);
         let change = deformation.volume_change();
@@ -174,14 +174,14 @@ impl<T: Real> Metric<T> {
     }
 
     /// J^(−2/3) C : H − tr H, given tr H.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn excess(&self, structure: &Symmetric, trace: f64) -> T {
         let part = self.change.double_contraction(&constant(structure));
         self.selected(part, structure, trace).0
     }
 
     /// J^(−2/3) C : H − tr H and C : H, of (C − 1) : H near the volume of the reference.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn selected(&self, part: T, structure: &Symmetric, trace: f64) -> (T, T) {
         let trace = T::lit(trace);
         let excess = self.scale * part + self.scale_change * trace;
@@ -193,7 +193,7 @@ impl<T: Real> Metric<T> {
     }
 
     /// With the slope J^(−2/3) (H − ⅓ (C : H) C⁻¹).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn invariant(&self, structure: &Symmetric, trace: f64) -> Invariant<T> {
         let third = T::lit(1.0 / 3.0);
         let h = constant::<T>(structure);
@@ -213,7 +213,7 @@ impl<T: Real> Metric<T> {
     }
 
     /// The second derivative of an invariant: −⅓ (h ⊗ C⁻¹ + C⁻¹ ⊗ h) − c/9 C⁻¹ ⊗ C⁻¹ + c/3 C⁻¹ ⊙ C⁻¹, c = J^(−2/3) C : H.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature(&self, invariant: &Invariant<T>, trace: f64) -> MajorSymmetric<T> {
         let whole = invariant.excess + T::lit(trace);
         MajorSymmetric::symmetric_dyad(&invariant.slope, &self.inverse) * T::lit(-2.0 / 3.0)
@@ -226,30 +226,30 @@ impl<T: Real> Metric<T> {
 const WHOLE: f64 = 3.0;
 
 impl StrainEnergy for HolzapfelGasserOgden {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let [first, second] = self.exponents(&Metric::of(deformation));
         self.parts(deformation, deformation.volume_change(), [first.exp_m1(), second.exp_m1()])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
         self.stress_and_tangent(deformation).0
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MajorSymmetric<T> {
         self.stress_and_tangent(deformation).1
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         let metric = Metric::of(deformation);
         let [first, second] = self.exponents(&metric);
         self.of_metric(&metric, [deformation.jacobian(), deformation.volume_change()], [first.exp(), second.exp()])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_stress_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
@@ -262,7 +262,7 @@ impl StrainEnergy for HolzapfelGasserOgden {
         (self.parts(deformation, change, [first, second]), stress, tangent)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         let metric = Metric::of(deformation);
         // |∂E/∂C| ≤ J^(−2/3) (1 + |C| |C⁻¹|), and F stands twice beside the tangent.

@@ -77,7 +77,7 @@ pub trait Hyperelastic {
     ///
     /// # Errors
     /// [`SolidsError::BeyondLimit`]; most laws have no limit.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         Ok(())
     }
@@ -90,49 +90,49 @@ pub trait Hyperelastic {
     }
 
     /// P = ∂W/∂F, W(20.13).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         derived::first_piola(self, deformation)
     }
 
     /// (W(F) − W(1), P), with what they share computed once. A law that gives P gives this, too.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn energy_and_first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> (T, FirstPiola<T>) {
         derived::energy_and_first_piola(self, deformation)
     }
 
     /// S = ∂W/∂E = F⁻¹ P, B(4.60).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn second_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
         self.first_piola(deformation).second_piola(deformation)
     }
 
     /// τ = P Fᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn kirchhoff<T: Real>(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
         self.first_piola(deformation).kirchhoff(deformation)
     }
 
     /// T = τ/J, W(20.12).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn cauchy<T: Real>(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         self.kirchhoff(deformation).cauchy(deformation)
     }
 
     /// A = ∂P/∂F.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn first_piola_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         derived::first_piola_tangent(self, deformation)
     }
 
     /// (P, ∂P/∂F), with what they share computed once. A law that gives ∂P/∂F gives this, too.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn first_piola_and_tangent<T: Real>(
         &self,
@@ -142,7 +142,7 @@ pub trait Hyperelastic {
     }
 
     /// (W(F) − W(1), P, ∂P/∂F), with what they share computed once. A law that gives ∂P/∂F gives this, too.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn energy_first_piola_and_tangent<T: Real>(
         &self,
@@ -153,14 +153,14 @@ pub trait Hyperelastic {
 
     /// P by rows, then the 45 entries of ∂P/∂F on and above the diagonal of its 9×9 array, by rows: what batches write. A law
     /// that has these numbers before it has made tensors of them gives them here.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         packed::of_pair(self.first_piola_and_tangent(deformation))
     }
 
     /// (∂P/∂F) : δF, by the stress over dual numbers: the product with a direction without the tangent's 81 entries.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn first_piola_derivative<T: Real>(
         &self,
@@ -172,14 +172,14 @@ pub trait Hyperelastic {
     }
 
     /// ∂S/∂E.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn material_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MaterialTangent<T> {
         self.second_piola_and_tangent(deformation).1
     }
 
     /// (S, ∂S/∂E), with what they share computed once.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn second_piola_and_tangent<T: Real>(
         &self,
@@ -191,14 +191,14 @@ pub trait Hyperelastic {
     }
 
     /// c/J: D ↦ the Truesdell rate of T.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn truesdell_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
         self.material_tangent(deformation).truesdell(deformation)
     }
 
     /// (T, c/J), what an updated configuration needs, with what they share computed once.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn cauchy_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (CauchyStress<T>, TruesdellTangent<T>) {
         let (stress, tangent) = self.second_piola_and_tangent(deformation);

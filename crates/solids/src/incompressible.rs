@@ -57,7 +57,7 @@ impl TryFrom<Written> for Pressure {
 }
 
 /// Refuses a change of volume of what is incompressible.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn check_volume<T: Real>(law: &'static str, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
     let change = deformation.volume_change();
     if change.abs().less_than(T::lit(VOLUME)).all() { Ok(()) } else { Err(changed_volume(law, &change)) }
@@ -144,7 +144,7 @@ impl<I: Isochoric> IncompressibleSolid<I> {
     }
 
     /// The stress that the deformation determines, 2 W₁ B − 2 W₂ B⁻¹.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn extra_stress<T: Real>(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         let [first, second] = self.slopes_at(deformation);
@@ -158,7 +158,7 @@ impl<I: Isochoric> IncompressibleSolid<I> {
     }
 
     /// ∂W/∂F of W(I₁, I₂) as a function of all F, 2 W₁ F + 2 W₂ F (I₁ 1 − C): P up to a multiple of F⁻ᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn energy_gradient<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         let [first, second] = self.slopes_at(deformation);
@@ -169,14 +169,14 @@ impl<I: Isochoric> IncompressibleSolid<I> {
         FirstPiola(f * inner.matrix() * two)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes_at<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 2] {
         let second = if I::SECOND { invariants::second_minus_three(deformation) } else { T::zero() };
         self.isochoric.slopes(invariants::first_minus_three(deformation), second)
     }
 
     /// (x, y) of W and their derivatives.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn arguments<T: Real>(&self, invariants: &Invariants<T>) -> Arguments<T> {
         let (one, two, three) = (T::one(), T::lit(2.0), T::lit(3.0));
         let reciprocal = invariants.jacobian.recip();
@@ -221,7 +221,7 @@ struct Arguments<T> {
 }
 
 /// I₁(C⁻¹) − 3 + 2 ln J, of second order in the strain, without cancellation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn inverse_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
     let (two, reciprocal) = (T::lit(2.0), deformation.jacobian().recip());
     // ∇u of the inverse deformation is −h.
@@ -237,7 +237,7 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
     const CURVED: bool = true;
     const STRAIGHT: bool = I::STRAIGHT;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let change = deformation.volume_change();
         let (first, second, pressure) = match self.pressure {
@@ -260,7 +260,7 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
         self.isochoric.energy(first, second) - T::lit(pressure) * change
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         check_volume(LAW, deformation)?;
         if !I::LIMITED {
@@ -274,7 +274,7 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
         true
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let at = self.arguments(invariants);
         let [a, b] = self.isochoric.slopes(at.first, at.second);
@@ -299,7 +299,7 @@ impl<I: Isochoric> InvariantEnergy for IncompressibleSolid<I> {
         Slopes { first: a, second, residual, volume }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let at = self.arguments(invariants);
         let [a, b] = self.isochoric.slopes(at.first, at.second);

@@ -21,7 +21,7 @@ impl<T: Real> Unimodular<T> {
     /// ```text
     /// r − 1 = −(J − 1) r³/(1 + r + r²)        r² − 1 = (r − 1)(r + 1)
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(change: T, jacobian: T) -> Self {
         let third = jacobian.recip_cbrt();
         let two_thirds = third * third;

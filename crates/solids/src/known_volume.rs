@@ -14,30 +14,30 @@ pub(super) struct KnownVolume<T, D> {
 }
 
 impl<T: Real, D: Deformation<T>> KnownVolume<T, D> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(deformation: &D) -> Self {
         Self { deformation: *deformation, jacobian: deformation.jacobian(), change: deformation.volume_change() }
     }
 }
 
 impl<T: Real, D: Deformation<T>> Deformation<T> for KnownVolume<T, D> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
         self.deformation.lifted(lift)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<T> {
         self.deformation.gradient_rows()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn displacement_rows(&self) -> Rows<T> {
         self.deformation.displacement_rows()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn jacobian(&self) -> T {
         self.jacobian
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_change(&self) -> T {
         self.change
     }

@@ -21,7 +21,7 @@ macro_rules! rows_of_upper_triangle {
 /// Writes inlined methods of a law and a deformation: the name, the type and the body of each.
 macro_rules! answers {
     (|$law:ident, $deformation:ident| $($method:ident -> $result:ty { $($body:tt)* })+) => { $(
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn $method<T: piola_numerics::Real>(&$law, $deformation: &impl piola_continuum::Deformation<T>) -> $result {
             $($body)*
         }

@@ -75,14 +75,14 @@ impl LinearElastic {
     ///
     /// # Source
     /// B(4.72).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn stress<T: Real>(&self, strain: &LinearStrain<T>) -> CauchyStress<T> {
         CauchyStress(self.hooke(&strain.0))
     }
 
     /// ε of T, the inverse.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn strain<T: Real>(&self, stress: &CauchyStress<T>) -> LinearStrain<T> {
         strain_of(&self.constants, stress)
@@ -92,7 +92,7 @@ impl LinearElastic {
     ///
     /// # Source
     /// B(4.76).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn energy_density<T: Real>(&self, strain: &LinearStrain<T>) -> T {
         let trace = strain.0.trace();
@@ -123,7 +123,7 @@ impl LinearElastic {
         compliance_matrix(&self.constants)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn hooke<T: Real>(&self, strain: &Symmetric<T>) -> Symmetric<T> {
         Symmetric::identity() * (T::lit(self.lambda) * strain.trace())
             + *strain * T::lit(2.0 * self.constants.shear_modulus())
@@ -145,7 +145,7 @@ impl From<LinearElastic> for ElasticConstants {
 }
 
 /// ε = dev T/(2 μ) + tr T/(9 K) 1, also where 1/K = 0.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn strain_of<T: Real>(constants: &ElasticConstants, stress: &CauchyStress<T>) -> LinearStrain<T> {
     let mean = stress.0.trace() * T::lit(constants.compressibility() / 9.0);
     LinearStrain(stress.0.deviator() * T::lit(0.5 / constants.shear_modulus()) + Symmetric::identity() * mean)
@@ -161,7 +161,7 @@ fn compliance_matrix<O: VoigtOrder>(constants: &ElasticConstants) -> ComplianceM
 struct Both(LinearElastic);
 
 impl Lanewise<18, 54> for Both {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
         let [_, h] = packed::gradients(inputs);
         linear_numbers(&self.0.hooke(&Symmetric::symmetric_part(h)), &self.0.stiffness())
@@ -169,47 +169,47 @@ impl Lanewise<18, 54> for Both {
 }
 
 impl Hyperelastic for LinearElastic {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         self.energy_density(&LinearStrain::of(deformation))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         FirstPiola(self.hooke(&LinearStrain::of(deformation).0).matrix())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn second_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
         SecondPiola(self.hooke(&LinearStrain::of(deformation).0))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kirchhoff<T: Real>(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
         KirchhoffStress(self.hooke(&LinearStrain::of(deformation).0))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cauchy<T: Real>(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         self.stress(&LinearStrain::of(deformation))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn material_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MaterialTangent<T> {
         MaterialTangent(self.stiffness())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn truesdell_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
         TruesdellTangent(self.stiffness())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         T::lanewise(&Both(*self), packed::of_deformation(deformation))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         let (lambda, mu) = (T::lit(self.lambda), T::lit(self.constants.shear_modulus()));
         let mut components = [[T::zero(); 9]; 9];
@@ -269,7 +269,7 @@ impl MixedLinearElastic {
     }
 
     /// T = −p 1 + 2 μ dev ε.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn stress<T: Real>(&self, strain: &LinearStrain<T>, pressure: T) -> CauchyStress<T> {
         let deviator = strain.0.deviator() * T::lit(2.0 * self.constants.shear_modulus());
@@ -277,14 +277,14 @@ impl MixedLinearElastic {
     }
 
     /// tr ε + p/K: zero where p is the pressure of the strain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn volume_residual<T: Real>(&self, strain: &LinearStrain<T>, pressure: T) -> T {
         strain.0.trace() + pressure * T::lit(self.constants.compressibility())
     }
 
     /// ε of T, also of an incompressible solid.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn strain<T: Real>(&self, stress: &CauchyStress<T>) -> LinearStrain<T> {
         strain_of(&self.constants, stress)

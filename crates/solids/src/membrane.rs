@@ -57,14 +57,14 @@ parameters! {
 
 impl Membrane {
     /// ½ τ |∇u|², J/m³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn energy_density<T: Real>(&self, gradient: &Matrix3<T>) -> T {
         T::lit(0.5 * self.tension) * gradient.iter().fold(T::zero(), |sum, &g| sum + g * g)
     }
 
     /// τ ∇u, what is conjugate to ∇u, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn stress<T: Real>(&self, gradient: &Matrix3<T>) -> Matrix3<T> {
         gradient * T::lit(self.tension)
@@ -81,14 +81,14 @@ impl Membrane {
     }
 
     /// f + τ Δu, N/m³, of the force per volume f, N/m³, and Δu, 1/m: zero in equilibrium.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn residual<T: Real>(&self, force_per_volume: &Vector3<T>, laplacian: &Vector3<T>) -> Vector3<T> {
         force_per_volume + laplacian * T::lit(self.tension)
     }
 
     /// −τ |k|², by which the operator multiplies a wave exp(i k · X), N/m⁴; k in rad/m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn symbol<T: Real>(&self, wave: &Vector3<T>) -> T {
         T::lit(-self.tension) * wave.iter().fold(T::zero(), |sum, &k| sum + k * k)
@@ -125,7 +125,7 @@ parameters! {
 
 impl ThinPlate {
     /// ½ D |∇∇u|², J/m³, of `second[i][j][k]` = `∂²u_i/∂X_j∂X_k`, 1/m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn energy_density<T: Real>(&self, second: &[[[T; 3]; 3]; 3]) -> T {
         let entries = second.as_flattened().as_flattened();
@@ -133,7 +133,7 @@ impl ThinPlate {
     }
 
     /// D ∇∇u, what is conjugate to ∇∇u, N/m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn moment<T: Real>(&self, second: &[[[T; 3]; 3]; 3]) -> [[[T; 3]; 3]; 3] {
         second.map(|rows| rows.map(|row| row.map(|g| g * T::lit(self.stiffness))))
@@ -146,14 +146,14 @@ impl ThinPlate {
     }
 
     /// f − D Δ²u, N/m³, of the force per volume f, N/m³, and Δ²u, 1/m³: zero in equilibrium.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn residual<T: Real>(&self, force_per_volume: &Vector3<T>, bilaplacian: &Vector3<T>) -> Vector3<T> {
         force_per_volume - bilaplacian * T::lit(self.stiffness)
     }
 
     /// −D |k|⁴, by which the operator multiplies a wave exp(i k · X), N/m⁴; k in rad/m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn symbol<T: Real>(&self, wave: &Vector3<T>) -> T {
         let square = wave.iter().fold(T::zero(), |sum, &k| sum + k * k);

@@ -131,7 +131,7 @@ impl InvariantEnergy for MooneyRivlin {
     const CURVED: bool = false;
 
     /// C₁₀ (I₁ − 3 − 2 ln J) + C₀₁ (I₂ − 3 − 4 ln J) + c ((J − 1)² + 2 (J − 1 − ln J)) + r ln J, r the stress of the reference.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let (change, excess) = (deformation.volume_change(), volume_excess(deformation));
         let energy = T::lit(self.c10) * first_excess_beside(deformation, excess)
@@ -144,7 +144,7 @@ impl InvariantEnergy for MooneyRivlin {
         self.square_coefficient
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let change = invariants.change;
         Slopes {
@@ -157,7 +157,7 @@ impl InvariantEnergy for MooneyRivlin {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let reciprocal = invariants.jacobian.recip();
         Curvatures::of_volume(

@@ -117,13 +117,13 @@ impl<U: Volumetric> InvariantEnergy for NeoHookean<U> {
     const CURVED: bool = false;
     const STRAIGHT: bool = U::STRAIGHT;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         T::lit(0.5 * self.shear_modulus) * first_excess(deformation)
             + self.volumetric.energy(deformation.volume_change(), deformation.jacobian())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let residual = self.volumetric.mean_kirchhoff(invariants.change, invariants.jacobian);
         Slopes {
@@ -134,7 +134,7 @@ impl<U: Volumetric> InvariantEnergy for NeoHookean<U> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let reciprocal = invariants.jacobian.recip();
         let volume = self.volumetric.curvature(invariants.change, invariants.jacobian);

@@ -10,7 +10,7 @@ use piola_tensor::internal::rows::Rows;
 // Written out: loops within the loop over lanes would keep that from becoming vectors.
 
 /// F and ∇u, nine numbers each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn of_deformation<T: Real>(deformation: &impl Deformation<T>) -> [T; 18] {
     let [[a, b, c], [d, e, f], [g, h, i]] = deformation.gradient_rows();
     let [[j, k, l], [m, n, o], [p, q, r]] = deformation.displacement_rows();
@@ -18,41 +18,41 @@ pub(super) fn of_deformation<T: Real>(deformation: &impl Deformation<T>) -> [T; 
 }
 
 /// F and ∇u of their numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn gradients<T: Real>(numbers: [T; 18]) -> [Rows<T>; 2] {
     let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = numbers;
     [[[a, b, c], [d, e, f], [g, h, i]], [[j, k, l], [m, n, o], [p, q, r]]]
 }
 
 /// One more number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn with_jacobian<T: Real>(numbers: [T; 18], jacobian: T) -> [T; 19] {
     let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = numbers;
     [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, jacobian]
 }
 
 /// F, ∇u and J of their numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn gradients_and_jacobian<T: Real>(numbers: [T; 19]) -> ([Rows<T>; 2], T) {
     let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, jacobian] = numbers;
     (gradients([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]), jacobian)
 }
 
 /// P as nine numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn of_stress<T: Real>(stress: Rows<T>) -> [T; 9] {
     let [[a, b, c], [d, e, f], [g, h, i]] = stress;
     [a, b, c, d, e, f, g, h, i]
 }
 
 /// P of its numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn stress<T: Real>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> FirstPiola<T> {
     FirstPiola(from_rows([[a, b, c], [d, e, f], [g, h, i]]))
 }
 
 /// P and the upper triangle of ∂P/∂F, 9 and 45 numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn of_both<T: Real>(p: Rows<T>, a: &[[T; 9]; 9]) -> [T; 54] {
     [
         p[0][0], p[0][1], p[0][2], p[1][0], p[1][1], p[1][2], p[2][0], p[2][1], p[2][2], a[0][0], a[0][1], a[0][2],
@@ -64,13 +64,13 @@ pub(super) fn of_both<T: Real>(p: Rows<T>, a: &[[T; 9]; 9]) -> [T; 54] {
 }
 
 /// P and the upper triangle of ∂P/∂F.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn of_pair<T: Real>((stress, tangent): (FirstPiola<T>, FirstPiolaTangent<T>)) -> [T; 54] {
     of_both(rows_of(&stress.0), &tangent.0.components)
 }
 
 /// One number more at the end.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn with_one_more<T: Real>(n: [T; 54], last: T) -> [T; 55] {
     [
         n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13], n[14], n[15], n[16],
@@ -81,7 +81,7 @@ pub(super) fn with_one_more<T: Real>(n: [T; 54], last: T) -> [T; 55] {
 }
 
 /// The last number apart.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn without_last<T: Real>(n: [T; 55]) -> ([T; 54], T) {
     let numbers = [
         n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13], n[14], n[15], n[16],
@@ -93,7 +93,7 @@ pub(super) fn without_last<T: Real>(n: [T; 55]) -> ([T; 54], T) {
 }
 
 /// P and ∂P/∂F of their numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn both<T: Real>(n: [T; 54]) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
     let components = [
         [n[9], n[10], n[11], n[12], n[13], n[14], n[15], n[16], n[17]],

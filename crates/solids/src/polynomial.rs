@@ -193,7 +193,7 @@ impl InvariantEnergy for Polynomial {
     const CURVED: bool = true;
 
     /// Linear terms by I₁ − 3 − 2 ln J, I₂ − 3 − 4 ln J and I₃ − 1 − 2 ln J, the rest as it stands.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let (two, change, excess) = (T::lit(2.0), deformation.volume_change(), volume_excess(deformation));
         let z = change * (change + two);
@@ -210,7 +210,7 @@ impl InvariantEnergy for Polynomial {
         sum
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, invariants: &Invariants<T>) -> Slopes<T> {
         let (two, four) = (T::lit(2.0), T::lit(4.0));
         let (x, y) = (invariants.first, invariants.second);
@@ -234,7 +234,7 @@ impl InvariantEnergy for Polynomial {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T> {
         let two = T::lit(2.0);
         let (x, y) = (invariants.first, invariants.second);

@@ -85,20 +85,20 @@ impl<L> Pressurised<L> {
 
 impl<L: Hyperelastic> Pressurised<L> {
     /// `P_law` − p Cof F.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pressed<T: Real>(&self, stress: FirstPiola<T>, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         let p = T::lit(self.pressure);
         FirstPiola(stress.0 - from_rows(deformation.cofactor_rows()).map(|x| x * p))
     }
 
     /// `W_law` − p (J − 1).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn worked<T: Real>(&self, energy: T, deformation: &impl Deformation<T>) -> T {
         energy - T::lit(self.pressure) * deformation.volume_change()
     }
 
     /// `A_law` − p ∂ Cof F/∂F, ∂ Cofᵢⱼ/∂Fₖₗ = εᵢₖₘ εⱼₗₙ Fₘₙ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffened<T: Real>(
         &self,
         mut tangent: FirstPiolaTangent<T>,
@@ -123,7 +123,7 @@ impl<L: Hyperelastic> Pressurised<L> {
 }
 
 impl<L: Hyperelastic> Hyperelastic for Pressurised<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         self.worked(self.law.energy(deformation), deformation)
     }
@@ -132,7 +132,7 @@ impl<L: Hyperelastic> Hyperelastic for Pressurised<L> {
         self.law.reference_energy()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         check_volume(LAW, deformation)?;
         self.law.check(deformation)
@@ -142,18 +142,18 @@ impl<L: Hyperelastic> Hyperelastic for Pressurised<L> {
         true
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         self.pressed(self.law.first_piola(deformation), deformation)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_and_first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> (T, FirstPiola<T>) {
         let (energy, stress) = self.law.energy_and_first_piola(deformation);
         (self.worked(energy, deformation), self.pressed(stress, deformation))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_first_piola_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
@@ -163,23 +163,23 @@ impl<L: Hyperelastic> Hyperelastic for Pressurised<L> {
         (self.worked(energy, deformation), stress, tangent)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn kirchhoff<T: Real>(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
         let mean = Symmetric::identity() * (T::lit(self.pressure) * deformation.jacobian());
         KirchhoffStress(self.law.kirchhoff(deformation).0 - mean)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn cauchy<T: Real>(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         CauchyStress(self.law.cauchy(deformation).0 - Symmetric::identity() * T::lit(self.pressure))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         self.stiffened(self.law.first_piola_tangent(deformation), deformation)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,

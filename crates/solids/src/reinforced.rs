@@ -58,7 +58,7 @@ parameters! {
 
 impl ReinforcedNeoHookean {
     /// a ⊗ a and I₄ − 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stretch<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, T) {
         let structure = constant(&self.fibre.structure());
         let change = kernels::right_cauchy_green_minus_one(deformation.displacement_rows());
@@ -66,7 +66,7 @@ impl ReinforcedNeoHookean {
     }
 
     /// W of I₄ − 1 and ln J.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn parts<T: Real>(&self, stretch: T, volume: T, deformation: &impl Deformation<T>) -> T {
         T::lit(0.5 * self.shear_modulus) * first_excess(deformation)
             + T::lit(0.5 * self.first_lame_parameter) * (volume * volume)
@@ -75,24 +75,24 @@ impl ReinforcedNeoHookean {
 }
 
 impl StrainEnergy for ReinforcedNeoHookean {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         self.parts(self.stretch(deformation).1, deformation.ln_jacobian(), deformation)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
         self.stress_and_tangent(deformation).0
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MajorSymmetric<T> {
         self.stress_and_tangent(deformation).1
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         let (_, stress, tangent) = self.energy_stress_and_tangent(deformation);
         (stress, tangent)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_stress_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,

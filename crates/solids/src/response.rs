@@ -73,7 +73,7 @@ impl<T: Real> IsotropicResponse<T> {
     /// ```text
     /// α₀ = ∂W/∂J      α₁ = 2 J⁻¹ (W₁ + I₁ W₂)      α₂ = −2 J⁻¹ W₂
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of<L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> Self {
         let invariants = invariants_of(law, deformation);
@@ -90,7 +90,7 @@ impl<T: Real> IsotropicResponse<T> {
     }
 
     /// T.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         let (first, second) = match self.form {
@@ -113,7 +113,7 @@ impl<T: Real> IsotropicResponse<T> {
     }
 
     /// The same stress in another form, at the deformation that the coefficients belong to.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn converted(&self, form: ResponseForm, deformation: &impl Deformation<T>) -> Self {
         if form == self.form {
@@ -125,7 +125,7 @@ impl<T: Real> IsotropicResponse<T> {
 }
 
 /// B⁻¹ = Cof F Cof Fᵀ/J².
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn inverse_left<T: Real>(deformation: &impl Deformation<T>) -> Symmetric<T> {
     let reciprocal = deformation.jacobian().recip();
     kernels::left_cauchy_green(deformation.cofactor_rows()) * (reciprocal * reciprocal)
@@ -138,7 +138,7 @@ struct Traces<T> {
 }
 
 impl<T: Real> Traces<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(deformation: &impl Deformation<T>) -> Self {
         let jacobian = deformation.jacobian();
         let first = piola_continuum::strain::invariants::first(deformation);
@@ -148,14 +148,14 @@ impl<T: Real> Traces<T> {
     }
 
     /// (i₁² − i₂, i₁ i₃, i₁ i₂ − i₃).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_stretch(&self) -> (T, T, T) {
         let [i, ii, iii] = self.v;
         (i * i - ii, i * iii, i * ii - iii)
     }
 
     /// (γ₀, γ₁, γ₋₁).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mixed(&self, response: &IsotropicResponse<T>) -> [T; 3] {
         let [i, ii, iii] = self.b;
         let [a, b, c] = response.coefficients;
@@ -175,7 +175,7 @@ impl<T: Real> Traces<T> {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn turned(&self, form: ResponseForm, [a, b, c]: [T; 3]) -> [T; 3] {
         let [i, ii, iii] = self.b;
         match form {

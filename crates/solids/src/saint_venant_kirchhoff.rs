@@ -54,7 +54,7 @@ parameters! {
 
 impl SaintVenantKirchhoff {
     /// λ tr E 1 + 2 μ E.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress<T: Real>(&self, displacement: Rows<T>) -> Symmetric<T> {
         let strain = kernels::green(displacement);
         Symmetric::identity() * (T::lit(self.first_lame_parameter) * strain.trace())
@@ -62,7 +62,7 @@ impl SaintVenantKirchhoff {
     }
 
     /// `δ_ij S_AB + λ F_iA F_jB + μ (F_iB F_jA + B_ij δ_AB)`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tangent<T: Real>(&self, stress: &Symmetric<T>, f: Rows<T>) -> [[T; 9]; 9] {
         let mu = T::lit(self.shear_modulus);
         let (s, b) = (stress.rows(), (kernels::left_cauchy_green(f) * mu).rows());
@@ -92,7 +92,7 @@ impl SaintVenantKirchhoff {
 struct Both(SaintVenantKirchhoff);
 
 impl Lanewise<18, 54> for Both {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
         let [f, h] = packed::gradients(inputs);
         let stress = self.0.stress(h);
@@ -101,7 +101,7 @@ impl Lanewise<18, 54> for Both {
 }
 
 impl Hyperelastic for SaintVenantKirchhoff {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let strain = kernels::green(deformation.displacement_rows());
         let trace = strain.trace();
@@ -109,13 +109,13 @@ impl Hyperelastic for SaintVenantKirchhoff {
             + T::lit(self.shear_modulus) * strain.double_contraction(&strain)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         FirstPiola(from_rows(product(deformation.gradient_rows(), self.stress(deformation.displacement_rows()).rows())))
     }
 
     /// W = ½ S : E.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_and_first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> (T, FirstPiola<T>) {
         let h = deformation.displacement_rows();
         let stress = self.stress(h);
@@ -123,7 +123,7 @@ impl Hyperelastic for SaintVenantKirchhoff {
         (energy, FirstPiola(from_rows(product(deformation.gradient_rows(), stress.rows()))))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_first_piola_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
@@ -132,17 +132,17 @@ impl Hyperelastic for SaintVenantKirchhoff {
         (self.energy(deformation), stress, tangent)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn second_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
         SecondPiola(self.stress(deformation.displacement_rows()))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         self.first_piola_and_tangent(deformation).1
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
@@ -150,17 +150,17 @@ impl Hyperelastic for SaintVenantKirchhoff {
         packed::both(self.first_piola_and_upper_triangle(deformation))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_and_upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         T::lanewise(&Both(*self), packed::of_deformation(deformation))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn material_tangent<T: Real>(&self, _deformation: &impl Deformation<T>) -> MaterialTangent<T> {
         MaterialTangent(MajorSymmetric::isotropic(T::lit(self.first_lame_parameter), T::lit(self.shear_modulus)))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn second_piola_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,

@@ -23,12 +23,12 @@ pub(super) trait StrainEnergy {
     /// ∂S/∂E, Pa.
     fn tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> MajorSymmetric<T>;
     /// S and ∂S/∂E, with what they share computed once.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stress_and_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> (Symmetric<T>, MajorSymmetric<T>) {
         (self.stress(deformation), self.tangent(deformation))
     }
     /// W, S and ∂S/∂E, with what they share computed once.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_stress_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
@@ -37,18 +37,18 @@ pub(super) trait StrainEnergy {
         (self.energy(deformation), stress, tangent)
     }
     /// P = F S.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         first_piola_of(&self.stress(deformation), deformation)
     }
     /// P and the 45 entries of ∂P/∂F on and above its diagonal: what batches write.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn upper_triangle<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         let (stress, tangent) = self.stress_and_tangent(deformation);
         first_piola_numbers(deformation.gradient_rows(), &stress, &tangent)
     }
     /// Where the law has no answer.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         Ok(())
     }
@@ -62,12 +62,12 @@ pub(super) trait GreenEnergy: Copy {
     fn green_stress_and_tangent<T: Real>(&self, strain: &Symmetric<T>) -> (Symmetric<T>, MajorSymmetric<T>);
 
     /// P.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn in_lanes<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         packed::stress(T::lanewise(&OfGreen(*self), packed::of_deformation(deformation)))
     }
     /// P and the upper triangle of ∂P/∂F.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn both_in_lanes<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 54] {
         T::lanewise(&OfGreen(*self), packed::of_deformation(deformation))
     }
@@ -77,7 +77,7 @@ pub(super) trait GreenEnergy: Copy {
 struct OfGreen<L>(L);
 
 impl<L: GreenEnergy> Lanewise<18, 9> for OfGreen<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 9] {
         let [f, h] = packed::gradients(inputs);
         packed::of_stress(product(f, self.0.green_stress(&green(h)).rows()))
@@ -85,7 +85,7 @@ impl<L: GreenEnergy> Lanewise<18, 9> for OfGreen<L> {
 }
 
 impl<L: GreenEnergy> Lanewise<18, 54> for OfGreen<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 54] {
         let [f, h] = packed::gradients(inputs);
         let (stress, tangent) = self.0.green_stress_and_tangent(&green(h));
@@ -94,7 +94,7 @@ impl<L: GreenEnergy> Lanewise<18, 54> for OfGreen<L> {
 }
 
 /// P = F S.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first_piola_of<T: Real>(stress: &Symmetric<T>, deformation: &impl Deformation<T>) -> FirstPiola<T> {
     FirstPiola(from_rows(product(deformation.gradient_rows(), stress.rows())))
 }
@@ -103,7 +103,7 @@ pub(super) fn first_piola_of<T: Real>(stress: &Symmetric<T>, deformation: &impl 
 ///
 /// The kernel of `continuum` serves tangents without major symmetry, too: 81 entries in loops. A loop over lanes around that does
 /// not become vectors (75 ns a point for St. Venant and Kirchhoff's law of any symmetry); 45 entries written out do (9 ns).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first_piola_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
     let (s, slots) = (stress.rows(), tangent.slots());
     let mut entries = [[T::zero(); 9]; 9];
@@ -128,7 +128,7 @@ pub(super) fn first_piola_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, ta
 }
 
 /// C⁻¹ and 1 − C⁻¹, the latter without cancellation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn inverse_metric<T: Real>(deformation: &impl Deformation<T>) -> (Symmetric<T>, Symmetric<T>) {
     // F⁻¹ = 1 − K: 1 − C⁻¹ = K + Kᵀ − K Kᵀ.
     let k = deformation.spatial_displacement_rows();
@@ -137,7 +137,7 @@ pub(super) fn inverse_metric<T: Real>(deformation: &impl Deformation<T>) -> (Sym
 }
 
 /// A constant tensor over any scalar.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn constant<T: Real>(tensor: &Symmetric) -> Symmetric<T> {
     // A loop: `map` would be a call, which lanes pay with all their registers.
     let mut components = [T::zero(); 6];
@@ -150,7 +150,7 @@ pub(super) fn constant<T: Real>(tensor: &Symmetric) -> Symmetric<T> {
 }
 
 /// A constant tensor over any scalar.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn constant_tangent<T: Real>(tensor: &MajorSymmetric) -> MajorSymmetric<T> {
     let mut components = [T::zero(); 21];
     let mut k = 0;
@@ -162,7 +162,7 @@ pub(super) fn constant_tangent<T: Real>(tensor: &MajorSymmetric) -> MajorSymmetr
 }
 
 /// Stress and the upper triangle of a tangent that is that of strain. Written out as [`first_piola_numbers`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn linear_numbers<T: Real>(stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
     let slots = tangent.slots();
     let mut entries = [[T::zero(); 9]; 9];

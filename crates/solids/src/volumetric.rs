@@ -82,7 +82,7 @@ pub trait Volumetric: Clone {
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T;
 
     /// J (J U′)′ = J U′ + J² U″, Pa: how the mean Kirchhoff stress grows with ln J.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
         self.mean_kirchhoff(change, jacobian) + self.curvature(change, jacobian) * (jacobian * jacobian)
@@ -99,19 +99,19 @@ impl<U: Volumetric> Volumetric for &U {
     const STRAIGHT: bool = U::STRAIGHT;
     const EITHER_SIGN: bool = U::EITHER_SIGN;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         U::energy(self, change, jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         U::mean_kirchhoff(self, change, jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         U::curvature(self, change, jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
         U::stiffness(self, change, jacobian)
     }
@@ -134,19 +134,19 @@ parameters! {
 impl Volumetric for Quadratic {
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, _jacobian: T) -> T {
         T::lit(0.5 * self.bulk_modulus) * (change * change)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * (jacobian * change)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, _change: T, _jacobian: T) -> T {
         T::lit(self.bulk_modulus)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * (jacobian * (jacobian + change))
     }
@@ -166,21 +166,21 @@ parameters! {
 impl Volumetric for Logarithmic {
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let logarithm = change.ln_1p_given(jacobian);
         T::lit(0.5 * self.bulk_modulus) * (logarithm * logarithm)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * change.ln_1p_given(jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         T::lit(self.bulk_modulus) * (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, _change: T, _jacobian: T) -> T {
         T::lit(self.bulk_modulus)
     }
@@ -202,21 +202,21 @@ impl Volumetric for Lame {
     const STRAIGHT: bool = true;
     const EITHER_SIGN: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let logarithm = change.ln_1p_given(jacobian);
         T::lit(0.5 * self.first_lame_parameter) * (logarithm * logarithm)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.first_lame_parameter) * change.ln_1p_given(jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         T::lit(self.first_lame_parameter) * (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, _change: T, _jacobian: T) -> T {
         T::lit(self.first_lame_parameter)
     }
@@ -236,22 +236,22 @@ parameters! {
 impl Volumetric for QuadraticLogarithmic {
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let logarithm = change.ln_1p_given(jacobian);
         T::lit(0.25 * self.bulk_modulus) * (change * change + logarithm * logarithm)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(0.5 * self.bulk_modulus) * (jacobian * change + change.ln_1p_given(jacobian))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         let beyond = (T::one() - change.ln_1p_given(jacobian)) * (reciprocal * reciprocal);
         T::lit(0.5 * self.bulk_modulus) * (T::one() + beyond)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(0.5 * self.bulk_modulus) * (jacobian * (jacobian + change) + T::one())
     }
@@ -271,21 +271,21 @@ parameters! {
 impl Volumetric for SimoTaylor {
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         // J² − 1 − 2 ln J = (J − 1)² + 2 (J − 1 − ln J).
         T::lit(0.25 * self.bulk_modulus) * (change * change + T::lit(2.0) * volume_excess(change, jacobian))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {
         T::lit(0.5 * self.bulk_modulus) * (change * (change + T::lit(2.0)))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         T::lit(0.5 * self.bulk_modulus) * (T::one() + reciprocal * reciprocal)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, _change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * (jacobian * jacobian)
     }
@@ -306,19 +306,19 @@ impl Volumetric for Liu {
     const STRAIGHT: bool = true;
 
     /// With z = 1/J − 1 it is κ J (z − ln(1 + z)).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * (jacobian * excess(-change / jacobian, -change.ln_1p_given(jacobian)))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * (jacobian * change.ln_1p_given(jacobian))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) / jacobian
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * (jacobian * (T::one() + change.ln_1p_given(jacobian)))
     }
@@ -338,20 +338,20 @@ parameters! {
 impl Volumetric for Miehe {
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * volume_excess(change, jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {
         T::lit(self.bulk_modulus) * change
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         T::lit(self.bulk_modulus) * (reciprocal * reciprocal)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, _change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * jacobian
     }
@@ -372,7 +372,7 @@ parameters! {
 
 impl OgdenVolumetric {
     /// J^(−β) − 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn power<T: Real>(&self, change: T, jacobian: T) -> T {
         (T::lit(-self.exponent) * change.ln_1p_given(jacobian)).exp_m1()
     }
@@ -381,22 +381,22 @@ impl OgdenVolumetric {
 impl Volumetric for OgdenVolumetric {
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let logarithm = T::lit(-self.exponent) * change.ln_1p_given(jacobian);
         T::lit(self.bulk_modulus / (self.exponent * self.exponent)) * excess(logarithm.exp_m1(), logarithm)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(-self.bulk_modulus / self.exponent) * self.power(change, jacobian)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
         let reciprocal = jacobian.recip();
         let slope = T::one() + T::lit((self.exponent + 1.0) / self.exponent) * self.power(change, jacobian);
         T::lit(self.bulk_modulus) * slope * (reciprocal * reciprocal)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
         T::lit(self.bulk_modulus) * (T::lit(-self.exponent) * change.ln_1p_given(jacobian)).exp()
     }
@@ -415,7 +415,7 @@ parameters! {
 
 impl HartmannNeff {
     /// J⁵ − 1 and J⁵.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn powers<T: Real>(change: T, jacobian: T) -> (T, T) {
         let square = jacobian * jacobian;
         let fourth = square * square;
@@ -426,23 +426,23 @@ impl HartmannNeff {
 impl Volumetric for HartmannNeff {
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
         let (less_one, fifth) = Self::powers(change, jacobian);
         T::lit(0.02 * self.bulk_modulus) * (less_one * less_one / fifth)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
         let (less_one, fifth) = Self::powers(change, jacobian);
         T::lit(0.1 * self.bulk_modulus) * (less_one * (T::one() + fifth.recip()))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
         let square = jacobian * jacobian;
         let seventh = square * square * square * jacobian;
         T::lit(0.2 * self.bulk_modulus) * (T::lit(2.0) * (square * jacobian) + T::lit(3.0) / seventh)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
         let (_, fifth) = Self::powers(change, jacobian);
         T::lit(0.5 * self.bulk_modulus) * (fifth + fifth.recip())

@@ -24,11 +24,11 @@ pub(crate) trait Packed: Real {
 
 impl Packed for f64 {
     const COUNT: usize = 1;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn write(self, parts: &mut [f64]) {
         parts[0] = self;
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn read(parts: &[f64]) -> Self {
         parts[0]
     }
@@ -36,12 +36,12 @@ impl Packed for f64 {
 
 impl Packed for Dual<f64> {
     const COUNT: usize = 2;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn write(self, parts: &mut [f64]) {
         parts[0] = self.value;
         parts[1] = self.tangent;
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn read(parts: &[f64]) -> Self {
         Self::new(parts[0], parts[1])
     }
@@ -49,12 +49,12 @@ impl Packed for Dual<f64> {
 
 impl<const N: usize> Packed for Gradient<f64, N> {
     const COUNT: usize = 1 + N;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn write(self, parts: &mut [f64]) {
         parts[0] = self.value;
         parts[1..=N].copy_from_slice(&self.partials);
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn read(parts: &[f64]) -> Self {
         Self { value: parts[0], partials: core::array::from_fn(|i| parts[1 + i]) }
     }

@@ -52,7 +52,7 @@ pub trait ResponseFunctions {
 }
 
 impl<I: Isochoric> ResponseFunctions for I {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn response<T: Real>(&self, first: T, second: T) -> [T; 2] {
         let [first, second] = self.slopes(first, second);
         [T::lit(2.0) * first, T::lit(-2.0) * second]
@@ -90,7 +90,7 @@ pub struct LocalDeformation<T = f64> {
 
 impl<T: Real> LocalDeformation<T> {
     /// Of F with det F = 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(gradient: Rows<T>) -> Self {
         let left_cauchy_green = Symmetric::gram(gradient);
@@ -107,7 +107,7 @@ impl<T: Real> LocalDeformation<T> {
     }
 
     /// g₁ B + g₋₁ B⁻¹, Pa: T + p 1, W(25.4).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn extra_stress(&self, law: &(impl ResponseFunctions + ?Sized)) -> Symmetric<T> {
         let [direct, inverse] = law.response(self.first_minus_three, self.second_minus_three);
@@ -115,14 +115,14 @@ impl<T: Real> LocalDeformation<T> {
     }
 
     /// [`extra_stress`](Self::extra_stress) of a law that accepts the deformation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn checked_stress(&self, law: &impl ResponseFunctions) -> Result<Symmetric<T>, SolidsError> {
         let [direct, inverse] = self.checked_response(law)?;
         Ok(self.left_cauchy_green * direct + self.inverse * inverse)
     }
 
     /// (g₁, g₋₁) of a law that accepts the deformation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn checked_response(&self, law: &impl ResponseFunctions) -> Result<[T; 2], SolidsError> {
         law.check(self.first_minus_three.primal(0), self.second_minus_three.primal(0))?;
         Ok(law.response(self.first_minus_three, self.second_minus_three))

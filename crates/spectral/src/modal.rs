@@ -33,7 +33,7 @@ impl<T: Precision, const D: usize> Modes<T, D> {
 
     /// Solves for the modes of a panel: index i along axis 0 runs over the entries, `row` is the index along the middle
     /// axis of three, and the lanes are the indices `first`, `first` + 1, … along the last axis.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn solve_panel(&self, row: usize, first: usize, panels: &mut [&mut [Line<T>]; D]) {
         let outer = &self.axes[0];
         let last = &self.axes[D - 1];
@@ -132,7 +132,7 @@ impl<T: Precision, const D: usize> Modes<T, D> {
 }
 
 /// The entries of lanes that are loaded from a row that may end before them.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn load<T: Precision>(row: &[T], first: usize) -> Line<T> {
     match row.get(first..first + WIDTH) {
         Some(whole) => {

@@ -172,7 +172,7 @@ struct AllFinite<'a, T>(&'a [T]);
 
 impl<T: Precision> Kernel for AllFinite<'_, T> {
     type Output = bool;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> bool {
         let zero = T::lit(0.0);
         // x·0 is zero for numbers and NaN for the rest.
@@ -194,7 +194,7 @@ struct Slab<'a, T, const D: usize> {
 
 impl<T: Precision, const D: usize> Kernel for Slab<'_, T, D> {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
         let plans = self.plans;
         let last = plans.points[D - 1];
@@ -224,7 +224,7 @@ impl<T: Precision, const D: usize> Kernel for Slab<'_, T, D> {
 }
 
 /// Up to eight rows side by side; eight whole rows by squares that fit the registers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn gather_rows<T: Precision>(rows: &[T], length: usize, panel: &mut [Line<T>]) {
     let is_whole = rows.len() == WIDTH * length;
     let squares = if is_whole { length / WIDTH } else { 0 };
@@ -247,7 +247,7 @@ fn gather_rows<T: Precision>(rows: &[T], length: usize, panel: &mut [Line<T>]) {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scatter_rows<T: Precision>(panel: &[Line<T>], length: usize, rows: &mut [T]) {
     let is_whole = rows.len() == WIDTH * length;
     let squares = if is_whole { length / WIDTH } else { 0 };
@@ -270,7 +270,7 @@ fn scatter_rows<T: Precision>(panel: &[Line<T>], length: usize, rows: &mut [T]) 
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn save<T: Precision>(entry: Line<T>, row: &mut [T], first: usize) {
     match row.get_mut(first..first + WIDTH) {
         Some(whole) => whole.copy_from_slice(&entry.0),
@@ -291,7 +291,7 @@ struct Strided<'a, 'f, T, const D: usize> {
 }
 
 impl<T, const D: usize> Rows<T> for Strided<'_, '_, T, D> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn row(&mut self, component: usize, index: usize) -> &mut [T] {
         let offset = index * self.per_slab;
         &mut self.fields[component][offset + self.start..offset + self.end]
@@ -305,7 +305,7 @@ struct Pieces<'a, 'f, T, const D: usize> {
 
 #[cfg(feature = "rayon")]
 impl<T, const D: usize> Rows<T> for Pieces<'_, '_, T, D> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn row(&mut self, component: usize, index: usize) -> &mut [T] {
         self.rows[component][index]
     }
@@ -322,7 +322,7 @@ struct Columns<'a, T, R, const D: usize> {
 
 impl<T: Precision, R: Rows<T>, const D: usize> Kernel for Columns<'_, T, R, D> {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
         let Self { plans, task, modes, piece, mut rows, memory } = self;
         let points = plans.points[0];

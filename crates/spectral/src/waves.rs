@@ -33,7 +33,7 @@ impl<T: Precision> AxisWaves<T> {
     }
 
     /// True where a sine has another index than a cosine, or no mode.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn is_special(&self, slot: usize) -> bool {
         slot == 0 || (self.location == PointLocation::Nodes && slot + 1 == self.points)
     }

@@ -11,7 +11,7 @@ use crate::Symmetric;
 /// use piola_tensor::{Symmetric, principal_invariants};
 /// assert_eq!(principal_invariants(&Symmetric::diagonal([1.0, 2.0, 3.0])), [6.0, 11.0, 6.0]);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn principal_invariants<T: Real>(a: &Symmetric<T>) -> [T; 3] {
     let [xx, yy, zz, xy, yz, xz] = a.components;

@@ -14,46 +14,46 @@ macro_rules! linear_space {
         }
         impl<T: piola_numerics::Real> core::ops::Add for $name<T> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn add(self, other: Self) -> Self {
                 Self::each(&self, &other, |a, b| a + b)
             }
         }
         impl<T: piola_numerics::Real> core::ops::Sub for $name<T> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sub(self, other: Self) -> Self {
                 Self::each(&self, &other, |a, b| a - b)
             }
         }
         impl<T: piola_numerics::Real> core::ops::AddAssign for $name<T> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn add_assign(&mut self, other: Self) {
                 *self = Self::each(self, &other, |a, b| a + b);
             }
         }
         impl<T: piola_numerics::Real> core::ops::SubAssign for $name<T> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sub_assign(&mut self, other: Self) {
                 *self = Self::each(self, &other, |a, b| a - b);
             }
         }
         impl<T: piola_numerics::Real> core::ops::Neg for $name<T> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn neg(self) -> Self {
                 Self::each(&self, &self, |a, _| -a)
             }
         }
         impl<T: piola_numerics::Real> core::ops::Mul<T> for $name<T> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn mul(self, factor: T) -> Self {
                 Self::each(&self, &self, |a, _| a * factor)
             }
         }
         impl<T: piola_numerics::Real> core::ops::MulAssign<T> for $name<T> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn mul_assign(&mut self, factor: T) {
                 *self = Self::each(self, self, |a, _| a * factor);
             }
@@ -61,7 +61,7 @@ macro_rules! linear_space {
         impl<T: piola_numerics::Real> core::ops::Div<T> for $name<T> {
             type Output = Self;
             /// Each component divided: rounded once.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn div(self, divisor: T) -> Self {
                 Self::each(&self, &self, |a, _| a / divisor)
             }

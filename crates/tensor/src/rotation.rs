@@ -10,7 +10,7 @@ use crate::TensorError;
 use crate::error::check_finite;
 
 /// ‖Q Qᵀ − 1‖, 64 ulp of one, and det Q.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn defect<T: Real>(q: Rows<T>) -> (T, f64, T) {
     let defects = difference(product_transposed(q, q), identity());
     let mut largest = T::zero();
@@ -21,7 +21,7 @@ fn defect<T: Real>(q: Rows<T>) -> (T, f64, T) {
 }
 
 /// Whether a matrix is a rotation to 64 ulp.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn is_rotation<T: Real>(q: Rows<T>) -> T::Mask {
     let (defect, tolerance, determinant) = defect(q);
     defect.at_most(T::lit(tolerance)) & T::zero().less_than(determinant)

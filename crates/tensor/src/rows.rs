@@ -17,7 +17,7 @@ pub type Rows<T> = [[T; 3]; 3];
 /// use piola_tensor::internal::rows;
 /// assert_eq!(rows::identity::<f64>(), [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn identity<T: Real>() -> Rows<T> {
     let (o, l) = (T::zero(), T::one());
@@ -25,21 +25,21 @@ pub fn identity<T: Real>() -> Rows<T> {
 }
 
 /// Aᵀ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn transpose<T: Real>(a: Rows<T>) -> Rows<T> {
     [[a[0][0], a[1][0], a[2][0]], [a[0][1], a[1][1], a[2][1]], [a[0][2], a[1][2], a[2][2]]]
 }
 
 /// A B.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn product<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
     product_transposed(a, transpose(b))
 }
 
 /// A Bᵀ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn product_transposed<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
     [
@@ -50,14 +50,14 @@ pub fn product_transposed<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// Aᵀ B.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn transposed_product<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
     product_transposed(transpose(a), transpose(b))
 }
 
 /// A + B.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn sum<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
     [
@@ -68,7 +68,7 @@ pub fn sum<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// A − B.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn difference<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
     [
@@ -79,7 +79,7 @@ pub fn difference<T: Real>(a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// s A.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn scaled<T: Real>(a: Rows<T>, s: T) -> Rows<T> {
     [
@@ -90,28 +90,28 @@ pub fn scaled<T: Real>(a: Rows<T>, s: T) -> Rows<T> {
 }
 
 /// A v.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn apply<T: Real>(a: Rows<T>, v: [T; 3]) -> [T; 3] {
     [dot(a[0], v), dot(a[1], v), dot(a[2], v)]
 }
 
 /// tr A.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn trace<T: Real>(a: Rows<T>) -> T {
     a[0][0] + a[1][1] + a[2][2]
 }
 
 /// Cof A = det A A⁻ᵀ, the matrix of cofactors; it exists for singular A too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn cofactor<T: Real>(a: Rows<T>) -> Rows<T> {
     [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])]
 }
 
 /// A : B = Aᵢⱼ Bᵢⱼ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn double_contraction<T: Real>(a: Rows<T>, b: Rows<T>) -> T {
     dot(a[0], b[0]) + dot(a[1], b[1]) + dot(a[2], b[2])

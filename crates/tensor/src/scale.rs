@@ -14,7 +14,7 @@ struct Range {
     reduction: f64,
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn range<T: Real>() -> Range {
     // Powers of two written by their bits would say less: 2⁻¹⁰⁰⁰, 2⁹⁰⁰, 2⁻¹⁰⁰, and 2⁻¹²⁰, 2⁹⁰, 2⁻⁴⁰.
     if unit_in_last_place::<T>() < 1e-10 {
@@ -36,7 +36,7 @@ fn range<T: Real>() -> Range {
 ///
 /// The power of two below m, without looking at its bits: S. M. Rump, T. Ogita, S. Oishi, *Accurate
 /// floating-point summation I*, SIAM J. Sci. Comput. 31 (2008).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn power_of_two_scale<T: Real>(size: T) -> (T, T) {
     let Range { least, large, reduction } = range::<T>();
     let ulp = unit_in_last_place::<T>();
@@ -48,20 +48,20 @@ pub fn power_of_two_scale<T: Real>(size: T) -> (T, T) {
 }
 
 /// The largest modulus of some numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn largest<T: Real, const N: usize>(values: [T; N]) -> T {
     values.iter().fold(T::zero(), |largest, x| largest.max(x.abs()))
 }
 
 /// √x, with the derivative zero at zero, where it has none.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn square_root<T: Real>(x: T) -> T {
     let positive = T::zero().less_than(x);
     T::select(positive, T::select(positive, x, T::one()).sqrt(), x.frozen())
 }
 
 /// |v|, anywhere within the range of numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn norm<T: Real>(v: [T; 3]) -> T {
     let (scale, unscale) = power_of_two_scale(largest(v));
     let v = [v[0] * scale, v[1] * scale, v[2] * scale];

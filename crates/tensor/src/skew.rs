@@ -45,34 +45,34 @@ pub struct Skew<T = f64> {
 
 impl<T: Real> Skew<T> {
     /// From the axial vector: the components 32, 13, 21.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn new(x: T, y: T, z: T) -> Self {
         Self { axial: [x, y, z] }
     }
 
     /// 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn zero() -> Self {
         Self { axial: [T::zero(); 3] }
     }
 
     /// ½ (A − Aᵀ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn skew_part(a: Rows<T>) -> Self {
         Self::difference_from_transpose(a) * T::lit(0.5)
     }
 
     /// A − Aᵀ, twice the skew part.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn difference_from_transpose(a: Rows<T>) -> Self {
         Self { axial: [a[2][1] - a[1][2], a[0][2] - a[2][0], a[1][0] - a[0][1]] }
     }
 
     /// A B − B A for symmetric A and B, which is skew.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn commutator(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
         let (a, b) = (a.rows(), b.rows());
@@ -103,7 +103,7 @@ impl<T: Real> Skew<T> {
     }
 
     /// All nine components as an array of rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rows(&self) -> Rows<T> {
         let ([x, y, z], o) = (self.axial, T::zero());
@@ -111,28 +111,28 @@ impl<T: Real> Skew<T> {
     }
 
     /// All nine components as a matrix.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn matrix(&self) -> Matrix3<T> {
         from_rows(self.rows())
     }
 
     /// The axial vector w.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn axial_vector(&self) -> Vector3<T> {
         Vector3::from(self.axial)
     }
 
     /// W v = w × v.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn apply(&self, v: [T; 3]) -> [T; 3] {
         cross(self.axial, v)
     }
 
     /// W : V = 2 w · v.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn double_contraction(&self, other: &Self) -> T {
         T::lit(2.0) * dot(self.axial, other.axial)
@@ -142,14 +142,14 @@ impl<T: Real> Skew<T> {
     ///
     /// # Accuracy
     /// 4 ulp for components anywhere in the range of numbers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn norm(&self) -> T {
         scale::norm(self.axial) * T::lit(core::f64::consts::SQRT_2)
     }
 
     /// W A − A W for symmetric A: how A changes while it turns with the spin W.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn turning(&self, a: &Symmetric<T>) -> Symmetric<T> {
         // W A + (W A)ᵀ, column by column: A W = −(W A)ᵀ.
@@ -166,7 +166,7 @@ impl<T: Real> Skew<T> {
         Ok(Self { axial: apply(rows_of(rotation), self.axial) })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[doc(hidden)]
     pub fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
         let (a, b) = (a.axial, b.axial);
@@ -179,7 +179,7 @@ linear_space!(Skew);
 /// W v = w × v.
 impl<T: Real> core::ops::Mul<Vector3<T>> for Skew<T> {
     type Output = Vector3<T>;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mul(self, v: Vector3<T>) -> Vector3<T> {
         Vector3::from(self.apply([v[0], v[1], v[2]]))
     }

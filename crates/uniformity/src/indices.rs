@@ -9,29 +9,29 @@ pub(crate) type Third<T> = [[[T; 3]; 3]; 3];
 /// Components with four indices, `[C][A][B][D]`.
 pub(crate) type Fourth<T> = [[[[T; 3]; 3]; 3]; 3];
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn second<T>(mut entry: impl FnMut(usize, usize) -> T) -> Rows<T> {
     core::array::from_fn(|a| core::array::from_fn(|b| entry(a, b)))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn third<T>(mut entry: impl FnMut(usize, usize, usize) -> T) -> Third<T> {
     core::array::from_fn(|c| core::array::from_fn(|a| core::array::from_fn(|b| entry(c, a, b))))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn fourth<T>(mut entry: impl FnMut(usize, usize, usize, usize) -> T) -> Fourth<T> {
     core::array::from_fn(|c| third(|a, b, d| entry(c, a, b, d)))
 }
 
 /// Σᵢ `term(i)` over three indices.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sum<T: Real>(mut term: impl FnMut(usize) -> T) -> T {
     term(0) + term(1) + term(2)
 }
 
 /// The coordinates as variables of first derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn variables<T: Real>(place: &Vector3<T>) -> Vector3<Gradient<T, 3>> {
     Vector3::new(Gradient::variable(place[0], 0), Gradient::variable(place[1], 1), Gradient::variable(place[2], 2))
 }

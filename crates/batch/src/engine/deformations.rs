@@ -36,12 +36,12 @@ pub trait Deformations<T: BatchScalar>: Copy + Send + Sync {
 
     /// As [`load`](Self::load), into memory from which [`filled`](Self::filled) makes the deformations.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn fill<const N: usize>(&self, _first: usize, _count: usize, _lanes: &mut [Lanes<T, N>; 9], _in_registers: bool) {}
 
     /// The deformations that [`fill`](Self::fill) has read.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn filled<const N: usize>(&self, first: usize, count: usize, _lanes: [Lanes<T, N>; 9]) -> Self::Point<Lanes<T, N>> {
         self.load(first, count)
     }
@@ -120,15 +120,15 @@ macro_rules! unchecked {
             const TRUSTED: bool = false;
             const IN_LANES: bool = S::IN_LANES;
             const RECORDS: bool = S::RECORDS;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> usize {
                 self.0.count().unwrap_or(0)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn load<const N: usize>(&self, first: usize, count: usize) -> $name<Lanes<T, N>> {
                 $name::trusted(rows(self.0.load(first, count)))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn fill<const N: usize>(
                 &self,
                 first: usize,
@@ -142,7 +142,7 @@ macro_rules! unchecked {
                     fill(&self.0, first, count, lanes);
                 }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn filled<const N: usize>(
                 &self,
                 _first: usize,
@@ -164,16 +164,16 @@ unchecked!(Displacements DisplacementGradient);
 macro_rules! typed {
     ($name:ident) => {
         impl<T: BatchScalar> Source<$name, T, 9> for &[$name<T>] {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> Option<usize> {
                 Some(self.len())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn point(&self, index: usize) -> [T; 9] {
                 by_rows(self[index].matrix())
             }
             const RECORDS: bool = true;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
                 if count < N {
                     fill::<_, $name, T, 9, N>(self, first, count, lanes);
@@ -187,15 +187,15 @@ macro_rules! typed {
             type Point<U: Real> = $name<U>;
             const TRUSTED: bool = true;
             const RECORDS: bool = true;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> usize {
                 self.len()
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn load<const N: usize>(&self, first: usize, count: usize) -> $name<Lanes<T, N>> {
                 $name::trusted(rows(Source::<$name, T, 9>::load(self, first, count)))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn fill<const N: usize>(
                 &self,
                 first: usize,
@@ -209,7 +209,7 @@ macro_rules! typed {
                     fill::<_, $name, T, 9, N>(self, first, count, lanes);
                 }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn filled<const N: usize>(
                 &self,
                 _first: usize,
@@ -232,11 +232,11 @@ impl<T: BatchScalar> Deformations<T> for Undeformed {
     const TRUSTED: bool = true;
     const IN_LANES: bool = true;
     const RECORDS: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.0
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load<const N: usize>(&self, _first: usize, _count: usize) -> DeformationGradient<Lanes<T, N>> {
         DeformationGradient::identity()
     }

@@ -43,21 +43,21 @@ pub trait Destination<Q, T: Element, const K: usize>: Send + Sized {
     fn put(&mut self, index: usize, components: [T; K]);
 
     /// Writes the first `count` ≤ N lanes to the points from `first` on.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; K]) {
         self.scatter(first, count, values);
     }
 
     /// As [`store`](Self::store), straight from memory.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; K]) {
         scatter(self, first, count, values);
     }
 }
 
 /// Point by point.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn scatter<V: Destination<Q, T, K>, Q, T: Element, const K: usize, const N: usize>(
     to: &mut V,
     first: usize,
@@ -69,7 +69,7 @@ pub(super) fn scatter<V: Destination<Q, T, K>, Q, T: Element, const K: usize, co
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn lane_of<T: Element, const N: usize, const K: usize>(values: &[Lanes<T, N>; K], lane: usize) -> [T; K] {
     let mut point = [T::zero(); K];
     let mut k = 0;
@@ -84,7 +84,7 @@ fn lane_of<T: Element, const N: usize, const K: usize>(values: &[Lanes<T, N>; K]
 macro_rules! records {
     (record $quantity:ty, $k:tt) => {
         const RECORDS: bool = true;
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; $k]) {
             if count < N {
                 scatter::<_, $quantity, T, $k, N>(self, first, count, values);
@@ -99,15 +99,15 @@ macro_rules! slice {
     ([$($generics:tt)*] $quantity:ty, $element:ty, $k:tt, |$components:ident| $structure:expr $(, $record:ident)?) => {
         impl<$($generics)*> Destination<$quantity, T, $k> for &mut [$element] {
             $(records!($record $quantity, $k);)?
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> usize {
                 self.len()
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn split(self, middle: usize) -> (Self, Self) {
                 self.split_at_mut(middle)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn put(&mut self, index: usize, $components: [T; $k]) {
                 self[index] = $structure;
             }
@@ -129,49 +129,49 @@ slice!([T: BatchScalar] BiotStress, BiotStress<T>, 9, |x| BiotStress(matrix(x)),
 
 impl<Q, T: Element, const K: usize> Destination<Q, T, K> for &mut [[T; K]] {
     records!(record Q, K);
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.len()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         self.split_at_mut(middle)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, components: [T; K]) {
         self[index] = components;
     }
 }
 
 /// The matrix of nine components by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn matrix<T: Element>(rows: [T; 9]) -> Matrix3<T> {
     let [a, b, c, d, e, f, g, h, i] = transposed(rows);
     Matrix3::from_array_storage(nalgebra::ArrayStorage([[a, b, c], [d, e, f], [g, h, i]]))
 }
 
 impl<Q, T: Element> Destination<Q, T, 9> for ColumnMajor<&mut [[T; 9]]> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.0.len()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         let (head, tail) = self.0.split_at_mut(middle);
         (Self(head), Self(tail))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, components: [T; 9]) {
         self.0[index] = transposed(components);
     }
 }
 
 impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Strided<&mut [T], K> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.count
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         let place = (middle * self.stride).min(self.data.len());
         let (head, tail) = self.data.split_at_mut(place);
@@ -180,7 +180,7 @@ impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Strided<&mut [T], K
             Self { data: tail, stride: self.stride, places: self.places, count: self.count - middle },
         )
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, components: [T; K]) {
         let data = &mut self.data[index * self.stride..];
         for (place, component) in self.places.into_iter().zip(components) {
@@ -191,16 +191,16 @@ impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Strided<&mut [T], K
 
 impl<Q, T: Element, const K: usize, const B: usize> Destination<Q, T, K> for LaneBlocks<&mut [[[T; B]; K]]> {
     const IN_LANES: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.count
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         let (head, tail) = self.blocks.split_at_mut(middle / B);
         (Self { blocks: head, count: middle }, Self { blocks: tail, count: self.count - middle })
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, components: [T; K]) {
         let block = &mut self.blocks[index / B];
         let mut k = 0;
@@ -209,7 +209,7 @@ impl<Q, T: Element, const K: usize, const B: usize> Destination<Q, T, K> for Lan
             k += 1;
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; K]) {
         if count < N {
             scatter::<_, Q, T, K, N>(self, first, count, values);
@@ -235,11 +235,11 @@ impl<Q, T: Element, const K: usize, const B: usize> Destination<Q, T, K> for Lan
 
 impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Components<&mut [T], K> {
     const IN_LANES: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.0[0].len()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         let mut rest = self.0;
         let head = core::array::from_fn(|k| {
@@ -249,13 +249,13 @@ impl<Q, T: Element, const K: usize> Destination<Q, T, K> for Components<&mut [T]
         });
         (Self(head), Self(rest))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, components: [T; K]) {
         for (array, component) in self.0.iter_mut().zip(components) {
             array[index] = component;
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; K]) {
         for (array, lanes) in self.0.iter_mut().zip(values) {
             lanes.store(&mut array[first..first + count]);

@@ -143,7 +143,7 @@ type Examined<T, P, const N: usize> = (LanesMask<T, N>, LanesMask<T, N>, Point<L
 impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> LaneKernel for Evaluation<T, D, R> {
     type Output = Tally;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<const N: usize>(mut self) -> Tally {
         let mut tally = Tally::default();
         if D::IN_LANES && R::IN_LANES {
@@ -157,7 +157,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> LaneKernel for Evaluati
 
 impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
     /// From the caller's memory to the caller's memory, block by block.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn direct<const N: usize>(&mut self, tally: &mut Tally) {
         let [start, end] = self.range;
         let mut first = start;
@@ -179,7 +179,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
     }
 
     /// N points from `first` on.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pass<const N: usize>(&mut self, first: usize, tally: &mut Tally) {
         let (good, slow, point) = Self::point::<N>(self.points.load::<N>(first, N));
         let good = good & self.requests.pass(first, first - self.range[0], &point);
@@ -188,7 +188,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
 
     /// Where the caller's memory has another order than lanes: a few blocks are read, computed and written, each a
     /// pass of its own. Together, the compiler would mix the order of the memory into the lanes of the computation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn staged<const N: usize>(&mut self, tally: &mut Tally) {
         let [start, end] = self.range;
         if end <= start {
@@ -228,7 +228,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
     }
 
     /// What the outputs need of a block; where its points are good, and where they took the slow path.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point<const N: usize>(deformation: D::Point<Lanes<T, N>>) -> Examined<T, D::Point<Lanes<T, N>>, N> {
         let mut good: LanesMask<T, N> = Mask::splat(true);
         let mut jacobian = None;
@@ -248,7 +248,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
     }
 
     /// Counts points of the slow path, records bad ones.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn note<const N: usize>(
         &mut self,
         first: usize,
@@ -269,7 +269,7 @@ impl<T: BatchScalar, D: Deformations<T>, R: Requests<T>> Evaluation<T, D, R> {
     const POINT: usize = (9 + R::COMPONENTS) * size_of::<T>();
 
     /// Whether points become lanes by shuffles in registers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     const fn in_registers<const N: usize>() -> bool {
         D::RECORDS && R::RECORDS && Lanes::<T, N>::IN_REGISTERS
     }

@@ -14,13 +14,13 @@ use super::sources::{Source, by_rows};
 use crate::BatchError;
 
 /// Nine components by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn flat<T: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> [T; 9] {
     [a, b, c, d, e, f, g, h, i]
 }
 
 /// Three rows of nine components.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn rows<T: Copy>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> Rows<T> {
     [[a, b, c], [d, e, f], [g, h, i]]
 }
@@ -38,14 +38,14 @@ macro_rules! tuples {
                 // Parts of different lengths are as long as no batch.
                 if counts.iter().all(|count| *count == counts[0]) { counts[0] } else { Some(usize::MAX) }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn point(&self, index: usize) -> [T; $total] {
                 let (mut all, mut at) = ([T::zero(); $total], 0);
                 $(at = put(&mut all, at, self.$place.point(index));)+
                 debug_assert_eq!(at, $total);
                 all
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; $total] {
                 let (mut all, mut at) = ([Lanes([T::zero(); N]); $total], 0);
                 $(at = put(&mut all, at, self.$place.load::<N>(first, count));)+
@@ -61,7 +61,7 @@ macro_rules! tuples {
 }
 
 /// Writes a part and says where the next begins.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn put<X: Copy, const K: usize, const TOTAL: usize>(all: &mut [X; TOTAL], at: usize, part: [X; K]) -> usize {
     let mut k = 0;
     while k < K {
@@ -72,7 +72,7 @@ fn put<X: Copy, const K: usize, const TOTAL: usize>(all: &mut [X; TOTAL], at: us
 }
 
 /// Components of a part of the input.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn part<X: Copy, const K: usize, const TOTAL: usize>(all: &[X; TOTAL], at: usize) -> [X; K] {
     let mut part = [all[at]; K];
     let mut k = 0;
@@ -92,11 +92,11 @@ tuples! {
 }
 
 impl<Q, T: Element> Source<Q, T, 3> for &[Vector3<T>] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; 3] {
         let [[x, y, z]] = self[index].data.0;
         [x, y, z]
@@ -104,15 +104,15 @@ impl<Q, T: Element> Source<Q, T, 3> for &[Vector3<T>] {
 }
 
 impl<Q, T: Element> Destination<Q, T, 3> for &mut [Vector3<T>] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.len()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         self.split_at_mut(middle)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, [x, y, z]: [T; 3]) {
         self[index] = Vector3::new(x, y, z);
     }
@@ -122,11 +122,11 @@ impl<Q, T: Element> Destination<Q, T, 3> for &mut [Vector3<T>] {
 macro_rules! typed {
     ($($name:ident)*) => { $(
         impl<T: BatchScalar> Source<$name, T, 9> for &[$name<T>] {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> Option<usize> {
                 Some(self.len())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn point(&self, index: usize) -> [T; 9] {
                 by_rows(&self[index].0)
             }

@@ -27,7 +27,7 @@ impl<T: Real, D> core::fmt::Debug for Point<T, D> {
 
 impl<T: Real, D: Deformation<T>> Point<T, D> {
     /// The analysis of the stretches, made once for all outputs.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn stretch(&self) -> StretchAnalysis<T> {
         match self.stretch {
@@ -45,26 +45,26 @@ fn analysed<T: Real, D: Deformation<T>>(deformation: &D) -> StretchAnalysis<T> {
 }
 
 impl<T: Real, D: Deformation<T>> Deformation<T> for Point<T, D> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
         self.deformation.lifted(lift)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<T> {
         self.deformation.gradient_rows()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn displacement_rows(&self) -> Rows<T> {
         self.deformation.displacement_rows()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn jacobian(&self) -> T {
         match self.jacobian {
             Some(jacobian) => jacobian,
             None => self.deformation.jacobian(),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_change(&self) -> T {
         self.deformation.volume_change()
     }

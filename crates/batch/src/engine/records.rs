@@ -23,28 +23,28 @@ pub(super) trait RecordMut<T, const K: usize>: Record<T, K> {
 }
 
 impl<T, const K: usize> Record<T, K> for [T; K] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn record(&self) -> &[T; K] {
         self
     }
 }
 
 impl<T, const K: usize> RecordMut<T, K> for [T; K] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn record_mut(&mut self) -> &mut [T; K] {
         self
     }
 }
 
 impl<T> Record<T, 9> for [[T; 3]; 3] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn record(&self) -> &[T; 9] {
         &self.as_flattened().as_chunks().0[0]
     }
 }
 
 impl<T> RecordMut<T, 9> for [[T; 3]; 3] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn record_mut(&mut self) -> &mut [T; 9] {
         &mut self.as_flattened_mut().as_chunks_mut().0[0]
     }
@@ -54,14 +54,14 @@ macro_rules! records {
     ($k:literal, $by_columns:literal: $($name:ident [$($field:tt)*])*) => { $(
         impl<T: Element> Record<T, $k> for $name<T> {
             const BY_COLUMNS: bool = $by_columns;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn record(&self) -> &[T; $k] {
                 self.$($field)*.record()
             }
         }
 
         impl<T: Element> RecordMut<T, $k> for $name<T> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn record_mut(&mut self) -> &mut [T; $k] {
                 self.$($field)*.record_mut()
             }
@@ -75,7 +75,7 @@ macro_rules! deformations {
     ($($name:ident)*) => { $(
         impl<T: Real + Element> Record<T, 9> for $name<T> {
             const BY_COLUMNS: bool = true;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn record(&self) -> &[T; 9] {
                 self.matrix().record()
             }
@@ -85,7 +85,7 @@ macro_rules! deformations {
 deformations!(DeformationGradient DisplacementGradient);
 
 /// Reads N points from `first` on to lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn gather<R: Record<T, K>, T: Element, const K: usize, const N: usize>(
     points: &[R],
     first: usize,
@@ -106,7 +106,7 @@ pub(super) fn gather<R: Record<T, K>, T: Element, const K: usize, const N: usize
 }
 
 /// Writes N lanes to the points from `first` on.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn scatter<R: RecordMut<T, K>, T: Element, const K: usize, const N: usize>(
     points: &mut [R],
     first: usize,

@@ -56,19 +56,19 @@ pub trait Quantity<const I: usize, const K: usize>: Copy + Send + Sync {
     fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, input: [T; I]) -> [T; K];
 
     /// Mask of lanes whose value is certainly defined. [`check`](Self::check) runs on the others.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exists<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>) -> T::Mask {
         Mask::splat(true)
     }
 
     /// As [`exists`](Self::exists), of the value too.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, _value: &[T; K]) -> T::Mask {
         self.exists(point)
     }
 
     /// Mask of lanes whose input certainly satisfies its condition. [`check_input`](Self::check_input) runs on the others.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn admits<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, _input: &[T; I]) -> T::Mask {
         Mask::splat(true)
     }
@@ -221,7 +221,7 @@ pub trait Requests<T: BatchScalar>: Send + Sized {
 
 impl<Q, S, V, const I: usize, const K: usize> Request<Q, S, V, I, K> {
     /// Where the input is finite and the quantity exists.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, input: &[T; I], value: &[T; K]) -> T::Mask
     where
         Q: Quantity<I, K>,
@@ -268,7 +268,7 @@ where
         Ok(())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         let Self { quantity, source, to } = self;
         let (head, tail) = to.split(middle);
@@ -277,12 +277,12 @@ where
 
     type Buffers<const N: usize> = ([Lanes<T, N>; I], [Lanes<T, N>; K]);
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn buffers<const N: usize>() -> Self::Buffers<N> {
         ([Lanes([T::zero(); N]); I], [Lanes([T::zero(); N]); K])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load<const N: usize>(&self, first: usize, count: usize, buffers: &mut Self::Buffers<N>, in_registers: bool) {
         if S::IN_LANES {
             buffers.0 = self.source.load::<N>(first, count);
@@ -293,7 +293,7 @@ where
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn compute<const N: usize, D: Deformation<Lanes<T, N>>>(
         &self,
         point: &Point<Lanes<T, N>, D>,
@@ -304,7 +304,7 @@ where
         self.good(point, &buffers.0, &value)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pass<const N: usize, D: Deformation<Lanes<T, N>>>(
         &mut self,
         first: usize,
@@ -318,7 +318,7 @@ where
         good
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn store<const N: usize>(&mut self, at: usize, count: usize, buffers: &Self::Buffers<N>, in_registers: bool) {
         if V::IN_LANES {
             self.to.store(at, count, &buffers.1);
@@ -358,7 +358,7 @@ macro_rules! tuple {
                 Ok(())
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn split(self, middle: usize) -> (Self, Self) {
                 let parts = ($(self.$place.split(middle),)+);
                 (($(parts.$place.0,)+), ($(parts.$place.1,)+))
@@ -366,12 +366,12 @@ macro_rules! tuple {
 
             type Buffers<const N: usize> = ($($name::Buffers<N>,)+);
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn buffers<const N: usize>() -> Self::Buffers<N> {
                 ($($name::buffers::<N>(),)+)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn load<const N: usize>(
                 &self,
                 first: usize,
@@ -382,7 +382,7 @@ macro_rules! tuple {
                 $(self.$place.load(first, count, &mut buffers.$place, in_registers);)+
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn compute<const N: usize, De: Deformation<Lanes<T, N>>>(
                 &self,
                 point: &Point<Lanes<T, N>, De>,
@@ -393,7 +393,7 @@ macro_rules! tuple {
                 good
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn pass<const N: usize, De: Deformation<Lanes<T, N>>>(
                 &mut self,
                 first: usize,
@@ -405,7 +405,7 @@ macro_rules! tuple {
                 good
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn store<const N: usize>(
                 &mut self,
                 at: usize,

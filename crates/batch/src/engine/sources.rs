@@ -41,7 +41,7 @@ pub trait Source<Q, T: Element, const K: usize>: Copy + Send + Sync {
     fn point(&self, index: usize) -> [T; K];
 
     /// The components at `count` ≤ N points from `first` on, a point a lane; lanes beyond hold the last of them.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; K] {
         let mut lanes = [Lanes([T::zero(); N]); K];
         self.gather(first, count, &mut lanes);
@@ -59,14 +59,14 @@ pub trait Source<Q, T: Element, const K: usize>: Copy + Send + Sync {
 
     /// As [`load`](Self::load), straight into memory.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; K]) {
         fill(self, first, count, lanes);
     }
 }
 
 /// Point by point.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn fill<S: Source<Q, T, K>, Q, T: Element, const K: usize, const N: usize>(
     source: &S,
     first: usize,
@@ -87,11 +87,11 @@ pub(super) fn fill<S: Source<Q, T, K>, Q, T: Element, const K: usize, const N: u
 impl<Q, T: Element> Source<Q, T, 0> for () {
     const IN_LANES: bool = true;
     const RECORDS: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         None
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, _index: usize) -> [T; 0] {
         []
     }
@@ -99,7 +99,7 @@ impl<Q, T: Element> Source<Q, T, 0> for () {
 
 impl<Q, T: BatchScalar> Source<Q, T, 6> for &[Symmetric<T>] {
     const RECORDS: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 6]) {
         if count < N {
             fill::<_, Q, T, 6, N>(self, first, count, lanes);
@@ -107,11 +107,11 @@ impl<Q, T: BatchScalar> Source<Q, T, 6> for &[Symmetric<T>] {
             gather(self, first, lanes);
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; 6] {
         self[index].components
     }
@@ -119,7 +119,7 @@ impl<Q, T: BatchScalar> Source<Q, T, 6> for &[Symmetric<T>] {
 
 impl<Q, T: Element, const K: usize> Source<Q, T, K> for &[[T; K]] {
     const RECORDS: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; K]) {
         if count < N {
             fill::<_, Q, T, K, N>(self, first, count, lanes);
@@ -127,11 +127,11 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for &[[T; K]] {
             gather(self, first, lanes);
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; K] {
         self[index]
     }
@@ -139,7 +139,7 @@ impl<Q, T: Element, const K: usize> Source<Q, T, K> for &[[T; K]] {
 
 impl<Q, T: Element> Source<Q, T, 9> for &[[[T; 3]; 3]] {
     const RECORDS: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
         if count < N {
             fill::<_, Q, T, 9, N>(self, first, count, lanes);
@@ -147,11 +147,11 @@ impl<Q, T: Element> Source<Q, T, 9> for &[[[T; 3]; 3]] {
             gather(self, first, lanes);
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; 9] {
         let [[a, b, c], [d, e, f], [g, h, i]] = self[index];
         [a, b, c, d, e, f, g, h, i]
@@ -159,13 +159,13 @@ impl<Q, T: Element> Source<Q, T, 9> for &[[[T; 3]; 3]] {
 }
 
 /// Nine numbers by rows of nine by columns.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn transposed<T: Copy>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> [T; 9] {
     [a, d, g, b, e, h, c, f, i]
 }
 
 /// The numbers of a nalgebra matrix by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn by_rows<T: Element>(matrix: &Matrix3<T>) -> [T; 9] {
     let [[a, b, c], [d, e, f], [g, h, i]] = matrix.data.0;
     transposed([a, b, c, d, e, f, g, h, i])
@@ -173,7 +173,7 @@ pub(super) fn by_rows<T: Element>(matrix: &Matrix3<T>) -> [T; 9] {
 
 impl<Q, T: Element> Source<Q, T, 9> for &[Matrix3<T>] {
     const RECORDS: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
         if count < N {
             fill::<_, Q, T, 9, N>(self, first, count, lanes);
@@ -181,33 +181,33 @@ impl<Q, T: Element> Source<Q, T, 9> for &[Matrix3<T>] {
             gather(self, first, lanes);
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; 9] {
         by_rows(&self[index])
     }
 }
 
 impl<Q, T: Element> Source<Q, T, 9> for ColumnMajor<&[[T; 9]]> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.0.len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; 9] {
         transposed(self.0[index])
     }
 }
 
 impl<Q, T: Element, const K: usize> Source<Q, T, K> for Strided<&[T], K> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.count)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; K] {
         let data = &self.data[index * self.stride..];
         self.places.map(|place| data[place])
@@ -223,11 +223,11 @@ pub(super) const fn ahead<Block>() -> usize {
 
 impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBlocks<&[[[T; B]; K]]> {
     const IN_LANES: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.count)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; K] {
         let block = &self.blocks[index / B];
         let mut point = [T::zero(); K];
@@ -238,7 +238,7 @@ impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBloc
         }
         point
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; K] {
         let mut lanes = [Lanes([T::zero(); N]); K];
         if count < N {
@@ -268,15 +268,15 @@ impl<Q, T: Element, const K: usize, const B: usize> Source<Q, T, K> for LaneBloc
 
 impl<Q, T: BatchScalar, A: Source<Q, T, 9>> Source<Q, T, 6> for AllEntries<A> {
     const IN_LANES: bool = A::IN_LANES;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         self.0.count()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; 6] {
         symmetric_or_not_finite(self.0.point(index))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; 6] {
         symmetric_or_not_finite(self.0.load::<N>(first, count))
     }
@@ -289,7 +289,7 @@ impl<Q, T: BatchScalar, A: Source<Q, T, 9>> Source<Q, T, 6> for AllEntries<A> {
 
 /// The symmetric part where opposite entries agree as [`Symmetric::from_rows`] asks, otherwise not finite, by which the
 /// point is looked at.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn symmetric_or_not_finite<X: Real>([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [X; 9]) -> [X; 6] {
     let largest = xx.abs().max(yy.abs()).max(zz.abs()).max(xy.abs()).max(yz.abs()).max(xz.abs());
     let scale = largest.max(yx.abs()).max(zy.abs()).max(zx.abs());
@@ -302,15 +302,15 @@ fn symmetric_or_not_finite<X: Real>([xx, xy, xz, yx, yy, yz, zx, zy, zz]: [X; 9]
 
 impl<Q, T: Element, const K: usize> Source<Q, T, K> for Components<&[T], K> {
     const IN_LANES: bool = true;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.0[0].len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; K] {
         self.0.map(|component| component[index])
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn load<const N: usize>(&self, first: usize, count: usize) -> [Lanes<T, N>; K] {
         let mut lanes = [Lanes([T::zero(); N]); K];
         for (lanes, component) in lanes.iter_mut().zip(self.0) {
@@ -325,7 +325,7 @@ macro_rules! symmetric_measures {
     ($($name:ident)*) => { $(
         impl<T: BatchScalar> Source<$name, T, 6> for &[$name<T>] {
             const RECORDS: bool = true;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 6]) {
                 if count < N {
                     fill::<_, $name, T, 6, N>(self, first, count, lanes);
@@ -333,11 +333,11 @@ macro_rules! symmetric_measures {
                     gather(self, first, lanes);
                 }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> Option<usize> {
                 Some(self.len())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn point(&self, index: usize) -> [T; 6] {
                 self[index].0.components
             }
@@ -350,7 +350,7 @@ macro_rules! general_measures {
     ($($name:ident)*) => { $(
         impl<T: BatchScalar> Source<$name, T, 9> for &[$name<T>] {
             const RECORDS: bool = true;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn gather<const N: usize>(&self, first: usize, count: usize, lanes: &mut [Lanes<T, N>; 9]) {
                 if count < N {
                     fill::<_, $name, T, 9, N>(self, first, count, lanes);
@@ -358,11 +358,11 @@ macro_rules! general_measures {
                     gather(self, first, lanes);
                 }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> Option<usize> {
                 Some(self.len())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn point(&self, index: usize) -> [T; 9] {
                 by_rows(&self[index].0)
             }

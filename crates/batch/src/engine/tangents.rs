@@ -11,7 +11,7 @@ use super::scalar::BatchScalar;
 use super::sources::Source;
 
 /// The entries of nine rows of nine.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn entries<T: Real>(tensor: &FourthOrder<T>) -> [T; 81] {
     let mut entries = [T::zero(); 81];
     let mut k = 0;
@@ -23,15 +23,15 @@ pub(crate) fn entries<T: Real>(tensor: &FourthOrder<T>) -> [T; 81] {
 }
 
 impl<Q, T: BatchScalar> Destination<Q, T, 36> for &mut [MinorSymmetric<T>] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.len()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         self.split_at_mut(middle)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, components: [T; 36]) {
         for (row, values) in self[index].components.iter_mut().zip(components.as_chunks::<6>().0) {
             *row = *values;
@@ -40,37 +40,37 @@ impl<Q, T: BatchScalar> Destination<Q, T, 36> for &mut [MinorSymmetric<T>] {
 }
 
 impl<T: BatchScalar> Source<FirstPiolaTangent, T, 81> for &[FirstPiolaTangent<T>] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; 81] {
         entries(&self[index].0)
     }
 }
 
 impl<Q, T: BatchScalar> Source<Q, T, 21> for &[MajorSymmetric<T>] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> Option<usize> {
         Some(self.len())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn point(&self, index: usize) -> [T; 21] {
         self[index].components
     }
 }
 
 impl<Q, T: BatchScalar> Destination<Q, T, 21> for &mut [MajorSymmetric<T>] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.len()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         self.split_at_mut(middle)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, components: [T; 21]) {
         self[index] = MajorSymmetric { components };
     }
@@ -79,26 +79,26 @@ impl<Q, T: BatchScalar> Destination<Q, T, 21> for &mut [MajorSymmetric<T>] {
 macro_rules! typed {
     ($($name:ident)*) => { $(
         impl<T: BatchScalar> Source<$name, T, 21> for &[$name<T>] {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> Option<usize> {
                 Some(self.len())
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn point(&self, index: usize) -> [T; 21] {
                 self[index].0.components
             }
         }
 
         impl<T: BatchScalar> Destination<$name, T, 21> for &mut [$name<T>] {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn count(&self) -> usize {
                 self.len()
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn split(self, middle: usize) -> (Self, Self) {
                 self.split_at_mut(middle)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn put(&mut self, index: usize, components: [T; 21]) {
                 self[index] = $name(MajorSymmetric { components });
             }
@@ -109,15 +109,15 @@ typed!(MaterialTangent LieTangent TruesdellTangent JaumannTangent);
 
 /// All 81 entries of ∂P/∂F, those of a pair of indices `iA` a row.
 impl<T: BatchScalar> Destination<FirstPiolaTangent, T, 81> for &mut [FirstPiolaTangent<T>] {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&self) -> usize {
         self.len()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         self.split_at_mut(middle)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, components: [T; 81]) {
         let entries = &mut self[index].0.components;
         for (row, values) in entries.iter_mut().zip(components.as_chunks::<9>().0) {

@@ -58,7 +58,7 @@ macro_rules! quantity {
             const NEEDS_STRETCH: bool = $crate::requests::needed!($($stretches)?);
             const INPUT: &'static str = $what;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn of<T: piola_numerics::Real, D: piola_continuum::Deformation<T>>(
                 &self,
                 $point: &$crate::Point<T, D>,

@@ -37,7 +37,7 @@ impl Quantity<6, 12> for Eigenpairs {
     const NEEDS_STRETCH: bool = false;
     const INPUT: &'static str = "tensor";
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of<T: Real, D: Deformation<T>>(&self, _point: &Point<T, D>, components: [T; 6]) -> [T; 12] {
         let decomposition = decompose(&Symmetric { components });
         let ([x, y, z], [a, b, c, d, e, f, g, h, i]) = (decomposition.values, flat(decomposition.vectors));
@@ -57,17 +57,17 @@ where
         let (values, vectors) = (self.0.count(), self.1.count());
         if values == vectors { values } else { usize::MAX }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn split(self, middle: usize) -> (Self, Self) {
         let ((a, b), (c, d)) = (self.0.split(middle), self.1.split(middle));
         ((a, c), (b, d))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn put(&mut self, index: usize, [x, y, z, a, b, c, d, e, f, g, h, i]: [T; 12]) {
         self.0.put(index, [x, y, z]);
         self.1.put(index, [a, b, c, d, e, f, g, h, i]);
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; 12]) {
         let [x, y, z, a, b, c, d, e, f, g, h, i] = *values;
         self.0.store(first, count, &[x, y, z]);

@@ -11,7 +11,7 @@ use crate::BatchError;
 use crate::engine::parts::{flat, rows};
 
 /// P of nine components by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn first_piola<T: Real>(components: [T; 9]) -> FirstPiola<T> {
     FirstPiola(from_rows(rows(components)))
 }
@@ -69,7 +69,7 @@ macro_rules! balanced {
         /// by more than 96 ulp of |P| |F| max(1, |F|³/J), by largest entries.
         $function(stress: S) $name: FirstPiola [9] => $to [6], "FirstPiola",
             |point, stress| first_piola(stress).$method(point).0.components, {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn admits<T: Real, D: Deformation<T>>(&self, point: &crate::Point<T, D>, input: &[T; 9]) -> T::Mask {
                 first_piola(*input).is_balanced(point)
             }

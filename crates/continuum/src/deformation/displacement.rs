@@ -65,7 +65,7 @@ impl<T: Real> DisplacementGradient<T> {
     }
 
     /// 0: nothing is deformed.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn zero() -> Self {
         Self { matrix: Matrix3::from_element(T::zero()) }
@@ -106,7 +106,7 @@ impl<T: Real> DisplacementGradient<T> {
     }
 
     /// ∇u as a matrix.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub const fn matrix(&self) -> &Matrix3<T> {
         &self.matrix
@@ -139,7 +139,7 @@ impl<T: Real> DisplacementGradient<T> {
     }
 
     /// From rows that are known to be those of ∇u with 0 < det F, or whose result will not be used.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[doc(hidden)]
     pub fn trusted(rows: Rows<T>) -> Self {
         Self { matrix: from_rows(rows) }
@@ -166,20 +166,20 @@ fn check_elongations<T: Real>(elongations: [T; 3]) -> Result<(), ContinuumError>
 }
 
 impl<T: Real> Deformation<T> for DisplacementGradient<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
         let m = self.matrix();
         DisplacementGradient { matrix: Matrix3::from_fn(|i, j| lift(i, j, m[(i, j)])) }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<T> {
         sum(rows_of(&self.matrix), identity())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn displacement_rows(&self) -> Rows<T> {
         rows_of(&self.matrix)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn jacobian(&self) -> T {
         let change = self.volume_change();
         let near = change.abs().less_than(T::lit(0.5));
@@ -187,7 +187,7 @@ impl<T: Real> Deformation<T> for DisplacementGradient<T> {
         let beyond = if near.all() { change } else { determinant(self.gradient_rows()) };
         T::select(near, T::one() + change, beyond)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_change(&self) -> T {
         volume_change_of_displacement(rows_of(&self.matrix))
     }

@@ -81,7 +81,7 @@ impl<T: Real> DeformationGradient<T> {
     }
 
     /// 1: nothing is deformed.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn identity() -> Self {
         Self { matrix: from_rows(identity()) }
@@ -161,7 +161,7 @@ impl<T: Real> DeformationGradient<T> {
     }
 
     /// F as a matrix.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub const fn matrix(&self) -> &Matrix3<T> {
         &self.matrix
@@ -193,7 +193,7 @@ impl<T: Real> DeformationGradient<T> {
     }
 
     /// From rows that are known to be those of F with 0 < det F, or whose result will not be used.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[doc(hidden)]
     pub fn trusted(rows: Rows<T>) -> Self {
         Self { matrix: from_rows(rows) }
@@ -273,24 +273,24 @@ pub(super) fn checked_axes<T: Real>(axes: &Matrix3<T>) -> Result<Rows<T>, Contin
 }
 
 impl<T: Real> Deformation<T> for DeformationGradient<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
         let m = self.matrix();
         DeformationGradient { matrix: Matrix3::from_fn(|i, j| lift(i, j, m[(i, j)])) }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<T> {
         rows_of(&self.matrix)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn displacement_rows(&self) -> Rows<T> {
         difference(rows_of(&self.matrix), identity())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn jacobian(&self) -> T {
         determinant(rows_of(&self.matrix))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_change(&self) -> T {
         volume_change_of_gradient(rows_of(&self.matrix))
     }

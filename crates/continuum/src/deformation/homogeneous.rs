@@ -52,35 +52,35 @@ impl<T: Real, D: Deformation<T>> HomogeneousDeformation<D, T> {
     }
 
     /// F or ∇u, the same everywhere.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub const fn deformation(&self) -> &D {
         &self.deformation
     }
 
     /// c, m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub const fn translation(&self) -> &Vector3<T> {
         &self.translation
     }
 
     /// x = F X + c, m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn position(&self, reference: Vector3<T>) -> Vector3<T> {
         reference + self.displacement(reference)
     }
 
     /// u = ∇u X + c, m, without the difference of two places.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn displacement(&self, reference: Vector3<T>) -> Vector3<T> {
         Vector3::from(apply(self.deformation.displacement_rows(), reference.into())) + self.translation
     }
 
     /// X = F⁻¹ (x − c), m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn reference_position(&self, position: Vector3<T>) -> Vector3<T> {
         Vector3::from(apply(self.deformation.inverse_rows(), (position - self.translation).into()))

@@ -69,21 +69,21 @@ pub trait Deformation<T: Real>: Copy {
     fn volume_change(&self) -> T;
 
     /// ln J, without cancellation near J = 1 and without loss near J = 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn ln_jacobian(&self) -> T {
         self.volume_change().ln_1p_given(self.jacobian())
     }
 
     /// Where strain and rotation are moderate, see [`is_moderate`](moderate::is_moderate).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn is_moderate(&self) -> T::Mask {
         moderate::is_moderate(self.gradient_rows(), self.displacement_rows())
     }
 
     /// Cof F = J F⁻ᵀ, by rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn cofactor_rows(&self) -> Rows<T> {
         cofactor(self.gradient_rows())
@@ -93,7 +93,7 @@ pub trait Deformation<T: Real>: Copy {
     ///
     /// # Accuracy
     /// A few ulp × the condition number of F.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn inverse_rows(&self) -> Rows<T> {
         scaled(transpose(self.cofactor_rows()), self.jacobian().recip())
@@ -103,28 +103,28 @@ pub trait Deformation<T: Real>: Copy {
     ///
     /// # Accuracy
     /// A few ulp × the condition number of F, of its own norm: nothing cancels at small strain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn spatial_displacement_rows(&self) -> Rows<T> {
         product(self.inverse_rows(), self.displacement_rows())
     }
 
     /// dx = F dX, m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn line_element(&self, reference: Vector3<T>) -> Vector3<T> {
         Vector3::from(apply(self.gradient_rows(), reference.into()))
     }
 
     /// n da = Cof F N dA, m²: Nanson's formula B(4.39).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn area_element(&self, reference: Vector3<T>) -> Vector3<T> {
         Vector3::from(apply(self.cofactor_rows(), reference.into()))
     }
 
     /// dv = J dV, m³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn volume_element(&self, reference: T) -> T {
         self.jacobian() * reference

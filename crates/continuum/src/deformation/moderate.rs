@@ -15,7 +15,7 @@ use piola_tensor::internal::rows::Rows;
 /// assert!(is_moderate::<f64>([[1.5, 0.0, 0.0], [0.0, 1.5, 0.0], [0.0, 0.5, 1.0]], [[0.5, 0.0, 0.0], [0.0, 0.5, 0.0], [0.0, 0.5, 0.0]]));
 /// assert!(!is_moderate::<f64>([[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]], [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]]));
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn is_moderate<T: Real>(f: Rows<T>, h: Rows<T>) -> T::Mask {
     let ([[a, b, c], [d, e, g], [i, j, k]], [[l, m, n], [o, p, q], [r, s, t]]) = (f, h);
@@ -27,7 +27,7 @@ pub fn is_moderate<T: Real>(f: Rows<T>, h: Rows<T>) -> T::Mask {
 pub const MODERATE: f64 = 0.75;
 
 /// |∇u|².
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn square<T: Real>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> T {
     ((a * a + b * b + c * c) + (d * d + e * e + f * f)) + (g * g + h * h + i * i)
@@ -37,7 +37,7 @@ pub fn square<T: Real>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> T {
 struct SizeAndVolume;
 
 impl Lanewise<18, 2> for SizeAndVolume {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, [a, b, c, d, e, f, g, h, i, l, m, n, o, p, q, r, s, t]: [T; 18]) -> [T; 2] {
         [square([[l, m, n], [o, p, q], [r, s, t]]), determinant([[a, b, c], [d, e, f], [g, h, i]])]
     }

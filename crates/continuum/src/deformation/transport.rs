@@ -24,7 +24,7 @@ use crate::{Deformation, Symmetric};
 macro_rules! vectors {
     ($($(#[$documentation:meta])* $name:ident, |$d:ident| $rows:expr;)*) => {$(
         $(#[$documentation])*
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         #[must_use]
         pub fn $name<T: Real>(deformation: &impl Deformation<T>, v: &Vector3<T>) -> Vector3<T> {
             let $d = deformation;
@@ -36,7 +36,7 @@ macro_rules! vectors {
 macro_rules! tensors {
     ($($(#[$documentation:meta])* $name:ident, |$d:ident| $rows:expr;)*) => {$(
         $(#[$documentation])*
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         #[must_use]
         pub fn $name<T: Real>(deformation: &impl Deformation<T>, a: &Symmetric<T>) -> Symmetric<T> {
             let $d = deformation;
@@ -68,14 +68,14 @@ tensors! {
 }
 
 /// F A F⁻¹ of a tensor with one index of either kind.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn push_mixed<T: Real>(deformation: &impl Deformation<T>, a: &Matrix3<T>) -> Matrix3<T> {
     from_rows(product(product(deformation.gradient_rows(), rows_of(a)), deformation.inverse_rows()))
 }
 
 /// F⁻¹ A F of a tensor with one index of either kind.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn pull_mixed<T: Real>(deformation: &impl Deformation<T>, a: &Matrix3<T>) -> Matrix3<T> {
     from_rows(product(product(deformation.inverse_rows(), rows_of(a)), deformation.gradient_rows()))

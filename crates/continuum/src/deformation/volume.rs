@@ -25,69 +25,69 @@ pub(crate) struct Pair<T> {
 }
 
 impl<T: Real> Pair<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn of(high: T) -> Self {
         Self { high, low: T::zero() }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn product(a: T, b: T) -> Self {
         let (high, low) = two_product(a, b);
         Self { high, low }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn plus(self, other: Self) -> Self {
         let (high, error) = two_sum(self.high, other.high);
         let (high, low) = two_sum(high, error + (self.low + other.low));
         Self { high, low }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn minus(self, other: Self) -> Self {
         self.plus(Self { high: -other.high, low: -other.low })
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn times(self, factor: T) -> Self {
         let (high, error) = two_product(self.high, factor);
         let (high, low) = two_sum(high, error + self.low * factor);
         Self { high, low }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn value(self) -> T {
         self.high + self.low
     }
 }
 
 /// a × b in pairs.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn cross_pair<T: Real>(a: [T; 3], b: [T; 3]) -> [Pair<T>; 3] {
     let minor = |i: usize, j: usize| Pair::product(a[i], b[j]).minus(Pair::product(a[j], b[i]));
     [minor(1, 2), minor(2, 0), minor(0, 1)]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn determinant_pair<T: Real>(f: Rows<T>) -> Pair<T> {
     let [x, y, z] = cross_pair(f[1], f[2]);
     x.times(f[0][0]).plus(y.times(f[0][1])).plus(z.times(f[0][2]))
 }
 
 /// |a₁| + |a₂| + |a₃|.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn one_norm<T: Real>(a: [T; 3]) -> T {
     a[0].abs() + a[1].abs() + a[2].abs()
 }
 
 /// `precise` where it is finite and `plain` cancels.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn refined<T: Real>(cancels: T::Mask, precise: T, plain: T) -> T {
     T::select(cancels & precise.is_finite(), precise, plain)
 }
 
 /// det F within a few ulp of what the entries determine.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn determinant<T: Real>(f: Rows<T>) -> T {
     let plain = dot(f[0], cross(f[1], f[2]));
     let terms = one_norm(f[0]) * one_norm(f[1]) * one_norm(f[2]);
@@ -106,7 +106,7 @@ fn precise_determinant<T: Real>(f: &Rows<T>) -> T {
 struct PlainVolumeChange;
 
 impl Lanewise<9, 2> for PlainVolumeChange {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, [a, b, c, d, e, f, g, k, l]: [T; 9]) -> [T; 2] {
         let h = [[a, b, c], [d, e, f], [g, k, l]];
         let second = (h[0][0] * h[1][1] - h[0][1] * h[1][0])
@@ -123,14 +123,14 @@ impl Lanewise<9, 2> for PlainVolumeChange {
 }
 
 /// tr H + i₂(H) + det H, and where that is not enough.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn plain_volume_change<T: Real>([[a, b, c], [d, e, f], [g, k, l]]: Rows<T>) -> (T, T::Mask) {
     let [change, excess] = T::lanewise(&PlainVolumeChange, [a, b, c, d, e, f, g, k, l]);
     (change, T::zero().less_than(excess))
 }
 
 /// tr H, rounded, and the rounding error.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn trace_pair<T: Real>(h: Rows<T>) -> (T, T) {
     let (partial, first_error) = two_sum(h[0][0], h[1][1]);
     let (trace, second_error) = two_sum(partial, h[2][2]);
@@ -138,7 +138,7 @@ pub(crate) fn trace_pair<T: Real>(h: Rows<T>) -> (T, T) {
 }
 
 /// det(1 + H) − 1 of a displacement gradient.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn volume_change_of_displacement<T: Real>(h: Rows<T>) -> T {
     let (plain, cancels) = plain_volume_change(h);
     if !cancels.any() {
@@ -157,7 +157,7 @@ fn precise_volume_change_of_displacement<T: Real>(h: &Rows<T>) -> T {
 }
 
 /// det F − 1 of a deformation gradient.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn volume_change_of_gradient<T: Real>(f: Rows<T>) -> T {
     let (plain, cancels) = plain_volume_change(difference(f, identity()));
     if !cancels.any() {

@@ -66,14 +66,14 @@ macro_rules! symmetric_measure {
             }
 
             /// All nine components as an array of rows.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn rows(&self) -> piola_tensor::internal::rows::Rows<T> {
                 self.0.rows()
             }
 
             /// All nine components as a matrix.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn matrix(&self) -> nalgebra::Matrix3<T> {
                 self.0.matrix()
@@ -81,7 +81,7 @@ macro_rules! symmetric_measure {
 
             /// f of the components of two.
             #[allow(dead_code, reason = "measures whose differences are none lack operators")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
                 Self($crate::Symmetric::each(&a.0, &b.0, f))
             }
@@ -155,28 +155,28 @@ macro_rules! general_measure {
             }
 
             /// From rows that a formula has computed.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[doc(hidden)]
             pub fn trusted(rows: piola_tensor::internal::rows::Rows<T>) -> Self {
                 Self(piola_numerics::linear::matrix3::from_rows(rows))
             }
 
             /// All nine components as an array of rows.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn rows(&self) -> piola_tensor::internal::rows::Rows<T> {
                 piola_numerics::linear::matrix3::rows_of(&self.0)
             }
 
             /// All nine components as a matrix.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn matrix(&self) -> nalgebra::Matrix3<T> {
                 piola_numerics::linear::matrix3::from_rows(self.rows())
             }
 
             /// f of the components of two.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
                 let (a, b) = (a.rows(), b.rows());
                 let row = |i: usize| [f(a[i][0], b[i][0]), f(a[i][1], b[i][1]), f(a[i][2], b[i][2])];
@@ -212,7 +212,7 @@ macro_rules! linear_measure {
     ($name:ident, $zero:expr) => {
         impl<T: piola_numerics::Real> $name<T> {
             /// 0.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn zero() -> Self {
                 Self($zero)

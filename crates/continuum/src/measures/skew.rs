@@ -30,41 +30,41 @@ macro_rules! skew_measure {
             }
 
             /// 0.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn zero() -> Self {
                 Self::of_axial([T::zero(); 3])
             }
 
             /// The skew tensor Ω.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn tensor(&self) -> piola_tensor::Skew<T> {
                 piola_tensor::Skew { axial: [self.axial[0], self.axial[1], self.axial[2]] }
             }
 
             /// The skew tensor Ω as a matrix.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn matrix(&self) -> nalgebra::Matrix3<T> {
                 self.tensor().matrix()
             }
 
             /// The skew tensor Ω as an array of rows.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn rows(&self) -> piola_tensor::internal::rows::Rows<T> {
                 self.tensor().rows()
             }
 
             /// From an axial vector that a formula has computed.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             pub(crate) fn of_axial(axial: [T; 3]) -> Self {
                 Self { axial: nalgebra::Vector3::from(axial) }
             }
 
             /// f of the components of two.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
                 Self::of_axial(piola_tensor::Skew::each(&a.tensor(), &b.tensor(), f).axial)
             }

@@ -115,7 +115,7 @@ struct Point<'a, T, D> {
 
 impl<T: Real, D: Deformation<T>> Kernel for Point<'_, T, D> {
     type Output = PolarHencky<T>;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> PolarHencky<T> {
         let stretch = StretchAnalysis::of(self.deformation);
         // The logarithms first, beside which the rest is computed.

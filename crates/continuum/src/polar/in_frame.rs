@@ -10,7 +10,7 @@ use crate::Symmetric;
 
 impl<T: Real> StretchAnalysis<T> {
     /// Σ Mₖₗ qₖ ⊗ qₗ + s 1, and for small strain the multiple of E that was left out of M.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn material(&self, components: [T; 6], slope: T, added: T) -> Symmetric<T> {
         let rest = from_frame(&self.axes, components);
         if !self.small.any() {
@@ -20,7 +20,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// Σ Mₖₗ R qₖ ⊗ R qₗ + s 1, and for small strain the multiple of R E Rᵀ = ½ (B − 1) that was left out of M.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn spatial(&self, components: [T; 6], slope: T, added: T) -> Symmetric<T> {
         let rest = from_frame(&self.turned_frame(), components);
         if !self.small.any() {
@@ -31,7 +31,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// f at the diagonal of S.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn values_at_stretches<F: IsotropicFunction + ?Sized>(&self, f: &F) -> [T; 3] {
         if self.small.all() {
             [self.beside_one(f, 0), self.beside_one(f, 1), self.beside_one(f, 2)]
@@ -47,19 +47,19 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// f(λₖ) for small strain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn beside_one<F: IsotropicFunction + ?Sized>(&self, f: &F, k: usize) -> T {
         f.value_of_root_beside_one(self.excess[k], frozen(self.square[k]))
     }
 
     /// f(λₖ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn plain<F: IsotropicFunction + ?Sized>(&self, f: &F, k: usize) -> T {
         f.value_of_root(self.stretches[k], frozen(self.square[k]))
     }
 
     /// f(S), less f′(1) E for small strain, and f′(1): what is left out then is added without a rotation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn frame_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> ([T; 6], T) {
         self.frame_function_of(f, self.values_at_stretches(f))
     }
@@ -67,7 +67,7 @@ impl<T: Real> StretchAnalysis<T> {
     /// (λₖ, ln λₖ) in the order of the frame, without derivatives: for functions of the logarithm that one computes oneself
     /// and gives to [`material_function_of`](Self::material_function_of).
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn stretches_in_frame(&self) -> ([T; 3], [T; 3]) {
         (self.stretches, self.values_at_stretches(&Logarithm))
@@ -76,7 +76,7 @@ impl<T: Real> StretchAnalysis<T> {
     /// [`material_function`](Self::material_function), given f at the stretches of
     /// [`stretches_in_frame`](Self::stretches_in_frame); for scalars without derivatives.
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material_function_of<F: IsotropicFunction + ?Sized>(&self, f: &F, values: [T; 3]) -> Symmetric<T> {
         let (components, slope) = self.frame_function_of(f, values);
@@ -85,7 +85,7 @@ impl<T: Real> StretchAnalysis<T> {
 
     /// As [`material_function_of`](Self::material_function_of), f(V).
     #[doc(hidden)]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn spatial_function_of<F: IsotropicFunction + ?Sized>(&self, f: &F, values: [T; 3]) -> Symmetric<T> {
         let (components, slope) = self.frame_function_of(f, values);
@@ -93,7 +93,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// As [`frame_function`](Self::frame_function), given f at the diagonal of S.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn frame_function_of<F: IsotropicFunction + ?Sized>(&self, f: &F, values: [T; 3]) -> ([T; 6], T) {
         let function = expand(f, self.stretches, values, self.departure);
         if !self.small.any() {
@@ -114,7 +114,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// S less the shift.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn frame_stretch(&self) -> [T; 6] {
         let ([x, y, z], d) = (self.excess, self.departure);
         if T::ORDER == 0 {
@@ -125,7 +125,7 @@ impl<T: Real> StretchAnalysis<T> {
 
     /// (S − m 1, m) with the middle stretch m, or for small strain (S − 1 − E, 0) = (−½ (S − 1)², 0): what remains
     /// to be put through the rounding of a change of frame.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn beyond_green(&self) -> ([T; 6], T) {
         let k = self.frame_stretch();
         let [separate, upper, lower] = self.stretches;
@@ -163,7 +163,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// S⁻¹ less the shift.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn frame_inverse(&self) -> [T; 6] {
         let d = self.departure;
         let reciprocal = [self.stretches[0].recip(), self.stretches[1].recip(), self.stretches[2].recip()];
@@ -201,7 +201,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// Σₗ (S⁻¹ − shift)ₖₗ bₗ by rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn divided_images(&self) -> Rows<T> {
         let [xx, yy, zz, xy, yz, xz] = self.frame_inverse();
         [
@@ -212,7 +212,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// R qₖ by rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn turned_frame(&self) -> Rows<T> {
         let ([a, b, c], [x, y, z]) = (self.images, self.divided_images());
         let (s, one) = (self.shift, T::one());
@@ -223,28 +223,28 @@ impl<T: Real> StretchAnalysis<T> {
 const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 
 /// A + s 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn shifted<T: Real>(a: Symmetric<T>, s: T) -> Symmetric<T> {
     let [xx, yy, zz, xy, yz, xz] = a.components;
     Symmetric::new(xx + s, yy + s, zz + s, xy, yz, xz)
 }
 
 /// Whether images are not orthogonal enough for the first order to suffice.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn skewed<T: Real>(images: &Rows<T>) -> T::Mask {
     let g = gram(&freeze(*images));
     any_tilted(&[g[0].sqrt(), g[1].sqrt(), g[2].sqrt()], &g)
 }
 
 /// (λₖ, λₖ − shift) from the diagonal, 2eₖ for small strain and λₖ² otherwise, without derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn roots_of<T: Real>(small: T::Mask, square: &[T; 6]) -> ([T; 3], [T; 3]) {
     let [a, b, c] = [root_of(small, square[0]), root_of(small, square[1]), root_of(small, square[2])];
     ([a.0, b.0, c.0], [a.1, b.1, c.1])
 }
 
 /// One of [`roots_of`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn root_of<T: Real>(small: T::Mask, square: T) -> (T, T) {
     let x = frozen(square);
     if !small.any() {
@@ -261,13 +261,13 @@ fn root_of<T: Real>(small: T::Mask, square: T) -> (T, T) {
 }
 
 /// x without derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn frozen<T: Real>(x: T) -> T {
     if T::ORDER == 0 { x } else { x.frozen() }
 }
 
 /// What S has beyond its frozen diagonal: Sᵢⱼ = Gᵢⱼ/(λᵢ + λⱼ) off the diagonal, and the orders of derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn departure_of<T: Real>(shift: T, square: &[T; 6], stretches: &[T; 3], excess: &[T; 3]) -> [T; 6] {
     let [a, b, c] = *stretches;
     let reciprocal = [(a + b).recip(), (b + c).recip(), (a + c).recip()];

@@ -85,7 +85,7 @@ pub struct StretchAnalysis<T: Real = f64> {
 }
 
 /// 2E = H + Hᵀ + Hᵀ H, each rounding proportional to what it rounds also near pure rotations.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn twice_green<T: Real>(h: &Rows<T>) -> Symmetric<T> {
     Symmetric {
         components: [
@@ -100,32 +100,32 @@ fn twice_green<T: Real>(h: &Rows<T>) -> Symmetric<T> {
 }
 
 /// (2E)ᵢᵢ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn along<T: Real>(h: &Rows<T>, i: usize, j: usize, k: usize) -> T {
     h[i][i] * (T::lit(2.0) + h[i][i]) + (h[j][i] * h[j][i] + h[k][i] * h[k][i])
 }
 
 /// (2E)ᵢⱼ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn across<T: Real>(h: &Rows<T>, i: usize, j: usize, k: usize) -> T {
     (h[i][j] + h[j][i]) + ((h[i][i] * h[i][j] + h[j][i] * h[j][j]) + h[k][i] * h[k][j])
 }
 
 /// Whether the cosine of the angle between two images is more than rounding leaves.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn tilted<T: Real>(length: T, other: T, product: T) -> T::Mask {
     let enough = T::lit((0.125 * unit_in_last_place::<T>()).sqrt());
     (enough * (length * other)).less_than(product.abs())
 }
 
 /// Whether images of such lengths and products are not orthogonal enough for the first order to suffice.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn any_tilted<T: Real>([a, b, c]: &[T; 3], gram: &[T; 6]) -> T::Mask {
     tilted(*a, *b, gram[3]) | tilted(*b, *c, gram[4]) | tilted(*a, *c, gram[5])
 }
 
 /// Lane by lane and component by component.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn choose<T: Real>(mask: T::Mask, a: [T; 6], b: [T; 6]) -> [T; 6] {
     [
         T::select(mask, a[0], b[0]),
@@ -138,7 +138,7 @@ fn choose<T: Real>(mask: T::Mask, a: [T; 6], b: [T; 6]) -> [T; 6] {
 }
 
 /// Σ aₖ ⊗ bₖ by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn outer_products<T: Real>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
     [
         [product_entry(a, b, 0, 0), product_entry(a, b, 0, 1), product_entry(a, b, 0, 2)],
@@ -148,19 +148,19 @@ fn outer_products<T: Real>(a: &Rows<T>, b: &Rows<T>) -> Rows<T> {
 }
 
 /// F qₖ by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn images_of<T: Real>(gradient: Rows<T>, axes: &Rows<T>) -> Rows<T> {
     [apply(gradient, axes[0]), apply(gradient, axes[1]), apply(gradient, axes[2])]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn freeze<T: Real>(rows: Rows<T>) -> Rows<T> {
     if T::ORDER == 0 { rows } else { rows.map(|row| row.map(T::frozen)) }
 }
 
 impl<T: Real> StretchAnalysis<T> {
     /// Of F or ∇u.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         let (gradient, displacement) = (deformation.gradient_rows(), deformation.displacement_rows());
@@ -232,7 +232,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// Where the slow path was taken: about where λ₁² > 10⁸ λ₂ λ₃.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn slow_path(&self) -> T::Mask {
         self.slow

@@ -10,7 +10,7 @@ use piola_tensor::internal::spectral::combination;
 const MOST_SWEEPS: usize = 8;
 
 /// Axes and images with orthogonal images, in the lanes of `mask`; the others are left as they are.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn orthogonalise<T: Real>(
     mask: T::Mask,
     gradient: Rows<T>,
@@ -48,7 +48,7 @@ pub(super) fn orthogonalise_apart<T: Real>(
 }
 
 /// One rotation of axes i and j, where their images are not orthogonal to rounding; says where that was.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn rotate<T: Real>(mask: T::Mask, q: &mut Rows<T>, b: &mut Rows<T>, i: usize, j: usize) -> T::Mask {
     let (one, rounding) = (T::one(), T::lit(unit_in_last_place::<T>()));
     let (alpha, beta, gamma) = (dot(b[i], b[i]), dot(b[j], b[j]), dot(b[i], b[j]));

@@ -10,7 +10,7 @@ use crate::Symmetric;
 
 impl<T: Real> StretchAnalysis<T> {
     /// The principal stretches λ₁ ≥ λ₂ ≥ λ₃, W(14.12).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn principal_stretches(&self) -> [T; 3] {
         if T::ORDER == 0 {
@@ -20,7 +20,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// ln λₖ, descending, accurate for λ → 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn log_principal_stretches(&self) -> [T; 3] {
         if T::ORDER == 0 {
@@ -35,7 +35,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// The principal values (λₖ² − 1)/2 of Green's strain, descending, accurate for λ → 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn principal_green_strains(&self) -> [T; 3] {
         let excess = if T::ORDER == 0 { self.excess } else { lifted(self.frame_stretch()).0 };
@@ -48,7 +48,7 @@ impl<T: Real> StretchAnalysis<T> {
 
     /// The principal axes of U and C in the reference body: unit vectors by rows, right-handed, in the order of the
     /// stretches.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material_axes(&self) -> Rows<T> {
         let axes = if T::ORDER == 0 { self.axes } else { turned(&self.axes, lifted(self.frame_stretch()).1) };
@@ -56,7 +56,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// The principal axes of V and B in space: the material axes turned by R, by rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn spatial_axes(&self) -> Rows<T> {
         let turned_frame = self.turned_frame();
@@ -65,7 +65,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// R of F = R U = V R, W(14.11).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rotation(&self) -> Rows<T> {
         let images = self.divided_images();
@@ -79,7 +79,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// U = √C.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn right_stretch(&self) -> Symmetric<T> {
         let (components, middle) = self.beyond_green();
@@ -87,7 +87,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// U − 1 (Biot's strain), without cancellation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn right_stretch_less_one(&self) -> Symmetric<T> {
         let (components, middle) = self.beyond_green();
@@ -95,14 +95,14 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// U⁻¹.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn inverse_right_stretch(&self) -> Symmetric<T> {
         self.material(self.frame_inverse(), T::zero(), self.shift)
     }
 
     /// V = √B = R U Rᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn left_stretch(&self) -> Symmetric<T> {
         let (components, middle) = self.beyond_green();
@@ -110,7 +110,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// V − 1, without cancellation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn left_stretch_less_one(&self) -> Symmetric<T> {
         let (components, middle) = self.beyond_green();
@@ -118,21 +118,21 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// V⁻¹.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn inverse_left_stretch(&self) -> Symmetric<T> {
         self.spatial(self.frame_inverse(), T::zero(), self.shift)
     }
 
     /// Hencky's strain ln U, accurate for U → 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn hencky_material(&self) -> Symmetric<T> {
         self.material_function(&Logarithm)
     }
 
     /// Hencky's strain ln V = R ln U Rᵀ in space.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn hencky_spatial(&self) -> Symmetric<T> {
         self.spatial_function(&Logarithm)
@@ -141,7 +141,7 @@ impl<T: Real> StretchAnalysis<T> {
     /// f(U) for a function f of the stretch.
     ///
     /// Near U = 1 it is as accurate as [`IsotropicFunction::value_beside_one`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
         let (components, slope) = self.frame_function(f);
@@ -149,7 +149,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// f(V) = R f(U) Rᵀ for a function f of the stretch.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn spatial_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
         let (components, slope) = self.frame_function(f);
@@ -157,7 +157,7 @@ impl<T: Real> StretchAnalysis<T> {
     }
 
     /// (qₖ by rows, R qₖ by rows, S): a frame, its image, and U in it, diagonal but for rounding and derivatives.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn in_frame(&self) -> (Rows<T>, Rows<T>, [T; 6]) {
         let [xx, yy, zz, xy, yz, xz] = self.frame_stretch();
         let (first, shift) = (self.first, self.shift);

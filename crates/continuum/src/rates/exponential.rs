@@ -82,7 +82,7 @@ fn checked<T: Real>(result: Rows<T>) -> Result<Matrix3<T>, ContinuumError> {
 }
 
 /// exp A of an array of rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn exponential_rows<T: Real>(a: Rows<T>) -> Rows<T> {
     let (mean, isochoric) = parts(a);
@@ -90,7 +90,7 @@ pub fn exponential_rows<T: Real>(a: Rows<T>) -> Rows<T> {
 }
 
 /// exp A − 1 of an array of rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn exponential_minus_identity_rows<T: Real>(a: Rows<T>) -> Rows<T> {
     let (mean, isochoric) = parts(a);
@@ -98,7 +98,7 @@ pub fn exponential_minus_identity_rows<T: Real>(a: Rows<T>) -> Rows<T> {
 }
 
 /// (μ, exp(A − μ1) − 1).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn parts<T: Real>(a: Rows<T>) -> (T, Rows<T>) {
     let mean = trace(a) * T::lit(1.0 / 3.0);
     let deviator = difference(a, scaled(identity(), mean));
@@ -119,7 +119,7 @@ fn parts<T: Real>(a: Rows<T>) -> (T, Rows<T>) {
 }
 
 /// exp A − 1 by scaling and squaring.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scaled_and_squared<T: Real>(mut a: Rows<T>) -> Rows<T> {
     let half = T::lit(0.5);
     let mut norm = row_norm(a).frozen();
@@ -145,7 +145,7 @@ fn scaled_and_squared<T: Real>(mut a: Rows<T>) -> Rows<T> {
 }
 
 /// exp A − 1 for |A| ≤ 1, as A + P A² + Q A + R 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn series<T: Real>(a: Rows<T>) -> Rows<T> {
     let square = product(a, a);
     let first = trace(a);
@@ -169,7 +169,7 @@ fn series<T: Real>(a: Rows<T>) -> Rows<T> {
 }
 
 /// I₂, the sum of the principal minors.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn second_invariant<T: Real>(a: Rows<T>) -> T {
     (a[0][0] * a[1][1] - a[0][1] * a[1][0])
         + (a[1][1] * a[2][2] - a[1][2] * a[2][1])
@@ -177,7 +177,7 @@ fn second_invariant<T: Real>(a: Rows<T>) -> T {
 }
 
 /// The largest sum of moduli of a row, or of a column, whichever is smaller.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn row_norm<T: Real>(a: Rows<T>) -> T {
     let m = [
         [a[0][0].abs(), a[0][1].abs(), a[0][2].abs()],
@@ -189,7 +189,7 @@ fn row_norm<T: Real>(a: Rows<T>) -> T {
     rows.min(columns)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn select_rows<T: Real>(mask: T::Mask, a: Rows<T>, b: Rows<T>) -> Rows<T> {
     let row = |i: usize| {
         [T::select(mask, a[i][0], b[i][0]), T::select(mask, a[i][1], b[i][1]), T::select(mask, a[i][2], b[i][2])]
@@ -198,7 +198,7 @@ fn select_rows<T: Real>(mask: T::Mask, a: Rows<T>, b: Rows<T>) -> Rows<T> {
 }
 
 /// Where A = −Aᵀ to the last bit.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_skew<T: Real>(a: Rows<T>) -> T::Mask {
     let vanishes = |x: T| x.at_most(T::zero()) & T::zero().at_most(x);
     vanishes(a[0][0])
@@ -210,7 +210,7 @@ fn is_skew<T: Real>(a: Rows<T>) -> T::Mask {
 }
 
 /// exp Ω − 1 = sin θ/θ Ω + ½ (sin ½θ/½θ)² Ω², θ = |ω|, for a skew Ω.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn rotation_minus_identity<T: Real>(skew: Rows<T>) -> Rows<T> {
     let w = [skew[2][1], skew[0][2], skew[1][0]];

@@ -14,7 +14,7 @@ use crate::Symmetric;
 /// let carried = transported(shear, &Symmetric::diagonal([0.0, 3.0, 0.0]));
 /// assert_eq!(carried.components, [0.0, 0.0, 0.0, 6.0, 0.0, 0.0]);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn transported<T: Real>(a: Rows<T>, s: &Symmetric<T>) -> Symmetric<T> {
     Symmetric::sum_with_transpose(product(a, s.rows()))

@@ -7,7 +7,7 @@ use piola_tensor::spectral::IsotropicFunction;
 pub(super) struct LogarithmicExcess;
 
 impl IsotropicFunction for LogarithmicExcess {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, y: T) -> T {
         let one = T::one();
         // Both series have positive terms only; beyond y = 2 the closed form loses no digits either.
@@ -32,7 +32,7 @@ impl IsotropicFunction for LogarithmicExcess {
         T::select(near, series, (one - x / x.sinh()) / beyond)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn smooth_within<T: Real>(&self, y: T) -> T {
         // The nearest singularity is the first zero of the hyperbolic sine, y = −π².
         y.abs() + T::lit(9.0)

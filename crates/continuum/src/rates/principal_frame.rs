@@ -7,7 +7,7 @@ use piola_tensor::spectral::IsotropicFunction;
 use crate::Symmetric;
 
 /// f[a, b, c] from the first differences, to half the digits: enough for the factor of a rounding.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn second_difference<T: Real, F: IsotropicFunction + ?Sized>(
     f: &F,
     [a, b, c]: [T; 3],
@@ -32,7 +32,7 @@ pub(super) fn second_difference<T: Real, F: IsotropicFunction + ?Sized>(
 }
 
 /// Σ Mₖₗ qₖ ⊗ qₗ for axes by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn along<T: Real>(axes: &Rows<T>, m: Symmetric<T>) -> Symmetric<T> {
     let half = product(m.rows(), *axes);
     Symmetric::upper_triangle(product(transpose(*axes), half))
@@ -40,7 +40,7 @@ pub(super) fn along<T: Real>(axes: &Rows<T>, m: Symmetric<T>) -> Symmetric<T> {
 
 /// ω of S Ω + Ω S = [k]×, by (tr S 1 − S) ω = k, for an S that is diagonal but for rounding and derivatives: each
 /// pass brings in one order of these.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn spin_of<T: Real>(stretch: &[T; 6], k: [T; 3]) -> [T; 3] {
     let [a, b, c, n, p, r] = *stretch;
     let reciprocal = [(b + c).recip(), (c + a).recip(), (a + b).recip()];

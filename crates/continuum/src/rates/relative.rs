@@ -80,21 +80,21 @@ impl<T: Real> RelativeDeformation<T> {
     }
 
     /// Fₜ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn gradient(&self) -> Matrix3<T> {
         from_rows(self.gradient_rows())
     }
 
     /// Cₜ = Fₜᵀ Fₜ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn right_cauchy_green(&self) -> Symmetric<T> {
         Symmetric::identity() + self.right_cauchy_green_change()
     }
 
     /// Cₜ − 1 = H + Hᵀ + Hᵀ H with H = Fₜ − 1, without cancellation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn right_cauchy_green_change(&self) -> Symmetric<T> {
         let h = self.displacement_rows();
@@ -102,7 +102,7 @@ impl<T: Real> RelativeDeformation<T> {
     }
 
     /// Cₜ⁻¹ = Fₜ⁻¹ Fₜ⁻ᵀ, Finger's tensor of the history.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn inverse_right_cauchy_green(&self) -> Symmetric<T> {
         let inverse = inverse_and_determinant(self.gradient_rows()).0;
@@ -111,23 +111,23 @@ impl<T: Real> RelativeDeformation<T> {
 }
 
 impl<T: Real> Deformation<T> for RelativeDeformation<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
         self.displacement.lifted(lift)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<T> {
         self.displacement.gradient_rows()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn displacement_rows(&self) -> Rows<T> {
         self.displacement.displacement_rows()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn jacobian(&self) -> T {
         self.displacement.jacobian()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_change(&self) -> T {
         self.displacement.volume_change()
     }
@@ -228,14 +228,14 @@ fn squares<T: Real, const N: usize>(x: &[Rows<T>; N]) -> [Symmetric<T>; N] {
 
 impl<T: Real> RivlinEricksen<T> {
     /// A₁ = 2D.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn first(velocity_gradient: &VelocityGradient<T>) -> Self {
         Self(Symmetric::sum_with_transpose(velocity_gradient.rows()))
     }
 
     /// Aₙ₊₁ = Ȧₙ + Aₙ L + Lᵀ Aₙ from Aₙ and its material derivative.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn next(&self, rate: &Symmetric<T>, velocity_gradient: &VelocityGradient<T>) -> Self {
         Self(*rate + transported(transpose(velocity_gradient.rows()), &self.0))
@@ -250,14 +250,14 @@ impl<T: Real> RivlinEricksen<T> {
 
 impl<T: Real> WhiteMetzner<T> {
     /// B₁ = 2D.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn first(velocity_gradient: &VelocityGradient<T>) -> Self {
         Self(Symmetric::sum_with_transpose(velocity_gradient.rows()))
     }
 
     /// Bₙ₊₁ = Ḃₙ − L Bₙ − Bₙ Lᵀ from Bₙ and its material derivative.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn next(&self, rate: &Symmetric<T>, velocity_gradient: &VelocityGradient<T>) -> Self {
         Self(*rate - transported(velocity_gradient.rows(), &self.0))

@@ -77,7 +77,7 @@ linear_measure!(RightCauchyGreenRate GreenStrainRate LeftCauchyGreenRate Almansi
 
 impl<T: Real> RightCauchyGreenRate<T> {
     /// Ė = ½ Ċ, exactly.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn green(&self) -> GreenStrainRate<T> {
         GreenStrainRate(self.0 * T::lit(0.5))
@@ -86,7 +86,7 @@ impl<T: Real> RightCauchyGreenRate<T> {
 
 impl<T: Real> GreenStrainRate<T> {
     /// Ċ = 2 Ė, exactly.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn right_cauchy_green(&self) -> RightCauchyGreenRate<T> {
         RightCauchyGreenRate(self.0 + self.0)
@@ -97,14 +97,14 @@ impl<T: Real> GreenStrainRate<T> {
 ///
 /// # Accuracy
 /// Within 8 ulp of |Cof F| |Ḟ|.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn jacobian_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> T {
     double_contraction(deformation.cofactor_rows(), rate.rows())
 }
 
 /// Ċ = Ḟᵀ F + Fᵀ Ḟ, 1/s.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn right_cauchy_green_rate<T: Real>(
     deformation: &impl Deformation<T>,
@@ -114,14 +114,14 @@ pub fn right_cauchy_green_rate<T: Real>(
 }
 
 /// Ė = ½ Ċ = Fᵀ D F, the rate of Green's strain, 1/s.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn green_rate<T: Real>(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> GreenStrainRate<T> {
     GreenStrainRate(green_derivative(deformation.gradient_rows(), rate.rows()))
 }
 
 /// Ḃ = Ḟ Fᵀ + F Ḟᵀ, 1/s.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn left_cauchy_green_rate<T: Real>(
     deformation: &impl Deformation<T>,
@@ -131,7 +131,7 @@ pub fn left_cauchy_green_rate<T: Real>(
 }
 
 /// ė = ½ (Lᵀ B⁻¹ + B⁻¹ L), the rate of Almansi's strain e = ½ (1 − B⁻¹), 1/s.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn almansi_rate<T: Real>(
     deformation: &impl Deformation<T>,

@@ -90,14 +90,14 @@ impl<T: Real> fmt::Debug for StretchRates<T> {
 
 impl<T: Real> StretchRates<T> {
     /// From F (or ∇u) and Ḟ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> Self {
         Self::of_analysis(StretchAnalysis::of(deformation), rate)
     }
 
     /// From an analysis of F that is at hand, and Ḟ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of_analysis(analysis: StretchAnalysis<T>, rate: &GradientRate<T>) -> Self {
         let (axes, turned, stretch) = analysis.in_frame();
@@ -107,28 +107,28 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// The analysis of F: R, U, V, stretches and axes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub const fn analysis(&self) -> &StretchAnalysis<T> {
         &self.analysis
     }
 
     /// U̇, with U̇ U + U U̇ = Ċ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn right_stretch(&self) -> Symmetric<T> {
         along(&self.axes, self.right_in_frame())
     }
 
     /// V̇, with V̇ V + V V̇ = Ḃ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn left_stretch(&self) -> Symmetric<T> {
         along(&self.turned, self.mean_in_frame() + self.half_commutator())
     }
 
     /// Ṙ = R (Rᵀ Ṙ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rotation(&self) -> Matrix3<T> {
         let spin = Skew { axial: self.spin }.rows();
@@ -136,42 +136,42 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// Ṙ Rᵀ, the spin of Green and Naghdi's rate.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn polar_spin(&self) -> PolarSpin<T> {
         PolarSpin::of_axial(apply(transpose(self.turned), self.spin))
     }
 
     /// Rᵀ Ṙ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material_spin(&self) -> MaterialSpin<T> {
         MaterialSpin::of_axial(apply(transpose(self.axes), self.spin))
     }
 
     /// (ln U)˙.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn hencky_material(&self) -> Symmetric<T> {
         self.material_function(&Logarithm)
     }
 
     /// (ln V)˙ = R (ln U)˙ Rᵀ + Ω ln V − ln V Ω with Ω = Ṙ Rᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn hencky_spatial(&self) -> Symmetric<T> {
         self.spatial_function(&Logarithm)
     }
 
     /// f(U)˙ for a function f of the stretch, such as a measure of strain: Σ f[λₖ, λₗ] U̇ₖₗ along the axes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
         along(&self.axes, self.function_in_frame(f))
     }
 
     /// f(V)˙ = R f(U)˙ Rᵀ + Ω f(V) − f(V) Ω with Ω = Ṙ Rᵀ, for a function f of the stretch.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn spatial_function<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
         let turned = along(&self.turned, self.function_in_frame(f));
@@ -180,7 +180,7 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// L = Ḟ F⁻¹ = Ḟ Rᵀ V⁻¹, at hand without another inverse.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn velocity_gradient(&self) -> VelocityGradient<T> {
         let inverse = self.analysis.inverse_left_stretch().rows();
@@ -189,7 +189,7 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// The spin Ω^log for which (ln V)˙ − Ω ln V + ln V Ω = D.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn logarithmic_spin(&self) -> LogarithmicSpin<T> {
         // Ω^log − ṘRᵀ = Σ (x g(x²))ₖₗ Dₖₗ, x = hₖ − hₗ: with the commutator of h = dev ln V and D, which is skew of
@@ -265,26 +265,26 @@ impl<T: Real> StretchRates<T> {
     }
 
     /// ½ (Â + Âᵀ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mean_in_frame(&self) -> Symmetric<T> {
         Symmetric::symmetric_part(self.rate)
     }
 
     /// ½ (Ω S − S Ω) = sym(Ω S).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn half_commutator(&self) -> Symmetric<T> {
         let stretch = Symmetric { components: self.stretch }.rows();
         Symmetric::symmetric_part(product(Skew { axial: self.spin }.rows(), stretch))
     }
 
     /// U̇ along q.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn right_in_frame(&self) -> Symmetric<T> {
         self.mean_in_frame() - self.half_commutator()
     }
 
     /// f(U)˙ along q.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn function_in_frame<F: IsotropicFunction + ?Sized>(&self, f: &F) -> Symmetric<T> {
         let rate = self.right_in_frame();
         if T::ORDER != 0 {

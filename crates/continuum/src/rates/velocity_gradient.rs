@@ -109,7 +109,7 @@ skew_measure! {
 
 impl<T: Real> Spin<T> {
     /// The vorticity curl v, twice the axial vector, 1/s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn vorticity(&self) -> Vector3<T> {
         Vector3::new(self.axial[0] + self.axial[0], self.axial[1] + self.axial[1], self.axial[2] + self.axial[2])
@@ -118,7 +118,7 @@ impl<T: Real> Spin<T> {
 
 impl<T: Real> GradientRate<T> {
     /// Ḟ = L F, W(14.21).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>, velocity_gradient: &VelocityGradient<T>) -> Self {
         // L + L ∇u: what is stored of a small displacement gradient is not rounded away.
@@ -132,14 +132,14 @@ impl<T: Real> VelocityGradient<T> {
     ///
     /// # Accuracy
     /// A few ulp × the condition number of F.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>, rate: &GradientRate<T>) -> Self {
         Self::trusted(product(rate.rows(), inverse_and_determinant(deformation.gradient_rows()).0))
     }
 
     /// L = D + W, W(14.30).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of_parts(stretching: &RateOfDeformation<T>, spin: &Spin<T>) -> Self {
         Self::trusted(sum(stretching.rows(), spin.rows()))
@@ -147,28 +147,28 @@ impl<T: Real> VelocityGradient<T> {
 
     /// D = ½ (L + Lᵀ), W(14.29).
     #[doc(alias = "stretching")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rate_of_deformation(&self) -> RateOfDeformation<T> {
         RateOfDeformation(Symmetric::symmetric_part(self.rows()))
     }
 
     /// W = ½ (L − Lᵀ), W(14.28).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn spin(&self) -> Spin<T> {
         Spin::of_axial(Skew::skew_part(self.rows()).axial)
     }
 
     /// div v = tr L, the rate of volume per present volume, 1/s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn divergence(&self) -> T {
         trace(self.rows())
     }
 
     /// J̇ = J tr L, 1/s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn jacobian_rate(&self, deformation: &impl Deformation<T>) -> T {
         deformation.jacobian() * self.divergence()
@@ -179,7 +179,7 @@ impl<T: Real> VelocityGradient<T> {
     /// ```text
     /// x* = Q x + c:   L* = Q L Qᵀ + Q̇ Qᵀ,   D* = Q D Qᵀ,   W* = Q W Qᵀ + Q̇ Qᵀ
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn seen_from(&self, rotation: &Matrix3<T>, angular_velocity: &Vector3<T>) -> Self {
         let q = rows_of(rotation);
@@ -190,14 +190,14 @@ impl<T: Real> VelocityGradient<T> {
 
 impl<T: Real> AccelerationGradient<T> {
     /// grad a = F̈ F⁻¹.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>, second_rate: &GradientSecondRate<T>) -> Self {
         Self::trusted(product(second_rate.rows(), inverse_and_determinant(deformation.gradient_rows()).0))
     }
 
     /// grad a = L̇ + L².
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of_rate(velocity_gradient: &VelocityGradient<T>, rate: &Matrix3<T>) -> Self {
         let l = velocity_gradient.rows();
@@ -205,7 +205,7 @@ impl<T: Real> AccelerationGradient<T> {
     }
 
     /// L̇ = grad a − L², the material derivative of the velocity gradient, 1/s².
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn velocity_gradient_rate(&self, velocity_gradient: &VelocityGradient<T>) -> Matrix3<T> {
         let l = velocity_gradient.rows();
@@ -213,7 +213,7 @@ impl<T: Real> AccelerationGradient<T> {
     }
 
     /// F̈ = (grad a) F.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn gradient_second_rate(&self, deformation: &impl Deformation<T>) -> GradientSecondRate<T> {
         GradientSecondRate::trusted(product(self.rows(), deformation.gradient_rows()))

@@ -54,7 +54,7 @@ impl<T: Real> RightCauchyGreen<T> {
     ///
     /// # Accuracy
     /// 3 ulp of its norm.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self(kernels::right_cauchy_green(deformation.gradient_rows()))
@@ -64,21 +64,21 @@ impl<T: Real> RightCauchyGreen<T> {
     ///
     /// # Accuracy
     /// 2 ulp of its norm at small strain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn minus_one(deformation: &impl Deformation<T>) -> Symmetric<T> {
         kernels::right_cauchy_green_minus_one(deformation.displacement_rows())
     }
 
     /// dC = 2 sym(Fᵀ dF) along the direction dF; with Ḟ for dF the rate Ċ = 2 Fᵀ D F.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative(deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Symmetric<T> {
         kernels::green_derivative(deformation.gradient_rows(), rows_of(direction)) * T::lit(2.0)
     }
 
     /// d²C = 2 sym(d₁Fᵀ d₂F), the same at every deformation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_derivative(first: &Matrix3<T>, second: &Matrix3<T>) -> Symmetric<T> {
         kernels::green_derivative(rows_of(first), rows_of(second)) * T::lit(2.0)
@@ -90,7 +90,7 @@ impl<T: Real> LeftCauchyGreen<T> {
     ///
     /// # Accuracy
     /// 3 ulp of its norm.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self(kernels::left_cauchy_green(deformation.gradient_rows()))
@@ -100,21 +100,21 @@ impl<T: Real> LeftCauchyGreen<T> {
     ///
     /// # Accuracy
     /// 2 ulp of its norm at small strain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn minus_one(deformation: &impl Deformation<T>) -> Symmetric<T> {
         kernels::left_cauchy_green_minus_one(deformation.displacement_rows())
     }
 
     /// dB = 2 sym(dF Fᵀ) along the direction dF; with Ḟ for dF the rate Ḃ = L B + B Lᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative(deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Symmetric<T> {
         kernels::left_cauchy_green_derivative(deformation.gradient_rows(), rows_of(direction))
     }
 
     /// d²B = 2 sym(d₁F d₂Fᵀ), the same at every deformation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_derivative(first: &Matrix3<T>, second: &Matrix3<T>) -> Symmetric<T> {
         product_symmetrized(rows_of(first), rows_of(second)) * T::lit(2.0)
@@ -123,7 +123,7 @@ impl<T: Real> LeftCauchyGreen<T> {
 
 impl<T: Real> RightCauchyGreen<T> {
     /// The principal invariants of C, which are those of B; see [`invariants`](super::invariants).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn principal_invariants(&self) -> [T; 3] {
         super::invariants::principal_invariants(&self.0)

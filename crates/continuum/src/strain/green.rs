@@ -54,28 +54,28 @@ impl<T: Real> GreenStrain<T> {
     ///
     /// # Accuracy
     /// 2 ulp of its norm at small strain, 3 ulp at large strain; for a rotation 3 ulp of 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self(kernels::green(deformation.displacement_rows()))
     }
 
     /// C = 1 + 2E.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn right_cauchy_green(&self) -> RightCauchyGreen<T> {
         RightCauchyGreen(self.0 + self.0 + Symmetric::identity())
     }
 
     /// dE = sym(Fᵀ dF) along the direction dF; with Ḟ for dF the rate Ė = Fᵀ D F.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative(deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Symmetric<T> {
         kernels::green_derivative(deformation.gradient_rows(), rows_of(direction))
     }
 
     /// d²E = sym(d₁Fᵀ d₂F), the same at every deformation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_derivative(first: &Matrix3<T>, second: &Matrix3<T>) -> Symmetric<T> {
         kernels::green_derivative(rows_of(first), rows_of(second))
@@ -87,14 +87,14 @@ impl<T: Real> AlmansiStrain<T> {
     ///
     /// # Accuracy
     /// A few ulp × the condition number of F, of its own norm: nothing cancels at small strain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self(kernels::almansi(deformation.spatial_displacement_rows()))
     }
 
     /// de = sym(F⁻ᵀ F⁻¹ dF F⁻¹) along the direction dF; with Ḟ for dF the rate of e.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative(deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Symmetric<T> {
         kernels::almansi_derivative(deformation.inverse_rows(), rows_of(direction))
@@ -105,7 +105,7 @@ impl<T: Real> AlmansiStrain<T> {
     /// ```text
     /// d²e = −½ d²(F⁻ᵀ F⁻¹) = −F⁻ᵀ sym(a b + b a + aᵀ b) F⁻¹,        a = F⁻¹ d₁F,   b = F⁻¹ d₂F
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_derivative(
         deformation: &impl Deformation<T>,

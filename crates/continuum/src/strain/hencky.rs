@@ -61,21 +61,21 @@ impl<T: Real> HenckyStrain<T> {
     ///
     /// # Accuracy
     /// A few ulp × the condition number of C; finite where stretches coalesce.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative_by_metric(metric: &RightCauchyGreen<T>) -> Slots<T> {
         derivative_array(&SethHill::HENCKY.of_metric(), &metric.0)
     }
 
     /// ∂ ln U/∂E = 2 ∂ ln U/∂C.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative_by_green(strain: &GreenStrain<T>) -> Slots<T> {
         Self::derivative_by_metric(&strain.right_cauchy_green()).map(|row| row.map(|x| x + x))
     }
 
     /// ∂² ln U/∂C² along two symmetric directions.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_derivative_by_metric(
         metric: &RightCauchyGreen<T>,

@@ -19,21 +19,21 @@ use crate::Symmetric;
 /// let shear = [[1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// assert_eq!(right_cauchy_green(shear).components, [5.0, 1.0, 1.0, 2.0, 0.0, 0.0]);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn right_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
     Symmetric::gram(transpose(f))
 }
 
 /// B = F Fᵀ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn left_cauchy_green<T: Real>(f: Rows<T>) -> Symmetric<T> {
     Symmetric::gram(f)
 }
 
 /// C − 1 = H + Hᵀ + Hᵀ H, of a displacement gradient, without cancellation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn right_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
     // Grouped so that for a rotation, too, each rounding is one of a small number.
@@ -49,42 +49,42 @@ pub fn right_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
 }
 
 /// B − 1 = H + Hᵀ + H Hᵀ, of a displacement gradient, without cancellation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn left_cauchy_green_minus_one<T: Real>(h: Rows<T>) -> Symmetric<T> {
     right_cauchy_green_minus_one(transpose(h))
 }
 
 /// E = ½ (C − 1) of a displacement gradient.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn green<T: Real>(h: Rows<T>) -> Symmetric<T> {
     right_cauchy_green_minus_one(h) * T::lit(0.5)
 }
 
 /// e = ½ (G + Gᵀ − Gᵀ G) of G = 1 − F⁻¹.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn almansi<T: Real>(g: Rows<T>) -> Symmetric<T> {
     right_cauchy_green_minus_one(scaled(g, -T::one())) * T::lit(-0.5)
 }
 
 /// sym(Fᵀ δF), the change of E.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
     product_symmetrized(transpose(f), transpose(direction))
 }
 
 /// 2 sym(δF Fᵀ), the change of B.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn left_cauchy_green_derivative<T: Real>(f: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
     product_symmetrized(direction, f) * T::lit(2.0)
 }
 
 /// sym(F⁻ᵀ F⁻¹ l) with l = δF F⁻¹, the change of e = ½ (1 − B⁻¹).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn almansi_derivative<T: Real>(inverse: Rows<T>, direction: Rows<T>) -> Symmetric<T> {
     // F⁻ᵀ (F⁻¹ δF) F⁻¹, symmetrised: both factors F⁻ᵀ, F⁻¹ outermost keep the result's own scale.

@@ -37,7 +37,7 @@ impl<T: Real> LinearStrain<T> {
     ///
     /// # Accuracy
     /// ½ ulp of each component, from ∇u.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self(Symmetric::symmetric_part(deformation.displacement_rows()))
@@ -45,14 +45,14 @@ impl<T: Real> LinearStrain<T> {
 
     /// dε = sym dF along the direction dF, the same at every deformation; with Ḟ for dF the rate of ε, 1/s. The
     /// [engineering](Self::engineering) vector of it is the derivative of the vector. Second derivatives are zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative(_deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Symmetric<T> {
         Symmetric::symmetric_part(rows_of(direction))
     }
 
     /// The engineering strain vector in Voigt's order, [ε₁₁, ε₂₂, ε₃₃, γ₁₂, γ₂₃, γ₁₃] with γᵢⱼ = 2 εᵢⱼ = uᵢ,ⱼ + uⱼ,ᵢ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn engineering(&self) -> [T; 6] {
         StrainVector::<T, Piola>::of(&self.0).components
@@ -64,7 +64,7 @@ impl<T: Real> LinearStrain<T> {
     ///
     /// # Source
     /// B(4.73).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn engineering_bro_nielsen(&self) -> [T; 6] {
         StrainVector::<T, BroNielsen>::of(&self.0).components

@@ -24,7 +24,7 @@ pub(super) struct Moving<S> {
 
 impl<S: Real> Moving<S> {
     /// F and ∇u, each entry with what `lift` adds to it at row i and column j.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of<T: Real>(deformation: &impl Deformation<T>, lift: impl Fn(T, usize, usize) -> S) -> Self {
         let (f, h) = (deformation.gradient_rows(), deformation.displacement_rows());
         let lifted = |rows: Rows<T>| core::array::from_fn(|i| core::array::from_fn(|j| lift(rows[i][j], i, j)));
@@ -33,14 +33,14 @@ impl<S: Real> Moving<S> {
 }
 
 /// F + ε dF.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn along<T: Real>(deformation: &impl Deformation<T>, direction: &Matrix3<T>) -> Moving<Dual<T>> {
     let d = rows_of(direction);
     Moving::of(deformation, |x, i, j| Dual::new(x, d[i][j]))
 }
 
 /// F + ε d₁F + η d₂F.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn along_both<T: Real>(
     deformation: &impl Deformation<T>,
     first: &Matrix3<T>,
@@ -51,42 +51,42 @@ pub(super) fn along_both<T: Real>(
 }
 
 /// F with all nine directions, entry (i, A) in place 3i + A.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn along_all<T: Real>(deformation: &impl Deformation<T>) -> Moving<Gradient<T, 9>> {
     Moving::of(deformation, |x, i, j| Gradient::variable(x, 3 * i + j))
 }
 
 impl<S: Real> Deformation<S> for Moving<S> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lifted<R: Real>(&self, lift: impl Fn(usize, usize, S) -> R) -> impl Deformation<R> {
         Moving::of(self, |x, i, j| lift(i, j, x))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<S> {
         self.gradient
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn displacement_rows(&self) -> Rows<S> {
         self.displacement
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn jacobian(&self) -> S {
         determinant(self.gradient)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_change(&self) -> S {
         volume_change_of_gradient(self.gradient)
     }
 }
 
 /// The parts of a symmetric tensor over scalars with nine directions, row by component.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn partials<T: Real>(tensor: crate::Symmetric<Gradient<T, 9>>) -> [[T; 9]; 6] {
     tensor.components.map(|x| x.partials)
 }
 
 /// The parts of a general tensor along one direction.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn tangent<T: Real>(rows: Rows<Dual<T>>) -> Matrix3<T> {
     from_rows(rows.map(|row| row.map(|x| x.tangent)))
 }

@@ -57,14 +57,14 @@ impl SethHill {
     }
 
     /// m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub const fn order(self) -> f64 {
         self.order
     }
 
     /// The same scale as a function of c = λ², (c^(m/2) − 1)/m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of_metric(self) -> MetricScale {
         MetricScale { half: Self { order: 0.5 * self.order } }
@@ -91,7 +91,7 @@ const SMALL_EXPONENT: f64 = 0.5;
 const NO_ORDER: f64 = 1e-30;
 
 /// (xᵐ − 1)/m, given ln x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scaled_power<T: Real>(order: f64, x: T, logarithm: T) -> T {
     if order.abs() <= NO_ORDER {
         return logarithm;
@@ -104,15 +104,15 @@ fn scaled_power<T: Real>(order: f64, x: T, logarithm: T) -> T {
 }
 
 impl IsotropicFunction for SethHill {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, x: T) -> T {
         scaled_power(self.order, x, x.ln())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value_beside_one<T: Real>(&self, x: T) -> T {
         scaled_power(self.order, T::one() + x, x.ln_1p())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         if self.order.abs() <= NO_ORDER {
             return Logarithm.divided_difference(a, b);
@@ -140,15 +140,15 @@ pub struct MetricScale {
 }
 
 impl IsotropicFunction for MetricScale {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, x: T) -> T {
         T::lit(0.5) * self.half.value(x)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value_beside_one<T: Real>(&self, x: T) -> T {
         T::lit(0.5) * self.half.value_beside_one(x)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         T::lit(0.5) * self.half.divided_difference(a, b)
     }

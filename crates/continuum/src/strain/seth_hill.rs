@@ -30,14 +30,14 @@ macro_rules! family {
             /// The strain of a deformation on a scale.
             ///
             /// To ask for several, make one [`StretchAnalysis`] and use [`from_analysis`](Self::from_analysis).
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn of(deformation: &impl Deformation<T>, scale: SethHill) -> Self {
                 Self::from_analysis(&StretchAnalysis::of(deformation), scale)
             }
 
             /// From the stretches of a deformation that are already known.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn from_analysis(analysis: &StretchAnalysis<T>, scale: SethHill) -> Self {
                 Self { scale, tensor: analysis.$function(&scale) }
@@ -123,14 +123,14 @@ family! {
 
 impl<T: Real> SethHillStrain<T> {
     /// The derivative with respect to C: entry (ij, kl) in the order 11, 22, 33, 12, 23, 13, without factors for shears.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative_by_metric(metric: &RightCauchyGreen<T>, scale: SethHill) -> Slots<T> {
         derivative_array(&scale.of_metric(), &metric.0)
     }
 
     /// The second derivative with respect to C along two symmetric directions.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_derivative_by_metric(
         metric: &RightCauchyGreen<T>,

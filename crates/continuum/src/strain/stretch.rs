@@ -72,14 +72,14 @@ macro_rules! of_stretch_analysis {
             ///
             /// To ask for several measures of one deformation, make one [`StretchAnalysis`] and use
             /// [`from_analysis`](Self::from_analysis).
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn of(deformation: &impl Deformation<T>) -> Self {
                 Self::from_analysis(&StretchAnalysis::of(deformation))
             }
 
             /// From the stretches of a deformation that are already known.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn from_analysis(analysis: &StretchAnalysis<T>) -> Self {
                 Self(analysis.$method())
@@ -112,14 +112,14 @@ derivatives_of_measure!(BiotStrain);
 
 impl<T: Real> RightStretch<T> {
     /// ∂U/∂C: entry (ij, kl) in the order 11, 22, 33, 12, 23, 13, without factors for shears; the same as ∂(U − 1)/∂C.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn derivative_by_metric(metric: &RightCauchyGreen<T>) -> Slots<T> {
         derivative_array(&SquareRoot, &metric.0)
     }
 
     /// ∂²U/∂C² along two symmetric directions.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_derivative_by_metric(
         metric: &RightCauchyGreen<T>,
@@ -167,14 +167,14 @@ impl<T: Real> Rotation<T> {
     ///
     /// # Accuracy
     /// Orthogonal within 8 ulp; within a few ulp × λ₁/(λ₂ + λ₃) of the rotation that F determines.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self::from_analysis(&StretchAnalysis::of(deformation))
     }
 
     /// From the stretches of a deformation that are already known.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn from_analysis(analysis: &StretchAnalysis<T>) -> Self {
         Self { matrix: from_rows(analysis.rotation()) }
@@ -190,28 +190,28 @@ impl<T: Real> Rotation<T> {
     }
 
     /// R as a matrix.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub const fn matrix(&self) -> &Matrix3<T> {
         &self.matrix
     }
 
     /// R as an array of rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rows(&self) -> Rows<T> {
         piola_numerics::linear::matrix3::rows_of(&self.matrix)
     }
 
     /// R A Rᵀ: a material tensor turned into space, as V = R U Rᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn to_space(&self, material: &Symmetric<T>) -> Symmetric<T> {
         material.congruence(self.rows())
     }
 
     /// Rᵀ A R: a spatial tensor turned back into the reference configuration.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn to_reference(&self, spatial: &Symmetric<T>) -> Symmetric<T> {
         spatial.transposed_congruence(self.rows())

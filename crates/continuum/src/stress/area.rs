@@ -56,7 +56,7 @@ impl<T: Real> ReferenceNormal<T> {
     ///
     /// # Accuracy
     /// A few ulp of |F|² for the vector; no division, so also for nearly flattened bodies.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn deformed(&self, deformation: &impl Deformation<T>) -> DeformedArea<T> {
         DeformedArea::of_vector(apply(deformation.cofactor_rows(), self.components()))
@@ -65,7 +65,7 @@ impl<T: Real> ReferenceNormal<T> {
 
 impl<T: Real> DeformedArea<T> {
     /// The ratio and the normal of an area vector that is not zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_vector(vector: [T; 3]) -> Self {
         Self { vector: Vector3::from(vector), ratio: norm(vector), normal: UnitNormal::trusted(normalized(vector)) }
     }
@@ -91,7 +91,7 @@ impl<T: Real> From<DeformedArea<T>> for [T; 3] {
 
 impl<T: Real> UnitNormal<T> {
     /// N and dA/da of the surface that the deformation has brought here: N dA = J⁻¹ Fᵀ n da.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn reference(&self, deformation: &impl Deformation<T>) -> (ReferenceNormal<T>, T) {
         let f = deformation.gradient_rows();
@@ -111,7 +111,7 @@ impl<T: Real> UnitNormal<T> {
 ///
 /// # Source
 /// B(4.39).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn reference_surface_force<T: Real>(
     deformation: &impl Deformation<T>,
@@ -128,7 +128,7 @@ pub fn reference_surface_force<T: Real>(
 ///
 /// # Source
 /// B(4.38).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn reference_force_per_volume<T: Real>(
     deformation: &impl Deformation<T>,

@@ -24,19 +24,19 @@ pub(super) struct Coordinates<T> {
 }
 
 /// The product of two deviators, from their coordinates: half of A : B.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn inner<T: Real>(u: [T; 5], v: [T; 5]) -> T {
     (u[0] * v[0] + u[2] * v[2] + (u[3] * v[3] + u[4] * v[4])) + u[1] * v[1] * T::lit(1.0 / 12.0)
 }
 
 /// 3 J₂ of unscaled or scaled coordinates; exact for uniaxial stresses of few digits.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn three_j2<T: Real>(u: [T; 5]) -> T {
     T::lit(3.0) * ((u[0] * u[0] + u[2] * u[2]) + (u[3] * u[3] + u[4] * u[4])) + T::lit(0.25) * (u[1] * u[1])
 }
 
 /// 6 dev(D²).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn square<T: Real>([a, c, p, q, r]: [T; 5]) -> [T; 5] {
     let (two, six) = (T::lit(2.0), T::lit(6.0));
     [
@@ -49,41 +49,41 @@ fn square<T: Real>([a, c, p, q, r]: [T; 5]) -> [T; 5] {
 }
 
 /// The tensor with some coordinates.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn tensor<T: Real>([a, c, p, q, r]: [T; 5]) -> Symmetric<T> {
     let sixth = c / T::lit(6.0);
     Symmetric::new(a - sixth, -a - sixth, c / T::lit(3.0), p, q, r)
 }
 
 /// The coordinates of the deviator of a stress.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn coordinates<T: Real>(stress: &Symmetric<T>) -> [T; 5] {
     let [xx, yy, zz, xy, yz, xz] = stress.components;
     [T::lit(0.5) * (xx - yy), (zz - xx) + (zz - yy), xy, yz, xz]
 }
 
 /// J₂, without scaling.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn j2<T: Real>(stress: &Symmetric<T>) -> T {
     three_j2(coordinates(stress)) / T::lit(3.0)
 }
 
 /// J₃, without scaling.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn j3<T: Real>(stress: &Symmetric<T>) -> T {
     let u = coordinates(stress);
     inner(u, square(u)) / T::lit(9.0)
 }
 
 /// ∂J₃/∂T = dev(D²), without scaling.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn deviatoric_square<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
     tensor(square(coordinates(stress)).map(|v| v / T::lit(6.0)))
 }
 
 impl<T: Real> Coordinates<T> {
     /// Of the deviator of a stress, scaled to about one.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(stress: &Symmetric<T>) -> Self {
         let u = coordinates(&(*stress * T::lit(0.25)));
         let (scale, unscale) = power_of_two_scale(largest(u));
@@ -91,13 +91,13 @@ impl<T: Real> Coordinates<T> {
     }
 
     /// √(3 J₂).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn von_mises(&self) -> T {
         square_root(three_j2(self.u)) * self.unscale * T::lit(4.0)
     }
 
     /// (sin 3θ, cos 3θ) times a common factor that is positive, or (0, 1) for the deviator zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn triple_angle(&self) -> (T, T) {
         let v = square(self.u);
         let square_of_sine = wedge_squared(self.u, v);
@@ -110,7 +110,7 @@ impl<T: Real> Coordinates<T> {
     }
 
     /// D/√(3 J₂), zero for the deviator zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn direction(&self) -> Symmetric<T> {
         let size = three_j2(self.u);
         let exists = T::zero().less_than(size);
@@ -124,7 +124,7 @@ impl<T: Real> Coordinates<T> {
     }
 
     /// ∂θ/∂T = −E/(|E| |D|), E the part of dev(D²) that is normal to D; zero where there is none beyond rounding.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn angle_gradient(&self) -> Symmetric<T> {
         let (u, v) = (self.u, square(self.u));
         let weight = T::lit(1.0 / 12.0);
@@ -148,7 +148,7 @@ impl<T: Real> Coordinates<T> {
 }
 
 /// Σ wᵢ wⱼ (uᵢ vⱼ − uⱼ vᵢ)² over the ten pairs.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn wedge_squared<T: Real>(u: [T; 5], v: [T; 5]) -> T {
     let area = |i: usize, j: usize| {
         let area = u[i] * v[j] - u[j] * v[i];
@@ -160,7 +160,7 @@ fn wedge_squared<T: Real>(u: [T; 5], v: [T; 5]) -> T {
 }
 
 /// Where D and dev(D²) are further from parallel than rounding: 32 ulp, sin 3θ, two principal stresses apart.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn are_apart<T: Real>(u: [T; 5], v: [T; 5], wedge_squared: T) -> T::Mask {
     let least = 32.0 * unit_in_last_place::<T>();
     (T::lit(least * least) * (inner(u, u) * inner(v, v))).less_than(wedge_squared)

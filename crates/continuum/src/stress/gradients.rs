@@ -23,21 +23,21 @@ use super::invariants;
 use crate::Symmetric;
 
 /// ∂J₂/∂T = D, Pa.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn j2<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
     invariants::deviator(stress)
 }
 
 /// ∂J₃/∂T = dev(D²) = D² − ⅔ J₂ 1, Pa².
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn j3<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
     deviator::deviatoric_square(stress)
 }
 
 /// ∂σᵥ/∂T = (3/2) D/σᵥ of von Mises' stress; of norm √(3/2), and zero at the deviator zero.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn von_mises<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
     Coordinates::of(stress).direction() * T::lit(1.5)
@@ -45,14 +45,14 @@ pub fn von_mises<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
 
 /// ∂θ/∂T of the [Lode angle](invariants::lode_angle), 1/Pa; of norm 1/√(2 J₂), and zero at θ = 0, θ = π/3 and the
 /// deviator zero. That of θₛ is its negative.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn lode_angle<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
     Coordinates::of(stress).angle_gradient()
 }
 
 /// ∂(σ₁ − σ₃)/∂T of [Tresca's stress](invariants::tresca): n₁⊗n₁ − n₃⊗n₃ where the principal stresses differ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn tresca<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
     let coordinates = Coordinates::of(stress);

@@ -45,7 +45,7 @@ pub use piola_tensor::principal_invariants;
 /// use piola_continuum::{Symmetric, stress::invariants::mean};
 /// assert_eq!(mean(&Symmetric::diagonal([1.0, 2.0, 6.0])), 3.0);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn mean<T: Real>(stress: &Symmetric<T>) -> T {
     // Of a quarter, so that no sum overflows.
@@ -56,7 +56,7 @@ pub fn mean<T: Real>(stress: &Symmetric<T>) -> T {
 ///
 /// # Accuracy
 /// 2 ulp of the largest difference of stresses, whatever the mean.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn deviator<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
     (*stress * T::lit(0.25)).deviator() * T::lit(4.0)
@@ -66,7 +66,7 @@ pub fn deviator<T: Real>(stress: &Symmetric<T>) -> Symmetric<T> {
 ///
 /// # Accuracy
 /// 6 ulp; over- and underflows where the number itself does.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn j2<T: Real>(stress: &Symmetric<T>) -> T {
     deviator::j2(stress)
@@ -76,7 +76,7 @@ pub fn j2<T: Real>(stress: &Symmetric<T>) -> T {
 ///
 /// # Accuracy
 /// A few ulp of J₂^(3/2); over- and underflows where the number itself does.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn j3<T: Real>(stress: &Symmetric<T>) -> T {
     deviator::j3(stress)
@@ -86,7 +86,7 @@ pub fn j3<T: Real>(stress: &Symmetric<T>) -> T {
 ///
 /// # Accuracy
 /// 4 ulp at any pressure, for stresses of any size.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn von_mises<T: Real>(stress: &Symmetric<T>) -> T {
     Coordinates::of(stress).von_mises()
@@ -96,7 +96,7 @@ pub fn von_mises<T: Real>(stress: &Symmetric<T>) -> T {
 ///
 /// # Accuracy
 /// As [`von_mises`], and an ulp.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn octahedral_shear<T: Real>(stress: &Symmetric<T>) -> T {
     von_mises(stress) * T::lit(core::f64::consts::SQRT_2 / 3.0)
@@ -110,7 +110,7 @@ pub fn octahedral_shear<T: Real>(stress: &Symmetric<T>) -> T {
 ///
 /// # Accuracy
 /// 8 ulp at any pressure, for stresses of any size, coalescent ones too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn tresca<T: Real>(stress: &Symmetric<T>) -> T {
     let coordinates = Coordinates::of(stress);
@@ -123,7 +123,7 @@ pub fn tresca<T: Real>(stress: &Symmetric<T>) -> T {
 const TWO_OVER_ROOT_3: f64 = 1.154_700_538_379_251_5;
 
 /// The largest shear stress ½ (σ₁ − σ₃), Pa, over all planes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn maximum_shear<T: Real>(stress: &Symmetric<T>) -> T {
     tresca(stress) * T::lit(0.5)
@@ -135,7 +135,7 @@ pub fn maximum_shear<T: Real>(stress: &Symmetric<T>) -> T {
 ///
 /// # Accuracy
 /// A few ulp of one, near 0 and π/3 too, where the arccosine keeps only half of the digits.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn lode_angle<T: Real>(stress: &Symmetric<T>) -> T {
     let (sine, cosine) = Coordinates::of(stress).triple_angle();
@@ -148,7 +148,7 @@ pub fn lode_angle<T: Real>(stress: &Symmetric<T>) -> T {
 ///
 /// # Accuracy
 /// A few ulp of one; near pure shear a few ulp of J₃/J₂^(3/2) with the error of [`j3`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn lode_angle_from_shear<T: Real>(stress: &Symmetric<T>) -> T {
     let (sine, cosine) = Coordinates::of(stress).triple_angle();
@@ -220,7 +220,7 @@ impl<T: Real> HaighWestergaard<T> {
     }
 
     /// Of a stress.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(stress: &Symmetric<T>) -> Self {
         let coordinates = Coordinates::of(stress);
@@ -233,7 +233,7 @@ impl<T: Real> HaighWestergaard<T> {
     }
 
     /// The principal stresses, descending, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn principal_values(&self) -> [T; 3] {
         let (mean, radius) = (self.hydrostatic * T::lit(1.0 / ROOT_3), self.deviatoric * T::lit(ROOT_2_3));

@@ -27,7 +27,7 @@ use crate::Symmetric;
 ///
 /// # Source
 /// W(17.21), B(4.52).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_of_cauchy<T: Real>(f: Rows<T>, cauchy: &Symmetric<T>) -> Rows<T> {
     product(cauchy.rows(), cofactor(f))
@@ -37,7 +37,7 @@ pub fn first_piola_of_cauchy<T: Real>(f: Rows<T>, cauchy: &Symmetric<T>) -> Rows
 ///
 /// # Source
 /// W(17.21).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn cauchy_of_first_piola<T: Real>(f: Rows<T>, jacobian: T, first_piola: Rows<T>) -> Symmetric<T> {
     product_symmetrized(first_piola, f) * jacobian.recip()
@@ -47,7 +47,7 @@ pub fn cauchy_of_first_piola<T: Real>(f: Rows<T>, jacobian: T, first_piola: Rows
 ///
 /// # Source
 /// B(4.57).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, jacobian: T, cauchy: &Symmetric<T>) -> Symmetric<T> {
     cauchy.transposed_congruence(cofactor(f)) * jacobian.recip()
@@ -57,7 +57,7 @@ pub fn second_piola_of_cauchy<T: Real>(f: Rows<T>, jacobian: T, cauchy: &Symmetr
 ///
 /// # Source
 /// B(4.57).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn cauchy_of_second_piola<T: Real>(f: Rows<T>, jacobian: T, second_piola: &Symmetric<T>) -> Symmetric<T> {
     second_piola.congruence(f) * jacobian.recip()
@@ -67,21 +67,21 @@ pub fn cauchy_of_second_piola<T: Real>(f: Rows<T>, jacobian: T, second_piola: &S
 ///
 /// # Source
 /// B(4.57).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_piola_of_first_piola<T: Real>(f: Rows<T>, jacobian: T, first_piola: Rows<T>) -> Symmetric<T> {
     Symmetric::symmetric_part(transposed_product(cofactor(f), first_piola)) * jacobian.recip()
 }
 
 /// P = F⁻ᵀ M of Mandel's stress.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_of_mandel<T: Real>(f: Rows<T>, jacobian: T, mandel: Rows<T>) -> Rows<T> {
     scaled(product(cofactor(f), mandel), jacobian.recip())
 }
 
 /// P = τ F⁻ᵀ of Kirchhoff's stress.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_of_kirchhoff<T: Real>(f: Rows<T>, jacobian: T, kirchhoff: &Symmetric<T>) -> Rows<T> {
     scaled(product(kirchhoff.rows(), cofactor(f)), jacobian.recip())
@@ -91,7 +91,7 @@ pub fn first_piola_of_kirchhoff<T: Real>(f: Rows<T>, jacobian: T, kirchhoff: &Sy
 ///
 /// # Source
 /// W(17.35).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn moment_of_first_piola<T: Real>(f: Rows<T>, first_piola: Rows<T>) -> [T; 3] {
     Skew::difference_from_transpose(product_transposed(first_piola, f)).axial

@@ -32,7 +32,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.mean(), 1.0);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn mean(&self) -> T {
                 invariants::mean(&self.0)
@@ -42,7 +42,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.pressure(), -1.0); // a pulled bar")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn pressure(&self) -> T {
                 -invariants::mean(&self.0)
@@ -52,7 +52,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.hydrostatic_part().0.components, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn hydrostatic_part(&self) -> Self {
                 let mean = invariants::mean(&self.0);
@@ -63,7 +63,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.deviator().0.components, [2.0, -1.0, -1.0, 0.0, 0.0, 0.0]);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn deviator(&self) -> Self {
                 Self(invariants::deviator(&self.0))
@@ -73,7 +73,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.principal_invariants(), [3.0, 0.0, 0.0]);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn principal_invariants(&self) -> [T; 3] {
                 invariants::principal_invariants(&self.0)
@@ -83,7 +83,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.j2(), 3.0);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn j2(&self) -> T {
                 invariants::j2(&self.0)
@@ -93,7 +93,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.j3(), 2.0);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn j3(&self) -> T {
                 invariants::j3(&self.0)
@@ -103,7 +103,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.von_mises(), 3.0);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn von_mises(&self) -> T {
                 invariants::von_mises(&self.0)
@@ -113,7 +113,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert!((bar.octahedral_shear() - 2.0_f64.sqrt()).abs() < 1e-15);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn octahedral_shear(&self) -> T {
                 invariants::octahedral_shear(&self.0)
@@ -123,7 +123,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert!((bar.tresca() - 3.0_f64).abs() < 2e-15);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn tresca(&self) -> T {
                 invariants::tresca(&self.0)
@@ -133,7 +133,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert!((bar.maximum_shear() - 1.5_f64).abs() < 1e-15);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn maximum_shear(&self) -> T {
                 invariants::maximum_shear(&self.0)
@@ -143,7 +143,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert_eq!(bar.lode_angle(), 0.0);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn lode_angle(&self) -> T {
                 invariants::lode_angle(&self.0)
@@ -153,7 +153,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert!((bar.lode_angle_from_shear() - std::f64::consts::FRAC_PI_6).abs() < 1e-15);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn lode_angle_from_shear(&self) -> T {
                 invariants::lode_angle_from_shear(&self.0)
@@ -175,7 +175,7 @@ macro_rules! invariants_of {
             ///
             /// # Example
             #[doc = example!($name, "assert!((bar.haigh_westergaard().deviatoric - 6.0_f64.sqrt()).abs() < 1e-15);")]
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn haigh_westergaard(&self) -> HaighWestergaard<T> {
                 HaighWestergaard::of(&self.0)

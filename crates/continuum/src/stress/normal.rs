@@ -20,7 +20,7 @@ fn direction<T: Real>(vector: &Vector3<T>) -> Result<[T; 3], ContinuumError> {
 }
 
 /// v/|v|, NaN for v = 0.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn normalized<T: Real>(v: [T; 3]) -> [T; 3] {
     let (scale, _) = power_of_two_scale(largest(v));
     let v = [v[0] * scale, v[1] * scale, v[2] * scale];
@@ -59,20 +59,20 @@ macro_rules! unit_normal {
             }
 
             /// From components that a kernel has normalised.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             pub(crate) const fn trusted(components: [T; 3]) -> Self {
                 Self { components }
             }
 
             /// The components.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub const fn components(&self) -> [T; 3] {
                 self.components
             }
 
             /// As a vector of length one.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn vector(&self) -> Vector3<T> {
                 Vector3::from(self.components)
@@ -82,7 +82,7 @@ macro_rules! unit_normal {
         /// The normal of the other side.
         impl<T: Real> core::ops::Neg for $name<T> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn neg(self) -> Self {
                 let [x, y, z] = self.components;
                 Self { components: [-x, -y, -z] }

@@ -30,7 +30,7 @@ use crate::rates::{GradientRate, VelocityGradient};
 use crate::{Deformation, Symmetric};
 
 /// A : sym B for symmetric A.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn contraction<T: Real>(stress: &Symmetric<T>, rate: &VelocityGradient<T>) -> T {
     stress.double_contraction(&Symmetric::symmetric_part(rate.rows()))
 }
@@ -40,14 +40,14 @@ impl<T: Real> CauchyStress<T> {
     ///
     /// # Source
     /// W(20.8–20.9).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_deformed_volume(&self, velocity_gradient: &VelocityGradient<T>) -> T {
         contraction(&self.0, velocity_gradient)
     }
 
     /// J tr(T L), W per reference m³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_reference_volume(
         &self,
@@ -60,7 +60,7 @@ impl<T: Real> CauchyStress<T> {
 
 impl<T: Real> KirchhoffStress<T> {
     /// τ : D = tr(τ L), W per reference m³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_reference_volume(&self, velocity_gradient: &VelocityGradient<T>) -> T {
         contraction(&self.0, velocity_gradient)
@@ -72,14 +72,14 @@ impl<T: Real> FirstPiola<T> {
     ///
     /// # Source
     /// W(20.15).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_reference_volume(&self, rate: &GradientRate<T>) -> T {
         double_contraction(self.rows(), rate.rows())
     }
 
     /// P : Ḟ/J, W per deformed m³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_deformed_volume(&self, rate: &GradientRate<T>, deformation: &impl Deformation<T>) -> T {
         self.power_per_reference_volume(rate) / deformation.jacobian()
@@ -92,14 +92,14 @@ impl<T: Real> SecondPiola<T> {
     ///
     /// # Source
     /// W(20.15), B(4.60).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_reference_volume(&self, rate: &GreenStrainRate<T>) -> T {
         self.0.double_contraction(&rate.0)
     }
 
     /// S : Ė/J, W per deformed m³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_deformed_volume(&self, rate: &GreenStrainRate<T>, deformation: &impl Deformation<T>) -> T {
         self.power_per_reference_volume(rate) / deformation.jacobian()
@@ -109,7 +109,7 @@ impl<T: Real> SecondPiola<T> {
 impl<T: Real> BiotStress<T> {
     /// sym(Rᵀ P) : U̇, W per reference m³, for the rate of the right stretch:
     /// [`StretchRates::right_stretch`](crate::rates::StretchRates::right_stretch).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_reference_volume(&self, rate: &Symmetric<T>) -> T {
         self.symmetric_part().double_contraction(rate)
@@ -118,7 +118,7 @@ impl<T: Real> BiotStress<T> {
 
 impl<T: Real> MandelStress<T> {
     /// M : F⁻¹ Ḟ, W per reference m³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn power_per_reference_volume(&self, pulled_back_velocity_gradient: &Matrix3<T>) -> T {
         double_contraction(self.rows(), rows_of(pulled_back_velocity_gradient))

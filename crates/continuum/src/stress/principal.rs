@@ -128,7 +128,7 @@ impl<T: Real> TryFrom<UncheckedCircle<T>> for MohrCircle<T> {
 
 impl<T: Real> PrincipalStresses<T> {
     /// Of a symmetric stress tensor.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(stress: &Symmetric<T>) -> Self {
         // Of a quarter, so that nothing overflows.
@@ -144,7 +144,7 @@ impl<T: Real> PrincipalStresses<T> {
     }
 
     /// σ₁ ≥ σ₂ ≥ σ₃, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn values(&self) -> [T; 3] {
         let [first, second, third] = self.deviatoric;
@@ -152,7 +152,7 @@ impl<T: Real> PrincipalStresses<T> {
     }
 
     /// The directions n₁, n₂, n₃: normals of the planes without shear.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn directions(&self) -> [UnitNormal<T>; 3] {
         let [first, second, third] = self.axes;
@@ -160,7 +160,7 @@ impl<T: Real> PrincipalStresses<T> {
     }
 
     /// nₖ ⊗ nₖ, which unlike nₖ have no sign to choose.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn projectors(&self) -> [Symmetric<T>; 3] {
         let square =
@@ -169,7 +169,7 @@ impl<T: Real> PrincipalStresses<T> {
     }
 
     /// ½ (σ₁ − σ₃), Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn maximum_shear(&self) -> T {
         T::lit(0.5) * (self.deviatoric[0] - self.deviatoric[2])
@@ -178,7 +178,7 @@ impl<T: Real> PrincipalStresses<T> {
     /// Mohr's circles: first the outer one of σ₁ and σ₃, then those of σ₁ and σ₂ and of σ₂ and σ₃.
     ///
     /// The normal and shear tractions of all planes lie in the outer circle and outside of the others.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn mohr_circles(&self) -> [MohrCircle<T>; 3] {
         let half = T::lit(0.5);
@@ -193,7 +193,7 @@ impl<T: Real> PrincipalStresses<T> {
 
 impl<T: Real> CauchyStress<T> {
     /// Principal stresses and directions: see [`PrincipalStresses`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn principal(&self) -> PrincipalStresses<T> {
         PrincipalStresses::of(&self.0)
@@ -202,7 +202,7 @@ impl<T: Real> CauchyStress<T> {
 
 impl<T: Real> KirchhoffStress<T> {
     /// Principal stresses and directions: see [`PrincipalStresses`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn principal(&self) -> PrincipalStresses<T> {
         PrincipalStresses::of(&self.0)

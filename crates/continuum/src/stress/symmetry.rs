@@ -51,7 +51,7 @@ impl<T: Real> FirstPiola<T> {
     ///
     /// # Source
     /// W(17.35).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn moment_residual(&self, deformation: &impl Deformation<T>) -> Vector3<T> {
         Vector3::from(moment_of_first_piola(deformation.gradient_rows(), self.rows()))
@@ -72,7 +72,7 @@ impl<T: Real> FirstPiola<T> {
 
     /// Where P surely obeys the balance: the differences are within 8 ulp of P Fᵀ itself, which is cheaply seen and never
     /// more than [`check_balance`](Self::check_balance) allows. That one decides on the others.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[doc(hidden)]
     pub fn is_balanced(&self, deformation: &impl Deformation<T>) -> T::Mask {
         let (p, f) = (self.rows(), deformation.gradient_rows());
@@ -99,7 +99,7 @@ impl<T: Real> FirstPiola<T> {
     }
 
     /// |P| |F|, and how much of it roundings may make of the difference of opposite entries.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tolerated(&self, deformation: &impl Deformation<T>) -> (T, T) {
         let f = largest(deformation.gradient_rows());
         let scale = largest(self.rows()) * f;
@@ -109,18 +109,18 @@ impl<T: Real> FirstPiola<T> {
 }
 
 /// (P Fᵀ)₁₂ − (P Fᵀ)₂₁, and those of 23 and 13.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn off_diagonal_differences<T: Real>(p: Rows<T>, f: Rows<T>) -> [T; 3] {
     [dot(p[0], f[1]) - dot(p[1], f[0]), dot(p[1], f[2]) - dot(p[2], f[1]), dot(p[0], f[2]) - dot(p[2], f[0])]
 }
 
 /// The size of the largest entry.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn largest<T: Real>([a, b, c]: Rows<T>) -> T {
     largest_of(a).max(largest_of(b)).max(largest_of(c))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn largest_of<T: Real>([x, y, z]: [T; 3]) -> T {
     x.abs().max(y.abs()).max(z.abs())
 }

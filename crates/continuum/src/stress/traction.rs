@@ -27,14 +27,14 @@ impl<T: Real> CauchyStress<T> {
     ///
     /// # Source
     /// W(16.4).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn traction(&self, normal: &UnitNormal<T>) -> Vector3<T> {
         Vector3::from(self.0.apply(normal.components()))
     }
 
     /// The normal traction n·T n, Pa, positive in tension.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn normal_traction(&self, normal: &UnitNormal<T>) -> T {
         let n = normal.components();
@@ -45,20 +45,20 @@ impl<T: Real> CauchyStress<T> {
     ///
     /// # Accuracy
     /// A few ulp of the deviator's norm, whatever the pressure.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn shear_traction(&self, normal: &UnitNormal<T>) -> Vector3<T> {
         Vector3::from(self.shear_traction_components(normal))
     }
 
     /// |t − (n·t) n|, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn shear_traction_size(&self, normal: &UnitNormal<T>) -> T {
         norm(self.shear_traction_components(normal))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_traction_components(&self, normal: &UnitNormal<T>) -> [T; 3] {
         let n = normal.components();
         let t = deviator(&self.0).apply(n);
@@ -84,7 +84,7 @@ impl<T: Real> FirstPiola<T> {
     /// # Source
     /// W(17.21).
     #[doc(alias = "nominal traction")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn traction(&self, normal: &ReferenceNormal<T>) -> Vector3<T> {
         Vector3::from(apply(self.rows(), normal.components()))

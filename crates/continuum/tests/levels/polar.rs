@@ -19,7 +19,7 @@ struct Batch<'a>(&'a [DeformationGradient<Lanes<f64, 4>>], &'a mut Vec<[Lanes<f6
 
 impl Kernel for Batch<'_> {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
         for f in self.0 {
             let stretch = StretchAnalysis::of(f);

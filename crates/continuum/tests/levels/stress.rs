@@ -16,7 +16,7 @@ use proptest::prelude::*;
 use cases::{deformation, direction, nine, size, stress};
 
 /// Everything there is to compute from a stress, a deformation and a direction.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn everything<T: Real>(
     t: &CauchyStress<T>,
     f: &impl Deformation<T>,
@@ -86,7 +86,7 @@ struct InLanes<'a, const N: usize> {
 
 impl<const N: usize> Kernel for InLanes<'_, N> {
     type Output = [Lanes<f64, N>; 44];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
         everything(self.stress, self.deformation, self.normal, self.reference)
     }

@@ -23,7 +23,7 @@ struct Push<'a>([[Lanes<f64, 4>; 3]; 3], &'a [Lanes<f64, 4>; 21]);
 
 impl Kernel for Push<'_> {
     type Output = [Lanes<f64, 4>; 21];
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
         push_forward(self.0, self.1)
     }

@@ -292,7 +292,7 @@ fn referential_divergence<T: Real>(
 }
 
 /// A vector as sums of one term each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn single_terms<T: Real>(vector: &Vector3<T>) -> [Residual<T>; 3] {
     [0, 1, 2].map(|i: usize| Residual::zero().plus(vector[i]))
 }

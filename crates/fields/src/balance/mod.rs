@@ -50,7 +50,7 @@ fn checked_vector<T: Real>(quantity: &'static str, terms: [Residual<T>; 3]) -> R
 }
 
 /// div T + ρb − ρa, from the terms of div T and of a.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn momentum<T: Real>(
     divergence: [Residual<T>; 3],
     density: T,

@@ -383,13 +383,13 @@ fn failure<T: Real>(target: &Vector3<T>, best: &Trial<T>, iterations: usize, cha
 }
 
 /// The largest component in modulus.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn largest<T: Real>(v: &Vector3<T>) -> T {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
 
 /// The norm that belongs to the largest component: the largest sum of a row.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn norm<T: Real>(a: &Rows<T>) -> T {
     let sums = a.map(|row| row[0].abs() + row[1].abs() + row[2].abs());
     sums[0].max(sums[1]).max(sums[2])

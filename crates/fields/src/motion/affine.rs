@@ -175,14 +175,14 @@ impl<H: RigidHistory> Motion for Rigid<H> {
 }
 
 /// 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn identity<T: Real>() -> Matrix3<T> {
     let (o, l) = (T::zero(), T::one());
     Matrix3::new(l, o, o, o, l, o, o, o, l)
 }
 
 /// R − 1 = 2 (w [v]× + [v]×²)/|q|² for q = (w, v).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn turn_less_identity<T: Real>([w, x, y, z]: [T; 4]) -> Matrix3<T> {
     let two = T::lit(2.0) / (w * w + x * x + y * y + z * z);
     Matrix3::new(

@@ -7,13 +7,13 @@ use piola_tensor::internal::rows::Rows;
 use super::Motion;
 
 /// The three coordinates as variables.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn variables<T: Real>(x: &Vector3<T>) -> Vector3<Gradient<T, 3>> {
     Vector3::new(Gradient::variable(x[0], 0), Gradient::variable(x[1], 1), Gradient::variable(x[2], 2))
 }
 
 /// The coordinates as variables of first and second derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn twice_variables<T: Real>(x: &Vector3<T>) -> Vector3<Gradient<Gradient<T, 3>, 3>> {
     variables(&variables(x))
 }

@@ -53,7 +53,7 @@ parameters! {
 }
 
 /// χ, d, and w/(1 + r), which does not overflow.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn parts<T: Real>(mobility: T, w: T) -> [T; 3] {
     let one = T::one();
     let root = (one + T::lit(16.0) * mobility * (one - mobility) * w * w).sqrt();
@@ -63,7 +63,7 @@ fn parts<T: Real>(mobility: T, w: T) -> [T; 3] {
 
 impl Giesekus {
     /// f/α and f and 1 − f.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn normal<T: Real>(&self, shear_rate: T) -> [T; 3] {
         let mobility = T::lit(self.mobility);
         let free = T::one() - mobility;
@@ -73,7 +73,7 @@ impl Giesekus {
     }
 
     /// ηₚ/λ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn modulus<T: Real>(&self) -> T {
         T::lit(self.polymer_viscosity / self.time)
     }
@@ -91,22 +91,22 @@ impl ViscometricFluid for Giesekus {
     const NAME: &'static str = Self::NAME;
     const NORMAL_STRESSES: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         Self::shear_stress_of(self.parameters().map(T::lit), shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
         -(self.modulus::<T>() * self.normal(shear_rate)[1])
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         self.first_normal_stress_difference(shear_rate) + self.sigma1(shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
         let [share, f, left] = self.normal(shear_rate);
         T::lit(2.0) * self.modulus::<T>() * share * (T::one() - T::lit(self.mobility) * f) / left

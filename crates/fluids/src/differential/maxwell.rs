@@ -102,22 +102,22 @@ macro_rules! linear_mode {
             const NAME: &'static str = Self::NAME;
             const NORMAL_STRESSES: bool = true;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
                 Self::shear_stress_of(self.parameters().map(T::lit), shear_rate)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sigma2<T: Real>(&self, shear_rate: T) -> T {
                 T::lit(2.0 * self.polymer_viscosity * self.time) * shear_rate * shear_rate
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn viscosity<T: Real>(&self, _shear_rate: T) -> T {
                 T::lit(self.zero_rate_viscosity())
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
                 finite_rate::<Self, T>(shear_stress, shear_stress / T::lit(self.zero_rate_viscosity()))
             }

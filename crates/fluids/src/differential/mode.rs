@@ -20,7 +20,7 @@ pub trait Mode: ViscometricFluid + Clone {
     #[must_use]
     fn time(&self) -> f64;
     /// ξ: the share of the rate of deformation that the polymer does not follow; none of most.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn slip(&self) -> f64 {
         0.0

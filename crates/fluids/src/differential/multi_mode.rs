@@ -73,7 +73,7 @@ impl<M: Mode> DifferentialFluid for Modes<M> {
 
 macro_rules! sums {
     ($($function:ident),+) => {
-        $(#[inline(always)]
+        $(#[cfg_attr(not(debug_assertions), inline(always))]
         fn $function<T: Real>(&self, shear_rate: T) -> T {
             self.modes.iter().fold(T::zero(), |sum, mode| sum + mode.$function(shear_rate))
         })+

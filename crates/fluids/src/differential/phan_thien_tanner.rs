@@ -106,7 +106,7 @@ struct Cubic<T> {
 }
 
 impl<T: Real> Relation<T> for Cubic<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at(&self, y: Dual<T>) -> Dual<T> {
         y * (Dual::lit(1.0) + Dual::constant(self.extensibility + self.extensibility) * y * y)
     }
@@ -118,14 +118,14 @@ struct Exponential<T> {
 }
 
 impl<T: Real> Relation<T> for Exponential<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at(&self, y: Dual<T>) -> Dual<T> {
         y * (Dual::constant(self.extensibility + self.extensibility) * y * y).exp()
     }
 }
 
 /// y of the cubic at w, 0 ≤ w.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn cubic<T: Real>(extensibility: T, w: T) -> T {
     // y ≤ w and 2 ε y³ ≤ w.
     let (_, size) = moving(w.frozen());
@@ -134,7 +134,7 @@ fn cubic<T: Real>(extensibility: T, w: T) -> T {
 }
 
 /// y of the exponential at w, 0 ≤ w.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn exponential<T: Real>(extensibility: T, w: T) -> T {
     // 4 ε y² = W(4 ε w²) ≤ ln(1 + 4 ε w²) with Lambert's W.
     let (_, size) = moving(w.frozen());
@@ -150,13 +150,13 @@ macro_rules! phan_thien_tanner {
     ($fluid:ident, $solve:ident, $relation:ident, $breaking:ident, $moments:ident) => {
         impl $fluid {
             /// y = λ |τ₁₂|/ηₚ of the polymer.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn share<T: Real>(&self, shear_rate: T) -> T {
                 $solve(T::lit(self.extensibility), T::lit(self.time) * shear_rate.abs())
             }
 
             /// ηₚ/λ.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn modulus(&self) -> f64 {
                 self.polymer_viscosity / self.time
             }
@@ -172,19 +172,19 @@ macro_rules! phan_thien_tanner {
             const NAME: &'static str = Self::NAME;
             const NORMAL_STRESSES: bool = true;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
                 let size = Self::shear_stress_of(self.parameters().map(T::lit), shear_rate.abs());
                 T::select(shear_rate.less_than(T::zero()), -size, size)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sigma2<T: Real>(&self, shear_rate: T) -> T {
                 let y = self.share(shear_rate);
                 T::lit(2.0 * self.modulus()) * y * y
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
                 if 0.0 < self.solvent_viscosity {
                     return rate_at_stress(self, shear_stress);
@@ -221,7 +221,7 @@ macro_rules! phan_thien_tanner {
         }
 
         impl NetworkMode for $fluid {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn breaking<T: Real>(&self, trace: T) -> T {
                 $breaking(T::lit(self.extensibility) * trace)
             }
@@ -230,13 +230,13 @@ macro_rules! phan_thien_tanner {
 }
 
 /// 1 + x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn linear_breaking<T: Real>(x: T) -> T {
     T::one() + x
 }
 
 /// eˣ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn exponential_breaking<T: Real>(x: T) -> T {
     x.exp()
 }

@@ -20,7 +20,7 @@ pub trait NetworkMode: Mode {
 macro_rules! unbreaking {
     ($($mode:ty),+) => {
         $(impl NetworkMode for $mode {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn breaking<T: Real>(&self, _trace: T) -> T {
                 T::one()
             }
@@ -126,25 +126,25 @@ impl<M: NetworkMode> Slipping<M> {
     }
 
     /// q = ξ (2 − ξ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn bend(&self) -> f64 {
         self.slip * (2.0 - self.slip)
     }
 
     /// ηₚ/λ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn modulus(&self) -> f64 {
         self.network.polymer_viscosity() / self.network.time()
     }
 
     /// x at λ |k| = w.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn strain<T: Real>(&self, shear_rate: T) -> T {
         solve_between(&Breaking(self), T::lit(self.network.time()) * shear_rate.abs())
     }
 
     /// x, and 1 + q x².
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn parts<T: Real>(&self, shear_rate: T) -> [T; 2] {
         let x = self.strain(shear_rate);
         [x, T::one() + T::lit(self.bend()) * x * x]
@@ -155,7 +155,7 @@ impl<M: NetworkMode> Slipping<M> {
 struct Breaking<'a, M>(&'a Slipping<M>);
 
 impl<M: NetworkMode, T: Real> Relation<T> for Breaking<'_, M> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at(&self, x: Dual<T>) -> Dual<T> {
         let square = x * x;
         let bent = Dual::lit(1.0) + Dual::lit(self.0.bend()) * square;
@@ -165,7 +165,7 @@ impl<M: NetworkMode, T: Real> Relation<T> for Breaking<'_, M> {
 
 /// y at x of a growing relation with y ≤ x(y), whatever its curvature: Newton's method on ln x over ln y within a bracket that
 /// shrinks, then steps in y itself, in which also derivatives enter, one order a step.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn solve_between<T: Real>(relation: &impl Relation<T>, x: T) -> T {
     let wanted = x.frozen();
     let (rest, target) = moving(wanted);
@@ -203,7 +203,7 @@ impl<M: NetworkMode> ViscometricFluid for Slipping<M> {
     const NAME: &'static str = M::NAME;
     const NORMAL_STRESSES: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_stress<T: Real>(&self, shear_rate: T) -> T {
         let size = shear_rate.abs();
         let [x, bent] = self.parts(size);
@@ -211,23 +211,23 @@ impl<M: NetworkMode> ViscometricFluid for Slipping<M> {
         T::select(shear_rate.less_than(T::zero()), -size, size)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma1<T: Real>(&self, shear_rate: T) -> T {
         T::lit(-0.5 * self.slip) * self.first_normal_stress_difference(shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sigma2<T: Real>(&self, shear_rate: T) -> T {
         T::lit(1.0 - 0.5 * self.slip) * self.first_normal_stress_difference(shear_rate)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_normal_stress_difference<T: Real>(&self, shear_rate: T) -> T {
         let [x, bent] = self.parts(shear_rate);
         T::lit(2.0 * self.modulus()) * x * (x / bent)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn shear_rate<T: Real>(&self, shear_stress: T) -> Result<T, FluidsError> {
         if 0.0 < self.network.solvent_viscosity() {
             return rate_at_stress(self, shear_stress);
@@ -253,7 +253,7 @@ impl<M: NetworkMode> Mode for Slipping<M> {
         self.network.time()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slip(&self) -> f64 {
         self.slip
     }

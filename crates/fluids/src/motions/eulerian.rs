@@ -38,28 +38,28 @@ pub trait EulerianFluid {
     fn pressure<T: Real>(&self, density: T) -> T;
 
     /// dp/dρ, m²/s², the exact derivative of the pressure.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn pressure_slope<T: Real>(&self, density: T) -> T {
         self.pressure(Dual::variable(density)).tangent
     }
 
     /// ρ = ρ₀/det F, kg/m³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn density<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         T::lit(self.reference_density()) / deformation.jacobian()
     }
 
     /// T = −p 1, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn cauchy<T: Real>(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         CauchyStress(Symmetric::identity() * -self.pressure(self.density(deformation)))
     }
 
     /// S = −p J C⁻¹, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn second_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
         self.cauchy(deformation).second_piola(deformation)
@@ -98,12 +98,12 @@ parameters! {
 }
 
 impl EulerianFluid for Polytropic {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn reference_density(&self) -> f64 {
         self.initial_density
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn pressure<T: Real>(&self, density: T) -> T {
         T::lit(self.initial_pressure) * (density / T::lit(self.initial_density)).powf(T::lit(self.exponent))
     }

@@ -53,7 +53,7 @@ impl<F: ViscometricFluid> GeneralisedNewtonian<F> {
 }
 
 impl<F: ViscometricFluid> ViscousFluid for GeneralisedNewtonian<F> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
         let rate = velocity_gradient.rate_of_deformation().0;
         let largest = rate.components.iter().fold(T::zero(), |largest, x| largest.max(x.abs())).frozen();

@@ -62,7 +62,7 @@ impl LinearViscous {
 }
 
 impl ViscousFluid for LinearViscous {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
         let rate = velocity_gradient.rate_of_deformation().0;
         let volume = T::lit(self.second_viscosity) * velocity_gradient.divergence();

@@ -9,7 +9,7 @@ use super::viscous::ViscousFluid;
 use crate::{ReinerRivlin, ReinerRivlinCoefficients};
 
 impl<C: ReinerRivlinCoefficients> ViscousFluid for ReinerRivlin<C> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
         let d = velocity_gradient.rate_of_deformation().0;
         let invariants = invariants(&d);

@@ -9,7 +9,7 @@ use crate::SecondOrder;
 
 impl SecondOrder {
     /// T + p 1, Pa, from the Rivlin–Ericksen tensors A₁ and A₂ of any flow.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn extra_stress_of<T: Real>(&self, first: &RivlinEricksen<T>, second: &RivlinEricksen<T>) -> Symmetric<T> {
         first.0 * T::lit(self.viscosity_coefficient())
@@ -19,7 +19,7 @@ impl SecondOrder {
 }
 
 impl ViscousFluid for SecondOrder {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
         let first = RivlinEricksen::first(velocity_gradient);
         let second = first.next(&Symmetric::zero(), velocity_gradient);

@@ -17,7 +17,7 @@ pub struct ShearStresses<T = f64> {
 
 impl<T: Real> ShearStresses<T> {
     /// Of a stress, or of an extra stress.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(stress: &Symmetric<T>) -> Self {
         let [t11, t22, t33, t12, ..] = stress.components;

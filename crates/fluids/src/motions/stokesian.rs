@@ -52,14 +52,14 @@ pub trait StokesianFluid {
     fn coefficients<T: Real>(&self, density: T, invariants: [T; 3]) -> [T; 3];
 
     /// p(ρ) = −γ₀(ρ, 0, 0, 0), Pa: the pressure of the fluid at rest.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn pressure_at_rest<T: Real>(&self, density: T) -> T {
         -self.coefficients(density, [T::zero(); 3])[0]
     }
 
     /// T, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn cauchy<T: Real>(&self, density: T, velocity_gradient: &VelocityGradient<T>) -> CauchyStress<T> {
         let d = velocity_gradient.rate_of_deformation().0;
@@ -68,7 +68,7 @@ pub trait StokesianFluid {
     }
 
     /// (T + p(ρ) 1) : D, W/m³: the power turned into heat. No fluid exists for which it is negative in some motion.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn dissipation<T: Real>(&self, density: T, velocity_gradient: &VelocityGradient<T>) -> T {
         let viscous =
@@ -78,7 +78,7 @@ pub trait StokesianFluid {
 }
 
 /// I, II, III of D.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn invariants<T: Real>(d: &Symmetric<T>) -> [T; 3] {
     let trace = d.trace();
     [trace, T::lit(0.5) * (trace * trace - d.double_contraction(d)), d.determinant()]
@@ -146,7 +146,7 @@ impl<E: EulerianFluid, C: ReinerRivlinCoefficients> CompressibleReinerRivlin<E, 
 }
 
 impl<E: EulerianFluid, C: ReinerRivlinCoefficients> StokesianFluid for CompressibleReinerRivlin<E, C> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn coefficients<T: Real>(&self, density: T, invariants: [T; 3]) -> [T; 3] {
         let isotropic = T::lit(self.second_viscosity) * invariants[0] - self.state.pressure(density);
         [isotropic, self.coefficients.first(invariants), self.coefficients.second(invariants)]

@@ -23,7 +23,7 @@ pub trait StressRate: Mode {
     fn relaxing<T: Real>(&self, stress: &Symmetric<T>) -> Symmetric<T>;
 
     /// τ̇, Pa/s, of a particle.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn stress_rate<T: Real>(&self, stress: &Symmetric<T>, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
         let drawn =
@@ -33,7 +33,7 @@ pub trait StressRate: Mode {
 }
 
 /// L − ξ D.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn carrying<M: Mode, T: Real>(mode: &M, velocity_gradient: &VelocityGradient<T>) -> VelocityGradient<T> {
     if mode.slip() <= 0.0 {
         return *velocity_gradient;
@@ -50,7 +50,7 @@ pub(super) fn carrying<M: Mode, T: Real>(mode: &M, velocity_gradient: &VelocityG
 }
 
 /// L τ + τ Lᵀ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn convected<T: Real>(stress: &Symmetric<T>, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T> {
     Symmetric::sum_with_transpose(product(velocity_gradient.rows(), stress.rows()))
 }
@@ -58,7 +58,7 @@ pub(super) fn convected<T: Real>(stress: &Symmetric<T>, velocity_gradient: &Velo
 macro_rules! relaxing {
     ($([$($generic:tt)*] $mode:ty: |$of:ident, $stress:ident| $relaxing:expr);+ $(;)?) => {
         $(impl $($generic)* StressRate for $mode {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn relaxing<T: Real>(&self, $stress: &Symmetric<T>) -> Symmetric<T> {
                 let $of = self;
                 $relaxing
@@ -78,7 +78,7 @@ relaxing! {
 }
 
 /// f τ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn broken<M: NetworkMode, T: Real>(mode: &M, stress: &Symmetric<T>) -> Symmetric<T> {
     let modulus = mode.polymer_viscosity() / mode.time();
     *stress * mode.breaking(stress.trace() * T::lit(modulus.recip()))

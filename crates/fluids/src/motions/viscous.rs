@@ -43,14 +43,14 @@ pub trait ViscousFluid {
     fn extra_stress<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> Symmetric<T>;
 
     /// T = −p 1 + V, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn cauchy<T: Real>(&self, pressure: T, velocity_gradient: &VelocityGradient<T>) -> CauchyStress<T> {
         CauchyStress(self.extra_stress(velocity_gradient) - Symmetric::identity() * pressure)
     }
 
     /// V : D, W/m³: the power turned into heat.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn dissipation<T: Real>(&self, velocity_gradient: &VelocityGradient<T>) -> T {
         self.extra_stress(velocity_gradient).double_contraction(&velocity_gradient.rate_of_deformation().0)

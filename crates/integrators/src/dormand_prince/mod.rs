@@ -299,7 +299,7 @@ const SAFETY: f64 = 0.7;
 /// The time at which a run is stopped, where it is not the end of the step, and how it ended.
 type Stop = (Option<f64>, Ending);
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn evaluate<T: Real, F: Field<T>>(
     field: &mut F,
     time: f64,

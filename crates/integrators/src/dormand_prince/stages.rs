@@ -59,7 +59,7 @@ impl<T: Real> DormandPrince853<T> {
     /// ```text
     /// e = |h| ‖e₅‖² / √(n (‖e₅‖² + 0.01 ‖e₃‖²)),    ‖x‖² = Σᵢ (xᵢ/allowedᵢ)²
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn finish<F: Field<T>>(&mut self, field: &F, state: &State<T>, h: f64) -> f64 {
         let n = self.trial.len();
         // E5 has the stages of B; those of B3 are among them.
@@ -111,7 +111,7 @@ const fn blocks_of(n: usize) -> usize {
 }
 
 /// y + (carry + h Σ aⱼ kⱼ).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn combine<T: Real, const M: usize>(
     row: &[(usize, f64); M],
     stages: &[Vec<T>; 16],
@@ -142,7 +142,7 @@ pub(super) fn combine<T: Real, const M: usize>(
 /// Writes Σ aⱼ kⱼ, for rows whose length the compiler knows.
 ///
 /// The sum runs over even and odd terms apart, which halves the time spent waiting for additions.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn weighted_sums<T: Real, const M: usize>(row: &[(usize, f64); M], stages: &[Vec<T>; 16], out: &mut [T]) {
     let n = out.len();
     let weights: [T; M] = core::array::from_fn(|m| T::lit(row[m].1));
@@ -159,7 +159,7 @@ pub(super) fn weighted_sums<T: Real, const M: usize>(row: &[(usize, f64); M], st
 }
 
 /// Σ aⱼ kⱼ, even and odd terms apart.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sum_of_terms<T: Real, const M: usize, const N: usize>(weights: &[T; M], term: impl Fn(usize) -> [T; N]) -> [T; N] {
     let first = term(0);
     let mut even: [T; N] = core::array::from_fn(|l| weights[0] * first[l]);

@@ -290,7 +290,7 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
 }
 
 /// The increments of q from the newest velocities of all stages, for fields with q̇ = v.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn velocities_to_position_increments<const S: usize, T: Real>(
     tableau: &Tableau<S>,
     weights: &[f64; S],
@@ -308,7 +308,7 @@ fn velocities_to_position_increments<const S: usize, T: Real>(
 }
 
 /// Yᵢ = y + (carry + Σⱼ μᵢⱼ Lⱼ), for some of the components.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn stage_values<const S: usize, T: Real>(
     tableau: &Tableau<S>,
     state: &State<T>,

@@ -57,7 +57,7 @@ use crate::{Ending, IntegratorsError, Report, SecondOrder, State, Tolerance};
 ///     fn freedom(&self) -> usize {
 ///         2
 ///     }
-///     #[inline(always)]
+///     #[cfg_attr(not(debug_assertions), inline(always))]
 ///     fn acceleration(&mut self, _t: T, q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
 ///         let square = q[0] * q[0] + q[1] * q[1];
 ///         let factor = (square * square.sqrt()).recip();
@@ -197,7 +197,7 @@ struct Run<'a, F, O> {
 impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> Kernel for Run<'_, F, O> {
     type Output = Result<Report, IntegratorsError<F::Error>>;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
         let Run { method, field, state, end, mut observer } = self;
         let n = field.freedom();
@@ -308,7 +308,7 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
 }
 
 /// By how much the step should be longer.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn factor(attempt: &Attempt, aim: f64) -> f64 {
     let accurate = if 0.0 < attempt.ratio { (aim / attempt.ratio).powf(1.0 / 7.0) } else { f64::INFINITY };
     if !attempt.converged {

@@ -71,20 +71,20 @@ pub(super) struct Attempt {
 }
 
 /// The sum over the stages, in pairs.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sum(x: Stages) -> f64 {
     let x = x.0;
     ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]))
 }
 
 /// Σ of the products of two rows of stages, in pairs.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn dot(a: Stages, b: Stages) -> f64 {
     sum(a * b)
 }
 
 /// A matrix, by its columns, times a row of stages.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn times(columns: &[Stages; 8], x: Stages) -> Stages {
     let mut even = columns[0] * Lanes::splat(x.0[0]);
     let mut odd = columns[1] * Lanes::splat(x.0[1]);
@@ -96,14 +96,14 @@ fn times(columns: &[Stages; 8], x: Stages) -> Stages {
 }
 
 /// |γ₇| of all components over their mean modulus at a stage.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn last_coefficient(accelerations: &[Stages], size: f64) -> f64 {
     let last: f64 = accelerations.iter().map(|&a| dot(LEGENDRE[7], a).abs()).sum();
     if 0.0 < size { last / (0.125 * size) } else { 0.0 }
 }
 
 impl Continuation {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn to(&mut self, ratio: f64) {
         if self.ratio.to_bits() == ratio.to_bits() {
             return;
@@ -144,7 +144,7 @@ impl Workspace {
 
     /// Sweeps over the stages of a step of length h from the state, until they stand still or their last coefficient
     /// exceeds `most`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn attempt<F: SecondOrder<Stages>>(
         &mut self,
         field: &mut F,
@@ -238,7 +238,7 @@ impl Workspace {
     }
 
     /// Moves the state to the end of the step; the error of a state that is not finite.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn accept<E>(&mut self, state: &mut State, h: f64) -> Option<IntegratorsError<E>> {
         let n = self.accelerations.len();
         self.start.copy_from_slice(&state.values);

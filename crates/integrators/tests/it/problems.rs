@@ -18,7 +18,7 @@ impl<T: Real, F: Force> piola_integrators::SecondOrder<T> for SecondOrder<F> {
         self.freedom
     }
     // None of these forces depends on the time.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn acceleration(&mut self, t: T, q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
         self.force.force(t.primal(0), q, acceleration);
         Ok(())
@@ -155,7 +155,7 @@ impl<T: Real> piola_integrators::SecondOrder<T> for DoublePendulum {
     fn freedom(&self) -> usize {
         2
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn acceleration(&mut self, _t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
         let mut rate = [T::zero(); 4];
         self.rate(0.0, &[q[0], q[1], v[0], v[1]], &mut rate)?;

@@ -81,7 +81,7 @@ const ROTATION_TOLERANCE: f64 = 1.0e-9;
 
 impl<T> From<Attitude<T>> for [T; 4] {
     /// (w, x, y, z).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from(attitude: Attitude<T>) -> Self {
         [attitude.w, attitude.x, attitude.y, attitude.z]
     }

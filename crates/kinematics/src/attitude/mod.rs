@@ -294,14 +294,14 @@ impl<T: Real> Attitude<T> {
     }
 
     /// Vector part of the quaternion.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn vector(self) -> Vector3<T> {
         Vector3::new(self.x, self.y, self.z)
     }
 }
 
 /// q p of two quaternions (w, x, y, z), Hamilton's i j = k.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn hamilton_product<T: Real>(q: [T; 4], p: [T; 4]) -> [T; 4] {
     [
         q[0] * p[0] - q[1] * p[1] - q[2] * p[2] - q[3] * p[3],
@@ -312,7 +312,7 @@ fn hamilton_product<T: Real>(q: [T; 4], p: [T; 4]) -> [T; 4] {
 }
 
 /// (cos(a/2), sin(a/2)/a) as functions of a² ≥ 0, smooth at zero.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn half_angle_functions<T: Real>(squared_angle: T) -> (T, T) {
     // Below a² = 1 the power series in h = a²/4: eleven terms leave 4⁻¹¹/22! ≈ 2·10⁻²⁸.
     let small = squared_angle.less_than(T::one());

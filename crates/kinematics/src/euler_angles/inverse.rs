@@ -82,7 +82,7 @@ const GIMBAL: f64 = 4.0 * f64::EPSILON;
 
 impl<T: Real> Canonical<T> {
     /// W⁻¹ ω.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rates_of(&self, in_body: &Vector3<T>) -> [T; 3] {
         let ((s2, c2), (s3, c3)) = (self.second, self.third);
         let first = (s3 * in_body.y - c3 * in_body.x) / s2;
@@ -90,7 +90,7 @@ impl<T: Real> Canonical<T> {
     }
 
     /// W⁻¹ Q ω.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rates_of_space(&self, in_space: &Vector3<T>) -> [T; 3] {
         let ((s1, c1), (s2, c2)) = (self.first, self.second);
         let third = (c1 * in_space.x + s1 * in_space.y) / s2;

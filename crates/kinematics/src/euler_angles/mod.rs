@@ -100,7 +100,7 @@ struct Canonical<T> {
 }
 
 impl<T: Real> Canonical<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(angles: &EulerAngles<T>) -> Self {
         let layout = Layout::of(angles.sequence);
         let [first, (s2, c2), (s3, c3)] = angles.theta.map(Real::sin_cos);
@@ -111,41 +111,41 @@ impl<T: Real> Canonical<T> {
     }
 
     /// Rates of the z–y–z angles from those of the sequence, and back.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rates(&self, [r1, r2, r3]: [T; 3]) -> [T; 3] {
         [r1, r2, r3 * T::lit(self.layout.third_sign())]
     }
 
     /// The columns of W that are not constant.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn columns_in_body(&self) -> [Vector3<T>; 2] {
         let ((s2, c2), (s3, c3)) = (self.second, self.third);
         [Vector3::new(-(s2 * c3), s2 * s3, c2), Vector3::new(s3, c3, T::zero())]
     }
 
     /// The columns of Qᵀ W that are not constant: ē₂ and f₃.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn columns_in_space(&self) -> [Vector3<T>; 2] {
         let ((s1, c1), (s2, c2)) = (self.first, self.second);
         [Vector3::new(-s1, c1, T::zero()), Vector3::new(s2 * c1, s2 * s1, c2)]
     }
 
     /// W θ̇.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity_in_body(&self, [r1, r2, r3]: [T; 3]) -> Vector3<T> {
         let [first, second] = self.columns_in_body();
         Vector3::new(first.x * r1 + second.x * r2, first.y * r1 + second.y * r2, first.z * r1 + r3)
     }
 
     /// Qᵀ W θ̇.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn velocity_in_space(&self, [r1, r2, r3]: [T; 3]) -> Vector3<T> {
         let [second, third] = self.columns_in_space();
         Vector3::new(second.x * r2 + third.x * r3, second.y * r2 + third.y * r3, r1 + third.z * r3)
     }
 
     /// Ẇ θ̇.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn changing_in_body(&self, [r1, r2, r3]: [T; 3]) -> Vector3<T> {
         let ((s2, c2), (s3, c3)) = (self.second, self.third);
         Vector3::new(
@@ -156,7 +156,7 @@ impl<T: Real> Canonical<T> {
     }
 
     /// (Qᵀ W)· θ̇.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn changing_in_space(&self, [r1, r2, r3]: [T; 3]) -> Vector3<T> {
         let ((s1, c1), (s2, c2)) = (self.first, self.second);
         Vector3::new(

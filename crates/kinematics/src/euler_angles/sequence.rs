@@ -168,7 +168,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) const fn of(sequence: EulerSequence) -> Self {
         let [first, second, _] = sequence.axes();
         let sign = if second == (first + 1) % 3 { -1.0 } else { 1.0 };
@@ -176,19 +176,19 @@ impl Layout {
     }
 
     /// The factor of θ³ and its rates: the third turn of Tait and Bryan is about `σ e_h`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn third_sign(self) -> f64 {
         if self.eulerian { 1.0 } else { self.sign }
     }
 
     /// Components along (x, y, z) from real ones, of space.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn space<T: Real>(self, v: &Vector3<T>) -> Vector3<T> {
         Vector3::new(v[self.beside] * T::lit(self.sign), v[self.second], v[self.first])
     }
 
     /// Real components from those along (x, y, z), of space.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn real_from_space<T: Real>(self, v: &Vector3<T>) -> Vector3<T> {
         let mut real = Vector3::zeros();
         real[self.beside] = v.x * T::lit(self.sign);
@@ -198,20 +198,20 @@ impl Layout {
     }
 
     /// Components along (x, y, z) from real ones, of the body: the constant turn C undone.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn body<T: Real>(self, v: &Vector3<T>) -> Vector3<T> {
         let v = self.space(v);
         if self.eulerian { v } else { Vector3::new(-v.z, v.y, v.x) }
     }
 
     /// Real components from those along (x, y, z), of the body.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn real_from_body<T: Real>(self, v: &Vector3<T>) -> Vector3<T> {
         if self.eulerian { self.real_from_space(v) } else { self.real_from_space(&Vector3::new(v.z, v.y, -v.x)) }
     }
 
     /// The quaternion (w, x, y, z) of the z–y–z angles that the sequence amounts to, of any length.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn quaternion<T: Real>(self, attitude: Attitude<T>) -> [T; 4] {
         let v = self.space(&Vector3::new(attitude.x, attitude.y, attitude.z));
         let (w, x, y, z) = (attitude.w, v.x, v.y, v.z);
@@ -220,7 +220,7 @@ impl Layout {
     }
 
     /// Sine and cosine of half the z–y–z angle θ², of any length.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn half_angle<T: Real>(self, attitude: Attitude<T>) -> (T, T) {
         let [w, x, y, z] = self.quaternion(attitude);
         ((x * x + y * y).sqrt(), (w * w + z * z).sqrt())

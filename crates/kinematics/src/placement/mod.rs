@@ -77,7 +77,7 @@ pub trait Holonomic {
 impl<S: Holonomic> Holonomic for &S {
     const TIME_DEPENDENT: bool = S::TIME_DEPENDENT;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place<T: Real>(&self, q: &[T], t: T, bodies: &mut impl Placement<T>) {
         (**self).place(q, t, bodies);
     }

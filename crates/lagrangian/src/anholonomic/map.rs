@@ -50,7 +50,7 @@ pub(super) fn zeros<T: Real>(values: &mut Vec<T>, n: usize) {
 }
 
 /// Σ x_i y_i.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn dot<T: Real>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::zero(), |sum, (&x, &y)| sum + x * y)
 }

@@ -13,7 +13,7 @@ use crate::{Forces, Potential};
 
 impl<T: Real, const N: usize> Pass<T, N> {
     /// φ, φ̇, γ and the partial derivatives in the directions from `first` on.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn take<C: Constraints>(
         &mut self,
         constraints: &C,

@@ -79,7 +79,7 @@ impl<C: Constraints> Constraints for &C {
     fn count(&self) -> usize {
         (**self).count()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn residuals<T: Real>(&self, q: &[T], t: T, out: &mut [T]) {
         (**self).residuals(q, t, out);
     }

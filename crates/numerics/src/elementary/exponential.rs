@@ -39,7 +39,7 @@ struct Parts {
 }
 
 /// (k + `ROUND`, r, lower part of r) of x + `lower`, |x| < 2000.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn reduce(x: f64, lower: f64) -> (f64, f64, f64) {
     let shifted = x * core::f64::consts::LOG2_E + ROUND;
     let k = shifted - ROUND;
@@ -50,7 +50,7 @@ fn reduce(x: f64, lower: f64) -> (f64, f64, f64) {
 }
 
 /// The parts of eˣ, |x| < 2000.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn parts(x: f64) -> Parts {
     let (shifted, r, r_lower) = reduce(x, 0.0);
     let (p, p_lower) = ordered_sum(r, r * r * polynomial_9(r, EXPONENTIAL));
@@ -58,7 +58,7 @@ fn parts(x: f64) -> Parts {
 }
 
 /// x · 2ᵏ for |k| ≤ 2044, in two steps, so that neither factor overflows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scale(x: f64, shifted: f64) -> f64 {
     // 1023 is added to each half of k; the shift by 52 drops all other bits.
     let both = shifted.to_bits().wrapping_add(2046);
@@ -67,14 +67,14 @@ fn scale(x: f64, shifted: f64) -> f64 {
 }
 
 /// 2⁻ᵐᵏ for −1 ≤ mk ≤ 100 or so, else 0: where it is negligible beside 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn reciprocal_power(shifted: f64, m: u64) -> f64 {
     let power = f64::from_bits(1023_u64.wrapping_sub(shifted.to_bits().wrapping_mul(m)) << 52);
     choose(shifted < ROUND + 100.0, power, 0.0)
 }
 
 /// e^(x + lower) for |lower| ≪ 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn exp_of_sum(x: f64, lower: f64) -> f64 {
     let bounded = choose(x < -746.0, -746.0, choose(710.0 < x, 710.0, x));
     let (shifted, r, _) = reduce(bounded, lower);
@@ -82,13 +82,13 @@ pub(super) fn exp_of_sum(x: f64, lower: f64) -> f64 {
 }
 
 /// eˣ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn exp(x: f64) -> f64 {
     exp_of_sum(x, 0.0)
 }
 
 /// eˣ − 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn exp_m1(x: f64) -> f64 {
     // Below −40 the result is −1.
     let Parts { shifted, p, p_lower } = parts(choose(x < -40.0, -40.0, choose(710.0 < x, 710.0, x)));
@@ -98,7 +98,7 @@ pub(crate) fn exp_m1(x: f64) -> f64 {
 }
 
 /// The parts of e^|x|, c = 2⁻²ᵏ and c p/(1 + p).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn hyperbolic_parts(x: f64) -> (Parts, f64, f64) {
     let magnitude = x.abs();
     let parts = parts(choose(712.0 < magnitude, 712.0, magnitude));
@@ -110,7 +110,7 @@ fn hyperbolic_parts(x: f64) -> (Parts, f64, f64) {
 }
 
 /// sinh x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sinh(x: f64) -> f64 {
     let (Parts { shifted, p, p_lower }, c, rest) = hyperbolic_parts(x);
     let (one, one_lower) = ordered_sum(1.0, -c);
@@ -119,7 +119,7 @@ pub(crate) fn sinh(x: f64) -> f64 {
 }
 
 /// cosh x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cosh(x: f64) -> f64 {
     let (Parts { shifted, p, p_lower }, c, rest) = hyperbolic_parts(x);
     let (one, one_lower) = ordered_sum(1.0, c);
@@ -128,7 +128,7 @@ pub(crate) fn cosh(x: f64) -> f64 {
 }
 
 /// tanh x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn tanh(x: f64) -> f64 {
     // Beyond 22 the result is 1 to rounding.
     let magnitude = x.abs();

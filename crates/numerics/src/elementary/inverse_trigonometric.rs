@@ -50,7 +50,7 @@ const ARCTANGENT: [f64; 11] = [
 ];
 
 /// (|x| ≤ ½, y, y z A(z), lower part of y) where y is |x| or √((1 − |x|)/2).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn arcsine_parts(x: f64) -> (bool, f64, f64, f64) {
     let magnitude = x.abs();
     let small = magnitude <= 0.5;
@@ -65,7 +65,7 @@ fn arcsine_parts(x: f64) -> (bool, f64, f64, f64) {
 }
 
 /// arcsin x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn asin(x: f64) -> f64 {
     let (small, y, rest, y_lower) = arcsine_parts(x);
     let near_one = FRAC_PI_4 - ((2.0 * rest - (HALF_PI_LOWER - 2.0 * y_lower)) - (FRAC_PI_4 - 2.0 * y));
@@ -73,7 +73,7 @@ pub(crate) fn asin(x: f64) -> f64 {
 }
 
 /// arccos x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn acos(x: f64) -> f64 {
     let (small, y, rest, y_lower) = arcsine_parts(x);
     let middle = FRAC_PI_2 - (y.copysign(x) - (HALF_PI_LOWER - rest.copysign(x)));
@@ -83,13 +83,13 @@ pub(crate) fn acos(x: f64) -> f64 {
 }
 
 /// The value that belongs to the first range that holds, or the last.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn pick(ranges: [bool; 4], v: [f64; 5]) -> f64 {
     choose(ranges[0], v[0], choose(ranges[1], v[1], choose(ranges[2], v[2], choose(ranges[3], v[3], v[4]))))
 }
 
 /// arctan x for 0 ≤ x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn atan_of_positive(x: f64) -> f64 {
     // t = (a x + b)/(c x + d) in each range of x; θ in two parts.
     let (r1, r2, r3, r4) = (x < 0.4375, x < 0.6875, x < 1.1875, x < 2.4375);
@@ -108,13 +108,13 @@ fn atan_of_positive(x: f64) -> f64 {
 }
 
 /// arctan x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn atan(x: f64) -> f64 {
     atan_of_positive(x.abs()).copysign(x)
 }
 
 /// The angle of the point (x, y).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn atan2(y: f64, x: f64) -> f64 {
     let (a, b) = (x.abs(), y.abs());
     // ∞/∞ counts as 1/1 and 0/0 as 0/1.

@@ -24,7 +24,7 @@ const SQRT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
 const ONE: u64 = 0x3ff0_0000_0000_0000;
 
 /// (k, m) of 0 < x, subnormals included.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn split(x: f64) -> (f64, f64) {
     let small = x < f64::MIN_POSITIVE;
     let bits = choose(small, x * 18_014_398_509_481_984.0, x).to_bits().wrapping_add(ONE - SQRT_HALF);
@@ -35,7 +35,7 @@ pub(super) fn split(x: f64) -> (f64, f64) {
 }
 
 /// (k, m) of a normal 0 < x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn split_normal(x: f64) -> (f64, f64) {
     let bits = x.to_bits().wrapping_add(ONE - SQRT_HALF);
     let m = f64::from_bits((bits & FRACTION) + SQRT_HALF);
@@ -43,7 +43,7 @@ pub(super) fn split_normal(x: f64) -> (f64, f64) {
 }
 
 /// ln u + c, 0 < u < ∞, |c| ≪ 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn ln_of_positive(u: f64, c: f64) -> f64 {
     let (k, m) = split(u);
     let f = m - 1.0;
@@ -55,14 +55,14 @@ fn ln_of_positive(u: f64, c: f64) -> f64 {
 }
 
 /// ln x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ln(x: f64) -> f64 {
     let finite = choose(x < f64::INFINITY, ln_of_positive(x, 0.0), x);
     choose(0.0 < x, finite, choose(x == 0.0, f64::NEG_INFINITY, f64::NAN))
 }
 
 /// ln(1 + x) of x and 1 + x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ln_1p_given(x: f64, sum: f64) -> f64 {
     // As below where |x| ≤ ½; ln of the sum elsewhere.
     let near = x.abs() <= 0.5;
@@ -74,7 +74,7 @@ pub(crate) fn ln_1p_given(x: f64, sum: f64) -> f64 {
 }
 
 /// ln(1 + x).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ln_1p(x: f64) -> f64 {
     // u + e = 1 + x exactly; ln(1 + x) = ln u + e/u.
     let u = 1.0 + x;

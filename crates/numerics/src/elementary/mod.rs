@@ -38,51 +38,51 @@ const LN_2_UPPER: f64 = 0.693_147_180_369_123_8;
 const LN_2_LOWER: f64 = 1.908_214_929_270_587_7e-10;
 
 /// `if_true` or `if_false`, both already computed: a selection, never a jump.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn choose(condition: bool, if_true: f64, if_false: f64) -> f64 {
     let mask = 0_u64.wrapping_sub(u64::from(condition));
     f64::from_bits((mask & if_true.to_bits()) | (!mask & if_false.to_bits()))
 }
 
 /// Whether both hold: computed without a jump, which `&&` may become.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn both(a: bool, b: bool) -> bool {
     a & b
 }
 
 /// Whether one holds: computed without a jump, which `||` may become.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn either(a: bool, b: bool) -> bool {
     a | b
 }
 
 /// x cut to its leading 26 bits: the product of two such numbers is exact.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn upper(x: f64) -> f64 {
     f64::from_bits(x.to_bits() & 0xffff_ffff_f800_0000)
 }
 
 /// 2ᵏ for a whole number −1022 ≤ k ≤ 1023.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn power_of_two(k: f64) -> f64 {
     f64::from_bits((k + ROUND).to_bits().wrapping_add(1023) << 52)
 }
 
 /// The nearest whole number, for |x| < 2⁵¹.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn nearest(x: f64) -> f64 {
     (x + ROUND) - ROUND
 }
 
 /// a + b and its rounding error, for |b| ≤ |a| or a = 0.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn ordered_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     (sum, (a - sum) + b)
 }
 
 /// a − b and its rounding error.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn difference(a: f64, b: f64) -> (f64, f64) {
     let d = a - b;
     let part = d - a;
@@ -90,7 +90,7 @@ fn difference(a: f64, b: f64) -> (f64, f64) {
 }
 
 /// c₀ + c₁ x + c₂ x² + c₃ x³, given x².
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn cubic(x: f64, x2: f64, c: [f64; 4]) -> f64 {
     (c[0] + c[1] * x) + (c[2] + c[3] * x) * x2
 }
@@ -100,21 +100,21 @@ fn cubic(x: f64, x2: f64, c: [f64; 4]) -> f64 {
 // becoming vector instructions.
 
 /// c₀ + … + c₅ x⁵.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn polynomial_5(x: f64, c: [f64; 6]) -> f64 {
     let x2 = x * x;
     cubic(x, x2, [c[0], c[1], c[2], c[3]]) + (c[4] + c[5] * x) * (x2 * x2)
 }
 
 /// c₀ + … + c₆ x⁶.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn polynomial_6(x: f64, c: [f64; 7]) -> f64 {
     let x2 = x * x;
     cubic(x, x2, [c[0], c[1], c[2], c[3]]) + ((c[4] + c[5] * x) + c[6] * x2) * (x2 * x2)
 }
 
 /// c₀ + … + c₉ x⁹.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn polynomial_9(x: f64, c: [f64; 10]) -> f64 {
     let x2 = x * x;
     let x4 = x2 * x2;
@@ -123,7 +123,7 @@ fn polynomial_9(x: f64, c: [f64; 10]) -> f64 {
 }
 
 /// c₀ + … + c₁₀ x¹⁰.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn polynomial_10(x: f64, c: [f64; 11]) -> f64 {
     let x2 = x * x;
     let x4 = x2 * x2;
@@ -133,7 +133,7 @@ fn polynomial_10(x: f64, c: [f64; 11]) -> f64 {
 }
 
 /// c₀ + … + c₁₂ x¹².
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn polynomial_12(x: f64, c: [f64; 13]) -> f64 {
     let x2 = x * x;
     let x4 = x2 * x2;

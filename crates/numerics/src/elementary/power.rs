@@ -44,7 +44,7 @@ pub(super) const CUBE_ROOT: [f64; 6] = [
 ];
 
 /// ln x for 0 < x < ∞ as an upper part of 26 bits and the rest.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn ln_in_two_parts(x: f64) -> (f64, f64) {
     let (k, m) = split(x);
     // s in two parts: what the upper part leaves of f is exact.
@@ -75,13 +75,13 @@ fn ln_in_two_parts(x: f64) -> (f64, f64) {
 }
 
 /// The nearest whole number of 0 ≤ x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn nearest_of_positive(x: f64) -> f64 {
     choose(x < 4_503_599_627_370_496.0, (x + 4_503_599_627_370_496.0) - 4_503_599_627_370_496.0, x)
 }
 
 /// xʸ, with the conventions of C's `pow`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn powf(x: f64, y: f64) -> f64 {
     let magnitude = x.abs();
     let (l_upper, l_lower) = ln_in_two_parts(magnitude);
@@ -96,7 +96,7 @@ pub(crate) fn powf(x: f64, y: f64) -> f64 {
 }
 
 /// xʸ, given |x|ʸ for ordinary |x|.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::float_cmp, reason = "whether y is a whole number, and whether x is 1, are exact questions")]
 pub(super) fn with_conventions(x: f64, y: f64, positive: f64) -> f64 {
     let magnitude = x.abs();
@@ -115,7 +115,7 @@ pub(super) fn with_conventions(x: f64, y: f64, positive: f64) -> f64 {
 }
 
 /// ∛x.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cbrt(x: f64) -> f64 {
     let magnitude = x.abs();
     let small = magnitude < f64::MIN_POSITIVE;
@@ -145,7 +145,7 @@ const RECIPROCAL_STEP: [f64; 4] =
     [0.333_331_627_640_714_8, 0.222_220_814_474_155_56, 0.174_148_754_032_823_68, 0.145_176_062_134_650_92];
 
 /// x^(−1/3) of 2⁻¹⁰²² ≤ x < ∞, with a relative error of 1.9e-7.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn start_of_recip_cbrt(x: f64) -> f64 {
     // The leading 32 bits placed in the fraction of 2⁵² are a float without a conversion.
     let leading = f64::from_bits((x.to_bits() >> 32) | 0x4330_0000_0000_0000) - 4_503_599_627_370_496.0;
@@ -156,7 +156,7 @@ pub(super) fn start_of_recip_cbrt(x: f64) -> f64 {
 }
 
 /// 1/∛x: 1.1 ulp.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn recip_cbrt(x: f64) -> f64 {
     let magnitude = x.abs();
     let small = magnitude < f64::MIN_POSITIVE;
@@ -175,7 +175,7 @@ pub(crate) fn recip_cbrt(x: f64) -> f64 {
 pub(crate) const LARGEST_PRODUCT: u32 = 64;
 
 /// a b as a sum of two doubles, for factors that are such sums.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn product(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     let (a_upper, b_upper) = (upper(a.0), upper(b.0));
     let (a_lower, b_lower) = (a.0 - a_upper, b.0 - b_upper);
@@ -185,7 +185,7 @@ pub(crate) fn product(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
 }
 
 /// 1/x as a sum of two doubles.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn reciprocal(x: f64) -> (f64, f64) {
     let r = 1.0 / x;
     let (p, p_lower) = product((r, 0.0), (x, 0.0));
@@ -193,13 +193,13 @@ pub(crate) fn reciprocal(x: f64) -> (f64, f64) {
 }
 
 /// The sum of the parts; the upper one where it is zero or infinite and the lower one means nothing.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sum(a: (f64, f64)) -> f64 {
     choose(both(0.0 < a.0.abs(), a.0.abs() < f64::INFINITY), a.0 + a.1, a.0)
 }
 
 /// xⁿ by repeated squaring in doubles, whose roundings are far below those of the result.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is meant")]
 pub(crate) fn powi_of_single(x: f32, n: i32) -> f32 {
     let (mut square, mut product) = (f64::from(x), 1.0);

@@ -67,7 +67,7 @@ const TAN_PI_8: f64 = 0.414_213_562_373_095_03;
 const TAN_3_PI_8: f64 = 2.414_213_562_373_095;
 
 /// (eʳ − 1, 2ᵏ) of x = k ln 2 + r, |x| ≤ 700.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn parts(x: f64) -> (f64, f64) {
     let shifted = x * LOG2_E + ROUND;
     let r = x - (shifted - ROUND) * LN_2;
@@ -76,38 +76,38 @@ fn parts(x: f64) -> (f64, f64) {
 }
 
 /// x kept within what singles can show of eˣ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn bounded(x: f64) -> f64 {
     choose(x < -110.0, -110.0, choose(110.0 < x, 110.0, x))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn exp(x: f64) -> f64 {
     let (p, power) = parts(bounded(x));
     power + power * p
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn exp_m1(x: f64) -> f64 {
     let (p, power) = parts(bounded(x));
     choose(x == 0.0, x, power * p + (power - 1.0))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sinh(x: f64) -> f64 {
     let (p, power) = parts(bounded(x.abs()));
     let t = power * p + (power - 1.0);
     (0.5 * (t + t / (t + 1.0))).copysign(x)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cosh(x: f64) -> f64 {
     let (p, power) = parts(bounded(x));
     let e = power + power * p;
     0.5 * (e + 1.0 / e)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn tanh(x: f64) -> f64 {
     let (p, power) = parts(2.0 * bounded(x.abs()));
     let t = power * p + (power - 1.0);
@@ -115,7 +115,7 @@ pub(crate) fn tanh(x: f64) -> f64 {
 }
 
 /// ln u of a normal double 0 < u < ∞.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn ln_of_positive(u: f64) -> f64 {
     let (k, m) = logarithm::split_normal(u);
     let f = m - 1.0;
@@ -127,13 +127,13 @@ fn ln_of_positive(u: f64) -> f64 {
     k * LN_2 + (2.0 * s + s * z * series)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ln(x: f64) -> f64 {
     let finite = choose(x < f64::INFINITY, ln_of_positive(x), x);
     choose(0.0 < x, finite, choose(x == 0.0, f64::NEG_INFINITY, f64::NAN))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ln_1p_given(x: f64, sum: f64) -> f64 {
     let near = x.abs() <= 0.5;
     let u = choose(near, 1.0 + x, sum);
@@ -142,7 +142,7 @@ pub(crate) fn ln_1p_given(x: f64, sum: f64) -> f64 {
     choose(x == 0.0, x, choose(0.0 < u, finite, choose(u == 0.0, f64::NEG_INFINITY, f64::NAN)))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ln_1p(x: f64) -> f64 {
     // What the sum loses of a small x is added as it is: where that matters, the sum is nearly 1.
     let u = 1.0 + x;
@@ -153,7 +153,7 @@ pub(crate) fn ln_1p(x: f64) -> f64 {
 }
 
 /// (n in the lowest bits, sin r, cos r).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn angle_parts(x: f64) -> (u64, f64, f64) {
     let shifted = x * FRAC_2_PI + ROUND;
     let n = shifted - ROUND;
@@ -163,7 +163,7 @@ fn angle_parts(x: f64) -> (u64, f64, f64) {
     (shifted.to_bits(), r + r * z * cubic(z, z2, SINE), (1.0 - 0.5 * z) + z2 * cubic(z, z2, COSINE))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     let (n, sine, cosine) = angle_parts(x);
     let odd = n & 1 == 1;
@@ -171,7 +171,7 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     (choose(x == 0.0, x, flip(s, n, 1)), flip(c, n.wrapping_add(1), 1))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn tan(x: f64) -> f64 {
     let (n, sine, cosine) = angle_parts(x);
     let odd = n & 1 == 1;
@@ -180,7 +180,7 @@ pub(crate) fn tan(x: f64) -> f64 {
 }
 
 /// (|x| ≤ ½, arcsin of |x| or of √((1 − |x|)/2)).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn arcsine_parts(x: f64) -> (bool, f64) {
     let magnitude = x.abs();
     let small = magnitude <= 0.5;
@@ -190,20 +190,20 @@ fn arcsine_parts(x: f64) -> (bool, f64) {
     (small, y + y * z * polynomial_6(z, ARCSINE))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn asin(x: f64) -> f64 {
     let (small, angle) = arcsine_parts(x);
     choose(small, angle, FRAC_PI_2 - 2.0 * angle).copysign(x)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn acos(x: f64) -> f64 {
     let (small, angle) = arcsine_parts(x);
     choose(small, FRAC_PI_2 - angle.copysign(x), choose(x < 0.0, PI - 2.0 * angle, 2.0 * angle))
 }
 
 /// The angle of (x, y), 0 ≤ x, 0 ≤ y.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn angle_of_positive(y: f64, x: f64) -> f64 {
     let (low, high) = (y < TAN_PI_8 * x, y <= TAN_3_PI_8 * x);
     let numerator = choose(low, y, choose(high, y - x, -x));
@@ -214,12 +214,12 @@ fn angle_of_positive(y: f64, x: f64) -> f64 {
     base + (t + t * z * polynomial_5(z, ARCTANGENT))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn atan(x: f64) -> f64 {
     angle_of_positive(x.abs(), 1.0).copysign(x)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn atan2(y: f64, x: f64) -> f64 {
     let (a, b) = (x.abs(), y.abs());
     let both_infinite = both(a == f64::INFINITY, b == f64::INFINITY);
@@ -229,7 +229,7 @@ pub(crate) fn atan2(y: f64, x: f64) -> f64 {
     choose(x.is_sign_negative(), PI - angle, angle).copysign(y)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn powf(x: f64, y: f64) -> f64 {
     // Beyond 10³⁰ every |x| ≠ 1 gives 0 or ∞ already.
     let bounded = choose(y.abs() < 1e30, y, 1e30_f64.copysign(y));
@@ -237,7 +237,7 @@ pub(crate) fn powf(x: f64, y: f64) -> f64 {
     with_conventions(x, y, exp(choose(exponent.abs() < 200.0, exponent, 200.0_f64.copysign(exponent))))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn cbrt(x: f64) -> f64 {
     let magnitude = x.abs();
     let bits = magnitude.to_bits();
@@ -256,7 +256,7 @@ pub(crate) fn cbrt(x: f64) -> f64 {
 }
 
 /// 1/∛x, of singles: even the smallest is an ordinary double.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn recip_cbrt(x: f64) -> f64 {
     let magnitude = x.abs();
     let y = start_of_recip_cbrt(magnitude);

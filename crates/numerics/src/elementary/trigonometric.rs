@@ -40,7 +40,7 @@ const COSINE: [f64; 6] = [
 type Pair = (f64, f64);
 
 /// n (in the lowest bits), sin r and cos r.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn parts(x: f64) -> (u64, Pair, Pair) {
     let shifted = x * core::f64::consts::FRAC_2_PI + ROUND;
     let n = shifted - ROUND;
@@ -55,13 +55,13 @@ fn parts(x: f64) -> (u64, Pair, Pair) {
 }
 
 /// x with its sign changed when bit `bit` of n is set.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn flip(x: f64, n: u64, bit: u32) -> f64 {
     f64::from_bits(x.to_bits() ^ ((n >> bit) << 63))
 }
 
 /// (sin x, cos x) for |x| ≤ `LIMIT`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     let (n, (sine, _), (cosine, _)) = parts(x);
     let odd = n & 1 == 1;
@@ -71,7 +71,7 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
 }
 
 /// tan x for |x| ≤ `LIMIT`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn tan(x: f64) -> f64 {
     let (n, sine, cosine) = parts(x);
     let odd = n & 1 == 1;

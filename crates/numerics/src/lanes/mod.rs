@@ -198,7 +198,7 @@ macro_rules! every_lane {
 macro_rules! element {
     (@unary $functions:ident: $($name:ident)*) => {
         $(
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $name(x: f64) -> f64 {
                 $functions::$name(x)
             }
@@ -206,14 +206,14 @@ macro_rules! element {
     };
     ($float:ident, $bits:ident, $functions:ident, $powi:expr, $in_registers:expr, $gather:ident, $scatter:ident) => {
         impl Bits for $bits {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn splat(value: bool) -> Self {
                 if value { $bits::MAX } else { 0 }
             }
         }
         impl Functions for $float {
             type Bits = $bits;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[expect(
                 clippy::allow_attributes,
                 reason = "one macro serves f32, where the cast rounds, and f64, where it is the identity"
@@ -222,57 +222,57 @@ macro_rules! element {
             fn narrow(value: f64) -> Self {
                 value as $float
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn widen(self) -> f64 {
                 f64::from(self)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn is_less(self, other: Self) -> bool {
                 self < other
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn is_at_most(self, other: Self) -> bool {
                 self <= other
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn is_number(self) -> bool {
                 // Beside 0 < x the compiler would make one test of the bits of each lane of a comparison with infinity.
                 self.abs() <= $float::MAX
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn choose(mask: $bits, if_true: Self, if_false: Self) -> Self {
                 $float::from_bits((mask & if_true.to_bits()) | (!mask & if_false.to_bits()))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn lane_sqrt(self) -> Self {
                 $float::sqrt(self)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn lane_abs(self) -> Self {
                 $float::abs(self)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn lane_copysign(self, sign: Self) -> Self {
                 $float::copysign(self, sign)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn lanes_powi<const N: usize>(lanes: [Self; N], n: i32) -> [Self; N] {
                 $powi(lanes, n)
             }
             element!(@unary $functions: exp exp_m1 ln ln_1p tan asin acos atan sinh cosh tanh cbrt recip_cbrt);
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn sin_cos(x: f64) -> (f64, f64) {
                 $functions::sin_cos(x)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn atan2(y: f64, x: f64) -> f64 {
                 $functions::atan2(y, x)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn ln_1p_given(x: f64, sum: f64) -> f64 {
                 $functions::ln_1p_given(x, sum)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn powf(x: f64, y: f64) -> f64 {
                 $functions::powf(x, y)
             }
@@ -283,14 +283,14 @@ macro_rules! element {
                 $float::tan(self)
             }
             const IN_REGISTERS: [usize; 2] = $in_registers;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn gather<const N: usize, const K: usize, const ROWS: usize>(
                 records: [&[Self; K]; N],
                 components: &mut [Lanes<Self, N>; K],
             ) {
                 records::$gather::<N, K, ROWS>(records, components);
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn scatter<const N: usize, const K: usize, const ROWS: usize>(
                 components: &[Lanes<Self, N>; K],
                 records: [&mut [Self; K]; N],
@@ -306,7 +306,7 @@ element!(f32, u32, single, powi_of_single, [0, 0], gather_singles, scatter_singl
 
 /// xⁿ of doubles. Up to the fourth power plain products are within 2 ulp: x² is within ½, and squaring it
 /// at most √2 of the rest. Higher ones are products of sums of two doubles.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn powi<const N: usize>(x: [f64; N], n: i32) -> [f64; N] {
     let magnitude = n.unsigned_abs();
     match n {
@@ -336,21 +336,21 @@ fn powi<const N: usize>(x: [f64; N], n: i32) -> [f64; N] {
 }
 
 /// xⁿ of singles, by products of doubles.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn powi_of_single<const N: usize>(x: [f32; N], n: i32) -> [f32; N] {
     each_lane!(i in x => power::powi_of_single(x[i], n))
 }
 
 impl<T: Element, const N: usize> Lanes<T, N> {
     /// The same value in every lane.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub const fn splat(value: T) -> Self {
         Self([value; N])
     }
 
     /// The first N numbers of `values`; lanes beyond its end get `fill`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn load(values: &[T], fill: T) -> Self {
         if let Some(all) = values.first_chunk::<N>() {
@@ -364,7 +364,7 @@ impl<T: Element, const N: usize> Lanes<T, N> {
     }
 
     /// Writes the lanes to the start of `values`, as many as it has room for.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn store(self, values: &mut [T]) {
         if let Some(all) = values.first_chunk_mut::<N>() {
             *all = self.0;
@@ -378,7 +378,7 @@ impl<T: Element, const N: usize> Lanes<T, N> {
 
 impl<B: Bits, const N: usize> LaneMask<B, N> {
     /// The truth value of one lane; false beyond the last.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn lane(self, lane: usize) -> bool {
         lane < N && self.0[lane] != B::splat(false)
@@ -386,7 +386,7 @@ impl<B: Bits, const N: usize> LaneMask<B, N> {
 }
 
 impl<T, const N: usize> From<[T; N]> for Lanes<T, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from(values: [T; N]) -> Self {
         Self(values)
     }
@@ -396,13 +396,13 @@ macro_rules! lane_operator {
     ($trait:ident, $function:ident, $assign_trait:ident, $assign:ident, $operator:tt) => {
         impl<T: Element, const N: usize> $trait for Lanes<T, N> {
             type Output = Self;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $function(self, other: Self) -> Self {
                 Self(every_lane!(i in self.0 => self.0[i] $operator other.0[i]))
             }
         }
         impl<T: Element, const N: usize> $assign_trait for Lanes<T, N> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn $assign(&mut self, other: Self) {
                 *self = *self $operator other;
             }
@@ -416,23 +416,23 @@ lane_operator!(Div, div, DivAssign, div_assign, /);
 
 impl<T: Element, const N: usize> Neg for Lanes<T, N> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn neg(self) -> Self {
         Self(every_lane!(i in self.0 => -self.0[i]))
     }
 }
 impl<T: Element, const N: usize> Zero for Lanes<T, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn zero() -> Self {
         Self([T::zero(); N])
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_zero(&self) -> bool {
         *self == Self::zero()
     }
 }
 impl<T: Element, const N: usize> One for Lanes<T, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn one() -> Self {
         Self([T::one(); N])
     }
@@ -440,37 +440,37 @@ impl<T: Element, const N: usize> One for Lanes<T, N> {
 
 impl<B: Bits, const N: usize> BitAnd for LaneMask<B, N> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn bitand(self, other: Self) -> Self {
         Self(every_lane!(i in self.0 => self.0[i] & other.0[i]))
     }
 }
 impl<B: Bits, const N: usize> BitOr for LaneMask<B, N> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn bitor(self, other: Self) -> Self {
         Self(every_lane!(i in self.0 => self.0[i] | other.0[i]))
     }
 }
 impl<B: Bits, const N: usize> Not for LaneMask<B, N> {
     type Output = Self;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn not(self) -> Self {
         Self(every_lane!(i in self.0 => !self.0[i]))
     }
 }
 impl<B: Bits, const N: usize> Mask for LaneMask<B, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn splat(value: bool) -> Self {
         Self([B::splat(value); N])
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn any(self) -> bool {
         let mut union = B::splat(false);
         every_lane!(i: union = union | self.0[i]);
         union != B::splat(false)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn all(self) -> bool {
         !(!self).any()
     }
@@ -479,7 +479,7 @@ impl<B: Bits, const N: usize> Mask for LaneMask<B, N> {
 /// A function of one lane, computed in doubles.
 macro_rules! lane_function {
     ($name:ident) => {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn $name(self) -> Self {
             Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::$name(self.0[i].widen()))))
         }
@@ -491,63 +491,63 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
     const LANES: usize = N;
     const ORDER: usize = 0;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lit(value: f64) -> Self {
         Self([T::narrow(value); N])
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn primal(self, lane: usize) -> f64 {
         self.0[lane].widen()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn frozen(self) -> Self {
         self
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn less_than(self, other: Self) -> Self::Mask {
         LaneMask(every_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_less(other.0[i]))))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at_most(self, other: Self) -> Self::Mask {
         LaneMask(every_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_at_most(other.0[i]))))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn select(mask: Self::Mask, if_true: Self, if_false: Self) -> Self {
         Self(every_lane!(i in if_false.0 => T::choose(mask.0[i], if_true.0[i], if_false.0[i])))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn is_finite(self) -> Self::Mask {
         LaneMask(every_lane!(i in [T::Bits::splat(false); N] => T::Bits::splat(self.0[i].is_number())))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sqrt(self) -> Self {
         Self(every_lane!(i in self.0 => self.0[i].lane_sqrt()))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn abs(self) -> Self {
         Self(every_lane!(i in self.0 => self.0[i].lane_abs()))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn copysign(self, sign: Self) -> Self {
         Self(every_lane!(i in self.0 => self.0[i].lane_copysign(sign.0[i])))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn powi(self, n: i32) -> Self {
         Self(T::lanes_powi(self.0, n))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn powf(self, exponent: Self) -> Self {
         Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::powf(self.0[i].widen(), exponent.0[i].widen()))))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn atan2(self, x: Self) -> Self {
         Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::atan2(self.0[i].widen(), x.0[i].widen()))))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn ln_1p_given(self, sum: Self) -> Self {
         Self(each_lane!(i in self.0 => T::narrow(<T as Functions>::ln_1p_given(self.0[i].widen(), sum.0[i].widen()))))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lanewise<const I: usize, const O: usize>(computation: &impl Lanewise<I, O>, inputs: [Self; I]) -> [Self; O] {
         let mut from = [Apart::<T, N>::new(); I];
         let mut outputs = [Self([T::zero(); N]); O];
@@ -587,7 +587,7 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
     lane_function!(cosh);
     lane_function!(tanh);
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn sin_cos(self) -> (Self, Self) {
         if beyond_reduction(self) {
             return far_sin_cos(self);
@@ -603,7 +603,7 @@ impl<T: Element, const N: usize> Real for Lanes<T, N> {
         }
         (Self(sine), Self(cosine))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tan(self) -> Self {
         if beyond_reduction(self) {
             return far_tan(self);
@@ -621,14 +621,14 @@ struct Apart<T, const N: usize> {
 }
 
 impl<T: Element, const N: usize> Apart<T, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn new() -> Self {
         Self { lanes: [T::zero(); N], gap: core::mem::MaybeUninit::uninit() }
     }
 }
 
 /// True when a lane's angle is too large for the reduction in lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn beyond_reduction<T: Element, const N: usize>(x: Lanes<T, N>) -> bool {
     Lanes::lit(trigonometric::LIMIT).less_than(x.abs()).any()
 }

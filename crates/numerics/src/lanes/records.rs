@@ -19,26 +19,26 @@ impl<T: Element, const N: usize> Lanes<T, N> {
     /// components are by rows always.
     ///
     /// Fastest in a kernel that runs with as many lanes as the registers of its [`Level`](crate::Level) hold.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn gather<const K: usize, const ROWS: usize>(records: [&[T; K]; N], components: &mut [Self; K]) {
         T::gather::<N, K, ROWS>(records, components);
     }
 
     /// The inverse of [`gather`](Self::gather): the components of each lane to its record.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn scatter<const K: usize, const ROWS: usize>(components: &[Self; K], records: [&mut [T; K]; N]) {
         T::scatter::<N, K, ROWS>(components, records);
     }
 }
 
 /// The component of number k of a record.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 const fn by_rows<const K: usize, const ROWS: usize>(k: usize) -> usize {
     k % ROWS * (K / ROWS) + k / ROWS
 }
 
 /// Number by number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn gather_each<T: Element, const N: usize, const K: usize, const ROWS: usize>(
     records: [&[T; K]; N],
     components: &mut [Lanes<T, N>; K],
@@ -53,7 +53,7 @@ fn gather_each<T: Element, const N: usize, const K: usize, const ROWS: usize>(
 }
 
 /// Number by number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scatter_each<T: Element, const N: usize, const K: usize, const ROWS: usize>(
     components: &[Lanes<T, N>; K],
     records: [&mut [T; K]; N],
@@ -67,7 +67,7 @@ fn scatter_each<T: Element, const N: usize, const K: usize, const ROWS: usize>(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn gather_singles<const N: usize, const K: usize, const ROWS: usize>(
     records: [&[f32; K]; N],
     components: &mut [Lanes<f32, N>; K],
@@ -75,7 +75,7 @@ pub(super) fn gather_singles<const N: usize, const K: usize, const ROWS: usize>(
     gather_each::<_, N, K, ROWS>(records, components);
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn scatter_singles<const N: usize, const K: usize, const ROWS: usize>(
     components: &[Lanes<f32, N>; K],
     records: [&mut [f32; K]; N],
@@ -83,7 +83,7 @@ pub(super) fn scatter_singles<const N: usize, const K: usize, const ROWS: usize>
     scatter_each::<_, N, K, ROWS>(components, records);
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) fn gather_doubles<const N: usize, const K: usize, const ROWS: usize>(
     records: [&[f64; K]; N],
@@ -92,7 +92,7 @@ pub(super) fn gather_doubles<const N: usize, const K: usize, const ROWS: usize>(
     gather_each::<_, N, K, ROWS>(records, components);
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[cfg(not(target_arch = "x86_64"))]
 pub(super) fn scatter_doubles<const N: usize, const K: usize, const ROWS: usize>(
     components: &[Lanes<f64, N>; K],
@@ -119,7 +119,7 @@ mod x86 {
     use super::{Lanes, by_rows, gather_each, scatter_each};
     use crate::Level;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(in super::super) fn gather_doubles<const N: usize, const K: usize, const ROWS: usize>(
         records: [&[f64; K]; N],
         components: &mut [Lanes<f64, N>; K],
@@ -135,7 +135,7 @@ mod x86 {
         }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(in super::super) fn scatter_doubles<const N: usize, const K: usize, const ROWS: usize>(
         components: &[Lanes<f64, N>; K],
         mut records: [&mut [f64; K]; N],

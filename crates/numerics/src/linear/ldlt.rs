@@ -43,7 +43,7 @@ const SMALL: usize = 8;
 /// assert_eq!((a[0], a[1], a[3]), (4.0, 0.5, 2.0)); // d₁ = 4, l₂₁ = 1/2, d₂ = 3 − 4/4
 /// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), NumericsError> {
     factor_and_grade_in_place(a, n, 0.0).map(|_| ())
 }
@@ -70,7 +70,7 @@ pub fn factor_in_place<T: Real>(a: &mut [T], n: usize) -> Result<(), NumericsErr
 /// assert!(!ldlt::factor_and_grade_in_place(&mut a, 2, 0.02)?);
 /// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn factor_and_grade_in_place<T: Real>(a: &mut [T], n: usize, share: f64) -> Result<T::Mask, NumericsError> {
     check_dimension("matrix", a.len(), n * n)?;
     let threshold = T::lit(n as f64 * unit_in_last_place::<T>());
@@ -148,7 +148,7 @@ fn refused<T: Real>(pivot: usize, value: T, diagonal: T, threshold: T) -> Numeri
 /// assert_eq!(b, [1.0, 2.0]);
 /// # Ok::<(), piola_numerics::NumericsError>(())
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn solve_in_place<T: Real>(factors: &[T], n: usize, b: &mut [T]) -> Result<(), NumericsError> {
     check_dimension("factors", factors.len(), n * n)?;
     check_dimension("right-hand side", b.len(), n)?;

@@ -174,7 +174,7 @@ impl<T: Real> LeastSquares<T> {
     }
 
     /// The largest |x| over lanes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn size(x: T) -> f64 {
         (0..T::LANES).map(|lane| x.primal(lane).abs()).fold(0.0, |m, x| if x <= m { m } else { x })
     }

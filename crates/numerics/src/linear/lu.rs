@@ -28,7 +28,7 @@ use crate::{Mask, NumericsError, Real};
 ///
 /// # Accuracy
 /// L U is P A to a few n ulp of the largest entry (growth of the pivots, rare, apart).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn factor_in_place<T: Real>(a: &mut [T], exchanges: &mut [usize]) -> Result<(), NumericsError> {
     let n = exchanges.len();
     check_dimension("matrix", a.len(), n * n)?;
@@ -64,7 +64,7 @@ pub fn factor_in_place<T: Real>(a: &mut [T], exchanges: &mut [usize]) -> Result<
 }
 
 /// The row, from `start` on, whose entry is largest; over lanes by its smallest share of the lane's largest.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn pivot_row<T: Real>(column: &[T], start: usize) -> usize {
     let share = |entry: T, lane: usize| {
         if T::LANES == 1 {
@@ -98,7 +98,7 @@ fn refused<T: Real>(pivot: usize, value: T, scale: T, threshold: T) -> NumericsE
 ///
 /// # Accuracy
 /// Relative error of a few n ulp × the condition number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn solve_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) -> Result<(), NumericsError> {
     let n = exchanges.len();
     check_dimension("factors", factors.len(), n * n)?;
@@ -126,7 +126,7 @@ pub fn solve_in_place<T: Real>(factors: &[T], exchanges: &[usize], b: &mut [T]) 
 ///
 /// # Errors
 /// [`NumericsError::WrongLength`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn solve_transposed_in_place<T: Real>(
     factors: &[T],
     exchanges: &[usize],

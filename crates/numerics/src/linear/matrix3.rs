@@ -14,14 +14,14 @@ use crate::sums::unit_in_last_place;
 use crate::{Mask, NumericsError, Real};
 
 /// a × b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// a · b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
@@ -31,7 +31,7 @@ pub fn dot<T: Real>(a: [T; 3], b: [T; 3]) -> T {
 ///
 /// # Accuracy
 /// Within 4 ulp of the sum of the six products with all signs positive.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn determinant<T: Real>(rows: [[T; 3]; 3]) -> T {
     dot(rows[0], cross(rows[1], rows[2]))
@@ -41,7 +41,7 @@ pub fn determinant<T: Real>(rows: [[T; 3]; 3]) -> T {
 ///
 /// # Accuracy
 /// Each entry within 2 ulp of the sum of its two products with positive signs.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn adjugate<T: Real>(rows: [[T; 3]; 3]) -> [[T; 3]; 3] {
     let columns = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];
@@ -52,7 +52,7 @@ pub fn adjugate<T: Real>(rows: [[T; 3]; 3]) -> [[T; 3]; 3] {
 ///
 /// # Accuracy
 /// A few ulp × the condition number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn inverse_and_determinant<T: Real>(rows: [[T; 3]; 3]) -> ([[T; 3]; 3], T) {
     let adjugate = adjugate(rows);
@@ -65,7 +65,7 @@ pub fn inverse_and_determinant<T: Real>(rows: [[T; 3]; 3]) -> ([[T; 3]; 3], T) {
 ///
 /// # Accuracy
 /// A few ulp × the condition number.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn solve_rows<T: Real>(rows: [[T; 3]; 3], right: [T; 3]) -> [T; 3] {
     let adjugate = adjugate(rows);
@@ -75,7 +75,7 @@ pub fn solve_rows<T: Real>(rows: [[T; 3]; 3], right: [T; 3]) -> [T; 3] {
 }
 
 /// The rows of a nalgebra matrix, for the kernels above.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn rows_of<T: Real>(matrix: &Matrix3<T>) -> [[T; 3]; 3] {
     // Written out: closures are not always inlined, and lanes then are copied through memory.
@@ -84,7 +84,7 @@ pub fn rows_of<T: Real>(matrix: &Matrix3<T>) -> [[T; 3]; 3] {
 }
 
 /// The nalgebra matrix of an array of rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn from_rows<T: Real>(rows: [[T; 3]; 3]) -> Matrix3<T> {
     let [x, y, z] = rows;

@@ -30,7 +30,7 @@ const UNARY: [&str; 15] = [
 const BINARY: [&str; 3] = ["powf", "atan2", "ln_1p_given"];
 
 /// The function `name` of x, or of x and y.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn apply<T: Real>(name: &str, x: T, y: T) -> T {
     match name {
         "exp" => x.exp(),
@@ -285,7 +285,7 @@ struct Many<'a, const N: usize> {
 
 impl<const N: usize> Kernel for Many<'_, N> {
     type Output = Vec<u64>;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Vec<u64> {
         let mut bits = Vec::with_capacity(self.pairs.len());
         for chunk in self.pairs.chunks_exact(N) {

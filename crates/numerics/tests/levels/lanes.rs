@@ -6,7 +6,7 @@ use piola_testkit::{Tol, assert_close};
 
 /// The period of a heavy pendulum to fourth order in its amplitude, with a mask for good measure: a formula
 /// with every operator.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn period<T: Real>(length: T, amplitude: T) -> T {
     let half = amplitude * T::lit(0.5);
     let s = half * (T::one() - half * half / T::lit(6.0));
@@ -112,7 +112,7 @@ struct Total<'a>(&'a [Lanes<f64, 4>]);
 
 impl Kernel for Total<'_> {
     type Output = Lanes<f64, 4>;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Lanes<f64, 4> {
         let mut total = Lanes::lit(0.0);
         for x in self.0 {

@@ -63,7 +63,7 @@ fn square<T: Real>([x, y]: [T; 2], [a, b]: [f64; 2], radius: f64) -> T {
 }
 
 impl MediumPart {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn index<T: Real>(&self, place: [T; 2]) -> T {
         match *self {
             Self::Uniform { index } => T::lit(index),
@@ -83,7 +83,7 @@ impl MediumPart {
 
 impl Medium {
     /// n at a place, m.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn index<T: Real>(&self, place: [T; 2]) -> T {
         let mut index = T::one();
         for part in &self.parts {
@@ -95,7 +95,7 @@ impl Medium {
 
 /// |p|/n, whose level 1 are the rays.
 impl PhaseFunction for Medium {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, q: &[T], p: &[T], _t: T) -> T {
         (p[0] * p[0] + p[1] * p[1]).sqrt() / self.index([q[0], q[1]])
     }

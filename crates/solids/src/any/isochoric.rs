@@ -29,19 +29,19 @@ macro_rules! any_isochoric {
             const SECOND: bool = true;
             const REFUSED_IS_NOT_FINITE: bool = true;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn energy<T: Real>(&self, first: T, second: T) -> T {
                 match self { $(Self::$name(part) => part.energy(first, second)),+ }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn slopes<T: Real>(&self, first: T, second: T) -> [T; 2] {
                 match self { $(Self::$name(part) => part.slopes(first, second)),+ }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3] {
                 match self { $(Self::$name(part) => part.curvatures(first, second)),+ }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn slopes_and_curvatures<T: Real>(&self, first: T, second: T) -> ([T; 2], [T; 3]) {
                 match self { $(Self::$name(part) => part.slopes_and_curvatures(first, second)),+ }
             }

@@ -208,7 +208,7 @@ macro_rules! dispatched {
     ($($method:ident -> $answer:ty),+ $(,)?) => {
         impl Hyperelastic for AnySolid {
             $(
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $method<T: Real>(&self, deformation: &impl Deformation<T>) -> $answer {
                     if Alone::<T>::IS {
                         of_law!(self, law => single::$method(law, deformation))

@@ -28,19 +28,19 @@ macro_rules! any_volumetric {
         impl Volumetric for AnyVolumetric {
             const EITHER_SIGN: bool = true;
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn energy<T: Real>(&self, change: T, jacobian: T) -> T {
                 match self { $(Self::$name(part) => part.energy(change, jacobian)),+ }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn mean_kirchhoff<T: Real>(&self, change: T, jacobian: T) -> T {
                 match self { $(Self::$name(part) => part.mean_kirchhoff(change, jacobian)),+ }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn curvature<T: Real>(&self, change: T, jacobian: T) -> T {
                 match self { $(Self::$name(part) => part.curvature(change, jacobian)),+ }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn stiffness<T: Real>(&self, change: T, jacobian: T) -> T {
                 match self { $(Self::$name(part) => part.stiffness(change, jacobian)),+ }
             }

@@ -9,14 +9,14 @@ use crate::Hyperelastic;
 use crate::SolidsError;
 
 /// Nine components by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn flat<T: Real>(stress: &FirstPiola<T>) -> [T; 9] {
     let [[a, b, c], [d, e, f], [g, h, i]] = rows_of(&stress.0);
     [a, b, c, d, e, f, g, h, i]
 }
 
 /// All lanes of a block whose deformations the law accepts, or none: each point is asked then.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn accepted<T: Real, L: Hyperelastic>(law: &L, deformation: &impl Deformation<T>) -> T::Mask {
     // The error is moved out where there is one: a result is dropped by a function that is not compiled for lanes.
     match law.check(deformation) {
@@ -33,7 +33,7 @@ fn refused<M: Mask>(error: SolidsError) -> M {
 }
 
 /// Lanes that the law accepts, by the answer itself where that tells; an answer beyond the range of the scalar is none.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn answered<T: Real, L: Hyperelastic, const K: usize>(
     law: &L,
     deformation: &impl Deformation<T>,
@@ -82,12 +82,12 @@ macro_rules! quantities {
             const KNOWS_DEFORMATIONS: bool = $crate::batch::requests::quantities!(@knows L $($knows)?);
             const INPUT: &'static str = "";
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, _input: [T; 0]) -> [T; $k] {
                 Self::answer(self.0, point)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, value: &[T; $k]) -> T::Mask {
                 $crate::batch::requests::answered(self.0, point, value)
             }
@@ -99,7 +99,7 @@ macro_rules! quantities {
         }
 
         impl<L: Hyperelastic> $name<'_, L> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn answer<T: Real>($law: &L, $point: &impl Deformation<T>) -> [T; $k] {
                 $value
             }

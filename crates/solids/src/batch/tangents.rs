@@ -11,7 +11,7 @@ use super::requests::{answered, flat, quantities};
 use crate::Hyperelastic;
 
 /// The entries (r, s) with r ≤ s of the 9×9 array, by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn upper<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 45] {
     let [a, b, c, d, e, f, g, h, i] = tangent.0.components;
     [
@@ -21,7 +21,7 @@ pub(super) fn upper<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 45] {
     ]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn square<T: Real>(tangent: &FirstPiolaTangent<T>) -> [T; 81] {
     let mut entries = [T::zero(); 81];
     let mut r = 0;
@@ -84,13 +84,13 @@ impl<L: Hyperelastic + Sync> Quantity<9, 9> for FirstPiolaDerivativeOf<'_, L> {
     const NEEDS_STRETCH: bool = false;
     const INPUT: &'static str = "direction of the derivative";
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, direction: [T; 9]) -> [T; 9] {
         let [a, b, c, d, e, f, g, h, i] = direction;
         flat(&self.0.first_piola_derivative(point, &from_rows([[a, b, c], [d, e, f], [g, h, i]])))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn good<T: Real, D: Deformation<T>>(&self, point: &Point<T, D>, value: &[T; 9]) -> T::Mask {
         answered(self.0, point, value)
     }

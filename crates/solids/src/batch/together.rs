@@ -37,7 +37,7 @@ quantities! {
 }
 
 /// W, P and 45 entries, one after the other.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn energy_before<T: Real>(energy: T, stress: &[T; 9], tangent: &[T; 45]) -> [T; 55] {
     let mut all = [energy; 55];
     let mut k = 0;
@@ -53,7 +53,7 @@ fn energy_before<T: Real>(energy: T, stress: &[T; 9], tangent: &[T; 45]) -> [T; 
 }
 
 /// Six components and 21, one after the other.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn with_tangent<T: Real>(stress: &[T; 6], tangent: &[T; 21]) -> [T; 27] {
     let mut all = [stress[0]; 27];
     let mut k = 1;
@@ -143,12 +143,12 @@ macro_rules! together {
                 let (first, second) = (self.0.count(), self.1.count());
                 if first == second { first } else { usize::MAX }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn split(self, middle: usize) -> (Self, Self) {
                 let ((a, b), (c, d)) = (self.0.split(middle), self.1.split(middle));
                 (Self(a, c), Self(b, d))
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn put(&mut self, index: usize, components: [T; $whole]) {
                 let (mut first, mut second) = ([components[0]; $first], [components[0]; $second]);
                 let mut k = 0;
@@ -163,14 +163,14 @@ macro_rules! together {
                 self.0.put(index, first);
                 self.1.put(index, second);
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn store<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; $whole]) {
                 if let (Some(head), Some(tail)) = (values.first_chunk(), values.last_chunk()) {
                     self.0.store(first, count, head);
                     self.1.store(first, count, tail);
                 }
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn scatter<const N: usize>(&mut self, first: usize, count: usize, values: &[Lanes<T, N>; $whole]) {
                 if let (Some(head), Some(tail)) = (values.first_chunk(), values.last_chunk()) {
                     self.0.scatter(first, count, head);

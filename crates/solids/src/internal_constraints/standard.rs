@@ -42,15 +42,15 @@ impl Incompressibility {
 }
 
 impl InternalConstraint for Incompressibility {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         deformation.volume_change()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient<T: Real>(&self, deformation: &impl Deformation<T>) -> Matrix3<T> {
         from_rows(deformation.cofactor_rows())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn reaction<T: Real>(&self, deformation: &impl Deformation<T>, multiplier: T) -> CauchyStress<T> {
         CauchyStress(Symmetric::identity() * (multiplier * deformation.jacobian()))
     }
@@ -101,7 +101,7 @@ impl Inextensibility {
         T::lit(2.0) * multiplier
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn image<T: Real>(&self, deformation: &impl Deformation<T>) -> [T; 3] {
         apply(deformation.gradient_rows(), self.fibre.direction().map(T::lit))
     }
@@ -109,20 +109,20 @@ impl Inextensibility {
 
 impl InternalConstraint for Inextensibility {
     /// e · (C − 1) e.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         let change = right_cauchy_green_minus_one(deformation.displacement_rows());
         let [x, y, z] = self.fibre.direction().map(T::lit);
         let [a, b, c] = change.apply([x, y, z]);
         x * a + y * b + z * c
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient<T: Real>(&self, deformation: &impl Deformation<T>) -> Matrix3<T> {
         let image = self.image(deformation);
         let e = self.fibre.direction().map(|x| T::lit(2.0 * x));
         Matrix3::from_fn(|i, j| image[i] * e[j])
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn reaction<T: Real>(&self, deformation: &impl Deformation<T>, multiplier: T) -> CauchyStress<T> {
         CauchyStress(Symmetric::dyad(self.image(deformation)) * (T::lit(2.0) * multiplier))
     }
@@ -155,28 +155,28 @@ pub struct Rigidity;
 
 impl Rigidity {
     /// μ = C − 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn value<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
         right_cauchy_green_minus_one(deformation.displacement_rows())
     }
 
     /// ∂(Λ : μ)/∂F = 2 F Λ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn gradient<T: Real>(&self, deformation: &impl Deformation<T>, multiplier: &Symmetric<T>) -> Matrix3<T> {
         from_rows(scaled(product(deformation.gradient_rows(), multiplier.rows()), T::lit(2.0)))
     }
 
     /// N = 2 F Λ Fᵀ, Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn reaction<T: Real>(&self, deformation: &impl Deformation<T>, multiplier: &Symmetric<T>) -> CauchyStress<T> {
         CauchyStress(multiplier.congruence(deformation.gradient_rows()) * T::lit(2.0))
     }
 
     /// Λ = ½ F⁻¹ N F⁻ᵀ: the multiplier of any stress.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn multiplier<T: Real>(&self, reaction: &CauchyStress<T>, deformation: &impl Deformation<T>) -> Symmetric<T> {
         reaction.0.congruence(deformation.inverse_rows()) * T::lit(0.5)

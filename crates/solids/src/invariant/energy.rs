@@ -55,7 +55,7 @@ pub struct Curvatures<T> {
 
 impl<T: Real> Curvatures<T> {
     /// Those of a law whose only curvature is that of the volume.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of_volume(volume_volume: T) -> Self {
         let o = T::zero();
@@ -90,7 +90,7 @@ pub trait InvariantEnergy: Clone {
     ///
     /// # Errors
     /// [`SolidsError::BeyondLimit`]; most laws have no limit.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         Ok(())
     }
@@ -110,7 +110,7 @@ pub trait InvariantEnergy: Clone {
     fn curvatures<T: Real>(&self, invariants: &Invariants<T>) -> Curvatures<T>;
 
     /// Both, with what they share computed once.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn slopes_and_curvatures<T: Real>(&self, invariants: &Invariants<T>) -> (Slopes<T>, Curvatures<T>) {
         (self.slopes(invariants), self.curvatures(invariants))
@@ -118,7 +118,7 @@ pub trait InvariantEnergy: Clone {
 }
 
 /// The invariants that a law uses.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn invariants_of<T: Real, L: InvariantEnergy>(_law: &L, deformation: &impl Deformation<T>) -> Invariants<T> {
     let first = invariants::first_minus_three(deformation);

@@ -31,7 +31,7 @@ pub(super) struct Kinematics<T: Real> {
 impl<T: Real> Kinematics<T> {
     /// Errors are relative to the strain or to |∇u|², as a stress needs it: those of the invariants themselves, as an
     /// energy needs it, are those of [`invariants_of`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of<L: InvariantEnergy>(gradient: Rows<T>, displacement: Rows<T>, jacobian: T) -> Self {
         let closed = Self::near::<L>(gradient, displacement);
         let near = kernels::is_moderate(gradient, displacement);
@@ -39,13 +39,13 @@ impl<T: Real> Kinematics<T> {
     }
 
     /// [`of`](Self::of) a deformation.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of_deformation<L: InvariantEnergy>(deformation: &impl Deformation<T>) -> Self {
         Self::of::<L>(deformation.gradient_rows(), deformation.displacement_rows(), deformation.jacobian())
     }
 
     /// Those of F and ∇u where they are [moderate](kernels::is_moderate).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn near<L: InvariantEnergy>(gradient: Rows<T>, h: Rows<T>) -> Self {
         if L::SECOND { Self::closed::<true>(gradient, h) } else { Self::closed::<false>(gradient, h) }
     }
@@ -105,7 +105,7 @@ impl<T: Real> Kinematics<T> {
     }
 
     /// With the forms for large strain in the lanes that need them.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn with_far<L: InvariantEnergy>(self, jacobian: T) -> Self {
         if L::SECOND { self.completed::<true>(jacobian) } else { self.completed::<false>(jacobian) }
     }
@@ -150,7 +150,7 @@ impl<T: Real> Kinematics<T> {
     }
 
     /// tr (C − 1), or tr C.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn trace(&self) -> T {
         let [a, b, c, ..] = self.change.components;
         a + b + c
@@ -158,7 +158,7 @@ impl<T: Real> Kinematics<T> {
 
     /// P = k (F − Cof F) + (s + k (J − 1))/J Cof F + 2 w₂ F ((I₁ − 3) 1 − (C − 1)),  k = 2 w₁ + 4 w₂;
     /// at large strain P = 2 w₁ F + ∂W/∂J Cof F + 2 w₂ F (I₁ 1 − C).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn first_piola<L: InvariantEnergy>(&self, slopes: &Slopes<T>) -> Rows<T> {
         let (two, four) = (T::lit(2.0), T::lit(4.0));
         let mut stiffness = two * slopes.first;
@@ -181,7 +181,7 @@ impl<T: Real> Kinematics<T> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn largest_modulus<T: Real>(a: &Symmetric<T>) -> T {
     let [a, b, c, d, e, f] = a.components;
     let (a, b, c, d, e, f) = (a.abs(), b.abs(), c.abs(), d.abs(), e.abs(), f.abs());
@@ -189,7 +189,7 @@ pub(super) fn largest_modulus<T: Real>(a: &Symmetric<T>) -> T {
     larger(larger(larger(a, b), larger(c, d)), larger(e, f))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn select<T: Real>(mask: T::Mask, a: Rows<T>, b: Rows<T>) -> Rows<T> {
     // Loops, not closures: those would not be inlined into lanes.
     let mut chosen = b;
@@ -205,7 +205,7 @@ fn select<T: Real>(mask: T::Mask, a: Rows<T>, b: Rows<T>) -> Rows<T> {
     chosen
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn select_symmetric<T: Real>(mask: T::Mask, a: &Symmetric<T>, b: &Symmetric<T>) -> Symmetric<T> {
     let mut chosen = *b;
     let mut k = 0;

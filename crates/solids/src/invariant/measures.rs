@@ -10,7 +10,7 @@ use super::kinematics::{SMALL, largest_modulus, select_symmetric};
 
 impl<T: Real> Invariants<T> {
     /// With I₁ and I₂ from F itself where `beside` does not hold.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn whole<L: InvariantEnergy>(self, beside: T::Mask, deformation: &impl Deformation<T>) -> Self {
         let f = deformation.gradient_rows();
         let k = deformation.cofactor_rows();
@@ -24,7 +24,7 @@ impl<T: Real> Invariants<T> {
 }
 
 /// τ = s 1 + (2 w₁ + 4 w₂)(B − 1) + 2 w₂ B ((I₁ − 3) 1 − (B − 1)); at large strain τ = J ∂W/∂J 1 + 2 w₁ B + 2 w₂ (I₁ B − B²).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn kirchhoff<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
     let change = kernels::left_cauchy_green_minus_one(deformation.displacement_rows());
@@ -47,7 +47,7 @@ pub fn kirchhoff<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deform
 }
 
 /// τ beside the reference.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn beside_kirchhoff<T: Real, L: InvariantEnergy>(
     slopes: &Slopes<T>,
     invariants: &Invariants<T>,
@@ -67,7 +67,7 @@ fn beside_kirchhoff<T: Real, L: InvariantEnergy>(
 }
 
 /// S = s C⁻¹ + (2 w₁ + 4 w₂)(1 − C⁻¹) + 2 w₂ ((I₁ − 3) 1 − (C − 1)); at large strain S = J ∂W/∂J C⁻¹ + 2 w₁ 1 + 2 w₂ (I₁ 1 − C).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> SecondPiola<T> {
     let (two, four) = (T::lit(2.0), T::lit(4.0));

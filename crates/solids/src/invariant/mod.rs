@@ -41,7 +41,7 @@ use tangent::tangent;
 /// assert!((excess / 5e-19 - 1.0).abs() < 1e-8); // ½ (J − 1)²
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn volume_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
     piola_numerics::internal::volume_excess(deformation.volume_change(), deformation.jacobian())
@@ -52,14 +52,14 @@ pub fn volume_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
 /// ```text
 /// I₁ − 3 − 2 (J − 1) = H : H − 2 i₂(H) − 2 det H,   H = ∇u
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
     first_excess_beside(deformation, volume_excess(deformation))
 }
 
 /// [`first_excess`], J − 1 − ln J given: what several terms of an energy share.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_excess_beside<T: Real>(deformation: &impl Deformation<T>, volume_excess: T) -> T {
     let h = deformation.displacement_rows();
@@ -72,14 +72,14 @@ pub fn first_excess_beside<T: Real>(deformation: &impl Deformation<T>, volume_ex
 /// ```text
 /// I₂ − 3 − 4 (J − 1) = 2 H : H + i₂(G) − 4 i₂(H) − 4 det H,   G = C − 1,  H = ∇u
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_excess<T: Real>(deformation: &impl Deformation<T>) -> T {
     second_excess_beside(deformation, volume_excess(deformation))
 }
 
 /// [`second_excess`], J − 1 − ln J given.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_excess_beside<T: Real>(deformation: &impl Deformation<T>, volume_excess: T) -> T {
     let h = deformation.displacement_rows();
@@ -90,7 +90,7 @@ pub fn second_excess_beside<T: Real>(deformation: &impl Deformation<T>, volume_e
 }
 
 /// i₂(H) + det H = det(1 + H) − 1 − tr H.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn beyond_trace<T: Real>(h: Rows<T>) -> T {
     let minor = |i: usize, j: usize| h[i][i] * h[j][j] - h[i][j] * h[j][i];
     (minor(0, 1) + minor(1, 2) + minor(0, 2)) + determinant(h)
@@ -100,7 +100,7 @@ fn beyond_trace<T: Real>(h: Rows<T>) -> T {
 ///
 /// # Accuracy
 /// A few ulp of its own norm × the condition number of F.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
     if L::STRAIGHT {
@@ -112,7 +112,7 @@ pub fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Defo
 }
 
 /// (∂P/∂F) : δF.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_derivative<T: Real, L: InvariantEnergy>(
     law: &L,
@@ -127,7 +127,7 @@ pub fn first_piola_derivative<T: Real, L: InvariantEnergy>(
 }
 
 /// (W, P), the change of volume computed once.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn energy_and_first_piola<T: Real, L: InvariantEnergy>(
     law: &L,
@@ -138,7 +138,7 @@ pub fn energy_and_first_piola<T: Real, L: InvariantEnergy>(
 }
 
 /// (W, P, ∂P/∂F), the change of volume computed once, and as [`first_piola_and_tangent`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn energy_first_piola_and_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
@@ -156,7 +156,7 @@ pub fn energy_first_piola_and_tangent<T: Real, L: InvariantEnergy>(
 /// ∂I₁ = 2F        ∂I₂ = 2 (I₁ F − F C)        ∂J = Cof F        ∂²I₁ = 2 δᵢⱼ δ_AB        ∂²J = εᵢⱼₖ ε_ABC F_kC
 /// ∂²I₂ = 2 (I₁ δᵢⱼ δ_AB + F_iA F_jB + εᵢⱼₖ ε_ABC Cof_kC − δᵢⱼ C_AB − Bᵢⱼ δ_AB)
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
@@ -171,7 +171,7 @@ pub fn first_piola_tangent<T: Real, L: InvariantEnergy>(
 }
 
 /// (P, ∂P/∂F), the invariants, slopes and Cof F computed once.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
@@ -188,7 +188,7 @@ pub fn first_piola_and_tangent<T: Real, L: InvariantEnergy>(
 
 /// P and the 45 entries of ∂P/∂F on and above its diagonal:
 /// [`Hyperelastic::first_piola_and_upper_triangle`](super::Hyperelastic::first_piola_and_upper_triangle).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_and_upper_triangle<T: Real, L: InvariantEnergy>(
     law: &L,
@@ -202,7 +202,7 @@ pub fn first_piola_and_upper_triangle<T: Real, L: InvariantEnergy>(
 }
 
 /// (S, ∂S/∂E), from P and ∂P/∂F.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_piola_and_tangent<T: Real, L: InvariantEnergy>(
     law: &L,
@@ -227,7 +227,7 @@ macro_rules! hyperelastic_of_invariants {
             fn is_incompressible(&self) -> bool {
                 $crate::invariant::InvariantEnergy::is_incompressible(self)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn first_piola_derivative<T: piola_numerics::Real>(
                 &self,
                 deformation: &impl piola_continuum::Deformation<T>,

@@ -26,13 +26,13 @@ struct Any<L>(L);
 /// (∂P/∂F) : δF of F and ∇u, which are moderate, and δF.
 struct NearAlong<L>(L);
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn stress<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T; 9] {
     let slopes = law.slopes(&kinematics.invariants);
     packed::of_stress(kinematics.first_piola::<L>(&slopes))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T; 54] {
     let (slopes, curvatures) = law.slopes_and_curvatures(&kinematics.invariants);
     let entries = tangent::<T, L>(&slopes, &curvatures, kinematics).0.components;
@@ -40,13 +40,13 @@ fn both<T: Real, L: InvariantEnergy>(law: &L, kinematics: &Kinematics<T>) -> [T;
 }
 
 /// |∇u|² = tr (C − 1) − 2 tr ∇u, as it tells what is moderate.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn square<T: Real>(kinematics: &Kinematics<T>, h: Rows<T>) -> T {
     kinematics.invariants.first - T::lit(2.0) * (h[0][0] + h[1][1] + h[2][2])
 }
 
 impl<L: InvariantEnergy> Lanewise<18, 10> for Near<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 10] {
         let [f, h] = packed::gradients(inputs);
         let kinematics = Kinematics::near::<L>(f, h);
@@ -56,7 +56,7 @@ impl<L: InvariantEnergy> Lanewise<18, 10> for Near<L> {
 }
 
 impl<L: InvariantEnergy> Lanewise<18, 55> for Near<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 55] {
         let [f, h] = packed::gradients(inputs);
         let kinematics = Kinematics::near::<L>(f, h);
@@ -65,7 +65,7 @@ impl<L: InvariantEnergy> Lanewise<18, 55> for Near<L> {
 }
 
 impl<L: InvariantEnergy> Lanewise<19, 9> for Any<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 19]) -> [T; 9] {
         let ([f, h], jacobian) = packed::gradients_and_jacobian(inputs);
         stress(&self.0, &Kinematics::of::<L>(f, h, jacobian))
@@ -73,7 +73,7 @@ impl<L: InvariantEnergy> Lanewise<19, 9> for Any<L> {
 }
 
 impl<L: InvariantEnergy> Lanewise<19, 54> for Any<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 19]) -> [T; 54] {
         let ([f, h], jacobian) = packed::gradients_and_jacobian(inputs);
         both(&self.0, &Kinematics::of::<L>(f, h, jacobian))
@@ -81,7 +81,7 @@ impl<L: InvariantEnergy> Lanewise<19, 54> for Any<L> {
 }
 
 impl<L: InvariantEnergy> Lanewise<27, 10> for NearAlong<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 27]) -> [T; 10] {
         let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z, last] = inputs;
         let gradient = along([[a, b, c], [d, e, f], [g, h, i]], [[s, t, u], [v, w, x], [y, z, last]]);
@@ -95,7 +95,7 @@ impl<L: InvariantEnergy> Lanewise<27, 10> for NearAlong<L> {
 }
 
 /// Entries that grow in a direction.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn along<T: Real>([x, y, z]: Rows<T>, [u, v, w]: Rows<T>) -> Rows<Dual<T>> {
     [
         [Dual::new(x[0], u[0]), Dual::new(x[1], u[1]), Dual::new(x[2], u[2])],
@@ -105,7 +105,7 @@ fn along<T: Real>([x, y, z]: Rows<T>, [u, v, w]: Rows<T>) -> Rows<Dual<T>> {
 }
 
 /// (∂P/∂F) : δF, the stress over dual numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first_piola_derivative<T: Real, L: InvariantEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
@@ -123,7 +123,7 @@ pub(super) fn first_piola_derivative<T: Real, L: InvariantEnergy>(
 }
 
 /// P; not finite in its first component where F is no deformation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
     let inputs = packed::of_deformation(deformation);
     let [a, b, c, d, e, f, g, h, i, square] = T::lanewise(&Near(law.clone()), inputs);
@@ -137,7 +137,7 @@ pub(super) fn first_piola<T: Real, L: InvariantEnergy>(law: &L, deformation: &im
 }
 
 /// P and the upper triangle of ∂P/∂F; neither is finite in its first component where F is no deformation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first_piola_and_upper_triangle<T: Real, L: InvariantEnergy>(
     law: &L,
     deformation: &impl Deformation<T>,
@@ -155,7 +155,7 @@ pub(super) fn first_piola_and_upper_triangle<T: Real, L: InvariantEnergy>(
 }
 
 /// The value where 0 < det F < ∞, NaN elsewhere.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn existing<T: Real>(jacobian: T, value: T) -> T {
     let exists = T::zero().less_than(jacobian) & jacobian.is_finite();
     if exists.all() { value } else { T::select(exists, value, T::lit(f64::NAN)) }

@@ -9,13 +9,13 @@ use piola_tensor::internal::rows::{Rows, product, product_transposed};
 use super::energy::{Curvatures, InvariantEnergy, Slopes};
 use super::kinematics::Kinematics;
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn flat<T: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Rows<T>) -> [T; 9] {
     [a, b, c, d, e, f, g, h, i]
 }
 
 /// α a.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn multiple<T: Real>(alpha: T, a: &[T; 9]) -> [T; 9] {
     let mut multiple = [T::zero(); 9];
     let mut r = 0;
@@ -27,7 +27,7 @@ fn multiple<T: Real>(alpha: T, a: &[T; 9]) -> [T; 9] {
 }
 
 /// α a + β b.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn combined<T: Real>(alpha: T, a: &[T; 9], beta: T, b: &[T; 9]) -> [T; 9] {
     let mut sum = [T::zero(); 9];
     let mut r = 0;
@@ -39,7 +39,7 @@ fn combined<T: Real>(alpha: T, a: &[T; 9], beta: T, b: &[T; 9]) -> [T; 9] {
 }
 
 /// The four kinds of terms: dyads of F, Cof F and ∂I₂; ε ε of F and Cof F; C and B; the diagonal.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn tangent<T: Real, L: InvariantEnergy>(
     slopes: &Slopes<T>,
     curvatures: &Curvatures<T>,

@@ -66,13 +66,13 @@ impl ArrudaBoyce {
     }
 
     /// λ of x = Ī₁ − 3.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn stretch<T: Real>(&self, first: T) -> T {
         stretch_of(T::lit(self.links), first)
     }
 
     /// [∂W̄/∂Ī₁, 0] of x, λ and β.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slope<T: Real>(&self, first: T, stretch: T, beta: T) -> [T; 2] {
         let slope = T::lit(self.rubbery_modulus / 6.0) * (beta / stretch);
         [within(first, T::lit(self.limit()), slope), T::zero()]
@@ -80,13 +80,13 @@ impl ArrudaBoyce {
 }
 
 /// λ of N and x = Ī₁ − 3.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn stretch_of<T: Real>(links: T, first: T) -> T {
     ((first + T::lit(3.0)) / (T::lit(3.0) * links)).sqrt()
 }
 
 /// ln(sinh β/β), for 0 < β.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn logarithm<T: Real>(beta: T) -> T {
     // sinh β/β = e^β (1 − e^(−2β))/(2β).
     let two = T::lit(2.0);
@@ -96,7 +96,7 @@ fn logarithm<T: Real>(beta: T) -> T {
 /// n N (f(λ) − f(λ₀)), over any scalar: parameters may have derivatives too.
 ///
 /// It is β₀ (λ − λ₀) + ∫ (λ − ℒ(b)) db from β₀ to β: of second order where it must be, by quadrature while β − β₀ ≤ 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn arruda_boyce<T: Real>(modulus: T, links: T, first: T) -> T {
     let (one, half, three) = (T::one(), T::lit(0.5), T::lit(3.0));
     let rest = stretch_of(links, T::zero());
@@ -125,24 +125,24 @@ impl Isochoric for ArrudaBoyce {
     const SECOND: bool = false;
     const REFUSED_IS_NOT_FINITE: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
         arruda_boyce(T::lit(self.rubbery_modulus), T::lit(self.links), first)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, first: T, _second: T) -> [T; 2] {
         let stretch = self.stretch(first);
         self.slope(first, stretch, inverse_langevin(stretch))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3] {
         self.slopes_and_curvatures(first, second).1
     }
 
     /// ∂²W̄/∂Ī₁² = n/(36 N λ²) (1/ℒ′(β) − β/λ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes_and_curvatures<T: Real>(&self, first: T, _second: T) -> ([T; 2], [T; 3]) {
         let stretch = self.stretch(first);
         let beta = inverse_langevin(stretch);
@@ -199,7 +199,7 @@ impl Isochoric for ArrudaBoyceSeries {
     const STRAIGHT: bool = true;
 
     /// Ī₁ᵏ − 3ᵏ = x (Ī₁ᵏ⁻¹ + 3 Ī₁ᵏ⁻² + … + 3ᵏ⁻¹).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
         let whole = first + T::lit(3.0);
         let (mut sum, mut quotient, mut three, mut scale) = (T::zero(), T::one(), 1.0, self.rubbery_modulus);
@@ -212,7 +212,7 @@ impl Isochoric for ArrudaBoyceSeries {
         first * sum
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, first: T, _second: T) -> [T; 2] {
         let ratio = (first + T::lit(3.0)) / T::lit(self.links);
         let mut sum = T::zero();
@@ -222,7 +222,7 @@ impl Isochoric for ArrudaBoyceSeries {
         [T::lit(self.rubbery_modulus) * sum, T::zero()]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, first: T, _second: T) -> [T; 3] {
         let ratio = (first + T::lit(3.0)) / T::lit(self.links);
         let mut sum = T::zero();

@@ -44,7 +44,7 @@ parameters! {
 }
 
 /// −½ μ Jₘ ln(1 − x/Jₘ), over any scalar: parameters may have derivatives too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn gent<T: Real>(mu: T, limit: T, first: T) -> T {
     within(first, limit, T::lit(-0.5) * mu * limit * (-first / limit).ln_1p())
 }
@@ -54,18 +54,18 @@ impl Isochoric for Gent {
     const REFUSED_IS_NOT_FINITE: bool = true;
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
         gent(T::lit(self.shear_modulus), T::lit(self.limit), first)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, first: T, _second: T) -> [T; 2] {
         let slope = T::lit(0.5 * self.shear_modulus * self.limit) / (T::lit(self.limit) - first);
         [within(first, T::lit(self.limit), slope), T::zero()]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, first: T, _second: T) -> [T; 3] {
         let reciprocal = (T::lit(self.limit) - first).recip();
         let curvature = T::lit(0.5 * self.shear_modulus * self.limit) * (reciprocal * reciprocal);

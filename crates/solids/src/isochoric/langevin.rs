@@ -23,14 +23,14 @@ const LEVELS: u8 = 13;
 /// assert!((langevin(3e-20) / 1e-20 - 1.0_f64).abs() < 1e-15); // β/3
 /// assert!((langevin(1.0) - 0.313_035_285_499_331_3_f64).abs() < 1e-15); // coth 1 − 1
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn langevin<T: Real>(beta: T) -> T {
     beta * ratio_and_slope(beta).0
 }
 
 /// ℒ(β)/β and ℒ′(β).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn ratio_and_slope<T: Real>(beta: T) -> (T, T) {
     let (one, two) = (T::one(), T::lit(2.0));
     let small = beta.abs().at_most(T::lit(SMALL));
@@ -93,7 +93,7 @@ const START: [f64; 8] = [
 /// let tension: f64 = inverse_langevin(0.999); // ℒ(β) = 1 − 1/β up to exp(−2β)
 /// assert!((tension - 1000.0).abs() < 1e-9);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn inverse_langevin<T: Real>(lambda: T) -> T {
     let square = lambda * lambda;

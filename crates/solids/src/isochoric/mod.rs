@@ -91,7 +91,7 @@ pub trait Isochoric: Clone {
     fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3];
 
     /// The slopes and curvatures, with what they share computed once.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn slopes_and_curvatures<T: Real>(&self, first: T, second: T) -> ([T; 2], [T; 3]) {
         (self.slopes(first, second), self.curvatures(first, second))
@@ -119,19 +119,19 @@ impl<I: Isochoric> Isochoric for &I {
     const LIMITED: bool = I::LIMITED;
     const STRAIGHT: bool = I::STRAIGHT;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, first: T, second: T) -> T {
         I::energy(self, first, second)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, first: T, second: T) -> [T; 2] {
         I::slopes(self, first, second)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, first: T, second: T) -> [T; 3] {
         I::curvatures(self, first, second)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes_and_curvatures<T: Real>(&self, first: T, second: T) -> ([T; 2], [T; 3]) {
         I::slopes_and_curvatures(self, first, second)
     }
@@ -144,7 +144,7 @@ impl<I: Isochoric> Isochoric for &I {
 }
 
 /// Checks each lane's x and y.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn check_lanes<T: Real>(law: &impl Isochoric, first: T, second: T) -> Result<(), SolidsError> {
     (0..T::LANES).try_for_each(|lane| law.check(first.primal(lane), second.primal(lane)))
 }

@@ -35,7 +35,7 @@ parameters! {
 }
 
 /// C₁₀ x + C₀₁ y, over any scalar: parameters may have derivatives too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn mooney_rivlin<T: Real>([c10, c01]: [T; 2], first: T, second: T) -> T {
     c10 * first + c01 * second
 }
@@ -46,17 +46,17 @@ impl Isochoric for MooneyRivlin {
     const LIMITED: bool = false;
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, first: T, second: T) -> T {
         mooney_rivlin([self.c10, self.c01].map(T::lit), first, second)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, _first: T, _second: T) -> [T; 2] {
         [T::lit(self.c10), T::lit(self.c01)]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, _first: T, _second: T) -> [T; 3] {
         [T::zero(); 3]
     }

@@ -31,7 +31,7 @@ parameters! {
 }
 
 /// ½ μ x, over any scalar: parameters may have derivatives too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn neo_hookean<T: Real>(mu: T, first: T) -> T {
     T::lit(0.5) * mu * first
 }
@@ -42,17 +42,17 @@ impl Isochoric for NeoHookean {
     const LIMITED: bool = false;
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
         neo_hookean(T::lit(self.shear_modulus), first)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, _first: T, _second: T) -> [T; 2] {
         [T::lit(0.5 * self.shear_modulus), T::zero()]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, _first: T, _second: T) -> [T; 3] {
         [T::zero(); 3]
     }

@@ -94,7 +94,7 @@ impl From<Rivlin> for Vec<RivlinTerm> {
 }
 
 /// C xⁱ yʲ, over any scalar: the coefficient may have derivatives too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn rivlin_term<T: Real>(coefficient: T, [i, j]: [u8; 2], first: T, second: T) -> T {
     coefficient * power(first, i) * power(second, j)
 }
@@ -104,7 +104,7 @@ impl Isochoric for Rivlin {
     const REFUSED_IS_NOT_FINITE: bool = true;
     const LIMITED: bool = false;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, first: T, second: T) -> T {
         let mut sum = T::zero();
         for term in &self.terms {
@@ -113,7 +113,7 @@ impl Isochoric for Rivlin {
         sum
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, x: T, y: T) -> [T; 2] {
         let mut sums = [T::zero(); 2];
         for &RivlinTerm { first: i, second: j, coefficient } in &self.terms {
@@ -124,7 +124,7 @@ impl Isochoric for Rivlin {
         sums
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, x: T, y: T) -> [T; 3] {
         let mut sums = [T::zero(); 3];
         for &RivlinTerm { first: i, second: j, coefficient } in &self.terms {

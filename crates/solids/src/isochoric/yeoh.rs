@@ -37,7 +37,7 @@ parameters! {
 }
 
 /// C₁ x + C₂ x² + C₃ x³, over any scalar: parameters may have derivatives too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn yeoh<T: Real>([c1, c2, c3]: [T; 3], first: T) -> T {
     first * (c1 + first * (c2 + first * c3))
 }
@@ -48,18 +48,18 @@ impl Isochoric for Yeoh {
     const LIMITED: bool = false;
     const STRAIGHT: bool = true;
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, first: T, _second: T) -> T {
         yeoh([self.c1, self.c2, self.c3].map(T::lit), first)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slopes<T: Real>(&self, first: T, _second: T) -> [T; 2] {
         let beyond = first * (T::lit(2.0 * self.c2) + first * T::lit(3.0 * self.c3));
         [T::lit(self.c1) + beyond, T::zero()]
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn curvatures<T: Real>(&self, first: T, _second: T) -> [T; 3] {
         [T::lit(2.0 * self.c2) + first * T::lit(6.0 * self.c3), T::zero(), T::zero()]
     }

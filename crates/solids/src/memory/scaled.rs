@@ -52,7 +52,7 @@ impl<L> Scaled<L> {
 }
 
 impl<L: Hyperelastic> Hyperelastic for Scaled<L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, deformation: &impl Deformation<T>) -> T {
         self.law.energy(deformation) * T::lit(self.factor)
     }
@@ -61,7 +61,7 @@ impl<L: Hyperelastic> Hyperelastic for Scaled<L> {
         self.law.reference_energy() * self.factor
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         self.law.check(deformation)
     }
@@ -70,20 +70,20 @@ impl<L: Hyperelastic> Hyperelastic for Scaled<L> {
         self.law.is_incompressible()
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         let factor = T::lit(self.factor);
         FirstPiola(self.law.first_piola(deformation).0.map(|x| x * factor))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_and_first_piola<T: Real>(&self, deformation: &impl Deformation<T>) -> (T, FirstPiola<T>) {
         let factor = T::lit(self.factor);
         let (energy, stress) = self.law.energy_and_first_piola(deformation);
         (energy * factor, FirstPiola(stress.0.map(|x| x * factor)))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy_first_piola_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
@@ -93,12 +93,12 @@ impl<L: Hyperelastic> Hyperelastic for Scaled<L> {
         (energy * factor, FirstPiola(stress.0.map(|x| x * factor)), scaled(tangent, self.factor))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_tangent<T: Real>(&self, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         scaled(self.law.first_piola_tangent(deformation), self.factor)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_and_tangent<T: Real>(
         &self,
         deformation: &impl Deformation<T>,
@@ -109,7 +109,7 @@ impl<L: Hyperelastic> Hyperelastic for Scaled<L> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scaled<T: Real>(mut tangent: FirstPiolaTangent<T>, factor: f64) -> FirstPiolaTangent<T> {
     for entry in tangent.0.components.as_flattened_mut() {
         *entry *= T::lit(factor);

@@ -277,7 +277,7 @@ impl<E: Hyperelastic, D: Hyperelastic> Viscoelastic<E, D> {
 }
 
 /// exp(−Δt/τ) h + φ(Δt/τ) ΔS.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn advanced<T: Real>(overstress: &Symmetric<T>, change: &Symmetric<T>, factors: &Factors) -> Symmetric<T> {
     *overstress * T::lit(factors.decay) + *change * T::lit(factors.share)
 }

@@ -107,7 +107,7 @@ impl StretchEnergy for IncompressibleOgden {
     const ISOCHORIC: bool = false;
     parts_of_series!();
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         check_volume(LAW, deformation)?;
         self.series.check(LAW, deformation, false)
@@ -115,21 +115,21 @@ impl StretchEnergy for IncompressibleOgden {
     fn is_incompressible(&self) -> bool {
         true
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_energy<T: Real>(&self, volume: &Volume<T>) -> T {
         match self.pressure {
             Pressure::Excess(q) => -(T::lit(q) * volume.change),
             Pressure::Whole(p) => T::lit(self.moduli) * volume.logarithm - T::lit(p) * volume.change,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_slope<T: Real>(&self, volume: &Volume<T>) -> T {
         match self.pressure {
             Pressure::Excess(q) => -(T::lit(q) * volume.jacobian),
             Pressure::Whole(p) => (T::lit(self.moduli) - T::lit(p)) - T::lit(p) * volume.change,
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_curvature<T: Real>(&self, volume: &Volume<T>) -> T {
         let (Pressure::Excess(pressure) | Pressure::Whole(pressure)) = self.pressure;
         -(T::lit(pressure) * volume.jacobian)

@@ -214,20 +214,20 @@ macro_rules! ogden {
             const ISOCHORIC: bool = $isochoric;
             parts_of_series!();
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn check<T: Real>(&self, deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
                 self.series.check($name, deformation, $isochoric)
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn volume_energy<T: Real>(&self, volume: &Volume<T>) -> T {
                 self.volumetric.energy(volume.change, volume.jacobian)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn volume_slope<T: Real>(&self, volume: &Volume<T>) -> T {
                 self.volumetric.mean_kirchhoff(volume.change, volume.jacobian)
             }
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn volume_curvature<T: Real>(&self, volume: &Volume<T>) -> T {
                 self.volumetric.stiffness(volume.change, volume.jacobian)
             }

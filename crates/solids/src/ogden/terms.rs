@@ -77,7 +77,7 @@ impl Series {
     }
 
     /// Refuses stretches whose powers leave the range of the scalar.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn check<T: Real>(
         &self,
         law: &'static str,
@@ -124,28 +124,28 @@ impl Series {
         check_exponent(law, "2 α ln λ", two * exponent, factor * factor)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn part<T: Real>(&self, x: T) -> T {
         sum_of!(self, |mu, alpha| ogden_term(T::lit(mu), T::lit(alpha), x))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn slope<T: Real>(&self, x: T) -> T {
         sum_of!(self, |mu, alpha| T::lit(mu) * (T::lit(alpha) * x).exp_m1())
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn curvature<T: Real>(&self, x: T) -> T {
         sum_of!(self, |mu, alpha| T::lit(mu * alpha) * (T::lit(alpha) * x).exp())
     }
 
     /// Σ μ α.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn curvature_at_rest<T: Real>(&self) -> T {
         sum_of!(self, |mu, alpha| T::lit(mu * alpha))
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn secant<T: Real>(&self, x: T, y: T) -> T {
         sum_of!(self, |mu, alpha| {
             let order = T::lit(alpha);
@@ -155,7 +155,7 @@ impl Series {
 }
 
 /// 2^⌊x/ln 2⌋ ≤ eˣ, for 0 ≤ x ≤ 80.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn power_of_two_below_exp(x: f64) -> f64 {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ x/ln 2 < 116")]
     let exponent = (x * core::f64::consts::LOG2_E) as u64;
@@ -163,7 +163,7 @@ fn power_of_two_below_exp(x: f64) -> f64 {
 }
 
 /// μ/α (e^(α x) − 1 − α x), over any scalar: parameters may have derivatives too.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn ogden_term<T: Real>(mu: T, alpha: T, x: T) -> T {
     mu / alpha * excess_of_exponential(alpha * x)
 }
@@ -171,23 +171,23 @@ pub fn ogden_term<T: Real>(mu: T, alpha: T, x: T) -> T {
 /// w and its derivatives are those of the series.
 macro_rules! parts_of_series {
     () => {
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn part<T: Real>(&self, x: T) -> T {
             self.series.part(x)
         }
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn slope<T: Real>(&self, x: T) -> T {
             self.series.slope(x)
         }
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn curvature<T: Real>(&self, x: T) -> T {
             self.series.curvature(x)
         }
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn curvature_at_rest<T: Real>(&self) -> T {
             self.series.curvature_at_rest()
         }
-        #[inline(always)]
+        #[cfg_attr(not(debug_assertions), inline(always))]
         fn secant<T: Real>(&self, x: T, y: T) -> T {
             self.series.secant(x, y)
         }

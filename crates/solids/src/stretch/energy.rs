@@ -18,7 +18,7 @@ pub struct Volume<T> {
 
 impl<T: Real> Volume<T> {
     /// That of F or ∇u.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
         Self {
@@ -38,7 +38,7 @@ pub trait StretchEnergy {
     ///
     /// # Errors
     /// [`SolidsError::BeyondLimit`]; most laws have no limit.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn check<T: Real>(&self, _deformation: &impl Deformation<T>) -> Result<(), SolidsError> {
         Ok(())
     }
@@ -62,7 +62,7 @@ pub trait StretchEnergy {
     fn curvature<T: Real>(&self, x: T) -> T;
 
     /// w″(0), Pa.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn curvature_at_rest<T: Real>(&self) -> T {
         self.curvature(T::zero())
@@ -86,7 +86,7 @@ pub trait StretchEnergy {
 }
 
 /// J^(−1/3) for an isochoric law, whose stretches are λₐ times it; otherwise 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn isochoric_scale<T: Real, L: StretchEnergy>(volume: &Volume<T>) -> T {
     if L::ISOCHORIC { volume.jacobian.recip_cbrt() } else { T::one() }
 }

@@ -14,7 +14,7 @@ pub(super) struct Isochoric<T> {
 }
 
 impl<T: Real> Isochoric<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of(deformation: &impl Deformation<T>) -> Self {
         let change_of_volume = deformation.volume_change();
         let Unimodular { third: scale, third_change: change, .. } =
@@ -39,26 +39,26 @@ impl<T: Real> Isochoric<T> {
 }
 
 impl<T: Real> Deformation<T> for Isochoric<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<T> {
         self.gradient
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn displacement_rows(&self) -> Rows<T> {
         self.displacement
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lifted<S: Real>(&self, lift: impl Fn(usize, usize, T) -> S) -> impl Deformation<S> {
         let entry = |i: usize, j: usize| lift(i, j, self.displacement[i][j]);
         let row = |i: usize| [entry(i, 0), entry(i, 1), entry(i, 2)];
         let displacement = [row(0), row(1), row(2)];
         Isochoric { gradient: sum(displacement, identity()), displacement }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn jacobian(&self) -> T {
         T::one()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn volume_change(&self) -> T {
         T::zero()
     }

@@ -37,7 +37,7 @@ use parts::{Part, Stress};
 use principal::{Principal, tangent};
 
 /// The stretches that w acts on.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn analysis<T: Real, L: StretchEnergy>(deformation: &impl Deformation<T>) -> StretchAnalysis<T> {
     if L::ISOCHORIC { StretchAnalysis::of(&Isochoric::of(deformation)) } else { StretchAnalysis::of(deformation) }
 }
@@ -46,14 +46,14 @@ fn analysis<T: Real, L: StretchEnergy>(deformation: &impl Deformation<T>) -> Str
 ///
 /// # Accuracy
 /// A few ulp of Σ |w| + |U|, down to the smallest strains.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn energy<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> T {
     let known = KnownVolume::of(deformation);
     energy_of(law, &analysis::<T, L>(&known), &Volume::of(&known))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn energy_of<T: Real, L: StretchEnergy>(law: &L, stretches: &StretchAnalysis<T>, volume: &Volume<T>) -> T {
     let volume = law.volume_energy(volume);
     if T::ORDER == 0 {
@@ -66,7 +66,7 @@ fn energy_of<T: Real, L: StretchEnergy>(law: &L, stretches: &StretchAnalysis<T>,
 /// Σ w′(xₐ)/λₐⁿ over the axes of U, or of V for `SPATIAL`; and Σ w′(xₐ), for an isochoric law.
 ///
 /// Each logarithm and each w′ is computed once, whatever the number of powers in it.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn stress_function<T: Real, L: StretchEnergy, const N: usize, const SPATIAL: bool>(
     law: &L,
     stretches: &StretchAnalysis<T>,
@@ -89,14 +89,14 @@ fn stress_function<T: Real, L: StretchEnergy, const N: usize, const SPATIAL: boo
 }
 
 /// The spherical part of β: J U′, less the mean of the w′ if the law is isochoric.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn uniform<T: Real, L: StretchEnergy>(law: &L, sum: T, volume: &Volume<T>) -> T {
     let slope = law.volume_slope(volume);
     if L::ISOCHORIC { slope - sum * T::lit(1.0 / 3.0) } else { slope }
 }
 
 /// τ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn kirchhoff<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
     let known = KnownVolume::of(deformation);
@@ -107,7 +107,7 @@ pub fn kirchhoff<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformat
 }
 
 /// P = R f(U) + p F⁻ᵀ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> FirstPiola<T> {
     let known = KnownVolume::of(deformation);
@@ -115,7 +115,7 @@ pub fn first_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deform
 }
 
 /// (W, P), the stretches analysed once.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn energy_and_first_piola<T: Real, L: StretchEnergy>(
     law: &L,
@@ -127,7 +127,7 @@ pub fn energy_and_first_piola<T: Real, L: StretchEnergy>(
     (energy_of(law, &analysis, &volume), FirstPiola(from_rows(stress)))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn first_piola_rows<T: Real, L: StretchEnergy>(
     law: &L,
     stretches: &StretchAnalysis<T>,
@@ -142,7 +142,7 @@ fn first_piola_rows<T: Real, L: StretchEnergy>(
 }
 
 /// S = f(U) + p C⁻¹.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> SecondPiola<T> {
     let known = KnownVolume::of(deformation);
@@ -160,7 +160,7 @@ pub fn second_piola<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Defor
 ///
 /// # Accuracy
 /// A few ulp of its norm × (λ₁/λ₃)², also for equal stretches.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn material_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> MaterialTangent<T> {
     if T::ORDER != 0 {
@@ -172,7 +172,7 @@ pub fn material_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl D
 }
 
 /// (S, ∂S/∂E), the stretches analysed once.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_piola_and_tangent<T: Real, L: StretchEnergy>(
     law: &L,
@@ -188,7 +188,7 @@ pub fn second_piola_and_tangent<T: Real, L: StretchEnergy>(
 }
 
 /// (T, c/J), the stretches analysed once.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn cauchy_and_tangent<T: Real, L: StretchEnergy>(
     law: &L,
@@ -207,7 +207,7 @@ pub fn cauchy_and_tangent<T: Real, L: StretchEnergy>(
 }
 
 /// c/J, closed in the frame of the spatial axes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn truesdell_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl Deformation<T>) -> TruesdellTangent<T> {
     if T::ORDER != 0 {
@@ -220,7 +220,7 @@ pub fn truesdell_tangent<T: Real, L: StretchEnergy>(law: &L, deformation: &impl 
 }
 
 /// ∂P/∂F, closed in the two principal frames.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_tangent<T: Real, L: StretchEnergy>(
     law: &L,
@@ -235,7 +235,7 @@ pub fn first_piola_tangent<T: Real, L: StretchEnergy>(
 }
 
 /// (P, ∂P/∂F), the stretches analysed once.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_and_tangent<T: Real, L: StretchEnergy>(
     law: &L,
@@ -251,7 +251,7 @@ pub fn first_piola_and_tangent<T: Real, L: StretchEnergy>(
 }
 
 /// (W, P, ∂P/∂F), the stretches analysed once.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn energy_first_piola_and_tangent<T: Real, L: StretchEnergy>(
     law: &L,
@@ -313,7 +313,7 @@ macro_rules! hyperelastic_of_stretches {
     };
     ([$($generics:tt)*] $law:ty, $($method:ident -> $result:ty),*) => {
         impl<$($generics)*> $crate::Hyperelastic for $law {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn check<T: piola_numerics::Real>(
                 &self,
                 deformation: &impl piola_continuum::Deformation<T>,
@@ -324,7 +324,7 @@ macro_rules! hyperelastic_of_stretches {
                 $crate::stretch::StretchEnergy::is_incompressible(self)
             }
             $(
-                #[inline(always)]
+                #[cfg_attr(not(debug_assertions), inline(always))]
                 fn $method<T: piola_numerics::Real>(
                     &self,
                     deformation: &impl piola_continuum::Deformation<T>,

@@ -9,15 +9,15 @@ use super::energy::StretchEnergy;
 pub(super) struct Part<'a, L>(pub(super) &'a L);
 
 impl<L: StretchEnergy> IsotropicFunction for Part<'_, L> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, stretch: T) -> T {
         self.0.part(stretch.ln())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value_beside_one<T: Real>(&self, elongation: T) -> T {
         self.0.part(elongation.ln_1p())
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slope_at_one<T: Real>(&self) -> T {
         T::zero()
     }
@@ -27,7 +27,7 @@ impl<L: StretchEnergy> IsotropicFunction for Part<'_, L> {
 pub(super) struct Stress<'a, L, const N: usize>(pub(super) &'a L);
 
 impl<L: StretchEnergy, const N: usize> Stress<'_, L, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn divided<T: Real>(slope: T, stretch: T) -> T {
         match N {
             0 => slope,
@@ -38,15 +38,15 @@ impl<L: StretchEnergy, const N: usize> Stress<'_, L, N> {
 }
 
 impl<L: StretchEnergy, const N: usize> IsotropicFunction for Stress<'_, L, N> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, stretch: T) -> T {
         Self::divided(self.0.slope(stretch.ln()), stretch)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value_beside_one<T: Real>(&self, elongation: T) -> T {
         Self::divided(self.0.slope(elongation.ln_1p()), T::one() + elongation)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         let (x, y) = (a.ln(), b.ln());
         let slope = self.0.secant(x, y) * Logarithm.divided_difference(a, b);
@@ -57,7 +57,7 @@ impl<L: StretchEnergy, const N: usize> IsotropicFunction for Stress<'_, L, N> {
             _ => (slope - self.0.slope(x) * (a + b) / (a * a)) / (b * b),
         }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rough_divided_difference<T: Real>(&self, a: T, b: T, value_at_a: T, value_at_b: T) -> T {
         let (sum, gap) = (a + b, a - b);
         let near = gap.abs().less_than(sum * T::lit(1e-4));
@@ -75,7 +75,7 @@ impl<L: StretchEnergy, const N: usize> IsotropicFunction for Stress<'_, L, N> {
         let slope = Self::divided(self.0.curvature(x) - order * self.0.slope(x), middle) / middle;
         T::select(near, slope, quotient)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slope_at_one<T: Real>(&self) -> T {
         self.0.curvature_at_rest()
     }

@@ -27,7 +27,7 @@ pub(super) struct Principal<T> {
 const PAIRS: [(usize, usize); 3] = [(0, 1), (1, 2), (0, 2)];
 
 impl<T: Real> Principal<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn of<L: StretchEnergy>(law: &L, analysis: &StretchAnalysis<T>, volume: &Volume<T>) -> Self {
         let x = analysis.log_principal_stretches();
         let scale = isochoric_scale::<T, L>(volume).recip();
@@ -56,7 +56,7 @@ impl<T: Real> Principal<T> {
     }
 
     /// P = Σ βₐ/λₐ nₐ ⊗ Nₐ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn first_piola(&self, analysis: &StretchAnalysis<T>) -> FirstPiola<T> {
         let (n, m) = (analysis.spatial_axes(), analysis.material_axes());
         let v = quotients(self.stress, self.stretches);
@@ -68,7 +68,7 @@ impl<T: Real> Principal<T> {
     }
 
     /// Σ valueₐ axisₐ ⊗ axisₐ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn about(v: [T; 3], n: &Rows<T>) -> Symmetric<T> {
         Symmetric {
             components: [
@@ -83,14 +83,14 @@ impl<T: Real> Principal<T> {
     }
 
     /// S = Σ βₐ/λₐ² Nₐ ⊗ Nₐ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn second_piola(&self, analysis: &StretchAnalysis<T>) -> SecondPiola<T> {
         let values = quotients(quotients(self.stress, self.stretches), self.stretches);
         SecondPiola(Self::about(values, &analysis.material_axes()))
     }
 
     /// ∂S/∂E: F⁻¹ nₐ = Nₐ/λₐ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn material_tangent(&self, analysis: &StretchAnalysis<T>) -> MaterialTangent<T> {
         let ([a, b, c], [l, m, n]) = (analysis.material_axes(), self.stretches);
         let frame = transpose([quotients(a, [l; 3]), quotients(b, [m; 3]), quotients(c, [n; 3])]);
@@ -98,7 +98,7 @@ impl<T: Real> Principal<T> {
     }
 
     /// c/J.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn truesdell_tangent(&self, analysis: &StretchAnalysis<T>, volume: &Volume<T>) -> TruesdellTangent<T> {
         let scale = volume.jacobian.recip();
         let components = push_forward(transpose(analysis.spatial_axes()), &self.lie().map(|x| x * scale));
@@ -106,7 +106,7 @@ impl<T: Real> Principal<T> {
     }
 
     /// `λₐ λᵦ A_abba` for 12, 23, 13.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn exchange(&self, pair: usize) -> T {
         let (a, b) = PAIRS[pair];
         let (l, m) = (self.stretches[a], self.stretches[b]);
@@ -114,7 +114,7 @@ impl<T: Real> Principal<T> {
     }
 
     /// The tangent of the Lie derivative of τ in the spatial frame, its upper triangle by rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn lie(&self) -> [T; 21] {
         let (o, k) = (T::zero(), &self.stiffness);
         let along = |a: usize| k[a] - T::lit(2.0) * self.stress[a];
@@ -148,25 +148,25 @@ impl<T: Real> Principal<T> {
 // Functions, not closures, which the compiler may leave out of line, where there are no lanes.
 
 /// (βₐ − βᵦ)/(λₐ² − λᵦ²).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn secant<T: Real, L: StretchEnergy>(law: &L, x: &[T; 3], stretches: &[T; 3], a: usize, b: usize) -> T {
     let (l, m) = (stretches[a], stretches[b]);
     T::lit(0.5) * law.secant(x[a], x[b]) * Logarithm.divided_difference(l * l, m * m)
 }
 
 /// Component by component.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn quotients<T: Real>([a, b, c]: [T; 3], [x, y, z]: [T; 3]) -> [T; 3] {
     [a / x, b / y, c / z]
 }
 
 /// Entry (i, j) of Σ vₐ nₐ ⊗ mₐ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn dyads<T: Real>(v: [T; 3], n: &Rows<T>, m: &Rows<T>, i: usize, j: usize) -> T {
     (v[0] * n[0][i]) * m[0][j] + (v[1] * n[1][i]) * m[1][j] + (v[2] * n[2][i]) * m[2][j]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn tangent<T: Real>(principal: &Principal<T>, analysis: &StretchAnalysis<T>) -> FirstPiolaTangent<T> {
     let (n, m) = (analysis.spatial_axes(), analysis.material_axes());
     let [l, k, j] = principal.stretches;

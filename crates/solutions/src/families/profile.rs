@@ -26,25 +26,25 @@ pub(crate) struct Cylindrical<T> {
 
 impl<T: Real> Cylindrical<T> {
     /// κ at s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn scale(&self, s: T) -> T {
         if self.is_sector { s } else { T::one() }
     }
     /// ξ at s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn area(&self, s: T) -> T {
         if self.is_sector { T::lit(0.5) * s * s } else { s }
     }
     /// r².
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn radicand(&self, s: T) -> T {
         T::lit(2.0) * self.a * self.area(s) + self.offset
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn radius(&self, s: T) -> T {
         self.radicand(s).sqrt()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn gradient(&self, s: T) -> Rows<T> {
         let (r, k, zero) = (self.radius(s), self.scale(s), T::zero());
         let [b, c, d, e] = self.block;
@@ -56,7 +56,7 @@ impl<T: Real> Cylindrical<T> {
     /// B_θθ − B_rr = (κ/r)² ((b q)² − a²) + (r c)²        B⁻¹_θθ − B⁻¹_rr = (κ/r)² ((a e)² − (q/a)²) + (a d/r)²
     /// q = (r/κ)²,  of a sector a + offset/κ²: for b = 1 nothing cancels near the reference
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn stresses(
         &self,
         law: &impl ResponseFunctions,
@@ -81,7 +81,7 @@ impl<T: Real> Cylindrical<T> {
         Ok((extra, direct * left + inverse * right, terms))
     }
     /// `dT_rr/ds = (N_θθ − N_rr) a κ/r²`, W(25.14–25.16), with the moduli of its terms.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn slope(&self, law: &impl ResponseFunctions, s: T) -> Result<([T; 1], f64), SolutionsError> {
         let (_, hoop, terms) = self.stresses(law, s)?;
         let rate = self.a * self.scale(s) / self.radicand(s);
@@ -90,7 +90,7 @@ impl<T: Real> Cylindrical<T> {
 }
 
 /// The moduli of the terms of `N_θθ` − `N_rr`.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn moduli<T: Real>(extra: &Symmetric<T>, left: f64, right: f64) -> f64 {
     // Rounding of the gradient is a share of N where the closed forms of the differences are not exact.
     let size = extra.components[0].primal(0).abs() + extra.components[1].primal(0).abs();
@@ -119,15 +119,15 @@ pub(crate) struct Spherical<T> {
 
 impl<T: Real> Spherical<T> {
     /// r³.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn radicand(&self, s: T) -> T {
         T::lit(self.sign) * s * s * s + self.a
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn radius(&self, s: T) -> T {
         self.radicand(s).cbrt()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn gradient(&self, s: T) -> Rows<T> {
         let (zero, sign) = (T::zero(), T::lit(self.sign));
         let stretch = self.radius(s) / s;
@@ -138,7 +138,7 @@ impl<T: Real> Spherical<T> {
     /// ```text
     /// λ = r/R:   B_θθ − B_rr = (λ⁶ − 1)/λ⁴      B⁻¹_θθ − B⁻¹_rr = −(λ⁶ − 1)/λ²      λ³ ∓ 1 = a/R³
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(crate) fn slope(&self, law: &impl ResponseFunctions, s: T) -> Result<([T; 1], f64), SolutionsError> {
         let [direct, inverse] = LocalDeformation::of(self.gradient(s)).checked_response(law)?;
         let cube = self.radicand(s);

@@ -147,7 +147,7 @@ fn free_sides<T: Real>(law: &impl Hyperelastic, stretch: T) -> Option<[T; 3]> {
 }
 
 /// ∇u of a mode.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn gradient_of<T: Real>(mode: Mode, stretch: T) -> Rows<T> {
     match mode {
         Mode::SimpleShear => {

@@ -39,7 +39,7 @@ use crate::SpecimensError;
 use crate::error::check_bound;
 
 /// ∇u of stretches along the axes, from the elongations.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn diagonal<T: Real>([a, b, c]: [T; 3]) -> Rows<T> {
     let o = T::zero();
     [[a, o, o], [o, b, o], [o, o, c]]

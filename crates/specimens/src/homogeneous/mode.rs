@@ -59,7 +59,7 @@ impl Mode {
     /// assert_eq!(Mode::Uniaxial.elongations(4.0), [3.0, -0.5, -0.5]);
     /// assert_eq!(Mode::SimpleShear.elongations(1.5), [1.0, 0.0, -0.5]); // 2 − 1/2 = 1.5
     /// ```
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn elongations<T: Real>(self, stretch: T) -> [T; 3] {
         let (one, two) = (T::one(), T::lit(2.0));

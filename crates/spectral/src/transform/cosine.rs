@@ -64,7 +64,7 @@ impl<T: Precision> CosinePlan<T> {
     }
 
     /// From samples to modes.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn to_modes(&self, parity: Parity, panel: &mut [Line<T>], scratch: &mut [Line<T>]) {
         let n = self.length;
         let panel = &mut panel[..n];
@@ -112,7 +112,7 @@ impl<T: Precision> CosinePlan<T> {
     }
 
     /// From modes to samples.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn to_samples(&self, parity: Parity, panel: &mut [Line<T>], scratch: &mut [Line<T>]) {
         let n = self.length;
         let panel = &mut panel[..n];
@@ -171,20 +171,20 @@ impl<T: Precision> CosinePlan<T> {
 }
 
 /// Where index i of the cosines is stored: sines have slots i and n − i exchanged.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn slot(i: usize, n: usize, is_sine: bool) -> usize {
     if is_sine && i != 0 { n - i } else { i }
 }
 
 /// a w.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn turned_by<T: Precision>(a: [Line<T>; 2], w: [T; 2]) -> [Line<T>; 2] {
     let [c, s] = w.map(Line::splat);
     [a[0] * c - a[1] * s, a[0] * s + a[1] * c]
 }
 
 /// a conj w.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn turned_back<T: Precision>(a: [Line<T>; 2], w: [T; 2]) -> [Line<T>; 2] {
     let [c, s] = w.map(Line::splat);
     [a[0] * c + a[1] * s, a[1] * c - a[0] * s]

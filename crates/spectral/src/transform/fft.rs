@@ -50,7 +50,7 @@ impl<T: Precision> FourierPlan<T> {
     }
 
     /// Transforms the numbers in `first`, with `second` as memory. True when the result is in `second`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn run(&self, first: &mut [Line<T>], second: &mut [Line<T>]) -> bool {
         let mut is_in_second = false;
         for pass in &self.passes {
@@ -64,7 +64,7 @@ impl<T: Precision> FourierPlan<T> {
         is_in_second
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn combine(&self, pass: &Pass, from: &[Line<T>], into: &mut [Line<T>]) {
         let factors = &self.factors[pass.factors..];
         match pass.radix {
@@ -79,48 +79,48 @@ impl<T: Precision> FourierPlan<T> {
 /// A complex number in each lane.
 type Pair<T> = [Line<T>; 2];
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn load<T: Precision>(from: &[Line<T>], index: usize) -> Pair<T> {
     let pair = &from[2 * index..2 * index + 2];
     [pair[0], pair[1]]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn store<T: Precision>(into: &mut [Line<T>], index: usize, [re, im]: Pair<T>) {
     let pair = &mut into[2 * index..2 * index + 2];
     pair[0] = re;
     pair[1] = im;
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add<T: Precision>(a: Pair<T>, b: Pair<T>) -> Pair<T> {
     [a[0] + b[0], a[1] + b[1]]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn sub<T: Precision>(a: Pair<T>, b: Pair<T>) -> Pair<T> {
     [a[0] - b[0], a[1] - b[1]]
 }
 
 /// −i a.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn turned<T: Precision>([re, im]: Pair<T>) -> Pair<T> {
     [im, -re]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn scaled<T: Precision>(a: Pair<T>, factor: f64) -> Pair<T> {
     let factor = Line::splat(T::lit(factor));
     [a[0] * factor, a[1] * factor]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn times<T: Precision>(a: Pair<T>, factor: [T; 2]) -> Pair<T> {
     let [c, s] = factor.map(Line::splat);
     [a[0] * c - a[1] * s, a[0] * s + a[1] * c]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn radix_2<T: Precision>(pass: &Pass, factors: &[[T; 2]], from: &[Line<T>], into: &mut [Line<T>]) {
     let (m, s) = (pass.rest, pass.stride);
     for p in 0..m {
@@ -133,7 +133,7 @@ fn radix_2<T: Precision>(pass: &Pass, factors: &[[T; 2]], from: &[Line<T>], into
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn radix_3<T: Precision>(pass: &Pass, factors: &[[T; 2]], from: &[Line<T>], into: &mut [Line<T>]) {
     let (m, s) = (pass.rest, pass.stride);
     for p in 0..m {
@@ -150,7 +150,7 @@ fn radix_3<T: Precision>(pass: &Pass, factors: &[[T; 2]], from: &[Line<T>], into
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn radix_4<T: Precision>(pass: &Pass, factors: &[[T; 2]], from: &[Line<T>], into: &mut [Line<T>]) {
     let (m, s) = (pass.rest, pass.stride);
     for p in 0..m {
@@ -175,7 +175,7 @@ fn radix_4<T: Precision>(pass: &Pass, factors: &[[T; 2]], from: &[Line<T>], into
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn radix_5<T: Precision>(pass: &Pass, factors: &[[T; 2]], from: &[Line<T>], into: &mut [Line<T>]) {
     // cos and sin of 2π/5 and 4π/5.
     const C: [f64; 2] = [0.309_016_994_374_947_45, -0.809_016_994_374_947_5];

@@ -117,7 +117,7 @@ pub struct InLanes<'a, T> {
 
 impl<T: Precision> Kernel for InLanes<'_, T> {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
         let Self { plan, direction, parity, panel, memory } = self;
         match (&plan.method, direction) {

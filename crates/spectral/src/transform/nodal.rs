@@ -58,7 +58,7 @@ impl<T: Precision> NodalPlan<T> {
     }
 
     /// Both ways. Sines ignore the first and the last sample, and return zeros there.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn run(&self, parity: Parity, panel: &mut [Line<T>], scratch: &mut [Line<T>]) {
         let n = self.intervals;
         let panel = &mut panel[..=n];

@@ -38,14 +38,14 @@ pub struct FourthOrder<T = f64> {
 
 impl<T: Real> FourthOrder<T> {
     /// 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn zero() -> Self {
         Self { components: [[T::zero(); 9]; 9] }
     }
 
     /// From a formula for `C_ijkl`, indices from 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn from_fn(f: impl Fn(usize, usize, usize, usize) -> T) -> Self {
         let mut components = [[T::zero(); 9]; 9];
@@ -58,14 +58,14 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// `C_ijkl`, indices from 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn entry(&self, i: usize, j: usize, k: usize, l: usize) -> T {
         self.components[3 * i + j][3 * k + l]
     }
 
     /// A ⊗ B = `A_ij B_kl`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn dyad(a: Rows<T>, b: Rows<T>) -> Self {
         Self::from_fn(|i, j, k, l| a[i][j] * b[k][l])
@@ -73,7 +73,7 @@ impl<T: Real> FourthOrder<T> {
 
     /// A ⊗̄ B = `A_ik B_jl`: C ↦ A C Bᵀ.
     #[doc(alias = "otimesu")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn upper_dyad(a: Rows<T>, b: Rows<T>) -> Self {
         Self::from_fn(|i, j, k, l| a[i][k] * b[j][l])
@@ -81,49 +81,49 @@ impl<T: Real> FourthOrder<T> {
 
     /// A ⊗̲ B = `A_il B_jk`: C ↦ A Cᵀ Bᵀ.
     #[doc(alias = "otimesl")]
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn lower_dyad(a: Rows<T>, b: Rows<T>) -> Self {
         Self::from_fn(|i, j, k, l| a[i][l] * b[j][k])
     }
 
     /// δᵢₖ δⱼₗ: A ↦ A.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn identity() -> Self {
         Self::from_fn(|i, j, k, l| delta::<T>(i, k) * delta(j, l))
     }
 
     /// δᵢₗ δⱼₖ: A ↦ Aᵀ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn transposer() -> Self {
         Self::from_fn(|i, j, k, l| delta::<T>(i, l) * delta(j, k))
     }
 
     /// A ↦ ½ (A + Aᵀ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn symmetrizer() -> Self {
         (Self::identity() + Self::transposer()) * T::lit(0.5)
     }
 
     /// A ↦ ½ (A − Aᵀ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn skew_projector() -> Self {
         (Self::identity() - Self::transposer()) * T::lit(0.5)
     }
 
     /// A ↦ ⅓ tr A 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn spherical() -> Self {
         Self::from_fn(|i, j, k, l| delta::<T>(i, j) * delta(k, l) * T::lit(1.0 / 3.0))
     }
 
     /// C : A = `C_ijkl A_kl`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn contract(&self, a: Rows<T>) -> Rows<T> {
         let entry = |i: usize, j: usize| dot9(&self.components[3 * i + j], &a);
@@ -132,7 +132,7 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// A : C = `A_ij C_ijkl`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn contract_left(&self, a: Rows<T>) -> Rows<T> {
         self.transpose().contract(a)
@@ -154,7 +154,7 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// The tensor with the pairs exchanged, `C_klij`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn transpose(&self) -> Self {
         Self::from_fn(|i, j, k, l| self.entry(k, l, i, j))
@@ -164,7 +164,7 @@ impl<T: Real> FourthOrder<T> {
     /// configuration with F = G.
     ///
     /// Four stages of 243 products each, in place of 3⁸.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn transformed(&self, f: Rows<T>, g: Rows<T>) -> Self {
         let half = |c: &[[T; 9]; 9]| {
@@ -212,7 +212,7 @@ impl<T: Real> FourthOrder<T> {
     }
 
     /// The part with minor symmetries: the mean over exchanges within the pairs.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn minor_part(&self) -> MinorSymmetric<T> {
         let quarter = T::lit(0.25);
@@ -243,7 +243,7 @@ impl<T: Real> FourthOrder<T> {
         largest
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
         let mut components = a.components;
         for (row, other) in components.iter_mut().zip(&b.components) {
@@ -258,13 +258,13 @@ impl<T: Real> FourthOrder<T> {
 linear_space!(FourthOrder);
 
 /// δᵢⱼ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn delta<T: Real>(i: usize, j: usize) -> T {
     if i == j { T::one() } else { T::zero() }
 }
 
 /// Σ cₖₗ aₖₗ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn dot9<T: Real>(c: &[T; 9], a: &Rows<T>) -> T {
     (c[0] * a[0][0] + c[1] * a[0][1] + c[2] * a[0][2])
         + (c[3] * a[1][0] + c[4] * a[1][1] + c[5] * a[1][2])

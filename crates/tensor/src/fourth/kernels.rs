@@ -14,27 +14,27 @@ use crate::rows::Rows;
 use crate::slots::Slots;
 
 /// a · b of six numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn dot6<T: Real>(a: &[T; 6], b: &[T; 6]) -> T {
     (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
 }
 
 /// The 6×6 matrix M with slots(F S Fᵀ) = M slots(S) for symmetric S.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn congruence_matrix<T: Real>(f: Rows<T>) -> Slots<T> {
     [squares(f[0]), squares(f[1]), squares(f[2]), products(f[0], f[1]), products(f[1], f[2]), products(f[0], f[2])]
 }
 
 /// Row (i, i) of the congruence.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn squares<T: Real>(a: [T; 3]) -> [T; 6] {
     let twice = [a[0] + a[0], a[1] + a[1]];
     [a[0] * a[0], a[1] * a[1], a[2] * a[2], twice[0] * a[1], twice[1] * a[2], twice[0] * a[2]]
 }
 
 /// Row (i, j) of the congruence.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn products<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 6] {
     [
         a[0] * b[0],
@@ -47,21 +47,21 @@ fn products<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 6] {
 }
 
 /// Row i of a symmetric 6×6 matrix whose upper triangle is stored by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn full_row<T: Real>(c: &[T; 21], i: usize) -> [T; 6] {
     let at = |j: usize| c[triangle(i, j)];
     [at(0), at(1), at(2), at(3), at(4), at(5)]
 }
 
 /// The place of (i, j) in the upper triangle stored by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) const fn triangle(i: usize, j: usize) -> usize {
     let (i, j) = if i <= j { (i, j) } else { (j, i) };
     i * (11 - i) / 2 + j
 }
 
 /// M C Mᵀ of the upper triangle of a symmetric C: that of the result.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn transform_major<T: Real>(m: &Slots<T>, c: &[T; 21]) -> [T; 21] {
     let rows = [full_row(c, 0), full_row(c, 1), full_row(c, 2), full_row(c, 3), full_row(c, 4), full_row(c, 5)];
@@ -78,7 +78,7 @@ pub fn transform_major<T: Real>(m: &Slots<T>, c: &[T; 21]) -> [T; 21] {
 }
 
 /// M C Mᵀ of a 6×6 matrix C.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn transform_minor<T: Real>(m: &Slots<T>, c: &Slots<T>) -> Slots<T> {
     // Columns of C as rows: each entry of M C is one dot product.
@@ -94,7 +94,7 @@ pub fn transform_minor<T: Real>(m: &Slots<T>, c: &Slots<T>) -> Slots<T> {
 }
 
 /// v C for a row v, where `columns[j]` is column j of C.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn times_symmetric<T: Real>(v: &[T; 6], columns: &Slots<T>) -> [T; 6] {
     [
         dot6(v, &columns[0]),
@@ -107,14 +107,14 @@ fn times_symmetric<T: Real>(v: &[T; 6], columns: &Slots<T>) -> [T; 6] {
 }
 
 /// The transpose of a 6×6 matrix.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn transposed<T: Real>(c: &Slots<T>) -> Slots<T> {
     let row = |j: usize| [c[0][j], c[1][j], c[2][j], c[3][j], c[4][j], c[5][j]];
     [row(0), row(1), row(2), row(3), row(4), row(5)]
 }
 
 /// Components (ij) of C : A for symmetric A, from the rows of C: shears of A count twice.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn contract<T: Real>(c: &Slots<T>, a: [T; 6]) -> [T; 6] {
     let doubled = [a[0], a[1], a[2], a[3] + a[3], a[4] + a[4], a[5] + a[5]];
     [

@@ -51,35 +51,35 @@ macro_rules! upper {
 
 impl<T: Real> MajorSymmetric<T> {
     /// 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn zero() -> Self {
         Self { components: [T::zero(); 21] }
     }
 
     /// The identity of symmetric tensors, ½ (δᵢₖ δⱼₗ + δᵢₗ δⱼₖ): A ↦ A.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn identity() -> Self {
         Self::isotropic(T::zero(), T::lit(0.5))
     }
 
     /// ⅓ 1 ⊗ 1: A ↦ ⅓ tr A 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn spherical() -> Self {
         Self::isotropic(T::lit(1.0 / 3.0), T::zero())
     }
 
     /// The identity less the spherical projector: A ↦ dev A.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn deviatoric() -> Self {
         Self::isotropic(T::lit(-1.0 / 3.0), T::lit(0.5))
     }
 
     /// λ 1 ⊗ 1 + 2 μ identity: A ↦ λ tr A 1 + 2 μ A, Hooke's law of an isotropic body.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn isotropic(lambda: T, mu: T) -> Self {
         let (o, l, m) = (T::zero(), lambda, mu);
@@ -88,7 +88,7 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// A ⊗ A = `A_ij A_kl`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn dyad(a: &Symmetric<T>) -> Self {
         let a = a.components;
@@ -96,7 +96,7 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ½ (A ⊗ B + B ⊗ A).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn symmetric_dyad(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
         let (a, b, half) = (a.components, b.components, T::lit(0.5));
@@ -104,7 +104,7 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ½ (A ⊗̄ A + A ⊗̲ A) = ½ (`A_ik A_jl + A_il A_jk`): B ↦ A B A; its negative is ∂A⁻¹/∂A at A⁻¹.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn square_dyad(a: &Symmetric<T>) -> Self {
         let (a, half) = (a.rows(), T::lit(0.5));
@@ -116,7 +116,7 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// ¼ (A ⊗̄ B + A ⊗̲ B + B ⊗̄ A + B ⊗̲ A): C ↦ ½ (A C B + B C A).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn symmetric_square_dyad(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
         let (a, b, quarter) = (a.rows(), b.rows(), T::lit(0.25));
@@ -135,7 +135,7 @@ impl<T: Real> MajorSymmetric<T> {
     }
 
     /// From a formula for entry (row, column), row ≤ column, of the 6×6 array over pairs.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_fn(f: impl Fn(usize, usize) -> T) -> Self {
         let mut components = [T::zero(); 21];
         let mut place = 0;
@@ -148,7 +148,7 @@ impl<T: Real> MajorSymmetric<T> {
         Self { components }
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
         // Written out as those of `upper`.
         let (a, b) = (&a.components, &b.components);
@@ -162,20 +162,20 @@ impl<T: Real> MajorSymmetric<T> {
 linear_space!(MajorSymmetric);
 
 impl<T: Real> PairSymmetric<T> for MajorSymmetric<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slots(&self) -> Slots<T> {
         let row = |i: usize| kernels::full_row(&self.components, i);
         [row(0), row(1), row(2), row(3), row(4), row(5)]
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_slots(slots: &Slots<T>) -> Self {
         Self::from_fn(|i, j| slots[i][j])
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn transformed(&self, matrix: &Slots<T>) -> Self {
         Self { components: kernels::transform_major(matrix, &self.components) }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn entry(&self, i: usize, j: usize, k: usize, l: usize) -> T {
         self.components[kernels::triangle(SLOT[i][j], SLOT[k][l])]
     }

@@ -38,21 +38,21 @@ pub struct MinorSymmetric<T = f64> {
 
 impl<T: Real> MinorSymmetric<T> {
     /// 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn zero() -> Self {
         Self { components: [[T::zero(); 6]; 6] }
     }
 
     /// The identity of symmetric tensors, ½ (δᵢₖ δⱼₗ + δᵢₗ δⱼₖ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn identity() -> Self {
         MajorSymmetric::identity().minor()
     }
 
     /// A ⊗ B = `A_ij B_kl`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn dyad(a: &Symmetric<T>, b: &Symmetric<T>) -> Self {
         let b = b.components;
@@ -65,7 +65,7 @@ impl<T: Real> MinorSymmetric<T> {
     ///
     /// `images[(kl)]` is the image of the tensor with `A_kl = A_lk = 1` and no other component: of a shear it is
     /// `2 C_ijkl`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn from_images(images: &[Symmetric<T>; 6]) -> Self {
         let half = T::lit(0.5);
@@ -82,7 +82,7 @@ impl<T: Real> MinorSymmetric<T> {
     }
 
     /// The tensor with the pairs exchanged, `C_klij`.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn transpose(&self) -> Self {
         Self { components: kernels::transposed(&self.components) }
@@ -96,7 +96,7 @@ impl<T: Real> MinorSymmetric<T> {
     }
 
     /// ½ (`C_ijkl + C_klij`).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn major_part(&self) -> MajorSymmetric<T> {
         let sum = *self + self.transpose();
@@ -140,7 +140,7 @@ impl<T: Real> MinorSymmetric<T> {
         Ok(inverse * scale)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
         let mut components = a.components;
         for (row, other) in components.iter_mut().zip(&b.components) {
@@ -155,19 +155,19 @@ impl<T: Real> MinorSymmetric<T> {
 linear_space!(MinorSymmetric);
 
 impl<T: Real> PairSymmetric<T> for MinorSymmetric<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slots(&self) -> Slots<T> {
         self.components
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn from_slots(slots: &Slots<T>) -> Self {
         Self { components: *slots }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn transformed(&self, matrix: &Slots<T>) -> Self {
         Self { components: kernels::transform_minor(matrix, &self.components) }
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn entry(&self, i: usize, j: usize, k: usize, l: usize) -> T {
         self.components[SLOT[i][j]][SLOT[k][l]]
     }

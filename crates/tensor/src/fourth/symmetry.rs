@@ -55,7 +55,7 @@ pub trait PairSymmetric<T: Real>:
     ///
     /// # Accuracy
     /// 24 ulp of |F|⁴ |C|.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn congruence(&self, f: Rows<T>) -> Self {
         self.transformed(&kernels::congruence_matrix(f))
@@ -72,28 +72,28 @@ pub trait PairSymmetric<T: Real>:
     }
 
     /// C : A.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn contract(&self, a: &Symmetric<T>) -> Symmetric<T> {
         Symmetric { components: kernels::contract(&self.slots(), a.components) }
     }
 
     /// A : C.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn contract_left(&self, a: &Symmetric<T>) -> Symmetric<T> {
         Symmetric { components: kernels::contract(&kernels::transposed(&self.slots()), a.components) }
     }
 
     /// A : C : B, for A = B a quadratic form such as twice an energy.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn quadratic_form(&self, a: &Symmetric<T>, b: &Symmetric<T>) -> T {
         a.double_contraction(&self.contract(b))
     }
 
     /// C : D, which lacks major symmetry in general.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn double_contraction(&self, other: &impl PairSymmetric<T>) -> MinorSymmetric<T> {
         // Shears of the pair that is summed over count twice.
@@ -131,7 +131,7 @@ pub trait PairSymmetric<T: Real>:
     }
 
     /// The same tensor without the claim of major symmetry.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn minor(&self) -> MinorSymmetric<T> {
         MinorSymmetric { components: self.slots() }

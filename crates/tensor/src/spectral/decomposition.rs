@@ -92,7 +92,7 @@ pub fn check_principal<T: Real>(values: &[T; 3], axes: Rows<T>) -> Result<(), Te
 /// assert!((decomposition.values[1] - 1.0).abs() < 1e-15);
 /// assert!((decomposition.vectors[0][0] - decomposition.vectors[0][1]).abs() < 1e-15);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn decompose<T: Real>(a: &Symmetric<T>) -> SpectralDecomposition<T> {
     let frozen = Symmetric { components: a.components.map(T::frozen) };
@@ -108,7 +108,7 @@ pub fn decompose<T: Real>(a: &Symmetric<T>) -> SpectralDecomposition<T> {
 }
 
 /// The values in descending order: within rounding they are already.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn descending<T: Real>([a, b, c]: [T; 3]) -> [T; 3] {
     let (a, b) = ordered(a, b);
     let (b, c) = ordered(b, c);
@@ -117,7 +117,7 @@ pub fn descending<T: Real>([a, b, c]: [T; 3]) -> [T; 3] {
 }
 
 /// The larger and the smaller, each with its own derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn ordered<T: Real>(a: T, b: T) -> (T, T) {
     let swap = a.less_than(b);
     (T::select(swap, b, a), T::select(swap, a, b))
@@ -127,7 +127,7 @@ pub(crate) fn ordered<T: Real>(a: T, b: T) -> (T, T) {
 /// eigenvectors before normalisation: row k is vₖ with vₖₖ = 1.
 ///
 /// Each pass of vₖⱼ = (Mₖⱼ + Mⱼᵢ vₖᵢ)/(μₖ − Mⱼⱼ) brings in one order of derivatives.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn lifted<T: Real>(m: [T; 6]) -> ([T; 3], Rows<T>) {
     let diagonal = [m[0], m[1], m[2]];
     let off = |i: usize, j: usize| m[[[0, 3, 5], [3, 1, 4], [5, 4, 2]][i][j]];
@@ -155,7 +155,7 @@ pub fn lifted<T: Real>(m: [T; 6]) -> ([T; 3], Rows<T>) {
 }
 
 /// Σ tₖₗ qₗ, normalised: the axes turned by what [`lifted`] found.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn turned<T: Real>(axes: &Rows<T>, turns: Rows<T>) -> Rows<T> {
     turns.map(|t| {
         let scale = dot(t, t).sqrt().recip();

@@ -21,7 +21,7 @@ const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 const ENTRY: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
 
 /// The components of f(Λ + N), given f at the nodes Λ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn expand<T: Real, F: IsotropicFunction + ?Sized>(f: &F, nodes: [T; 3], values: [T; 3], n: [T; 6]) -> [T; 6] {
     const { assert!(T::ORDER <= LARGEST_ORDER, "isotropic functions have derivatives up to the fourth order") };
     let [a, b, c] = nodes;
@@ -147,7 +147,7 @@ impl<T: Real> Table<T> {
         table
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn at<const M: usize>(&self, nodes: [usize; M]) -> T {
         let mut count = [0; 3];
         for node in nodes {

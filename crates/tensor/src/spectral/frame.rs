@@ -51,19 +51,19 @@ struct Range {
 const DOUBLE: Range = Range { low: 1e-100, high: 1e100, nothing_squared: 1e-240, nothing: 1e-140 };
 const SINGLE: Range = Range { low: 1e-12, high: 1e12, nothing_squared: 1e-32, nothing: 1e-17 };
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn range<T: Real>() -> Range {
     if unit_in_last_place::<T>() < 1e-10 { DOUBLE } else { SINGLE }
 }
 
 /// Four terms of the polynomial of the root, from k on.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn cubic<T: Real>(k: usize, t: T, t2: T) -> T {
     (T::lit(ROOT[k]) + T::lit(ROOT[k + 1]) * t) + (T::lit(ROOT[k + 2]) + T::lit(ROOT[k + 3]) * t) * t2
 }
 
 /// The root y of y³ − 3y = 2q in [√3, 2], for 0 ≤ q ≤ 1, or beyond by rounding.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn separated_root<T: Real>(q: T) -> T {
     let t = q - T::lit(0.5);
     let t2 = t * t;
@@ -75,26 +75,26 @@ fn separated_root<T: Real>(q: T) -> T {
 }
 
 /// The larger of two numbers by one comparison.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn larger<T: Real>(a: T, b: T) -> T {
     T::select(a.less_than(b), b, a)
 }
 
 /// The smaller of two numbers by one comparison.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn smaller<T: Real>(a: T, b: T) -> T {
     T::select(b.less_than(a), b, a)
 }
 
 /// The largest modulus of six numbers.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn largest_modulus<T: Real>(a: [T; 6]) -> T {
     let [a, b, c, d, e, f] = [a[0].abs(), a[1].abs(), a[2].abs(), a[3].abs(), a[4].abs(), a[5].abs()];
     larger(larger(larger(a, b), larger(c, d)), larger(e, f))
 }
 
 /// `if_true` or `if_false`, component by component.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn choose<T: Real>(mask: T::Mask, if_true: [T; 3], if_false: [T; 3]) -> [T; 3] {
     [
         T::select(mask, if_true[0], if_false[0]),
@@ -104,25 +104,25 @@ fn choose<T: Real>(mask: T::Mask, if_true: [T; 3], if_false: [T; 3]) -> [T; 3] {
 }
 
 /// a u + b v.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn combination<T: Real>(a: T, u: [T; 3], b: T, v: [T; 3]) -> [T; 3] {
     [a * u[0] + b * v[0], a * u[1] + b * v[1], a * u[2] + b * v[2]]
 }
 
 /// a u.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn times<T: Real>([x, y, z]: [T; 3], a: T) -> [T; 3] {
     [x * a, y * a, z * a]
 }
 
 /// u/a: a vector along an axis over its length is exactly of length 1, which by the reciprocal it need not be.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn over<T: Real>([x, y, z]: [T; 3], a: T) -> [T; 3] {
     [x / a, y / a, z / a]
 }
 
 /// ½ A:A/3 of the squares of its components, and a little.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn mean_square<T: Real>([xx, yy, zz, xy, yz, xz]: [T; 6], little: f64) -> T {
     (xx + yy + zz) * T::lit(1.0 / 6.0) + ((xy + yz + xz) * T::lit(1.0 / 3.0) + T::lit(little))
 }
@@ -151,7 +151,7 @@ pub struct UnturnedFrame<T: Real> {
 
 impl<T: Real> UnturnedFrame<T> {
     /// The axes by rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn axes(&self) -> Rows<T> {
         let ([n, u, w], [c, s]) = (self.vectors, self.turn);
         let inverse = self.square.sqrt().recip();
@@ -160,7 +160,7 @@ impl<T: Real> UnturnedFrame<T> {
     }
 
     /// (F qₖ by rows, their products) for the axes qₖ, from F: neither waits for r, the root with which the angle ends.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn images(&self, f: Rows<T>) -> (Rows<T>, [T; 6]) {
         let ([n, u, w], [c, s]) = (self.vectors, self.turn);
         let (n, u, w) = (apply(f, n), apply(f, u), apply(f, w));
@@ -173,7 +173,7 @@ impl<T: Real> UnturnedFrame<T> {
 }
 
 /// Gₖₗ = bₖ · bₗ for 11, 22, 33, 12, 23, 13.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn gram<T: Real>([a, b, c]: &Rows<T>) -> [T; 6] {
     [dot(*a, *a), dot(*b, *b), dot(*c, *c), dot(*a, *b), dot(*b, *c), dot(*a, *c)]
 }
@@ -187,14 +187,14 @@ pub fn gram<T: Real>([a, b, c]: &Rows<T>) -> [T; 6] {
 /// # Accuracy
 /// The axes are orthonormal within 2 ulp; the components that remain off the diagonal are a few ulp of the
 /// deviator, whatever the gaps are. For A = m 1 the axes are some axes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn separated_frame<T: Real>(a: &Symmetric<T>) -> (Rows<T>, T::Mask) {
     let frame = unturned_frame(a);
     (frame.axes(), frame.first)
 }
 
 /// `separated_frame` but for its last rotation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn unturned_frame<T: Real>(a: &Symmetric<T>) -> UnturnedFrame<T> {
     let range = range::<T>();
     let (one, half) = (T::one(), T::lit(0.5));
@@ -269,19 +269,19 @@ pub fn unturned_frame<T: Real>(a: &Symmetric<T>) -> UnturnedFrame<T> {
 }
 
 /// Of `separated_frame`, what belongs to the axes, in descending order.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn in_order<T: Real>(first: T::Mask, [n, larger, smaller]: [T; 3]) -> [T; 3] {
     choose::<T>(first, [n, larger, smaller], [larger, smaller, n])
 }
 
 /// The axes of `separated_frame` in descending order, right-handed as they are.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn axes_in_order<T: Real>(first: T::Mask, [n, larger, smaller]: Rows<T>) -> Rows<T> {
     [choose::<T>(first, n, larger), choose::<T>(first, larger, smaller), choose::<T>(first, smaller, n)]
 }
 
 /// Q A Qᵀ for axes Q by rows: the components 11, 22, 33, 12, 23, 13 of A in that frame.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn components_in<T: Real>(axes: &Rows<T>, a: &Symmetric<T>) -> [T; 6] {
     let [q, r, s] = *axes;
     let (aq, ar, a_s) = (a.apply(q), a.apply(r), a.apply(s));
@@ -289,19 +289,19 @@ pub fn components_in<T: Real>(axes: &Rows<T>, a: &Symmetric<T>) -> [T; 6] {
 }
 
 /// Σ mₖ qₖ. A function, as all that lanes go through: what a closure holds the compiler may leave out of line.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn weighted<T: Real>([q, r, s]: &Rows<T>, [a, b, c]: [T; 3]) -> [T; 3] {
     [a * q[0] + b * r[0] + c * s[0], a * q[1] + b * r[1] + c * s[1], a * q[2] + b * r[2] + c * s[2]]
 }
 
 /// Entry (i, j) of Σ aₖ ⊗ bₖ.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn product_entry<T: Real>([a0, a1, a2]: &Rows<T>, [b0, b1, b2]: &Rows<T>, i: usize, j: usize) -> T {
     a0[i] * b0[j] + a1[i] * b1[j] + a2[i] * b2[j]
 }
 
 /// Σ Mₖₗ qₖ ⊗ qₗ: the tensor that has the components M in the frame of axes Q by rows.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn from_frame<T: Real>(axes: &Rows<T>, m: [T; 6]) -> Symmetric<T> {
     let [xx, yy, zz, xy, yz, xz] = m;
     let images = [weighted(axes, [xx, xy, xz]), weighted(axes, [xy, yy, yz]), weighted(axes, [xz, yz, zz])];

@@ -21,24 +21,24 @@ use crate::error::check_finite;
 pub struct SquareRoot;
 
 impl IsotropicFunction for SquareRoot {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, x: T) -> T {
         x.sqrt()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         (a.sqrt() + b.sqrt()).recip()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn second_divided_difference<T: Real>(&self, a: T, b: T, c: T) -> T {
         let (a, b, c) = (a.sqrt(), b.sqrt(), c.sqrt());
         -((a + b) * (b + c) * (c + a)).recip()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rough_divided_difference<T: Real>(&self, _a: T, _b: T, root_of_a: T, root_of_b: T) -> T {
         (root_of_a + root_of_b).recip()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slope_at_one<T: Real>(&self) -> T {
         T::lit(0.5)
     }
@@ -56,29 +56,29 @@ impl IsotropicFunction for SquareRoot {
 pub struct Logarithm;
 
 impl IsotropicFunction for Logarithm {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, x: T) -> T {
         x.ln()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value_beside_one<T: Real>(&self, x: T) -> T {
         x.ln_1p()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value_of_root<T: Real>(&self, _root: T, square: T) -> T {
         T::lit(0.5) * square.ln()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value_of_root_beside_one<T: Real>(&self, _excess: T, square_less_one: T) -> T {
         T::lit(0.5) * square_less_one.ln_1p()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         // ln(1 + w)/(w b) with w = (a − b)/b ≥ 0, where the argument's rounding is not magnified.
         let (a, b) = ordered(a, b);
         logarithmic_quotient((a - b) / b) / b
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn rough_divided_difference<T: Real>(&self, a: T, b: T, log_of_a: T, log_of_b: T) -> T {
         // 2/(a + b) is within z²/3 for z = (a − b)/(a + b).
         let (sum, gap) = (a + b, a - b);
@@ -86,7 +86,7 @@ impl IsotropicFunction for Logarithm {
         // The quotient need not wait for the logarithms.
         T::select(near, T::lit(2.0), log_of_a - log_of_b) * T::select(near, sum, gap).recip()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn slope_at_one<T: Real>(&self) -> T {
         T::one()
     }
@@ -105,17 +105,17 @@ impl IsotropicFunction for Logarithm {
 pub struct Exponential;
 
 impl IsotropicFunction for Exponential {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, x: T) -> T {
         x.exp()
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         // eᵇ (e^w − 1)/w with w = a − b ≥ 0.
         let (a, b) = ordered(a, b);
         b.exp() * exponential_quotient(a - b)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn smooth_within<T: Real>(&self, _x: T) -> T {
         T::lit(3.0)
     }
@@ -146,11 +146,11 @@ impl TryFrom<f64> for Power {
 }
 
 impl IsotropicFunction for Power {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn value<T: Real>(&self, x: T) -> T {
         x.powf(T::lit(self.0))
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         // bᵖ (e^(p l) − 1)/(b w) with w = (a − b)/b and l = ln(1 + w) ≥ 0.
         let (a, b) = ordered(a, b);
@@ -162,7 +162,7 @@ impl IsotropicFunction for Power {
 }
 
 /// ln(1 + w)/w, 1 at w = 0, with its derivatives there.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn logarithmic_quotient<T: Real>(w: T) -> T {
     let apart = if T::ORDER == 0 { T::zero().less_than(w.abs()) } else { T::lit(0.0625).less_than(w.abs()) };
     let quotient = w.ln_1p() / T::select(apart, w, T::one());
@@ -177,7 +177,7 @@ fn logarithmic_quotient<T: Real>(w: T) -> T {
 }
 
 /// (e^w − 1)/w, 1 at w = 0, with its derivatives there.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn exponential_quotient<T: Real>(w: T) -> T {
     let apart = if T::ORDER == 0 { T::zero().less_than(w.abs()) } else { T::lit(0.0625).less_than(w.abs()) };
     let quotient = w.exp_m1() / T::select(apart, w, T::one());

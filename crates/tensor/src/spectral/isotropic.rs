@@ -41,14 +41,14 @@ pub trait IsotropicFunction {
     fn value<T: Real>(&self, x: T) -> T;
 
     /// f(1 + x): to be stated without cancellation by functions that vanish at 1, such as measures of strain.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn value_beside_one<T: Real>(&self, x: T) -> T {
         self.value(T::one() + x)
     }
 
     /// f(√s), given √s and s: to be stated by functions that need not wait for the root, such as the logarithm.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn value_of_root<T: Real>(&self, root: T, square: T) -> T {
         let _ = square;
@@ -56,7 +56,7 @@ pub trait IsotropicFunction {
     }
 
     /// f(√(1 + s)), given √(1 + s) − 1 and s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn value_of_root_beside_one<T: Real>(&self, excess: T, square_less_one: T) -> T {
         let _ = square_less_one;
@@ -67,14 +67,14 @@ pub trait IsotropicFunction {
     ///
     /// The provided one is accurate to a few ulp of the largest of |f|/d and |f′| where d is
     /// [`smooth_within`](Self::smooth_within).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn divided_difference<T: Real>(&self, a: T, b: T) -> T {
         first_difference(self, a, b)
     }
 
     /// f[a, b] to about eight digits, given f(a) and f(b): enough to correct the rounding of a principal frame.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn rough_divided_difference<T: Real>(&self, a: T, b: T, value_at_a: T, value_at_b: T) -> T {
         let middle = T::lit(0.5) * (a + b);
@@ -85,7 +85,7 @@ pub trait IsotropicFunction {
     }
 
     /// f′(1); zero where f is not regular there.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn slope_at_one<T: Real>(&self) -> T {
         let slope = self.divided_difference(T::one(), T::one());
@@ -93,7 +93,7 @@ pub trait IsotropicFunction {
     }
 
     /// f[a, b, c], equal to ½ f″(a) for a = b = c.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn second_divided_difference<T: Real>(&self, a: T, b: T, c: T) -> T {
         second_difference(self, a, b, c)
@@ -101,7 +101,7 @@ pub trait IsotropicFunction {
 
     /// A distance from x within which f has no singularity and does not vary much, |x| unless stated: where the
     /// power series at x may be used out to a sixth of it.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     fn smooth_within<T: Real>(&self, x: T) -> T {
         x.abs()
@@ -153,13 +153,13 @@ pub(super) fn difference_of_series<T: Real, const M: usize>(coefficients: [T; TE
 }
 
 /// Where the nodes between `low` and `high` are close enough for the power series at their middle.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn clustered<T: Real, F: IsotropicFunction + ?Sized>(f: &F, low: T, high: T) -> T::Mask {
     let middle = T::lit(0.5) * (low + high);
     (high - low).at_most(f.smooth_within(middle) * T::lit(1.0 / 3.0))
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first_difference<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: T, b: T) -> T {
     use piola_numerics::Mask;
     let middle = T::lit(0.5) * (a + b);
@@ -172,7 +172,7 @@ pub(super) fn first_difference<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a:
     T::select(near, difference_about(f, middle, [a, b]), quotient)
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn second_difference<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: T, b: T, c: T) -> T {
     use piola_numerics::Mask;
     let [high, between, low] = super::decomposition::descending([a, b, c]);

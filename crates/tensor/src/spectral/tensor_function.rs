@@ -29,7 +29,7 @@ use crate::rows::Rows;
 /// let back = tensor_function(&Logarithm, &tensor_function(&Exponential, &strain));
 /// assert!((back - strain).components.iter().all(|x: &f64| x.abs() < 1e-15));
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn tensor_function<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T>) -> Symmetric<T> {
     let (axes, nodes, departure) = frame_of(a);
@@ -38,7 +38,7 @@ pub fn tensor_function<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmet
 }
 
 /// The frozen frame of A, its frozen diagonal there, and the rest.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn frame_of<T: Real>(a: &Symmetric<T>) -> (Rows<T>, [T; 3], [T; 6]) {
     if T::ORDER == 0 {
         let (axes, _) = separated_frame(a);
@@ -58,7 +58,7 @@ fn frame_of<T: Real>(a: &Symmetric<T>) -> (Rows<T>, [T; 3], [T; 6]) {
 ///
 /// # Accuracy
 /// Finite and accurate to a few ulp of ‖H‖ max |f[λᵢ, λⱼ]| at and near coalescence.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn derivative<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T>, h: &Symmetric<T>) -> Symmetric<T> {
     if T::ORDER != 0 {
@@ -70,7 +70,7 @@ pub fn derivative<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T
     from_frame(&axes, [d[0] * h[0], d[1] * h[1], d[2] * h[2], d[3] * h[3], d[4] * h[4], d[5] * h[5]])
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn along<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T>, h: &Symmetric<T>) -> Symmetric<T> {
     let line = Symmetric { components: core::array::from_fn(|i| Dual::new(a.components[i], h.components[i])) };
     Symmetric { components: tensor_function(f, &line).components.map(|x| x.tangent) }
@@ -80,7 +80,7 @@ fn along<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T>, h: &Sy
 ///
 /// # Accuracy
 /// Finite and accurate to a few ulp of ‖H‖ ‖K‖ max |f[λᵢ, λₖ, λⱼ]| at and near coalescence.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_derivative<T: Real, F: IsotropicFunction + ?Sized>(
     f: &F,
@@ -112,7 +112,7 @@ pub fn second_derivative<T: Real, F: IsotropicFunction + ?Sized>(
     )
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn along_both<T: Real, F: IsotropicFunction + ?Sized>(
     f: &F,
     a: &Symmetric<T>,
@@ -128,7 +128,7 @@ fn along_both<T: Real, F: IsotropicFunction + ?Sized>(
 }
 
 /// f[λᵢ, λⱼ] for 11, 22, 33, 12, 23, 13.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn first_differences<T: Real, F: IsotropicFunction + ?Sized>(f: &F, [a, b, c]: [T; 3]) -> [T; 6] {
     let d = |a: T, b: T| f.divided_difference(a, b);
     [d(a, a), d(b, b), d(c, c), d(a, b), d(b, c), d(a, c)]
@@ -141,7 +141,7 @@ fn first_differences<T: Real, F: IsotropicFunction + ?Sized>(f: &F, [a, b, c]: [
 /// Df(A)[H]ᵢⱼ = Dᵢⱼₖₗ Hₖₗ,    Dᵢⱼₖₗ = Dⱼᵢₖₗ = Dₖₗᵢⱼ
 /// ```
 /// so that a column of a shear counts twice when the array is applied to six components.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn derivative_array<T: Real, F: IsotropicFunction + ?Sized>(f: &F, a: &Symmetric<T>) -> [[T; 6]; 6] {
     let (o, l, h) = (T::zero(), T::one(), T::lit(0.5));

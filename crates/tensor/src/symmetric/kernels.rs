@@ -15,7 +15,7 @@ use crate::rows::Rows;
 /// let a = [[1.0, 4.0, 0.0], [2.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// assert_eq!(product_symmetrized(a, one).components[3], 3.0);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn product_symmetrized<T: Real>(a: Rows<T>, b: Rows<T>) -> Symmetric<T> {
     let half = T::lit(0.5);

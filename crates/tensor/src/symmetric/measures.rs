@@ -15,7 +15,7 @@ impl<T: Real> Symmetric<T> {
     /// # Accuracy
     /// 4 ulp for components anywhere in the range of numbers: they are scaled by a power of two before they are
     /// squared. At A = 0, where the norm has no derivative, that of differentiable numbers is zero.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn norm(&self) -> T {
         let (scale, unscale) = power_of_two_scale(largest(self.components));
@@ -24,7 +24,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// ⅓ tr A.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn mean(&self) -> T {
         self.trace() / T::lit(3.0)
@@ -34,7 +34,7 @@ impl<T: Real> Symmetric<T> {
     ///
     /// # Accuracy
     /// 3 ulp of the largest difference of two diagonal components.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn deviator(&self) -> Self {
         let [xx, yy, zz, xy, yz, xz] = self.components;
@@ -44,7 +44,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// ⅓ tr A 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn spherical_part(&self) -> Self {
         let mean = self.mean();
@@ -52,7 +52,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// adj A, with A adj A = (det A) 1; it exists for singular tensors too.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn adjugate(&self) -> Self {
         let [xx, yy, zz, xy, yz, xz] = self.components;
@@ -69,7 +69,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// (A⁻¹, det A), ∞ or NaN when A is singular: the kernel of [`inverse`](Self::inverse), without scaling.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn inverse_and_determinant(&self) -> (Self, T) {
         let adjugate = self.adjugate();

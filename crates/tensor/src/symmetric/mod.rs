@@ -46,20 +46,20 @@ pub struct Symmetric<T = f64> {
 
 impl<T: Real> Symmetric<T> {
     /// From the components 11, 22, 33, 12, 23, 13.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub const fn new(xx: T, yy: T, zz: T, xy: T, yz: T, xz: T) -> Self {
         Self { components: [xx, yy, zz, xy, yz, xz] }
     }
 
     /// 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn zero() -> Self {
         Self { components: [T::zero(); 6] }
     }
 
     /// 1.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn identity() -> Self {
         let (o, l) = (T::zero(), T::one());
@@ -67,7 +67,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// diag(a, b, c).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn diagonal(diagonal: [T; 3]) -> Self {
         let o = T::zero();
@@ -75,7 +75,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// ½ (A + Aᵀ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn symmetric_part(a: Rows<T>) -> Self {
         let half = T::lit(0.5);
@@ -92,7 +92,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A + Aᵀ, twice the symmetric part.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn sum_with_transpose(a: Rows<T>) -> Self {
         let both = |i: usize, j: usize| a[i][j] + a[j][i];
@@ -100,7 +100,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// The symmetric tensor with the upper triangle of A: for a product known to be symmetric.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn upper_triangle(a: Rows<T>) -> Self {
         Self { components: [a[0][0], a[1][1], a[2][2], a[0][1], a[1][2], a[0][2]] }
@@ -147,7 +147,7 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// All nine components as an array of rows.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rows(&self) -> Rows<T> {
         let [xx, yy, zz, xy, yz, xz] = self.components;
@@ -155,28 +155,28 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// All nine components as a matrix.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn matrix(&self) -> Matrix3<T> {
         piola_numerics::linear::matrix3::from_rows(self.rows())
     }
 
     /// tr A.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn trace(&self) -> T {
         self.components[0] + self.components[1] + self.components[2]
     }
 
     /// det A.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn determinant(&self) -> T {
         piola_numerics::linear::matrix3::determinant(self.rows())
     }
 
     /// A : B = Aᵢⱼ Bᵢⱼ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn double_contraction(&self, other: &Self) -> T {
         let (a, b) = (self.components, other.components);
@@ -184,13 +184,13 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A v.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn apply(&self, v: [T; 3]) -> [T; 3] {
         super::rows::apply(self.rows(), v)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[doc(hidden)]
     pub fn each(a: &Self, b: &Self, f: impl Fn(T, T) -> T) -> Self {
         let (a, b) = (a.components, b.components);
@@ -206,14 +206,14 @@ linear_space!(Symmetric);
 /// When an index is above 2, as indexing does everywhere.
 impl<T> Index<(usize, usize)> for Symmetric<T> {
     type Output = T;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn index(&self, (row, column): (usize, usize)) -> &T {
         &self.components[SLOT[row][column]]
     }
 }
 
 impl<T> IndexMut<(usize, usize)> for Symmetric<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut T {
         &mut self.components[SLOT[row][column]]
     }

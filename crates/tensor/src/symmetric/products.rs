@@ -14,14 +14,14 @@ use crate::rows::{Rows, product, transpose};
 
 impl<T: Real> Symmetric<T> {
     /// v ⊗ v = vᵢ vⱼ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn dyad(v: [T; 3]) -> Self {
         Self { components: [v[0] * v[0], v[1] * v[1], v[2] * v[2], v[0] * v[1], v[1] * v[2], v[0] * v[2]] }
     }
 
     /// ½ (v ⊗ w + w ⊗ v).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn symmetric_dyad(v: [T; 3], w: [T; 3]) -> Self {
         let half = T::lit(0.5);
@@ -30,14 +30,14 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A B, in general not symmetric.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn product(&self, other: &Self) -> Rows<T> {
         product(self.rows(), other.rows())
     }
 
     /// A B + B A, twice the symmetric part of the product.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn anticommutator(&self, other: &Self) -> Self {
         let (a, b) = (self.rows(), other.rows());
@@ -55,14 +55,14 @@ impl<T: Real> Symmetric<T> {
     }
 
     /// A² = A A.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn square(&self) -> Self {
         Self::gram(self.rows())
     }
 
     /// A Aᵀ of a general tensor, symmetric to the last bit.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn gram(a: Rows<T>) -> Self {
         Self {
@@ -81,7 +81,7 @@ impl<T: Real> Symmetric<T> {
     ///
     /// # Accuracy
     /// 6 ulp of |F|² |A|; symmetric because only the upper triangle is computed.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn congruence(&self, f: Rows<T>) -> Self {
         let fa = product(f, self.rows());
@@ -101,7 +101,7 @@ impl<T: Real> Symmetric<T> {
     ///
     /// # Accuracy
     /// As [`congruence`](Self::congruence).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn transposed_congruence(&self, f: Rows<T>) -> Self {
         self.congruence(transpose(f))
@@ -121,7 +121,7 @@ impl<T: Real> Symmetric<T> {
 /// A v.
 impl<T: Real> Mul<Vector3<T>> for Symmetric<T> {
     type Output = Vector3<T>;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mul(self, v: Vector3<T>) -> Vector3<T> {
         Vector3::from(self.apply([v[0], v[1], v[2]]))
     }
@@ -130,7 +130,7 @@ impl<T: Real> Mul<Vector3<T>> for Symmetric<T> {
 /// A B, in general not symmetric.
 impl<T: Real> Mul for Symmetric<T> {
     type Output = Matrix3<T>;
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn mul(self, other: Self) -> Matrix3<T> {
         from_rows(self.product(&other))
     }

@@ -34,7 +34,7 @@ macro_rules! matrices {
 
         impl<T: Real, O: VoigtOrder> $name<T, O> {
             /// The factor of an entry with shears in none, one or both of its pairs.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn factor(row: usize, column: usize) -> T {
                 match (row < 3, column < 3) {
                     (true, true) => T::one(),
@@ -67,7 +67,7 @@ macro_rules! matrices {
             }
 
             /// Of a tensor.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn of(tensor: &impl PairSymmetric<T>) -> Self {
                 let slots: Slots<T> = tensor.slots();
@@ -81,7 +81,7 @@ macro_rules! matrices {
             }
 
             /// The tensor; with [`major_symmetric`](MinorSymmetric::major_symmetric) its major symmetry is checked.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn tensor(&self) -> MinorSymmetric<T> {
                 let mut tensor = MinorSymmetric::zero();
@@ -94,7 +94,7 @@ macro_rules! matrices {
             }
 
             /// The same in another order, to the last bit.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn reordered<N: VoigtOrder>(&self) -> $name<T, N> {
                 let mut stored = [[T::zero(); 6]; 6];
@@ -111,7 +111,7 @@ macro_rules! matrices {
 
         impl<T: Real, O: VoigtOrder> Mul<$right<T, O>> for $name<T, O> {
             type Output = $left<T, O>;
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn mul(self, vector: $right<T, O>) -> $left<T, O> {
                 let row = |i: usize| dot6(&self.entries[i], &vector.components);
                 $left::raw([row(0), row(1), row(2), row(3), row(4), row(5)])

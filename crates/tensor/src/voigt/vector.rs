@@ -39,13 +39,13 @@ macro_rules! vectors {
                 Ok(Self::raw(components))
             }
 
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             pub(super) fn raw(components: [T; 6]) -> Self {
                 Self { components, order: PhantomData }
             }
 
             /// Of a tensor.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn of(tensor: &Symmetric<T>) -> Self {
                 let factor: fn(T) -> T = $into;
@@ -57,7 +57,7 @@ macro_rules! vectors {
             }
 
             /// The tensor.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn tensor(&self) -> Symmetric<T> {
                 let factor: fn(T) -> T = $back;
@@ -69,7 +69,7 @@ macro_rules! vectors {
             }
 
             /// The same in another order, to the last bit.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn reordered<N: VoigtOrder>(&self) -> $name<T, N> {
                 let mut stored = [T::zero(); 6];
@@ -155,7 +155,7 @@ vectors! {
 
 impl<T: Real, O: VoigtOrder> StressVector<T, O> {
     /// T : ε, the product with a strain vector of the same order.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn dot(&self, strain: &StrainVector<T, O>) -> T {
         crate::fourth::kernels::dot6(&self.components, &strain.components)
@@ -164,14 +164,14 @@ impl<T: Real, O: VoigtOrder> StressVector<T, O> {
 
 impl<T: Real, O: VoigtOrder> MandelVector<T, O> {
     /// A : B.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn dot(&self, other: &Self) -> T {
         crate::fourth::kernels::dot6(&self.components, &other.components)
     }
 
     /// |A|, for components anywhere in the range of numbers.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn norm(&self) -> T {
         let (scale, unscale) = power_of_two_scale(largest(self.components));

@@ -13,7 +13,7 @@ use crate::strain::kernels::{green, left_cauchy_green, right_cauchy_green, right
 use crate::{Deformation, Symmetric};
 
 /// J^p.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn power_of_jacobian<T: Real>(deformation: &impl Deformation<T>, exponent: f64) -> T {
     (T::lit(exponent) * deformation.ln_jacobian()).exp()
 }
@@ -30,7 +30,7 @@ fn power_of_jacobian<T: Real>(deformation: &impl Deformation<T>, exponent: f64) 
 /// assert!((invariants::isochoric_first(&bar) - 66.0 / 4.0_f64).abs() < 1e-13); // (64 + 1 + 1)/8^(2/3)
 /// # Ok::<(), piola_continuum::ContinuumError>(())
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_first<T: Real>(deformation: &impl Deformation<T>) -> T {
     let [excess, volume] = T::lanewise(&First, of_deformation(deformation));
@@ -45,7 +45,7 @@ pub fn isochoric_first<T: Real>(deformation: &impl Deformation<T>) -> T {
 ///
 /// # Accuracy
 /// 8 ulp × the condition number; |ln J| ulp from the power.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_second<T: Real>(deformation: &impl Deformation<T>) -> T {
     let [excess, volume] = T::lanewise(&Second, of_deformation(deformation));
@@ -64,7 +64,7 @@ pub fn isochoric_second<T: Real>(deformation: &impl Deformation<T>) -> T {
 ///
 /// # Accuracy
 /// A few ulp × |E|/|dev E|, of itself, however small the strain is.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let [excess, volume] = T::lanewise(&First, of_deformation(deformation));
@@ -83,7 +83,7 @@ pub fn isochoric_first_minus_three<T: Real>(deformation: &impl Deformation<T>) -
 ///
 /// # Accuracy
 /// As [`isochoric_first_minus_three`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let [excess, volume] = T::lanewise(&Second, of_deformation(deformation));
@@ -98,7 +98,7 @@ pub fn isochoric_second_minus_three<T: Real>(deformation: &impl Deformation<T>) 
 ///
 /// # Accuracy
 /// As [`isochoric_first_minus_three`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_minus_three<T: Real>(deformation: &impl Deformation<T>) -> [T; 2] {
     let [x, y, volume] = T::lanewise(&Both, of_deformation(deformation));
@@ -115,7 +115,7 @@ pub fn isochoric_minus_three<T: Real>(deformation: &impl Deformation<T>) -> [T; 
 }
 
 /// F and ∇u, nine numbers each.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn of_deformation<T: Real>(deformation: &impl Deformation<T>) -> [T; 18] {
     let [[a, b, c], [d, e, f], [g, h, i]] = deformation.gradient_rows();
     let [[j, k, l], [m, n, o], [p, q, r]] = deformation.displacement_rows();
@@ -123,7 +123,7 @@ fn of_deformation<T: Real>(deformation: &impl Deformation<T>) -> [T; 18] {
 }
 
 /// Where the strain is not so large that 1 + D has lost its smallest eigenvalue, of det(1 + D) − 1.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn is_near<T: Real>(volume: T) -> T::Mask {
     T::lit(-0.75).less_than(volume)
 }
@@ -138,7 +138,7 @@ struct Second;
 struct Both;
 
 impl Lanewise<18, 2> for First {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 2] {
         let deviation = Deviation::of(inputs);
         [deviation.first_minus_three(), deviation.volume]
@@ -146,7 +146,7 @@ impl Lanewise<18, 2> for First {
 }
 
 impl Lanewise<18, 2> for Second {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 2] {
         let deviation = Deviation::of(inputs);
         [deviation.second_minus_three(), deviation.volume]
@@ -154,7 +154,7 @@ impl Lanewise<18, 2> for Second {
 }
 
 impl Lanewise<18, 3> for Both {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<T: Real>(&self, inputs: [T; 18]) -> [T; 3] {
         let deviation = Deviation::of(inputs);
         [deviation.first_minus_three(), deviation.second_minus_three(), deviation.volume]
@@ -174,7 +174,7 @@ struct Deviation<T> {
 }
 
 impl<T: Real> Deviation<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of(inputs: [T; 18]) -> Self {
         if T::ORDER == 0 { Self::inlined(inputs) } else { Self::apart(inputs) }
     }
@@ -185,7 +185,7 @@ impl<T: Real> Deviation<T> {
         Self::inlined(inputs)
     }
 
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn inlined([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]: [T; 18]) -> Self {
         // From 2E where C is near 1, from C itself where a dilatation has moved it away.
         let twice_green = right_cauchy_green_minus_one([[j, k, l], [m, n, o], [p, q, r]]);
@@ -213,13 +213,13 @@ impl<T: Real> Deviation<T> {
     }
 
     /// 3 (r − 1).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_minus_three(&self) -> T {
         T::lit(3.0) * self.root_change
     }
 
     /// 3 (r² − 1) − ½ r² D : D.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn second_minus_three(&self) -> T {
         T::lit(3.0) * (self.root_change * (T::one() + self.root)) + self.second * (self.root * self.root)
     }
@@ -229,7 +229,7 @@ impl<T: Real> Deviation<T> {
 ///
 /// # Accuracy
 /// A few ulp × the condition number of C.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_first_derivative<T: Real>(deformation: &impl Deformation<T>) -> Symmetric<T> {
     let e = green(deformation.displacement_rows());
@@ -240,7 +240,7 @@ pub fn isochoric_first_derivative<T: Real>(deformation: &impl Deformation<T>) ->
 ///
 /// # Accuracy
 /// As [`isochoric_first_derivative`].
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_second_derivative<T: Real>(deformation: &impl Deformation<T>) -> Symmetric<T> {
     let e = green(deformation.displacement_rows());
@@ -251,7 +251,7 @@ pub fn isochoric_second_derivative<T: Real>(deformation: &impl Deformation<T>) -
 }
 
 /// s C⁻¹ A of an A that commutes with C.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn times_inverse_metric<T: Real>(deformation: &impl Deformation<T>, a: &Symmetric<T>, s: T) -> Symmetric<T> {
     let inverse = deformation.inverse_rows();
     let metric: Rows<T> = left_cauchy_green(inverse).rows();
@@ -263,7 +263,7 @@ fn times_inverse_metric<T: Real>(deformation: &impl Deformation<T>, a: &Symmetri
 /// ```text
 /// −⅓ (C⁻¹ : X) ∂Ī₁/∂C + ⅓ J^(−2/3) (I₁ C⁻¹ X C⁻¹ − (tr X) C⁻¹)
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_first_second_derivative<T: Real>(deformation: &impl Deformation<T>, x: &Symmetric<T>) -> Symmetric<T> {
     let (metric, turned) = inverse_metric_and_sandwich(deformation, x);
@@ -278,7 +278,7 @@ pub fn isochoric_first_second_derivative<T: Real>(deformation: &impl Deformation
 /// ```text
 /// −⅔ (C⁻¹ : X) ∂Ī₂/∂C + J^(−4/3) (tr X 1 − X − ⅔ (I₁ tr X − C : X) C⁻¹ + ⅔ I₂ C⁻¹ X C⁻¹)
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn isochoric_second_second_derivative<T: Real>(
     deformation: &impl Deformation<T>,
@@ -295,7 +295,7 @@ pub fn isochoric_second_second_derivative<T: Real>(
 }
 
 /// C⁻¹ and C⁻¹ X C⁻¹.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn inverse_metric_and_sandwich<T: Real>(
     deformation: &impl Deformation<T>,
     x: &Symmetric<T>,

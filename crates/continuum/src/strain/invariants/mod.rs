@@ -46,7 +46,7 @@ pub use piola_tensor::principal_invariants;
 ///
 /// # Source
 /// W(24.12), W(24.16).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn derivatives<T: Real>(a: &Symmetric<T>) -> [Symmetric<T>; 3] {
     let [xx, yy, zz, xy, yz, xz] = a.components;
@@ -60,7 +60,7 @@ pub fn derivatives<T: Real>(a: &Symmetric<T>) -> [Symmetric<T>; 3] {
 /// ```text
 /// D²I₁ = 0        D²I₂ = tr X tr Y − X : Y        D²I₃ = (tr A tr X − A : X) tr Y − tr X A : Y − tr A X : Y + 2 (A X) : Y
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_derivatives<T: Real>(a: &Symmetric<T>, x: &Symmetric<T>, y: &Symmetric<T>) -> [T; 3] {
     let second = derivatives(x)[1].double_contraction(y);
@@ -68,7 +68,7 @@ pub fn second_derivatives<T: Real>(a: &Symmetric<T>, x: &Symmetric<T>, y: &Symme
 }
 
 /// The derivative of Cof A along X: the polarised cofactor, without division.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn cofactor_derivative<T: Real>(a: &Symmetric<T>, x: &Symmetric<T>) -> Symmetric<T> {
     let [axx, ayy, azz, axy, ayz, axz] = a.components;
     let [xx, yy, zz, xy, yz, xz] = x.components;
@@ -87,7 +87,7 @@ fn cofactor_derivative<T: Real>(a: &Symmetric<T>, x: &Symmetric<T>) -> Symmetric
 ///
 /// # Accuracy
 /// 5 ulp.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first<T: Real>(deformation: &impl Deformation<T>) -> T {
     let f = deformation.gradient_rows();
@@ -98,7 +98,7 @@ pub fn first<T: Real>(deformation: &impl Deformation<T>) -> T {
 ///
 /// # Accuracy
 /// A few ulp × the condition number of Cof F: no difference of squares is formed.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second<T: Real>(deformation: &impl Deformation<T>) -> T {
     let k = deformation.cofactor_rows();
@@ -106,7 +106,7 @@ pub fn second<T: Real>(deformation: &impl Deformation<T>) -> T {
 }
 
 /// I₃ = det C = J².
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn third<T: Real>(deformation: &impl Deformation<T>) -> T {
     let jacobian = deformation.jacobian();
@@ -117,7 +117,7 @@ pub fn third<T: Real>(deformation: &impl Deformation<T>) -> T {
 ///
 /// # Accuracy
 /// A few ulp of |∇u|², or of I₁ − 3 where that is larger; of a rotation what its rounded entries amount to, within 4e-16.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let h = deformation.displacement_rows();
@@ -136,7 +136,7 @@ pub fn first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
 /// # Accuracy
 /// A few ulp of |∇u|², or of I₂ − 3 where that is larger; of |K|² at large strain; of a rotation what its rounded entries
 /// amount to, within 4e-16.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     let h = deformation.displacement_rows();
@@ -160,21 +160,21 @@ pub fn second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
 }
 
 /// I₃ − 1 = (J − 1)(J + 1), without cancellation.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn third_minus_one<T: Real>(deformation: &impl Deformation<T>) -> T {
     deformation.volume_change() * (T::one() + deformation.jacobian())
 }
 
 /// ∂I₁/∂F = 2 F.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
     piola_tensor::internal::rows::scaled(deformation.gradient_rows(), T::lit(2.0))
 }
 
 /// ∂I₂/∂F = 2 F (I₁ 1 − C).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn second_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
     let f = deformation.gradient_rows();
@@ -183,14 +183,14 @@ pub fn second_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
 }
 
 /// ∂I₃/∂F = 2 J Cof F.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn third_gradient<T: Real>(deformation: &impl Deformation<T>) -> Rows<T> {
     piola_tensor::internal::rows::scaled(deformation.cofactor_rows(), T::lit(2.0) * deformation.jacobian())
 }
 
 /// ∂φ/∂F = 2 F (∂φ/∂C) of a function of C, given its derivative: by the chain rule of C = Fᵀ F.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn gradient_of_metric_derivative<T: Real>(f: Rows<T>, derivative: &Symmetric<T>) -> Rows<T> {
     let two = T::lit(2.0);

@@ -13,26 +13,26 @@ use crate::Deformation;
 use crate::deformation::volume::Pair;
 
 /// Where the value is below 2¹² ulp of the terms of which it is the sum.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn cancels<T: Real>(value: T, terms: T) -> T::Mask {
     let magnified = value.abs() * T::lit(2.0_f64.powi(-12) / unit_in_last_place::<T>());
     magnified.less_than(terms)
 }
 
 /// `precise` where the plain sum cancels.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn refined<T: Real>(cancelling: T::Mask, precise: T, plain: T) -> T {
     T::select(cancelling & precise.is_finite(), precise, plain)
 }
 
 /// I₁ − 3.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn first_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     of_rows(&deformation.gradient_rows(), &deformation.displacement_rows())[0]
 }
 
 /// I₂ − 3.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn second_minus_three<T: Real>(deformation: &impl Deformation<T>) -> T {
     of_rows(&deformation.gradient_rows(), &deformation.displacement_rows())[1]
 }

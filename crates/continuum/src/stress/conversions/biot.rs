@@ -12,42 +12,42 @@ use crate::{ContinuumError, Deformation, Symmetric};
 
 impl<T: Real> BiotStress<T> {
     /// P = R Biot; the rotation R is computed, see [`StretchAnalysis`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn first_piola(&self, deformation: &impl Deformation<T>) -> FirstPiola<T> {
         self.first_piola_of_analysis(&StretchAnalysis::of(deformation))
     }
 
     /// P = R Biot where the stretches are known already.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn first_piola_of_analysis(&self, stretches: &StretchAnalysis<T>) -> FirstPiola<T> {
         FirstPiola::trusted(product(stretches.rotation(), self.rows()))
     }
 
     /// T = sym(R Biot Fᵀ)/J.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         self.first_piola(deformation).cauchy(deformation)
     }
 
     /// τ = sym(R Biot Fᵀ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
         self.first_piola(deformation).kirchhoff(deformation)
     }
 
     /// S = sym(U⁻¹ Biot), as F⁻¹ (R Biot).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
         self.first_piola(deformation).second_piola(deformation)
     }
 
     /// M = U Biot, as Fᵀ (R Biot).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
         self.first_piola(deformation).mandel(deformation)
@@ -63,7 +63,7 @@ impl<T: Real> BiotStress<T> {
     }
 
     /// Its symmetric part, conjugate to U: ½ (Rᵀ P + Pᵀ R) = ½ (U S + S U).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn symmetric_part(&self) -> Symmetric<T> {
         Symmetric::symmetric_part(self.rows())

@@ -14,42 +14,42 @@ use crate::{ContinuumError, Deformation};
 
 impl<T: Real> FirstPiola<T> {
     /// T = sym(P Fᵀ)/J, W(17.21).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn cauchy(&self, deformation: &impl Deformation<T>) -> CauchyStress<T> {
         CauchyStress(cauchy_of_first_piola(deformation.gradient_rows(), deformation.jacobian(), self.rows()))
     }
 
     /// τ = sym(P Fᵀ).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn kirchhoff(&self, deformation: &impl Deformation<T>) -> KirchhoffStress<T> {
         KirchhoffStress(product_symmetrized(self.rows(), deformation.gradient_rows()))
     }
 
     /// S = sym(F⁻¹ P), B(4.57).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn second_piola(&self, deformation: &impl Deformation<T>) -> SecondPiola<T> {
         SecondPiola(second_piola_of_first_piola(deformation.gradient_rows(), deformation.jacobian(), self.rows()))
     }
 
     /// M = Fᵀ P.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn mandel(&self, deformation: &impl Deformation<T>) -> MandelStress<T> {
         MandelStress::trusted(transposed_product(deformation.gradient_rows(), self.rows()))
     }
 
     /// Biot's stress Rᵀ P; its rotation R is computed, see [`StretchAnalysis`].
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn biot(&self, deformation: &impl Deformation<T>) -> BiotStress<T> {
         self.biot_of_analysis(&StretchAnalysis::of(deformation))
     }
 
     /// Biot's stress Rᵀ P where the stretches are known already.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn biot_of_analysis(&self, stretches: &StretchAnalysis<T>) -> BiotStress<T> {
         BiotStress::trusted(transposed_product(stretches.rotation(), self.rows()))

@@ -27,7 +27,7 @@ pub struct MaterialRate<S>(
 
 impl<T: Real> MaterialRate<CauchyStress<T>> {
     /// The material derivative of Kirchhoff's stress: τ̇ = J (Ṫ + T tr L).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn kirchhoff(
         &self,
@@ -42,7 +42,7 @@ impl<T: Real> MaterialRate<CauchyStress<T>> {
 
 impl<T: Real> MaterialRate<SecondPiola<T>> {
     /// The material derivative of the first Piola–Kirchhoff stress, by rows: Ṗ = Ḟ S + F Ṡ.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn first_piola(
         &self,

@@ -19,22 +19,22 @@ pub trait SpatialStress<T: Real>: Copy {
 }
 
 impl<T: Real> SpatialStress<T> for CauchyStress<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_tensor(tensor: Symmetric<T>) -> Self {
         Self(tensor)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tensor(&self) -> Symmetric<T> {
         self.0
     }
 }
 
 impl<T: Real> SpatialStress<T> for KirchhoffStress<T> {
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_tensor(tensor: Symmetric<T>) -> Self {
         Self(tensor)
     }
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn tensor(&self) -> Symmetric<T> {
         self.0
     }
@@ -50,7 +50,7 @@ pub trait Carrier<T: Real> {
 macro_rules! carrier {
     ($($name:ident)*) => { $(
         impl<T: Real> Carrier<T> for $name<T> {
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             fn carrier_rows(&self) -> Rows<T> {
                 self.rows()
             }
@@ -72,7 +72,7 @@ macro_rules! carried_rate {
 
         impl<S> $name<S> {
             /// From the stress, its material derivative and what carries it.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn of<T: Real>(stress: &S, rate: &MaterialRate<S>, carrier: &$carrier<T>) -> Self
             where
@@ -82,7 +82,7 @@ macro_rules! carried_rate {
             }
 
             /// The material derivative of which this is the objective rate.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn material<T: Real>(&self, stress: &S, carrier: &$carrier<T>) -> MaterialRate<S>
             where
@@ -100,7 +100,7 @@ macro_rules! connected {
     ($name:ident) => {
         impl<T: Real> $name<CauchyStress<T>> {
             /// The same rate of Kirchhoff's stress: τ° = J (T° + T tr D).
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn kirchhoff(
                 &self,
@@ -114,7 +114,7 @@ macro_rules! connected {
         }
         impl<T: Real> $name<KirchhoffStress<T>> {
             /// The same rate of Cauchy's stress: T° = (τ° − τ tr D)/J.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn cauchy(
                 &self,
@@ -223,7 +223,7 @@ connected!(LowerConvectedRate);
 
 impl<S> LowerConvectedRate<S> {
     /// From the stress, its material derivative and the velocity gradient.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of<T: Real>(stress: &S, rate: &MaterialRate<S>, velocity_gradient: &VelocityGradient<T>) -> Self
     where
@@ -234,7 +234,7 @@ impl<S> LowerConvectedRate<S> {
     }
 
     /// The material derivative of which this is the objective rate.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material<T: Real>(&self, stress: &S, velocity_gradient: &VelocityGradient<T>) -> MaterialRate<S>
     where
@@ -268,7 +268,7 @@ pub struct TruesdellRate<S>(
 
 impl<T: Real> TruesdellRate<CauchyStress<T>> {
     /// From the stress, its material derivative and the velocity gradient.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of(
         stress: &CauchyStress<T>,
@@ -279,7 +279,7 @@ impl<T: Real> TruesdellRate<CauchyStress<T>> {
     }
 
     /// The material derivative of which this is the objective rate.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material(
         &self,
@@ -290,7 +290,7 @@ impl<T: Real> TruesdellRate<CauchyStress<T>> {
     }
 
     /// J times this rate: the upper-convected rate of Kirchhoff's stress.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn upper_convected(&self, deformation: &impl Deformation<T>) -> UpperConvectedRate<KirchhoffStress<T>> {
         UpperConvectedRate(KirchhoffStress(self.0.0 * deformation.jacobian()))
@@ -298,7 +298,7 @@ impl<T: Real> TruesdellRate<CauchyStress<T>> {
 }
 
 /// L − ½ (tr L) 1, so that A T + T Aᵀ = L T + T Lᵀ − T tr L without forming the larger terms.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn half_less_divergence<T: Real>(velocity_gradient: &VelocityGradient<T>) -> Rows<T> {
     let mut l = velocity_gradient.rows();
     let half = T::lit(0.5) * velocity_gradient.divergence();
@@ -310,7 +310,7 @@ fn half_less_divergence<T: Real>(velocity_gradient: &VelocityGradient<T>) -> Row
 
 impl<T: Real> UpperConvectedRate<KirchhoffStress<T>> {
     /// F Ṡ Fᵀ, from the rate of the second Piola–Kirchhoff stress.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn of_second_piola(rate: &MaterialRate<SecondPiola<T>>, deformation: &impl Deformation<T>) -> Self {
         let f = deformation.gradient_rows();

@@ -16,7 +16,7 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     ///
     /// # Accuracy
     /// 12 ulp of |F|² |C| + |S|.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn first_piola(&self, stress: &SecondPiola<T>, deformation: &impl Deformation<T>) -> FirstPiolaTangent<T> {
         let components = kernels::first_piola_tangent(deformation.gradient_rows(), &stress.0, &self.0.slots());
@@ -24,7 +24,7 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     }
 
     /// Ṡ = C : Ė of a rate of Green's strain, Pa/s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rate(&self, strain_rate: &crate::Symmetric<T>) -> SecondPiola<T> {
         SecondPiola(self.0.contract(strain_rate))
@@ -33,7 +33,7 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
 
 impl<T: Real> FirstPiolaTangent<T> {
     /// Ṗ = A : Ḟ, Pa/s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rate(&self, gradient_rate: &GradientRate<T>) -> FirstPiola<T> {
         FirstPiola::trusted(self.0.contract(gradient_rate.rows()))
@@ -48,7 +48,7 @@ impl<T: Real> FirstPiolaTangent<T> {
     ///
     /// # Accuracy
     /// 16 ulp of |F⁻¹|² (|A| + |S|).
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material(&self, stress: &SecondPiola<T>, deformation: &impl Deformation<T>) -> MaterialTangent<T, Minor> {
         let slots = kernels::material_tangent(deformation.inverse_rows(), &stress.0, &self.0.components);

@@ -18,14 +18,14 @@ use crate::Symmetric;
 /// let f = [[2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// assert_eq!(push_forward(f, &[1.0; 21])[0], 16.0);
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn push_forward<T: Real>(f: Rows<T>, material: &[T; 21]) -> [T; 21] {
     transform_major(&congruence_matrix(f), material)
 }
 
 /// ∂P/∂F = `δ_ij S_AB + F_iC F_jD C_CADB`, row 3i + A and column 3j + B.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn first_piola_tangent<T: Real>(f: Rows<T>, stress: &Symmetric<T>, material: &Slots<T>) -> [[T; 9]; 9] {
     let s = stress.rows();
@@ -52,7 +52,7 @@ pub fn first_piola_tangent<T: Real>(f: Rows<T>, stress: &Symmetric<T>, material:
 
 /// `F_iC C_CA(DB)` for the six pairs (DB), of row i of F and three rows of C. Written out: of a loop over pairs of eight
 /// lanes the compiler makes one over pairs, which gathers and scatters the lanes.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn half_contracted<T: Real>(f: [T; 3], [x, y, z]: [&[T; 6]; 3]) -> [T; 6] {
     macro_rules! all {
         ($($k:literal)*) => { [$(f[0] * x[$k] + f[1] * y[$k] + f[2] * z[$k]),*] };
@@ -61,7 +61,7 @@ fn half_contracted<T: Real>(f: [T; 3], [x, y, z]: [&[T; 6]; 3]) -> [T; 6] {
 }
 
 /// ∂S/∂E of ∂P/∂F: `F⁻¹_Ci F⁻¹_Dj (A_iAjB − δ_ij S_AB)`, the mean over exchanges of indices within the pairs.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn material_tangent<T: Real>(inverse: Rows<T>, stress: &Symmetric<T>, tangent: &[[T; 9]; 9]) -> Slots<T> {
     let (s, half, quarter) = (stress.rows(), T::lit(0.5), T::lit(0.25));

@@ -54,7 +54,7 @@ pub enum ObjectiveRate {
 }
 
 /// T ⊗ 1: D ↦ T tr D.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn volume_terms<T: Real>(stress: &CauchyStress<T>) -> MinorSymmetric<T> {
     MinorSymmetric::dyad(&stress.0, &Symmetric::identity())
 }

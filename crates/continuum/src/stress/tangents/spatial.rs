@@ -11,14 +11,14 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
     ///
     /// # Accuracy
     /// 24 ulp of |F|⁴ |C|.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn lie(&self, deformation: &impl Deformation<T>) -> LieTangent<T, Y> {
         LieTangent(self.0.congruence(deformation.gradient_rows()))
     }
 
     /// c/J.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn truesdell(&self, deformation: &impl Deformation<T>) -> TruesdellTangent<T, Y> {
         self.lie(deformation).truesdell(deformation)
@@ -27,7 +27,7 @@ impl<T: Real, Y: Symmetry> MaterialTangent<T, Y> {
 
 impl<T: Real> FirstPiolaTangent<T> {
     /// c/J of ∂P/∂F, by way of ∂S/∂E.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn truesdell(&self, stress: &SecondPiola<T>, deformation: &impl Deformation<T>) -> TruesdellTangent<T, Minor> {
         self.material(stress, deformation).truesdell(deformation)
@@ -36,7 +36,7 @@ impl<T: Real> FirstPiolaTangent<T> {
 
 impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
     /// c/J.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn truesdell(&self, deformation: &impl Deformation<T>) -> TruesdellTangent<T, Y> {
         TruesdellTangent(self.0 * deformation.jacobian().recip())
@@ -46,7 +46,7 @@ impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
     ///
     /// # Accuracy
     /// 24 ulp of |F⁻¹|⁴ |c|.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material(&self, deformation: &impl Deformation<T>) -> MaterialTangent<T, Y> {
         MaterialTangent(self.0.congruence(deformation.inverse_rows()))
@@ -54,34 +54,34 @@ impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
 }
 
 /// ½ (`δ_ik T_jl + δ_il T_jk + T_ik δ_jl + T_il δ_jk`): D ↦ D T + T D.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn stretching_terms<T: Real>(stress: &CauchyStress<T>) -> MajorSymmetric<T> {
     MajorSymmetric::symmetric_square_dyad(&stress.0, &Symmetric::identity()) * T::lit(2.0)
 }
 
 /// The terms in the storage of a tangent.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn stored<T: Real, Y: Symmetry>(terms: &MajorSymmetric<T>) -> Y::Tensor<T> {
     Y::Tensor::from_slots(&terms.slots())
 }
 
 impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     /// c = J × this.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn lie(&self, deformation: &impl Deformation<T>) -> LieTangent<T, Y> {
         LieTangent(self.0 * deformation.jacobian())
     }
 
     /// ∂S/∂E, J times the pull-back.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn material(&self, deformation: &impl Deformation<T>) -> MaterialTangent<T, Y> {
         self.lie(deformation).material(deformation)
     }
 
     /// The tangent of Jaumann's rate of τ, over J: adds D ↦ D T + T D.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn jaumann(&self, stress: &CauchyStress<T>) -> JaumannTangent<T, Y> {
         JaumannTangent(self.0 + stored::<T, Y>(&stretching_terms(stress)))
@@ -90,7 +90,7 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
 
 impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
     /// The tangent of Truesdell's rate.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn truesdell(&self, stress: &CauchyStress<T>) -> TruesdellTangent<T, Y> {
         TruesdellTangent(self.0 - stored::<T, Y>(&stretching_terms(stress)))

@@ -28,7 +28,7 @@ macro_rules! symmetric_tangent {
 
         impl<T: Real, Y: Symmetry> $name<T, Y> {
             /// `C_ijkl`, Pa, indices from 0.
-            #[inline(always)]
+            #[cfg_attr(not(debug_assertions), inline(always))]
             #[must_use]
             pub fn entry(&self, i: usize, j: usize, k: usize, l: usize) -> T {
                 self.0.entry(i, j, k, l)
@@ -116,7 +116,7 @@ symmetric_tangent! {
 }
 impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
     /// The upper-convected rate of τ of a rate of deformation D, Pa/s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rate(&self, rate_of_deformation: &RateOfDeformation<T>) -> UpperConvectedRate<KirchhoffStress<T>> {
         UpperConvectedRate(KirchhoffStress(self.0.contract(&rate_of_deformation.0)))
@@ -125,7 +125,7 @@ impl<T: Real, Y: Symmetry> LieTangent<T, Y> {
 
 impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
     /// Truesdell's rate of T of a rate of deformation D, Pa/s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rate(&self, rate_of_deformation: &RateOfDeformation<T>) -> TruesdellRate<CauchyStress<T>> {
         TruesdellRate(CauchyStress(self.0.contract(&rate_of_deformation.0)))
@@ -134,7 +134,7 @@ impl<T: Real, Y: Symmetry> TruesdellTangent<T, Y> {
 
 impl<T: Real, Y: Symmetry> JaumannTangent<T, Y> {
     /// Jaumann's rate of τ of a rate of deformation D, over J, Pa/s.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn rate(&self, rate_of_deformation: &RateOfDeformation<T>) -> Symmetric<T> {
         self.0.contract(&rate_of_deformation.0)
@@ -171,7 +171,7 @@ pub struct FirstPiolaTangent<T: Real = f64>(
 
 impl<T: Real> FirstPiolaTangent<T> {
     /// `A_iAjB`, Pa, indices from 0.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     #[must_use]
     pub fn entry(&self, i: usize, a: usize, j: usize, b: usize) -> T {
         self.0.entry(i, a, j, b)

@@ -107,7 +107,7 @@ impl<const N: usize> TetrahedralElements<N> {
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn add<T: Real>(forces: &mut [T], node: usize, force: [T; 3], weight: T) {
     for (sum, component) in forces[3 * node..3 * node + 3].iter_mut().zip(force) {
         *sum += component * weight;

@@ -117,7 +117,7 @@ pub trait Region<T: Real = f64> {
 }
 
 /// A constant vector over another scalar.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn lift<T: Real>(vector: &Vector3<f64>) -> Vector3<T> {
     vector.map(T::lit)
 }
@@ -127,7 +127,7 @@ pub(super) fn lift<T: Real>(vector: &Vector3<f64>) -> Vector3<T> {
 /// ```text
 /// n da = (Cof F) N dA        B(4.39)
 /// ```
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn moved_element<T: Real>(gradient: Rows<T>, normal: &Vector3<T>) -> (Vector3<T>, T) {
     let moved = apply(cofactor(gradient), [normal.x, normal.y, normal.z]);
     let ratio = dot(moved, moved).sqrt();

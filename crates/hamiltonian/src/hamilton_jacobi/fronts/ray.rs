@@ -113,7 +113,7 @@ impl<const N: usize, const M: usize> FrontRay<N, M> {
 
     /// The tangents now are B times those before. Negative eigenvalues of B are caustics; where B is singular the ray
     /// is on one, and the next step will tell.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn count(&mut self) {
         let now = self.tangents();
         let dot = |a: &[f64; N], b: &[f64; N]| (0..N).map(|i| a[i] * b[i]).sum::<f64>();
@@ -140,7 +140,7 @@ impl<const N: usize, const M: usize> FrontRay<N, M> {
 }
 
 /// det(∂q/∂σ, dq/dS).
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn jacobian<H: PhaseFunction, T: Real, const N: usize, const M: usize>(hamiltonian: &H, state: &State<T, N, M>) -> T {
     let [velocity, _] = rate(hamiltonian, state);
     let q = &state[0];
@@ -170,7 +170,7 @@ struct Bundle<'r, H, const N: usize, const M: usize> {
 
 impl<H: PhaseFunction, const N: usize, const M: usize> LaneKernel for Bundle<'_, H, N, M> {
     type Output = ();
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn run<const L: usize>(self) {
         for rays in self.rays.chunks_mut(L) {
             // Lanes without a ray repeat the last one.

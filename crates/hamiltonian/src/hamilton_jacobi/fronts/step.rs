@@ -23,7 +23,7 @@ pub(super) type Varied<T, const N: usize, const M: usize> = [Gradient<T, M>; N];
 pub(super) type State<T, const N: usize, const M: usize> = [Varied<T, N, M>; 2];
 
 /// d(q, p)/dS.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn rate<H: PhaseFunction, T: Real, const N: usize, const M: usize>(
     hamiltonian: &H,
     [q, p]: &State<T, N, M>,
@@ -41,7 +41,7 @@ pub(super) fn rate<H: PhaseFunction, T: Real, const N: usize, const M: usize>(
     [from_fn(|i| by_p[i] * inverse), from_fn(|i| -by_q[i] * inverse)]
 }
 
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn combine<T: Real, const N: usize, const M: usize>(
     a: &State<T, N, M>,
     weight: f64,
@@ -52,7 +52,7 @@ fn combine<T: Real, const N: usize, const M: usize>(
 }
 
 /// The modified midpoint rule with an even number of substeps.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 fn midpoint<H: PhaseFunction, T: Real, const N: usize, const M: usize>(
     hamiltonian: &H,
     (start, slope): (&State<T, N, M>, &State<T, N, M>),
@@ -69,7 +69,7 @@ fn midpoint<H: PhaseFunction, T: Real, const N: usize, const M: usize>(
 }
 
 /// The state a step of the action later, and the difference to the result of order four, of q and p.
-#[inline(always)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn advance<H: PhaseFunction, T: Real, const N: usize, const M: usize>(
     hamiltonian: &H,
     state: &State<T, N, M>,

@@ -75,7 +75,7 @@ impl Outline {
 
 impl Speed {
     /// v at a place.
-    #[inline(always)]
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn at<T: Real>(&self, [x, y]: [T; 2]) -> T {
         T::lit(self.at_origin) + T::lit(self.gradient[0]) * x + T::lit(self.gradient[1]) * y
     }
