@@ -39,21 +39,37 @@ impl Builder<'_> {
         let table = record.record(kind.name)?;
         let subject = match kind.name {
             "room" => Subject::Room(self.room(table)?),
+            "box" => self.fields_on_a_box(record, table)?,
             "wavefront" => Subject::Wavefront(self.wavefront(record, table)?),
             _ => self.solid(record, table, kind.name)?,
         };
         Some(Study { name, title: record.text("title").map(str::to_string), subject, output })
     }
 
-    /// Says that this program has no studies of solids.
+    #[cfg(feature = "spectral")]
+    fn fields_on_a_box(&mut self, scene: &Record, table: &Record) -> Option<Subject> {
+        self.box_study(scene, table).map(Subject::Box)
+    }
+
+    #[cfg(not(feature = "spectral"))]
+    fn fields_on_a_box(&mut self, scene: &Record, _table: &Record) -> Option<Subject> {
+        self.lacks_feature(scene, "box", "spectral")
+    }
+
     #[cfg(not(feature = "solutions"))]
     fn solid(&mut self, scene: &Record, _table: &Record, name: &str) -> Option<Subject> {
+        self.lacks_feature(scene, name, "solutions")
+    }
+
+    /// Says that this program has no studies of the kind `name`.
+    #[cfg(not(all(feature = "solutions", feature = "spectral")))]
+    fn lacks_feature(&mut self, scene: &Record, name: &str, feature: &str) -> Option<Subject> {
         self.wrong(
             Mistake::new(
                 scene.place_of(name),
-                format!("a scene of [{name}] needs the feature `solutions`, which this program was built without"),
+                format!("a scene of [{name}] needs the feature `{feature}`, which this program was built without"),
             )
-            .valid("a program built with it: `cargo build --release --features solutions`"),
+            .valid(format!("a program built with it: `cargo build --release --features {feature}`")),
         );
         None
     }
