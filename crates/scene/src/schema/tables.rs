@@ -37,7 +37,7 @@ const fn study(name: &'static str, lists: &'static [&'static str]) -> SceneKind 
 
 table! {
     /// A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]` and `[central]`
-    /// move in time and need `[time]`; all others are studies without it.
+    /// move in time and need `[time]`; all others are studies without it. A `[box]` has its times in its own table.
     pub static SCENE = "scene" {
         /// Name of the scene, of its output folder and in its results. The file's name when absent.
         name: Name, Optional;

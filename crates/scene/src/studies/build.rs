@@ -22,16 +22,26 @@ impl Builder<'_> {
     /// The study; parts that cannot be built have mistakes of their own.
     pub(crate) fn study(&mut self, record: &Record) -> Option<Study> {
         let kind = self.kind(record)?;
+        let is_box = kind.name == "box";
         for key in OF_MOTIONS.into_iter().filter(|key| record.has(key)) {
+            let valid = if is_box && key == "time" {
+                "`duration` in a [box] of the type motion or flow"
+            } else {
+                "nothing: this is a study, without a motion in time"
+            };
             self.wrong(
-                Mistake::new(record.place_of(key), format!("[{key}] in a scene of [{}]", kind.name))
-                    .valid("nothing: this is a study, without a motion in time"),
+                Mistake::new(record.place_of(key), format!("[{key}] in a scene of [{}]", kind.name)).valid(valid),
             );
         }
         if let Some(output) = record.record("output").filter(|output| output.has("samples")) {
+            let valid = if is_box {
+                "`interval` in a [box] of the type motion"
+            } else {
+                "nothing: there are no instants to record"
+            };
             self.wrong(
                 Mistake::new(output.place_of("samples"), format!("`samples` in a scene of [{}]", kind.name))
-                    .valid("nothing: there are no instants to record"),
+                    .valid(valid),
             );
         }
         let name = record.text("name").map_or_else(|| self.file_stem(), str::to_string);

@@ -1,4 +1,4 @@
-//! Studies: scenes without a motion in time.
+//! Studies: scenes without `[time]`.
 //!
 //! | table | study | with |
 //! |---|---|---|

@@ -16,6 +16,8 @@ use crate::studies::panel::{Panel, largest, prefixed};
 const BANDS: u32 = 24;
 /// Lines of a grid along the longer side.
 const LINES: usize = 24;
+/// Material lines along the longer side.
+const MATERIAL_LINES: f64 = 16.0;
 /// Length of the largest displacement in a figure, over the longer side.
 const SHOWN_DISPLACEMENT: f64 = 0.06;
 /// Curves in the panel of the probes.
@@ -46,10 +48,13 @@ fn draw_map(
     colour_bar(&bar, name, &colours, (0.0, most / unit))
 }
 
-/// Indices of lines: the first, the last, and others evenly between.
+/// Indices of lines: from the first one on, evenly apart, and the last.
 fn lines_of(points: usize, longest: usize) -> Vec<usize> {
-    let count = (LINES * points).div_ceil(longest).clamp(2, points);
-    (0..count).map(|k| k * (points - 1) / (count - 1)).collect()
+    let mut lines: Vec<usize> = (0..points).step_by(longest.div_ceil(LINES)).collect();
+    if lines.last() != Some(&(points - 1)) {
+        lines.push(points - 1);
+    }
+    lines
 }
 
 fn slice_title(title: &str, height: Option<f64>) -> String {
@@ -175,8 +180,12 @@ impl<const D: usize> FlowHistory<D> {
             draw_map(&top, window, &speeds, (&format!("|v| ({name})"), unit), &|canvas| {
                 let longest = sides[0].max(sides[1]);
                 for (coordinate, side) in [(across, sides[0]), (up, sides[1])] {
-                    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to LINES")]
-                    let count = ((LINES as f64 * side / longest).round() as u32).max(2);
+                    #[expect(
+                        clippy::cast_possible_truncation,
+                        clippy::cast_sign_loss,
+                        reason = "from 0 to MATERIAL_LINES"
+                    )]
+                    let count = ((MATERIAL_LINES * side / longest).round() as u32).max(2);
                     for line in 1..count {
                         let threshold = side * f64::from(line) / f64::from(count);
                         for border in coordinate.region(threshold) {

@@ -109,7 +109,8 @@ impl<const D: usize> FlowHistory<D> {
                     step *= 0.5;
                     continue;
                 }
-                Err(error) => return Err(format!("{error}; a shorter `step` may pass")),
+                Err(error @ SpectralError::Folded { .. }) => return Err(format!("{error}; a shorter `step` may pass")),
+                Err(error) => return Err(error.to_string()),
             };
             now = if h < left { now + h } else { task.duration };
             self.record(flow, report, now);
@@ -173,11 +174,14 @@ impl<const D: usize> FlowHistory<D> {
             let place = self.grid.position(self.grid.indices(point));
             self.particles.push((place, flow.reference_position(place)?));
         }
+        let sides = self.grid.sides();
         for probe in &fields.probes {
-            self.probes.push((probe.clone(), flow.reference_position(probe.at)?));
+            // The sides of the grid, points times spacing, are those of the scene but for rounding.
+            let place = core::array::from_fn(|axis| probe.at[axis].min(sides[axis]));
+            self.probes.push((probe.clone(), flow.reference_position(place)?));
         }
         let middle = Slice::of(&self.grid).height;
-        let [wide, tall] = [fields.sides[0], fields.sides[1]];
+        let [wide, tall] = [sides[0], sides[1]];
         let spacing = wide.max(tall) / SHOWN;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 3 to SHOWN + 1")]
         let count = [wide, tall].map(|side| (side / spacing).round().max(2.0) as usize + 1);
@@ -185,8 +189,8 @@ impl<const D: usize> FlowHistory<D> {
         for j in 0..count[1] {
             for i in 0..count[0] {
                 let mut place = [0.0; D];
-                place[0] = wide * i as f64 / (count[0] - 1) as f64;
-                place[1] = tall * j as f64 / (count[1] - 1) as f64;
+                place[0] = (wide * i as f64 / (count[0] - 1) as f64).min(wide);
+                place[1] = (tall * j as f64 / (count[1] - 1) as f64).min(tall);
                 if let Some(height) = middle {
                     place[D - 1] = height;
                 }

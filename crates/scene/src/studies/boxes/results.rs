@@ -52,6 +52,16 @@ impl<const D: usize> StaticField<D> {
         self.stress[row][column].iter().map(|stress| stress.abs()).reduce(f64::max)
     }
 
+    /// The largest component of what loads and walls together leave over, over that of the loads: the error of the forces of the
+    /// walls, which are sums of modes.
+    #[must_use]
+    pub fn unbalance(&self) -> Option<f64> {
+        let (loads, walls) = (self.resultant?, self.wall_forces?);
+        let size = loads.iter().fold(0.0, |size: f64, load| size.max(load.abs()));
+        let left = (0..D).map(|axis| (loads[axis] + walls[axis][0] + walls[axis][1]).abs()).fold(0.0, f64::max);
+        (0.0 < size).then(|| left / size)
+    }
+
     fn results(&self) -> Value {
         let (force, energy) = (force_unit::<D>(), energy_unit::<D>());
         let mut stresses = Map::new();
@@ -69,13 +79,14 @@ impl<const D: usize> StaticField<D> {
         if let Some(forces) = self.wall_forces {
             let both = (0..D).map(|axis| (AXES[axis].to_string(), list(forces[axis])));
             results.insert(format!("forces_of_near_and_far_walls_{force}"), both.collect::<Map<_, _>>().into());
+            results.insert("relative_unbalance_of_loads_and_walls".into(), self.unbalance().into());
         }
         if let Some(lifted) = &self.lifted {
             results.insert("largest_force_normal_to_walls_N_per_m3".into(), lifted.overall().into());
         }
         if !self.probes.is_empty() {
             let displacements = self.probes.iter().map(|(probe, value)| (probe.name.clone(), list(*value)));
-            results.insert("displacement_at_m".into(), displacements.collect::<Map<_, _>>().into());
+            results.insert("displacement_of_probes_m".into(), displacements.collect::<Map<_, _>>().into());
         }
         results.into()
     }
@@ -93,17 +104,18 @@ impl<const D: usize> MotionHistory<D> {
         if let Some(drift) = self.energy_drift() {
             results.insert("largest_relative_drift_of_energy".into(), drift.into());
         }
-        for (index, probe) in self.probes.iter().enumerate() {
-            let at = |instant: &super::MotionInstant<D>| {
-                instant.displacements.get(index).map_or(0.0, |u| u.iter().map(|x| x * x).sum::<f64>().sqrt())
-            };
-            let largest = self.instants.iter().map(at).fold(0.0, f64::max);
-            let last = self.instants.last().and_then(|instant| instant.displacements.get(index));
-            results.insert(
-                probe.name.clone(),
-                json!({ "largest_displacement_m": largest, "displacement_at_end_m": last.map(|u| list(*u)) }),
-            );
+        if self.probes.is_empty() {
+            return results.into();
         }
+        let (mut largest, mut last) = (Map::new(), Map::new());
+        for (index, probe) in self.probes.iter().enumerate() {
+            let moved = || self.instants.iter().filter_map(|instant| instant.displacements.get(index));
+            let sizes = moved().map(|u| u.iter().map(|x| x * x).sum::<f64>().sqrt());
+            largest.insert(probe.name.clone(), sizes.reduce(f64::max).into());
+            last.insert(probe.name.clone(), moved().last().map(|u| list(*u)).into());
+        }
+        results.insert("largest_displacement_of_probes_m".into(), largest.into());
+        results.insert("displacement_of_probes_at_end_m".into(), last.into());
         results.into()
     }
 }
@@ -131,7 +143,7 @@ impl<const D: usize> FlowHistory<D> {
         });
         if !self.probes.is_empty() {
             let places = self.probes.iter().map(|(probe, at_first)| (probe.name.clone(), list(*at_first)));
-            results["place_at_first_m"] = places.collect::<Map<_, _>>().into();
+            results["place_of_probes_at_first_m"] = places.collect::<Map<_, _>>().into();
         }
         results
     }

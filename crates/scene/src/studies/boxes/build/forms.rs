@@ -7,8 +7,16 @@ use crate::model::Builder;
 use crate::studies::boxes::{AXES, Form, Load, Start};
 use piola_document::{Mistake, Record, words};
 
-/// The sides, what the walls hold, the highest indices.
-type Frame<const D: usize> = ([f64; D], Walls, [usize; D]);
+/// What the forms of a scene must fit.
+#[derive(Clone, Copy)]
+pub(super) struct Frame<const D: usize> {
+    pub(super) sides: [f64; D],
+    pub(super) walls: Walls,
+    /// The highest indices.
+    pub(super) highest: [usize; D],
+    /// The largest spacing of the grid that samples them, m; 0 without a grid.
+    pub(super) spacing: f64,
+}
 
 impl Builder<'_> {
     /// The loads; `end` is that of a motion.
@@ -35,7 +43,7 @@ impl Builder<'_> {
                     );
                     return None;
                 }
-                Form::Point { total: self.each_axis(record, key)?, at: self.place_in_box(record, frame.0)? }
+                Form::Point { total: self.each_axis(record, key)?, at: self.place_in_box(record, frame.sides)? }
             }
             name => self.form(record, name, "force_per_volume", frame)?,
         };
@@ -99,8 +107,20 @@ impl Builder<'_> {
         match name {
             "uniform" => Some(Form::Uniform { value: value? }),
             "gaussian" => {
-                let at = self.place_in_box(record, frame.0);
-                Some(Form::Gaussian { value: value?, at: at?, radius: record.number("radius")? })
+                let at = self.place_in_box(record, frame.sides);
+                let radius = record.number("radius")?;
+                if radius < frame.spacing {
+                    let (radius, spacing) = (words::number(radius), words::number(frame.spacing));
+                    self.wrong(
+                        Mistake::new(
+                            record.place_of("radius"),
+                            format!("the radius {radius} m is less than the spacing {spacing} m of the grid"),
+                        )
+                        .valid(format!("at least {spacing} m, or more `points`")),
+                    );
+                    return None;
+                }
+                Some(Form::Gaussian { value: value?, at: at?, radius })
             }
             _ => {
                 let indices = self.whole(record, "indices");
@@ -114,7 +134,7 @@ impl Builder<'_> {
         record: &Record,
         amplitudes: [f64; D],
         indices: [usize; D],
-        (_, walls, highest): Frame<D>,
+        Frame { walls, highest, .. }: Frame<D>,
     ) -> Option<Form<D>> {
         if indices.iter().zip(highest).any(|(index, highest)| highest < *index) {
             self.wrong(

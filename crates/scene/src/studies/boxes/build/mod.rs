@@ -9,6 +9,7 @@ use piola_spectral::{BoxGrid, Eigenbasis, LameParameters, SpectralError, Walls};
 use super::{BoxFields, BoxStudy, FlowTask, MOST_BYTES, MotionTask, Probe, StaticTask, Task, resolved};
 use crate::model::Builder;
 use crate::studies::boxes::plan::bytes_in_words;
+use forms::Frame;
 use numbers::in_words;
 use piola_document::{Mistake, Record, words};
 
@@ -39,12 +40,13 @@ impl Builder<'_> {
         self.foreign_start(scene, kind);
         let mut fields = BoxFields { sides, walls, lame, loads: Vec::new(), probes: probes?, task: task? };
         let highest = fields.highest();
-        let end = match &fields.task {
-            Task::Motion(task) => Some(task.duration),
-            _ => None,
+        let (end, spacings) = match &fields.task {
+            Task::Motion(task) => (Some(task.duration), [0.0; D]),
+            Task::Static(StaticTask { grid, .. }) | Task::Flow(FlowTask { grid, .. }) => (None, grid.spacings()),
         };
-        let starts = self.starts(scene, (sides, walls, highest));
-        fields.loads = self.loads(scene, (sides, walls, highest), end)?;
+        let frame = Frame { sides, walls, highest, spacing: spacings.into_iter().fold(0.0, f64::max) };
+        let starts = self.starts(scene, frame);
+        fields.loads = self.loads(scene, frame, end)?;
         let starts = starts?;
         if fields.loads.is_empty() && starts.is_empty() {
             let what = if end.is_some() { "neither a [[load]] nor a [[start]]" } else { "no [[load]]" };
@@ -59,6 +61,7 @@ impl Builder<'_> {
         if let Task::Motion(task) = &mut fields.task {
             task.starts = starts;
         }
+        self.is_recordable(scene, &fields)?;
         self.fits_into_memory(table, &fields)?;
         Some(fields)
     }
@@ -174,6 +177,19 @@ impl Builder<'_> {
         }
     }
 
+    fn is_recordable<const D: usize>(&mut self, scene: &Record, fields: &BoxFields<D>) -> Option<()> {
+        let Task::Motion(task) = &fields.task else { return Some(()) };
+        let count = (1.0 + task.duration / task.interval) * fields.probes.len() as f64;
+        if count <= MOST_PLACES {
+            return Some(());
+        }
+        self.wrong(
+            Mistake::new(scene.place_of("probe"), format!("{count:.0} displacements over all instants and probes"))
+                .valid(format!("at most {MOST_PLACES}: fewer probes, or a longer `interval`")),
+        );
+        None
+    }
+
     fn fits_into_memory<const D: usize>(&mut self, table: &Record, fields: &BoxFields<D>) -> Option<()> {
         let bytes = fields.bytes();
         if bytes <= MOST_BYTES {
@@ -192,6 +208,9 @@ impl Builder<'_> {
         None
     }
 }
+
+/// Displacements that are recorded, over all instants and probes.
+const MOST_PLACES: f64 = 5_000_000.0;
 
 /// Lamé's parameters, or the mistake about them.
 type Lame = Result<LameParameters, SpectralError>;
