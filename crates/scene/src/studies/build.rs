@@ -58,7 +58,7 @@ impl Builder<'_> {
 
     #[cfg(feature = "spectral")]
     fn fields_on_a_box(&mut self, scene: &Record, table: &Record) -> Option<Subject> {
-        self.box_study(scene, table).map(Subject::Box)
+        self.box_study(scene, table).map(|study| Subject::Box(Box::new(study)))
     }
 
     #[cfg(not(feature = "spectral"))]

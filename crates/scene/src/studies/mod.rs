@@ -93,5 +93,5 @@ pub enum Subject {
     Solid(SolidStudy),
     /// Elastic or viscous fields on a rectangle or a box.
     #[cfg(feature = "spectral")]
-    Box(BoxStudy),
+    Box(Box<BoxStudy>),
 }

@@ -23,7 +23,7 @@ pub enum Findings {
     Solid(super::SolidFindings),
     /// Fields on a rectangle or a box.
     #[cfg(feature = "spectral")]
-    Box(super::boxes::BoxFindings),
+    Box(Box<super::boxes::BoxFindings>),
 }
 
 /// A study that was run, however far it came.
@@ -81,7 +81,7 @@ pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> S
         #[cfg(feature = "spectral")]
         Subject::Box(fields) => {
             let (found, outcome) = fields.run(&mut observer);
-            (Findings::Box(found), outcome)
+            (Findings::Box(Box::new(found)), outcome)
         }
     };
     StudyRun { outcome, wall_time: begun.elapsed().as_secs_f64(), findings }

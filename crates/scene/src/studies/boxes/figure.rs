@@ -8,7 +8,7 @@ use piola_charts::{
 use super::AXES;
 use super::flow::FlowHistory;
 use super::map::Slice;
-use super::motion::MotionHistory;
+use super::motion::{MotionHistory, MotionInstant};
 use super::statics::StaticField;
 use crate::studies::panel::{Panel, largest, prefixed};
 
@@ -22,6 +22,9 @@ const MATERIAL_LINES: f64 = 16.0;
 const SHOWN_DISPLACEMENT: f64 = 0.06;
 /// Curves in the panel of the probes.
 const MOST_CURVES: usize = 8;
+
+/// A part of the energy, with its name.
+type Part<const D: usize> = (&'static str, fn(&MotionInstant<D>) -> f64);
 
 /// The colours of a map over a window, and the bar beside it.
 fn draw_map(
@@ -129,12 +132,12 @@ impl<const D: usize> MotionHistory<D> {
             }
         }
         let unit = if D == 2 { "J/m" } else { "J" };
-        let (joule, energy) = prefixed(unit, largest(self.instants.iter().map(super::MotionInstant::energy)));
+        let (joule, energy) = prefixed(unit, largest(self.instants.iter().map(MotionInstant::energy)));
         let mut energies = Panel::new("energy", format!("time ({second})"), format!("energy ({joule})")).with_zero();
-        let parts: [(&str, fn(&super::MotionInstant<D>) -> f64); 3] = [
+        let parts: [Part<D>; 3] = [
             ("kinetic", |instant| instant.kinetic_energy),
             ("elastic", |instant| instant.elastic_energy),
-            ("both", super::MotionInstant::energy),
+            ("both", MotionInstant::energy),
         ];
         for (index, (name, part)) in parts.into_iter().enumerate() {
             energies = energies.curve(name, index, self.instants.iter().map(|at| (at.time / time, part(at) / energy)));

@@ -49,7 +49,7 @@ impl<const D: usize> MotionTask<D> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and the most steps")]
         let count = whole as u32;
         let times = (1..=count).map(|k| (f64::from(k) * self.interval).min(self.duration));
-        let last = times.clone().last().unwrap_or(0.0);
+        let last = times.clone().next_back().unwrap_or(0.0);
         let rest = (4.0 * f64::EPSILON * self.duration < self.duration - last).then_some(self.duration);
         times.chain(rest)
     }

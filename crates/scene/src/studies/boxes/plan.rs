@@ -96,7 +96,7 @@ impl<const D: usize> BoxFields<D> {
             plan.skip("forces of the walls", "guided walls exert no normal force");
         }
         self.plan_probes("displacement", plan);
-        self.plan_table("field.csv", stride_of(&task.grid), plan);
+        plan_table("field.csv", stride_of(&task.grid), plan);
         if let Some(height) = Slice::of(&task.grid).height {
             plan.skip("other slices in the figure", format!("it shows the plane z = {} m", words::number(height)));
         }
@@ -130,7 +130,7 @@ impl<const D: usize> BoxFields<D> {
         plan.compute("velocity", "once: the loads are steady");
         match task.step {
             Some(step) => {
-                plan.compute("steps", format!("{:.0} of Runge and Kutta's method", (task.duration / step).ceil()))
+                plan.compute("steps", format!("{:.0} of Runge and Kutta's method", (task.duration / step).ceil()));
             }
             None => plan.compute("steps", "of half the time in which the fastest particle crosses a spacing"),
         }
@@ -142,7 +142,7 @@ impl<const D: usize> BoxFields<D> {
         self.plan_lift(task.modes.is_some(), plan);
         plan.skip("pressure", "the fluid is compressible: λ and μ give its stress");
         self.plan_probes("place at first", plan);
-        self.plan_table("particles.csv", stride_of(&task.grid), plan);
+        plan_table("particles.csv", stride_of(&task.grid), plan);
         if let Some(height) = Slice::of(&task.grid).height {
             plan.skip("other slices in the figure", format!("it shows the plane z = {} m", words::number(height)));
         }
@@ -157,13 +157,13 @@ impl<const D: usize> BoxFields<D> {
             plan.compute(&format!("{what} at named places"), names.join(", "));
         }
     }
+}
 
-    fn plan_table(&self, name: &str, stride: usize, plan: &mut StudyPlan) {
-        if 1 < stride {
-            plan.skip(
-                "points in the table",
-                format!("{name} has one of {stride} along each axis, {} rows at most", super::map::MOST_ROWS),
-            );
-        }
+fn plan_table(name: &str, stride: usize, plan: &mut StudyPlan) {
+    if 1 < stride {
+        plan.skip(
+            "points in the table",
+            format!("{name} has one of {stride} along each axis, {} rows at most", super::map::MOST_ROWS),
+        );
     }
 }

@@ -112,7 +112,7 @@ impl<const D: usize> MotionHistory<D> {
             let moved = || self.instants.iter().filter_map(|instant| instant.displacements.get(index));
             let sizes = moved().map(|u| u.iter().map(|x| x * x).sum::<f64>().sqrt());
             largest.insert(probe.name.clone(), sizes.reduce(f64::max).into());
-            last.insert(probe.name.clone(), moved().last().map(|u| list(*u)).into());
+            last.insert(probe.name.clone(), moved().next_back().map(|u| list(*u)).into());
         }
         results.insert("largest_displacement_of_probes_m".into(), largest.into());
         results.insert("displacement_of_probes_at_end_m".into(), last.into());

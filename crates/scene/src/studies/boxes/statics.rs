@@ -48,12 +48,11 @@ pub(super) fn solve_for_loads<const D: usize>(
         .map(|load| &load.form)
         .partition(|form| matches!(form, Form::Uniform { .. } | Form::Gaussian { .. }));
     if !sampled.is_empty() {
-        for point in 0..grid.len() {
-            let place = grid.position(grid.indices(point));
-            for value in sampled.iter().filter_map(|form| form.value(place)) {
-                for component in 0..D {
-                    solution[component][point] += value[component];
-                }
+        for (component, samples) in solution.iter_mut().enumerate() {
+            for (point, sample) in samples.iter_mut().enumerate() {
+                let place = grid.position(grid.indices(point));
+                let values = sampled.iter().filter_map(|form| form.value(place));
+                *sample = values.map(|value| value[component]).sum();
             }
         }
         let lists = solution.each_mut().map(Vec::as_mut_slice);

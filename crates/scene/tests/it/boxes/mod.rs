@@ -20,16 +20,23 @@ fn run(text: &str) -> StudyRun {
     run
 }
 
-fn in_rectangle(run: &StudyRun) -> &Found<2> {
+fn findings(run: &StudyRun) -> &BoxFindings {
     match &run.findings {
-        Findings::Box(BoxFindings::Rectangle(found)) => found,
+        Findings::Box(found) => found,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn in_rectangle(run: &StudyRun) -> &Found<2> {
+    match findings(run) {
+        BoxFindings::Rectangle(found) => found,
         other => panic!("{other:?}"),
     }
 }
 
 fn in_box(run: &StudyRun) -> &Found<3> {
-    match &run.findings {
-        Findings::Box(BoxFindings::Box(found)) => found,
+    match findings(run) {
+        BoxFindings::Box(found) => found,
         other => panic!("{other:?}"),
     }
 }

@@ -41,8 +41,8 @@ fn load_along_its_wave_moves_by_force_over_the_first_eigenvalue() {
         expected[0].push(factor * (PI * x).sin() * (3.0 * PI * y).cos());
         expected[1].push(3.0 * factor * (PI * x).cos() * (3.0 * PI * y).sin());
     }
-    for component in 0..2 {
-        assert_close("u", &found.displacement[component], &expected[component], Tol::ulps(64.0));
+    for (found, expected) in found.displacement.iter().zip(&expected) {
+        assert_close("u", found, expected, Tol::ulps(64.0));
     }
     // ½∫ f·u with ∫ (sin cos)² = side/2 · side/2.
     let Some(energy) = found.energy else { panic!("no energy") };
