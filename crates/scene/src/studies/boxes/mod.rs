@@ -28,6 +28,35 @@ pub(super) const AXES: [&str; 3] = ["x", "y", "z"];
 pub const MOST_BYTES: f64 = 1_073_741_824.0;
 
 /// A study of fields on a rectangle or a box.
+///
+/// # Example
+/// A bar between sliding walls under f = sin πx: u = f/((λ + 2μ) π²).
+/// ```
+/// use piola_scene::studies::{self, Findings, boxes::{BoxFindings, Found}};
+/// use piola_scene::{Document, SceneFile};
+/// use std::f64::consts::PI;
+/// let document = Document::parse("bar.toml", "
+///     [box]
+///     type = 'static'
+///     sides = '[1, 1] m'
+///     points = [9, 3]
+///     location = 'nodes'
+///     first_lame_parameter = '2 Pa'
+///     shear_modulus = '1 Pa'
+///     [[load]]
+///     type = 'mode'
+///     indices = [1, 0]
+///     force_per_volume = '[1, 0] N/m^3'
+/// ");
+/// let SceneFile::Study(study) = SceneFile::from_document(&document)? else { panic!() };
+/// let run = studies::run(&study, |_| std::ops::ControlFlow::Continue(()));
+/// let Findings::Box(found) = &run.findings else { panic!() };
+/// let BoxFindings::Rectangle(Found::Static(field)) = &**found else { panic!() };
+/// let (largest, [x, _]) = field.largest_displacement().unwrap();
+/// assert_eq!(x, 0.5);
+/// assert!((largest - 1.0 / (4.0 * PI * PI)).abs() < 1e-17);
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub enum BoxStudy {
     /// Two sides: plane strain or plane flow, for a unit of depth.

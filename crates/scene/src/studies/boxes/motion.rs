@@ -3,7 +3,7 @@
 use piola_spectral::{BoxOperator, ModalMotion, SpectralError};
 
 use super::load::Forces;
-use super::statics::series_of;
+use super::statics::{finite, series_of};
 use super::{BoxFields, Form, MotionTask, Probe};
 use crate::studies::observer::Observer;
 
@@ -106,12 +106,14 @@ impl<const D: usize> MotionHistory<D> {
 
     fn record(&mut self, motion: &ModalMotion<D>, fields: &BoxFields<D>, time: f64) -> Result<(), SpectralError> {
         let displacements = fields.probes.iter().map(|probe| motion.displacement().value(probe.at));
-        self.instants.push(MotionInstant {
+        let instant = MotionInstant {
             time,
             kinetic_energy: motion.kinetic_energy(),
             elastic_energy: motion.elastic_energy(fields.lame),
             displacements: displacements.collect::<Result<_, _>>()?,
-        });
+        };
+        finite("energy", instant.energy())?;
+        self.instants.push(instant);
         Ok(())
     }
 

@@ -132,7 +132,9 @@ impl<const D: usize> StaticField<D> {
             return Ok(false);
         }
         let series = solver.series_of(lists)?;
-        self.energy = Some(series.elastic_energy(fields.lame));
+        let energy = series.elastic_energy(fields.lame);
+        finite("elastic energy", energy)?;
+        self.energy = Some(energy);
         if fields.walls == Walls::Sliding {
             let mut forces = [[0.0; 2]; D];
             for (axis, forces) in forces.iter_mut().enumerate() {
@@ -145,6 +147,11 @@ impl<const D: usize> StaticField<D> {
         }
         Ok(observer(1.0).is_continue())
     }
+}
+
+/// Refuses an energy beyond the range of numbers, which loads of any size can reach.
+pub(super) fn finite(quantity: &'static str, value: f64) -> Result<(), SpectralError> {
+    if value.is_finite() { Ok(()) } else { Err(SpectralError::NotFinite { quantity, index: 0, value }) }
 }
 
 /// The sum of all loads: samples times the volumes that belong to their points, forces at points, integrals of modes.

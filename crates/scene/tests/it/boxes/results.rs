@@ -139,3 +139,10 @@ fn interrupted_motion_and_equilibrium_keep_what_they_found() {
     }
     std::fs::remove_dir_all(&folder).unwrap_or_else(|error| panic!("{error}"));
 }
+
+#[test]
+fn load_beyond_the_range_of_numbers_fails_by_name() {
+    let run = studies::run(&study(&replaced(BLOCK, "[1, 2, 3] N", "[1e300, 2, 3] N")), |_| ControlFlow::Continue(()));
+    let Outcome::Failed(why) = &run.outcome else { panic!("{:?}", run.outcome) };
+    assert!(why.contains("elastic energy") && why.contains("is not finite"), "{why}");
+}
