@@ -9,7 +9,7 @@
 //! | run | [`run`](mod@run) | plan → history, drift of invariants, errors against the reference ([`kepler`](piola_gravitation::kepler) or a table) |
 //! | write | [`output`] | run → `summary.json`, CSV tables, SVG figures |
 //!
-//! A file whose scene has no motion in time is a [study](studies) and goes the same way. [`SceneFile`] reads both.
+//! A file whose scene has no `[time]` is a [study](studies) and goes the same way. [`SceneFile`] reads both.
 #![forbid(unsafe_code)]
 
 mod error;

@@ -9,7 +9,7 @@ pub(super) const COMMAND: Command = Command {
     name: "scenes",
     usage: "",
     help: "run every scene as the read-me says, with the binary in its release profile
-Only this builds what the read-me's first command builds: optimised across crates.",
+Only this builds what the read-me's first command builds. Scenes of fields on a box run last: they need a feature more.",
     prepare: |shell, workspace, _| {
         let folder = workspace.root.join("scenes");
         let mut scenes: Vec<_> = shell
@@ -19,12 +19,17 @@ Only this builds what the read-me's first command builds: optimised across crate
             .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
             .filter_map(|path| path.file_name().and_then(|name| name.to_str()).map(str::to_owned))
             .collect();
-        scenes.sort();
+        let needs_feature = |name: &String| {
+            let text = shell.read_file(folder.join(name)).unwrap_or_default();
+            text.lines().any(|line| line.trim_end() == "[box]")
+        };
+        scenes.sort_by_key(|name| (needs_feature(name), name.clone()));
         let step = |name: &String| {
             let (scene, out) = (format!("scenes/{name}"), format!("target/scenes/{}", name.trim_end_matches(".toml")));
+            let features: &[&str] = if needs_feature(name) { &["--features", "spectral"] } else { &[] };
             Step::program(
                 &format!("scenes: {name}"),
-                cmd!(shell, "cargo run --quiet --release -- run {scene} --out {out}"),
+                cmd!(shell, "cargo run --quiet --release {features...} -- run {scene} --out {out}"),
                 "a scene that is shipped must run with the command of the read-me",
             )
         };

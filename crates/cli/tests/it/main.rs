@@ -1,4 +1,5 @@
 //! The program from outside: arguments, exit codes, what goes to which stream, what is written.
 
+mod boxes;
 mod end_to_end;
 mod register;

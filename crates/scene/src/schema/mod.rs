@@ -3,6 +3,7 @@
 //! [`SCENE`] is a tree of [`Table`]s of [`Key`]s: name, kind, unit, default, documentation. Validation, the JSON Schema
 //! for editors ([`json_schema`]) and the tables of the scene reference ([`markdown`]) all read it.
 
+mod boxes;
 mod solids;
 mod studies;
 mod tables;

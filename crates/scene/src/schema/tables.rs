@@ -6,14 +6,14 @@ use piola_document::units::Dimension as D;
 use super::Absent::{Default, Optional, Required};
 use super::Kind::{Flag, Name, Path, Text};
 use super::Range::{Any, Fraction, NotNegative, Positive};
-use super::{Kind, SceneKind, Word, quantity, solids, studies, word};
+use super::{Kind, SceneKind, Word, boxes, quantity, solids, studies, word};
 
 const fn vector(dimension: D) -> Kind {
     Kind::Numbers(dimension, &[3])
 }
 
 /// The kinds of scenes.
-pub static SCENE_KINDS: [SceneKind; 10] = [
+pub static SCENE_KINDS: [SceneKind; 11] = [
     motion("gravity", &["body"]),
     motion("mechanism", &["joint", "particle", "rigid_body"]),
     motion("central", &["body"]),
@@ -24,6 +24,7 @@ pub static SCENE_KINDS: [SceneKind; 10] = [
     study("bending", &["law"]),
     study("dislocation", &[]),
     study("laminated_tube", &["law", "layer"]),
+    study("box", &["load", "start", "probe"]),
 ];
 
 const fn motion(name: &'static str, lists: &'static [&'static str]) -> SceneKind {
@@ -36,7 +37,7 @@ const fn study(name: &'static str, lists: &'static [&'static str]) -> SceneKind 
 
 table! {
     /// A scene has exactly one of the tables that say of what kind it is: `[gravity]`, `[mechanism]` and `[central]`
-    /// move in time and need `[time]`; all others are studies without it.
+    /// move in time and need `[time]`; all others are studies without it. A `[box]` has its times in its own table.
     pub static SCENE = "scene" {
         /// Name of the scene, of its output folder and in its results. The file's name when absent.
         name: Name, Optional;
@@ -66,6 +67,14 @@ table! {
         law: Kind::Table(&solids::LAW), Optional;
         /// The layers of a `[laminated_tube]`, from the innermost.
         layer: Kind::Tables(&solids::LAYER), Optional;
+        /// Elastic or viscous fields on a rectangle or a box.
+        box: Kind::Table(&boxes::BOX), Optional;
+        /// The forces on the body in a `[box]`.
+        load: Kind::Tables(&boxes::LOAD), Optional;
+        /// The state from which a `[box]` of the type `motion` starts.
+        start: Kind::Tables(&boxes::START), Optional;
+        /// Places in a `[box]` at which the result is recorded.
+        probe: Kind::Tables(&boxes::PROBE), Optional;
         /// The bodies of `[gravity]` or `[central]`.
         body: Kind::Tables(&BODY), Optional;
         /// The joints of a `[mechanism]`: a tree that grows from the ground.

@@ -22,16 +22,26 @@ impl Builder<'_> {
     /// The study; parts that cannot be built have mistakes of their own.
     pub(crate) fn study(&mut self, record: &Record) -> Option<Study> {
         let kind = self.kind(record)?;
+        let is_box = kind.name == "box";
         for key in OF_MOTIONS.into_iter().filter(|key| record.has(key)) {
+            let valid = if is_box && key == "time" {
+                "`duration` in a [box] of the type motion or flow"
+            } else {
+                "nothing: this is a study, without a motion in time"
+            };
             self.wrong(
-                Mistake::new(record.place_of(key), format!("[{key}] in a scene of [{}]", kind.name))
-                    .valid("nothing: this is a study, without a motion in time"),
+                Mistake::new(record.place_of(key), format!("[{key}] in a scene of [{}]", kind.name)).valid(valid),
             );
         }
         if let Some(output) = record.record("output").filter(|output| output.has("samples")) {
+            let valid = if is_box {
+                "`interval` in a [box] of the type motion"
+            } else {
+                "nothing: there are no instants to record"
+            };
             self.wrong(
                 Mistake::new(output.place_of("samples"), format!("`samples` in a scene of [{}]", kind.name))
-                    .valid("nothing: there are no instants to record"),
+                    .valid(valid),
             );
         }
         let name = record.text("name").map_or_else(|| self.file_stem(), str::to_string);
@@ -39,21 +49,37 @@ impl Builder<'_> {
         let table = record.record(kind.name)?;
         let subject = match kind.name {
             "room" => Subject::Room(self.room(table)?),
+            "box" => self.fields_on_a_box(record, table)?,
             "wavefront" => Subject::Wavefront(self.wavefront(record, table)?),
             _ => self.solid(record, table, kind.name)?,
         };
         Some(Study { name, title: record.text("title").map(str::to_string), subject, output })
     }
 
-    /// Says that this program has no studies of solids.
+    #[cfg(feature = "spectral")]
+    fn fields_on_a_box(&mut self, scene: &Record, table: &Record) -> Option<Subject> {
+        self.box_study(scene, table).map(|study| Subject::Box(Box::new(study)))
+    }
+
+    #[cfg(not(feature = "spectral"))]
+    fn fields_on_a_box(&mut self, scene: &Record, _table: &Record) -> Option<Subject> {
+        self.lacks_feature(scene, "box", "spectral")
+    }
+
     #[cfg(not(feature = "solutions"))]
     fn solid(&mut self, scene: &Record, _table: &Record, name: &str) -> Option<Subject> {
+        self.lacks_feature(scene, name, "solutions")
+    }
+
+    /// Says that this program has no studies of the kind `name`.
+    #[cfg(not(all(feature = "solutions", feature = "spectral")))]
+    fn lacks_feature(&mut self, scene: &Record, name: &str, feature: &str) -> Option<Subject> {
         self.wrong(
             Mistake::new(
                 scene.place_of(name),
-                format!("a scene of [{name}] needs the feature `solutions`, which this program was built without"),
+                format!("a scene of [{name}] needs the feature `{feature}`, which this program was built without"),
             )
-            .valid("a program built with it: `cargo build --release --features solutions`"),
+            .valid(format!("a program built with it: `cargo build --release --features {feature}`")),
         );
         None
     }

@@ -1,4 +1,4 @@
-//! Studies: scenes without a motion in time.
+//! Studies: scenes without `[time]`.
 //!
 //! | table | study | with |
 //! |---|---|---|
@@ -9,8 +9,10 @@
 //! | `[bending]` | `BentBlockStudy`: a block bent by couples | `piola_solutions` |
 //! | `[dislocation]` | `ScrewDislocations`: circuits in a crystal with screws | `piola_uniformity` |
 //! | `[laminated_tube]` | `LayeredTube`: a tube with residual stress | `piola_uniformity` |
+//! | `[box]` | `BoxStudy`: elastic and viscous fields on a rectangle or a box | `piola_spectral` |
 //!
-//! The last five need the feature `solutions`.
+//! Those with `piola_solutions` and `piola_uniformity` need the feature `solutions`, those with `piola_spectral` the feature
+//! `spectral`.
 //!
 //! They go the way of all scenes: a checked [`Study`] has a [`StudyPlan`], [`run`] makes a [`StudyRun`] of what was found,
 //! and [`StudyRun::write`] leaves the summary, tables and figures. One that fails or is stopped keeps what it had found.
@@ -19,6 +21,8 @@
 pub mod balloon;
 #[cfg(feature = "solutions")]
 pub mod bending;
+#[cfg(feature = "spectral")]
+pub mod boxes;
 mod build;
 #[cfg(feature = "solutions")]
 pub mod dislocation;
@@ -29,7 +33,7 @@ mod law;
 #[cfg(feature = "solutions")]
 mod limits;
 mod observer;
-#[cfg(feature = "solutions")]
+#[cfg(any(feature = "solutions", feature = "spectral"))]
 mod panel;
 mod plan;
 pub mod room;
@@ -54,6 +58,8 @@ pub use self::{
     torsion::TwistedRod,
 };
 
+#[cfg(feature = "spectral")]
+pub use boxes::BoxStudy;
 pub use plan::StudyPlan;
 pub use room::Room;
 pub use run::{Findings, StudyRun, run};
@@ -85,4 +91,7 @@ pub enum Subject {
     /// A balloon, a rod, a block, a crystal or a tube.
     #[cfg(feature = "solutions")]
     Solid(SolidStudy),
+    /// Elastic or viscous fields on a rectangle or a box.
+    #[cfg(feature = "spectral")]
+    Box(Box<BoxStudy>),
 }

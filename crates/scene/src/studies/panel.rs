@@ -64,6 +64,7 @@ impl Panel {
     }
 
     /// Adds a disc with a name below it.
+    #[cfg(feature = "solutions")]
     pub(super) fn mark_below(self, name: &str, index: usize, place: (f64, f64)) -> Self {
         let mut panel = self.mark(name, index, place, true);
         if let Some(mark) = panel.marks.last_mut() {

@@ -64,6 +64,8 @@ impl StudyPlan {
             Subject::Room(room) => room.plan(&mut plan),
             #[cfg(feature = "solutions")]
             Subject::Solid(solid) => solid.plan(&mut plan),
+            #[cfg(feature = "spectral")]
+            Subject::Box(fields) => fields.plan(&mut plan),
         };
         for (wanted, files, what) in
             [(study.output.tables, tables, "tables"), (study.output.figures, figures, "figures")]

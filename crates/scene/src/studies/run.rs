@@ -21,6 +21,9 @@ pub enum Findings {
     /// Of a study of a solid.
     #[cfg(feature = "solutions")]
     Solid(super::SolidFindings),
+    /// Fields on a rectangle or a box.
+    #[cfg(feature = "spectral")]
+    Box(Box<super::boxes::BoxFindings>),
 }
 
 /// A study that was run, however far it came.
@@ -75,6 +78,11 @@ pub fn run(study: &Study, mut observer: impl FnMut(f64) -> ControlFlow<()>) -> S
             let (found, outcome) = solid.run(&mut observer);
             (Findings::Solid(found), outcome)
         }
+        #[cfg(feature = "spectral")]
+        Subject::Box(fields) => {
+            let (found, outcome) = fields.run(&mut observer);
+            (Findings::Box(Box::new(found)), outcome)
+        }
     };
     StudyRun { outcome, wall_time: begun.elapsed().as_secs_f64(), findings }
 }
@@ -86,6 +94,8 @@ impl StudyRun {
             Findings::Room(found) => found.results(),
             #[cfg(feature = "solutions")]
             Findings::Solid(found) => found.results(),
+            #[cfg(feature = "spectral")]
+            Findings::Box(found) => found.results(),
         };
         if let Value::Object(map) = results { map } else { Map::new() }
     }
@@ -153,6 +163,8 @@ impl StudyRun {
             (Findings::Room(found), Subject::Room(asked)) => found.file(asked, title, name),
             #[cfg(feature = "solutions")]
             (Findings::Solid(found), Subject::Solid(asked)) => found.file(asked, title, name),
+            #[cfg(feature = "spectral")]
+            (Findings::Box(found), Subject::Box(_)) => found.file(title, name),
             _ => None,
         };
         Written::of(folder, plan.files.iter().filter_map(|name| Some((name.as_str(), file(name)?))))

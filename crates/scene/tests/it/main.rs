@@ -1,6 +1,8 @@
 //! Tests of scenes: every bad input has a clear answer, every good one the right result.
 
 mod bad_input;
+#[cfg(feature = "spectral")]
+mod boxes;
 mod plan;
 mod reference;
 mod run;

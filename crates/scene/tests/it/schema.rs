@@ -73,14 +73,17 @@ fn scenes_that_come_with_the_program_are_valid() {
         if path.extension().is_some_and(|extension| extension == "toml") {
             match piola_scene::SceneFile::load(&path, &[]) {
                 Ok(_) => count += 1,
-                // Scenes of solids are not read without their feature, and nothing else is wrong with them.
-                Err(piola_scene::SceneError::Invalid(report)) if !cfg!(feature = "solutions") => {
+                // Scenes of solids and of boxes are not read without their feature, and nothing else is wrong with them.
+                Err(piola_scene::SceneError::Invalid(report))
+                    if !cfg!(all(feature = "solutions", feature = "spectral")) =>
+                {
                     let [mistake] = report.mistakes.as_slice() else { panic!("{}: {report}", path.display()) };
-                    assert!(mistake.found.contains("needs the feature `solutions`"), "{}: {report}", path.display());
+                    assert!(mistake.found.contains("needs the feature `"), "{}: {report}", path.display());
                 }
                 Err(error) => panic!("{}: {error}", path.display()),
             }
         }
     }
-    assert!(if cfg!(feature = "solutions") { 12 } else { 7 } <= count, "{count} scenes");
+    let (of_solids, of_boxes) = (usize::from(cfg!(feature = "solutions")), usize::from(cfg!(feature = "spectral")));
+    assert!(7 + 5 * of_solids + 3 * of_boxes <= count, "{count} scenes");
 }

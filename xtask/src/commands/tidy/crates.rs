@@ -44,8 +44,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("document", &[]),
     ("charts", &[]),
     ("measured", &["document", "charts", "fit"]),
-    // solutions and uniformity, by feature: studies of solids.
-    ("scene", &["document", "charts", "simulation", "characteristics", "solutions", "uniformity"]),
+    // solutions and uniformity, by feature: studies of solids; spectral, by feature: fields on a box.
+    ("scene", &["document", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral"]),
     // charts: the folder of the results.
     // images, by feature: files of images, for the command `register` alone.
     ("cli", &["scene", "measured", "images"]),
@@ -89,6 +89,7 @@ const BY_FEATURE: &[(&str, &str)] = &[
     ("fit", "viscometry"),
     ("scene", "solids"),
     ("scene", "solutions"),
+    ("scene", "spectral"),
     ("scene", "uniformity"),
     ("cli", "images"),
     ("cli", "registration"),
