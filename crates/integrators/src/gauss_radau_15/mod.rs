@@ -158,7 +158,7 @@ impl<T: Real> GaussRadau15<T> {
         Self::controlled(Control::Adaptive(tolerance.min(1.0).powf(POWER)), MOST_STEPS)
     }
 
-    /// Steps whose last coefficient is the part ε of the acceleration, the ε_b of Rein & Spiegel.
+    /// Steps whose last coefficient is the part ε of the acceleration, the `ε_b` of Rein & Spiegel.
     ///
     /// An ε that rounding alone exceeds, about 10⁻¹² in `f64`, is raised to that.
     ///
@@ -310,9 +310,7 @@ where
         let mut best_before = 0.0_f64;
         // When the field last could not be evaluated, and what it said.
         let mut refused: Option<(f64, F::Error)> = None;
-        if let Some((count, _)) = equal
-            && count == 0
-        {
+        if equal.is_some_and(|(count, _)| count == 0) {
             return Ok(report);
         }
         loop {
@@ -326,15 +324,7 @@ where
             let mut last = equal.is_some_and(|(count, _)| count == report.steps + 1);
             if equal.is_none() {
                 h = h.clamp(-method.longest_step, method.longest_step);
-                // The last two steps share what remains.
-                last = remaining.abs() <= h.abs() * (1.0 + 1e-9);
-                h = if last {
-                    remaining
-                } else if remaining.abs() < 2.0 * h.abs() {
-                    0.5 * remaining
-                } else {
-                    h
-                };
+                (h, last) = shared(h, remaining);
                 if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
                     return Err(match refused {
                         // The last refusal is the reason if it was here.
@@ -389,9 +379,7 @@ where
             }
             let verdict = inspect(&mut RadauStep::new(work, state, report.steps, h, from))?;
             if let ControlFlow::Break((time, ending)) = verdict {
-                if let Some(time) = time
-                    && time.to_bits() != state.time.to_bits()
-                {
+                if let Some(time) = time.filter(|time| time.to_bits() != state.time.to_bits()) {
                     work.state_at((time - from) / h, &mut state.values);
                     state.carry.fill(T::zero());
                     state.set_time(time);
@@ -403,13 +391,20 @@ where
                 return Ok(report);
             }
             if equal.is_none() {
-                // As the best step changed, it will change.
-                let best = h.abs() * factor;
-                let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
-                best_before = best;
-                h *= (SAFETY * factor * trend).min(MOST_GROWTH);
+                h *= growth(factor, h, &mut best_before);
             }
         }
+    }
+}
+
+/// The length of the next step, and whether it is the last: the last two steps share what remains.
+fn shared(h: f64, remaining: f64) -> (f64, bool) {
+    if remaining.abs() <= h.abs() * (1.0 + 1e-9) {
+        (remaining, true)
+    } else if remaining.abs() < 2.0 * h.abs() {
+        (0.5 * remaining, false)
+    } else {
+        (h, false)
     }
 }
 
@@ -424,6 +419,14 @@ fn factor(attempt: &Attempt, epsilon: f64) -> f64 {
     let slow = FEW_SWEEPS < attempt.sweeps;
     let cheap = if slow { (BEST_CONTRACTION / attempt.contraction).sqrt() } else { f64::INFINITY };
     accurate.min(cheap.max(REJECTED))
+}
+
+/// By how much the next step is longer: as the best step changed, it will change.
+fn growth(factor: f64, h: f64, best_before: &mut f64) -> f64 {
+    let best = h.abs() * factor;
+    let trend = if 0.0 < *best_before { (best / *best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
+    *best_before = best;
+    (SAFETY * factor * trend).min(MOST_GROWTH)
 }
 
 /// A first step to try: a part of the time in which the positions would change as much as their size.

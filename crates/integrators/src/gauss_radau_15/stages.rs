@@ -361,7 +361,9 @@ impl<T: Real> Workspace<T> {
         #[expect(clippy::cast_possible_truncation, reason = "at most a few dozen")]
         let iterations = attempt.sweeps as usize;
         let diverged = IntegratorsError::StagesDiverged { t, step, iterations, change: attempt.change };
-        Some(check_finite("rate", Some(t), &self.accelerations).err().unwrap_or(diverged))
+        // Rates that only later sweeps led to infinity are not the field's fault.
+        let not_finite = check_finite("rate", Some(t), &self.accelerations).err();
+        Some(not_finite.filter(|_| attempt.change.is_infinite()).unwrap_or(diverged))
     }
 
     /// Why no shorter step can be made.

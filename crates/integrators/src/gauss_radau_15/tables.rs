@@ -208,16 +208,18 @@ impl<T: Real> Tables<T> {
     pub(super) fn coefficients(&self, stages: &[T; 8]) -> [T; 7] {
         let (mut b, mut divided) = ([T::zero(); 7], [T::zero(); 8]);
         for n in 1..8 {
-            let mut difference = stages[n] * self.differences[n][0];
-            for k in 1..n {
-                difference = (difference - divided[k]) * self.differences[n][k];
+            // Divided: a reciprocal, always rounded the same way, changes the energy of a circular motion by 2e-20 in every step,
+            // which is more than the random rest after 30,000 revolutions.
+            let mut difference = stages[n] / self.nodes[n];
+            for (divided, inverse) in divided.iter().zip(&self.differences[n]).take(n).skip(1) {
+                difference = (difference - *divided) * *inverse;
             }
             divided[n] = difference;
         }
         // The small ones first.
         for n in (1..8).rev() {
-            for m in 0..n {
-                b[m] += divided[n] * self.powers[n][m];
+            for (b, power) in b.iter_mut().zip(&self.powers[n]).take(n) {
+                *b += divided[n] * *power;
             }
         }
         b
