@@ -11,13 +11,14 @@ const AREA: [f64; 4] = [78.0, 64.0, 628.0, 492.0];
 pub(crate) const INK: &str = "#222222";
 pub(crate) const FAINT: &str = "#dddddd";
 
-/// Colours of Okabe and Ito, told apart by every kind of eye.
+/// Colours of Okabe and Ito, and two of Tol's, told apart by every kind of eye.
 const fn colour(family: Family) -> &'static str {
     match family {
         Family::Composition => "#0072B2",
         Family::GaussLegendre => "#56B4E9",
         Family::CanonicalGaussLegendre => "#009E73",
         Family::GaussLegendre16 => "#882255",
+        Family::GaussRadau15 => "#999933",
         Family::DormandPrince => "#D55E00",
         Family::DerivedDormandPrince => "#000000",
         Family::OdeSolvers => "#CC79A7",

@@ -4,8 +4,8 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use piola_integrators::{
-    Composition, DormandPrince853, Field, GaussLegendre, GaussLegendre16, Order, Report, SecondOrder, State, Tolerance,
-    field, separable,
+    Composition, DormandPrince853, Field, GaussLegendre, GaussLegendre16, GaussRadau15, Order, Report, SecondOrder,
+    State, Tolerance, field, separable,
 };
 use piola_numerics::{Lanes, Real};
 use serde_json::{Value, json};
@@ -41,6 +41,8 @@ pub enum Family {
     CanonicalGaussLegendre,
     /// Collocation of order sixteen, adaptive, its stages in lanes.
     GaussLegendre16,
+    /// Collocation of order fifteen at Radau's nodes, adaptive, one stage after the other.
+    GaussRadau15,
     /// The adaptive method on the equations written by hand.
     DormandPrince,
     /// The adaptive method on equations that Piola derives.
@@ -309,6 +311,36 @@ where
     let name = format!("Gauss–Legendre 16, {name}");
     let parameters = (1..=16).map(|k| 10.0_f64.powi(-k)).collect();
     Method { name, family: Family::GaussLegendre16, order: 16, parameters, run: Box::new(run) }
+}
+
+/// Collocation of order fifteen, adaptive, on equations written by hand.
+#[must_use]
+pub fn gauss_radau_15<E: Equations<D> + Accelerations, const D: usize>(problem: &Problem<E, D>) -> Method<'_> {
+    let field = || Accelerated { equations: &problem.equations, freedom: D / 2 };
+    Method { name: "Gauss–Radau 15".into(), ..derived_gauss_radau_15("", problem.start, problem.end, field) }
+}
+
+/// Collocation of order fifteen, adaptive, on a system that Piola derives.
+#[must_use]
+pub fn derived_gauss_radau_15<'a, F: SecondOrder, const D: usize>(
+    name: &str,
+    start: [f64; D],
+    end: f64,
+    field: impl Fn() -> F + 'a,
+) -> Method<'a>
+where
+    F::Error: std::error::Error + 'static,
+{
+    let run = move |tolerance: f64| {
+        let mut state = State::new(0.0, start.to_vec()).map_err(|error| error.to_string())?;
+        let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+        let mut method = GaussRadau15::new(tolerance);
+        let report = method.integrate_to(&mut field(), &mut state, end).map_err(|error| error.to_string())?;
+        Ok(Outcome::of(report, state))
+    };
+    let name = format!("Gauss–Radau 15, {name}");
+    let parameters = (1..=16).map(|k| 10.0_f64.powi(-k)).collect();
+    Method { name, family: Family::GaussRadau15, order: 15, parameters, run: Box::new(run) }
 }
 
 /// The adaptive method on equations written by hand.

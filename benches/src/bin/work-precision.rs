@@ -10,7 +10,7 @@ use piola_benches::figure::figure;
 use piola_benches::problems::{self, Accelerations, Equations, Force, Problem};
 use piola_benches::work_precision::{
     Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, derived_gauss_legendre_16,
-    dormand_prince, gauss_legendre, gauss_legendre_16, measure, peer_methods,
+    derived_gauss_radau_15, dormand_prince, gauss_legendre, gauss_legendre_16, gauss_radau_15, measure, peer_methods,
 };
 use piola_gravitation::Gravitation;
 use piola_integrators::Order;
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     if "arenstorf".contains(&filter) {
         let problem = problems::arenstorf()?;
-        let mut methods = vec![dormand_prince(&problem), gauss_legendre_16(&problem)];
+        let mut methods = vec![dormand_prince(&problem), gauss_legendre_16(&problem), gauss_radau_15(&problem)];
         methods.extend(COLLOCATION.map(|order| gauss_legendre(&problem, order, 200.0)));
         methods.extend(peer_methods(&problem));
         records.extend(run(&problem, &methods, &folder)?);
@@ -84,6 +84,7 @@ fn double_pendulum(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
     let mut methods = vec![
         dormand_prince(&problem),
         gauss_legendre_16(&problem),
+        gauss_radau_15(&problem),
         derived_gauss_legendre_16("by placement", problem.start, problem.end, || lagrangian.motion(2)),
         derived_dormand_prince("by placement", problem.start, problem.end, || lagrangian.motion(2)),
     ];
@@ -103,6 +104,7 @@ fn outer_solar_system(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
     let gravitation = || gravitation.clone();
     methods.insert(1, derived_dormand_prince("Gravitation", problem.start, problem.end, gravitation));
     methods.insert(2, derived_gauss_legendre_16("Gravitation", problem.start, problem.end, gravitation));
+    methods.insert(3, derived_gauss_radau_15("Gravitation", problem.start, problem.end, gravitation));
     run(&problem, &methods, folder)
 }
 
@@ -111,7 +113,7 @@ fn separable_methods<E: Equations<D> + Force + Accelerations, const D: usize>(
     problem: &Problem<E, D>,
     fewest: f64,
 ) -> Vec<Method<'_>> {
-    let mut methods = vec![dormand_prince(problem), gauss_legendre_16(problem)];
+    let mut methods = vec![dormand_prince(problem), gauss_legendre_16(problem), gauss_radau_15(problem)];
     methods.extend(Order::ALL.map(|order| composition(problem, order, fewest)));
     methods.extend(COLLOCATION.map(|order| gauss_legendre(problem, order, fewest)));
     methods.extend(peer_methods(problem));

@@ -3,7 +3,8 @@
 use core::convert::Infallible;
 
 use piola_integrators::{
-    DormandPrince853, ErrorEstimate, Field, GaussLegendre16, IntegratorsError, SecondOrder, State, Tolerance,
+    DormandPrince853, ErrorEstimate, Field, GaussLegendre16, GaussRadau15, IntegratorsError, SecondOrder, State,
+    Tolerance,
 };
 use piola_numerics::Lanes;
 use piola_testkit::golden::{self, number, text, vector};
@@ -57,6 +58,10 @@ fn sixteen<F: SecondOrder<Lanes<f64, 8>, Error = Infallible>>(name: &str, mut fi
     ratios(name, |state, end, tolerance| GaussLegendre16::new(tolerance).integrate_and_estimate(&mut field, state, end))
 }
 
+fn fifteen<F: SecondOrder<Error = Infallible>>(name: &str, mut field: F) -> Vec<f64> {
+    ratios(name, |state, end, tolerance| GaussRadau15::new(tolerance).integrate_and_estimate(&mut field, state, end))
+}
+
 macro_rules! all_problems {
     ($run:ident) => {{
         let pendulum = |masses, lengths| DoublePendulum { masses, lengths, gravity: 9.8125 };
@@ -76,6 +81,11 @@ macro_rules! all_problems {
 #[test]
 fn estimate_of_order_eight_equals_the_true_error_within_three() {
     judge("order eight", &all_problems!(eight), 80);
+}
+
+#[test]
+fn estimate_of_order_fifteen_equals_the_true_error_within_three() {
+    judge("order fifteen", &all_problems!(fifteen), 80);
 }
 
 #[test]
