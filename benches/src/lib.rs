@@ -2,6 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`boxes`] | static solutions on a cube: ours, other transforms, differences |
 //! | [`problems`] | initial value problems with known solutions, hand-coded as their authors' peers would |
 //! | [`peers`] | the same equations given to other crates |
 //! | [`chain`] | pendulum chains three ways: by placement, hand-coded, by the dual numbers of another crate |
@@ -14,6 +15,7 @@
 //! | [`figure`] | such a table as a figure |
 //! | [`notes`] | what a bench knows beside its time |
 
+pub mod boxes;
 pub mod chain;
 pub mod constitutive;
 pub mod continuum;
