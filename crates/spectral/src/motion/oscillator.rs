@@ -24,7 +24,8 @@ impl Propagator {
     /// σ² = γ² − ω₀² > 0:  S = (e^{−r₁h} − e^{−r₂h})/(r₂ − r₁),  r₂ = γ + σ,  r₁ = ω₀²/r₂
     /// ```
     /// r₁ is not formed as a difference, so a slow decay keeps its digits.
-    pub(crate) fn new(density: f64, drag: f64, stiffness: f64, h: f64) -> Self {
+    /// Without `has_force` the answers to forces stay zero.
+    pub(crate) fn new(density: f64, drag: f64, stiffness: f64, h: f64, has_force: bool) -> Self {
         let half_damping = drag / (2.0 * density);
         let squared = stiffness / density;
         let natural = squared.sqrt();
@@ -32,7 +33,8 @@ impl Propagator {
         let decay = Decay { half_damping, squared, natural, discriminant, h };
         let (impulse, slope, relaxed) = decay.response();
         let transfer = [[relaxed, impulse], [-squared * impulse, slope]];
-        let forced = decay.forced(impulse).map(|[a, b]| [a / density, b / density]);
+        let forced = if has_force { decay.forced(impulse) } else { [[0.0; 2]; DEGREE + 1] };
+        let forced = forced.map(|[a, b]| [a / density, b / density]);
         Self { transfer, forced }
     }
 }
