@@ -10,11 +10,6 @@
 //! | integrals of functions of one variable, with their errors | [`quadrature`] |
 //! | a sum, dot product or state update without rounding loss | [`sums`] |
 
-#![expect(
-    clippy::inline_always,
-    reason = "a kernel gets the instruction set of its caller only when everything it calls is inlined into it"
-)]
-
 pub mod derivatives;
 mod differentiable;
 mod dispatch;
