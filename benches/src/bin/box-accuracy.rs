@@ -53,13 +53,8 @@ fn chart(all: &[Measured]) -> String {
     };
     let curves = vec![curve("piola f64"), curve("differences")];
     let names = [("eigenfunctions", colour(0)), ("differences and conjugate gradients", colour(1))];
-    let panel = LogPanel {
-        title: "",
-        axes: ["time, s", "relative error"],
-        marks: curves.concat(),
-        curves,
-        band: Vec::new(),
-    };
+    let panel =
+        LogPanel { title: "", axes: ["time, s", "relative error"], marks: curves.concat(), curves, band: Vec::new() };
     figure((760, 480), "A smooth displacement of a cube: error against time, one core", &|area| {
         panel.draw(area)?;
         legend(area, &names)

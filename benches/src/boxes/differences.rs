@@ -4,6 +4,7 @@ use piola_spectral::LameParameters;
 
 /// Equal cells of the unit cube between sliding walls. Component c stands on the faces across axis c; the first face of
 /// a row lies in the wall, where it stays zero.
+#[derive(Clone, Debug)]
 pub struct Staggered {
     n: usize,
     lame: LameParameters,

@@ -84,7 +84,7 @@ pub fn ours<T: Precision>(way: &'static str, points: usize, threads: usize) -> R
     if let Some(failure) = failure {
         return Err(failure.into());
     }
-    let solution = fields.into_inner().map(|field| field.into_iter().map(|value| value.re()).collect());
+    let solution = fields.into_inner().map(|field| field.into_iter().map(|value| value.primal(0)).collect());
     Ok(Measured { way, points, threads, seconds, error: relative_error(&solution, &exact(points)) })
 }
 

@@ -55,9 +55,11 @@ pub fn samples(n: usize, offset: [f64; 3], value: impl Fn([f64; 3]) -> f64) -> V
     let mut values = Vec::with_capacity(n * n * n);
     for i in 0..n {
         for j in 0..n {
-            values.extend((0..n).map(|k| {
-                value([(i as f64 + offset[0]) * h, (j as f64 + offset[1]) * h, (k as f64 + offset[2]) * h])
-            }));
+            values.extend(
+                (0..n).map(|k| {
+                    value([(i as f64 + offset[0]) * h, (j as f64 + offset[1]) * h, (k as f64 + offset[2]) * h])
+                }),
+            );
         }
     }
     values

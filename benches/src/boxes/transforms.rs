@@ -1,5 +1,7 @@
 //! The same method with transforms of other libraries: every line is copied out, transformed and copied back.
 
+#![expect(missing_debug_implementations, reason = "plans of other crates have none")]
+
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -183,7 +185,8 @@ impl<L: LineTransform> PlainSolver<L> {
                     let along: f64 = (0..3).map(|c| q[c] * value(c)).sum();
                     for c in 0..3 {
                         if let Some(place) = places[c] {
-                            fields[c][place] = scale * (fields[c][place] - share * q[c] * along / squared) / (mu * squared);
+                            fields[c][place] =
+                                scale * (fields[c][place] - share * q[c] * along / squared) / (mu * squared);
                         }
                     }
                 }

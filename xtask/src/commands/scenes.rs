@@ -8,7 +8,8 @@ use crate::step::Step;
 pub(super) const COMMAND: Command = Command {
     name: "scenes",
     usage: "",
-    help: "run every scene as the read-me says, with the binary in its release profile
+    help:
+        "run every scene as the read-me says, with the binary in its release profile
 Only this builds what the read-me's first command builds. Scenes of fields on a box run last: they need a feature more.",
     prepare: |shell, workspace, _| {
         let folder = workspace.root.join("scenes");

@@ -108,7 +108,8 @@ impl<const D: usize> ModalMotion<D> {
             let propagators = match last {
                 Some((before, propagators)) if before.to_bits() == squared.to_bits() => propagators,
                 _ => {
-                    let propagator = |kappa: f64| Propagator::new(self.density, self.drag, -kappa, h, !force.is_empty());
+                    let propagator =
+                        |kappa: f64| Propagator::new(self.density, self.drag, -kappa, h, !force.is_empty());
                     self.operator.eigenvalues(squared).map(propagator)
                 }
             };
