@@ -7,20 +7,32 @@ mod composition;
 mod dormand_prince;
 mod error;
 mod estimate;
+mod events;
 mod field;
 mod gauss_legendre;
 mod gauss_legendre_16;
+mod radau_iia;
 mod second_order;
 mod state;
+mod stiff_field;
 mod tolerance;
 
 pub use composition::{Composition, Order};
-pub use dormand_prince::{Crossing, DenseStep, DormandPrince853, Event, EventAction, Occurrence};
+pub use dormand_prince::{DenseStep, DormandPrince853};
 pub use error::IntegratorsError;
 pub use estimate::ErrorEstimate;
+pub use events::{Crossing, Event, EventAction, Occurrence};
 pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
+pub use radau_iia::{RadauIia, RadauOrder, RadauReport, RadauStep};
 pub use second_order::SecondOrder;
 pub use state::{Ending, Report, State, Step, unobserved};
+pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
 pub use tolerance::Tolerance;
+
+/// For the tests of this crate alone: no part of the interface.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::radau_iia::Tableau;
+}

@@ -15,17 +15,17 @@
 #[expect(clippy::unreadable_literal, reason = "seventeen digits, to be compared with printed tables")]
 mod coefficients;
 mod dense;
-mod events;
 mod first_step;
 mod stages;
+mod with_events;
 
 use core::ops::ControlFlow;
 
 use piola_numerics::Real;
 
 pub use dense::DenseStep;
-pub use events::{Crossing, Event, EventAction, Occurrence};
 
+use crate::events::Stop;
 use crate::state::{check_finite, check_run};
 use crate::{Ending, Field, IntegratorsError, Report, State, Tolerance};
 
@@ -295,9 +295,6 @@ impl<T: Real> DormandPrince853<T> {
 /// and for the same error at the end 23 % fewer evaluations are made (mean over double pendulum, e = 0.7 and
 /// e = 0.99, tolerances from 1e-7 to 1e-13).
 const SAFETY: f64 = 0.7;
-
-/// The time at which a run is stopped, where it is not the end of the step, and how it ended.
-type Stop = (Option<f64>, Ending);
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn evaluate<T: Real, F: Field<T>>(

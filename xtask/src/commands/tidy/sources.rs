@@ -52,7 +52,10 @@ fn in_rust(text: &str, is_library: bool) -> Found {
             (".unwrap()", "library code returns an error"),
             (".expect(", "library code returns an error"),
             ("panic!", "library code returns an error"),
-            ("#[inline(always)]", "#[cfg_attr(not(debug_assertions), inline(always))]: debug builds gain nothing by it"),
+            (
+                "#[inline(always)]",
+                "#[cfg_attr(not(debug_assertions), inline(always))]: debug builds gain nothing by it",
+            ),
         ];
         find(&without_tests(&code), &in_libraries, &mut found);
     }

@@ -3,9 +3,7 @@
 use core::fmt;
 use core::ops::ControlFlow;
 
-use super::{DenseStep, DormandPrince853, Stop};
-use crate::state::check_run;
-use crate::{Ending, Field, IntegratorsError, Report, State};
+use crate::{Ending, IntegratorsError, State};
 
 /// Which crossings of zero count; in the direction of the run, also where it runs backwards.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,71 +84,33 @@ pub struct Occurrence<'a> {
 /// Places looked at in one step.
 const PLACES: u32 = 8;
 
-impl DormandPrince853<f64> {
-    /// Integrates to `end` and reports the crossings of the events in the order of time. The run ends early
-    /// at an event whose action is [`EventAction::Stop`], with the state there, or when one of the observers
-    /// breaks. The observer sees a step after its events; a step cut short by a stop it does not see.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate), and [`IntegratorsError::InvalidEvent`] where a function is NaN.
-    ///
-    /// # Example
-    /// ```
-    /// use piola_integrators::*;
-    /// use std::ops::ControlFlow;
-    /// // A stone thrown up at 9.80665 m/s is back after two seconds.
-    /// let mut stone = field(2, |_t, y: &[f64], rate: &mut [f64]| {
-    ///     rate[0] = y[1];
-    ///     rate[1] = -9.80665;
-    /// });
-    /// let mut state = State::new(0.0, vec![0.0, 9.80665])?;
-    /// let mut ground = [Event::new(Crossing::Falling, EventAction::Stop, |_t, y| y[0])];
-    /// let report = DormandPrince853::new(Tolerance::relative(1e-12)?).integrate_with_events(
-    ///     &mut stone, &mut state, 10.0, &mut ground,
-    ///     |_| ControlFlow::Continue(()), |_| ControlFlow::Continue(()),
-    /// )?;
-    /// assert_eq!(report.ending, Ending::Event(0));
-    /// assert!((state.time - 2.0).abs() < 1e-13);
-    /// # Ok::<(), IntegratorsError>(())
-    /// ```
-    pub fn integrate_with_events<F: Field>(
-        &mut self,
-        field: &mut F,
-        state: &mut State,
-        end: f64,
-        events: &mut [Event<'_>],
-        mut on_event: impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
-        mut observer: impl FnMut(&mut DenseStep<'_, f64, F>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        check_run(field.dimension(), state, end)?;
-        let mut values = state.values.clone();
-        for (index, event) in events.iter_mut().enumerate() {
-            let g = event.value(index, state.time, &state.values)?;
-            event.last = if g.abs() <= 0.0 { None } else { Some((state.time, g)) };
-            event.pending = None;
-        }
-        self.run(field, state, end, &mut |step| {
-            if !events.is_empty()
-                && let Some(stop) = locate(step, events, &mut values, &mut on_event)?
-            {
-                return Ok(ControlFlow::Break(stop));
-            }
-            Ok(if observer(step).is_break() {
-                ControlFlow::Break((None, Ending::Stopped))
-            } else {
-                ControlFlow::Continue(())
-            })
-        })
+/// The time at which a run is stopped, where it is not the end of the step, and how it ended.
+pub(crate) type Stop = (Option<f64>, Ending);
+
+/// An accepted step that knows the state at any time within it.
+pub(crate) trait Interpolated<E> {
+    fn start(&self) -> f64;
+    fn time(&self) -> f64;
+    fn at(&mut self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError<E>>;
+}
+
+/// Looks at the functions of all events at the start of a run.
+pub(crate) fn begin<E>(events: &mut [Event<'_>], state: &State) -> Result<(), IntegratorsError<E>> {
+    for (index, event) in events.iter_mut().enumerate() {
+        let g = event.value(index, state.time, &state.values)?;
+        event.last = if g.abs() <= 0.0 { None } else { Some((state.time, g)) };
+        event.pending = None;
     }
+    Ok(())
 }
 
 /// Finds and reports the crossings of one step.
-fn locate<F: Field>(
-    step: &mut DenseStep<'_, f64, F>,
+pub(crate) fn locate<E>(
+    step: &mut impl Interpolated<E>,
     events: &mut [Event<'_>],
     values: &mut [f64],
     on_event: &mut impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
-) -> Result<Option<Stop>, IntegratorsError<F::Error>> {
+) -> Result<Option<Stop>, IntegratorsError<E>> {
     let (start, end) = (step.start(), step.time());
     for place in 1..=PLACES {
         let time = if place == PLACES { end } else { start + (end - start) * (f64::from(place) / f64::from(PLACES)) };
@@ -207,13 +167,13 @@ fn earliest(events: &[Event<'_>], forwards: bool) -> Option<(usize, f64)> {
 
 /// The zero of g between two times of opposite sign: false position with halving of the stale end
 /// (Illinois), and bisection whenever that is slow.
-fn root<F: Field>(
-    step: &mut DenseStep<'_, f64, F>,
+fn root<E>(
+    step: &mut impl Interpolated<E>,
     (index, event): (usize, &mut Event<'_>),
     values: &mut [f64],
     (mut a, mut ga): (f64, f64),
     (mut b, mut gb): (f64, f64),
-) -> Result<f64, IntegratorsError<F::Error>> {
+) -> Result<f64, IntegratorsError<E>> {
     if gb.abs() <= 0.0 {
         return Ok(b);
     }
