@@ -7,7 +7,7 @@ The nodes are the zeros of the right Radau polynomial P_s - P_{s-1} on [0, 1]; A
 T brings the inverse of A to one real eigenvalue and pairs alpha +- i beta, the last entry of each eigenvector being one.
 """
 
-from mpmath import mp, mpf, matrix, polyroots, eig, inverse, taylor, legendre, factorial
+from mpmath import binomial, eig, inverse, matrix, mp, mpf, polyroots
 
 mp.dps = 60
 
@@ -23,7 +23,6 @@ def times(p, q):
 
 def shifted_legendre(n):
     """Coefficients of P_n(2x - 1), lowest power first."""
-    from mpmath import binomial
     return [(-1) ** (n + k) * binomial(n, k) * binomial(n + k, k) for k in range(n + 1)]
 
 
@@ -68,7 +67,7 @@ def table(s):
     back = inverse(t)
     at_zero = matrix([value(p, 0) for p in lagrange])
     defect = [-sum(at_zero[i] * inverse_a[i, j] for i in range(s)) for j in range(s)]
-    return c, values[real].real, rates, t, back, defect
+    return c, a, values[real].real, rates, t, back, defect
 
 
 def number(x):
@@ -93,11 +92,12 @@ print("""//! The coefficients of three, five and seven stages, rounded from fift
 use super::tableau::Tableau;
 """)
 for s, name in ((3, "THREE"), (5, "FIVE"), (7, "SEVEN")):
-    c, real, rates, t, back, defect = table(s)
+    c, a, real, rates, t, back, defect = table(s)
     print(f"pub(super) const {name}: Tableau = Tableau {{")
     print("    nodes: &[" + ", ".join(number(x) for x in c) + "],")
     print(f"    real: {number(real)},")
     print("    pairs: &[" + ", ".join(f"[{number(a)}, {number(b)}]" for a, b in rates) + "],")
+    rows("matrix", a, s)
     rows("transformation", t, s)
     rows("inverse", back, s)
     print("    defect: &[" + ", ".join(number(x) for x in defect) + "],")

@@ -10,9 +10,20 @@ const GROWTH: (f64, f64) = (0.125, 8.0);
 const RAISING: f64 = 0.002;
 const LOWERING: f64 = 0.8;
 /// Steps between two changes of the order.
-const STEPS_BETWEEN_ORDERS: u32 = 10;
+const STEPS_BETWEEN_ORDERS: u32 = 4;
 /// Errors below this are no reason for a longer step.
 const LEAST_ERROR: f64 = 1e-2;
+
+/// A step that may be accepted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Attempt {
+    pub(super) sweeps: u32,
+    pub(super) most_sweeps: u32,
+    /// The factor by which a sweep shortens the change, where there were two.
+    pub(super) contraction: Option<f64>,
+    /// Relative to what is allowed.
+    pub(super) error: f64,
+}
 
 /// The controller's memory.
 #[derive(Clone, Copy, Debug)]
@@ -37,15 +48,14 @@ impl Controller {
     }
 
     /// The part of a step of this error to be tried instead.
-    pub(super) fn after_rejection(&mut self, error: f64, sweeps: u32, most_sweeps: u32) -> f64 {
-        (safety(sweeps, most_sweeps) * factor_for(error, self.order)).clamp(GROWTH.0, 0.9)
+    pub(super) fn after_rejection(&self, attempt: Attempt) -> f64 {
+        (safety(attempt) * factor_for(attempt.error, self.order)).clamp(GROWTH.0, 0.9)
     }
 
     /// The factor by which the step after an accepted one of length h is longer.
-    pub(super) fn after_step(&mut self, h: f64, error: f64, sweeps: u32, most_sweeps: u32) -> f64 {
-        let safety = safety(sweeps, most_sweeps);
-        let error = error.max(1e-10);
-        let mut factor = safety * factor_for(error, self.order);
+    pub(super) fn after_step(&mut self, h: f64, attempt: Attempt) -> f64 {
+        let error = attempt.error.max(1e-10);
+        let mut factor = safety(attempt) * factor_for(error, self.order);
         if let Some((last_h, last_error)) = self.last {
             // As the error changed over the last step, it will change.
             let predicted = SAFETY * (h / last_h) * factor_for(error * error / last_error, self.order);
@@ -79,7 +89,7 @@ impl Controller {
 }
 
 /// The safety factor, smaller where Newton's iteration needed many sweeps.
-fn safety(sweeps: u32, most_sweeps: u32) -> f64 {
-    let (sweeps, most) = (f64::from(sweeps), f64::from(most_sweeps));
+fn safety(attempt: Attempt) -> f64 {
+    let (sweeps, most) = (f64::from(attempt.sweeps), f64::from(attempt.most_sweeps));
     SAFETY * (2.0 * most + 1.0) / (2.0 * most + sweeps)
 }

@@ -2,10 +2,10 @@
 //! variable order.
 //!
 //! ```text
-//! M Zᵢ = h Σⱼ aᵢⱼ f(t + cⱼh, y + Zⱼ),   i = 1 … s        y ← y + Zₛ        order 2s − 1
+//! M Zᵢ = h Σⱼ aᵢⱼ f(t + cⱼh, y + Zⱼ),   i = 1 … s        y ← y + Zₛ
 //! ```
 //!
-//! The nodes c are the zeros of the Radau polynomial P_s − P_{s−1} on [0, 1], the last one is 1. The methods are A-stable and
+//! The order is 2s − 1. The nodes c are the zeros of the Radau polynomial `P_s − P_{s−1}` on [0, 1], the last one is 1. The methods are A-stable and
 //! L-stable: R(∞) = 0. The last stage is the result, so that constraints among the equations hold at the end of every step.
 //!
 //! # Stages
@@ -13,10 +13,10 @@
 //! and pairs α ± iβ. It solves one real and (s − 1)/2 complex systems of n equations instead of one of s·n:
 //!
 //! ```text
-//! (γ/h M − J) ΔW₁ = r₁        ((α − iβ)/h M − J) (ΔW₂ + i ΔW₃) = r₂ + i r₃        r = T⁻¹ f(y + Z) − Λ/h M W
+//! (γ/h M − J) ΔW₁ = r₁        ((α − iβ)/h M − J) (ΔW₂ + i ΔW₃) = r₂ + i r₃        r = Λ/h T⁻¹ (h A f(y + Z) − M Z)
 //! ```
 //!
-//! It starts from the polynomial of the step before. J is kept while the iteration contracts faster than 10⁻³ in a sweep,
+//! Only residuals are transformed: T⁻¹ has entries up to 300, and their rounding vanishes with the residual. The iteration starts from the polynomial of the step before. J is kept while the iteration contracts faster than 10⁻³ in a sweep,
 //! the factors also while the step would grow by less than a fifth.
 //!
 //! # Error and step
@@ -42,8 +42,11 @@
 //! Hairer & Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8; Hairer & Wanner, *Stiff differential equations
 //! solved by Radau methods*, J. Comput. Appl. Math. 111 (1999) 93; Gustafsson, ACM Trans. Math. Softw. 20 (1994) 496.
 
+mod aim;
+mod attempt;
 mod control;
 mod dense;
+mod first_step;
 mod lu;
 mod run;
 mod stages;
@@ -67,9 +70,10 @@ use crate::{Ending, IntegratorsError, Report, State, StiffField, Tolerance};
 /// Radau IIA of orders 5, 9 and 13 for stiff problems, with adaptive steps and order or with a fixed step.
 ///
 /// # Accuracy
-/// The error of a step is of order 6, 10 or 14, in the limit of infinite stiffness of order 3, 5 or 7. The error at the end
-/// is within a factor of ten of the tolerance on the problems of the tests. The state and the time are summed with
-/// compensation.
+/// The error of a step is of order 6, 10 or 14; of components whose decay is far faster than the step, of order 4, 6 or 8. At
+/// the end of van der Pol's, Robertson's and the Oregonator's equations the error is below the tolerance, or of its size, at
+/// tolerances from 1e-3 to 1e-13; after HIRES, which ends in a fast change, it is up to six hundred times as large. The
+/// state and the time are summed with compensation.
 ///
 /// # Example
 /// ```
@@ -100,8 +104,7 @@ use crate::{Ending, IntegratorsError, Report, State, StiffField, Tolerance};
 #[derive(Clone, Debug)]
 pub struct RadauIia {
     control: Control,
-    lowest: RadauOrder,
-    highest: RadauOrder,
+    orders: Option<[RadauOrder; 2]>,
     first_step: Option<f64>,
     longest_step: f64,
     most_steps: u64,
@@ -150,8 +153,7 @@ impl RadauIia {
     pub fn new(tolerance: Tolerance) -> Self {
         Self {
             control: Control::Adaptive(tolerance),
-            lowest: RadauOrder::Five,
-            highest: RadauOrder::Thirteen,
+            orders: None,
             first_step: None,
             longest_step: f64::INFINITY,
             most_steps: u64::MAX,
@@ -166,15 +168,15 @@ impl RadauIia {
     pub fn with_step(order: RadauOrder, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
         // Newton's iteration alone sees this tolerance.
-        let tolerance = Tolerance::relative(run::ROUNDING)?;
+        let tolerance = Tolerance::relative(aim::ROUNDING)?;
         Ok(Self { control: Control::Fixed(step), ..Self::new(tolerance).with_orders(order, order) })
     }
 
-    /// Bounds the order; by default it varies from 5 to 13.
+    /// Bounds the order instead of leaving the bounds to the tolerance: by default the order is 5 or 9 at relative tolerances
+    /// above 1e-5, 9 down to 1e-11, and 9 or 13 below.
     #[must_use]
     pub const fn with_orders(mut self, lowest: RadauOrder, highest: RadauOrder) -> Self {
-        self.lowest = lowest;
-        self.highest = if (highest.value()) < lowest.value() { lowest } else { highest };
+        self.orders = Some([lowest, if highest.value() < lowest.value() { lowest } else { highest }]);
         self
     }
 
@@ -206,6 +208,21 @@ impl RadauIia {
     pub const fn with_most_steps(mut self, steps: u64) -> Self {
         self.most_steps = steps;
         self
+    }
+
+    /// The same with a part of the tolerance, or with steps of half the length.
+    pub(crate) fn finer(&self, part: f64) -> Result<Self, IntegratorsError> {
+        let control = match self.control {
+            Control::Adaptive(tolerance) => {
+                let relative = tolerance.relative_part();
+                // Below this rounding leaves nothing to be won.
+                let least = if 0.0 < relative { aim::ROUNDING } else { 0.0 };
+                let absolute = tolerance.absolute_part() * part;
+                Control::Adaptive(Tolerance::new((relative * part).max(least), absolute)?)
+            }
+            Control::Fixed(step) => Control::Fixed(0.5 * step),
+        };
+        Ok(Self { control, ..self.clone() })
     }
 
     /// Integrates to `end`, unobserved.

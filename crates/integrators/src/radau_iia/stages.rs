@@ -1,5 +1,6 @@
 //! The stages of a step by Newton's iteration in transformed variables, and the estimate of its error.
 
+use super::aim::Aim;
 use super::lu::{Complex, Factors};
 use super::tableau::{MOST_STAGES, Tableau};
 use crate::state::check_finite;
@@ -19,10 +20,9 @@ pub(super) struct Workspace {
     pub(super) stages: Vec<f64>,
     /// Those of the last accepted step.
     pub(super) accepted: Vec<f64>,
-    /// W₁ … Wₛ.
-    transformed: Vec<f64>,
-    /// f at the stages, then the right-hand sides.
+    /// f at the stages, then the transformed right-hand sides.
     rates: Vec<f64>,
+    /// The residuals of the stages, then their corrections.
     residuals: Vec<f64>,
     /// The state at the start of the last accepted step.
     pub(super) start: Vec<f64>,
@@ -46,17 +46,6 @@ pub(super) struct Workspace {
     rest: f64,
 }
 
-/// The accuracy that a method of some order needs within a step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Aim {
-    /// The error allowed in a component: absolute + relative · magnitude.
-    pub(super) absolute: f64,
-    pub(super) relative: f64,
-    /// The part of it that Newton's iteration may leave.
-    pub(super) unswept: f64,
-    pub(super) most_sweeps: u32,
-}
-
 /// How Newton's iteration ended.
 #[derive(Debug)]
 pub(super) enum Solved<E> {
@@ -70,9 +59,7 @@ pub(super) enum Solved<E> {
 
 impl Workspace {
     pub(super) fn begin(&mut self, n: usize, most_stages: usize, mass: Option<&[f64]>) {
-        for buffer in
-            [&mut self.stages, &mut self.accepted, &mut self.transformed, &mut self.rates, &mut self.residuals]
-        {
+        for buffer in [&mut self.stages, &mut self.accepted, &mut self.rates, &mut self.residuals] {
             buffer.resize(most_stages * n, 0.0);
         }
         for buffer in [
@@ -123,7 +110,6 @@ impl Workspace {
     /// Starts the stages of a step of length h from the polynomial of the last one, of length `last`; from zero without.
     pub(super) fn predict(&mut self, tableau: &Tableau, h: f64, last: Option<(&Tableau, f64)>) {
         let n = self.rate.len();
-        let s = tableau.stages();
         match last {
             Some((before, last)) if h / last <= FAR => {
                 let end = &self.accepted[(before.stages() - 1) * n..][..n];
@@ -136,12 +122,8 @@ impl Workspace {
                         }
                     }
                 }
-                apply(tableau.inverse, s, &self.stages, &mut self.transformed, n);
             }
-            _ => {
-                self.stages.fill(0.0);
-                self.transformed.fill(0.0);
-            }
+            _ => self.stages.fill(0.0),
         }
     }
 
@@ -181,7 +163,7 @@ impl Workspace {
                 // A start from zero has no magnitude; where the step leads it has one.
                 self.weigh(field, tableau, state, h, aim);
             }
-            let change = norm(&self.rates[..s * n], &self.weights);
+            let change = norm(&self.residuals[..s * n], &self.weights);
             if !change.is_finite() {
                 return Solved::Diverged { factor: 0.25, sweeps: sweep, change };
             }
@@ -215,40 +197,34 @@ impl Workspace {
         Solved::Diverged { factor: 0.5, sweeps: aim.most_sweeps, change: before }
     }
 
-    /// One correction of W and Z from f at the stages, which ΔZ then replaces.
+    /// One correction of Z from f at the stages; it is left in `residuals`.
     fn correct(&mut self, tableau: &Tableau, h: f64) {
         let (n, s) = (self.rate.len(), tableau.stages());
-        apply(tableau.inverse, s, &self.rates, &mut self.residuals, n);
-        // r ← r − Λ/h M W.
-        let gamma = tableau.real / h;
-        subtract_mass_times(&self.mass, gamma, &self.transformed[..n], &mut self.residuals[..n]);
-        for (pair, [alpha, beta]) in tableau.pairs.iter().enumerate() {
-            let (alpha, beta) = (alpha / h, beta / h);
-            let at = (2 * pair + 1) * n;
-            let (w, r) = (&self.transformed[at..at + 2 * n], &mut self.residuals[at..at + 2 * n]);
-            let ((w2, w3), (r2, r3)) = (w.split_at(n), r.split_at_mut(n));
-            subtract_mass_times(&self.mass, alpha, w2, r2);
-            subtract_mass_times(&self.mass, beta, w3, r2);
-            subtract_mass_times(&self.mass, alpha, w3, r3);
-            subtract_mass_times(&self.mass, -beta, w2, r3);
+        // r = h A f − M Z: small where the iteration has converged, so that only then it is transformed.
+        apply(tableau.matrix, s, h, &self.rates, &mut self.residuals, n);
+        for (z, r) in self.stages.chunks_exact(n.max(1)).zip(self.residuals.chunks_exact_mut(n.max(1))).take(s) {
+            subtract_mass_times(&self.mass, z, r);
         }
-        self.real.solve(&mut self.residuals[..n]);
-        for (pair, factors) in self.complex.iter().take(s / 2).enumerate() {
-            let at = (2 * pair + 1) * n;
-            let (r2, r3) = self.residuals[at..at + 2 * n].split_at_mut(n);
-            for ((x, &re), &im) in self.pair.iter_mut().zip(&*r2).zip(&*r3) {
-                *x = Complex { re, im };
+        // Λ/h T⁻¹ r.
+        apply(tableau.inverse, s, 1.0 / h, &self.residuals, &mut self.rates, n);
+        let (real, pairs) = self.rates.split_at_mut(n);
+        for r in &mut *real {
+            *r *= tableau.real;
+        }
+        self.real.solve(real);
+        let pairs = pairs.chunks_exact_mut((2 * n).max(1));
+        for ((pair, factors), [alpha, beta]) in pairs.zip(&self.complex).zip(tableau.pairs) {
+            let (r2, r3) = pair.split_at_mut(n);
+            for ((x, &r2), &r3) in self.pair.iter_mut().zip(&*r2).zip(&*r3) {
+                *x = Complex { re: alpha * r2 + beta * r3, im: alpha * r3 - beta * r2 };
             }
             factors.solve(&mut self.pair);
             for ((x, re), im) in self.pair.iter().zip(r2).zip(r3) {
                 (*re, *im) = (x.re, x.im);
             }
         }
-        for (w, change) in self.transformed.iter_mut().zip(&self.residuals[..s * n]) {
-            *w += change;
-        }
-        apply(tableau.transformation, s, &self.residuals, &mut self.rates, n);
-        for (z, change) in self.stages.iter_mut().zip(&self.rates[..s * n]) {
+        apply(tableau.transformation, s, 1.0, &self.rates, &mut self.residuals, n);
+        for (z, change) in self.stages.iter_mut().zip(&self.residuals[..s * n]) {
             *z += change;
         }
     }
@@ -270,8 +246,8 @@ impl Workspace {
         }
     }
 
-    /// The error of the step, relative to what is allowed. Where it is too large and `again`, the estimate is made once more
-    /// with f at the corrected start.
+    /// The error of the step, relative to what is allowed. Where it is too large it is estimated once more with f at the
+    /// corrected start, if there is a count of evaluations to add that one to.
     pub(super) fn estimate<F: StiffField>(
         &mut self,
         field: &mut F,
@@ -279,8 +255,7 @@ impl Workspace {
         state: &State,
         h: f64,
         aim: Aim,
-        again: bool,
-        evaluations: &mut u64,
+        again: Option<&mut u64>,
     ) -> f64 {
         let n = self.rate.len();
         self.weigh(field, tableau, state, h, aim);
@@ -291,15 +266,13 @@ impl Workspace {
             }
         }
         self.residuals[..n].copy_from_slice(&self.rate);
-        subtract_mass_times(&self.mass, 1.0, &self.error, &mut self.residuals[..n]);
+        subtract_mass_times(&self.mass, &self.error, &mut self.residuals[..n]);
         let (residual, solution) = self.residuals.split_at_mut(n);
         let solution = &mut solution[..n];
         solution.copy_from_slice(residual);
         self.real.solve(solution);
         let error = norm(solution, &self.weights);
-        if !again || error < 1.0 {
-            return error;
-        }
+        let Some(evaluations) = again.filter(|_| 1.0 <= error) else { return error };
         for (k, trial) in self.trial.iter_mut().enumerate() {
             *trial = state.values[k] + (state.carry[k] + solution[k]);
         }
@@ -318,30 +291,41 @@ impl Workspace {
     }
 }
 
-/// out ← (matrix ⊗ I) x, of s blocks of n.
-fn apply(matrix: &[f64], s: usize, x: &[f64], out: &mut [f64], n: usize) {
-    for (row, out) in matrix.chunks_exact(s).zip(out.chunks_exact_mut(n.max(1))) {
-        out.fill(0.0);
-        for (weight, x) in row.iter().zip(x.chunks_exact(n.max(1))) {
-            for (out, x) in out.iter_mut().zip(x) {
-                *out += weight * x;
+/// out ← factor (matrix ⊗ I) x, of s blocks of n.
+fn apply(matrix: &[f64], s: usize, factor: f64, x: &[f64], out: &mut [f64], n: usize) {
+    match s {
+        3 => apply_unrolled::<3>(matrix, factor, x, out, n),
+        5 => apply_unrolled::<5>(matrix, factor, x, out, n),
+        _ => apply_unrolled::<MOST_STAGES>(matrix, factor, x, out, n),
+    }
+}
+
+/// [`apply`], one component of all blocks after the other.
+fn apply_unrolled<const S: usize>(matrix: &[f64], factor: f64, x: &[f64], out: &mut [f64], n: usize) {
+    let (rows, _) = matrix.as_chunks::<S>();
+    for k in 0..n {
+        let x: [f64; S] = core::array::from_fn(|j| x[j * n + k]);
+        for (i, row) in rows.iter().enumerate() {
+            let mut sum = 0.0;
+            for j in 0..S {
+                sum += row[j] * x[j];
             }
+            out[i * n + k] = factor * sum;
         }
     }
 }
 
-/// r ← r − factor M x; no mass matrix stands for the identity.
-fn subtract_mass_times(mass: &[f64], factor: f64, x: &[f64], r: &mut [f64]) {
+/// r ← r − M x; no mass matrix stands for the identity.
+fn subtract_mass_times(mass: &[f64], x: &[f64], r: &mut [f64]) {
     if mass.is_empty() {
         for (r, x) in r.iter_mut().zip(x) {
-            *r -= factor * x;
+            *r -= x;
         }
         return;
     }
     for (column, x) in mass.chunks_exact(r.len().max(1)).zip(x) {
-        let weight = factor * x;
         for (r, m) in r.iter_mut().zip(column) {
-            *r -= m * weight;
+            *r -= m * x;
         }
     }
 }

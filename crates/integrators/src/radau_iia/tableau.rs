@@ -14,6 +14,8 @@ pub struct Tableau {
     pub real: f64,
     /// α and β of the pairs α ± iβ of eigenvalues of A⁻¹.
     pub pairs: &'static [[f64; 2]],
+    /// A.
+    pub matrix: &'static [f64],
     /// T: the real eigenvector, then real and imaginary part for each pair.
     pub transformation: &'static [f64],
     /// T⁻¹.

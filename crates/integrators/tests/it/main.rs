@@ -11,6 +11,7 @@ mod golden;
 mod laws;
 mod orders;
 mod problems;
+mod radau;
 #[cfg(feature = "serde")]
 mod serialised;
 mod traps;
