@@ -1,7 +1,7 @@
 //! What a tolerance means for steps of each order.
 
 use super::Control;
-use super::tableau::RadauOrder;
+use super::order::RadauOrder;
 
 /// The tolerance with which runs of a fixed step iterate.
 pub(super) const ROUNDING: f64 = 1e-14;

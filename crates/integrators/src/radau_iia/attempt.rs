@@ -2,8 +2,9 @@
 
 use super::aim::Aim;
 use super::control::{Attempt, Controller};
+use super::order::RadauOrder;
 use super::stages::Solved;
-use super::tableau::{RadauOrder, Tableau};
+use super::tableau::Tableau;
 use super::{RadauIia, RadauReport};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, State, StiffField};

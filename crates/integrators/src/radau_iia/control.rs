@@ -1,6 +1,6 @@
 //! The length of the next step and the order of the next method.
 
-use super::tableau::RadauOrder;
+use super::order::RadauOrder;
 
 /// The part of the step that the error allows that is taken.
 const SAFETY: f64 = 0.9;

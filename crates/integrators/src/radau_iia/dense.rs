@@ -1,7 +1,7 @@
 //! An accepted step, with the state at any time within it.
 
+use super::order::RadauOrder;
 use super::stages::Workspace;
-use super::tableau::RadauOrder;
 use crate::IntegratorsError;
 
 /// An accepted step of [`RadauIia`](super::RadauIia), with the state at any time within it.

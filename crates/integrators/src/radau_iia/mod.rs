@@ -48,6 +48,7 @@ mod control;
 mod dense;
 mod first_step;
 mod lu;
+mod order;
 mod run;
 mod stages;
 mod tableau;
@@ -61,8 +62,9 @@ mod tables;
 use core::ops::ControlFlow;
 
 pub use self::dense::RadauStep;
+pub use self::order::RadauOrder;
 use self::stages::Workspace;
-pub use self::tableau::{RadauOrder, Tableau};
+pub use self::tableau::Tableau;
 use crate::events::{Event, Interpolated, Occurrence, begin, locate};
 use crate::state::check_step;
 use crate::{Ending, IntegratorsError, Report, State, StiffField, Tolerance};
