@@ -14,15 +14,21 @@ pub(super) struct Aim {
     pub(super) relative: f64,
     /// The part of it that Newton's iteration may leave.
     pub(super) unswept: f64,
+    /// The change up to which an iteration that no longer contracts is taken to show the rounding of a stiff field.
+    pub(super) noise: f64,
     pub(super) most_sweeps: u32,
 }
+
+/// [`Aim::noise`] of steps that adapt.
+const NOISE: f64 = 0.01;
 
 impl Aim {
     pub(super) fn of(control: Control, order: RadauOrder) -> Self {
         let tolerance = match control {
             // Below the smallest magnitudes nothing is iterated.
             Control::Fixed(_) => {
-                return Self { absolute: f64::MIN_POSITIVE, relative: ROUNDING, unswept: 1e-2, most_sweeps: 50 };
+                let (absolute, noise) = (f64::MIN_POSITIVE, 1e4);
+                return Self { absolute, relative: ROUNDING, unswept: 1e-2, noise, most_sweeps: 50 };
             }
             Control::Adaptive(tolerance) => tolerance,
         };
@@ -34,7 +40,7 @@ impl Aim {
         let (absolute, relative) = (tolerance.absolute_part(), tolerance.relative_part());
         if relative <= 0.0 {
             // An absolute tolerance has a unit: only a relative one has powers.
-            return Self { absolute, relative, unswept: 1e-2, most_sweeps };
+            return Self { absolute, relative, unswept: 1e-2, noise: NOISE, most_sweeps };
         }
         // The error of the estimate is of order s + 1, that of the step of order 2s.
         let s = order.tableau().stages() as f64;
@@ -43,7 +49,7 @@ impl Aim {
         // What the iteration leaves is an error of the step itself.
         let unswept = (0.3 * relative.powf(1.0 - exponent)).min(0.03);
         let unswept = unswept.max(10.0 * f64::EPSILON / (relative * widening));
-        Self { absolute: absolute * widening, relative: relative * widening, unswept, most_sweeps }
+        Self { absolute: absolute * widening, relative: relative * widening, unswept, noise: NOISE, most_sweeps }
     }
 }
 

@@ -9,6 +9,8 @@ const GROWTH: (f64, f64) = (0.125, 8.0);
 /// Contraction of Newton's iteration below which the order rises and above which it falls.
 const RAISING: f64 = 0.002;
 const LOWERING: f64 = 0.8;
+/// Contraction beyond which a step is not made longer.
+const CONTRACTION: f64 = 0.25;
 /// Steps between two changes of the order.
 const STEPS_BETWEEN_ORDERS: u32 = 4;
 /// Errors below this are no reason for a longer step.
@@ -60,6 +62,10 @@ impl Controller {
             // As the error changed over the last step, it will change.
             let predicted = SAFETY * (h / last_h) * factor_for(error * error / last_error, self.order);
             factor = factor.min(predicted);
+        }
+        if let Some(contraction) = attempt.contraction {
+            // The contraction grows at least like the step; beyond its limit the iteration would fail.
+            factor = factor.min((CONTRACTION / contraction).sqrt().max(1.0));
         }
         self.last = Some((h, error.max(LEAST_ERROR)));
         factor.clamp(GROWTH.0, GROWTH.1)

@@ -8,6 +8,11 @@ use crate::{IntegratorsError, State, StiffField};
 
 /// Contraction at which the iteration is given up.
 const HOPELESS: f64 = 0.99;
+/// The ratio of two changes from which on they may be rounding, and how far they have fallen then.
+const STANDING: f64 = 0.5;
+const FALLEN: f64 = 1e-3;
+/// The same at the second sweep, where a good start may let the change grow once.
+const EARLY: f64 = 2.0;
 /// The part of a stage that is rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// The farthest that the polynomial of a step is continued to start the next one, in lengths of the former.
@@ -139,7 +144,7 @@ impl Workspace {
     ) -> Solved<F::Error> {
         let (n, s) = (self.rate.len(), tableau.stages());
         self.rest = self.rest.max(f64::EPSILON).powf(0.8);
-        let (mut before, mut ratio_before) = (f64::NAN, f64::NAN);
+        let (mut first, mut before, mut ratio_before) = (f64::NAN, f64::NAN, f64::NAN);
         let mut contraction = None;
         // Changes of this size are rounding.
         let rounding = aim.unswept.max(if 0.0 < aim.relative { ROUNDING / aim.relative } else { 0.0 });
@@ -172,22 +177,30 @@ impl Workspace {
                 let theta = if sweep == 2 { ratio } else { (ratio * ratio_before).sqrt() };
                 ratio_before = ratio;
                 contraction = Some(theta);
-                let slow = HOPELESS <= theta || theta.is_nan();
-                if slow && rounding < change {
-                    return Solved::Diverged { factor: 0.5, sweeps: sweep, change };
+                // Rounding does not contract: J times the rounding of y, where the field is stiff.
+                let is_noise = STANDING <= ratio && change <= aim.noise && change <= FALLEN * first;
+                let is_rounding = change <= rounding || is_noise;
+                let limit = if sweep == 2 { EARLY } else { HOPELESS };
+                if limit <= theta || theta.is_nan() {
+                    return if is_rounding {
+                        Solved::Converged { sweeps: sweep, contraction: None }
+                    } else {
+                        Solved::Diverged { factor: 0.5, sweeps: sweep, change }
+                    };
                 }
-                if slow {
-                    // Nothing contracts any more.
-                    return Solved::Converged { sweeps: sweep, contraction: None };
-                }
-                self.rest = theta / (1.0 - theta);
+                self.rest = if theta < HOPELESS { theta / (1.0 - theta) } else { f64::INFINITY };
                 let left = aim.most_sweeps - sweep;
                 #[expect(clippy::cast_possible_wrap, reason = "a few dozen sweeps")]
                 let expected = self.rest * change * theta.powi(left as i32) / aim.unswept;
-                if 0 < left && 1.0 <= expected && rounding < change {
+                if is_noise && 1.0 <= expected {
+                    return Solved::Converged { sweeps: sweep, contraction: None };
+                }
+                if 2 < sweep && 0 < left && 1.0 <= expected && !is_rounding {
                     let factor = 0.8 * expected.clamp(1e-4, 20.0).powf(-1.0 / f64::from(4 + left));
                     return Solved::Diverged { factor, sweeps: sweep, change };
                 }
+            } else {
+                first = change;
             }
             if self.rest * change <= aim.unswept {
                 return Solved::Converged { sweeps: sweep, contraction };

@@ -162,3 +162,28 @@ fn event_within_a_step_stops_the_run_there() {
     assert_close("time", &[state.time], &[core::f64::consts::PI], tol);
     assert_close("state", &state.values[..1], &[-1.0 - E], tol);
 }
+
+/// Heat in a rod of forty intervals, u̇ᵢ = N² (uᵢ₋₁ − 2uᵢ + uᵢ₊₁): rates from 10 to 6400.
+#[test]
+fn heat_in_a_rod_decays_like_its_eigenfunction() {
+    const N: usize = 40;
+    let mut rod = DifferenceJacobian::new(field(N - 1, |_t, u: &[f64], rate: &mut [f64]| {
+        for i in 0..N - 1 {
+            let left = if i == 0 { 0.0 } else { u[i - 1] };
+            let right = if i + 2 == N { 0.0 } else { u[i + 1] };
+            rate[i] = (N * N) as f64 * (left - 2.0 * u[i] + right);
+        }
+    }));
+    let angle = core::f64::consts::PI / N as f64;
+    let start: Vec<f64> = (1..N).map(|i| (angle * i as f64).sin()).collect();
+    let decay = (-4.0 * (N * N) as f64 * (0.5 * angle).sin().powi(2) * 0.5).exp();
+    for tolerance in [1e-4, 1e-8, 1e-12] {
+        let mut state = State::new(0.0, start.clone()).unwrap();
+        let mut method = RadauIia::new(Tolerance::relative(tolerance).unwrap());
+        let report = method.integrate_to(&mut rod, &mut state, 0.5).unwrap();
+        let exact: Vec<f64> = start.iter().map(|u| u * decay).collect();
+        assert_close("rod", &state.values, &exact, Tol::stated(10.0, "the solution decays by e⁻⁵").times(tolerance));
+        // The problem is linear: differences at the start serve for the whole run.
+        assert!(report.jacobians <= 3 && report.run.steps < 60, "{report:?}");
+    }
+}
