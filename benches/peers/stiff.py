@@ -126,9 +126,9 @@ def main():
                     run = solve_ivp(rate, (0.0, case["end"]), case["start"], method=method, rtol=tolerance,
                                     atol=absolute * tolerance, jac=jacobian)
                     least = min(least, time.perf_counter() - clock)
-                error = np.max(np.abs((run.y[:, -1] - exact) / exact))
+                error = f"{np.max(np.abs((run.y[:, -1] - exact) / exact)):.1e}" if run.success else f"stops at {run.t[-1]:.4g}"
                 print(f"| {name} | {tolerance:.0e} | {method} | {run.t.size - 1} | {run.nfev} | {run.njev} | {run.nlu} "
-                      f"| {1e6 * least:.0f} | {error:.1e} |", flush=True)
+                      f"| {1e6 * least:.0f} | {error} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ impl<F: Field> Interpolated<F::Error> for DenseStep<'_, f64, F> {
 
 impl DormandPrince853<f64> {
     /// Integrates to `end` and reports the crossings of the events in the order of time. The run ends early
-    /// at an event whose action is [`EventAction::Stop`], with the state there, or when one of the observers
+    /// at an event whose action is [`EventAction::Stop`](crate::EventAction::Stop), with the state there, or when one of the observers
     /// breaks. The observer sees a step after its events; a step cut short by a stop it does not see.
     ///
     /// # Errors

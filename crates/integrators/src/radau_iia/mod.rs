@@ -74,8 +74,8 @@ use crate::{Ending, IntegratorsError, Report, State, StiffField, Tolerance};
 /// # Accuracy
 /// The error of a step is of order 6, 10 or 14; of components whose decay is far faster than the step, of order 4, 6 or 8. At
 /// the end of van der Pol's, Robertson's and the Oregonator's equations the error is below the tolerance, or of its size, at
-/// tolerances from 1e-3 to 1e-13; after HIRES, which ends in a fast change, it is up to six hundred times as large. The
-/// state and the time are summed with compensation.
+/// tolerances from 1e-3 to 1e-13. After a stiff spring pendulum it is some twenty times as large, after HIRES, which ends in a
+/// fast change, up to several hundred times below 1e-10. The state and the time are summed with compensation.
 ///
 /// # Example
 /// ```

@@ -8,11 +8,11 @@ use crate::{IntegratorsError, State, StiffField};
 
 /// Contraction at which the iteration is given up.
 const HOPELESS: f64 = 0.99;
+/// The same at the second sweep, where a good start may let the change grow once.
+const EARLY: f64 = 2.0;
 /// The ratio of two changes from which on they may be rounding, and how far they have fallen then.
 const STANDING: f64 = 0.5;
 const FALLEN: f64 = 1e-3;
-/// The same at the second sweep, where a good start may let the change grow once.
-const EARLY: f64 = 2.0;
 /// The part of a stage that is rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 /// The farthest that the polynomial of a step is continued to start the next one, in lengths of the former.
