@@ -91,6 +91,16 @@ pub enum IntegratorsError<E = Infallible> {
         /// The last change of the stages, relative to the increment.
         change: f64,
     },
+    /// The matrix of Newton's iteration is singular, however small the step.
+    #[error("the matrix of the step {step} from t = {t} is singular: its pivot {pivot} is zero or not finite")]
+    SingularMatrix {
+        /// The time at the start of the step.
+        t: f64,
+        /// The step.
+        step: f64,
+        /// The index of the pivot, counted from 0.
+        pivot: usize,
+    },
     /// The function of an event is NaN.
     #[error("the function of event {event} is NaN at t = {t}")]
     InvalidEvent {
@@ -133,6 +143,7 @@ impl IntegratorsError<Infallible> {
             Self::StagesDiverged { t, step, iterations, change } => {
                 IntegratorsError::StagesDiverged { t, step, iterations, change }
             }
+            Self::SingularMatrix { t, step, pivot } => IntegratorsError::SingularMatrix { t, step, pivot },
             Self::InvalidEvent { event, t } => IntegratorsError::InvalidEvent { event, t },
             Self::OutsideStep { t, start, end } => IntegratorsError::OutsideStep { t, start, end },
         }

@@ -4,7 +4,8 @@ use piola_numerics::{Lanes, Real};
 
 use crate::field::largest_lane;
 use crate::{
-    DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, Report, SecondOrder, State, Tolerance,
+    DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, RadauIia, Report, SecondOrder, State,
+    StiffField, Tolerance,
 };
 
 /// How far the state at the end of a run is from the exact one, as a second, finer run tells.
@@ -41,7 +42,7 @@ pub struct ErrorEstimate {
     pub finer_run: Report,
 }
 
-/// The part of the tolerance that the finer run of order eight has.
+/// The part of the tolerance that the finer run of order eight, or of Radau IIA, has.
 const FINER_EIGHT: f64 = 1e-2;
 /// The part of the tolerance that the finer run of orders fifteen and sixteen has.
 const FINER_SIXTEEN: f64 = 1e-3;
@@ -104,6 +105,26 @@ impl<T: Real> GaussRadau15<T> {
         let mut finer_state = state.clone();
         let run = self.integrate_to(field, state, end)?;
         let finer_run = self.finer(FINER_SIXTEEN).integrate_to(field, &mut finer_state, end)?;
+        Ok(ErrorEstimate { errors: differences(state, &finer_state), run, finer_run })
+    }
+}
+
+impl RadauIia {
+    /// Integrates to `end`, as [`integrate_to`](Self::integrate_to), and estimates the error there by a second run at a
+    /// hundredth of the tolerance; with a fixed step, by one of twice as many steps.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate), of either run. The state then stands where the first run ended.
+    pub fn integrate_and_estimate<F: StiffField>(
+        &mut self,
+        field: &mut F,
+        state: &mut State,
+        end: f64,
+    ) -> Result<ErrorEstimate, IntegratorsError<F::Error>> {
+        let mut finer_state = state.clone();
+        let run = self.integrate_to(field, state, end)?.run;
+        let mut finer = self.finer(FINER_EIGHT).map_err(IntegratorsError::with_field_error)?;
+        let finer_run = finer.integrate_to(field, &mut finer_state, end)?.run;
         Ok(ErrorEstimate { errors: differences(state, &finer_state), run, finer_run })
     }
 }

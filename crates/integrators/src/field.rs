@@ -66,11 +66,16 @@ pub trait Field<T: Real = f64> {
     /// whose components have natural groups (the three coordinates of one body) override it. Over lanes the
     /// magnitude is that of the largest lane.
     fn magnitudes(&self, y: &[T], magnitudes: &mut [f64]) {
-        let blocks = if y.len().is_multiple_of(2) { 2 } else { 1 };
-        let length = (y.len() / blocks).max(1);
-        for (block, magnitudes) in y.chunks(length).zip(magnitudes.chunks_mut(length)) {
-            magnitudes.fill(block.iter().map(|&x| largest_lane(x)).fold(0.0, f64::max));
-        }
+        magnitudes_of_blocks(y, magnitudes);
+    }
+}
+
+/// The largest |y| of each block: positions and velocities where the dimension is even.
+fn magnitudes_of_blocks<T: Real>(y: &[T], magnitudes: &mut [f64]) {
+    let blocks = if y.len().is_multiple_of(2) { 2 } else { 1 };
+    let length = (y.len() / blocks).max(1);
+    for (block, magnitudes) in y.chunks(length).zip(magnitudes.chunks_mut(length)) {
+        magnitudes.fill(block.iter().map(|&x| largest_lane(x)).fold(0.0, f64::max));
     }
 }
 
@@ -120,6 +125,7 @@ pub trait Separable<T: Real = f64> {
 pub struct FunctionField<F> {
     dimension: usize,
     second_order: bool,
+    componentwise: bool,
     function: F,
 }
 
@@ -131,11 +137,19 @@ impl<F> FunctionField<F> {
         self.second_order = true;
         self
     }
+
+    /// Makes the error of each component relative to its own size, as reactions with concentrations of very different
+    /// sizes need it. A component that passes through zero then needs an absolute tolerance.
+    #[must_use]
+    pub fn componentwise(mut self) -> Self {
+        self.componentwise = true;
+        self
+    }
 }
 
 /// Makes a field of a function f(t, y, rate).
 pub fn field<F: FnMut(f64, &[T], &mut [T]), T: Real>(dimension: usize, function: F) -> FunctionField<F> {
-    FunctionField { dimension, second_order: false, function }
+    FunctionField { dimension, second_order: false, componentwise: false, function }
 }
 
 impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Field<T> for FunctionField<F> {
@@ -151,11 +165,20 @@ impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Field<T> for FunctionField<F> {
         (self.function)(t, y, rate);
         Ok(())
     }
+    fn magnitudes(&self, y: &[T], magnitudes: &mut [f64]) {
+        if self.componentwise {
+            for (magnitude, &y) in magnitudes.iter_mut().zip(y) {
+                *magnitude = largest_lane(y);
+            }
+        } else {
+            magnitudes_of_blocks(y, magnitudes);
+        }
+    }
 }
 
 /// Makes a separable system of n degrees of freedom with q̇ = p and ṗ = f(t, q).
 pub fn separable<F: FnMut(f64, &[T], &mut [T]), T: Real>(freedom: usize, force: F) -> FunctionField<F> {
-    FunctionField { dimension: freedom, second_order: false, function: force }
+    FunctionField { dimension: freedom, second_order: false, componentwise: false, function: force }
 }
 
 impl<T: Real, F: FnMut(f64, &[T], &mut [T])> Separable<T> for FunctionField<F> {

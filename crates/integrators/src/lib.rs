@@ -12,8 +12,10 @@ mod field;
 mod gauss_legendre;
 mod gauss_legendre_16;
 mod gauss_radau_15;
+mod radau_iia;
 mod second_order;
 mod state;
+mod stiff_field;
 mod tolerance;
 
 pub use composition::{Composition, Order};
@@ -24,7 +26,15 @@ pub use events::{Crossing, Event, EventAction, Occurrence};
 pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
-pub use gauss_radau_15::{GaussRadau15, RadauStep};
+pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
+pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};
 pub use second_order::SecondOrder;
 pub use state::{Ending, Report, State, Step, unobserved};
+pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
 pub use tolerance::Tolerance;
+
+/// For the tests of this crate alone: no part of the interface.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::radau_iia::Tableau;
+}

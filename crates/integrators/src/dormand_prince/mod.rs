@@ -15,9 +15,9 @@
 #[expect(clippy::unreadable_literal, reason = "seventeen digits, to be compared with printed tables")]
 mod coefficients;
 mod dense;
-mod events;
 mod first_step;
 mod stages;
+mod with_events;
 
 use core::ops::ControlFlow;
 

@@ -15,7 +15,7 @@ use crate::{IntegratorsError, State};
 /// Velocities within the step are accurate to order 9, positions to order 10; at its end to order 15.
 #[doc(alias("interpolation", "continuous output"))]
 #[derive(Debug)]
-pub struct RadauStep<'a, T = f64> {
+pub struct GaussRadauStep<'a, T = f64> {
     work: &'a Workspace<T>,
     values: &'a [T],
     number: u64,
@@ -24,7 +24,7 @@ pub struct RadauStep<'a, T = f64> {
     step: f64,
 }
 
-impl<'a, T: Real> RadauStep<'a, T> {
+impl<'a, T: Real> GaussRadauStep<'a, T> {
     pub(super) fn new(work: &'a Workspace<T>, state: &'a State<T>, number: u64, step: f64, start: f64) -> Self {
         Self { work, values: &state.values, number, start, end: state.time, step }
     }
@@ -88,7 +88,7 @@ impl<'a, T: Real> RadauStep<'a, T> {
     }
 }
 
-impl<E> Interpolated<E> for RadauStep<'_, f64> {
+impl<E> Interpolated<E> for GaussRadauStep<'_, f64> {
     fn ends(&self) -> (f64, f64) {
         (self.start, self.end)
     }

@@ -41,7 +41,7 @@ use core::ops::ControlFlow;
 
 use piola_numerics::{Kernel, Real, dispatch};
 
-pub use self::dense::RadauStep;
+pub use self::dense::GaussRadauStep;
 use self::stages::{Attempt, Workspace};
 use crate::events::{Stop, begin, locate};
 use crate::field::largest_lane;
@@ -247,9 +247,9 @@ impl<T: Real> GaussRadau15<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
-        mut observer: impl FnMut(&RadauStep<'_, T>) -> ControlFlow<()>,
+        mut observer: impl FnMut(&GaussRadauStep<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        let inspect = |step: &mut RadauStep<'_, T>| Ok(stopped_by(observer(step)));
+        let inspect = |step: &mut GaussRadauStep<'_, T>| Ok(stopped_by(observer(step)));
         dispatch(Run { method: self, field, state, end, inspect })
     }
 }
@@ -271,12 +271,12 @@ impl GaussRadau15<f64> {
         end: f64,
         events: &mut [Event<'_>],
         mut on_event: impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
-        mut observer: impl FnMut(&RadauStep<'_>) -> ControlFlow<()>,
+        mut observer: impl FnMut(&GaussRadauStep<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         check_run(2 * field.freedom(), state, end)?;
         let mut values = state.values.clone();
         begin(events, state)?;
-        let inspect = |step: &mut RadauStep<'_>| match locate(step, events, &mut values, &mut on_event)? {
+        let inspect = |step: &mut GaussRadauStep<'_>| match locate(step, events, &mut values, &mut on_event)? {
             Some(stop) => Ok(ControlFlow::Break(stop)),
             None => Ok(stopped_by(observer(step))),
         };
@@ -303,7 +303,7 @@ struct Run<'a, T, F, I> {
 
 impl<T: Real, F: SecondOrder<T>, I> Kernel for Run<'_, T, F, I>
 where
-    I: FnMut(&mut RadauStep<'_, T>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
+    I: FnMut(&mut GaussRadauStep<'_, T>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
 {
     type Output = Result<Report, IntegratorsError<F::Error>>;
 
@@ -394,7 +394,7 @@ where
                 None if !last => state.advance_time(h),
                 _ => state.set_time(end),
             }
-            let verdict = inspect(&mut RadauStep::new(work, state, report.steps, h, from))?;
+            let verdict = inspect(&mut GaussRadauStep::new(work, state, report.steps, h, from))?;
             if let ControlFlow::Break((time, ending)) = verdict {
                 if let Some(time) = time.filter(|time| time.to_bits() != state.time.to_bits()) {
                     work.state_at((time - from) / h, &mut state.values);

@@ -11,6 +11,7 @@ mod golden;
 mod laws;
 mod orders;
 mod problems;
+mod radau;
 mod radau_15;
 #[cfg(feature = "serde")]
 mod serialised;

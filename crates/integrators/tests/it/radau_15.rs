@@ -456,7 +456,7 @@ fn runs_of_any_length_allocate_alike() {
     let mut method = adaptive(1e-9);
     method.integrate_to(&mut kepler(), &mut state, 1.0).unwrap();
     let (count, _) = allocations_in(|| {
-        let dense = |step: &piola_integrators::RadauStep<'_>| {
+        let dense = |step: &piola_integrators::GaussRadauStep<'_>| {
             step.at(0.5 * (step.start() + step.time()), &mut [0.0; 4]).unwrap();
             ControlFlow::Continue(())
         };

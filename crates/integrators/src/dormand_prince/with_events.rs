@@ -1,11 +1,11 @@
-//! Runs that find events on their dense output.
+//! Runs with events.
 
 use core::ops::ControlFlow;
 
 use super::{DenseStep, DormandPrince853};
-use crate::events::{Interpolated, begin, locate};
+use crate::events::{Event, Interpolated, Occurrence, begin, locate};
 use crate::state::check_run;
-use crate::{Ending, Event, Field, IntegratorsError, Occurrence, Report, State};
+use crate::{Ending, Field, IntegratorsError, Report, State};
 
 impl<F: Field> Interpolated<F::Error> for DenseStep<'_, f64, F> {
     fn ends(&self) -> (f64, f64) {
