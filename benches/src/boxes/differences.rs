@@ -1,5 +1,7 @@
 //! Differences of second order on a staggered grid, solved by conjugate gradients without a matrix.
 
+#![expect(clippy::needless_range_loop, reason = "components and places are the indices of the equations")]
+
 use piola_spectral::LameParameters;
 
 /// Equal cells of the unit cube between sliding walls. Component c stands on the faces across axis c; the first face of
