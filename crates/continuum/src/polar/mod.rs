@@ -7,7 +7,7 @@
 //! G would be diagonal but for the rounding of the axes and, over differentiable scalars, for derivatives. What is
 //! off its diagonal is carried to first order through each function by divided differences, which need no gap
 //! between the stretches: results are as accurate as from a singular value decomposition of F although only a
-//! symmetric problem is solved. Where the first order does not suffice (stretch ratios above some 10³) one-sided
+//! symmetric problem is solved. Where the first order does not suffice (stretch ratios above some 10⁴) one-sided
 //! rotations of Jacobi make the bₖ orthogonal first: the slow path, gated by a mask and reported.
 //!
 //! For small strain everything is computed from 2E of ∇u, as the difference from the rotation alone.
