@@ -5,7 +5,7 @@
 
 The displacement is smooth and obeys the sliding walls; its force is known in closed form, so every error is a true one.
 SciPy: `scipy.fft.dct` and `dst` of type II along each axis, one 3 x 3 solution for each wave vector in numpy, and back.
-The least time of several runs; piola and SciPy take turns from size to size.
+The least time of several runs: first all sizes by the Rust program, then all by SciPy, in one call of this script.
 """
 
 import json

@@ -16,10 +16,11 @@ const MOST_RISES: u32 = 3;
 const MEASURABLE: f64 = 4096.0;
 /// The smallest factor by which a sweep is expected to shorten the change.
 const BEST_CONTRACTION: f64 = 1e-4;
-/// The part of the tolerance that the sweeps may leave. What they leave has the same sign in every step, and moves a circular
-/// motion by the square of the time: with ten times as much, ten revolutions err by thirty tolerances.
+/// The sweeps end when the error that they leave is below this part of the tolerance. This error has the same sign in every
+/// step of a circular motion, so the position error grows with the square of the time: with 1e-2 here, ten revolutions end
+/// thirty tolerances away.
 const UNSWEPT: f64 = 1e-3;
-/// The part of the rounding of the accelerations that the sweeps may leave.
+/// The sweeps also end when their error is below this part of the rounding of the accelerations.
 const UNROUNDED: f64 = 0.01;
 
 /// Memory of a run.
@@ -28,7 +29,7 @@ pub(super) struct Workspace<T> {
     tables: Tables<T>,
     /// The unit of rounding of the scalar.
     rounding: f64,
-    /// Of each component: the acceleration at the start of the step, and by what it differs at the other nodes.
+    /// Row k: the acceleration of component k at the start of the step, then its differences from that at the other seven nodes.
     stages: Vec<[T; 8]>,
     /// The polynomial of the last accepted step: the acceleration at its start, and b₀ … b₆.
     last: Vec<[T; 8]>,
@@ -85,7 +86,7 @@ fn largest_ratio<T: Real>(part: T, whole: T) -> f64 {
     largest
 }
 
-/// The unit of rounding of a scalar: what it leaves of differences that are zero without it.
+/// The unit of rounding of a scalar, from two differences that are zero in exact arithmetic: 3 (4/3 − 1) − 1 and √2² − 2.
 fn unit_of_rounding<T: Real>() -> f64 {
     let (one, two, three) = (T::one(), T::lit(2.0), T::lit(3.0));
     let third = (three * (T::lit(4.0) / three - one) - one).abs().primal(0);

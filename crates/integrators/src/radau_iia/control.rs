@@ -23,7 +23,7 @@ pub(super) struct Attempt {
     pub(super) most_sweeps: u32,
     /// The factor by which a sweep shortens the change, where there were two.
     pub(super) contraction: Option<f64>,
-    /// Relative to what is allowed.
+    /// The estimated error over the error allowed: a step with 1 or more is rejected.
     pub(super) error: f64,
 }
 

@@ -95,7 +95,10 @@ impl<T: Entry> Factors<T> {
         self.exchanges.resize(n, 0);
     }
 
-    /// Factors `entries` in place; the index of a pivot that is zero, or not a number, where there is one.
+    /// Factors `entries` in place.
+    ///
+    /// # Errors
+    /// The index of the first pivot that is zero or not finite.
     pub(super) fn factor(&mut self) -> Result<(), usize> {
         let (a, n) = (&mut self.entries[..], self.exchanges.len());
         for k in 0..n {

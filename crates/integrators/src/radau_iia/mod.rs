@@ -5,8 +5,9 @@
 //! M Zᵢ = h Σⱼ aᵢⱼ f(t + cⱼh, y + Zⱼ),   i = 1 … s        y ← y + Zₛ
 //! ```
 //!
-//! The order is 2s − 1. The nodes c are the zeros of the Radau polynomial `P_s − P_{s−1}` on [0, 1], the last one is 1. The methods are A-stable and
-//! L-stable: R(∞) = 0. The last stage is the result, so that constraints among the equations hold at the end of every step.
+//! The order is 2s − 1. The nodes c are the zeros of the Radau polynomial `P_s − P_{s−1}` on [0, 1]; the last one is 1. The
+//! methods are A-stable and L-stable: R(∞) = 0. The last stage is the result, so that constraints among the equations hold at
+//! the end of every step.
 //!
 //! # Stages
 //! Newton's iteration with one Jacobian J for all stages, in the variables W = T⁻¹Z in which A⁻¹ has the real eigenvalue γ
@@ -16,8 +17,9 @@
 //! (γ/h M − J) ΔW₁ = r₁        ((α − iβ)/h M − J) (ΔW₂ + i ΔW₃) = r₂ + i r₃        r = Λ/h T⁻¹ (h A f(y + Z) − M Z)
 //! ```
 //!
-//! Only residuals are transformed: T⁻¹ has entries up to 300, and their rounding vanishes with the residual. The iteration starts from the polynomial of the step before. J is kept while the iteration contracts faster than 10⁻³ in a sweep,
-//! the factors also while the step would grow by less than a fifth.
+//! Only residuals are transformed: T⁻¹ has entries up to 300, and their rounding vanishes with the residual. The iteration
+//! starts from the polynomial of the step before. J is kept while each sweep reduces the change by more than a factor of 10³;
+//! the factors are kept if, besides, the step would grow by less than a fifth.
 //!
 //! # Error and step
 //! The defect of the collocation polynomial at the start of the step, filtered by the real matrix, is of order s + 1:

@@ -420,7 +420,7 @@ fn same_run_gives_the_same_bits() {
 
 #[test]
 fn derivatives_of_a_run_equal_those_of_the_closed_form() {
-    // With respect to the first velocity, of an oscillator and, by differences of the closed form's period, of Kepler's motion.
+    // Of an oscillator, with respect to its first velocity.
     for mut method in [GaussRadau15::to_rounding(), GaussRadau15::with_step(0.25).unwrap()] {
         let start = vec![Dual::lit(1.0), Dual::variable(0.0)];
         let mut state = State::new(0.0, start).unwrap();
