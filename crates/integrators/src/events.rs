@@ -8,6 +8,11 @@ use crate::{Ending, IntegratorsError, State};
 /// The time at which a run is stopped, where it is not the end of the step, and how it ended.
 pub(crate) type Stop = (Option<f64>, Ending);
 
+/// What an observer's verdict means at the end of a step.
+pub(crate) fn stopped_by(verdict: ControlFlow<()>) -> ControlFlow<Stop> {
+    if verdict.is_break() { ControlFlow::Break((None, Ending::Stopped)) } else { ControlFlow::Continue(()) }
+}
+
 /// An accepted step with the state at any time within it.
 pub(crate) trait Interpolated<E> {
     /// The times of its start and of its end.

@@ -3,6 +3,8 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod accepted;
+mod collocation;
 mod composition;
 mod dormand_prince;
 mod error;

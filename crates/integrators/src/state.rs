@@ -191,6 +191,11 @@ pub(crate) fn check_step<E>(step: f64) -> Result<(), IntegratorsError<E>> {
     if 0.0 < step && step < f64::INFINITY { Ok(()) } else { Err(IntegratorsError::InvalidStep { step }) }
 }
 
+/// Checks the longest step of a run; ∞ is no bound.
+pub(crate) fn check_longest(step: f64) -> Result<f64, IntegratorsError> {
+    if 0.0 < step { Ok(step) } else { Err(IntegratorsError::InvalidStep { step }) }
+}
+
 /// Checks what a run starts from; the caller may have changed the state since it was made.
 pub(crate) fn check_run<T: Real, E>(
     expected: usize,

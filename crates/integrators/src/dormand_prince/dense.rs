@@ -5,6 +5,7 @@ use piola_numerics::Real;
 use super::coefficients as c;
 use super::stages::{combine, weighted_sums};
 use super::{DormandPrince853, evaluate};
+use crate::accepted::{AcceptedStep, number_and_times};
 use crate::{Field, IntegratorsError};
 
 /// An accepted step, with the state at any time within it.
@@ -16,40 +17,17 @@ use crate::{Field, IntegratorsError};
 pub struct DenseStep<'a, T, F> {
     method: &'a mut DormandPrince853<T>,
     field: &'a mut F,
-    number: u64,
-    start: f64,
-    end: f64,
-    step: f64,
+    step: AcceptedStep,
     evaluations: u64,
 }
 
 impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
-    pub(super) fn new(
-        method: &'a mut DormandPrince853<T>,
-        field: &'a mut F,
-        number: u64,
-        start: f64,
-        end: f64,
-        step: f64,
-    ) -> Self {
-        Self { method, field, number, start, end, step, evaluations: 0 }
+    pub(super) fn new(method: &'a mut DormandPrince853<T>, field: &'a mut F, step: AcceptedStep) -> Self {
+        Self { method, field, step, evaluations: 0 }
     }
 
-    /// The number of the step, from 1.
-    #[must_use]
-    pub const fn number(&self) -> u64 {
-        self.number
-    }
-    /// The time at its start, s.
-    #[must_use]
-    pub const fn start(&self) -> f64 {
-        self.start
-    }
-    /// The time at its end, s.
-    #[must_use]
-    pub const fn time(&self) -> f64 {
-        self.end
-    }
+    number_and_times!();
+
     /// The state at its start.
     #[must_use]
     pub fn start_values(&self) -> &[T] {
@@ -59,12 +37,6 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
     #[must_use]
     pub fn values(&self) -> &[T] {
         &self.method.trial
-    }
-    /// Whether a time lies within the step.
-    #[must_use]
-    pub fn contains(&self, t: f64) -> bool {
-        let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
-        low <= t && t <= high
     }
     pub(super) const fn evaluations(&self) -> u64 {
         self.evaluations
@@ -80,29 +52,20 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
     /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::Field`] when
     /// one of the three additional evaluations fails. [`IntegratorsError::WrongLength`].
     pub fn at(&mut self, t: f64, out: &mut [T]) -> Result<(), IntegratorsError<F::Error>> {
-        if out.len() != self.method.start.len() {
-            return Err(IntegratorsError::WrongLength {
-                quantity: "out",
-                expected: self.method.start.len(),
-                found: out.len(),
-            });
-        }
-        if !self.contains(t) {
-            return Err(IntegratorsError::OutsideStep { t, start: self.start, end: self.end });
-        }
+        self.step.check(t, self.method.start.len(), out.len())?;
         // At its ends the step is known, to the last bit and without evaluations.
-        if t.to_bits() == self.end.to_bits() {
+        if self.step.is_end(t) {
             out.copy_from_slice(&self.method.trial);
             return Ok(());
         }
-        if t.to_bits() == self.start.to_bits() {
+        if t.to_bits() == self.start().to_bits() {
             out.copy_from_slice(&self.method.start);
             return Ok(());
         }
         if self.evaluations == 0 {
             self.prepare()?;
         }
-        let theta = T::lit(((t - self.start) / self.step).clamp(0.0, 1.0));
+        let theta = T::lit(self.step.part(t));
         let rest = T::one() - theta;
         let n = out.len();
         let [f0, f1, f2, f3, f4, f5, f6] = self.method.interpolant.each_ref().map(|f| &f[..n]);
@@ -116,7 +79,7 @@ impl<'a, T: Real, F: Field<T>> DenseStep<'a, T, F> {
     }
 
     fn prepare(&mut self) -> Result<(), IntegratorsError<F::Error>> {
-        let (method, t, h) = (&mut *self.method, self.start, self.step);
+        let (method, t, h) = (&mut *self.method, self.step.start, self.step.length);
         let start = (&method.start[..], &method.start_carry[..]);
         // The step's end stands in `trial`; the arguments of the stages go to the last interpolant.
         macro_rules! stage {

@@ -25,9 +25,10 @@ use piola_numerics::Real;
 
 pub use dense::DenseStep;
 
-use crate::events::Stop;
-use crate::state::{check_finite, check_run};
-use crate::{Ending, Field, IntegratorsError, Report, State, Tolerance};
+use crate::accepted::AcceptedStep;
+use crate::events::{Stop, stopped_by};
+use crate::state::{check_finite, check_longest, check_run};
+use crate::{Field, IntegratorsError, Report, State, Tolerance};
 
 /// The adaptive method of order 8(5,3).
 ///
@@ -113,12 +114,8 @@ impl<T: Real> DormandPrince853<T> {
     /// # Errors
     /// [`IntegratorsError::InvalidStep`] unless 0 < step; ∞ is no bound.
     pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
-        if 0.0 < step {
-            self.longest_step = step;
-            Ok(self)
-        } else {
-            Err(IntegratorsError::InvalidStep { step })
-        }
+        self.longest_step = check_longest(step)?;
+        Ok(self)
     }
 
     /// Bounds the number of steps of one run; by default it is not bounded.
@@ -165,13 +162,7 @@ impl<T: Real> DormandPrince853<T> {
         end: f64,
         mut observer: impl FnMut(&mut DenseStep<'_, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, state, end, &mut |step| {
-            Ok(if observer(step).is_break() {
-                ControlFlow::Break((None, Ending::Stopped))
-            } else {
-                ControlFlow::Continue(())
-            })
-        })
+        self.run(field, state, end, &mut |step| Ok(stopped_by(observer(step))))
     }
 
     fn prepare(&mut self, n: usize) {
@@ -266,7 +257,8 @@ impl<T: Real> DormandPrince853<T> {
             }
             report.steps += 1;
 
-            let mut dense = DenseStep::new(self, field, report.steps, start_time, state.time, h);
+            let step = AcceptedStep { number: report.steps, start: start_time, end: state.time, length: h };
+            let mut dense = DenseStep::new(self, field, step);
             let verdict = inspect(&mut dense);
             if let Ok(ControlFlow::Break((Some(time), _))) = verdict {
                 dense.at(time, &mut state.values)?;

@@ -3,9 +3,9 @@
 use core::ops::ControlFlow;
 
 use super::{DenseStep, DormandPrince853};
-use crate::events::{Event, Interpolated, Occurrence, begin, locate};
+use crate::events::{Event, Interpolated, Occurrence, begin, locate, stopped_by};
 use crate::state::check_run;
-use crate::{Ending, Field, IntegratorsError, Report, State};
+use crate::{Field, IntegratorsError, Report, State};
 
 impl<F: Field> Interpolated<F::Error> for DenseStep<'_, f64, F> {
     fn ends(&self) -> (f64, f64) {
@@ -61,11 +61,7 @@ impl DormandPrince853<f64> {
             {
                 return Ok(ControlFlow::Break(stop));
             }
-            Ok(if observer(step).is_break() {
-                ControlFlow::Break((None, Ending::Stopped))
-            } else {
-                ControlFlow::Continue(())
-            })
+            Ok(stopped_by(observer(step)))
         })
     }
 }

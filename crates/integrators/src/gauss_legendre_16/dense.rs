@@ -2,6 +2,7 @@
 
 use super::stages::Workspace;
 use super::tableau::LEGENDRE;
+use crate::accepted::{AcceptedStep, number_and_times};
 use crate::{IntegratorsError, State};
 
 /// An accepted step of [`GaussLegendre16`](super::GaussLegendre16), with the state at any time within it.
@@ -16,32 +17,16 @@ use crate::{IntegratorsError, State};
 pub struct CollocationStep<'a> {
     work: &'a Workspace,
     values: &'a [f64],
-    number: u64,
-    start: f64,
-    end: f64,
-    step: f64,
+    step: AcceptedStep,
 }
 
 impl<'a> CollocationStep<'a> {
-    pub(super) fn new(work: &'a Workspace, state: &'a State, number: u64, step: f64, start: f64) -> Self {
-        Self { work, values: &state.values, number, start, end: state.time, step }
+    pub(super) fn new(work: &'a Workspace, state: &'a State, step: AcceptedStep) -> Self {
+        Self { work, values: &state.values, step }
     }
 
-    /// The number of the step, from 1.
-    #[must_use]
-    pub const fn number(&self) -> u64 {
-        self.number
-    }
-    /// The time at its start, s.
-    #[must_use]
-    pub const fn start(&self) -> f64 {
-        self.start
-    }
-    /// The time at its end, s.
-    #[must_use]
-    pub const fn time(&self) -> f64 {
-        self.end
-    }
+    number_and_times!();
+
     /// The state (q, v) at its start.
     #[must_use]
     pub fn start_values(&self) -> &[f64] {
@@ -51,12 +36,6 @@ impl<'a> CollocationStep<'a> {
     #[must_use]
     pub const fn values(&self) -> &[f64] {
         self.values
-    }
-    /// Whether a time lies within the step.
-    #[must_use]
-    pub fn contains(&self, t: f64) -> bool {
-        let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
-        low <= t && t <= high
     }
 
     /// Writes the state (q, v) at a time within the step to `out`.
@@ -68,19 +47,20 @@ impl<'a> CollocationStep<'a> {
     /// # Errors
     /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::WrongLength`].
     pub fn at(&self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError> {
-        let n = self.work.previous.len();
-        if out.len() != 2 * n {
-            return Err(IntegratorsError::WrongLength { quantity: "out", expected: 2 * n, found: out.len() });
-        }
-        if !self.contains(t) {
-            return Err(IntegratorsError::OutsideStep { t, start: self.start, end: self.end });
-        }
-        if t.to_bits() == self.end.to_bits() {
+        self.step.check(t, self.values.len(), out.len())?;
+        if self.step.is_end(t) {
             out.copy_from_slice(self.values);
-            return Ok(());
+        } else {
+            self.work.state_between(self.step.part(t), out);
         }
-        let h = self.step;
-        let theta = ((t - self.start) / h).clamp(0.0, 1.0);
+        Ok(())
+    }
+}
+
+impl Workspace {
+    /// Writes the state at the part θ of the last accepted step.
+    pub(super) fn state_between(&self, theta: f64, out: &mut [f64]) {
+        let (n, h) = (self.previous.len(), self.previous_step);
         let (once, twice) = integrals(theta);
         // The weights of the stages: Σ_k (2k + 1) bⱼ P_k(cⱼ) ∫ P_k.
         let (mut velocity, mut position) = ([0.0; 8], [0.0; 8]);
@@ -90,14 +70,13 @@ impl<'a> CollocationStep<'a> {
                 position[j] += row.0[j] * twice[k];
             }
         }
-        let (q0, v0) = self.work.start.split_at(n);
+        let (q0, v0) = self.start.split_at(n);
         let (q, v) = out.split_at_mut(n);
-        for (k, a) in self.work.previous.iter().enumerate() {
+        for (k, a) in self.previous.iter().enumerate() {
             let sum = |weights: &[f64; 8]| weights.iter().zip(a.0).map(|(w, a)| w * a).sum::<f64>();
             v[k] = v0[k] + h * sum(&velocity);
             q[k] = q0[k] + h * (theta * v0[k] + h * sum(&position));
         }
-        Ok(())
     }
 }
 

@@ -33,10 +33,12 @@ use core::ops::ControlFlow;
 use piola_numerics::{Kernel, dispatch};
 
 pub use self::dense::CollocationStep;
-use self::stages::{Attempt, Workspace};
+use self::stages::Workspace;
 use self::tableau::Stages;
-use crate::state::{check_run, check_step, equal_steps};
-use crate::{Ending, IntegratorsError, Report, SecondOrder, State, Tolerance};
+use crate::collocation::{Control, Plan, follow};
+use crate::events::stopped_by;
+use crate::state::{check_run, check_step};
+use crate::{IntegratorsError, Report, SecondOrder, State, Tolerance};
 
 /// Gauss–Legendre collocation of order 16 for q̈ = f(t, q, q̇), with steps that adapt or with a fixed one.
 ///
@@ -82,44 +84,14 @@ pub struct GaussLegendre16 {
     work: Workspace,
 }
 
-/// How steps are chosen.
-#[derive(Clone, Copy, Debug)]
-enum Control {
-    /// Steps whose error is within the tolerance.
-    Adaptive(f64),
-    /// Equal steps no longer than this.
-    Fixed(f64),
-}
-
 /// The steps after which a run is given up, unless it is told otherwise.
 const MOST_STEPS: u64 = 10_000_000;
 /// The smallest tolerance that changes anything.
 const ROUNDING: f64 = 1e-17;
 /// r₀ over the tolerance to the power 7/16: then ten revolutions of eccentric orbits end within the tolerance.
 const AIM: f64 = 0.25;
-/// The factor of contraction of a sweep at which a digit costs least: e⁻² where accelerations depend on positions, and
-/// more where they depend on velocities.
-const BEST_CONTRACTION: f64 = 0.3;
-/// Sweeps that are no reason to shorten a step.
-const FEW_SWEEPS: u64 = 5;
 /// Steps whose error asks for less than this part of them are made again.
 const REJECTED: f64 = 0.8;
-/// The part of a step that is tried after one whose stages did not converge, or where the field is not defined.
-const UNCONVERGED: f64 = 0.3;
-/// The part of the span within which a refusal of the field explains that steps shrink.
-const HERE: f64 = 1e-6;
-/// Steps grow at most by this factor.
-const MOST_GROWTH: f64 = 4.0;
-/// The part of the best step that is tried, so that few are rejected.
-const SAFETY: f64 = 0.95;
-/// The trend of the best step, from one step to the next, that is believed.
-const TREND: (f64, f64) = (0.5, 1.0);
-/// Steps whose last coefficient exceeds the aim by this factor after two sweeps are not swept further: 0.65⁻⁷.
-const HOPELESS: f64 = 20.0;
-/// Growth after which a first step is made again rather than kept.
-const TIMID: f64 = 3.0;
-/// Attempts at the first step.
-const MOST_ATTEMPTS: u32 = 4;
 
 impl GaussLegendre16 {
     /// Steps that adapt to a tolerance of the error of the run, relative to the state.
@@ -202,129 +174,22 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
         let Run { method, field, state, end, mut observer } = self;
         let n = field.freedom();
         check_run(2 * n, state, end)?;
-        let work = &mut method.work;
-        work.begin(n);
-        let span = end - state.time;
-        let mut report = Report::begin();
+        method.work.begin(n);
         let (tolerance, equal) = match method.control {
             Control::Adaptive(tolerance) => (tolerance, None),
-            Control::Fixed(longest) => (ROUNDING, Some(equal_steps(state.time, end, longest)?)),
+            Control::Fixed(longest) => (ROUNDING, Some(longest)),
         };
-        // r₀ of the module's head.
-        let aim = AIM * tolerance.powf(7.0 / 16.0);
-        let mut h = equal.map_or_else(|| first_step(state, n, span), |(_, h)| h);
-        let (mut first, start) = (0, state.time);
-        // The best length of the step before; zero before the first.
-        let mut best_before = 0.0_f64;
-        // When the field last could not be evaluated, and what it said.
-        let mut refused: Option<(f64, F::Error)> = None;
-        if let Some((count, _)) = equal
-            && count == 0
-        {
-            return Ok(report);
-        }
-        loop {
-            let remaining = end - state.time;
-            if equal.is_none() && remaining * span <= 0.0 {
-                return Ok(report);
-            }
-            if method.most_steps <= report.steps {
-                return Err(IntegratorsError::TooManySteps { t: state.time, steps: report.steps });
-            }
-            let mut last = equal.is_some_and(|(count, _)| count == report.steps + 1);
-            if equal.is_none() {
-                // The last two steps share what remains.
-                last = remaining.abs() <= h.abs() * (1.0 + 1e-9);
-                h = if last {
-                    remaining
-                } else if remaining.abs() < 2.0 * h.abs() {
-                    0.5 * remaining
-                } else {
-                    h
-                };
-                if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
-                    return Err(match refused {
-                        // The last refusal is the reason if it was here.
-                        Some((t, source)) if (state.time - t).abs() <= HERE * span.abs() => {
-                            IntegratorsError::Field { t: state.time, source }
-                        }
-                        _ => work.why_too_small(state.time, h),
-                    });
-                }
-            }
-            let most = if equal.is_some() { f64::INFINITY } else { HOPELESS * aim };
-            let attempt = match work.attempt(field, state, h, tolerance, most, &mut report.evaluations) {
-                Ok(attempt) => attempt,
-                Err(source) if equal.is_some() => return Err(IntegratorsError::Field { t: state.time, source }),
-                Err(source) => {
-                    refused = Some((state.time, source));
-                    report.rejected += 1;
-                    h *= UNCONVERGED;
-                    continue;
-                }
-            };
-            let factor = factor(&attempt, aim);
-            if equal.is_some() {
-                if let Some(error) = work.why_failed(&attempt, state.time, h) {
-                    return Err(error);
-                }
-            } else if !attempt.converged || factor < REJECTED {
-                report.rejected += 1;
-                h *= factor.clamp(0.05, 0.7);
-                continue;
-            } else if report.steps == 0 && TIMID < factor && !last && first < MOST_ATTEMPTS {
-                first += 1;
-                report.rejected += 1;
-                h *= factor.min(50.0);
-                continue;
-            }
-            let from = state.time;
-            if let Some(error) = work.accept(state, h) {
-                return Err(error);
-            }
-            report.steps += 1;
-            match equal {
-                Some((_, h)) if !last => state.set_time(start + h * report.steps as f64),
-                None if !last => state.advance_time(h),
-                _ => state.set_time(end),
-            }
-            let step = CollocationStep::new(work, state, report.steps, h, from);
-            if observer(&step).is_break() {
-                report.ending = Ending::Stopped;
-                return Ok(report);
-            }
-            if last {
-                return Ok(report);
-            }
-            if equal.is_none() {
-                // As the best step changed, it will change.
-                let best = h.abs() * factor;
-                let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
-                best_before = best;
-                h *= (SAFETY * factor * trend).min(MOST_GROWTH);
-            }
-        }
+        let plan = Plan {
+            equal,
+            longest_step: f64::INFINITY,
+            most_steps: method.most_steps,
+            // r₀ of the module's head.
+            aim: AIM * tolerance.powf(7.0 / 16.0),
+            tolerance,
+            rejected: REJECTED,
+        };
+        follow(&mut method.work, field, state, end, &plan, |work, state, step| {
+            Ok(stopped_by(observer(&CollocationStep::new(work, state, step))))
+        })
     }
-}
-
-/// By how much the step should be longer.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn factor(attempt: &Attempt, aim: f64) -> f64 {
-    let accurate = if 0.0 < attempt.ratio { (aim / attempt.ratio).powf(1.0 / 7.0) } else { f64::INFINITY };
-    if !attempt.converged {
-        return if attempt.hopeless { SAFETY * accurate } else { UNCONVERGED };
-    }
-    // Few sweeps are cheap whatever they contract by.
-    let slow = FEW_SWEEPS < attempt.sweeps;
-    let cheap = if slow { (BEST_CONTRACTION / attempt.contraction).sqrt() } else { f64::INFINITY };
-    accurate.min(cheap.max(REJECTED))
-}
-
-/// A first step to try: a part of the time in which the positions would change as much as their size.
-fn first_step(state: &State, n: usize, span: f64) -> f64 {
-    let largest = |x: &[f64]| x.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    let (q, v) = state.values.split_at(n);
-    let time = 0.1 * largest(q) / largest(v);
-    let part = 0.01 * span.abs();
-    if 0.0 < time && time < part { time.copysign(span) } else { part.copysign(span) }
 }

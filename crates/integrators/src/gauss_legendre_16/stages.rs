@@ -3,6 +3,7 @@
 use piola_numerics::{Lanes, Real};
 
 use super::tableau::{LEGENDRE, NODES, OFFSETS, POSITION, POSITION_WEIGHTS, Stages, VELOCITY, WEIGHTS};
+use crate::collocation::{Attempt, Collocation};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, SecondOrder, State};
 
@@ -34,7 +35,7 @@ pub(super) struct Workspace {
     next: Vec<f64>,
     next_carry: Vec<f64>,
     /// The length of the last accepted step; zero before the first.
-    previous_step: f64,
+    pub(super) previous_step: f64,
     /// The factor of contraction that the next step is expected to have.
     expected: f64,
     continuation: Continuation,
@@ -51,23 +52,6 @@ impl Default for Continuation {
     fn default() -> Self {
         Self { ratio: f64::NAN, columns: [Lanes([0.0; 8]); 8] }
     }
-}
-
-/// What an attempt at a step found.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Attempt {
-    /// Whether the stages stand still.
-    pub(super) converged: bool,
-    /// The last coefficient of the accelerations, relative to their mean.
-    pub(super) ratio: f64,
-    /// The factor by which a sweep shortens the change.
-    pub(super) contraction: f64,
-    /// Sweeps made.
-    pub(super) sweeps: u64,
-    /// The last change, relative to the accelerations.
-    change: f64,
-    /// Whether it was given up because its error would be too large.
-    pub(super) hopeless: bool,
 }
 
 /// The sum over the stages, in pairs.
@@ -141,11 +125,13 @@ impl Workspace {
         self.previous_step = 0.0;
         self.expected = 0.1;
     }
+}
 
-    /// Sweeps over the stages of a step of length h from the state, until they stand still or their last coefficient
-    /// exceeds `most`.
+impl<F: SecondOrder<Stages>> Collocation<f64, F> for Workspace {
+    type Error = F::Error;
+
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn attempt<F: SecondOrder<Stages>>(
+    fn attempt(
         &mut self,
         field: &mut F,
         state: &State,
@@ -171,14 +157,7 @@ impl Workspace {
         let time = Lanes::splat(state.time) + Lanes::splat(h) * NODES;
         let square = h * h;
         let (h_all, square_all) = (Lanes::splat(h), Lanes::splat(square));
-        let mut attempt = Attempt {
-            converged: false,
-            ratio: 0.0,
-            contraction: self.expected,
-            sweeps: 0,
-            change: f64::INFINITY,
-            hopeless: false,
-        };
+        let mut attempt = Attempt::begin(self.expected);
         let (mut size, mut rises) = (0.0, 0);
         while attempt.sweeps < MOST_SWEEPS {
             for k in 0..n {
@@ -237,9 +216,8 @@ impl Workspace {
         Ok(attempt)
     }
 
-    /// Moves the state to the end of the step; the error of a state that is not finite.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn accept<E>(&mut self, state: &mut State, h: f64) -> Option<IntegratorsError<E>> {
+    fn accept(&mut self, state: &mut State, h: f64) -> Result<(), IntegratorsError<F::Error>> {
         let n = self.accelerations.len();
         self.start.copy_from_slice(&state.values);
         self.next.copy_from_slice(&state.values);
@@ -254,32 +232,19 @@ impl Workspace {
             compensated_add(&mut q[k], &mut q_carry[k], h * mean + (h * h) * dot(POSITION_WEIGHTS, a));
             compensated_add(&mut v[k], &mut v_carry[k], gained);
         }
-        if let Err(error) = check_finite("state", Some(state.time), &self.next) {
-            return Some(error);
-        }
+        check_finite("state", Some(state.time), &self.next)?;
         core::mem::swap(&mut state.values, &mut self.next);
         core::mem::swap(&mut state.carry, &mut self.next_carry);
         core::mem::swap(&mut self.accelerations, &mut self.previous);
         self.previous_step = h;
-        None
-    }
-}
-
-/// The errors of attempts that failed.
-impl Workspace {
-    /// Why a fixed step cannot be made.
-    pub(super) fn why_failed<E>(&self, attempt: &Attempt, t: f64, step: f64) -> Option<IntegratorsError<E>> {
-        if attempt.converged {
-            return None;
-        }
-        let not_finite = check_finite("rate", Some(t), &self.swept).err();
-        #[expect(clippy::cast_possible_truncation, reason = "at most a few dozen")]
-        let iterations = attempt.sweeps as usize;
-        Some(not_finite.unwrap_or(IntegratorsError::StagesDiverged { t, step, iterations, change: attempt.change }))
+        Ok(())
     }
 
-    /// Why no shorter step can be made.
-    pub(super) fn why_too_small<E>(&self, t: f64, step: f64) -> IntegratorsError<E> {
-        check_finite("rate", Some(t), &self.swept).err().unwrap_or(IntegratorsError::StepTooSmall { t, step })
+    fn check_rates(&self, t: f64) -> Result<(), IntegratorsError<F::Error>> {
+        check_finite("rate", Some(t), &self.swept)
+    }
+
+    fn state_at(&self, part: f64, out: &mut [f64]) {
+        self.state_between(part, out);
     }
 }

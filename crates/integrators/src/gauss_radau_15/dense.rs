@@ -3,6 +3,7 @@
 use piola_numerics::Real;
 
 use super::stages::Workspace;
+use crate::accepted::{AcceptedStep, number_and_times};
 use crate::events::Interpolated;
 use crate::{IntegratorsError, State};
 
@@ -18,32 +19,16 @@ use crate::{IntegratorsError, State};
 pub struct GaussRadauStep<'a, T = f64> {
     work: &'a Workspace<T>,
     values: &'a [T],
-    number: u64,
-    start: f64,
-    end: f64,
-    step: f64,
+    step: AcceptedStep,
 }
 
 impl<'a, T: Real> GaussRadauStep<'a, T> {
-    pub(super) fn new(work: &'a Workspace<T>, state: &'a State<T>, number: u64, step: f64, start: f64) -> Self {
-        Self { work, values: &state.values, number, start, end: state.time, step }
+    pub(super) fn new(work: &'a Workspace<T>, state: &'a State<T>, step: AcceptedStep) -> Self {
+        Self { work, values: &state.values, step }
     }
 
-    /// The number of the step, from 1.
-    #[must_use]
-    pub const fn number(&self) -> u64 {
-        self.number
-    }
-    /// The time at its start, s.
-    #[must_use]
-    pub const fn start(&self) -> f64 {
-        self.start
-    }
-    /// The time at its end, s.
-    #[must_use]
-    pub const fn time(&self) -> f64 {
-        self.end
-    }
+    number_and_times!();
+
     /// The state (q, v) at its start.
     #[must_use]
     pub fn start_values(&self) -> &[T] {
@@ -53,12 +38,6 @@ impl<'a, T: Real> GaussRadauStep<'a, T> {
     #[must_use]
     pub const fn values(&self) -> &[T] {
         self.values
-    }
-    /// Whether a time lies within the step.
-    #[must_use]
-    pub fn contains(&self, t: f64) -> bool {
-        let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
-        low <= t && t <= high
     }
 
     /// Writes the state (q, v) at a time within the step to `out`.
@@ -72,25 +51,19 @@ impl<'a, T: Real> GaussRadauStep<'a, T> {
     /// # Errors
     /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::WrongLength`].
     pub fn at(&self, t: f64, out: &mut [T]) -> Result<(), IntegratorsError> {
-        let expected = self.values.len();
-        if out.len() != expected {
-            return Err(IntegratorsError::WrongLength { quantity: "out", expected, found: out.len() });
-        }
-        if !self.contains(t) {
-            return Err(IntegratorsError::OutsideStep { t, start: self.start, end: self.end });
-        }
-        if t.to_bits() == self.end.to_bits() {
+        self.step.check(t, self.values.len(), out.len())?;
+        if self.step.is_end(t) {
             out.copy_from_slice(self.values);
-            return Ok(());
+        } else {
+            self.work.state_between(self.step.part(t), out);
         }
-        self.work.state_at(((t - self.start) / self.step).clamp(0.0, 1.0), out);
         Ok(())
     }
 }
 
 impl<E> Interpolated<E> for GaussRadauStep<'_, f64> {
     fn ends(&self) -> (f64, f64) {
-        (self.start, self.end)
+        (self.start(), self.time())
     }
     fn state_at(&mut self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError<E>> {
         self.at(t, out).map_err(IntegratorsError::with_field_error)

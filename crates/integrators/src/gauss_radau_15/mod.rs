@@ -41,11 +41,11 @@ use core::ops::ControlFlow;
 use piola_numerics::{Kernel, Real, dispatch};
 
 pub use self::dense::GaussRadauStep;
-use self::stages::{Attempt, Workspace};
-use crate::events::{Stop, begin, locate};
-use crate::field::largest_lane;
-use crate::state::{check_run, check_step, equal_steps};
-use crate::{Ending, Event, IntegratorsError, Occurrence, Report, SecondOrder, State, Tolerance};
+use self::stages::Workspace;
+use crate::collocation::{Control, Plan, follow};
+use crate::events::{Stop, begin, locate, stopped_by};
+use crate::state::{check_longest, check_run, check_step};
+use crate::{Event, IntegratorsError, Occurrence, Report, SecondOrder, State, Tolerance};
 
 /// Gauss–Radau collocation of order 15 for q̈ = f(t, q, q̇), with steps that adapt, to rounding if nothing else is said.
 ///
@@ -107,43 +107,14 @@ pub struct GaussRadau15<T = f64> {
     work: Workspace<T>,
 }
 
-/// How steps are chosen.
-#[derive(Clone, Copy, Debug)]
-enum Control {
-    /// Steps whose ratio |b₆|/|a| is at most ε.
-    Adaptive(f64),
-    /// Equal steps no longer than this.
-    Fixed(f64),
-}
-
 /// The steps after which a run is given up, unless it is told otherwise.
 const MOST_STEPS: u64 = 1_000_000_000;
 /// ε of runs to rounding: r^(15/7) is then 5e-20.
 const TO_ROUNDING: f64 = 1e-9;
 /// The power of the tolerance that ε is.
 const POWER: f64 = 7.0 / 15.0;
-/// The factor of contraction of a sweep at which a digit costs least: e⁻² or more.
-const BEST_CONTRACTION: f64 = 0.3;
-/// Sweeps that are no reason to shorten a step.
-const FEW_SWEEPS: u64 = 5;
 /// Steps whose error asks for less than this part of them are made again.
 const REJECTED: f64 = 0.7;
-/// The part of a step that is tried after one whose stages did not converge, or where the field is not defined.
-const UNCONVERGED: f64 = 0.3;
-/// The part of the span within which a refusal of the field explains that steps shrink.
-const HERE: f64 = 1e-6;
-/// Steps grow at most by this factor.
-const MOST_GROWTH: f64 = 4.0;
-/// The part of the best step that is tried, so that few are rejected.
-const SAFETY: f64 = 0.95;
-/// The trend of the best step, from one step to the next, that is believed.
-const TREND: (f64, f64) = (0.5, 1.0);
-/// Steps whose ratio |b₆|/|a| exceeds ε by this factor after one sweep are not swept further: 0.65⁻⁷.
-const HOPELESS: f64 = 20.0;
-/// Growth after which a first step is made again rather than kept.
-const TIMID: f64 = 3.0;
-/// Attempts at the first step.
-const MOST_ATTEMPTS: u32 = 4;
 
 impl<T: Real> Default for GaussRadau15<T> {
     /// As [`to_rounding`](GaussRadau15::to_rounding).
@@ -196,12 +167,8 @@ impl<T: Real> GaussRadau15<T> {
     /// # Errors
     /// [`IntegratorsError::InvalidStep`] unless 0 < step; ∞ is no bound.
     pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
-        if 0.0 < step {
-            self.longest_step = step;
-            Ok(self)
-        } else {
-            Err(IntegratorsError::InvalidStep { step })
-        }
+        self.longest_step = check_longest(step)?;
+        Ok(self)
     }
 
     /// Changes the number of steps after which an adaptive run is given up, a thousand million.
@@ -282,11 +249,6 @@ impl GaussRadau15<f64> {
     }
 }
 
-/// What an observer's verdict at the end of a step means.
-fn stopped_by(verdict: ControlFlow<()>) -> ControlFlow<Stop> {
-    if verdict.is_break() { ControlFlow::Break((None, Ending::Stopped)) } else { ControlFlow::Continue(()) }
-}
-
 /// A run, compiled for each set of instructions.
 ///
 /// `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end when `None`) and how the
@@ -312,143 +274,18 @@ where
         check_run(2 * n, state, end)?;
         let work = &mut method.work;
         work.begin(n);
-        let span = end - state.time;
-        let mut report = Report::begin();
-        let (epsilon, equal) = match method.control {
+        let (aim, equal) = match method.control {
             Control::Adaptive(epsilon) => (epsilon.max(work.smallest_ratio()), None),
-            Control::Fixed(longest) => (0.0, Some(equal_steps(state.time, end, longest)?)),
+            Control::Fixed(longest) => (0.0, Some(longest)),
         };
-        let tolerance = epsilon.powf(1.0 / POWER);
-        let mut h = equal.map_or_else(|| first_step(state, n, span), |(_, h)| h);
-        let (mut first, start) = (0, state.time);
-        // The best length of the step before; zero before the first.
-        let mut best_before = 0.0_f64;
-        // When the field last could not be evaluated, and what it said.
-        let mut refused: Option<(f64, F::Error)> = None;
-        if equal.is_some_and(|(count, _)| count == 0) {
-            return Ok(report);
-        }
-        loop {
-            let remaining = end - state.time;
-            if equal.is_none() && remaining * span <= 0.0 {
-                return Ok(report);
-            }
-            if method.most_steps <= report.steps {
-                return Err(IntegratorsError::TooManySteps { t: state.time, steps: report.steps });
-            }
-            let mut last = equal.is_some_and(|(count, _)| count == report.steps + 1);
-            if equal.is_none() {
-                h = h.clamp(-method.longest_step, method.longest_step);
-                (h, last) = shared(h, remaining);
-                if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
-                    return Err(match refused {
-                        // The last refusal is the reason if it was here.
-                        Some((t, source)) if (state.time - t).abs() <= HERE * span.abs() => {
-                            IntegratorsError::Field { t: state.time, source }
-                        }
-                        _ => work.why_too_small(state.time, h),
-                    });
-                }
-            }
-            work.begin_step(field, state, &mut report.evaluations)?;
-            let most = if equal.is_some() { f64::INFINITY } else { HOPELESS * epsilon };
-            let attempt = match work.attempt(field, state, h, tolerance, most, &mut report.evaluations) {
-                Ok(attempt) => attempt,
-                Err(source) if equal.is_some() => return Err(IntegratorsError::Field { t: state.time, source }),
-                Err(source) => {
-                    refused = Some((state.time, source));
-                    report.rejected += 1;
-                    h *= UNCONVERGED;
-                    continue;
-                }
-            };
-            let factor = factor(&attempt, epsilon);
-            if equal.is_some() {
-                if let Some(error) = work.why_failed(&attempt, state.time, h) {
-                    return Err(error);
-                }
-            } else if !attempt.converged || factor < REJECTED {
-                report.rejected += 1;
-                h *= factor.clamp(0.05, 0.7);
-                continue;
-            } else if report.steps == 0
-                && TIMID < factor
-                && !last
-                && first < MOST_ATTEMPTS
-                && h.abs() < method.longest_step
-            {
-                first += 1;
-                report.rejected += 1;
-                h *= factor.min(50.0);
-                continue;
-            }
-            let from = state.time;
-            if let Some(error) = work.accept(state, h) {
-                return Err(error);
-            }
-            report.steps += 1;
-            match equal {
-                Some((_, h)) if !last => state.set_time(start + h * report.steps as f64),
-                None if !last => state.advance_time(h),
-                _ => state.set_time(end),
-            }
-            let verdict = inspect(&mut GaussRadauStep::new(work, state, report.steps, h, from))?;
-            if let ControlFlow::Break((time, ending)) = verdict {
-                if let Some(time) = time.filter(|time| time.to_bits() != state.time.to_bits()) {
-                    work.state_at((time - from) / h, &mut state.values);
-                    state.carry.fill(T::zero());
-                    state.set_time(time);
-                }
-                report.ending = ending;
-                return Ok(report);
-            }
-            if last {
-                return Ok(report);
-            }
-            if equal.is_none() {
-                h *= growth(factor, h, &mut best_before);
-            }
-        }
+        let plan = Plan {
+            equal,
+            longest_step: method.longest_step,
+            most_steps: method.most_steps,
+            aim,
+            tolerance: aim.powf(1.0 / POWER),
+            rejected: REJECTED,
+        };
+        follow(work, field, state, end, &plan, |work, state, step| inspect(&mut GaussRadauStep::new(work, state, step)))
     }
-}
-
-/// The length of the next step, and whether it is the last: the last two steps share what remains.
-fn shared(h: f64, remaining: f64) -> (f64, bool) {
-    if remaining.abs() <= h.abs() * (1.0 + 1e-9) {
-        (remaining, true)
-    } else if remaining.abs() < 2.0 * h.abs() {
-        (0.5 * remaining, false)
-    } else {
-        (h, false)
-    }
-}
-
-/// By how much the step should be longer.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn factor(attempt: &Attempt, epsilon: f64) -> f64 {
-    let accurate = if 0.0 < attempt.ratio { (epsilon / attempt.ratio).powf(1.0 / 7.0) } else { f64::INFINITY };
-    if !attempt.converged {
-        return if attempt.hopeless { SAFETY * accurate } else { UNCONVERGED };
-    }
-    // Few sweeps are cheap whatever they contract by.
-    let slow = FEW_SWEEPS < attempt.sweeps;
-    let cheap = if slow { (BEST_CONTRACTION / attempt.contraction).sqrt() } else { f64::INFINITY };
-    accurate.min(cheap.max(REJECTED))
-}
-
-/// By how much the next step is longer: as the best step changed, it will change.
-fn growth(factor: f64, h: f64, best_before: &mut f64) -> f64 {
-    let best = h.abs() * factor;
-    let trend = if 0.0 < *best_before { (best / *best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
-    *best_before = best;
-    (SAFETY * factor * trend).min(MOST_GROWTH)
-}
-
-/// A first step to try: a part of the time in which the positions would change as much as their size.
-fn first_step<T: Real>(state: &State<T>, n: usize, span: f64) -> f64 {
-    let largest = |x: &[T]| x.iter().fold(0.0_f64, |largest, &x| largest.max(largest_lane(x)));
-    let (q, v) = state.values.split_at(n);
-    let time = 0.1 * largest(q) / largest(v);
-    let part = 0.01 * span.abs();
-    if 0.0 < time && time < part { time.copysign(span) } else { part.copysign(span) }
 }

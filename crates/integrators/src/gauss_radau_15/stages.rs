@@ -3,6 +3,7 @@
 use piola_numerics::Real;
 
 use super::tables::Tables;
+use crate::collocation::{Attempt, Collocation};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, SecondOrder, State};
 
@@ -46,23 +47,6 @@ pub(super) struct Workspace<T> {
     expected: f64,
     /// Whether the accelerations at the start of the step are known.
     begun: bool,
-}
-
-/// What an attempt at a step found.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Attempt {
-    /// Whether the stages stand still.
-    pub(super) converged: bool,
-    /// |b₆| over the mean acceleration.
-    pub(super) ratio: f64,
-    /// The factor by which a sweep shortens the change.
-    pub(super) contraction: f64,
-    /// Sweeps made.
-    pub(super) sweeps: u64,
-    /// The last change, relative to the accelerations.
-    change: f64,
-    /// Whether it was given up because its error would be too large.
-    pub(super) hopeless: bool,
 }
 
 /// Σ of the products of two rows, in pairs.
@@ -138,9 +122,62 @@ impl<T: Real> Workspace<T> {
         self.rounding * self.tables.last.iter().map(|x| x.primal(0).abs()).sum::<f64>()
     }
 
+    /// The stages that the polynomial of the last step, continued, has in a step that is `ratio` times as long.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn predict(&mut self, ratio: f64) {
+        let mut weights = [[T::zero(); 8]; 8];
+        for (weights, &node) in weights.iter_mut().zip(&self.tables.nodes) {
+            // sᵐ − 1 from the end of the last step, s = 1, on.
+            let place = T::one() + T::lit(ratio) * node;
+            let mut power = place;
+            for weight in &mut weights[1..] {
+                *weight = power - T::one();
+                power *= place;
+            }
+        }
+        for (stages, last) in self.stages.iter_mut().zip(&self.last) {
+            for n in 1..8 {
+                stages[n] = dot(&weights[n], last);
+            }
+        }
+    }
+
+    /// Writes the state at the part s of the last accepted step.
+    pub(super) fn state_between(&self, part: f64, out: &mut [T]) {
+        let n = self.last.len();
+        let (q0, v0) = self.start.split_at(n);
+        let (q, v) = out.split_at_mut(n);
+        let s = T::lit(part);
+        let moved = s * T::lit(self.previous_step);
+        for (k, polynomial) in self.last.iter().enumerate() {
+            let (mut once, mut twice) = (T::zero(), T::zero());
+            for (degree, &coefficient) in polynomial.iter().enumerate().rev() {
+                let degree = degree as f64;
+                once = once * s + coefficient * T::lit(1.0 / (degree + 1.0));
+                twice = twice * s + coefficient * T::lit(1.0 / ((degree + 1.0) * (degree + 2.0)));
+            }
+            v[k] = v0[k] + moved * once;
+            q[k] = q0[k] + moved * (v0[k] + moved * twice);
+        }
+    }
+}
+
+/// |b₆| of all components over their mean modulus at a node.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn last_coefficient<T: Real>(row: &[T; 8], stages: &[[T; 8]], size: T) -> f64 {
+    let mut last = T::zero();
+    for stages in stages {
+        last += dot(row, stages).abs();
+    }
+    largest_ratio(last, size * T::lit(0.125))
+}
+
+impl<T: Real, F: SecondOrder<T>> Collocation<T, F> for Workspace<T> {
+    type Error = F::Error;
+
     /// The accelerations at the start of a step, once for all attempts at it.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn begin_step<F: SecondOrder<T>>(
+    fn begin_step(
         &mut self,
         field: &mut F,
         state: &State<T>,
@@ -162,31 +199,8 @@ impl<T: Real> Workspace<T> {
         Ok(())
     }
 
-    /// The stages that the polynomial of the last step, continued, has in a step that is `ratio` times as long.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn predict(&mut self, ratio: f64) {
-        let mut weights = [[T::zero(); 8]; 8];
-        for (weights, &node) in weights.iter_mut().zip(&self.tables.nodes) {
-            // sᵐ − 1 from the end of the last step, s = 1, on.
-            let place = T::one() + T::lit(ratio) * node;
-            let mut power = place;
-            for weight in &mut weights[1..] {
-                *weight = power - T::one();
-                power *= place;
-            }
-        }
-        for (stages, last) in self.stages.iter_mut().zip(&self.last) {
-            for n in 1..8 {
-                stages[n] = dot(&weights[n], last);
-            }
-        }
-    }
-
-    /// Sweeps over the stages of a step of length h from the state, until they stand still or |b₆|/|a| exceeds `most`.
-    ///
-    /// [`begin_step`](Self::begin_step) has been called.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn attempt<F: SecondOrder<T>>(
+    fn attempt(
         &mut self,
         field: &mut F,
         state: &State<T>,
@@ -214,14 +228,7 @@ impl<T: Real> Workspace<T> {
         for stages in &*stages {
             at_start += stages[0].abs();
         }
-        let mut attempt = Attempt {
-            converged: false,
-            ratio: 0.0,
-            contraction: self.expected,
-            sweeps: 0,
-            change: f64::INFINITY,
-            hopeless: false,
-        };
+        let mut attempt = Attempt::begin(self.expected);
         let adaptive = most.is_finite();
         let most_sweeps = if adaptive { MOST_ADAPTIVE_SWEEPS } else { MOST_SWEEPS };
         let negligible = (UNSWEPT * tolerance).max(UNROUNDED * self.rounding);
@@ -289,9 +296,8 @@ impl<T: Real> Workspace<T> {
         Ok(attempt)
     }
 
-    /// Moves the state to the end of the step; the error of a state that is not finite.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn accept<E>(&mut self, state: &mut State<T>, h: f64) -> Option<IntegratorsError<E>> {
+    fn accept(&mut self, state: &mut State<T>, h: f64) -> Result<(), IntegratorsError<F::Error>> {
         let n = self.stages.len();
         self.start.copy_from_slice(&state.values);
         self.next.copy_from_slice(&state.values);
@@ -314,63 +320,19 @@ impl<T: Real> Workspace<T> {
             compensated_add(&mut v[k], &mut v_carry[k], length * (a + once));
             self.last[k] = [a, b0, b1, b2, b3, b4, b5, b6];
         }
-        if let Err(error) = check_finite("state", Some(state.time), &self.next) {
-            return Some(error);
-        }
+        check_finite("state", Some(state.time), &self.next)?;
         core::mem::swap(&mut state.values, &mut self.next);
         core::mem::swap(&mut state.carry, &mut self.next_carry);
         self.previous_step = h;
         self.begun = false;
-        None
+        Ok(())
     }
 
-    /// Writes the state at the part s of the last accepted step.
-    pub(super) fn state_at(&self, part: f64, out: &mut [T]) {
-        let n = self.last.len();
-        let (q0, v0) = self.start.split_at(n);
-        let (q, v) = out.split_at_mut(n);
-        let s = T::lit(part);
-        let moved = s * T::lit(self.previous_step);
-        for (k, polynomial) in self.last.iter().enumerate() {
-            let (mut once, mut twice) = (T::zero(), T::zero());
-            for (degree, &coefficient) in polynomial.iter().enumerate().rev() {
-                let degree = degree as f64;
-                once = once * s + coefficient * T::lit(1.0 / (degree + 1.0));
-                twice = twice * s + coefficient * T::lit(1.0 / ((degree + 1.0) * (degree + 2.0)));
-            }
-            v[k] = v0[k] + moved * once;
-            q[k] = q0[k] + moved * (v0[k] + moved * twice);
-        }
-    }
-}
-
-/// |b₆| of all components over their mean modulus at a node.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn last_coefficient<T: Real>(row: &[T; 8], stages: &[[T; 8]], size: T) -> f64 {
-    let mut last = T::zero();
-    for stages in stages {
-        last += dot(row, stages).abs();
-    }
-    largest_ratio(last, size * T::lit(0.125))
-}
-
-/// The errors of attempts that failed.
-impl<T: Real> Workspace<T> {
-    /// Why a fixed step cannot be made.
-    pub(super) fn why_failed<E>(&self, attempt: &Attempt, t: f64, step: f64) -> Option<IntegratorsError<E>> {
-        if attempt.converged {
-            return None;
-        }
-        #[expect(clippy::cast_possible_truncation, reason = "at most a few dozen")]
-        let iterations = attempt.sweeps as usize;
-        let diverged = IntegratorsError::StagesDiverged { t, step, iterations, change: attempt.change };
-        // Rates that only later sweeps led to infinity are not the field's fault.
-        let not_finite = check_finite("rate", Some(t), &self.accelerations).err();
-        Some(not_finite.filter(|_| attempt.change.is_infinite()).unwrap_or(diverged))
+    fn check_rates(&self, t: f64) -> Result<(), IntegratorsError<F::Error>> {
+        check_finite("rate", Some(t), &self.accelerations)
     }
 
-    /// Why no shorter step can be made.
-    pub(super) fn why_too_small<E>(&self, t: f64, step: f64) -> IntegratorsError<E> {
-        check_finite("rate", Some(t), &self.accelerations).err().unwrap_or(IntegratorsError::StepTooSmall { t, step })
+    fn state_at(&self, part: f64, out: &mut [T]) {
+        self.state_between(part, out);
     }
 }

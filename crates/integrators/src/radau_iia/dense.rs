@@ -3,6 +3,8 @@
 use super::order::RadauOrder;
 use super::stages::Workspace;
 use crate::IntegratorsError;
+use crate::accepted::{AcceptedStep, number_and_times};
+use crate::events::Interpolated;
 
 /// An accepted step of [`RadauIia`](super::RadauIia), with the state at any time within it.
 ///
@@ -15,42 +17,20 @@ use crate::IntegratorsError;
 pub struct RadauIiaStep<'a> {
     work: &'a Workspace,
     order: RadauOrder,
-    number: u64,
-    start: f64,
-    end: f64,
-    step: f64,
+    step: AcceptedStep,
 }
 
 impl<'a> RadauIiaStep<'a> {
-    pub(super) const fn new(
-        work: &'a Workspace,
-        order: RadauOrder,
-        number: u64,
-        [start, end]: [f64; 2],
-        step: f64,
-    ) -> Self {
-        Self { work, order, number, start, end, step }
+    pub(super) const fn new(work: &'a Workspace, order: RadauOrder, step: AcceptedStep) -> Self {
+        Self { work, order, step }
     }
 
-    /// The number of the step, from 1.
-    #[must_use]
-    pub const fn number(&self) -> u64 {
-        self.number
-    }
+    number_and_times!();
+
     /// The order of the method that made it.
     #[must_use]
     pub const fn order(&self) -> RadauOrder {
         self.order
-    }
-    /// The time at its start, s.
-    #[must_use]
-    pub const fn start(&self) -> f64 {
-        self.start
-    }
-    /// The time at its end, s.
-    #[must_use]
-    pub const fn time(&self) -> f64 {
-        self.end
     }
     /// The state at its start.
     #[must_use]
@@ -61,12 +41,6 @@ impl<'a> RadauIiaStep<'a> {
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.work.trial
-    }
-    /// Whether a time lies within the step.
-    #[must_use]
-    pub fn contains(&self, t: f64) -> bool {
-        let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
-        low <= t && t <= high
     }
 
     /// Writes the state at a time within the step to `out`.
@@ -79,18 +53,13 @@ impl<'a> RadauIiaStep<'a> {
     /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::WrongLength`].
     pub fn at(&self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError> {
         let n = self.work.trial.len();
-        if out.len() != n {
-            return Err(IntegratorsError::WrongLength { quantity: "out", expected: n, found: out.len() });
-        }
-        if !self.contains(t) {
-            return Err(IntegratorsError::OutsideStep { t, start: self.start, end: self.end });
-        }
-        if t.to_bits() == self.end.to_bits() {
+        self.step.check(t, n, out.len())?;
+        if self.step.is_end(t) {
             out.copy_from_slice(&self.work.trial);
             return Ok(());
         }
         let tableau = self.order.tableau();
-        let weights = tableau.weights_at(((t - self.start) / self.step).clamp(0.0, 1.0));
+        let weights = tableau.weights_at(self.step.part(t));
         for (k, out) in out.iter_mut().enumerate() {
             let mut increment = self.work.start_carry[k];
             for (weight, stage) in weights.iter().zip(self.work.accepted.chunks_exact(n)).take(tableau.stages()) {
@@ -99,5 +68,14 @@ impl<'a> RadauIiaStep<'a> {
             *out = self.work.start[k] + increment;
         }
         Ok(())
+    }
+}
+
+impl<E> Interpolated<E> for RadauIiaStep<'_> {
+    fn ends(&self) -> (f64, f64) {
+        (self.start(), self.time())
+    }
+    fn state_at(&mut self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError<E>> {
+        self.at(t, out).map_err(IntegratorsError::with_field_error)
     }
 }

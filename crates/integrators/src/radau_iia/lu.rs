@@ -3,64 +3,9 @@
 //! Unlike the decomposition of `piola-numerics` it refuses no pivot but zero: the matrix γ/h M − J of a long step is nearly
 //! singular where J is singular, and yet its solution is sound.
 
-use core::ops::{AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use core::ops::{Div, Mul, Sub, SubAssign};
 
-/// A complex number.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Complex {
-    pub(super) re: f64,
-    pub(super) im: f64,
-}
-
-impl Sub for Complex {
-    type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn sub(self, other: Self) -> Self {
-        Self { re: self.re - other.re, im: self.im - other.im }
-    }
-}
-impl SubAssign for Complex {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-impl AddAssign for Complex {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn add_assign(&mut self, other: Self) {
-        *self = Self { re: self.re + other.re, im: self.im + other.im };
-    }
-}
-impl Neg for Complex {
-    type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn neg(self) -> Self {
-        Self { re: -self.re, im: -self.im }
-    }
-}
-impl Mul for Complex {
-    type Output = Self;
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn mul(self, other: Self) -> Self {
-        Self { re: self.re * other.re - self.im * other.im, im: self.re * other.im + self.im * other.re }
-    }
-}
-impl Div for Complex {
-    type Output = Self;
-    /// By Smith's rule: without overflow of the squares.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn div(self, other: Self) -> Self {
-        if other.im.abs() <= other.re.abs() {
-            let ratio = other.im / other.re;
-            let length = other.re + other.im * ratio;
-            Self { re: (self.re + self.im * ratio) / length, im: (self.im - self.re * ratio) / length }
-        } else {
-            let ratio = other.re / other.im;
-            let length = other.im + other.re * ratio;
-            Self { re: (self.re * ratio + self.im) / length, im: (self.im * ratio - self.re) / length }
-        }
-    }
-}
+use num_complex::Complex64;
 
 /// An entry of a matrix.
 pub(super) trait Entry:
@@ -75,10 +20,10 @@ impl Entry for f64 {
         self.abs()
     }
 }
-impl Entry for Complex {
+impl Entry for Complex64 {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn size(self) -> f64 {
-        self.re.abs() + self.im.abs()
+        self.l1_norm()
     }
 }
 

@@ -67,9 +67,9 @@ pub use self::dense::RadauIiaStep;
 pub use self::order::RadauOrder;
 use self::stages::Workspace;
 pub use self::tableau::Tableau;
-use crate::events::{Event, Interpolated, Occurrence, begin, locate};
-use crate::state::check_step;
-use crate::{Ending, IntegratorsError, Report, State, StiffField, Tolerance};
+use crate::events::{Event, Occurrence, begin, locate, stopped_by};
+use crate::state::{check_longest, check_step};
+use crate::{IntegratorsError, Report, State, StiffField, Tolerance};
 
 /// Radau IIA of orders 5, 9 and 13 for stiff problems, with adaptive steps and order or with a fixed step.
 ///
@@ -199,12 +199,8 @@ impl RadauIia {
     /// # Errors
     /// [`IntegratorsError::InvalidStep`] unless 0 < step; ∞ is no bound.
     pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
-        if 0.0 < step {
-            self.longest_step = step;
-            Ok(self)
-        } else {
-            Err(IntegratorsError::InvalidStep { step })
-        }
+        self.longest_step = check_longest(step)?;
+        Ok(self)
     }
 
     /// Bounds the number of steps of one run; by default it is not bounded.
@@ -258,13 +254,7 @@ impl RadauIia {
         end: f64,
         mut observer: impl FnMut(&RadauIiaStep<'_>) -> ControlFlow<()>,
     ) -> Result<RadauReport, IntegratorsError<F::Error>> {
-        self.run(field, state, end, &mut |step| {
-            Ok(if observer(step).is_break() {
-                ControlFlow::Break((None, Ending::Stopped))
-            } else {
-                ControlFlow::Continue(())
-            })
-        })
+        self.run(field, state, end, &mut |step| Ok(stopped_by(observer(step))))
     }
 
     /// Integrates to `end` and reports the crossings of the events in the order of time, as
@@ -292,20 +282,7 @@ impl RadauIia {
             {
                 return Ok(ControlFlow::Break(stop));
             }
-            Ok(if observer(step).is_break() {
-                ControlFlow::Break((None, Ending::Stopped))
-            } else {
-                ControlFlow::Continue(())
-            })
+            Ok(stopped_by(observer(step)))
         })
-    }
-}
-
-impl<E> Interpolated<E> for RadauIiaStep<'_> {
-    fn ends(&self) -> (f64, f64) {
-        (self.start(), self.time())
-    }
-    fn state_at(&mut self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError<E>> {
-        self.at(t, out).map_err(IntegratorsError::with_field_error)
     }
 }

@@ -6,6 +6,7 @@ use super::attempt::{Jacobian, Progress};
 use super::control::{Attempt, Controller};
 use super::dense::RadauIiaStep;
 use super::{Control, RadauIia, RadauReport};
+use crate::accepted::AcceptedStep;
 use crate::events::Stop;
 use crate::state::{check_finite, check_run, equal_steps};
 use crate::{IntegratorsError, State, StiffField};
@@ -83,7 +84,8 @@ impl RadauIia {
                 None if !last => state.advance_time(h),
                 _ => state.set_time(end),
             }
-            let mut seen = RadauIiaStep::new(&self.work, order, report.run.steps, [start, state.time], h);
+            let step = AcceptedStep { number: report.run.steps, start, end: state.time, length: h };
+            let mut seen = RadauIiaStep::new(&self.work, order, step);
             if let ControlFlow::Break((time, ending)) = inspect(&mut seen)? {
                 report.run.ending = ending;
                 if let Some(time) = time {

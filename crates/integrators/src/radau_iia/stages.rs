@@ -1,7 +1,9 @@
 //! The stages of a step by Newton's iteration in transformed variables, and the estimate of its error.
 
+use num_complex::Complex64;
+
 use super::aim::Aim;
-use super::lu::{Complex, Factors};
+use super::lu::Factors;
 use super::tableau::{MOST_STAGES, Tableau};
 use crate::state::check_finite;
 use crate::{IntegratorsError, State, StiffField};
@@ -40,8 +42,8 @@ pub(super) struct Workspace {
     pub(super) jacobian: Vec<f64>,
     pub(super) mass: Vec<f64>,
     real: Factors<f64>,
-    complex: [Factors<Complex>; MOST_STAGES / 2],
-    pair: Vec<Complex>,
+    complex: [Factors<Complex64>; MOST_STAGES / 2],
+    pair: Vec<Complex64>,
     pub(super) magnitudes: Vec<f64>,
     magnitudes_at_end: Vec<f64>,
     /// The error allowed in each component.
@@ -88,7 +90,7 @@ impl Workspace {
         for factors in self.complex.iter_mut().take(most_stages / 2) {
             factors.resize(n);
         }
-        self.pair.resize(n, Complex::default());
+        self.pair.resize(n, Complex64::default());
         self.rest = 1.0;
     }
 
@@ -105,7 +107,7 @@ impl Workspace {
         for (factors, [alpha, beta]) in self.complex.iter_mut().zip(tableau.pairs) {
             let (alpha, beta) = (alpha / h, beta / h);
             for (k, (entry, j)) in factors.entries.iter_mut().zip(&self.jacobian).enumerate() {
-                *entry = Complex { re: alpha * mass(k) - j, im: -beta * mass(k) };
+                *entry = Complex64::new(alpha * mass(k) - j, -beta * mass(k));
             }
             factors.factor()?;
         }
@@ -229,7 +231,7 @@ impl Workspace {
         for ((pair, factors), [alpha, beta]) in pairs.zip(&self.complex).zip(tableau.pairs) {
             let (r2, r3) = pair.split_at_mut(n);
             for ((x, &r2), &r3) in self.pair.iter_mut().zip(&*r2).zip(&*r3) {
-                *x = Complex { re: alpha * r2 + beta * r3, im: alpha * r3 - beta * r2 };
+                *x = Complex64::new(alpha * r2 + beta * r3, alpha * r3 - beta * r2);
             }
             factors.solve(&mut self.pair);
             for ((x, re), im) in self.pair.iter().zip(r2).zip(r3) {

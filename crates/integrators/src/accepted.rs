@@ -1,0 +1,70 @@
+//! What all accepted steps know: their number and their times.
+
+use crate::IntegratorsError;
+
+/// An accepted step in time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AcceptedStep {
+    /// From 1.
+    pub(crate) number: u64,
+    /// The time at its start, s.
+    pub(crate) start: f64,
+    /// The time at its end, s.
+    pub(crate) end: f64,
+    /// Its length, negative where a run goes backwards, s; `end - start` but for rounding.
+    pub(crate) length: f64,
+}
+
+impl AcceptedStep {
+    pub(crate) fn contains(self, t: f64) -> bool {
+        let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
+        low <= t && t <= high
+    }
+
+    /// The part of the step that is past at a time.
+    pub(crate) fn part(self, t: f64) -> f64 {
+        ((t - self.start) / self.length).clamp(0.0, 1.0)
+    }
+
+    /// Refuses a time outside the step, and a state to be written to `found` numbers where there are `expected`.
+    pub(crate) fn check<E>(self, t: f64, expected: usize, found: usize) -> Result<(), IntegratorsError<E>> {
+        if found != expected {
+            return Err(IntegratorsError::WrongLength { quantity: "out", expected, found });
+        }
+        if !self.contains(t) {
+            return Err(IntegratorsError::OutsideStep { t, start: self.start, end: self.end });
+        }
+        Ok(())
+    }
+
+    pub(crate) fn is_end(self, t: f64) -> bool {
+        t.to_bits() == self.end.to_bits()
+    }
+}
+
+/// The number and the times of a step that has them in its field `step`.
+macro_rules! number_and_times {
+    () => {
+        /// The number of the step, from 1.
+        #[must_use]
+        pub const fn number(&self) -> u64 {
+            self.step.number
+        }
+        /// The time at its start, s.
+        #[must_use]
+        pub const fn start(&self) -> f64 {
+            self.step.start
+        }
+        /// The time at its end, s.
+        #[must_use]
+        pub const fn time(&self) -> f64 {
+            self.step.end
+        }
+        /// Whether a time lies within the step.
+        #[must_use]
+        pub fn contains(&self, t: f64) -> bool {
+            self.step.contains(t)
+        }
+    };
+}
+pub(crate) use number_and_times;
