@@ -3,44 +3,18 @@
 use core::convert::Infallible;
 use core::ops::ControlFlow;
 
-use piola_integrators::{Ending, GaussLegendre16, IntegratorsError, Report, SecondOrder, State, Tolerance};
+use piola_integrators::{GaussLegendre16, SecondOrder, State, Tolerance};
 use piola_numerics::{Lanes, Real};
 use piola_testkit::golden::{self, number, text, vector};
-use piola_testkit::{Tol, allocations_in, assert_close, assert_order};
+use piola_testkit::{Tol, assert_close, assert_order};
 
+use crate::collocation::{Oscillator, Power};
 use crate::problems::{DoublePendulum, henon_heiles, kepler, kepler_at, kepler_energy, three_bodies};
 
 type Stages = Lanes<f64, 8>;
 
 fn adaptive(tolerance: f64) -> GaussLegendre16 {
     GaussLegendre16::new(Tolerance::relative(tolerance).unwrap())
-}
-
-/// q̈ = tᵏ
-struct Power(i32);
-impl<T: Real> SecondOrder<T> for Power {
-    type Error = Infallible;
-    fn freedom(&self) -> usize {
-        1
-    }
-    fn acceleration(&mut self, t: T, _q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
-        acceleration[0] = t.powi(self.0);
-        Ok(())
-    }
-}
-
-/// q̈ = −ω²q
-struct Oscillator(f64);
-impl<T: Real> SecondOrder<T> for Oscillator {
-    type Error = Infallible;
-    const VELOCITY_DEPENDENT: bool = false;
-    fn freedom(&self) -> usize {
-        1
-    }
-    fn acceleration(&mut self, _t: T, q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
-        acceleration[0] = -T::lit(self.0 * self.0) * q[0];
-        Ok(())
-    }
 }
 
 /// q̈ = −2βq̇, damped by its velocity alone.
@@ -203,145 +177,4 @@ fn energy_of_a_thousand_revolutions_is_kept_to_rounding() {
             Tol::stated(4e-14, "rounding at random, the largest of 25,000 states"),
         );
     }
-}
-
-#[test]
-fn runs_of_any_length_allocate_alike() {
-    let counts = [1.0, 100.0, 10_000.0].map(|end| {
-        let mut state = State::new(0.0, kepler_at(0.5, 0.0).to_vec()).unwrap();
-        let mut method = adaptive(1e-9);
-        let (count, steps) = allocations_in(|| method.integrate_to(&mut kepler(), &mut state, end).unwrap().steps);
-        assert!((steps as f64) < 1.0 + 20.0 * end);
-        count
-    });
-    assert_eq!(counts, [counts[0]; 3]);
-}
-
-#[test]
-fn equilibrium_stays_to_the_last_bit_and_rest_is_left() {
-    let mut pendulum = DoublePendulum { masses: [1.0; 2], lengths: [1.0; 2], gravity: 9.81 };
-    let start = State::new(0.0, vec![0.0; 4]).unwrap();
-    let mut state = start.clone();
-    adaptive(1e-12).integrate_to(&mut pendulum, &mut state, 100.0).unwrap();
-    assert_eq!(state.values, start.values);
-    // From rest at the origin the drive alone moves it.
-    let mut state = State::new(0.0, vec![0.0, 0.0]).unwrap();
-    adaptive(1e-12).integrate_to(&mut Power(3), &mut state, 2.0).unwrap();
-    assert_close("drive", &state.values, &[32.0 / 20.0, 4.0], Tol::ulps(16.0));
-}
-
-#[test]
-fn backward_run_returns_to_the_start() {
-    let mut state = State::new(0.0, kepler_at(0.7, 0.0).to_vec()).unwrap();
-    adaptive(1e-15).integrate_to(&mut kepler(), &mut state, 10.0).unwrap();
-    adaptive(1e-15).integrate_to(&mut kepler(), &mut state, 0.0).unwrap();
-    assert_close("return", &state.values, &kepler_at(0.7, 0.0), Tol::stated(2e-13, "two revolutions, twice"));
-}
-
-#[test]
-fn runs_of_zero_length_and_stopped_runs_end_where_they_say() {
-    let nothing = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
-    for mut method in [adaptive(1e-9), GaussLegendre16::with_step(0.1).unwrap()] {
-        let start = State::new(2.0, kepler_at(0.3, 2.0).to_vec()).unwrap();
-        let mut state = start.clone();
-        assert_eq!(method.integrate_to(&mut kepler(), &mut state, 2.0).unwrap(), nothing);
-        assert_eq!(state, start);
-        let mut times = Vec::new();
-        let report = method
-            .integrate(&mut kepler(), &mut state, 10.0, |step| {
-                assert_eq!(step.start().to_bits(), times.last().copied().unwrap_or(2.0_f64).to_bits());
-                times.push(step.time());
-                if step.number() == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            })
-            .unwrap();
-        assert_eq!((report.steps, report.ending, times.len()), (3, Ending::Stopped, 3));
-        assert_eq!(times.last().map(|t| t.to_bits()), Some(state.time.to_bits()));
-    }
-}
-
-/// q̈ = 0 before a wall at q = 1, where there is no field, or a root of it that is not a number.
-struct Walled {
-    refuses: bool,
-}
-#[derive(Debug, PartialEq, thiserror::Error)]
-#[error("there is a wall")]
-struct Wall;
-impl<T: Real> SecondOrder<T> for Walled {
-    type Error = Wall;
-    fn freedom(&self) -> usize {
-        1
-    }
-    fn acceleration(&mut self, _t: T, q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Wall> {
-        let beyond = (0..T::LANES).any(|lane| 1.0 < q[0].primal(lane));
-        acceleration[0] = if self.refuses { T::zero() } else { (T::one() - q[0]).sqrt() * T::lit(1e-3) };
-        if self.refuses && beyond { Err(Wall) } else { Ok(()) }
-    }
-}
-
-#[test]
-fn fields_that_end_leave_the_last_good_state() {
-    for refuses in [true, false] {
-        for mut method in [adaptive(1e-9), GaussLegendre16::with_step(0.125).unwrap()] {
-            let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
-            let mut seen = 0.0;
-            let error = method
-                .integrate(&mut Walled { refuses }, &mut state, 10.0, |step| {
-                    seen = step.time();
-                    ControlFlow::Continue(())
-                })
-                .unwrap_err();
-            if refuses {
-                assert!(matches!(error, IntegratorsError::Field { source: Wall, .. }), "{error:?}");
-            } else {
-                // The root has no derivative at the wall: no step comes quite to it.
-                let expected = matches!(
-                    error,
-                    IntegratorsError::NotFinite { quantity: "rate", index: 0, .. }
-                        | IntegratorsError::StepTooSmall { .. }
-                );
-                assert!(expected, "{error:?}");
-            }
-            assert_eq!(state.time.to_bits(), seen.to_bits());
-            // The end of a step may lie beyond: no stage does.
-            assert!(0.8 < state.values[0] && state.values[0] < 1.001, "{state:?}");
-        }
-    }
-}
-
-#[test]
-fn collision_ends_with_a_step_too_small_and_stiff_steps_are_refused() {
-    // Two bodies that fall onto each other from rest meet after π/(2√2).
-    let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
-    let error = adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 2.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::StepTooSmall { .. } | IntegratorsError::NotFinite { .. }), "{error:?}");
-    let time = core::f64::consts::PI / 8.0_f64.sqrt();
-    assert_close(
-        "collision",
-        &[state.time],
-        &[time],
-        Tol::stated(1e-6, "tolerance 1e-9 where the error grows as r^(-3/2)"),
-    );
-
-    let mut state = State::new(0.0, vec![1.0, 0.0]).unwrap();
-    let mut method = GaussLegendre16::with_step(0.5).unwrap();
-    let error = method.integrate_to(&mut Oscillator(1e3), &mut state, 1.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::StagesDiverged { .. }), "{error:?}");
-    assert_eq!(state.values, [1.0, 0.0]);
-    // The adaptive method shortens its steps instead.
-    adaptive(1e-9).integrate_to(&mut Oscillator(1e3), &mut state, 1.0).unwrap();
-    assert_close("oscillator", &state.values[..1], &[1e3_f64.cos()], Tol::stated(1e-6, "160 revolutions"));
-}
-
-#[test]
-fn bad_input_is_refused_by_name() {
-    assert!(matches!(GaussLegendre16::with_step(0.0), Err(IntegratorsError::InvalidStep { .. })));
-    assert!(matches!(GaussLegendre16::with_step(f64::NAN), Err(IntegratorsError::InvalidStep { .. })));
-    let mut state = State::new(0.0, vec![1.0; 3]).unwrap();
-    let error = adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 1.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::WrongLength { quantity: "state", expected: 4, found: 3 }));
-    let mut state = State::new(0.0, kepler_at(0.3, 0.0).to_vec()).unwrap();
-    let error = adaptive(1e-9).integrate_to(&mut kepler(), &mut state, f64::NAN).unwrap_err();
-    assert!(matches!(error, IntegratorsError::NotFinite { quantity: "end", .. }));
-    let error = adaptive(1e-9).with_most_steps(2).integrate_to(&mut kepler(), &mut state, 100.0).unwrap_err();
-    assert_eq!(error, IntegratorsError::TooManySteps { t: state.time, steps: 2 });
 }

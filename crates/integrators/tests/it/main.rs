@@ -2,6 +2,7 @@
 
 mod alloc;
 mod coefficients;
+mod collocation;
 mod dense;
 mod estimates;
 mod events;

@@ -1,168 +1,20 @@
-//! Collocation at Radau's nodes: its coefficients, its order, its steps, its refusals.
+//! Runs: dense output, references, steps, rounding, events, refusals.
 
 use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Crossing, Ending, Event, EventAction, GaussRadau15, IntegratorsError, Report, SecondOrder, State, Tolerance,
+    Crossing, Ending, Event, EventAction, GaussRadau15, IntegratorsError, SecondOrder, State, Tolerance,
 };
 use piola_numerics::{Dual, Lanes, Real};
 use piola_testkit::golden::{self, number, text, vector};
-use piola_testkit::{DoubleDouble, Tol, allocations_in, assert_close, assert_order, convergence_order};
+use piola_testkit::{Tol, allocations_in, assert_close, convergence_order};
 
+use super::by;
 use crate::problems::{DoublePendulum, FIGURE_EIGHT, henon_heiles, kepler, kepler_at, kepler_energy, three_bodies};
 
 fn adaptive(tolerance: f64) -> GaussRadau15 {
     GaussRadau15::new(Tolerance::relative(tolerance).unwrap())
-}
-
-fn wide(x: f64) -> DoubleDouble {
-    DoubleDouble::lit(x)
-}
-
-/// q̈ = f(t, q, q̇) by a function, in one scalar.
-struct By<F>(usize, F);
-impl<T: Real, F: FnMut(T, &[T], &[T], &mut [T])> SecondOrder<T> for By<F> {
-    type Error = Infallible;
-    fn freedom(&self) -> usize {
-        self.0
-    }
-    fn acceleration(&mut self, t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Infallible> {
-        (self.1)(t, q, v, acceleration);
-        Ok(())
-    }
-}
-
-fn by<T: Real, F: FnMut(T, &[T], &[T], &mut [T])>(freedom: usize, function: F) -> By<F> {
-    By(freedom, function)
-}
-
-/// The state after one step of length one.
-fn one_step<T: Real, F: FnMut(T, &[T], &[T], &mut [T])>(start: Vec<T>, function: F) -> Vec<T> {
-    let mut state = State::new(0.0, start).unwrap();
-    let mut field = by(1, function);
-    GaussRadau15::with_step(1.0).unwrap().integrate_to(&mut field, &mut state, 1.0).unwrap();
-    state.values
-}
-
-/// The times at which a step of length one evaluates the field: the start, and the nodes of the first sweep.
-fn nodes<T: Real>() -> Vec<T> {
-    let mut times = Vec::new();
-    one_step(vec![T::zero(); 2], |t, _q, _v, a: &mut [T]| {
-        times.push(t);
-        a[0] = T::zero();
-    });
-    assert_eq!(times.len(), 8, "one sweep shows that nothing accelerates");
-    times
-}
-
-#[test]
-fn nodes_equal_the_zeros_of_legendre_seven_plus_eight() {
-    let found = nodes::<DoubleDouble>();
-    assert_eq!(found[0], wide(0.0));
-    for pair in found.windows(2) {
-        assert!(pair[0].primal(0) < pair[1].primal(0) && pair[1].primal(0) < 1.0);
-    }
-    for &c in &found {
-        let x = wide(2.0) * c - wide(1.0);
-        let (mut before, mut now, mut slope_before, mut slope) = (wide(1.0), x, wide(0.0), wide(1.0));
-        for k in 1..8 {
-            let (k, next) = (wide(f64::from(k)), wide(f64::from(k + 1)));
-            let p = ((k + next) * x * now - k * before) / next;
-            let d = ((k + next) * (now + x * slope) - k * slope_before) / next;
-            (before, now, slope_before, slope) = (now, p, slope, d);
-        }
-        let error = ((before + now) / (slope_before + slope)).primal(0).abs();
-        assert!(error < 1e-31, "{c:?} is off by {error:e}");
-    }
-    // Doubles are the nearest ones, to which the tables then belong.
-    for (rounded, exact) in nodes::<f64>().iter().zip(found) {
-        assert_eq!(rounded.to_bits(), exact.primal(0).to_bits());
-    }
-}
-
-#[test]
-fn one_step_equals_the_integrals_of_powers_to_degree_fourteen() {
-    for degree in 0..=15 {
-        let [position, velocity] = {
-            let n = wide(f64::from(degree));
-            let once = wide(1.0) / (n + wide(1.0));
-            [once / (n + wide(2.0)), once]
-        };
-        let errors =
-            |values: &[DoubleDouble]| [(values[0] - position).primal(0).abs(), (values[1] - velocity).primal(0).abs()];
-        let values = one_step(vec![wide(0.0); 2], |t, _q, _v, a| a[0] = t.powi(degree));
-        let [of_position, of_velocity] = errors(&values);
-        // Positions are exact to degree thirteen: ∫(1 − t) tᵏ has degree k + 1.
-        if degree < 14 {
-            assert!(of_position < 1e-30, "degree {degree}: {of_position:e}");
-        }
-        if degree < 15 {
-            assert!(of_velocity < 1e-30, "degree {degree}: {of_velocity:e}");
-        } else {
-            assert!(1e-10 < of_velocity, "the order is no higher: {of_velocity:e}");
-        }
-        if degree < 14 {
-            let rounded = one_step(vec![0.0; 2], |t: f64, _q, _v, a| a[0] = t.powi(degree));
-            let tol = Tol::stated(1e-13, "coefficients up to thousands, of alternating sign");
-            assert_close("powers", &rounded, &[position.primal(0), velocity.primal(0)], tol);
-        }
-    }
-}
-
-/// The Padé approximant of degrees eight and seven of eˣ.
-fn pade(x: DoubleDouble) -> DoubleDouble {
-    let (mut up, mut down) = (wide(0.0), wide(0.0));
-    let (mut above, mut below) = (wide(1.0), wide(1.0));
-    for k in 0..=8 {
-        up += above;
-        down += below;
-        let k = f64::from(k);
-        above = above * x * wide(8.0 - k) / wide((15.0 - k) * (k + 1.0));
-        below = -below * x * wide(7.0 - k) / wide((15.0 - k) * (k + 1.0));
-    }
-    up / down
-}
-
-#[test]
-fn one_step_of_damping_equals_the_pade_approximant() {
-    // Every coefficient takes part, and this approximant belongs to these nodes alone.
-    for beta in [0.0625, 0.125, 0.25] {
-        let exact = pade(wide(-2.0 * beta));
-        let values = one_step(vec![wide(0.0), wide(1.0)], |_t, _q, v, a| a[0] = wide(-2.0 * beta) * v[0]);
-        assert!((values[1] - exact).primal(0).abs() < 1e-29, "{:e}", (values[1] - exact).primal(0));
-        let position = (wide(1.0) - exact) / wide(2.0 * beta);
-        assert!((values[0] - position).primal(0).abs() < 1e-29, "{:e}", (values[0] - position).primal(0));
-        let rounded = one_step(vec![0.0, 1.0], |_t, _q, v: &[f64], a| a[0] = -2.0 * beta * v[0]);
-        assert_close("damping", &rounded, &[position.primal(0), exact.primal(0)], Tol::ulps(4.0));
-    }
-}
-
-/// The largest error, over position and velocity, of a circular motion of radius and rate one after 16 units of time.
-fn circle_error<F: SecondOrder<DoubleDouble, Error = Infallible>>(field: &mut F, h: f64) -> f64 {
-    let start = [1.0, 0.0, 0.0, 1.0].map(wide).to_vec();
-    let mut state = State::new(0.0, start).unwrap();
-    GaussRadau15::with_step(h).unwrap().integrate_to(field, &mut state, 16.0).unwrap();
-    let (sine, cosine) = wide(16.0).sin_cos();
-    let exact = [cosine, sine, -sine, cosine];
-    state.values.iter().zip(exact).map(|(&x, exact)| (x - exact).primal(0).abs()).fold(0.0, f64::max)
-}
-
-#[test]
-fn error_falls_with_order_fifteen() {
-    // Nearly two decades of steps.
-    let steps = [2.0, 1.0, 0.5, 0.25, 0.125];
-    let errors = steps.map(|h| circle_error(&mut kepler(), h));
-    assert!(1e17 < errors[0] / errors[4], "{errors:?}");
-    assert_order("attraction", &steps, &errors, 15.0, 0.3);
-    // Charged in a magnetic field: the velocity alone turns it, about the same circle.
-    let mut charged = by(2, |_t, _q: &[DoubleDouble], v: &[DoubleDouble], a: &mut [DoubleDouble]| {
-        (a[0], a[1]) = (-v[1], v[0]);
-    });
-    let steps = [1.0, 0.5, 0.25, 0.125];
-    let errors = steps.map(|h| circle_error(&mut charged, h));
-    assert!(1e13 < errors[0] / errors[3], "{errors:?}");
-    assert_order("charge", &steps, &errors, 15.0, 0.3);
 }
 
 #[test]
@@ -356,18 +208,6 @@ fn energy_error_of_ten_thousand_revolutions_walks_at_random() {
 }
 
 #[test]
-fn backward_run_returns_to_the_start() {
-    // To the rounding of both runs, which the pericentre enlarges.
-    for (e, tol) in [(0.0, 2e-14), (0.7, 2e-13)] {
-        let mut state = State::new(0.0, kepler_at(e, 0.0).to_vec()).unwrap();
-        let mut method = GaussRadau15::to_rounding();
-        method.integrate_to(&mut kepler(), &mut state, 10.0).unwrap();
-        method.integrate_to(&mut kepler(), &mut state, 0.0).unwrap();
-        assert_close("return", &state.values, &kepler_at(e, 0.0), Tol::stated(tol, "two revolutions, twice"));
-    }
-}
-
-#[test]
 fn symmetric_starts_stay_symmetric() {
     // Two equal bodies fall past a third between them, from rest, mirrored in the origin.
     let mut state = State::new(0.0, vec![1.0, 0.5, -1.0, -0.5, 0.0, 0.0, 0.0, 0.4, 0.0, -0.4, 0.0, 0.0]).unwrap();
@@ -375,21 +215,6 @@ fn symmetric_starts_stay_symmetric() {
     let y = &state.values;
     assert_close("mirror", &[y[0], y[1], y[6], y[7]], &[-y[2], -y[3], -y[8], -y[9]], Tol::ulps(64.0));
     assert_close("centre", &[1.0 + y[4], 1.0 + y[5]], &[1.0, 1.0], Tol::ulps(64.0));
-}
-
-#[test]
-fn equilibrium_stays_to_the_last_bit_and_rest_is_left() {
-    let mut pendulum = DoublePendulum { masses: [1.0; 2], lengths: [1.0; 2], gravity: 9.81 };
-    let start = State::new(0.0, vec![0.0; 4]).unwrap();
-    let mut state = start.clone();
-    GaussRadau15::to_rounding().integrate_to(&mut pendulum, &mut state, 100.0).unwrap();
-    assert_eq!(state.values, start.values);
-    // From rest at the origin the drive alone moves it.
-    let mut state = State::new(0.0, vec![0.0, 0.0]).unwrap();
-    GaussRadau15::to_rounding()
-        .integrate_to(&mut by(1, |t: f64, _q, _v, a| a[0] = t * t * t), &mut state, 2.0)
-        .unwrap();
-    assert_close("drive", &state.values, &[32.0 / 20.0, 4.0], Tol::ulps(16.0));
 }
 
 #[test]
@@ -443,15 +268,7 @@ fn single_precision_ends_within_its_rounding() {
 }
 
 #[test]
-fn runs_of_any_length_allocate_alike() {
-    let counts = [1.0, 100.0, 10_000.0].map(|end| {
-        let mut state = State::new(0.0, kepler_at(0.5, 0.0).to_vec()).unwrap();
-        let mut method = adaptive(1e-9);
-        let (count, steps) = allocations_in(|| method.integrate_to(&mut kepler(), &mut state, end).unwrap().steps);
-        assert!((steps as f64) < 1.0 + 20.0 * end);
-        count
-    });
-    assert_eq!(counts, [counts[0]; 3]);
+fn second_run_with_dense_output_allocates_nothing() {
     let mut state = State::new(0.0, kepler_at(0.5, 0.0).to_vec()).unwrap();
     let mut method = adaptive(1e-9);
     method.integrate_to(&mut kepler(), &mut state, 1.0).unwrap();
@@ -466,24 +283,7 @@ fn runs_of_any_length_allocate_alike() {
 }
 
 #[test]
-fn runs_of_zero_length_and_stopped_runs_end_where_they_say() {
-    let nothing = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
-    for mut method in [adaptive(1e-9), GaussRadau15::with_step(0.1).unwrap()] {
-        let start = State::new(2.0, kepler_at(0.3, 2.0).to_vec()).unwrap();
-        let mut state = start.clone();
-        assert_eq!(method.integrate_to(&mut kepler(), &mut state, 2.0).unwrap(), nothing);
-        assert_eq!(state, start);
-        let mut times = Vec::new();
-        let report = method
-            .integrate(&mut kepler(), &mut state, 10.0, |step| {
-                assert_eq!(step.start().to_bits(), times.last().copied().unwrap_or(2.0_f64).to_bits());
-                times.push(step.time());
-                if step.number() == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-            })
-            .unwrap();
-        assert_eq!((report.steps, report.ending, times.len()), (3, Ending::Stopped, 3));
-        assert_eq!(times.last().map(|t| t.to_bits()), Some(state.time.to_bits()));
-    }
+fn steps_are_no_longer_than_the_longest() {
     let mut state = State::new(0.0, kepler_at(0.3, 0.0).to_vec()).unwrap();
     let mut method = GaussRadau15::to_rounding().with_longest_step(1.0 / 64.0).unwrap();
     let run = method.integrate(&mut kepler(), &mut state, 4.0, |step| {
@@ -551,95 +351,14 @@ fn events_stand_where_the_motion_crosses() {
     assert!(matches!(error, IntegratorsError::InvalidEvent { event: 0, .. }), "{error:?}");
 }
 
-/// q̈ = 0 before a wall at q = 1, where there is no field, or a root of it that is not a number.
-struct Walled {
-    refuses: bool,
-}
-#[derive(Debug, PartialEq, thiserror::Error)]
-#[error("there is a wall")]
-struct Wall;
-impl SecondOrder for Walled {
-    type Error = Wall;
-    fn freedom(&self) -> usize {
-        1
-    }
-    fn acceleration(&mut self, _t: f64, q: &[f64], _v: &[f64], acceleration: &mut [f64]) -> Result<(), Wall> {
-        acceleration[0] = if self.refuses { 0.0 } else { (1.0 - q[0]).sqrt() * 1e-3 };
-        if self.refuses && 1.0 < q[0] { Err(Wall) } else { Ok(()) }
-    }
-}
-
 #[test]
-fn fields_that_end_leave_the_last_good_state() {
-    for refuses in [true, false] {
-        for mut method in [adaptive(1e-9), GaussRadau15::with_step(0.125).unwrap()] {
-            let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
-            let mut seen = 0.0;
-            let error = method
-                .integrate(&mut Walled { refuses }, &mut state, 10.0, |step| {
-                    seen = step.time();
-                    ControlFlow::Continue(())
-                })
-                .unwrap_err();
-            if refuses {
-                assert!(matches!(error, IntegratorsError::Field { source: Wall, .. }), "{error:?}");
-            } else {
-                // The root has no derivative at the wall: no step comes quite to it.
-                let expected = matches!(
-                    error,
-                    IntegratorsError::NotFinite { quantity: "rate", index: 0, .. }
-                        | IntegratorsError::StepTooSmall { .. }
-                );
-                assert!(expected, "{error:?}");
-            }
-            assert_eq!(state.time.to_bits(), seen.to_bits());
-            assert!(0.8 < state.values[0] && state.values[0] < 1.03, "{state:?}");
-        }
-    }
-}
-
-#[test]
-fn collision_ends_with_a_step_too_small_and_stiff_steps_are_refused() {
-    // Two bodies that fall onto each other from rest meet after π/(2√2).
-    let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
-    let error = adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 2.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::StepTooSmall { .. } | IntegratorsError::NotFinite { .. }), "{error:?}");
-    let time = core::f64::consts::PI / 8.0_f64.sqrt();
-    assert_close(
-        "collision",
-        &[state.time],
-        &[time],
-        Tol::stated(1e-6, "tolerance 1e-9 where the error grows as r^(-3/2)"),
-    );
-
-    let mut stiff = by(1, |_t: f64, q, _v, a| a[0] = -1e6 * q[0]);
-    let mut state = State::new(0.0, vec![1.0, 0.0]).unwrap();
-    let error = GaussRadau15::with_step(0.5).unwrap().integrate_to(&mut stiff, &mut state, 1.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::StagesDiverged { .. }), "{error:?}");
-    assert_eq!(state.values, [1.0, 0.0]);
-    // The adaptive method shortens its steps instead.
-    adaptive(1e-9).integrate_to(&mut stiff, &mut state, 1.0).unwrap();
-    assert_close("oscillator", &state.values[..1], &[1e3_f64.cos()], Tol::stated(1e-6, "160 revolutions"));
-}
-
-#[test]
-fn bad_input_is_refused_by_name() {
-    assert!(matches!(GaussRadau15::<f64>::with_step(0.0), Err(IntegratorsError::InvalidStep { .. })));
-    assert!(matches!(GaussRadau15::<f64>::with_step(f64::NAN), Err(IntegratorsError::InvalidStep { .. })));
+fn longest_steps_and_epsilons_out_of_range_are_refused_by_name() {
     let unbounded = GaussRadau15::<f64>::to_rounding();
     assert!(matches!(unbounded.with_longest_step(f64::NAN), Err(IntegratorsError::InvalidStep { .. })));
     for epsilon in [0.0, -1e-9, 1.0, f64::NAN] {
         let refused = GaussRadau15::<f64>::with_epsilon(epsilon);
         assert!(matches!(refused, Err(IntegratorsError::InvalidTolerance { .. })), "{epsilon}");
     }
-    let mut state = State::new(0.0, vec![1.0; 3]).unwrap();
-    let error = adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 1.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::WrongLength { quantity: "state", expected: 4, found: 3 }));
-    let mut state = State::new(0.0, kepler_at(0.3, 0.0).to_vec()).unwrap();
-    let error = adaptive(1e-9).integrate_to(&mut kepler(), &mut state, f64::NAN).unwrap_err();
-    assert!(matches!(error, IntegratorsError::NotFinite { quantity: "end", .. }));
-    let error = adaptive(1e-9).with_most_steps(2).integrate_to(&mut kepler(), &mut state, 100.0).unwrap_err();
-    assert_eq!(error, IntegratorsError::TooManySteps { t: state.time, steps: 2 });
 }
 
 #[test]
