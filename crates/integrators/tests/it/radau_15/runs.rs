@@ -200,8 +200,9 @@ fn energy_error_of_ten_thousand_revolutions_walks_at_random() {
     // At random: half a rounding in a step, of which there are `steps`. All at once would be 4e-11.
     let bound = 0.5 * 0.5 * f64::EPSILON * (steps as f64).sqrt();
     assert!(last < bound, "{last:e} after {steps} steps, above {bound:e}: {spread:?}");
-    // No drift common to all: the mean of eight is within three of its deviations.
-    assert!(mean.abs() < 3.0 * last / 8.0_f64.sqrt(), "{spread:?}");
+    // No drift common to all: the mean of eight is within three deviations of a mean, estimated from their differences.
+    let deviation = ((last * last - mean * mean) * 8.0 / 7.0).sqrt();
+    assert!(mean.abs() < 3.0 * deviation / 8.0_f64.sqrt(), "{spread:?}");
     // √t has the slope ½ and a drift 1; six spreads of eight orbits are known to some 0.1.
     let slope = convergence_order(&revolutions[1..], &spread.map(|(spread, ..)| spread)[1..]);
     assert!((0.2..0.8).contains(&slope), "slope {slope}: {spread:?}");
