@@ -190,16 +190,14 @@ fn add(to: &mut Fields, factor: f64, what: &Fields) {
 #[cfg(test)]
 mod tests {
     use super::Staggered;
-    use crate::boxes::problem::{displacement, force, lame, relative_error, samples};
+    use crate::boxes::problem::{displacements, forces, lame};
+    use piola_testkit::relative_error;
 
     fn error(n: usize) -> f64 {
         let lame = lame().expect("elliptic");
-        let sampled = |value: &dyn Fn([f64; 3], usize) -> f64| {
-            [0, 1, 2].map(|c| samples(n, Staggered::offset(c), |x| value(x, c)))
-        };
-        let (u, solved) = Staggered::new(n, lame).solve(&sampled(&|x, c| force(lame, x, c)), 1e-9);
+        let (u, solved) = Staggered::new(n, lame).solve(&forces(lame, n, Staggered::offset), 1e-9);
         assert!(solved.residual <= 1e-9, "{solved:?}");
-        relative_error(&u, &sampled(&displacement))
+        relative_error(&u.concat(), &displacements(n, Staggered::offset).concat())
     }
 
     #[test]

@@ -6,7 +6,7 @@ use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, Precision, Walls};
 use serde_json::{Value, json};
 
 use super::differences::Staggered;
-use super::problem::{displacement, force, lame, relative_error, samples};
+use super::problem::{centres, displacements, forces, lame, root_mean_square_error};
 use super::transforms::{LineTransform, PlainSolver, Realfft, Rustdct};
 
 /// What went wrong.
@@ -70,8 +70,7 @@ pub fn ours<T: Precision>(way: &'static str, points: usize, threads: usize) -> R
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
     let grid = BoxGrid::cells([points; 3], [1.0 / points as f64; 3])?;
     let mut solver = BoxSolver::<T, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame))?;
-    let forces = [0, 1, 2].map(|c| samples(points, [0.5; 3], |x| force(lame, x, c)));
-    let forces = forces.map(|field| field.into_iter().map(T::lit).collect::<Vec<_>>());
+    let forces = forces(lame, points, centres).map(|field| field.into_iter().map(T::lit).collect::<Vec<_>>());
     let fields = std::cell::RefCell::new(forces.clone());
     let mut failure = None;
     let seconds = least(
@@ -84,12 +83,9 @@ pub fn ours<T: Precision>(way: &'static str, points: usize, threads: usize) -> R
     if let Some(failure) = failure {
         return Err(failure.into());
     }
-    let solution = fields.into_inner().map(|field| field.into_iter().map(|value| value.primal(0)).collect());
-    Ok(Measured { way, points, threads, seconds, error: relative_error(&solution, &exact(points)) })
-}
-
-fn exact(points: usize) -> [Vec<f64>; 3] {
-    [0, 1, 2].map(|c| samples(points, [0.5; 3], |x| displacement(x, c)))
+    let solution: Vec<f64> = fields.into_inner().concat().into_iter().map(|value| value.primal(0)).collect();
+    let error = root_mean_square_error(&solution, &displacements(points, centres).concat());
+    Ok(Measured { way, points, threads, seconds, error })
 }
 
 /// The same method with the transforms of `rustdct` and of `realfft`, one thread.
@@ -100,10 +96,10 @@ pub fn other_transforms(points: usize) -> Result<[Measured; 2], Failure> {
     fn of(way: &'static str, points: usize, transform: impl LineTransform) -> Result<Measured, Failure> {
         let lame = lame()?;
         let mut solver = PlainSolver::new(points, lame, transform);
-        let forces = [0, 1, 2].map(|c| samples(points, [0.5; 3], |x| force(lame, x, c)));
+        let forces = forces(lame, points, centres);
         let fields = std::cell::RefCell::new(forces.clone());
         let seconds = least(|| fields.borrow_mut().clone_from(&forces), || solver.solve(&mut fields.borrow_mut()));
-        let error = relative_error(&fields.into_inner(), &exact(points));
+        let error = root_mean_square_error(&fields.into_inner().concat(), &displacements(points, centres).concat());
         Ok(Measured { way, points, threads: 1, seconds, error })
     }
     Ok([of("rustdct", points, Rustdct::new(points))?, of("realfft", points, Realfft::new(points))?])
@@ -115,10 +111,7 @@ pub fn other_transforms(points: usize) -> Result<[Measured; 2], Failure> {
 /// If the residual does not fall so far.
 pub fn differences(points: usize) -> Result<Measured, Failure> {
     let lame = lame()?;
-    let sampled = |value: &dyn Fn([f64; 3], usize) -> f64| {
-        [0, 1, 2].map(|c| samples(points, Staggered::offset(c), |x| value(x, c)))
-    };
-    let forces = sampled(&|x, c| force(lame, x, c));
+    let forces = forces(lame, points, Staggered::offset);
     let mut grid = Staggered::new(points, lame);
     let tolerance = 0.01 / (points * points) as f64;
     let begun = Instant::now();
@@ -127,6 +120,6 @@ pub fn differences(points: usize) -> Result<Measured, Failure> {
     if tolerance < solved.residual {
         return Err(format!("conjugate gradients ended at {:.1e} after {} steps", solved.residual, solved.steps).into());
     }
-    let error = relative_error(&u, &sampled(&displacement));
+    let error = root_mean_square_error(&u.concat(), &displacements(points, Staggered::offset).concat());
     Ok(Measured { way: "differences", points, threads: 1, seconds, error })
 }

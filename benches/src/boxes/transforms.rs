@@ -198,13 +198,14 @@ impl<L: LineTransform> PlainSolver<L> {
 #[cfg(test)]
 mod tests {
     use super::{LineTransform, PlainSolver, Realfft, Rustdct};
-    use crate::boxes::problem::{displacement, force, lame, relative_error, samples};
+    use crate::boxes::problem::{centres, displacements, forces, lame};
+    use piola_testkit::relative_error;
 
     fn error(n: usize, transform: impl LineTransform) -> f64 {
         let lame = lame().expect("elliptic");
-        let mut fields = [0, 1, 2].map(|c| samples(n, [0.5; 3], |x| force(lame, x, c)));
+        let mut fields = forces(lame, n, centres);
         PlainSolver::new(n, lame, transform).solve(&mut fields);
-        relative_error(&fields, &[0, 1, 2].map(|c| samples(n, [0.5; 3], |x| displacement(x, c))))
+        relative_error(&fields.concat(), &displacements(n, centres).concat())
     }
 
     #[test]

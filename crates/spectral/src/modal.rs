@@ -113,23 +113,42 @@ impl<T: Precision, const D: usize> Modes<T, D> {
     /// Solves where indices vanish or are the highest: the components in these slots need not belong to the same mode.
     pub(crate) fn solve_one(&self, slots: [usize; D], force: [T; D]) -> [T; D] {
         let zero = T::lit(0.0);
+        let mut indices = [[NO_MODE; D]; D];
+        for (component, own) in indices.iter_mut().enumerate() {
+            for (axis, index) in own.iter_mut().enumerate() {
+                let parity = self.walls.parity(component, axis);
+                *index = self.axes[axis].index(slots[axis], parity).unwrap_or(NO_MODE);
+            }
+        }
+        let [transverse, difference] = self.compliances;
         let mut result = [zero; D];
-        let indices: [Option<[usize; D]>; D] = std::array::from_fn(|component| self.indices(component, slots));
-        for component in 0..D {
-            let Some(own) = indices[component] else { continue };
-            let q: [T; D] = std::array::from_fn(|axis| self.axes[axis].wave_of(own[axis]));
-            let weight = (0..D).fold(T::lit(1.0), |weight, axis| weight * self.axes[axis].weight_of(own[axis]));
-            let squared = q.iter().fold(zero, |sum, &q| sum + q * q);
+        for (component, own) in indices.iter().enumerate() {
+            if own.contains(&NO_MODE) {
+                continue;
+            }
+            let (mut q, mut squared, mut weight, mut along) = ([zero; D], zero, T::lit(1.0), zero);
+            for axis in 0..D {
+                q[axis] = self.axes[axis].wave_of(own[axis]);
+                squared += q[axis] * q[axis];
+                weight *= self.axes[axis].weight_of(own[axis]);
+            }
+            // Components of the same mode are coupled.
+            for (other, indices) in indices.iter().enumerate() {
+                if indices == own {
+                    along += q[other] * force[other];
+                }
+            }
             let inverse = T::lit(1.0) / squared;
-            let coupled = (0..D).filter(|&other| indices[other] == Some(own));
-            let along = coupled.fold(zero, |sum, other| sum + q[other] * force[other]) * inverse;
             let factor = if self.is_plate { weight * inverse * inverse } else { weight * inverse };
-            let [transverse, difference] = self.compliances;
-            result[component] = factor * (transverse * force[component] + difference * along * q[component]);
+            result[component] =
+                factor * (transverse * force[component] + difference * (along * inverse) * q[component]);
         }
         result
     }
 }
+
+/// In the place of an index where a sine vanishes.
+const NO_MODE: usize = usize::MAX;
 
 /// The entries of lanes that are loaded from a row that may end before them.
 #[cfg_attr(not(debug_assertions), inline(always))]

@@ -10,6 +10,7 @@
 //! | draw random inputs for an identity | [`strategies`] |
 //! | tell rounding from the rest | [`DoubleDouble`] |
 //! | judge a polar decomposition or a tensor logarithm | [`spectral`] |
+//! | have a smooth displacement of a cube with its force | [`smooth_cube`] |
 //! | prove that a step allocates nothing | [`CountingAllocator`], [`allocations_in`] |
 //!
 //! The functions here fail by panicking: they are called from tests only.
@@ -20,6 +21,7 @@ mod differences;
 mod double_double;
 pub mod golden;
 mod orders;
+pub mod smooth_cube;
 pub mod spectral;
 pub mod strategies;
 mod tolerance;

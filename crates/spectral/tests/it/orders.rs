@@ -3,49 +3,19 @@
 use std::f64::consts::PI;
 
 use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, Walls};
-use piola_testkit::{Tol, assert_close, assert_order, relative_error};
+use piola_testkit::{Tol, assert_close, assert_order, relative_error, smooth_cube};
 
 use super::fixtures::{lame, samples, slices};
 
-/// sin πx e^{cos πx}, e^{½ cos πx} and their derivatives of order up to two.
-fn factors(x: f64) -> [[f64; 3]; 2] {
-    let (s, c) = (PI * x).sin_cos();
-    let (e, b) = (c.exp(), (0.5 * c).exp());
-    let sine = [s * e, PI * (c - s * s) * e, PI * PI * e * s * (s * s - 1.0 - 3.0 * c)];
-    [sine, [b, -0.5 * PI * s * b, PI * PI * b * (0.25 * s * s - 0.5 * c)]]
-}
-
-/// A derivative of component c of u: the factor with the sine stands on axis c.
-fn derivative(x: [f64; 3], component: usize, orders: [usize; 3]) -> f64 {
-    (0..3).map(|axis| factors(x[axis])[usize::from(axis != component)][orders[axis]]).product()
-}
-
-fn displacement(x: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|component| derivative(x, component, [0; 3]))
-}
-
-/// −μΔu − (λ + μ)∇(∇·u) by hand.
 fn force(x: [f64; 3]) -> [f64; 3] {
-    let with = |pairs: &[usize]| {
-        let mut orders = [0; 3];
-        for &axis in pairs {
-            orders[axis] += 1;
-        }
-        orders
-    };
-    let (first, mu) = (lame().first(), lame().shear_modulus());
-    [0, 1, 2].map(|c| {
-        let laplacian: f64 = (0..3).map(|axis| derivative(x, c, with(&[axis, axis]))).sum();
-        let dilatation: f64 = (0..3).map(|other| derivative(x, other, with(&[other, c]))).sum();
-        -mu * laplacian - (first + mu) * dilatation
-    })
+    smooth_cube::force([lame().first(), lame().shear_modulus()], x)
 }
 
 fn error(grid: BoxGrid<3>) -> f64 {
     let mut fields = samples::<f64, 3>(&grid, force);
     let mut solver = BoxSolver::<f64, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
     solver.solve_in_place(slices(&mut fields)).expect("solution");
-    relative_error(&fields.concat(), &samples::<f64, 3>(&grid, displacement).concat())
+    relative_error(&fields.concat(), &samples::<f64, 3>(&grid, smooth_cube::displacement).concat())
 }
 
 #[test]
