@@ -13,7 +13,9 @@ mod problems;
 use core::convert::Infallible;
 use std::time::Instant;
 
-use piola_integrators::{Differentiable, ExactJacobian, Field, IntegratorsError, RadauIia, State, Tolerance};
+use piola_integrators::{
+    Differentiable, DormandPrince853, ExactJacobian, Field, IntegratorsError, RadauIia, State, Tolerance,
+};
 use piola_testkit::golden::{self, number, text, vector};
 use problems::{Hires, Oregonator, Robertson, SpringPendulum, VanDerPol};
 
@@ -53,6 +55,19 @@ where
     Ok(())
 }
 
+/// What an explicit method needs for van der Pol's equation.
+fn explicit() -> Result<(), IntegratorsError> {
+    let golden = golden::load("stiff");
+    let Some(case) = golden.cases.iter().find(|case| text(&case["name"]) == "van der Pol") else { return Ok(()) };
+    let mut state = State::new(0.0, vector(&case["start"]))?;
+    let mut method = DormandPrince853::new(Tolerance::new(1e-6, 1e-9)?);
+    let clock = Instant::now();
+    let report = method.integrate_to(&mut VanDerPol, &mut state, number(&case["end"]))?;
+    let (steps, evaluations, seconds) = (report.steps, report.evaluations, clock.elapsed().as_secs_f64());
+    println!("\n`DormandPrince853`, van der Pol, 1e-06: {steps} steps, {evaluations} evaluations, {seconds:.2} s");
+    Ok(())
+}
+
 fn main() -> Result<(), IntegratorsError> {
     println!(
         "| problem | tolerance | steps | rejected | evaluations | Jacobians | factorisations | time, µs | error |"
@@ -62,5 +77,6 @@ fn main() -> Result<(), IntegratorsError> {
     table("Robertson", 1e-8, Robertson)?;
     table("HIRES", 1e-4, Hires)?;
     table("Oregonator", 1e-6, Oregonator)?;
-    table("spring pendulum", 0.0, SpringPendulum)
+    table("spring pendulum", 0.0, SpringPendulum)?;
+    explicit()
 }

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use super::STIR;
 use crate::support::{PAIR, assert_mistake, replaced};
 
 const PLATE: &str = r#"
@@ -48,20 +49,6 @@ type = "uniform"
 force_per_volume = [1.0, 0.0]
 from = 2.0
 until = 4.0
-"#;
-
-const STIR: &str = r#"
-[box]
-type = "flow"
-sides = [1.0, 1.0]
-points = [8, 8]
-shear_viscosity = 1.5
-duration = 0.5
-
-[[load]]
-type = "mode"
-indices = [1, 1]
-force_per_volume = [-1.0, 1.0]
 "#;
 
 #[test]

@@ -14,6 +14,21 @@ use piola_scene::studies::{self, Findings, StudyRun};
 
 use crate::support::study;
 
+/// A flow in a square, stirred by one mode.
+const STIR: &str = r#"
+[box]
+type = "flow"
+sides = [1.0, 1.0]
+points = [8, 8]
+shear_viscosity = 1.5
+duration = 0.5
+
+[[load]]
+type = "mode"
+indices = [1, 1]
+force_per_volume = [-1.0, 1.0]
+"#;
+
 fn run(text: &str) -> StudyRun {
     let run = studies::run(&study(text), |_| ControlFlow::Continue(()));
     assert_eq!(run.outcome, Outcome::Completed);

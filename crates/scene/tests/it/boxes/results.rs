@@ -6,7 +6,7 @@ use piola_charts::Folder;
 use piola_scene::run::Outcome;
 use piola_scene::studies::{self, StudyPlan};
 
-use super::{field, history, in_box, in_rectangle, run};
+use super::{STIR, field, history, in_box, in_rectangle, run};
 use crate::support::{replaced, study};
 
 const BLOCK: &str = r#"
@@ -45,19 +45,6 @@ force_per_volume = [1.0, 0.0]
 [[probe]]
 name = "middle"
 at = [0.5, 0.2]
-"#;
-
-const STIR: &str = r#"
-[box]
-type = "flow"
-sides = [1.0, 1.0]
-points = [8, 8]
-shear_viscosity = 1.0
-duration = 0.5
-[[load]]
-type = "mode"
-indices = [1, 1]
-force_per_volume = [-1.0, 1.0]
 "#;
 
 #[test]
