@@ -32,19 +32,23 @@ impl Copy {
         Ok(Self { from: from.to_path_buf(), root, files })
     }
 
-    /// A number for all that the tests see: sources, reference data, scenes, and the manifests.
-    pub(crate) fn hash(&self) -> Result<u64, String> {
+    /// Numbers for all that the tests see (sources, tests, reference data, scenes, manifests), and for what mutants stand in.
+    pub(crate) fn hashes(&self) -> Result<[u64; 2], String> {
         let folders = ["crates/", "testdata/", "data/", "scenes/", ".cargo/"];
-        let mut state = HASH_OF_NOTHING;
+        let (mut all, mut sources) = (HASH_OF_NOTHING, HASH_OF_NOTHING);
         for file in &self.files {
             let is_documentation = Path::new(file).extension().is_some_and(|extension| extension == "md");
             let is_seen = folders.iter().any(|folder| file.starts_with(folder)) && !is_documentation;
-            if is_seen || matches!(file.as_str(), "Cargo.toml" | "Cargo.lock") {
-                state = hash(state, file.as_bytes());
-                state = hash(state, &bytes(&self.from.join(file))?);
+            let is_manifest = file.ends_with("Cargo.toml") || file == "Cargo.lock";
+            if is_seen || is_manifest {
+                let text = bytes(&self.from.join(file))?;
+                all = hash(hash(all, file.as_bytes()), &text);
+                if is_manifest || file.contains("/src/") {
+                    sources = hash(hash(sources, file.as_bytes()), &text);
+                }
             }
         }
-        Ok(state)
+        Ok([all, sources])
     }
 
     /// Makes the copy equal to the project with `changed` texts in place of some files.

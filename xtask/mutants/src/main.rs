@@ -23,7 +23,7 @@ use xshell::{Shell, cmd};
 use compile::Executable;
 use files::{Copy, read};
 use plan::{Mutant, Plan, Rendered};
-use record::{Fate, Record, Row, Trial};
+use record::{Fate, Record, Row, Run, Trial, WithoutEffect};
 use trial::Ending;
 
 /// Without formulas of their own, or not used by users.
@@ -47,12 +47,13 @@ struct Options {
     folders: Vec<String>,
     sample: usize,
     seed: u64,
+    again: bool,
     page: bool,
 }
 
 impl Options {
     fn new(mut arguments: impl Iterator<Item = String>) -> Result<Self, String> {
-        let mut options = Self { folders: Vec::new(), sample: 40, seed: 1788, page: false };
+        let mut options = Self { folders: Vec::new(), sample: 40, seed: 1788, again: false, page: false };
         while let Some(argument) = arguments.next() {
             let mut number = || {
                 let text = arguments.next().unwrap_or_default();
@@ -61,6 +62,7 @@ impl Options {
             match argument.as_str() {
                 "--sample" => options.sample = usize::try_from(number()?).map_err(|error| error.to_string())?,
                 "--seed" => options.seed = number()?,
+                "--again" => options.again = true,
                 "--page" => options.page = true,
                 folder if !folder.starts_with('-') => options.folders.push(folder.to_owned()),
                 unknown => return Err(format!("unknown argument `{unknown}`")),
@@ -81,9 +83,11 @@ fn run(options: &Options) -> Result<bool, String> {
     let packages: Vec<_> =
         if options.folders.is_empty() { Vec::new() } else { plans.iter().map(|plan| plan.package.clone()).collect() };
     let copy = Copy::new(&shell, &root, folder.join("tree"))?;
-    let sources = copy.hash()?;
-    let run = format!("{sources:016x} {} {} {}", options.sample, options.seed, packages.join(" "));
-    let mut record = Record::open(folder.join("results.jsonl"), run);
+    let draw = format!("{} {} {}", options.sample, options.seed, packages.join(" "));
+    let [all, sources] = copy.hashes()?.map(|hash| format!("{hash:016x} {draw}"));
+    let mut record = Record::open(folder.join("results.jsonl"), Run { all, sources, is_repeated: options.again });
+    let list = root.join("xtask/mutants/without_effect.tsv");
+    let without_effect = WithoutEffect::read(&read(&list)?).map_err(|error| format!("{}: {error}", list.display()))?;
     let executables = compile::settle(
         &shell,
         (&root, &copy, &folder.join("build")),
@@ -117,7 +121,7 @@ fn run(options: &Options) -> Result<bool, String> {
                 copy.write(&Rendered::new(&root, &plans)?.texts)?;
             }
         }
-        passes &= report(&root, plan, &record, options)?;
+        passes &= report(&root, plan, &record, &without_effect, options)?;
     }
     Ok(passes)
 }
@@ -182,36 +186,50 @@ fn place(mutant: &Mutant) -> String {
 }
 
 /// Prints what survives in a crate and writes its row of the page; true if the crate passes.
-fn report(root: &Path, plan: &Plan, record: &Record, options: &Options) -> Result<bool, String> {
-    let (mut fates, mut texts) = (Vec::new(), BTreeMap::new());
+fn report(
+    root: &Path,
+    plan: &Plan,
+    record: &Record,
+    without_effect: &WithoutEffect,
+    options: &Options,
+) -> Result<bool, String> {
+    let (mut fates, mut passed_over, mut texts) = (Vec::new(), 0, BTreeMap::new());
     eprintln!();
     for mutant in plan.mutants() {
         let Some(trial) = record.trials.get(&mutant.number) else { continue };
-        fates.push(trial.fate);
         if !trial.fate.is_caught() {
-            let file = mutant.site.file.clone();
-            if !texts.contains_key(&file) {
-                texts.insert(file.clone(), read(&root.join(&file))?);
+            let site = &mutant.site;
+            if !texts.contains_key(&site.file) {
+                texts.insert(site.file.clone(), read(&root.join(&site.file))?);
             }
-            let line = texts[&file].lines().nth(mutant.site.line - 1).unwrap_or_default().trim();
+            let line = texts[&site.file].lines().nth(site.line - 1).unwrap_or_default().trim();
+            if without_effect.holds(&site.file, site.column, &site.sign.described(mutant.change), line) {
+                passed_over += 1;
+                continue;
+            }
             eprintln!("{}: {}\n    {line}", trial.fate.name(), place(&mutant));
         }
+        fates.push(trial.fate);
     }
-    let row = Row::new(&plan.folder, plan.operators(), options.seed, &fates);
-    let [tried, caught, survived, unreached] = row.counts;
+    let row = Row::new(&plan.folder, plan.operators(), options.seed, &fates, passed_over);
+    let [tried, without, caught, survived, unreached] = row.counts;
     let endless = fates.iter().filter(|fate| **fate == Fate::Endless).count();
     eprintln!(
-        "{}: {caught} of {tried} caught ({endless} endless), {survived} not noticed, {unreached} not reached; {} operators, \
-         seed {}",
-        row.folder, row.operators, row.seed
+        "{}: {caught} of {} caught ({endless} endless), {survived} not noticed, {unreached} not reached, {without} of {tried} \
+         without effect; {} operators, seed {}",
+        row.folder,
+        row.with_effect(),
+        row.operators,
+        row.seed
     );
+    let passes = (row.with_effect() - caught) * NOTICED_OF <= row.with_effect();
     if options.page {
         let path = root.join("docs/measurements/mutants.md");
         // The first time there is no page.
         let before = std::fs::read_to_string(&path).unwrap_or_default();
         std::fs::write(&path, record::page(&[row], &before)).map_err(|error| error.to_string())?;
     }
-    Ok((tried - caught) * NOTICED_OF <= tried)
+    Ok(passes)
 }
 
 #[cfg(test)]
@@ -225,8 +243,10 @@ mod tests {
     #[test]
     fn options_are_understood_or_refused() {
         let options = |line: &str| Options::new(line.split_whitespace().map(str::to_owned));
-        let given = options("kinematics --sample 3 --seed 5 tensor");
-        assert!(given.is_ok_and(|given| given.folders.len() == 2 && given.sample == 3 && given.seed == 5));
+        let given = options("kinematics --sample 3 --again --seed 5 tensor");
+        assert!(
+            given.is_ok_and(|given| given.folders.len() == 2 && given.again && given.sample == 3 && given.seed == 5)
+        );
         for wrong in ["--sample", "--sample x", "--pgae"] {
             assert!(options(wrong).is_err(), "{wrong}");
         }

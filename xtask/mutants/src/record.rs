@@ -12,12 +12,22 @@ use crate::trial::Baseline;
 /// The file, and what it says of this run.
 pub(crate) struct Record {
     path: PathBuf,
-    /// Sources and draw.
-    run: String,
+    run: Run,
     pub(crate) trials: BTreeMap<u32, Trial>,
     pub(crate) baselines: BTreeMap<String, Baseline>,
     /// Those that did not compile, in the order in which this was found.
     pub(crate) refused: Vec<u32>,
+}
+
+/// What a line is true of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Run {
+    /// Sources, tests and draw.
+    pub(crate) all: String,
+    /// Sources and draw. Tests may have been added: what was caught is still caught.
+    pub(crate) sources: String,
+    /// Whether what an earlier run of the same sources caught is believed.
+    pub(crate) is_repeated: bool,
 }
 
 /// What became of a mutant.
@@ -56,13 +66,15 @@ impl Fate {
 }
 
 impl Record {
-    pub(crate) fn open(path: PathBuf, run: String) -> Self {
+    pub(crate) fn open(path: PathBuf, run: Run) -> Self {
         let text = std::fs::read_to_string(&path).unwrap_or_default();
         let mut record = Self { path, run, trials: BTreeMap::new(), baselines: BTreeMap::new(), refused: Vec::new() };
         // The last line may be half a line.
         for line in text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok()) {
-            if line["run"] == record.run.as_str() {
+            if line["run"] == record.run.all.as_str() {
                 record.take(&line);
+            } else if record.run.is_repeated && line["sources"] == record.run.sources.as_str() {
+                record.take_caught(&line);
             }
         }
         record
@@ -71,7 +83,9 @@ impl Record {
     fn take(&mut self, line: &Value) {
         let number = |value: &Value| value.as_u64().and_then(|number| u32::try_from(number).ok());
         if let Some(refused) = number(&line["refused"]) {
-            self.refused.push(refused);
+            if !self.refused.contains(&refused) {
+                self.refused.push(refused);
+            }
         } else if let Some(executable) = line["executable"].as_str() {
             let reached: BTreeSet<_> = line["reached"].as_array().into_iter().flatten().filter_map(number).collect();
             let seconds = line["seconds"].as_f64().unwrap_or(0.0);
@@ -81,6 +95,14 @@ impl Record {
             if let Some((fate, _)) = fate {
                 self.trials.insert(mutant, Trial { fate: *fate, by: line["by"].as_str().unwrap_or("").to_owned() });
             }
+        }
+    }
+
+    /// What holds with more tests too.
+    fn take_caught(&mut self, line: &Value) {
+        let caught = Fate::ALL.iter().any(|(fate, name)| fate.is_caught() && line["fate"] == *name);
+        if caught || !line["refused"].is_null() {
+            self.take(line);
         }
     }
 
@@ -103,11 +125,38 @@ impl Record {
 
     /// Remembers the line and writes it at once.
     fn add(&mut self, mut line: Value) -> Result<(), String> {
-        line["run"] = self.run.clone().into();
+        line["run"] = self.run.all.as_str().into();
+        line["sources"] = self.run.sources.as_str().into();
         self.take(&line);
         let file = OpenOptions::new().create(true).append(true).open(&self.path);
         let written = file.and_then(|mut file| file.write_all(format!("\n{line}").as_bytes()));
         written.map_err(|error| format!("{}: {error}", self.path.display()))
+    }
+}
+
+/// Changes that leave every result as it was, with a reason each: they are not counted.
+pub(crate) struct WithoutEffect(BTreeSet<[String; 4]>);
+
+impl WithoutEffect {
+    /// From lines of five cells: file, column, change, line of the text, reason; `#` begins a comment.
+    pub(crate) fn read(text: &str) -> Result<Self, String> {
+        let mut known = BTreeSet::new();
+        for line in text.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+            let cells: Vec<_> = line.split('\t').collect();
+            let [file, column, change, source, reason] = cells[..] else {
+                return Err(format!("`{line}` has not five cells with tabs between them"));
+            };
+            if reason.is_empty() {
+                return Err(format!("`{line}` gives no reason"));
+            }
+            known.insert([file, column, change, source].map(str::to_owned));
+        }
+        Ok(Self(known))
+    }
+
+    /// Whether this change stands there, in a line that has not changed since.
+    pub(crate) fn holds(&self, file: &str, column: usize, change: &str, source: &str) -> bool {
+        self.0.contains(&[file, &column.to_string(), change, source].map(str::to_owned))
     }
 }
 
@@ -119,33 +168,48 @@ pub(crate) struct Row {
     pub(crate) operators: usize,
     /// The seed of the draw.
     pub(crate) seed: u64,
-    /// Those changed, caught, not noticed and not reached.
-    pub(crate) counts: [usize; 4],
+    /// Those changed, without effect, caught, not noticed and not reached.
+    pub(crate) counts: [usize; 5],
 }
 
 impl Row {
-    pub(crate) fn new(folder: &str, operators: usize, seed: u64, fates: &[Fate]) -> Self {
+    /// `without_effect` of those that were not caught have none.
+    pub(crate) fn new(folder: &str, operators: usize, seed: u64, fates: &[Fate], without_effect: usize) -> Self {
         let count = |fate| fates.iter().filter(|other| **other == fate).count();
         let caught = fates.iter().filter(|fate| fate.is_caught()).count();
-        let counts = [fates.len(), caught, count(Fate::Survived), count(Fate::Unreached)];
+        let tried = fates.len() + without_effect;
+        let counts = [tried, without_effect, caught, count(Fate::Survived), count(Fate::Unreached)];
         Self { folder: folder.to_owned(), operators, seed, counts }
+    }
+
+    /// Those that a test should notice.
+    pub(crate) fn with_effect(&self) -> usize {
+        self.counts[0] - self.counts[1]
     }
 
     /// A line of the page, if it is a row of a crate.
     fn read(line: &str) -> Option<Self> {
         let cells: Vec<_> = line.split('|').map(str::trim).collect();
-        let [_, folder, operators, seed, changed, caught, survived, unreached, _, _] = cells[..] else { return None };
+        let [_, folder, operators, seed, changed, without, caught, survived, unreached, _, _] = cells[..] else {
+            return None;
+        };
         let number = |cell: &str| cell.parse::<usize>().ok();
-        let counts = [number(changed)?, number(caught)?, number(survived)?, number(unreached)?];
+        let counts = [number(changed)?, number(without)?, number(caught)?, number(survived)?, number(unreached)?];
         Some(Self { folder: folder.to_owned(), operators: number(operators)?, seed: seed.parse().ok()?, counts })
     }
 }
 
 impl std::fmt::Display for Row {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { folder, operators, seed, counts: [tried, caught, survived, unreached] } = self;
-        let share = if *tried == 0 { "–".into() } else { format!("{:.0} %", 100.0 * *caught as f64 / *tried as f64) };
-        writeln!(f, "| {folder} | {operators} | {seed} | {tried} | {caught} | {survived} | {unreached} | {share} |")
+        let Self { folder, operators, seed, counts: [tried, without, caught, survived, unreached] } = self;
+        let share = match self.with_effect() {
+            0 => "–".into(),
+            all => format!("{:.0} %", 100.0 * *caught as f64 / all as f64),
+        };
+        writeln!(
+            f,
+            "| {folder} | {operators} | {seed} | {tried} | {without} | {caught} | {survived} | {unreached} | {share} |"
+        )
     }
 }
 
@@ -159,11 +223,14 @@ Would the tests notice? In each crate arithmetic operators are drawn at random (
 bodies of functions, and changed one at a time: a sum becomes a difference, a product a quotient, a sign is left out; where a
 quotient does not compile, as of matrices, the product changes its sign. A change is caught when a test fails or does not end:
 a test of the crate where its name was given to `cargo xtask mutants`, else any of the workspace. Tests of the documentation
-do not count. Some changes leave every result as it was, as the quotient by a sign does. Written by
+do not count.
+
+Some changes leave every result as it was: a product with ±1 made a quotient, the capacity of a list, the cost of a step.
+`xtask/mutants/without_effect.tsv` lists them with a reason each. The share is that of the others. Written by
 `cargo xtask mutants [CRATE…] --page`.
 
-| crate | operators | seed | changed | caught | not noticed | not reached | share caught |
-|---|---|---|---|---|---|---|---|
+| crate | operators | seed | changed | without effect | caught | not noticed | not reached | share caught |
+|---|---|---|---|---|---|---|---|---|
 "
     .to_owned();
     for row in all.values() {
@@ -174,7 +241,7 @@ do not count. Some changes leave every result as it was, as the quotient by a si
 
 #[cfg(test)]
 mod tests {
-    use super::{Fate, Record, Row, Trial, page};
+    use super::{Fate, Record, Row, Run, Trial, WithoutEffect, page};
     use crate::trial::Baseline;
 
     #[test]
@@ -183,29 +250,46 @@ mod tests {
         let _ = std::fs::remove_file(&path);
         let trial = Trial { fate: Fate::Endless, by: "it a::b".into() };
         let baseline = Baseline { seconds: 0.5, reached: [3, 7].into() };
-        let mut record = Record::open(path.clone(), "one".into());
+        let run = |all: &str, sources: &str, is_repeated| Run { all: all.into(), sources: sources.into(), is_repeated };
+        let mut record = Record::open(path.clone(), run("one", "a", false));
         let written = [
             record.refuse(5),
             record.trial(7, "a.rs:1", "a + b → a - b", &trial),
+            record.trial(8, "a.rs:2", "a + b → a - b", &Trial { fate: Fate::Survived, by: String::new() }),
             record.baseline("it".as_ref(), &baseline),
         ];
         assert!(written.iter().all(Result::is_ok));
-        let read = Record::open(path.clone(), "one".into());
+        let read = Record::open(path.clone(), run("one", "a", false));
         assert_eq!((read.refused, read.trials.get(&7)), (vec![5], Some(&trial)));
         assert_eq!(read.baselines.get("it").map(|it| (it.seconds, it.reached.len())), Some((0.5, 2)));
-        assert!(Record::open(path.clone(), "two".into()).trials.is_empty());
+        assert!(Record::open(path.clone(), run("two", "a", false)).trials.is_empty());
+        let again = Record::open(path.clone(), run("two", "a", true));
+        assert!(again.trials.keys().eq(&[7]) && again.baselines.is_empty() && again.refused == [5]);
+        assert!(Record::open(path.clone(), run("two", "b", true)).trials.is_empty());
         let _ = std::fs::remove_file(path);
+    }
+
+    #[test]
+    fn a_change_without_effect_is_known_by_its_place_and_its_line() {
+        let known = WithoutEffect::read("# why\n\na.rs\t3\ta * b → a / b\tsign * x\tthe sign is ±1\n")
+            .unwrap_or_else(|error| panic!("{error}"));
+        assert!(known.holds("a.rs", 3, "a * b → a / b", "sign * x"));
+        assert!(!known.holds("a.rs", 3, "a * b → a / b", "sign * y"));
+        assert!(!known.holds("a.rs", 5, "a * b → a / b", "sign * x"));
+        assert!(WithoutEffect::read("a.rs\t3\ta * b\tx").is_err() && WithoutEffect::read("a.rs\t3\ta\tx\t").is_err());
     }
 
     #[test]
     fn a_row_adds_up_and_is_read_as_it_was_written() {
         let fates = [Fate::Caught, Fate::Endless, Fate::Survived, Fate::Unreached];
-        let tensor = Row::new("tensor", 9, 7, &fates);
+        let tensor = Row::new("tensor", 9, 7, &fates, 2);
         let first = page(std::slice::from_ref(&tensor), "");
-        assert!(first.contains("| tensor | 9 | 7 | 4 | 2 | 1 | 1 | 50 % |\n"), "{first}");
-        let both = page(&[Row::new("batch", 2, 7, &fates[..1])], &first);
+        assert!(first.contains("| tensor | 9 | 7 | 6 | 2 | 2 | 1 | 1 | 50 % |\n"), "{first}");
+        let both = page(&[Row::new("batch", 2, 7, &fates[..1], 0)], &first);
         assert!(
-            both.ends_with("| batch | 2 | 7 | 1 | 1 | 0 | 0 | 100 % |\n| tensor | 9 | 7 | 4 | 2 | 1 | 1 | 50 % |\n"),
+            both.ends_with(
+                "| batch | 2 | 7 | 1 | 0 | 1 | 0 | 0 | 100 % |\n| tensor | 9 | 7 | 6 | 2 | 2 | 1 | 1 | 50 % |\n"
+            ),
             "{both}"
         );
         assert_eq!(page(&[tensor], &both), both);

@@ -8,13 +8,15 @@ use crate::step::Step;
 
 pub(super) const COMMAND: Command = Command {
     name: "mutants",
-    usage: "[CRATE...] [--sample N] [--seed S] [--page]",
+    usage: "[CRATE...] [--sample N] [--seed S] [--again] [--page]",
     help: "change arithmetic operators one at a time and see whether a test fails; no part of ci
 All changes are compiled at once into a copy of the project in target/mutants, each behind a switch. A change is caught when a
 test of the workspace fails, or of the named crates where some are named; tests of the documentation do not count. Prints
-every change that no test notices. An interrupted run goes on where it was, as long as the sources are the same.
+every change that no test notices; xtask/mutants/without_effect.tsv lists those that change no result. An interrupted run goes
+on where it was, as long as the sources are the same.
 --sample N   how many changes in each crate, drawn at random (40)
 --seed S     the seed of the draw (1788): the same seed draws the same changes of the same sources
+--again      believe what an earlier run caught, if only tests have changed since, and try the rest
 --page       write the rows of these crates into docs/measurements/mutants.md",
     prepare: |shell, _, options| {
         let arguments = arguments(options)?;
@@ -36,8 +38,10 @@ fn arguments(options: &mut Options) -> Result<Vec<String>, String> {
             arguments.extend([name.to_owned(), value]);
         }
     }
-    if options.flag("--page") {
-        arguments.push("--page".to_owned());
+    for name in ["--again", "--page"] {
+        if options.flag(name) {
+            arguments.push(name.to_owned());
+        }
     }
     while let Some(folder) = options.word() {
         arguments.push(folder);
