@@ -68,12 +68,11 @@ mod tests {
             }
             sum / (h * h)
         };
-        let found = force([1.5, 0.75], x);
-        for c in 0..3 {
+        for (c, found) in force([1.5, 0.75], x).into_iter().enumerate() {
             let laplacian: f64 = (0..3).map(|axis| second(c, axis, axis)).sum();
             let dilatation: f64 = (0..3).map(|other| second(other, other, c)).sum();
             let expected = -0.75 * laplacian - 2.25 * dilatation;
-            assert!((found[c] - expected).abs() < 1e-3, "component {c}: {} and {expected}", found[c]);
+            assert!((found - expected).abs() < 1e-3, "component {c}: {found} and {expected}");
         }
     }
 }
