@@ -7,8 +7,8 @@ use piola_numerics::{Kernel, Lanes, Real, dispatch};
 pub const PARALLEL_BODIES: usize = 1024;
 
 /// Attracted bodies that are computed together.
-const LANES: usize = 8;
-type Block = [Lanes<f64, LANES>; 3];
+pub(crate) const LANES: usize = 8;
+pub(crate) type Block = [Lanes<f64, LANES>; 3];
 
 /// The acceleration that a body at distance vector d = xⱼ − xᵢ gives: Gm d / (|d|² + ε²)^(3/2); NaN where
 /// |d|² + ε² is zero.
@@ -173,7 +173,13 @@ impl Kernel for Sum<'_> {
 
 /// Adds the attraction of one body to all lanes. Bodies without mass are passed over.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn add(sum: &mut Block, target: &Block, source: [f64; 3], parameter: f64, softening_squared: Lanes<f64, LANES>) {
+pub(crate) fn add(
+    sum: &mut Block,
+    target: &Block,
+    source: [f64; 3],
+    parameter: f64,
+    softening_squared: Lanes<f64, LANES>,
+) {
     if 0.0 < parameter {
         let d = distance(target, source);
         accumulate(sum, attraction(d, Lanes::splat(parameter), softening_squared));
@@ -182,7 +188,7 @@ fn add(sum: &mut Block, target: &Block, source: [f64; 3], parameter: f64, soften
 
 /// The same for a body that is itself in lane `own`: there it is moved away and loses its mass.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn add_except(
+pub(crate) fn add_except(
     sum: &mut Block,
     target: &Block,
     source: [f64; 3],
@@ -205,7 +211,7 @@ fn distance(target: &Block, [x, y, z]: [f64; 3]) -> Block {
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn accumulate(sum: &mut Block, term: Block) {
+pub(crate) fn accumulate(sum: &mut Block, term: Block) {
     sum[0] += term[0];
     sum[1] += term[1];
     sum[2] += term[2];

@@ -64,6 +64,12 @@ pub enum GravitationError {
         /// The body's index.
         body: usize,
     },
+    /// A force that the map of Wisdom and Holman does not have.
+    #[error("the map of Wisdom and Holman is of point masses that attract each other by Newton's law, without {force}")]
+    NotKeplerian {
+        /// What is on.
+        force: &'static str,
+    },
     /// 0 < c < ∞ violated.
     #[error("the speed of light is {value} m/s; it must satisfy 0 < c < ∞")]
     InvalidSpeedOfLight {

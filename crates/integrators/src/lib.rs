@@ -35,8 +35,9 @@ pub use state::{Ending, Report, State, Step, unobserved};
 pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
 pub use tolerance::Tolerance;
 
-/// For the tests of this crate alone: no part of the interface.
+/// For tests, and for methods in other crates of Piola: no part of the interface.
 #[doc(hidden)]
 pub mod internal {
     pub use crate::radau_iia::Tableau;
+    pub use crate::state::equal_steps;
 }

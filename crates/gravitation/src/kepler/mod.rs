@@ -16,6 +16,8 @@
 mod elements;
 mod motion;
 mod twofold;
+mod universal;
 
 pub use elements::Elements;
 pub use motion::{KeplerMotion, NotElliptic};
+pub use universal::{Increment, advance};

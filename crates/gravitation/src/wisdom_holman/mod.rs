@@ -1,0 +1,255 @@
+//! Planets about one dominant body, by the map of Wisdom and Holman.
+//!
+//! ```text
+//! H = Σᵢ [½ pᵢ′²/mᵢ′ − Gmᵢ ηᵢ₋₁/rᵢ′]                    Kepler's motions in Jacobi's coordinates, exact
+//!   + Σᵢ Gmᵢ ηᵢ₋₁/rᵢ′ − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ                 what is left: smaller by ε = mass of planets/mass of the centre
+//! ηᵢ = m₀ + … + mᵢ        xᵢ′ = xᵢ − (m₀ x₀ + … + mᵢ₋₁ xᵢ₋₁)/ηᵢ₋₁
+//! ```
+//!
+//! Each part by itself is solved exactly, in turn: the map is symplectic, its steps are a tenth to a thirtieth of the shortest
+//! period whatever the accuracy of Kepler's motions, and the energy does not drift but for rounding. [`Splitting`] names the
+//! sequences. Planets move eight at a time in lanes.
+//!
+//! # Validity
+//! Orbits that do not cross: where planets come as near each other as some Hill radii, or near the central body, what is left
+//! is not small any more. There take [`GaussRadau15`](piola_integrators::GaussRadau15).
+//!
+//! # Example
+//! ```
+//! use piola_gravitation::Gravitation;
+//! use piola_gravitation::wisdom_holman::{Corrector, Splitting, WisdomHolman};
+//! use piola_integrators::State;
+//! // Two planets of 10⁻³ and 3 × 10⁻⁴ of the central mass, periods 2π and about 5π, for 1000 revolutions of the first.
+//! let bodies = Gravitation::new(vec![1.0, 1e-3, 3e-4])?;
+//! let start = bodies.state(
+//!     &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.84, 0.0]],
+//!     &[[0.0; 3], [0.0, 1.0, 0.0], [-0.737, 0.0, 0.0]],
+//! )?;
+//! let before = bodies.invariants(&start).energy;
+//! let mut state = State::new(0.0, start)?;
+//! let mut method = WisdomHolman::new(0.2, Splitting::Corrected(Corrector::Seventeen))?;
+//! method.integrate_to(&bodies, &mut state, 6283.0)?;
+//! let change = bodies.invariants(&state.values).energy / before - 1.0;
+//! assert!(change.abs() < 2e-9, "{change}");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod jacobi;
+mod splitting;
+mod steps;
+
+use core::ops::ControlFlow;
+
+use piola_integrators::internal::equal_steps;
+use piola_integrators::{Ending, IntegratorsError, Report, State, Step, unobserved};
+
+pub use splitting::{Corrector, Splitting};
+
+use crate::check::{check_finite, check_length};
+use crate::{Gravitation, GravitationError};
+use jacobi::{Coordinates, Masses};
+use steps::{Memory, Moving, Task};
+
+/// The map of Wisdom and Holman with a fixed step.
+///
+/// Bodies are listed from inside out: first the central one, then each planet before those whose orbits enclose its own.
+/// Test particles without mass may stand anywhere.
+///
+/// # Accuracy
+/// See [`Splitting`]. Rounding walks at random: states are summed with compensation.
+///
+/// # Example
+/// See the [module](self).
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct WisdomHolman {
+    step: f64,
+    splitting: Splitting,
+}
+
+/// Steps between two looks for numbers that are not finite.
+const UNWATCHED: u64 = 256;
+
+impl WisdomHolman {
+    /// The map with steps no longer than `step` (s).
+    ///
+    /// # Errors
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+    pub fn new(step: f64, splitting: Splitting) -> Result<Self, IntegratorsError> {
+        if !(0.0 < step && step < f64::INFINITY) {
+            return Err(IntegratorsError::InvalidStep { step });
+        }
+        Ok(Self { step, splitting })
+    }
+
+    /// The longest step, s.
+    #[must_use]
+    pub const fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The sequence of motions and attractions in a step.
+    #[must_use]
+    pub const fn splitting(&self) -> Splitting {
+        self.splitting
+    }
+
+    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_to(
+        &self,
+        bodies: &Gravitation,
+        state: &mut State,
+        end: f64,
+    ) -> Result<Report, IntegratorsError<GravitationError>> {
+        self.integrate(bodies, state, end, 0, unobserved)
+    }
+
+    /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is earlier than the
+    /// state's time.
+    ///
+    /// The observer sees every `shown`-th step (of 0: none) and the last, and may stop the run there. To show a state costs half a
+    /// motion, and the inverse corrector where there is one; it does not change the run.
+    ///
+    /// # Errors
+    /// [`IntegratorsError::Field`] where the forces are not those of this map
+    /// ([`GravitationError::NotKeplerian`], [`GravitationError::MasslessCentre`]) or the state does not fit them;
+    /// [`IntegratorsError::StepTooSmall`]; [`IntegratorsError::NotFinite`] where two bodies meet: the state then stands at the
+    /// last complete step.
+    pub fn integrate(
+        &self,
+        bodies: &Gravitation,
+        state: &mut State,
+        end: f64,
+        shown: u64,
+        mut observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<GravitationError>> {
+        let start = state.time;
+        check(bodies, state).map_err(|source| IntegratorsError::Field { t: start, source })?;
+        let (count, h) = equal_steps(start, end, self.step)?;
+        let mut report = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
+        if count == 0 {
+            return Ok(report);
+        }
+        let mut run = Run::new(bodies.parameters(), &state.values, h, self.splitting);
+        run.enter();
+        let mut values = state.values.clone();
+        let time = |steps: u64| if steps == count { end } else { start + h * steps as f64 };
+        while report.steps < count {
+            let until_shown = match shown {
+                0 => count,
+                shown => shown - report.steps % shown,
+            };
+            let made = until_shown.min(count - report.steps).min(UNWATCHED);
+            let good = run.advance(made);
+            report.steps += good;
+            report.evaluations += good * self.splitting.attractions() as u64;
+            let number = report.steps;
+            let is_shown = number == count || (0 < shown && number.is_multiple_of(shown));
+            if good < made || is_shown {
+                run.show(h * number as f64, &mut values);
+            }
+            if good < made {
+                let t = Some(time(number));
+                let (index, value) = run.not_finite;
+                *state = State::new(time(number), values).map_err(IntegratorsError::with_field_error)?;
+                return Err(IntegratorsError::NotFinite { quantity: "state", index, value, t });
+            }
+            if is_shown && observer(Step { number, time: time(number), values: &values }).is_break() {
+                report.ending = Ending::Stopped;
+                break;
+            }
+        }
+        *state = State::new(time(report.steps), values).map_err(IntegratorsError::with_field_error)?;
+        Ok(report)
+    }
+}
+
+/// Whether the map is one of these bodies, and the state theirs.
+fn check(bodies: &Gravitation, state: &State) -> Result<(), GravitationError> {
+    if 0.0 < bodies.softening() {
+        return Err(GravitationError::NotKeplerian { force: "softening" });
+    }
+    if bodies.post_newtonian().is_some() {
+        return Err(GravitationError::NotKeplerian { force: "the post-Newtonian term" });
+    }
+    if bodies.parameters().first().is_none_or(|&centre| centre <= 0.0) {
+        return Err(GravitationError::MasslessCentre { body: 0 });
+    }
+    check_length("state", 6 * bodies.bodies(), state.values.len())?;
+    check_finite("state", &state.values)?;
+    match bodies.coincident(&state.values) {
+        Some((first, second)) => Err(GravitationError::CoincidentBodies { first, second }),
+        None => Ok(()),
+    }
+}
+
+/// A run: between steps it stands after the first motion of the next one.
+struct Run {
+    masses: Masses,
+    memory: Memory,
+    coordinates: Coordinates,
+    /// What was before the last steps, and what is shown.
+    spare: Coordinates,
+    step: f64,
+    splitting: Splitting,
+    /// The first number that is not finite, by its index in the state.
+    not_finite: (usize, f64),
+}
+
+impl Run {
+    fn new(parameters: &[f64], state: &[f64], step: f64, splitting: Splitting) -> Self {
+        let masses = Masses::new(parameters);
+        let memory = Memory::new(&masses);
+        let coordinates = Coordinates::new(&masses, state);
+        let spare = coordinates.clone();
+        Self { masses, memory, coordinates, spare, step, splitting, not_finite: (0, 0.0) }
+    }
+
+    fn enter(&mut self) {
+        let corrector = Task::Corrector(self.splitting.corrector(), self.step, 1.0);
+        self.moving().run(corrector);
+        let motion = Task::Motion(self.splitting.stages().motions[0] * self.step);
+        self.moving().run(motion);
+    }
+
+    fn moving(&mut self) -> Moving<'_> {
+        Moving { masses: &self.masses, memory: &mut self.memory, coordinates: &mut self.coordinates }
+    }
+
+    /// Makes so many steps, or as many as leave numbers finite: returns how many.
+    fn advance(&mut self, count: u64) -> u64 {
+        self.spare.copy(&self.coordinates);
+        let stages = self.splitting.stages();
+        let task = Task::Steps(count, self.step, stages);
+        self.moving().run(task);
+        let Some(found) = self.coordinates.not_finite(&self.masses) else { return count };
+        self.not_finite = found;
+        // Again from where all was well, step by step.
+        self.coordinates.copy(&self.spare);
+        for good in 0..count {
+            self.spare.copy(&self.coordinates);
+            let task = Task::Steps(1, self.step, stages);
+            self.moving().run(task);
+            if let Some(found) = self.coordinates.not_finite(&self.masses) {
+                self.not_finite = found;
+                self.coordinates.copy(&self.spare);
+                return good;
+            }
+        }
+        count
+    }
+
+    /// Writes the state, so many seconds after the start.
+    fn show(&mut self, elapsed: f64, values: &mut [f64]) {
+        self.spare.copy(&self.coordinates);
+        let motion = Task::Motion(-self.splitting.stages().motions[0] * self.step);
+        self.moving().run(motion);
+        let corrector = Task::Corrector(self.splitting.corrector(), self.step, -1.0);
+        self.moving().run(corrector);
+        self.coordinates.write(&self.masses, elapsed, values);
+        core::mem::swap(&mut self.coordinates, &mut self.spare);
+    }
+}
