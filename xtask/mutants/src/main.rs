@@ -111,8 +111,16 @@ fn run(options: &Options) -> Result<bool, String> {
         }
     }
     let mut passes = true;
+    let mut texts = Texts { root: &root, known: BTreeMap::new() };
     for plan in &plans {
         for mutant in plan.mutants() {
+            let missed = record.missed.get(&mutant.number).cloned();
+            if let Some(trial) = missed.filter(|_| !record.trials.contains_key(&mutant.number))
+                && texts.is_without_effect(&mutant, &without_effect)?
+            {
+                // An earlier run tried it.
+                record.trials.insert(mutant.number, trial);
+            }
             if !record.trials.contains_key(&mutant.number) {
                 let trial = attempt(&plan.package, &mutant, &executables, &record)?;
                 eprintln!("{}: {} {}", place(&mutant), trial.fate.name(), trial.by);
@@ -121,7 +129,7 @@ fn run(options: &Options) -> Result<bool, String> {
                 copy.write(&Rendered::new(&root, &plans)?.texts)?;
             }
         }
-        passes &= report(&root, plan, &record, &without_effect, options)?;
+        passes &= report(&mut texts, plan, &record, &without_effect, options)?;
     }
     Ok(passes)
 }
@@ -185,29 +193,46 @@ fn place(mutant: &Mutant) -> String {
     format!("{}:{}:{}: {}", site.file, site.line, site.column, site.sign.described(mutant.change))
 }
 
+/// The sources, read as they are needed.
+struct Texts<'r> {
+    root: &'r Path,
+    known: BTreeMap<String, String>,
+}
+
+impl Texts<'_> {
+    /// The line that the mutant stands in.
+    fn line(&mut self, mutant: &Mutant) -> Result<&str, String> {
+        let site = &mutant.site;
+        if !self.known.contains_key(&site.file) {
+            self.known.insert(site.file.clone(), read(&self.root.join(&site.file))?);
+        }
+        Ok(self.known[&site.file].lines().nth(site.line - 1).unwrap_or_default().trim())
+    }
+
+    fn is_without_effect(&mut self, mutant: &Mutant, known: &WithoutEffect) -> Result<bool, String> {
+        let site = &mutant.site;
+        Ok(known.holds(&site.file, site.column, &site.sign.described(mutant.change), self.line(mutant)?))
+    }
+}
+
 /// Prints what survives in a crate and writes its row of the page; true if the crate passes.
 fn report(
-    root: &Path,
+    texts: &mut Texts<'_>,
     plan: &Plan,
     record: &Record,
     without_effect: &WithoutEffect,
     options: &Options,
 ) -> Result<bool, String> {
-    let (mut fates, mut passed_over, mut texts) = (Vec::new(), 0, BTreeMap::new());
+    let (mut fates, mut passed_over) = (Vec::new(), 0);
     eprintln!();
     for mutant in plan.mutants() {
         let Some(trial) = record.trials.get(&mutant.number) else { continue };
         if !trial.fate.is_caught() {
-            let site = &mutant.site;
-            if !texts.contains_key(&site.file) {
-                texts.insert(site.file.clone(), read(&root.join(&site.file))?);
-            }
-            let line = texts[&site.file].lines().nth(site.line - 1).unwrap_or_default().trim();
-            if without_effect.holds(&site.file, site.column, &site.sign.described(mutant.change), line) {
+            if texts.is_without_effect(&mutant, without_effect)? {
                 passed_over += 1;
                 continue;
             }
-            eprintln!("{}: {}\n    {line}", trial.fate.name(), place(&mutant));
+            eprintln!("{}: {}\n    {}", trial.fate.name(), place(&mutant), texts.line(&mutant)?);
         }
         fates.push(trial.fate);
     }
@@ -224,7 +249,7 @@ fn report(
     );
     let passes = (row.with_effect() - caught) * NOTICED_OF <= row.with_effect();
     if options.page {
-        let path = root.join("docs/measurements/mutants.md");
+        let path = texts.root.join("docs/measurements/mutants.md");
         // The first time there is no page.
         let before = std::fs::read_to_string(&path).unwrap_or_default();
         std::fs::write(&path, record::page(&[row], &before)).map_err(|error| error.to_string())?;

@@ -17,6 +17,8 @@ pub(crate) struct Record {
     pub(crate) baselines: BTreeMap<String, Baseline>,
     /// Those that did not compile, in the order in which this was found.
     pub(crate) refused: Vec<u32>,
+    /// Those that an earlier run of the same sources did not catch: tests may have been added since.
+    pub(crate) missed: BTreeMap<u32, Trial>,
 }
 
 /// What a line is true of.
@@ -68,20 +70,20 @@ impl Fate {
 impl Record {
     pub(crate) fn open(path: PathBuf, run: Run) -> Self {
         let text = std::fs::read_to_string(&path).unwrap_or_default();
-        let mut record = Self { path, run, trials: BTreeMap::new(), baselines: BTreeMap::new(), refused: Vec::new() };
+        let (trials, baselines, missed) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+        let mut record = Self { path, run, trials, baselines, refused: Vec::new(), missed };
         // The last line may be half a line.
         for line in text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok()) {
             if line["run"] == record.run.all.as_str() {
                 record.take(&line);
             } else if record.run.is_repeated && line["sources"] == record.run.sources.as_str() {
-                record.take_caught(&line);
+                record.take_earlier(&line);
             }
         }
         record
     }
 
     fn take(&mut self, line: &Value) {
-        let number = |value: &Value| value.as_u64().and_then(|number| u32::try_from(number).ok());
         if let Some(refused) = number(&line["refused"]) {
             if !self.refused.contains(&refused) {
                 self.refused.push(refused);
@@ -90,19 +92,20 @@ impl Record {
             let reached: BTreeSet<_> = line["reached"].as_array().into_iter().flatten().filter_map(number).collect();
             let seconds = line["seconds"].as_f64().unwrap_or(0.0);
             self.baselines.insert(executable.to_owned(), Baseline { seconds, reached });
-        } else if let Some(mutant) = number(&line["mutant"]) {
-            let fate = Fate::ALL.iter().find(|(_, name)| line["fate"] == *name);
-            if let Some((fate, _)) = fate {
-                self.trials.insert(mutant, Trial { fate: *fate, by: line["by"].as_str().unwrap_or("").to_owned() });
-            }
+        } else if let Some((mutant, trial)) = tried(line) {
+            self.trials.insert(mutant, trial);
         }
     }
 
-    /// What holds with more tests too.
-    fn take_caught(&mut self, line: &Value) {
-        let caught = Fate::ALL.iter().any(|(fate, name)| fate.is_caught() && line["fate"] == *name);
-        if caught || !line["refused"].is_null() {
-            self.take(line);
+    /// Of a run with other tests: what holds with more of them too, and what may not.
+    fn take_earlier(&mut self, line: &Value) {
+        match tried(line) {
+            Some((_, trial)) if trial.fate.is_caught() => self.take(line),
+            Some((mutant, trial)) => {
+                self.missed.insert(mutant, trial);
+            }
+            None if !line["refused"].is_null() => self.take(line),
+            None => {}
         }
     }
 
@@ -132,6 +135,16 @@ impl Record {
         let written = file.and_then(|mut file| file.write_all(format!("\n{line}").as_bytes()));
         written.map_err(|error| format!("{}: {error}", self.path.display()))
     }
+}
+
+fn number(value: &Value) -> Option<u32> {
+    value.as_u64().and_then(|number| u32::try_from(number).ok())
+}
+
+/// What a line says of a mutant.
+fn tried(line: &Value) -> Option<(u32, Trial)> {
+    let (fate, _) = Fate::ALL.iter().find(|(_, name)| line["fate"] == *name)?;
+    Some((number(&line["mutant"])?, Trial { fate: *fate, by: line["by"].as_str().unwrap_or("").to_owned() }))
 }
 
 /// Changes that leave every result as it was, with a reason each: they are not counted.
@@ -265,6 +278,7 @@ mod tests {
         assert!(Record::open(path.clone(), run("two", "a", false)).trials.is_empty());
         let again = Record::open(path.clone(), run("two", "a", true));
         assert!(again.trials.keys().eq(&[7]) && again.baselines.is_empty() && again.refused == [5]);
+        assert!(again.missed.keys().eq(&[8]));
         assert!(Record::open(path.clone(), run("two", "b", true)).trials.is_empty());
         let _ = std::fs::remove_file(path);
     }
