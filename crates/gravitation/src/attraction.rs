@@ -188,7 +188,7 @@ pub(crate) fn add(
 
 /// The same for a body that is itself in lane `own`: there it is moved away and loses its mass.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn add_except(
+fn add_except(
     sum: &mut Block,
     target: &Block,
     source: [f64; 3],

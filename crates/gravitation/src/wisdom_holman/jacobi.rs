@@ -4,7 +4,7 @@ use piola_numerics::Lanes;
 
 use crate::attraction::{Block, LANES};
 
-type Numbers = Lanes<f64, LANES>;
+pub(super) type Numbers = Lanes<f64, LANES>;
 
 /// As many planets as there are lanes.
 #[derive(Clone, Copy, Debug)]
@@ -26,11 +26,34 @@ pub(super) struct Masses {
     pub(super) planets: Vec<f64>,
     /// Gm of all bodies up to the one before each planet, and one more: of all bodies.
     pub(super) before: Vec<f64>,
-    /// What draws each planet in its Kepler's motion: Gm of all bodies up to itself; none where there is no planet.
-    pub(super) drawing: Vec<Numbers>,
-    /// The same, and Gm of the central body, but none for the first planet, whose attraction Kepler's motion has whole.
-    pub(super) drawing_but_first: Vec<Numbers>,
-    pub(super) centre_but_first: Vec<Numbers>,
+    pub(super) groups: Vec<GroupMasses>,
+}
+
+/// The same in lanes; zero where there is no planet.
+#[derive(Clone, Debug)]
+pub(super) struct GroupMasses {
+    /// How many planets the group has.
+    pub(super) planets: usize,
+    /// Gm.
+    pub(super) parameters: Numbers,
+    /// What draws each planet in its Kepler's motion: Gm of all bodies up to itself.
+    pub(super) drawing: Numbers,
+    /// The same, Gm of the central body, and Gm of the planets, but none of the first planet: its attraction by the central
+    /// body is Kepler's motion.
+    pub(super) drawing_but_first: Numbers,
+    pub(super) centre_but_first: Numbers,
+    pub(super) parameters_but_first: Numbers,
+    /// 1/Gm of all bodies before.
+    pub(super) inverse_before: Numbers,
+    /// Of each planet: its Gm over that of all bodies up to it, and its Gm, in the lanes of the planets after it.
+    pub(super) share_after: [Numbers; LANES],
+    pub(super) parameter_after: [Numbers; LANES],
+    /// Gm of each planet over that of all bodies up to it.
+    pub(super) shares: Numbers,
+    /// Of each planet: its Gm in the lanes of all others.
+    pub(super) parameter_of_others: [Numbers; LANES],
+    /// Of each planet: one in its own lane.
+    pub(super) own: [Numbers; LANES],
 }
 
 impl Masses {
@@ -40,16 +63,48 @@ impl Masses {
         for planet in planets {
             before.push(before[before.len() - 1] + planet);
         }
-        let drawing: Vec<_> = before[1..].chunks(LANES).map(|chunk| Lanes::load(chunk, 0.0)).collect();
-        let centres = vec![centre; planets.len()];
-        let mut centre_but_first: Vec<_> = centres.chunks(LANES).map(|chunk| Lanes::load(chunk, 0.0)).collect();
-        let mut drawing_but_first = drawing.clone();
-        if let (Some(drawing), Some(centre)) = (drawing_but_first.first_mut(), centre_but_first.first_mut()) {
-            (drawing.0[0], centre.0[0]) = (0.0, 0.0);
-        }
-        let planets = planets.to_vec();
-        Self { centre, planets, before, drawing, drawing_but_first, centre_but_first }
+        let starts = (0..planets.len()).step_by(LANES);
+        let groups = starts.map(|start| GroupMasses::new(centre, planets, &before, start)).collect();
+        Self { centre, planets: planets.to_vec(), before, groups }
     }
+}
+
+impl GroupMasses {
+    fn new(centre: f64, planets: &[f64], before: &[f64], start: usize) -> Self {
+        let count = LANES.min(planets.len() - start);
+        let lanes = |of: &dyn Fn(usize) -> f64| -> Numbers {
+            core::array::from_fn(|lane| if lane < count { of(start + lane) } else { 0.0 }).into()
+        };
+        let where_lane = |of: &dyn Fn(usize) -> f64, holds: fn(usize, usize) -> bool| -> [Numbers; LANES] {
+            core::array::from_fn(|own| {
+                let value = if own < count { of(start + own) } else { 0.0 };
+                core::array::from_fn(|lane| if holds(own, lane) { value } else { 0.0 }).into()
+            })
+        };
+        let but_first = |planet: usize, value: f64| if planet == 0 { 0.0 } else { value };
+        let share = |planet: usize| planets[planet] / before[planet + 1];
+        Self {
+            planets: count,
+            parameters: lanes(&|planet| planets[planet]),
+            drawing: lanes(&|planet| before[planet + 1]),
+            drawing_but_first: lanes(&|planet| but_first(planet, before[planet + 1])),
+            centre_but_first: lanes(&|planet| but_first(planet, centre)),
+            parameters_but_first: lanes(&|planet| but_first(planet, planets[planet])),
+            inverse_before: lanes(&|planet| before[planet].recip()),
+            share_after: where_lane(&share, |own, lane| own < lane),
+            parameter_after: where_lane(&|planet| planets[planet], |own, lane| own < lane),
+            shares: lanes(&share),
+            parameter_of_others: where_lane(&|planet| planets[planet], |own, lane| own != lane),
+            own: where_lane(&|_| 1.0, |own, lane| own == lane),
+        }
+    }
+}
+
+/// The sum of all lanes.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn total(lanes: Numbers) -> f64 {
+    let [a, b, c, d, e, f, g, h] = lanes.0;
+    ((a + b) + (c + d)) + ((e + f) + (g + h))
 }
 
 /// A state in Jacobi's coordinates.
@@ -67,7 +122,7 @@ impl Coordinates {
         let resting = [Lanes::splat(1.0), Lanes::splat(0.0), Lanes::splat(0.0)];
         let zero = [Lanes::splat(0.0); 3];
         let group = Group { position: resting, position_carry: zero, velocity: zero, velocity_carry: zero };
-        let mut groups = vec![group; masses.drawing.len()];
+        let mut groups = vec![group; masses.groups.len()];
         let mut centre_of_mass = [[0.0; 3]; 2];
         for component in 0..6 {
             let (kind, axis) = (component / 3, component % 3);

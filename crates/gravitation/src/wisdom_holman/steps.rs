@@ -3,31 +3,22 @@
 use piola_numerics::sums::two_sum;
 use piola_numerics::{Kernel, Lanes, dispatch};
 
-use super::jacobi::{Coordinates, Group, Masses};
+use super::jacobi::{Coordinates, Group, Masses, Numbers, total};
 use super::splitting::{CORRECTOR_MOTION, Stages};
-use crate::attraction::{Block, LANES, accumulate, add, add_except, attraction};
+use crate::attraction::{Block, LANES, accumulate, attraction};
 use crate::kepler::advance;
 
-/// What steps work in.
+/// What steps work in: by groups, places from the central body and accelerations.
 #[derive(Clone, Debug)]
 pub(super) struct Memory {
-    /// Positions of the planets from the central body, by components.
-    places: [Vec<f64>; 3],
-    /// Accelerations of the planets, by components.
-    accelerations: [Vec<f64>; 3],
-    /// Gm of each planet over that of all bodies up to it.
-    shares: Vec<f64>,
-    /// 1/Gm of all bodies before each planet.
-    inverse_before: Vec<f64>,
+    places: Vec<Block>,
+    accelerations: Vec<Block>,
 }
 
 impl Memory {
     pub(super) fn new(masses: &Masses) -> Self {
-        let room = masses.drawing.len() * LANES;
-        let zero = || [vec![0.0; room], vec![0.0; room], vec![0.0; room]];
-        let shares = masses.planets.iter().zip(&masses.before[1..]).map(|(planet, all)| planet / all).collect();
-        let inverse_before = masses.before.iter().map(|before| before.recip()).collect();
-        Self { places: zero(), accelerations: zero(), shares, inverse_before }
+        let zero = vec![[Lanes::splat(0.0); 3]; masses.groups.len()];
+        Self { places: zero.clone(), accelerations: zero }
     }
 }
 
@@ -57,8 +48,8 @@ impl Moving<'_> {
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn motion(&mut self, time: f64) {
-        for (group, drawing) in self.coordinates.groups.iter_mut().zip(&self.masses.drawing) {
-            let increment = advance(*drawing, group.position, group.velocity, Lanes::splat(time));
+        for (group, masses) in self.coordinates.groups.iter_mut().zip(&self.masses.groups) {
+            let increment = advance(masses.drawing, group.position, group.velocity, Lanes::splat(time));
             group.shift(&increment.position);
             group.push(&increment.velocity);
         }
@@ -68,66 +59,57 @@ impl Moving<'_> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn attraction(&mut self, time: f64) {
         let Self { masses, memory, coordinates } = self;
-        let planets = masses.planets.len();
-        for axis in 0..3 {
-            let mut before = 0.0;
-            let places = &mut memory.places[axis];
-            for (group, places) in coordinates.groups.iter().zip(places.chunks_exact_mut(LANES)) {
-                group.position[axis].store(places);
-            }
-            for (place, share) in places.iter_mut().zip(&memory.shares) {
-                let relative = *place;
-                *place = before + relative;
-                before += share * relative;
+        let Memory { places, accelerations } = &mut **memory;
+        let zero = Lanes::splat(0.0);
+        let is_single = masses.groups.len() == 1;
+        // Mass centres, seen from the central body, of the bodies before each planet.
+        let mut before = [0.0; 3];
+        for ((places, group), masses) in places.iter_mut().zip(&coordinates.groups).zip(&masses.groups) {
+            for axis in 0..3 {
+                let relative = group.position[axis];
+                places[axis] = relative + sum_before(before[axis], relative, &masses.share_after, masses.planets);
+                if !is_single {
+                    before[axis] += total(masses.shares * relative);
+                }
             }
         }
-        let [x, y, z] = &memory.places;
-        let mut on_centre = [Lanes::splat(0.0); 3];
-        let unsoftened = Lanes::splat(0.0);
-        for number in 0..coordinates.groups.len() {
-            let (start, end) = (number * LANES, ((number + 1) * LANES).min(planets));
-            let places: Block = [&x, &y, &z].map(|axis| Lanes::load(&axis[start..start + LANES], 0.0));
-            let mut sum = [Lanes::splat(0.0); 3];
-            for j in 0..start {
-                add(&mut sum, &places, [x[j], y[j], z[j]], masses.planets[j], unsoftened);
-            }
-            for j in start..end {
-                add_except(&mut sum, &places, [x[j], y[j], z[j]], masses.planets[j], unsoftened, j - start);
-            }
-            for j in end..planets {
-                add(&mut sum, &places, [x[j], y[j], z[j]], masses.planets[j], unsoftened);
+        let mut on_centre = [zero; 3];
+        for (number, (acceleration, own)) in accelerations.iter_mut().zip(&masses.groups).enumerate() {
+            let target = places[number];
+            let mut sum = [zero; 3];
+            for (other, (source, others)) in places.iter().zip(&masses.groups).enumerate() {
+                for j in 0..others.planets {
+                    let mut distance: Block =
+                        core::array::from_fn(|axis| Lanes::splat(source[axis].0[j]) - target[axis]);
+                    if other == number {
+                        // A planet does not attract itself: its distance is made one, and its mass zero.
+                        distance[0] += own.own[j];
+                        accumulate(&mut sum, attraction(distance, own.parameter_of_others[j], zero));
+                    } else {
+                        accumulate(&mut sum, attraction(distance, Lanes::splat(others.parameters.0[j]), zero));
+                    }
+                }
             }
             // The central body is at the origin.
-            let by_unit = attraction(places, Lanes::splat(1.0), unsoftened);
-            let centre = masses.centre_but_first[number];
+            let by_unit = attraction(target, Lanes::splat(1.0), zero);
+            let centre = own.centre_but_first;
             accumulate(&mut sum, [-centre * by_unit[0], -centre * by_unit[1], -centre * by_unit[2]]);
-            let mut parameters = Lanes::load(&masses.planets[start..end], 0.0);
-            if number == 0 {
-                parameters.0[0] = 0.0;
-            }
+            let parameters = own.parameters_but_first;
             accumulate(&mut on_centre, [parameters * by_unit[0], parameters * by_unit[1], parameters * by_unit[2]]);
-            for (sum, accelerations) in sum.iter().zip(&mut memory.accelerations) {
-                sum.store(&mut accelerations[start..start + LANES]);
-            }
+            *acceleration = sum;
         }
-        for (on_centre, accelerations) in on_centre.iter().zip(&mut memory.accelerations) {
-            // Where there is no planet nothing moves.
-            accelerations[planets..].fill(0.0);
-            // Gm times the acceleration of all bodies before.
-            let mut before = masses.centre * on_centre.0.iter().sum::<f64>();
-            let bodies = accelerations.iter_mut().zip(&masses.planets).zip(&memory.inverse_before);
-            for ((acceleration, parameter), inverse_before) in bodies {
-                let own = *acceleration;
-                *acceleration = own - before * inverse_before;
-                before += parameter * own;
-            }
-        }
+        // Gm times the acceleration of the bodies before each planet.
+        let mut before = on_centre.map(|lanes| masses.centre * total(lanes));
         let time = Lanes::splat(time);
-        for (number, group) in coordinates.groups.iter_mut().enumerate() {
-            let start = number * LANES;
-            let mut change = attraction(group.position, masses.drawing_but_first[number], unsoftened);
-            for (change, accelerations) in change.iter_mut().zip(&memory.accelerations) {
-                *change = time * (*change + Lanes::load(&accelerations[start..start + LANES], 0.0));
+        for ((group, acceleration), masses) in coordinates.groups.iter_mut().zip(accelerations).zip(&masses.groups) {
+            let mut change = attraction(group.position, masses.drawing_but_first, zero);
+            for axis in 0..3 {
+                let own = acceleration[axis];
+                let all = sum_before(before[axis], own, &masses.parameter_after, masses.planets);
+                if !is_single {
+                    before[axis] += total(masses.parameters * own);
+                }
+                change[axis] = time * (change[axis] + (own - masses.inverse_before * all));
             }
             group.push(&change);
         }
@@ -142,6 +124,16 @@ impl Moving<'_> {
         self.attraction(attraction);
         self.motion(motion);
     }
+}
+
+/// In each lane the sum of all lanes before it, times their weights, and of what was before all.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn sum_before(before: f64, values: Numbers, weights_after: &[Numbers; LANES], count: usize) -> Numbers {
+    let mut sum = Lanes::splat(before);
+    for lane in 0..count {
+        sum += Lanes::splat(values.0[lane]) * weights_after[lane];
+    }
+    sum
 }
 
 struct Run<'a> {
