@@ -1,4 +1,5 @@
 //! Tests of documents: values with units, declared keys, settings, and every mistake at its place.
 
+mod places;
 mod records;
 mod units;

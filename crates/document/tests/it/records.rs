@@ -23,7 +23,7 @@ table! {
 
 table! {
     /// A shelf.
-    static SHELF = "shelf" {
+    pub(crate) static SHELF = "shelf" {
         /// Its place.
         position: Kind::Numbers(Dimension::LENGTH, &[3]), Absent::Required;
         /// How many there are.

@@ -58,6 +58,8 @@ fn texts_that_are_no_quantities_are_told_apart() {
     assert!(matches!(refused("- m"), UnitError::NoNumber { .. }));
     assert!(matches!(refused("nan m"), UnitError::NotFinite { .. }));
     assert!(matches!(refused("1e400 m"), UnitError::NotFinite { .. }));
+    assert_eq!(refused("inf m"), UnitError::NotFinite { number: f64::INFINITY });
+    assert_eq!(refused("-inf m"), UnitError::NotFinite { number: f64::NEG_INFINITY });
     assert!(matches!(refused("1 parsec"), UnitError::UnknownUnit { .. }));
     assert!(matches!(refused("1 J/kg K"), UnitError::AmbiguousDivision { .. } | UnitError::UnknownUnit { .. }));
     assert!(matches!(refused("1 J/kg m"), UnitError::AmbiguousDivision { .. }));
@@ -73,12 +75,52 @@ fn texts_that_are_no_quantities_are_told_apart() {
 }
 
 #[test]
+fn an_exponent_has_digits_or_its_letter_begins_a_unit() {
+    // What follows the number is read as a unit: none is named `e` or `E`.
+    for (text, unit) in [("3 e5", "e"), ("3e m", "e"), ("3e-m", "e"), ("3E+ m", "E"), ("3.5e- 2", "e")] {
+        assert!(matches!(refused(text), UnitError::UnknownUnit { name, .. } if name == unit), "{text}");
+    }
+    for (text, value) in [("3e2 m", 300.0), ("3E+2 m", 300.0), ("25e-1 m", 2.5), ("2.5 m", 2.5), (".5e1m", 5.0)] {
+        assert_eq!(si(text), (value, Some(Dimension::LENGTH)), "{text}");
+    }
+}
+
+#[test]
+fn brackets_of_a_unit_are_counted_up_and_down() {
+    let nested = |depth: usize| format!("1 {}m{}", "(".repeat(depth), ")".repeat(depth));
+    assert_eq!(si(&nested(8)), (1.0, Some(Dimension::LENGTH)));
+    assert!(matches!(refused(&nested(9)), UnitError::UnexpectedText { .. }));
+    // Many beside each other are no deeper than one.
+    let beside = format!("1 {}", ["(m)"; 20].join(" "));
+    assert_eq!(si(&beside), (1.0, Some(Dimension::LENGTH.power(20))));
+}
+
+#[test]
 fn every_unit_is_read_back_and_every_dimension_is_written_as_a_unit() {
     for named in UNITS {
         let unit: Unit = named.name.parse().unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(unit, named.unit);
         let written: Unit = named.unit.dimension.si_unit().parse().unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(written.dimension, named.unit.dimension);
+    }
+}
+
+#[test]
+fn dimensions_are_written_with_their_powers_above_and_below_the_line() {
+    let dimension = |length, mass, time, angle| Dimension { length, mass, time, angle };
+    let cases = [
+        (dimension(0, 0, 0, 0), "", "a pure number"),
+        (dimension(2, 0, 0, 0), "m^2", "length^2"),
+        (dimension(2, 1, 0, 0), "kg m^2", "mass length^2"),
+        (dimension(3, 0, -2, 0), "m^3/s^2", "length^3/time^2"),
+        (dimension(0, 0, -1, 0), "1/s", "1/time"),
+        (dimension(-3, 0, -2, 0), "1/(m^3 s^2)", "1/(length^3 time^2)"),
+        (dimension(-3, 1, 0, 0), "kg/m^3", "mass/length^3"),
+        (dimension(2, 1, -2, -1), "kg m^2/(rad s^2)", "mass length^2/(angle time^2)"),
+        (dimension(-1, 1, -2, 0), "Pa", "mass/(length time^2)"),
+    ];
+    for (dimension, unit, words) in cases {
+        assert_eq!((dimension.si_unit().as_str(), dimension.to_string().as_str()), (unit, words));
     }
 }
 
