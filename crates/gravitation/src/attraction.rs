@@ -41,7 +41,7 @@ pub fn attraction<T: Real>(distance: [T; 3], parameter: T, softening_squared: T)
 
 /// (|d|² + ε²)^(−3/2).
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn inverse_cube<T: Real>([x, y, z]: [T; 3], softening_squared: T) -> T {
+pub(crate) fn inverse_cube<T: Real>([x, y, z]: [T; 3], softening_squared: T) -> T {
     let r2 = x * x + y * y + z * z + softening_squared;
     (r2 * r2.sqrt()).recip()
 }

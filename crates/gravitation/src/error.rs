@@ -70,6 +70,12 @@ pub enum GravitationError {
         /// What is on.
         force: &'static str,
     },
+    /// Fewer than two bodies with mass, or a softened or relativistic attraction, where collisions are to be regularised.
+    #[error("regularisation is of two or more bodies, all with mass, and of Newton's law alone: {found}")]
+    NotRegularisable {
+        /// What was found.
+        found: &'static str,
+    },
     /// 0 < c < ∞ violated.
     #[error("the speed of light is {value} m/s; it must satisfy 0 < c < ∞")]
     InvalidSpeedOfLight {

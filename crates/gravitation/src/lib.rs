@@ -36,6 +36,7 @@ mod glam;
 mod invariants;
 pub mod kepler;
 mod post_newtonian;
+pub mod regularised;
 pub mod wisdom_holman;
 
 use piola_numerics::{Mask, Real};

@@ -53,6 +53,7 @@ pub struct Increment<T = f64> {
 ///
 /// # Source
 /// K. Stumpff (1947), Astron. Nachr. 275, 108; J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 2nd ed. 1988, §6.9.
+#[doc(alias("universal variables", "Stumpff"))]
 #[cfg_attr(not(debug_assertions), inline(always))]
 #[must_use]
 pub fn advance<T: Real>(parameter: T, position: [T; 3], velocity: [T; 3], time: T) -> Increment<T> {

@@ -60,8 +60,8 @@ use steps::{Memory, Moving, Task};
 ///
 /// # Example
 /// See the [module](self).
+#[doc(alias("WHFast", "mixed-variable symplectic"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WisdomHolman {
     step: f64,
     splitting: Splitting,

@@ -28,6 +28,7 @@ pub enum Splitting {
     /// where the state is shown.
     Corrected(Corrector),
     /// Eight attractions a step, of generalised order (10, 6, 4).
+    #[doc(alias("SABA", "ABA1064"))]
     TenSixFour,
 }
 

@@ -5,6 +5,7 @@ mod conics;
 mod golden;
 mod kepler;
 mod laws;
+mod regularised;
 mod solar_system;
 mod traps;
 mod wisdom_holman;

@@ -1,0 +1,142 @@
+//! The leapfrog of the logarithmic Hamiltonian, along a chain.
+
+use piola_numerics::Real;
+
+use super::chain::{Chain, total};
+use crate::attraction::inverse_cube;
+
+/// What the leapfrog needs to know of the bodies.
+pub(super) struct Bodies<'a, T> {
+    /// Gm, by bodies.
+    pub(super) parameters: &'a [T],
+    /// Σ Gm.
+    pub(super) all: T,
+    /// G times the energy that the bodies lack to fly apart: U − T, a constant.
+    pub(super) binding: T,
+}
+
+/// Increments of a step: of each link of the chain, places first, and of the time.
+#[derive(Clone, Debug)]
+pub(super) struct Increments<T> {
+    pub(super) links: Vec<[T; 3]>,
+    pub(super) time: T,
+}
+
+/// What a leapfrog works in.
+#[derive(Clone, Debug)]
+pub(super) struct Memory<T> {
+    /// Places or velocities from the first body of the chain, in the order of the chain.
+    along: Vec<[T; 3]>,
+    accelerations: Vec<[T; 3]>,
+}
+
+impl<T: Real> Memory<T> {
+    pub(super) fn new(bodies: usize) -> Self {
+        let zero = vec![[T::zero(); 3]; bodies];
+        Self { along: zero.clone(), accelerations: zero }
+    }
+}
+
+impl<T: Real> Bodies<'_, T> {
+    /// What `count` equal substeps of the total length `step` add to the chain.
+    ///
+    /// The increments are summed by themselves, so that they round as what they are and not as the places.
+    pub(super) fn leap(&self, chain: &Chain<T>, step: T, count: u32, memory: &mut Memory<T>, out: &mut Increments<T>) {
+        out.links.fill([T::zero(); 3]);
+        out.time = T::zero();
+        let substep = step / T::lit(f64::from(count));
+        self.drift(chain, T::lit(0.5) * substep, memory, out);
+        for number in 1..=count {
+            self.kick(chain, substep, memory, out);
+            let length = if number == count { T::lit(0.5) * substep } else { substep };
+            self.drift(chain, length, memory, out);
+        }
+    }
+
+    /// Moves along the velocities for the time step/(T + B).
+    fn drift(&self, chain: &Chain<T>, step: T, memory: &mut Memory<T>, out: &mut Increments<T>) {
+        let links = chain.order.len() - 1;
+        let kinetic = self.kinetic(chain, Some(&*out), memory);
+        let time = step / (kinetic + self.binding);
+        out.time += time;
+        let (places, velocities) = out.links.split_at_mut(links);
+        for ((place, velocity), start) in places.iter_mut().zip(velocities).zip(&chain.vectors[links..]) {
+            for axis in 0..3 {
+                place[axis] += time * (start[axis] + velocity[axis]);
+            }
+        }
+    }
+
+    /// Changes velocities by the attractions for the time step/U.
+    fn kick(&self, chain: &Chain<T>, step: T, memory: &mut Memory<T>, out: &mut Increments<T>) {
+        let links = chain.order.len() - 1;
+        let potential = self.attract(chain, Some(&*out), memory);
+        let time = step / potential;
+        for (link, velocity) in out.links[links..].iter_mut().enumerate() {
+            let (first, second) = (memory.accelerations[link], memory.accelerations[link + 1]);
+            for axis in 0..3 {
+                velocity[axis] += time * (second[axis] - first[axis]);
+            }
+        }
+    }
+
+    /// G times the kinetic energy about the mass centre.
+    pub(super) fn kinetic(&self, chain: &Chain<T>, plus: Option<&Increments<T>>, memory: &mut Memory<T>) -> T {
+        let links = chain.order.len() - 1;
+        let mut velocity = [T::zero(); 3];
+        let mut moment = [T::zero(); 3];
+        memory.along[0] = velocity;
+        for (link, start) in chain.vectors[links..].iter().enumerate() {
+            let change = plus.map_or([T::zero(); 3], |plus| plus.links[links + link]);
+            velocity = total(velocity, total(*start, change));
+            memory.along[link + 1] = velocity;
+            let parameter = self.parameters[chain.order[link + 1]];
+            for axis in 0..3 {
+                moment[axis] += parameter * velocity[axis];
+            }
+        }
+        let centre = moment.map(|moment| moment / self.all);
+        let mut sum = T::zero();
+        for (&body, velocity) in chain.order.iter().zip(&memory.along) {
+            let own: [T; 3] = core::array::from_fn(|axis| velocity[axis] - centre[axis]);
+            sum += self.parameters[body] * (own[0] * own[0] + own[1] * own[1] + own[2] * own[2]);
+        }
+        T::lit(0.5) * sum
+    }
+
+    /// Writes accelerations in the order of the chain; returns U, G times what the attractions have done since all were far.
+    pub(super) fn attract(&self, chain: &Chain<T>, plus: Option<&Increments<T>>, memory: &mut Memory<T>) -> T {
+        let bodies = chain.order.len();
+        let link = |link: usize| {
+            let change = plus.map_or([T::zero(); 3], |plus| plus.links[link]);
+            total(chain.vectors[link], change)
+        };
+        memory.along[0] = [T::zero(); 3];
+        for number in 0..bodies - 1 {
+            memory.along[number + 1] = total(memory.along[number], link(number));
+        }
+        memory.accelerations.fill([T::zero(); 3]);
+        let mut potential = T::zero();
+        for first in 0..bodies {
+            let own = self.parameters[chain.order[first]];
+            for second in first + 1..bodies {
+                // Of neighbours the links themselves: the difference of places has lost what makes them differ.
+                let distance = match second - first {
+                    1 => link(first),
+                    2 => total(link(first), link(first + 1)),
+                    _ => core::array::from_fn(|axis| memory.along[second][axis] - memory.along[first][axis]),
+                };
+                let other = self.parameters[chain.order[second]];
+                let inverse_cube = inverse_cube(distance, T::zero());
+                for axis in 0..3 {
+                    let by_unit = inverse_cube * distance[axis];
+                    memory.accelerations[first][axis] += other * by_unit;
+                    memory.accelerations[second][axis] -= own * by_unit;
+                }
+                let [x, y, z] = distance;
+                potential += own * other * inverse_cube * (x * x + y * y + z * z);
+            }
+        }
+        potential
+    }
+}
