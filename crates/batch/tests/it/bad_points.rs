@@ -82,6 +82,16 @@ fn stresses_that_are_not_finite_are_named_at_good_deformations() {
 }
 
 #[test]
+fn stresses_whose_double_would_overflow_are_finite() {
+    // At F = 1 all stresses are the same.
+    let f = [Matrix3::identity(); 9];
+    let stress = [CauchyStress(Symmetric { components: [1.5e308, -1.5e308, 1e308, 1.7e308, -1e308, 0.0] }); 9];
+    let mut p = [FirstPiola::zero(); 9];
+    batch::evaluate(Gradients(&f[..]), batch::cauchy_to_first_piola(&stress[..], &mut p[..])).expect("finite");
+    assert_eq!(p.map(|p| p.0), stress.map(|t| t.0.matrix()));
+}
+
+#[test]
 fn tensors_that_are_not_symmetric_are_named_and_the_others_computed() {
     let (f, t) = (deformations(1003), stresses(1003));
     let mut all: Vec<Matrix3<f64>> = t.iter().map(|t| t.0.matrix()).collect();

@@ -5,6 +5,7 @@ mod bad_points;
 #[path = "../cases/mod.rs"]
 mod cases;
 mod every_request;
+mod lanes;
 mod requests;
 mod single_precision;
 mod views;

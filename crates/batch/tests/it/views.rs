@@ -105,6 +105,32 @@ fn lengths_that_differ_are_refused_before_anything_is_computed() {
     assert_eq!(batch::evaluate(&none[..], batch::jacobian(&mut [0.0; 0][..])).map(|report| report.points), Ok(0));
 }
 
+#[test]
+fn the_last_point_at_a_stride_may_end_with_its_last_component() {
+    // F₁₁ = 2, 3 and 4; between the points two numbers that are something else.
+    let mut numbers = Vec::new();
+    for stretch in [2.0, 3.0, 4.0] {
+        numbers.extend_from_slice(&[stretch, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, f64::NAN, f64::NAN]);
+    }
+    let places = [0, 1, 2, 3, 4, 5, 6, 7, 8];
+    for length in 31..=33 {
+        let f = Strided::new(&numbers[..length], 11, places).expect("whole points");
+        let mut j = [0.0; 3];
+        batch::evaluate(Gradients(f), batch::jacobian(&mut j[..])).expect("deformations");
+        assert_eq!(j, [2.0, 3.0, 4.0], "{length} numbers");
+    }
+}
+
+#[test]
+fn numbers_that_end_within_a_point_are_refused_with_the_number_that_would_do() {
+    let places = [0, 1, 2, 3, 4, 5, 6, 7, 8];
+    let refusal = Strided::<_, 9>::new(&[0.0; 25][..], 11, places).err();
+    assert_eq!(refusal, Some(BatchError::WrongLength { quantity: "numbers at a stride", found: 25, expected: 31 }));
+    let wrong = BatchError::WrongLength { quantity: "numbers of points", found: 20, expected: 27 };
+    assert_eq!(batch::points_of::<9, _>(&[0.0; 20]).err(), Some(wrong.clone()));
+    assert_eq!(batch::points_of_mut::<9, _>(&mut [0.0; 20]).err(), Some(wrong));
+}
+
 /// C of so many points, in blocks of B in and out; what lies beyond the last point is NaN before and after.
 fn in_blocks<const B: usize>(f: &[DeformationGradient]) {
     let count = f.len();
