@@ -43,6 +43,13 @@ proptest! {
     }
 
     #[test]
+    fn partial_derivatives_of_products_and_quotients_equal_those_by_hand(x in finite(-3.0..3.0), y in finite(0.5..3.0)) {
+        let (a, b) = (Jet::<f64, 2>::coordinate(x, 0.0, 0), Jet::<f64, 2>::coordinate(y, 0.0, 1));
+        assert_close("∇(x y)", &(a * b).partials, &[y, x], Tol::ulps(1.0));
+        assert_close("∇(x/y)", &(a / b).partials, &[1.0 / y, -x / (y * y)], Tol::ulps(4.0));
+    }
+
+    #[test]
     fn derivative_of_composition_equals_chain_rule(x in finite(-3.0..3.0)) {
         let inner = g(Curve::time(x));
         let outer = f(Curve::time(inner.value));

@@ -1,6 +1,6 @@
 //! Linear systems: the factors make the matrix again, solutions solve, and refusals say why.
 
-use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector3, dmatrix, dvector};
+use nalgebra::{DMatrix, DVector, Matrix3, SMatrix, Vector2, Vector3, dmatrix, dvector};
 use piola_numerics::linear::{ldlt, lu, matrix3};
 use piola_numerics::{Dual, Gradient, Lanes, NumericsError, Real};
 use piola_testkit::strategies::{positive_definite, vector};
@@ -216,9 +216,29 @@ fn one_bad_lane_is_refused_with_its_numbers() {
     let mut a = [Lanes::<f64, 4>::from([1.0, 2.0, -3.0, 4.0])];
     let error = ldlt::factor_in_place(&mut a, 1).unwrap_err();
     assert_eq!(error, NumericsError::NotPositiveDefinite { pivot: 0, value: -3.0, diagonal: -3.0 });
-    let mut a = [Lanes::<f64, 4>::from([1.0, 0.0, -3.0, 4.0])];
+    // The lane beside it is small and regular.
+    let mut a = [Lanes::<f64, 4>::from([1e-20, 0.0, -3.0, 4.0])];
     let error = lu::factor_in_place(&mut a, &mut [0]).unwrap_err();
     assert_eq!(error, NumericsError::Singular { pivot: 0, value: 0.0, scale: 0.0 });
+}
+
+#[test]
+fn pivot_rows_of_lanes_do_not_depend_on_the_units_of_a_lane() {
+    // The second row is good for both lanes; with the first one the second lane would lose ten digits.
+    let lanes = |unit: f64, a: f64, b: f64| Lanes::<f64, 2>::from([a * unit, b]);
+    let x = Vector2::new(lanes(1.0, 1.0, 3.0), lanes(1.0, -2.0, 0.1));
+    // A power of two changes no digit.
+    for unit in [1.0, 2.0_f64.powi(-40), 2.0_f64.powi(40)] {
+        let a = nalgebra::matrix![
+            lanes(unit, 1.0, 1e-10), lanes(unit, 2.0, 1.0);
+            lanes(unit, 0.5, 1.0), lanes(unit, -1.0, 1.0)
+        ];
+        let solution = lu::solve(a, a * x).unwrap();
+        for lane in 0..2 {
+            let [found, expected] = [&solution, &x].map(|x| x.map(|x| x.primal(lane)));
+            assert_close(&format!("x at {unit:e}"), found.as_slice(), expected.as_slice(), Tol::ulps(8.0));
+        }
+    }
 }
 
 #[test]

@@ -195,6 +195,35 @@ fn reciprocal_cube_roots_in_lanes_equal_those_of_thirty_digits_within_two_ulp() 
     }
 }
 
+#[test]
+fn tangents_and_hyperbolic_functions_in_lanes_are_as_close_to_thirty_digits_as_the_table_says() {
+    // The table has one digit after the point.
+    const ROUNDED: f64 = 0.05;
+    let mut sequence = Sequence(6);
+    for (name, ulps) in [("tan", 1.3), ("sinh", 1.5), ("cosh", 0.7), ("tanh", 1.3)] {
+        for k in 0..3000 {
+            // Where e^−x is what the last digit of e^x leaves of it, or of 1.
+            let x =
+                if name == "tan" || k % 2 == 0 { sequence.between(-20.0, 20.0) } else { sequence.between(18.0, 19.5) };
+            let exact = apply(name, DoubleDouble::lit(x), DoubleDouble::lit(0.0));
+            let [lane, ..] = apply(name, Lanes([x; 4]), Lanes([0.0; 4])).0;
+            let error =
+                (DoubleDouble::lit(lane) - exact).primal(0).abs() / unit(exact.primal(0), 53, f64::from_bits(1));
+            assert!(error <= ulps + ROUNDED, "{name} {x} = {lane:e}: {error} ulp");
+        }
+    }
+}
+
+#[test]
+fn hyperbolic_tangents_are_below_one_where_they_are_by_more_than_a_unit() {
+    // 1 − tanh x = 2/(e^2x + 1) is more than 2⁻⁵³ for x < 27 ln 2 = 18.71….
+    for k in 0..=600 {
+        let x = 18.1 + f64::from(k) / 1000.0;
+        let [lane, ..] = Lanes([x; 4]).tanh().0;
+        assert!(lane < 1.0, "tanh {x} = {lane}");
+    }
+}
+
 /// Zeros, subnormals, edges of domains and of reductions, infinities and NaN, of both signs.
 fn special_values() -> Vec<f64> {
     let sizes = [
