@@ -2,12 +2,15 @@
 
 use piola_numerics::linear::matrix3::{from_rows, rows_of};
 use piola_tensor::Symmetric;
-use piola_tensor::internal::rows::{identity, product, product_transposed, transpose};
+use piola_tensor::internal::rows::{
+    cofactor, difference, double_contraction, identity, product, product_transposed, scaled, sum, trace, transpose,
+    transposed_product,
+};
 use piola_tensor::voigt::{
     Abaqus, BroNielsen, Classical, ComplianceMatrix, MandelMatrix, MandelVector, Piola, StiffnessMatrix, StrainVector,
     StressVector,
 };
-use piola_tensor::{FourthOrder, MajorSymmetric, MinorSymmetric, PairSymmetric, Skew};
+use piola_tensor::{FourthOrder, MajorSymmetric, MinorSymmetric, PairSymmetric, Skew, principal_invariants};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
@@ -40,6 +43,31 @@ proptest! {
         let commutator = Skew::commutator(&a, &b).matrix();
         assert_close_at_scale("AB − BA", commutator.as_slice(), (m * n - n * m).as_slice(), 1.0, Tol::ulps(32.0));
         prop_assert!((a.norm() - m.norm()).abs() <= Tol::ulps(8.0).value() * m.norm());
+    }
+
+    #[test]
+    fn operations_on_rows_equal_those_on_matrices(a in rows(), b in rows(), s in -2.0..2.0_f64) {
+        let (m, n) = (from_rows(a), from_rows(b));
+        let close = |what: &str, found: [[f64; 3]; 3], expected: nalgebra::Matrix3<f64>| {
+            assert_close_at_scale(what, from_rows(found).as_slice(), expected.as_slice(), 1.0, Tol::ulps(8.0));
+        };
+        close("s A", scaled(a, s), m * s);
+        close("A + B", sum(a, b), m + n);
+        close("A − B", difference(a, b), m - n);
+        close("A B", product(a, b), m * n);
+        close("Aᵀ B", transposed_product(a, b), m.transpose() * n);
+        close("A (Cof A)ᵀ", product_transposed(a, cofactor(a)), nalgebra::Matrix3::identity() * m.determinant());
+        let scalars = [trace(a), double_contraction(a, b)];
+        assert_close_at_scale("tr A, A : B", &scalars, &[m.trace(), m.dot(&n)], 9.0, Tol::ulps(4.0));
+    }
+
+    #[test]
+    fn tensors_satisfy_the_equation_of_cayley_and_hamilton_with_their_principal_invariants(a in symmetric()) {
+        let m = a.matrix();
+        let [first, second, third] = principal_invariants(&a);
+        let powers = m * m * m - m * m * first + m * second;
+        let expected = nalgebra::Matrix3::identity() * third;
+        assert_close_at_scale("A³ − I A² + II A = III 1", powers.as_slice(), expected.as_slice(), 1.0, Tol::ulps(64.0));
     }
 
     #[test]

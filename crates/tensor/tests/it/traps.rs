@@ -3,6 +3,7 @@
 use nalgebra::Matrix3;
 use piola_tensor::Symmetric;
 use piola_tensor::TensorError;
+use piola_tensor::internal::positive_definite;
 use piola_tensor::voigt::{BroNielsen, Piola, StrainVector};
 use piola_tensor::{FourthOrder, MajorSymmetric, MinorSymmetric, PairSymmetric, Skew};
 use piola_testkit::{Tol, assert_close};
@@ -67,6 +68,15 @@ fn what_is_not_as_promised_is_refused_by_name() {
     assert!(matches!(refused, Err(TensorError::NotMajorSymmetric { entry: [2, 2, 1, 2], .. })), "{refused:?}");
     minor.components[0][0] = f64::INFINITY;
     assert!(matches!(MajorSymmetric::try_from(minor.components), Err(TensorError::NotFinite { index: 0, .. })));
+}
+
+#[test]
+fn tensors_with_two_negative_eigenvalues_are_not_positive_definite() {
+    // Eigenvalues 3, −1 and −1: the first minor, 1, and the determinant, 3, are positive, the second minor is −3.
+    let a = Symmetric::new(1.0, 1.0, -1.0, 2.0, 0.0, 0.0);
+    let expected = TensorError::NotPositiveDefinite { quantity: "C", order: 2, minor: -0.75, scale: 2.0 };
+    assert_eq!(positive_definite("C", &a), Err(expected));
+    assert_eq!(positive_definite("C", &a.square()), Ok(()));
 }
 
 #[test]

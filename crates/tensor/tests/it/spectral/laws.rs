@@ -2,10 +2,12 @@
 
 use nalgebra::Matrix3;
 use piola_tensor::Symmetric;
+use piola_tensor::internal::rows::apply;
+use piola_tensor::internal::spectral::{gram, unturned_frame};
 use piola_tensor::spectral::{Exponential, Logarithm, Power, SquareRoot, decompose, tensor_function};
 use piola_testkit::spectral::{Rows, with_stretches};
 use piola_testkit::strategies::{finite, rotation, rotation_matrix, vector};
-use piola_testkit::{Tol, assert_close};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
 
 use super::cases::{flat, matrix, orthogonality, symmetric};
@@ -31,6 +33,16 @@ proptest! {
         prop_assert!(decomposition.values[2] <= decomposition.values[1]);
         prop_assert!(decomposition.values[1] <= decomposition.values[0]);
         prop_assert!(0.0 < matrix(decomposition.vectors).determinant());
+    }
+
+    #[test]
+    fn images_of_a_principal_frame_are_those_of_its_axes(list in vector(6, -1.0..1.0), entries in vector(9, -1.0..1.0)) {
+        let frame = unturned_frame(&of(&list));
+        let f: Rows<f64> = core::array::from_fn(|i| core::array::from_fn(|j| entries[3 * i + j]));
+        let (images, products) = frame.images(f);
+        let expected = frame.axes().map(|axis| apply(f, axis));
+        assert_close_at_scale("F q", images.as_flattened(), expected.as_flattened(), 1.0, Tol::ulps(8.0));
+        assert_close_at_scale("F q · F q", &products, &gram(&expected), 1.0, Tol::ulps(16.0));
     }
 
     #[test]

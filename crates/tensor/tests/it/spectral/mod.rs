@@ -2,5 +2,7 @@
 
 mod cases;
 mod derivatives;
+mod functions;
 mod laws;
 mod traps;
+mod turning;
