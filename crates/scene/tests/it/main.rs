@@ -3,6 +3,8 @@
 mod bad_input;
 #[cfg(feature = "spectral")]
 mod boxes;
+#[cfg(all(feature = "solutions", feature = "spectral"))]
+mod figures;
 mod plan;
 mod reference;
 mod run;
@@ -12,3 +14,5 @@ mod settings;
 mod solids;
 mod studies;
 mod support;
+#[cfg(all(feature = "solutions", feature = "spectral"))]
+mod svg;

@@ -67,6 +67,15 @@ fn planned_steps_equal_steps_taken() {
 }
 
 #[test]
+fn equations_are_two_for_each_coordinate_and_six_for_each_body() {
+    for (text, count) in [(TOP, 6), (PAIR, 12), (ORBIT, 6)] {
+        let plan = plan(text);
+        assert_eq!(plan.equations, count);
+        assert!(plan.to_string().contains(&format!("{count} equations of first order")), "{plan}");
+    }
+}
+
+#[test]
 fn plan_is_told_as_text_and_as_json() {
     let plan = plan(PAIR);
     let text = plan.to_string();

@@ -9,7 +9,7 @@ use piola_scene::studies::bending::BendingCurve;
 use piola_scene::studies::dislocation::BurgersCircuits;
 use piola_scene::studies::laminated_tube::TubeStresses;
 use piola_scene::studies::torsion::RodCurves;
-use piola_scene::studies::{self, Findings, SolidFindings, StudyPlan, StudyRun};
+use piola_scene::studies::{self, Findings, SolidFindings, SolidStudy, StudyPlan, StudyRun, Subject};
 use piola_testkit::{Tol, assert_close};
 
 use crate::support::{assert_mistake, assert_small, replaced, study};
@@ -85,6 +85,22 @@ fn pressure_of_a_thin_balloon_is_that_of_the_membrane() {
     assert_close("limit", &[found.limits[0].parameter, found.limits[0].load], &[limit, membrane(limit)], tolerance);
     // Without a pressure the states are the limit points.
     assert_eq!(found.states, found.limits);
+}
+
+#[test]
+fn pressure_of_a_wall_without_thickness_is_that_of_the_membrane() {
+    let text = replaced(BALLOON, "1.0001 m", "1.25 m");
+    let Subject::Solid(SolidStudy::Balloon(neo)) = study(&format!("{text}{NEO}")).subject else { panic!("a balloon") };
+    let Subject::Solid(SolidStudy::Balloon(mooney)) = study(&format!("{text}{MOONEY}")).subject else {
+        panic!("a balloon")
+    };
+    for stretch in [0.8_f64, 1.0, 1.5, 4.0] {
+        // p = 2 (t/r) (λ⁻¹ − λ⁻⁷) (2 C₁₀ + 2 C₀₁ λ²) with t/r = 1/4.
+        let shape = 0.5 * (stretch.recip() - stretch.powi(-7));
+        let by_hand = [2.0 * shape, (1.5 + 0.5 * stretch * stretch) * shape];
+        let found = [neo.thin_wall_pressure(stretch), mooney.thin_wall_pressure(stretch)];
+        assert_close("pressure", &found, &by_hand, Tol::ulps(32.0));
+    }
 }
 
 #[test]
@@ -236,6 +252,17 @@ fn pressure_of_a_homogeneous_tube_is_its_closed_form() {
 }
 
 #[test]
+fn axial_force_of_a_homogeneous_tube_is_its_closed_form() {
+    let found = tube(&format!("{TUBE}{NEO}{LAYERS}"));
+    let Some(state) = &found.homogeneous else { panic!("no state") };
+    let ([inner, outer], [first, last]) = (state.radii, [1.0_f64, 2.0]);
+    // r² − R² = c and T_zz − T_rr = μ (1 − R²/r²): N/π = p r_i² + μ c ln(r_o R_i/(r_i R_o)).
+    let square = inner * inner - first * first;
+    let by_hand = PI * (0.3 * inner * inner + 2.0 * square * (outer * first / (inner * last)).ln());
+    assert_close("force", &[state.axial_force], &[by_hand], Tol::stated(1e-9, "residual of the search"));
+}
+
+#[test]
 fn residual_stress_has_no_resultants() {
     let found = tube(&format!("{TUBE}{NEO}{LAYERS}"));
     let Some(rest) = &found.at_rest else { panic!("no state") };
@@ -354,6 +381,11 @@ fn loads_and_shapes_that_no_state_has_are_refused_with_the_limit() {
     assert_mistake(&replaced(SCREWS, "0.5, 2.0", "0.5, 0.0"), "[0.5, 0.0]", &["a circuit of radius 0 m"]);
     let text = replaced(&format!("{TUBE}{NEO}{LAYERS}"), "0.3", "5.0");
     assert_mistake(&text, "5.0", &["does not carry 5 Pa up to the stretch 2", "or a larger `stretch`"]);
+    // 2 h (c₁ + 2 c₂ I + 3 c₃ I²)(1 − λ⁻⁴) with I = λ² + λ⁻² − 2 has its maximum 1.39939e-4 at λ = 1.55352.
+    let thin = replaced(TUBE, "inner_pressure = 0.3", "inner_pressure = 2e-4\nstretch = 3.0");
+    let yeoh = "[law]\ntype = \"yeoh\"\nc1 = 1.0\nc2 = -0.1\nc3 = 0.005\n[[layer]]\nthickness = 1e-4\n";
+    let words = ["does not carry 0.0002 Pa: it is beyond the limit point 1.399", "e-4 Pa, at the stretch 1.553"];
+    assert_mistake(&format!("{thin}{yeoh}"), "2e-4", &words);
     let text = replaced(&format!("{TUBE}{NEO}{LAYERS}"), "inner_pressure = 0.3", "inner_pressure = 0.3\nstretch = 0.5");
     assert_mistake(&text, "0.5\n", &["a largest stretch of 0.5", "greater than 1"]);
 }

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use piola_scene::run::Outcome;
+use piola_scene::studies::room::Outline;
 use piola_scene::studies::{self, Findings, StudyPlan, StudyRun};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
@@ -117,6 +118,60 @@ fn signal_from_a_circle_arrives_after_the_distance_from_it() {
         }
     }
     assert!(1000 < seen && arrivals(&run).uncovered <= 1, "{seen}");
+}
+
+#[test]
+fn characteristics_from_a_circle_run_to_the_wall_over_a_grid_of_even_spacing() {
+    let circle = "grid = 61\nsignal = \"circle\"\ncentre = [1.0, 0.5]\nradius = 0.8";
+    let mut told = Vec::new();
+    let run = studies::run(&study(&replaced(ROOM, "grid = 61", circle)), |done| {
+        told.push(done);
+        ControlFlow::Continue(())
+    });
+    assert_eq!(run.outcome, Outcome::Completed);
+    // Four stages outside of the circle, and four inside.
+    assert_eq!(told, [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0]);
+    let found = arrivals(&run);
+    // 10 m and 6 m in spacings of 1/6 m, and a point beyond the wall at each end.
+    assert_eq!((found.across, found.arrival.len()), (63, 63 * 39));
+    let corners = [found.arrival[0].0, found.arrival[63 * 39 - 1].0].concat();
+    let [right, top] = [5.0 + 1.0 / 6.0, 3.0 + 1.0 / 6.0];
+    assert_close("corners", &corners, &[-right, -top, right, top], Tol::ulps(4.0));
+    let distance = |[x, y]: [f64; 2]| (x - 1.0).hypot(y - 0.5);
+    let mut count = 0;
+    for curve in found.characteristics.iter().filter(|curve| 0.8 < distance(curve[1])) {
+        let [x, y] = curve[curve.len() - 1];
+        // They have places every 1.02 (√1.25 + √34)/32 = 0.222 m, and end with the grid.
+        assert!(right - 0.222 < x.abs() || top - 0.222 < y.abs(), "{x} {y}");
+        count += 1;
+    }
+    assert!((90..=120).contains(&count), "{count}");
+}
+
+#[test]
+fn wall_of_a_superellipse_is_its_level_one_in_the_direction_of_its_angle() {
+    for exponent in [2, 4, 6] {
+        let wall = Outline { centre: [1.0, -2.0], semi_axes: [5.0, 3.0], exponent };
+        for step in 0..12 {
+            let angle = 0.5 * f64::from(step);
+            let place = wall.place(angle);
+            assert_close("level", &[wall.level(place)], &[1.0], Tol::ulps(32.0));
+            let direction = ((place[1] + 2.0) / 3.0).atan2((place[0] - 1.0) / 5.0);
+            assert_small("direction", (direction - angle).sin(), Tol::ulps(16.0));
+        }
+    }
+}
+
+#[test]
+fn point_without_a_last_direction_sends_a_full_turn_from_the_first() {
+    let text = "[wavefront]\ntype = 'point'\nfrom = '30 deg'\nlength = 3.0\nfronts = 1\n[[medium]]\ntype = 'uniform'\nindex = 1.5\n";
+    let run = run(text);
+    let front = &fronts(&run).fronts[0].pieces[0];
+    let tolerance = Tol::ulps_because(512.0, "960 steps along straight rays");
+    for place in [front[0], front[front.len() - 1]] {
+        assert_close("place", &place, &[3.0_f64.sqrt(), 1.0], tolerance);
+    }
+    assert!(front.iter().any(|[x, y]| (x + 3.0_f64.sqrt()).hypot(y + 1.0) < 0.1));
 }
 
 #[test]

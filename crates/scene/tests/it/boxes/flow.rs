@@ -89,6 +89,22 @@ fn flow_in_a_box_has_the_velocity_of_its_rectangle() {
 }
 
 #[test]
+fn step_that_would_fold_the_map_is_halved_until_it_does_not() {
+    // The velocity sin(31 πx) changes its sign from cell to cell: of 2.56 steps that cross half a spacing three are made, and
+    // ∂u/∂x = 31 π · 0.04/3 folds.
+    let text = replaced(&replaced(&pushed(), "[1, 0]", "[31, 0]"), "duration = 0.3", "duration = 0.04");
+    let force = format!("{:?}", 2.0 * PI * PI);
+    let run = run(&replaced(&text, &force, &format!("{:?}", 2.0 * PI * PI * 961.0)));
+    let found = flow_of(in_rectangle(&run));
+    let mut before = 0.0;
+    for at in &found.instants {
+        assert!(at.time - before < 0.04 / 6.0 * (1.0 + 1e-9) && 0.0 < at.least_jacobian, "{at:?}");
+        before = at.time;
+    }
+    assert_close("end", &[before], &[0.04], Tol::ulps(1.0));
+}
+
+#[test]
 fn step_that_is_not_stable_is_refused_with_one_that_is() {
     let run = studies::run(&study(&replaced(&pushed(), "duration = 0.3", "duration = 0.3\nstep = 0.1")), |_| {
         ControlFlow::Continue(())

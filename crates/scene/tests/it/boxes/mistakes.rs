@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::STIR;
-use crate::support::{PAIR, assert_mistake, replaced};
+use crate::support::{PAIR, assert_mistake, replaced, study};
 
 const PLATE: &str = r#"
 [box]
@@ -166,6 +166,19 @@ fn loads_and_starts_that_do_not_belong_are_refused() {
     let again = format!("{PLATE}[[probe]]\nname = \"middle\"\nat = [0.1, 0.1]\n");
     let report = crate::support::report(&again).to_string();
     assert!(report.contains("the name `middle` is taken"), "{report}");
+}
+
+#[test]
+fn more_displacements_than_memory_holds_are_refused() {
+    let probes = |count: usize| -> String {
+        let probe = |index| format!("[[probe]]\nname = \"p{index}\"\nat = [0.5, 0.5]\n");
+        (0..count).map(probe).collect()
+    };
+    let fine = replaced(BAR, "duration = 10.0", "duration = 10.0\ninterval = 1e-4");
+    // 100001 instants of each probe.
+    let words = ["6000060 displacements over all instants and probes", "at most 5000000: fewer probes"];
+    assert_mistake(&format!("{fine}{}", probes(60)), "[[probe]]", &words);
+    let _ = study(&format!("{fine}{}", probes(49)));
 }
 
 #[test]

@@ -73,13 +73,23 @@ fn every_planned_file_is_written_whole() {
 #[test]
 fn plan_names_the_cost_and_what_is_skipped() {
     let plan = StudyPlan::of(&study(BLOCK)).to_string();
-    for words in ["box of 1 × 2 × 3 m between sliding walls", "8 × 9 × 10 cells", "720 points", "of memory", "tip"]
-    {
+    for words in [
+        "box of 1 × 2 × 3 m between sliding walls",
+        "8 × 9 × 10 cells",
+        "720 points",
+        "720 modes of 3 components",
+        "of memory",
+        "tip",
+    ] {
         assert!(plan.contains(words), "`{words}` is not in\n{plan}");
     }
     let plan = StudyPlan::of(&study(BAR)).to_string();
-    for words in ["the instants of the output alone fix the cost", "201 instants", "drift of the energy: drag or loads"]
-    {
+    for words in [
+        "the instants of the output alone fix the cost",
+        "12 modes of 2 components",
+        "201 instants",
+        "drift of the energy: drag or loads",
+    ] {
         assert!(plan.contains(words), "`{words}` is not in\n{plan}");
     }
     let plan = StudyPlan::of(&study(&replaced(STIR, "points = [8, 8]", "points = [400, 400]"))).to_string();

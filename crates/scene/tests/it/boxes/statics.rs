@@ -50,6 +50,27 @@ fn load_along_its_wave_moves_by_force_over_the_first_eigenvalue() {
 }
 
 #[test]
+fn highest_modes_that_a_grid_tells_apart_move_by_force_over_the_eigenvalue() {
+    // Wave vectors along (15/2, 7) and across (13/2, 7).
+    let load = "[[load]]\ntype = 'mode'\nindices = [13, 7]\nforce_per_volume = [-7.0, 6.5]\n";
+    let text = replaced(&replaced(PLATE, "[2, 3]", "[15, 7]"), "[1.0, 3.0]", "[7.5, 7.0]");
+    let run = run(&format!("{text}{load}"));
+    let found = field(in_rectangle(&run));
+    let first = -1.0 / kappa(5.0, &[15.0, 7.0], &[2.0, 1.0]);
+    let second = -1.0 / kappa(1.5, &[13.0, 7.0], &[2.0, 1.0]);
+    let mut expected = [Vec::new(), Vec::new()];
+    for point in 0..found.grid.len() {
+        let [x, y] = found.grid.position(found.grid.indices(point)).map(|x| PI * x);
+        let (sine, cosine) = (7.0 * y).sin_cos();
+        expected[0].push((7.5 * first * (7.5 * x).sin() - 7.0 * second * (6.5 * x).sin()) * cosine);
+        expected[1].push((7.0 * first * (7.5 * x).cos() + 6.5 * second * (6.5 * x).cos()) * sine);
+    }
+    for (found, expected) in found.displacement.iter().zip(&expected) {
+        assert_close("u", found, expected, Tol::ulps_because(256.0, "phases of up to 15 π"));
+    }
+}
+
+#[test]
 fn load_across_its_wave_moves_by_force_over_the_second_eigenvalue() {
     let text = replaced(PLATE, "[1.0, 3.0]", "[-3.0, 1.0]");
     let text = format!("{text}[[probe]]\nname = 'p'\nat = [0.3, 0.4]\n");
