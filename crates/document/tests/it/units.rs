@@ -34,6 +34,10 @@ fn values_in_si_equal_hand_conversions() {
         ("4 s⁻¹", 4.0, Dimension { time: -1, ..Dimension::NONE }),
         ("4 1/s", 4.0, Dimension { time: -1, ..Dimension::NONE }),
         ("5 J/(kg m)", 5.0, Dimension::ACCELERATION),
+        ("3 kN km", 3e6, Dimension::MOMENT),
+        ("2 t km^2", 2e9, Dimension::INERTIA),
+        ("4 g cm²", 4e-7, Dimension::INERTIA),
+        ("1 kN/km^2", 1e-3, Dimension::PRESSURE),
     ];
     for (text, value, dimension) in cases {
         let (found, unit) = si(text);
