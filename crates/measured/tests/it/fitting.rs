@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::{self, Measurements, Request, Stability};
+use piola_testkit::{Tol, assert_close};
+
+use crate::newtonian::{numbers, written};
 
 fn sentence(text: &str) -> String {
     Measurements::parse("rubber.csv", text).map_or_else(|error| error.to_string(), |_| String::new())
@@ -151,6 +154,43 @@ fn unreadable_files_are_refused_by_name() {
     std::fs::write(&path, b"mode,stretch,stress\nplanar,\xff,1\n").unwrap_or_else(|error| panic!("{error}"));
     assert!(matches!(error(&path), MeasuredError::NotText { line: 2, column: 8, byte: 0xff, .. }));
     let _ = std::fs::remove_file(&path);
+}
+
+#[test]
+fn a_table_that_is_too_large_is_refused_with_its_size() {
+    let path = std::env::temp_dir().join(format!("piola-large-{}.csv", std::process::id()));
+    let most = 64 << 20;
+    // A byte more than the 64 MiB that a table has at most, none of them written.
+    let file = std::fs::File::create(&path).unwrap_or_else(|error| panic!("{error}"));
+    file.set_len(most + 1).unwrap_or_else(|error| panic!("{error}"));
+    let refused = Measurements::load(&path).map(|_| ());
+    let _ = std::fs::remove_file(&path);
+    assert_eq!(refused, Err(MeasuredError::TooLarge { path, bytes: most + 1, most }));
+}
+
+#[test]
+fn curve_of_a_fitted_law_runs_evenly_over_the_stretches_of_its_test() -> Result<(), MeasuredError> {
+    // S = μ (λ − λ⁻²), compressed to one half and stretched to the double; planar S = μ (λ − λ⁻³), stretched only.
+    let modulus = 0.8;
+    let stress = |mode: &str, x: f64| modulus * (x - x.powi(if mode == "planar" { -3 } else { -2 }));
+    let rows = [("uniaxial", [0.5, 1.25, 2.0]), ("planar", [1.5, 2.0, 3.0])];
+    let lines =
+        rows.iter().flat_map(|(mode, stretches)| stretches.map(|x| format!("{mode},{x},{:?}\n", stress(mode, x))));
+    let text = format!("mode,stretch,stress\n{}", lines.collect::<String>());
+    let measurements = Measurements::parse("rubber.csv", &text)?;
+    let comparison = fitting::compare(&measurements, &Request::of(vec!["neo-hookean".parse()?]))?;
+    let [csv] = written("stretches", ["curves.csv"], |folder| comparison.write(folder, &measurements));
+    for (mode, low, high) in [("uniaxial", 0.5, 2.0), ("planar", 1.0, 3.0)] {
+        let of_mode: Vec<&str> = csv.lines().filter(|line| line.split(',').nth(1) == Some(mode)).collect();
+        let curve: Vec<[f64; 2]> = numbers(&format!("\n{}", of_mode.join("\n")));
+        let stretches: Vec<f64> = (0..=120).map(|k| low + (high - low) * f64::from(k) / 120.0).collect();
+        let stresses: Vec<f64> = stretches.iter().map(|x| stress(mode, *x)).collect();
+        let column = |k: usize| curve.iter().map(|row| row[k]).collect::<Vec<f64>>();
+        assert_close(mode, &column(0), &stretches, Tol::ulps(2.0));
+        let tolerance = Tol::stated(1e-10, "the search ends where the sum of squares is that of rounding");
+        assert_close(mode, &column(1), &stresses, tolerance);
+    }
+    Ok(())
 }
 
 #[test]

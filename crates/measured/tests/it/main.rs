@@ -1,4 +1,6 @@
 //! Tests of measurements: every bad table has a clear answer, every good one the right result.
 
+mod figures;
 mod fitting;
+mod newtonian;
 mod rheology;
