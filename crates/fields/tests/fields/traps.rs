@@ -92,6 +92,28 @@ fn skew_coordinates_have_no_physical_components() {
     assert!(Slanted.local_basis(&Vector3::<f64>::zeros()).is_ok());
 }
 
+#[test]
+fn coordinates_are_regular_in_any_unit_and_singular_where_two_lines_run_together() {
+    /// The third line is inclined to the first by `angle`, and measured in a unit of its own.
+    struct Inclined {
+        angle: f64,
+        unit: f64,
+    }
+    impl Coordinates for Inclined {
+        fn place<T: Real>(&self, q: &Vector3<T>) -> Vector3<T> {
+            let along = q[2] * T::lit(self.unit);
+            Vector3::new(q[0] + along * T::lit(self.angle.cos()), q[1], along * T::lit(self.angle.sin()))
+        }
+    }
+    for unit in [1e-12, 1.0, 1e12] {
+        let basis = |angle: f64| Inclined { angle, unit }.local_basis(&Vector3::new(0.3, 0.2, 0.1));
+        let regular = basis(0.5).expect("half a radian apart");
+        // g³ is across the first two lines: (0, 0, 1/(unit sin)).
+        assert_close("g³", &regular.dual[2], &[0.0, 0.0, 1.0 / (unit * 0.5_f64.sin())], Tol::ulps(4.0));
+        assert!(matches!(basis(1e-15), Err(FieldsError::SingularCoordinates { .. })), "{unit:e}");
+    }
+}
+
 /// x₁ = X₁²: folded along X₁ = 0, and nothing lies at x₁ < 0.
 struct Fold;
 impl Motion for Fold {
