@@ -1,9 +1,10 @@
 //! The characteristic system in three and four variables against derivatives by hand and a solution in closed form.
 
+use nalgebra::Matrix4;
 use piola_characteristics::{CauchyProblem, CharacteristicField, FirstOrderPde, InitialManifold, RayField};
 use piola_integrators::Field;
 use piola_numerics::{Dual, Real};
-use piola_testkit::{Tol, assert_close, assert_each_close, assert_each_close_at_scales};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale, assert_each_close, assert_each_close_at_scales};
 use proptest::prelude::*;
 
 /// Φ = x₁ ξ₁² + u ξ₂ ξ₃ + x₃² ξ₄ − u² x₂ + x₄ ξ₁ ξ₄: every slope of Φ is different from every other.
@@ -62,6 +63,20 @@ proptest! {
             let found = &rates[9 * (index + 1)..9 * (index + 2)];
             assert_each_close_at_scales("yₐ′", found, &expected, &scales.map(|scale| 2.0 * scale), few);
         }
+    }
+
+    /// det(x_s, x_τ) in four variables, with x_s by hand, against nalgebra's expansion by minors.
+    #[test]
+    fn determinant_of_the_ray_map_in_four_variables_equals_its_expansion(
+        y in prop::array::uniform9(-2.0..2.0_f64),
+        tangents in prop::array::uniform3(prop::array::uniform9(-1.0..1.0_f64)),
+    ) {
+        let state = [&y[..], tangents.as_flattened()].concat();
+        let x_s = by_hand(&y);
+        let expected = Matrix4::from_fn(|i, j| if i == 0 { x_s[j] } else { tangents[i - 1][j] }).determinant();
+        let found = RayField::new(&Uneven, 4, 3).determinant(&state);
+        // Twenty-four products, each below 8: x_s has components up to 8, the others up to one.
+        assert_close_at_scale("det", &[found], &[expected], 100.0, Tol::ulps(8.0));
     }
 }
 

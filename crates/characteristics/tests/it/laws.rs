@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 use piola_characteristics::CharacteristicsError;
 use piola_characteristics::{
     CauchyProblem, CharacteristicField, CharacteristicSolution, Classification, Covector, DegeneratePoint,
-    FirstOrderPde, Front, InitialManifold, MongeCone, Overlap, ParameterInterval, RayField, RayPoint, Refinement,
-    StripKind,
+    FirstOrderPde, Front, Generator, InitialManifold, MongeCone, Overlap, ParameterInterval, RayField, RayPoint,
+    Refinement, Search, StripKind,
 };
 use piola_integrators::{Field, Tolerance};
 use piola_numerics::Real;
@@ -178,6 +178,21 @@ proptest! {
         prop_assert!(0.01 < cone.monge_residual(x_rate, u_rate + 0.2, &point.xi).unwrap().largest());
         prop_assert!(0.1 < cone.monge_residual(&[-x_rate[1], x_rate[0]], 0.0, &point.xi).unwrap().largest());
     }
+}
+
+/// Along a chord of the circle |ξ| = 1 there are two covectors, in the order of c; each is its own direction, and u′ = 1.
+#[test]
+fn generators_along_a_chord_are_those_at_its_ends() {
+    let cone = MongeCone::new(&Eikonal, &[0.3, -0.2], 0.5).unwrap();
+    // |(1 + c, c)|² = 1 at c = −1 and at c = 0.
+    let search = Search { from: -2.1, to: 1.3, parts: 7 };
+    let found = cone.generators_along(&[1.0, 0.0], &[1.0, 1.0], search).unwrap();
+    let joined = |part: fn(&Generator) -> &[f64]| found.iter().flat_map(part).copied().collect::<Vec<_>>();
+    let few = Tol::ulps(8.0);
+    assert_close("ξ", &joined(|generator| &generator.covector), &[0.0, -1.0, 1.0, 0.0], few);
+    assert_close("x′", &joined(|generator| &generator.x_rate), &[0.0, -1.0, 1.0, 0.0], few);
+    assert_close("u′", &[found[0].u_rate, found[1].u_rate], &[1.0, 1.0], few);
+    assert_close("ξ′", &joined(|generator| &generator.covector_rate), &[0.0; 4], few);
 }
 
 const WAVE: [ParameterInterval; 1] = [ParameterInterval { from: -1.5, to: 1.5, parts: 6 }];

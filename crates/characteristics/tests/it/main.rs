@@ -8,6 +8,7 @@ mod laws;
 mod sheets;
 mod systems;
 mod traps;
+mod units;
 #[cfg(feature = "serde")]
 mod written;
 
