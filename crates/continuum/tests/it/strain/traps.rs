@@ -308,6 +308,21 @@ fn second_invariant_of_a_large_stretch_keeps_its_digits() {
 }
 
 #[test]
+fn isochoric_invariants_of_a_large_stretch_are_those_of_its_shape() {
+    // Stretches λ, λ^−½ and λ^−½ at λ = 4 and at 1/4, swollen s times: Ī₁ = λ² + 2/λ and Ī₂ = 2 λ + 1/λ².
+    for (stretches, expected) in [([4.0, 0.5, 0.5], [13.5, 5.0625]), ([0.25, 2.0, 2.0], [5.0625, 13.5])] {
+        for swelling in [0.25, 1.0, 3.0] {
+            let f = Matrix3::from_diagonal(&Vector3::from(stretches)) * swelling;
+            let f = DeformationGradient::new(f).expect("0 < det F");
+            let apart = [invariants::isochoric_first_minus_three(&f), invariants::isochoric_second_minus_three(&f)];
+            let both = invariants::isochoric_minus_three(&f);
+            let what = format!("Ī₁ − 3, Ī₂ − 3 at {swelling}");
+            assert_close(&what, &[apart, both].concat(), &[expected, expected].concat(), Tol::ulps(16.0));
+        }
+    }
+}
+
+#[test]
 fn engineering_vectors_differ_in_the_order_of_shears() {
     // u_y + v_x = 1, u_z + w_x = 2, v_z + w_y = 4.
     let h = DisplacementGradient::from_rows([[0.0, 1.0, 2.0], [0.0, 0.0, 4.0], [0.0, 0.0, 0.0]]).expect("0 < det F");

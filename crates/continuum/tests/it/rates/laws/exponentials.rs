@@ -120,3 +120,17 @@ proptest! {
         assert_same("R − 1", &exponential_minus_identity(&skew).expect("finite"), &less, 0.0, Tol::ulps(0.0));
     }
 }
+
+#[test]
+fn exponential_of_a_large_entry_opposite_a_small_one_is_hyperbolic() {
+    // Of the plane (i, j) with A_ij = 1 and A_ji = 4² the square is 4² 1: exp A = cosh 4 1 + sinh 4/4 A.
+    for (i, j) in [(0, 1), (1, 0), (1, 2), (2, 1), (0, 2), (2, 0)] {
+        let (mut a, mut expected) = (Matrix3::zeros(), Matrix3::identity());
+        a[(i, j)] = 1.0;
+        a[(j, i)] = 16.0;
+        expected[(i, i)] = 4.0_f64.cosh();
+        expected[(j, j)] = 4.0_f64.cosh();
+        expected += a * (0.25 * 4.0_f64.sinh());
+        assert_same(&format!("exp A, {i} {j}"), &exp(&a), &expected, 1.0, Tol::ulps(32.0));
+    }
+}
