@@ -60,6 +60,30 @@ fn check_eulerian_parts<F: Field + Copy>(field: F, motion: &Wave, x: &Vector3<f6
     Ok(())
 }
 
+/// x₁ = ln X₁, of the particles with 0 < X₁ alone.
+struct Logarithmic;
+
+impl Motion for Logarithmic {
+    fn place<T: Real>(&self, reference: &Vector3<T>, _time: T) -> Vector3<T> {
+        Vector3::new(reference.x.ln(), reference.y, reference.z)
+    }
+    fn check_domain<T: Real>(&self, reference: &Vector3<T>, _time: T) -> Result<(), FieldsError> {
+        let value = reference.x.primal(0);
+        if 0.0 < value {
+            return Ok(());
+        }
+        Err(FieldsError::OutsideSamples { quantity: "X1", value, low: 0.0, high: f64::INFINITY })
+    }
+}
+
+#[test]
+fn steps_that_leave_the_body_are_halved_until_they_stay_in_it() {
+    // From X₁ = 3 the step to ln X₁ = −5 would end at 3 − 3 (5 + ln 3) = −15.3.
+    let (place, guess) = (Vector3::new(-5.0, 0.0, 0.0), Vector3::new(3.0, 0.0, 0.0));
+    let found = Inversion::default().preimage_near(&Logarithmic, &place, 0.0, &guess).expect("a particle");
+    assert_close("X", found.reference.as_slice(), &[(-5.0_f64).exp(), 0.0, 0.0], Tol::ulps(64.0));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(10_000))]
 

@@ -53,6 +53,10 @@ fn axis_poles_and_centre_are_refused_by_name() {
         assert!(matches!(Spherical.local_basis(&q), Err(FieldsError::SingularCoordinates { .. })));
         assert!(matches!(Spherical.vector_gradient(&vector, &q, 0.0), Err(FieldsError::SingularCoordinates { .. })));
     }
+    // Told is the distance from the axis, r sin φ.
+    let beyond = Spherical.local_basis(&Vector3::new(2.0, 0.3, -0.5));
+    let Err(FieldsError::SingularCoordinates { volume_element: radius, .. }) = beyond else { panic!("{beyond:?}") };
+    assert_close("r sin φ", &[radius], &[2.0 * (-0.5_f64).sin()], Tol::ulps(2.0));
     let axis = Vector3::new(0.0, 0.3, 1.0);
     let Err(FieldsError::SingularCoordinates { coordinates, volume_element }) =
         Cylindrical.divergence(&field, &axis, 0.0)
