@@ -10,6 +10,7 @@ use piola_measured::rheology::{
 use piola_testkit::{Tol, assert_each_close};
 
 use crate::newtonian::written;
+use crate::rheology::csv;
 
 /// An element of a figure: its tag, its attributes and its text.
 struct Element<'s> {
@@ -75,14 +76,14 @@ fn panel(svg: &str, title: &str) -> LogPanel {
     let place = |x: f64, y: f64| [across(x), up(y)];
     let circles = inside.iter().filter(|element| element.tag == "circle");
     let lines = inside.iter().filter(|element| element.tag == "polyline" && element.get("stroke-width") == "16");
-    let points = |line: &&Element<'_>| {
+    let points = |line: &&Element<'_>| -> Vec<[f64; 2]> {
         let pairs = line.get("points").split_whitespace().filter_map(|pair| pair.split_once(','));
         let number = |text: &str| text.parse::<f64>().unwrap_or_else(|_| panic!("{text}"));
         pairs.map(|(x, y)| place(number(x), number(y))).collect()
     };
     LogPanel {
         marks: circles.map(|circle| place(circle.number("cx"), circle.number("cy"))).collect(),
-        curves: lines.map(|line| points(line)).collect(),
+        curves: lines.map(points).collect(),
     }
 }
 
@@ -104,11 +105,10 @@ fn table(
     head: &str,
     rows: impl Iterator<Item = [f64; 2]>,
 ) -> Result<Measured, MeasuredError> {
-    let rows: String = rows.map(|[drive, response]| format!("{drive:?},{response:?}\n")).collect();
-    Measured::parse(name, &format!("{head}\n{rows}"), kind, &[])
+    Measured::parse(name, &csv(head, rows), kind, &[])
 }
 
-/// All texts and curves stand within the figure.
+/// All texts stand within the figure.
 fn assert_within(svg: &str) {
     let all = elements(svg);
     let size: Vec<f64> = all[0].get("viewBox").split(' ').map(|x| x.parse().expect("a number")).collect();
@@ -245,7 +245,7 @@ fn fluids_are_named_beside_their_curves() -> Result<(), MeasuredError> {
 #[test]
 fn a_figure_of_laws_grows_by_panels_of_one_size_three_beside_each_other() -> Result<(), MeasuredError> {
     let modes = ["uniaxial", "equibiaxial", "planar", "simple shear"];
-    let drawn = |count: usize| -> Result<[f64; 2], MeasuredError> {
+    let drawn = |count: usize| -> Result<[u32; 2], MeasuredError> {
         let rows = modes.iter().take(count).flat_map(|mode| [1.5, 2.0, 3.0].map(|x| format!("{mode},{x},{x}\n")));
         let text = format!("mode,stretch,stress\n{}", rows.collect::<String>());
         let measurements = Measurements::parse("rubber.csv", &text)?;
@@ -255,12 +255,12 @@ fn a_figure_of_laws_grows_by_panels_of_one_size_three_beside_each_other() -> Res
         assert_legend(&svg, &["neo-hookean"]);
         let all = elements(&svg);
         assert_eq!(all.iter().filter(|element| element.tag == "circle").count(), 3 * count);
-        Ok(["width", "height"].map(|side| all[0].number(side)))
+        Ok(["width", "height"].map(|side| all[0].get(side).parse().expect("a whole number")))
     };
     let [one, two, three, four] = [drawn(1)?, drawn(2)?, drawn(3)?, drawn(4)?];
     let panel = [two[0] - one[0], four[1] - three[1]];
-    assert!(panel.iter().all(|side| (200.0..500.0).contains(side)), "{panel:?}");
-    assert_eq!([two, three], [1.0, 2.0].map(|more| [one[0] + more * panel[0], one[1]]));
+    assert!(panel.iter().all(|side| (200..500).contains(side)), "{panel:?}");
+    assert_eq!([two, three], [1, 2].map(|more| [one[0] + more * panel[0], one[1]]));
     assert_eq!(four, [three[0], three[1] + panel[1]]);
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Tests of measurements: every bad table has a clear answer, every good one the right result.
 
 mod figures;
+mod fits;
 mod fitting;
 mod newtonian;
 mod rheology;

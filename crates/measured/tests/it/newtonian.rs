@@ -7,6 +7,8 @@ use piola_measured::MeasuredError;
 use piola_measured::rheology::{FlowKind, Measured, RecoveryRequest, Request, compare, recover};
 use piola_testkit::{Tol, assert_close, assert_each_close};
 
+use crate::rheology::csv;
+
 /// A rheometer of millimetres: its table's head, and the row at which the largest stress and shear rate of a Newtonian fluid are these.
 struct Rheometer {
     kind: FlowKind,
@@ -50,12 +52,8 @@ fn rates() -> impl Iterator<Item = f64> {
 impl Rheometer {
     /// The table of a fluid of this viscosity.
     fn measured(&self, viscosity: f64) -> Result<Measured, MeasuredError> {
-        let line = |rate: f64| {
-            let [drive, response] = (self.row)(viscosity * rate, rate);
-            format!("{drive:?},{response:?}\n")
-        };
-        let rows: String = rates().map(line).collect();
-        Measured::parse(format!("{}.csv", self.kind.name()), &format!("{}\n{rows}", self.head), self.kind, &[])
+        let rows = rates().map(|rate| (self.row)(viscosity * rate, rate));
+        Measured::parse(format!("{}.csv", self.kind.name()), &csv(self.head, rows), self.kind, &[])
     }
 }
 

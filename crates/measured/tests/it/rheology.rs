@@ -239,7 +239,7 @@ fn torques_of_the_measured_solutions_recover_the_stresses_that_the_rheometer_wro
 }
 
 /// Rows as CSV after comments and a header.
-fn csv<const N: usize>(head: &str, rows: impl Iterator<Item = [f64; N]>) -> String {
+pub(crate) fn csv<const N: usize>(head: &str, rows: impl Iterator<Item = [f64; N]>) -> String {
     let line = |row: [f64; N]| row.map(|x| format!("{x:?}")).join(",");
     let rows: Vec<String> = rows.map(line).collect();
     format!("{head}\n{}\n", rows.join("\n"))
