@@ -51,6 +51,14 @@ fn lanes_hold_the_points_of_blocks_that_are_narrower_and_wider() {
     through_blocks::<4, 64>();
 }
 
+#[test]
+fn blocks_are_divided_into_the_points_before_and_after() {
+    let mut blocks = [[[0.0; 8]; 6]; 13];
+    let whole = LaneBlocks::new_mut(&mut blocks, 100).expect("as many blocks");
+    let (head, tail) = Destination::<(), f64, 6>::split(whole, 64);
+    assert_eq!([head, tail].map(|part| Destination::<(), f64, 6>::count(&part)), [64, 36]);
+}
+
 fn through_structures<const N: usize>() {
     let components = points::<6>();
     let symmetric: Vec<_> = components.iter().map(|&components| Symmetric { components }).collect();
