@@ -2,6 +2,7 @@
 
 mod laws;
 mod membrane;
+mod memory;
 #[path = "../invariant/once.rs"]
 mod once;
 mod volumes;

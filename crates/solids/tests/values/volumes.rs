@@ -1,10 +1,11 @@
 //! Energies of a change of volume with their derivatives: `testdata/golden/solid_laws.json`.
 
+use piola_numerics::Real;
 use piola_solids::volumetric::{
     HartmannNeff, Liu, Logarithmic, Miehe, OgdenVolumetric, Quadratic, QuadraticLogarithmic, SimoTaylor, Volumetric,
 };
 use piola_testkit::golden::{load, number, text};
-use piola_testkit::{Tol, assert_each_close};
+use piola_testkit::{Tol, assert_close, assert_each_close};
 use serde_json::Value;
 
 fn examine(case: &Value, law: &impl Volumetric) {
@@ -35,4 +36,29 @@ fn energies_of_a_change_of_volume_equal_reference() {
         count += 1;
     }
     assert_eq!(count, 8 * 4);
+}
+
+/// U = κ (J − 1 − ln J), and nothing that is not asked of a law.
+#[derive(Clone)]
+struct Own(f64);
+
+impl Volumetric for Own {
+    fn energy<T: Real>(&self, change: T, _jacobian: T) -> T {
+        T::lit(self.0) * (change - change.ln_1p())
+    }
+    fn mean_kirchhoff<T: Real>(&self, change: T, _jacobian: T) -> T {
+        T::lit(self.0) * change
+    }
+    fn curvature<T: Real>(&self, _change: T, jacobian: T) -> T {
+        T::lit(self.0) / (jacobian * jacobian)
+    }
+}
+
+#[test]
+fn stiffness_of_a_law_of_ones_own_is_the_growth_of_its_mean_stress() {
+    // J (J U′)′ = J (κ (J − 1))′ = κ J.
+    for jacobian in [0.5, 0.8, 1.0, 1.25, 3.0] {
+        let stiffness = Own(2.0).stiffness(jacobian - 1.0, jacobian);
+        assert_close("J (J U′)′", &[stiffness], &[2.0 * jacobian], Tol::ulps(4.0));
+    }
 }
