@@ -2,6 +2,7 @@
 
 use core::f64::consts::PI;
 
+use piola_charts::FINE;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::{self, Measurements};
 use piola_measured::rheology::{
@@ -75,7 +76,9 @@ fn panel(svg: &str, title: &str) -> LogPanel {
     let (across, up) = (axis("middle", "x"), axis("end", "y"));
     let place = |x: f64, y: f64| [across(x), up(y)];
     let circles = inside.iter().filter(|element| element.tag == "circle");
-    let lines = inside.iter().filter(|element| element.tag == "polyline" && element.get("stroke-width") == "16");
+    // Curves are two pixels wide, axes and what marks them one.
+    let width = (2 * FINE).to_string();
+    let lines = inside.iter().filter(|element| element.tag == "polyline" && element.get("stroke-width") == width);
     let points = |line: &&Element<'_>| -> Vec<[f64; 2]> {
         let pairs = line.get("points").split_whitespace().filter_map(|pair| pair.split_once(','));
         let number = |text: &str| text.parse::<f64>().unwrap_or_else(|_| panic!("{text}"));
