@@ -149,6 +149,6 @@ fn deformations_that_are_computed_from_the_number_of_a_point_are_its_own() {
     for (i, c) in c.iter().enumerate() {
         // C = FᵀF: C₁₂ = γ and C₂₂ = 1 + γ².
         let shear = i as f64;
-        assert_eq!(*c, [1.0, 1.0 + shear * shear, 1.0, shear, 0.0, 0.0], "point {i}");
+        assert_eq!((i, *c), (i, [1.0, 1.0 + shear * shear, 1.0, shear, 0.0, 0.0]));
     }
 }

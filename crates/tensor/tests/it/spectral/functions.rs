@@ -63,6 +63,11 @@ fn divided_differences_of_a_given_function_equal_its_derivatives_and_quotients()
         |x| x.sinh();
         |x| x.cosh();
         |x| x.tanh();
+        |x| (x * x).exp();
+        |x| (x * x).sin();
+        |x| (x * x).cosh();
+        |x| (x * x).tanh();
+        |x| (x * x).powf(T::lit(0.75));
         |x| (x - T::one()).abs().sqrt();
         |x| x.copysign(x - T::one());
     }
