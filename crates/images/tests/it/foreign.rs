@@ -99,3 +99,37 @@ fn vectors_in_the_header_of_simpleitk_are_read() -> Result<(), ImagesError> {
     assert_close("place", &field.map.displacements()[3], &[-0.75, -2.0, -1.0], Tol::ulps(1.0));
     Ok(())
 }
+
+/// A TIFF file of four pixels by hand: three bytes each, in one strip without compression.
+#[test]
+fn colours_of_tiff_become_their_luminance() -> Result<(), ImagesError> {
+    let folder = Folder::new("tiff-colours");
+    let mut bytes = b"II*\0\x08\0\0\0\x09\0".to_vec();
+    // Width, height, bits (three numbers at 122), compression, RGB, the strip at 128, samples, rows of a strip, bytes of it.
+    let entries = [
+        (256_u16, 1_u32, 2_u32),
+        (257, 1, 2),
+        (258, 3, 122),
+        (259, 1, 1),
+        (262, 1, 2),
+        (273, 1, 128),
+        (277, 1, 3),
+        (278, 1, 2),
+        (279, 1, 12),
+    ];
+    for (tag, count, value) in entries {
+        bytes.extend(tag.to_le_bytes());
+        // Short whole numbers.
+        bytes.extend(3_u16.to_le_bytes());
+        bytes.extend(count.to_le_bytes());
+        bytes.extend(value.to_le_bytes());
+    }
+    bytes.extend([0; 4]);
+    bytes.extend([8, 0, 8, 0, 8, 0]);
+    bytes.extend([255, 0, 0, 0, 255, 0, 0, 0, 255, 100, 100, 100]);
+    let picture = Picture::<2>::read(folder.with("a.tif", &bytes))?;
+    assert!(picture.is_luminance());
+    // 255 times 0.2126, 0.7152 and 0.0722, to whole numbers; grey stays as it is.
+    assert_eq!(picture.values(), [54.0, 182.0, 18.0, 100.0]);
+    Ok(())
+}

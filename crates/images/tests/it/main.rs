@@ -5,5 +5,6 @@ mod fields;
 mod fixtures;
 mod foreign;
 mod headers;
+mod orientations;
 mod real;
 mod round_trips;

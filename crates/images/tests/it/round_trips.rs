@@ -142,13 +142,20 @@ fn resampled_picture_equals_the_function_it_samples() -> Result<(), ImagesError>
         let index = |position: usize| [position / (n1 * n2), position / n2 % n1, position % n2].map(|i| i as f64);
         empty.with_values((0..empty.values().len()).map(|position| place(empty.point(index(position)))).collect())
     };
-    let fine = sampled([12, 14, 16], [1.0, 1.0, 1.0], PicturePlacement::default())?;
     let tilted =
         PicturePlacement { origin: [4.0, 5.0, 4.0], directions: [[0.0, 0.6, 0.8], [0.0, 0.8, -0.6], [1.0, 0.0, 0.0]] };
     let coarse = sampled([3, 4, 5], [1.5, 1.0, 2.0], tilted)?;
-    let found = fine.resampled(&coarse)?;
-    assert_close("resampled", found.values(), coarse.values(), Tol::ulps(64.0));
-    assert_eq!(found.placement(), coarse.placement());
+    // The same box from two of its corners.
+    let mirrored = PicturePlacement {
+        origin: [15.0, 0.0, 11.0],
+        directions: [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]],
+    };
+    for placement in [PicturePlacement::default(), mirrored] {
+        let fine = sampled([12, 14, 16], [1.0, 1.0, 1.0], placement)?;
+        let found = fine.resampled(&coarse)?;
+        assert_close("resampled", found.values(), coarse.values(), Tol::ulps(64.0));
+        assert_eq!(found.placement(), coarse.placement());
+    }
     Ok(())
 }
 
