@@ -2,7 +2,9 @@
 
 use std::f64::consts::PI;
 
-use piola_spectral::{BoxGrid, BoxOperator, BoxSolver, Eigenbasis, ModalSeries, Polarisation, SpectralError, Walls};
+use piola_spectral::{
+    BoxGrid, BoxOperator, BoxSolver, Eigenbasis, LameParameters, ModalSeries, Polarisation, SpectralError, Walls,
+};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
 use super::fixtures::{lame, samples, slices};
@@ -203,4 +205,13 @@ fn green_function_is_symmetric_and_solves_for_a_smooth_force() {
     }
     let expected = (PI * x[0]).sin() / (3.0 * PI * PI);
     assert_close_at_scale("∫ G f", &sum, &[expected, 0.0], expected, SUMS);
+}
+
+/// E = μ(3λ + 2μ)/(λ + μ) and ν = λ/(2(λ + μ)): 11/4 and 3/8 for λ = 3, μ = 1; 1 and −1/2 for λ = −1/2, μ = 1. All are exact in binary.
+#[test]
+fn engineering_constants_give_the_parameters_of_lame() {
+    for ([first, shear], [young, poisson]) in [([3.0, 1.0], [2.75, 0.375]), ([-0.5, 1.0], [1.0, -0.5])] {
+        let found = LameParameters::from_engineering(young, poisson).expect("elliptic");
+        assert_close("λ, μ", &[found.first(), found.shear_modulus()], &[first, shear], Tol::ulps(0.0));
+    }
 }

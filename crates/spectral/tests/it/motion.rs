@@ -132,3 +132,52 @@ fn motion_under_a_steady_force_ends_at_the_static_solution() {
     }
     assert_close("u", &amplitudes(motion.displacement()), &amplitudes(&expected), Tol::ulps(64.0));
 }
+
+/// u = t³ solves ρü + cu̇ + ku = 6ρt + 3ct² + kt³ from rest, whatever the damping: also where the slow rate k/c is so small that what the
+/// force has done during a step is k/c of the force times the step.
+#[test]
+fn strongly_damped_mode_follows_a_cubic_with_all_digits() {
+    let stiffness = 3.0 * std::f64::consts::PI.powi(2);
+    let mut compared = 0;
+    for factor in [4.0, 1e2, 1e4, 1e6] {
+        let drag = factor * (DENSITY * stiffness).sqrt();
+        // One mode, along its wave vector.
+        let longitudinal = |amplitude: f64| series(&[amplitude, 0.0]);
+        let force = [0.0, 6.0 * DENSITY, 3.0 * drag, stiffness].map(longitudinal);
+        let rest = longitudinal(0.0);
+        let mut motion =
+            ModalMotion::new(BoxOperator::elastic(lame()), DENSITY, drag, rest.clone(), rest).expect("motion");
+        // ω₀h = 5 or so: neither the force nor the mode is slow.
+        motion.step(1.0, &force).expect("step");
+        let (u, v) = (motion.displacement().amplitudes([1, 0])[0], motion.velocity().amplitudes([1, 0])[0]);
+        assert_close(&format!("u, v of c = {drag}"), &[u, v], &[1.0, 3.0], Tol::ulps(32.0));
+        compared += 1;
+    }
+    assert_eq!(compared, 4);
+}
+
+/// Momentum: ρv + cu + k∫u = ∫f. Where the drag is strong, u ≈ ∫f/c, so that k∫u is small and known: also for a single power of time, whose
+/// share of the motion comes from no other.
+#[test]
+fn strongly_damped_mode_keeps_its_momentum_under_each_power_of_time() {
+    let stiffness = 3.0 * std::f64::consts::PI.powi(2);
+    let drag = 1e7 * (DENSITY * stiffness).sqrt();
+    let h: f64 = 1.25;
+    let longitudinal = |amplitude: f64| series(&[amplitude, 0.0]);
+    for power in 0..4_i32 {
+        let force: Vec<_> = (0..4).map(|m| longitudinal(if m == power { 2.0 } else { 0.0 })).collect();
+        let rest = longitudinal(0.0);
+        let mut motion =
+            ModalMotion::new(BoxOperator::elastic(lame()), DENSITY, drag, rest.clone(), rest).expect("motion");
+        motion.step(h, &force).expect("step");
+        let (u, v) = (motion.displacement().amplitudes([1, 0])[0], motion.velocity().amplitudes([1, 0])[0]);
+        let m = f64::from(power);
+        let impulse = 2.0 * h.powi(power + 1) / (m + 1.0);
+        let elastic = stiffness / drag * 2.0 * h.powi(power + 2) / ((m + 1.0) * (m + 2.0));
+        let left = Tol::stated(1e-13, "kh/c is 6e-7: its square over six or more, and ρ/ch of it");
+        assert_close(&format!("momentum, t^{power}"), &[DENSITY * v + drag * u + elastic], &[impulse], left);
+        // c v = f − k u − ρ f′/c.
+        let driven = 2.0 * h.powi(power) - stiffness * u - DENSITY * 2.0 * m * h.powi(power - 1) / drag;
+        assert_close(&format!("velocity, t^{power}"), &[drag * v], &[driven], left);
+    }
+}

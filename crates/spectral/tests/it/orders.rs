@@ -93,3 +93,33 @@ fn lifted_forces_converge_with_order_four() {
     assert_order("plain", &steps, &intervals.map(|n| change(n, false)), 2.0, 0.3);
     assert_order("lifted", &steps, &intervals.map(|n| change(n, true)), 4.0, 0.4);
 }
+
+/// u = (x(1 − x) cc, q φ sc, r φ cs) with sines and cosines of qy and rz, φ′ = κx(1 − x) and κ = (λ + μ)/μ: the force is
+/// normal to the walls x = 0 and x = 1, and varies along them. ∇·u = (1 − 2x + (q² + r²)φ) cc.
+fn varies_along_the_wall([x, y, z]: [f64; 3]) -> [[f64; 3]; 2] {
+    let (mu, coupling) = (lame().shear_modulus(), lame().first() + lame().shear_modulus());
+    let (q, r, kappa) = (2.0 * PI, PI, coupling / mu);
+    let squared = q * q + r * r;
+    let (normal, slope, second) = (x * (1.0 - x), 1.0 - 2.0 * x, -2.0);
+    let phi = [kappa * x * x * (0.5 - x / 3.0), kappa * x * (1.0 - x), kappa * (1.0 - 2.0 * x)];
+    let waves = [(q * y).cos() * (r * z).cos(), q * (q * y).sin() * (r * z).cos(), r * (q * y).cos() * (r * z).sin()];
+    // −f = μΔu + (λ + μ)∇(∇·u).
+    let across = mu * (second - squared * normal) + coupling * (second + squared * phi[1]);
+    let along = mu * (phi[2] - squared * phi[0]) - coupling * (slope + squared * phi[0]);
+    let (displacement, force) = ([normal, phi[0], phi[0]], [-across, -along, -along]);
+    [displacement, force].map(|profile| std::array::from_fn(|c| profile[c] * waves[c]))
+}
+
+/// Such a displacement is a sum of those that are split off: polynomials across the box, one wave along the walls. So it has no error but
+/// rounding, on nodes and on few of them.
+#[test]
+fn forces_of_one_wave_along_the_wall_are_lifted_exactly() {
+    let grid = BoxGrid::nodes([9, 9, 6], [0.125, 0.125, 0.2]).expect("grid");
+    let mut fields = samples::<f64, 3>(&grid, |x| varies_along_the_wall(x)[1]);
+    let mut solver = BoxSolver::<f64, 3>::new(grid, Walls::Sliding, BoxOperator::elastic(lame())).expect("plan");
+    let walls = solver.solve_lifted_in_place(slices(&mut fields)).expect("solution");
+    // −(λ + 2μ) ∂²u/∂x² at the walls, where u and φ′ vanish.
+    assert_close("walls", &walls.largest[0], &[2.0 * lame().longitudinal_modulus(); 2], Tol::ulps(8.0));
+    let expected = samples::<f64, 3>(&grid, |x| varies_along_the_wall(x)[0]);
+    assert_close("u", &fields.concat(), &expected.concat(), Tol::ulps(32.0));
+}
