@@ -24,9 +24,7 @@ struct Spare<T> {
 impl<T: Real> Chain<T> {
     /// The chain in the order of the bodies, from a state by components.
     pub(super) fn new(bodies: usize, state: &[T]) -> Self {
-        let component = |body: usize, half: usize| {
-            [0, 1, 2].map(|axis| state[(3 * half + axis) * bodies + body])
-        };
+        let component = |body: usize, half: usize| [0, 1, 2].map(|axis| state[(3 * half + axis) * bodies + body]);
         let links = 2 * (bodies - 1);
         let vectors = (0..links).map(|link| {
             let (half, first) = (link / (bodies - 1), link % (bodies - 1));

@@ -1,6 +1,7 @@
 //! The leapfrog of the logarithmic Hamiltonian, along a chain.
 
 use piola_numerics::Real;
+use piola_numerics::sums::two_sum;
 
 use super::chain::{Chain, total};
 use crate::attraction::inverse_cube;
@@ -22,18 +23,27 @@ pub(super) struct Increments<T> {
     pub(super) time: T,
 }
 
+/// y ← y + change, where `carry` keeps what rounding leaves.
+fn add<T: Real>(y: &mut T, carry: &mut T, change: T) {
+    (*y, *carry) = two_sum(*y, *carry + change);
+}
+
 /// What a leapfrog works in.
 #[derive(Clone, Debug)]
 pub(super) struct Memory<T> {
     /// Places or velocities from the first body of the chain, in the order of the chain.
     along: Vec<[T; 3]>,
     accelerations: Vec<[T; 3]>,
+    /// What rounding left of the increments of the links and of the time.
+    carries: Vec<[T; 3]>,
+    time_carry: T,
 }
 
 impl<T: Real> Memory<T> {
     pub(super) fn new(bodies: usize) -> Self {
         let zero = vec![[T::zero(); 3]; bodies];
-        Self { along: zero.clone(), accelerations: zero }
+        let carries = vec![[T::zero(); 3]; 2 * (bodies - 1)];
+        Self { along: zero.clone(), accelerations: zero, carries, time_carry: T::zero() }
     }
 }
 
@@ -44,6 +54,8 @@ impl<T: Real> Bodies<'_, T> {
     pub(super) fn leap(&self, chain: &Chain<T>, step: T, count: u32, memory: &mut Memory<T>, out: &mut Increments<T>) {
         out.links.fill([T::zero(); 3]);
         out.time = T::zero();
+        memory.carries.fill([T::zero(); 3]);
+        memory.time_carry = T::zero();
         let substep = step / T::lit(f64::from(count));
         self.drift(chain, T::lit(0.5) * substep, memory, out);
         for number in 1..=count {
@@ -51,6 +63,10 @@ impl<T: Real> Bodies<'_, T> {
             let length = if number == count { T::lit(0.5) * substep } else { substep };
             self.drift(chain, length, memory, out);
         }
+        for (link, carry) in out.links.iter_mut().zip(&memory.carries) {
+            *link = total(*link, *carry);
+        }
+        out.time += memory.time_carry;
     }
 
     /// Moves along the velocities for the time step/(T + B).
@@ -58,11 +74,12 @@ impl<T: Real> Bodies<'_, T> {
         let links = chain.order.len() - 1;
         let kinetic = self.kinetic(chain, Some(&*out), memory);
         let time = step / (kinetic + self.binding);
-        out.time += time;
+        add(&mut out.time, &mut memory.time_carry, time);
         let (places, velocities) = out.links.split_at_mut(links);
-        for ((place, velocity), start) in places.iter_mut().zip(velocities).zip(&chain.vectors[links..]) {
+        let places = places.iter_mut().zip(&mut memory.carries);
+        for (((place, carry), velocity), start) in places.zip(velocities).zip(&chain.vectors[links..]) {
             for axis in 0..3 {
-                place[axis] += time * (start[axis] + velocity[axis]);
+                add(&mut place[axis], &mut carry[axis], time * (start[axis] + velocity[axis]));
             }
         }
     }
@@ -72,10 +89,10 @@ impl<T: Real> Bodies<'_, T> {
         let links = chain.order.len() - 1;
         let potential = self.attract(chain, Some(&*out), memory);
         let time = step / potential;
-        for (link, velocity) in out.links[links..].iter_mut().enumerate() {
-            let (first, second) = (memory.accelerations[link], memory.accelerations[link + 1]);
+        let velocities = out.links[links..].iter_mut().zip(&mut memory.carries[links..]);
+        for ((velocity, carry), pair) in velocities.zip(memory.accelerations.windows(2)) {
             for axis in 0..3 {
-                velocity[axis] += time * (second[axis] - first[axis]);
+                add(&mut velocity[axis], &mut carry[axis], time * (pair[1][axis] - pair[0][axis]));
             }
         }
     }

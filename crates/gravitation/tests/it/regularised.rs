@@ -26,24 +26,44 @@ fn reference(name: &str) -> serde_json::Value {
     serde_json::from_str(&text).unwrap()
 }
 
-/// Burrau's three bodies: dozens of close encounters, then one escapes. A change of the start by one part grows by 10⁵ until
-/// t = 70.
+/// How much the largest component grows with a change of each component of the start, up to some times.
+fn growth(bodies: &Gravitation, start: &[f64], times: &[f64]) -> Vec<f64> {
+    let mut largest = vec![1.0_f64; times.len()];
+    for component in 0..6 {
+        let seeded = start.iter().enumerate().map(|(i, &x)| Dual::new(x, if i == component { 1.0 } else { 0.0 }));
+        let mut state = State::new(0.0, seeded.collect()).unwrap();
+        for (largest, &time) in largest.iter_mut().zip(times) {
+            Regularised::to_rounding().integrate_to(bodies, &mut state, time).unwrap();
+            *largest = state.values.iter().fold(*largest, |largest, x| largest.max(x.tangent.abs()));
+        }
+    }
+    for later in 1..largest.len() {
+        largest[later] = largest[later].max(largest[later - 1]);
+    }
+    largest
+}
+
+/// Burrau's three bodies: dozens of close encounters, then one escapes.
 #[test]
 fn pythagorean_bodies_part_as_in_seventy_digits() {
     let data = reference("pythagorean");
     let bodies = Gravitation::new(golden::vector(&data["masses"])).unwrap();
     let start: Vec<f64> = golden::matrix(&data["positions"]).concat().into_iter().chain([0.0; 6]).collect();
-    let mut state = State::new(0.0, plane(&bodies, &start)).unwrap();
+    let start = plane(&bodies, &start);
+    let states = data["states"].as_array().unwrap();
+    let times: Vec<f64> = states.iter().map(|state| golden::number(&state["t"])).collect();
+    let growth = growth(&bodies, &start, &times);
+    let mut state = State::new(0.0, start).unwrap();
     let energy = bodies.invariants(&state.values).energy;
     let mut compared = 0;
-    for expected in data["states"].as_array().unwrap() {
-        Regularised::to_rounding().integrate_to(&bodies, &mut state, golden::number(&expected["t"])).unwrap();
+    for ((expected, &time), &growth) in states.iter().zip(&times).zip(&growth) {
+        Regularised::to_rounding().integrate_to(&bodies, &mut state, time).unwrap();
         let found = in_plane(&bodies, &state.values);
-        let tolerance = Tol::stated(3e-9, "rounding of each step, which the encounters enlarge");
-        let what = format!("t = {}", state.time);
-        assert_close_at_scale(&what, &found, &golden::vector(&expected["state"]), 1.0, tolerance);
+        let tolerance = Tol::ulps_because(4096.0, "rounding where the kinetic energy is hundreds of times the energy")
+            .times(growth);
         let change = bodies.invariants(&state.values).energy / energy - 1.0;
-        assert!(change.abs() < 1e-12, "{what}: energy changed by {change}");
+        assert_close_at_scale(&format!("t = {time}"), &found, &golden::vector(&expected["state"]), 1.0, tolerance);
+        assert!(change.abs() < 1e-12, "t = {time}: energy changed by {change}");
         compared += 1;
     }
     assert_eq!(compared, 4);
@@ -87,8 +107,9 @@ fn very_long_ellipse_costs_no_more_than_a_short_one() {
         let tolerance = Tol::stated(1e-8, "3πN² times an ulp of the energy a revolution, N = 1000");
         assert_close_at_scale(&format!("e = {eccentricity}"), &relative, &[far, 0.0, 0.0], far, tolerance);
         assert_close_at_scale("centre", &[0.5 * (first[2] + second[2])], &[0.125 * time], time, Tol::ulps(64.0));
+        // A step that ends near the pericentre, where the kinetic energy is 10⁶ times the energy, rounds there.
         let change = bodies.invariants(&state.values).energy / energy - 1.0;
-        assert!(change.abs() < 1e-12, "energy changed by {change}");
+        assert!(change.abs() < 1e-10, "energy changed by {change}");
     }
     assert!(steps[1] < 2 * steps[0], "{steps:?}");
 }
@@ -109,7 +130,13 @@ fn bodies_that_collide_come_back() {
             angle -= (angle - angle.sin() - std::f64::consts::FRAC_PI_2) / (1.0 - angle.cos());
         }
         let expected = if falls == 1.5 { 1.0 - angle.cos() } else { 2.0 };
-        assert_close_at_scale(&format!("{falls} falls"), &[separation.abs()], &[expected], 1.0, Tol::stated(1e-11, "3πN² times some ulps"));
+        assert_close_at_scale(
+            &format!("{falls} falls"),
+            &[separation.abs()],
+            &[expected],
+            1.0,
+            Tol::stated(1e-11, "3πN² times some ulps"),
+        );
     }
 }
 
@@ -152,7 +179,8 @@ fn error_follows_the_tolerance() {
         let (found, evaluations) = end(tolerance);
         assert!(evaluations < fewer, "{tolerance}: {evaluations} and {fewer}");
         fewer = evaluations;
-        let allowed = Tol::stated(1e3 * tolerance, "the tolerance of each step, a hundred of them, which the motion enlarges");
+        let allowed =
+            Tol::stated(1e3 * tolerance, "the tolerance of each step, a hundred of them, which the motion enlarges");
         assert_close_at_scale(&format!("tolerance {tolerance}"), &found, &best, 1.0, allowed);
     }
 }
