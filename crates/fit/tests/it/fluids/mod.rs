@@ -3,3 +3,4 @@
 mod golden;
 mod refusals;
 mod statistics;
+mod torques;

@@ -2,6 +2,7 @@
 
 use piola_fit::fluids::{FlowData, Options, Weighting, fit_flow};
 use piola_fluids::{CarreauYasuda, HerschelBulkley, PowerLaw};
+use piola_testkit::{Tol, assert_close};
 
 /// `SplitMix64` and the transform of Box and Muller.
 struct Normal(u64);
@@ -77,4 +78,32 @@ fn parameters_stay_between_their_bounds_and_weights_choose_the_rows_that_count()
     let relative = fit_flow::<PowerLaw, 2>(&data, &[[1.0, 1.0]], &Options::default()).expect("a fit");
     let equal = fit_flow::<PowerLaw, 2>(&data, &[[1.0, 1.0]], &equal).expect("a fit");
     assert!(equal.fluid.exponent() < relative.fluid.exponent());
+}
+
+/// Of a power law ln τ = ln K + n ln k is a straight line, and its regression has a closed form.
+#[test]
+fn statistics_of_a_power_law_equal_the_regression_of_logarithms() {
+    let rows = [[0.2, 1.3], [0.5, 2.2], [1.1, 2.9], [4.0, 6.4], [9.0, 8.8], [20.0, 14.0]];
+    let data = [FlowData::flow_curve(&rows).expect("data")];
+    let starts = [[1.0, 1.0], [4.0, 0.3]];
+    let fit = fit_flow::<PowerLaw, 2>(&data, &starts, &Options::default()).expect("a fit");
+    let logarithms = rows.map(|row| row.map(f64::ln));
+    let mean = |k: usize| logarithms.iter().map(|row| row[k]).sum::<f64>() / 6.0;
+    let (x, y) = (mean(0), mean(1));
+    let square = logarithms.iter().map(|row| (row[0] - x).powi(2)).sum::<f64>();
+    let exponent = logarithms.iter().map(|row| (row[0] - x) * (row[1] - y)).sum::<f64>() / square;
+    let consistency = (y - exponent * x).exp();
+    let squares = logarithms.iter().map(|row| (row[1] - y - exponent * (row[0] - x)).powi(2)).sum::<f64>();
+    let variance = squares / 4.0;
+    let errors = [consistency * (variance * (1.0 / 6.0 + x * x / square)).sqrt(), (variance / square).sqrt()];
+    let tol = Tol::stated(1e-8, "the root of the rounding of the squares");
+    let found: Vec<_> = fit.parameters.iter().map(|parameter| parameter.value).collect();
+    assert_close("K, n", &found, &[consistency, exponent], tol);
+    assert_close("S", &[fit.squares], &[squares], tol);
+    let found: Vec<_> = fit.parameters.iter().map(|p| p.standard_error.expect("degrees of freedom")).collect();
+    assert_close("standard errors", &found, &errors, tol);
+    // dK = K d ln K, and ln K and n have the covariance −s² x̄/Sxx.
+    let covariance = -consistency * x * variance / square;
+    assert_close("covariance", &[fit.covariance.matrix[0][1]], &[covariance], tol);
+    assert_eq!((fit.degrees_of_freedom, fit.starts_that_agree), (4, 2));
 }

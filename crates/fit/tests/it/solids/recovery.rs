@@ -1,6 +1,7 @@
 //! Known parameters from made data with seeded errors.
 
-use piola_fit::solids::{AnyModel, Data, Fitted, Measure, Model, Options, Stability, Table, Test, fit};
+use piola_fit::solids::{AnyModel, Data, Fitted, Measure, Model, Options, Parameter, Stability, Table, Test, fit};
+use piola_numerics::Real;
 use piola_specimens::homogeneous::{Mode, first_piola};
 use piola_testkit::{Tol, assert_close};
 
@@ -120,4 +121,42 @@ fn two_runs_are_the_same_to_the_last_bit() {
     let run = || fit(&model, &data, &Options::default()).expect("a fit");
     assert_eq!(run(), run());
     assert_eq!(model.name(), "ogden:3");
+}
+
+/// W = c (λ₁ᵃ + λ₂ᵃ + λ₃ᵃ), a ≤ −½.
+struct NegativePower;
+
+impl Model for NegativePower {
+    fn name(&self) -> String {
+        "negative power".into()
+    }
+    fn parameters(&self, _largest_first_invariant: f64) -> Vec<Parameter> {
+        vec![Parameter::factor("c"), Parameter::number("a", [f64::NEG_INFINITY, -0.5])]
+    }
+    fn energy<T: Real>(&self, stretches: [T; 3], parameters: &[T]) -> T {
+        let [x, y, z] = stretches.map(|stretch| (parameters[1] * stretch.ln()).exp());
+        parameters[0] * (x + y + z)
+    }
+    fn starts(&self, _largest_first_invariant: f64) -> Vec<Vec<f64>> {
+        vec![vec![-1.0], vec![-6.0]]
+    }
+}
+
+#[test]
+fn a_number_with_an_upper_bound_alone_is_found() {
+    let (factor, exponent) = (0.5, -2.5);
+    // P = c a (λ^(a − 1) − λ^(−a/2 − 1)) of a bar.
+    let stress = |x: f64| factor * exponent * (x.powf(exponent - 1.0) - x.powf(-0.5 * exponent - 1.0));
+    let points = (1..=12).map(|k| 1.0 + 0.25 * f64::from(k)).map(|x| [x, stress(x)]).collect();
+    let bar = Test::new("bar", Table::Uniaxial(points), Measure::FirstPiola).expect("a test");
+    let options = Options { stability: Stability::Free, ..Options::default() };
+    let fit = fit(&NegativePower, &Data::new(vec![bar]).expect("data"), &options).expect("a fit");
+    assert!(fit.outcome.is_converged(), "{:?}", fit.outcome);
+    assert_close(
+        "c, a",
+        &fit.values(),
+        &[factor, exponent],
+        Tol::stated(1e-8, "the root of the rounding of the squares"),
+    );
+    assert_eq!(fit.starts_that_agree, 2);
 }

@@ -1,6 +1,6 @@
 //! Models and laws, modes and components: two ways to the same stress.
 
-use piola_fit::solids::{AnyModel, Component, Data, Fitted, Measure, Options, Table, Test, fit};
+use piola_fit::solids::{AnyModel, Component, Data, Fitted, Measure, Model, Options, Table, Test, fit};
 use piola_solids::volumetric::SimoTaylor;
 use piola_specimens::homogeneous::{IncompressibleState, Mode, first_piola};
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
@@ -26,6 +26,18 @@ fn models() -> Vec<(String, Vec<f64>)> {
         ));
     }
     models
+}
+
+#[test]
+fn terms_of_a_polynomial_are_all_of_its_degrees() {
+    let model: AnyModel = "polynomial:3".parse().expect("a model");
+    let names: Vec<_> = model.parameters(10.0).into_iter().map(|parameter| parameter.name).collect();
+    assert_eq!(names, ["C10", "C01", "C20", "C11", "C02", "C30", "C21", "C12", "C03"]);
+    // Σ Cᵢⱼ (I − 3)ⁱ (II − 3)ʲ at the stretches 2, 1, ½: I = II = 21/4.
+    let factors = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+    let x: f64 = 2.25;
+    let expected = 3.0 * x + 12.0 * x * x + 30.0 * x.powi(3);
+    assert_close("W", &[model.energy([2.0, 1.0, 0.5], &factors)], &[expected], Tol::ulps(4.0));
 }
 
 #[test]
