@@ -291,3 +291,23 @@ fn material_connection_in_cylindrical_coordinates_has_the_terms_of_the_metric() 
     assert_close_at_scale("Γ", flat(&gamma), flat(&expected), 1.0, Tol::ulps(4.0));
     assert!(polar.coefficients(&Vector3::<f64>::zeros()).is_err(), "no basis on the axis");
 }
+
+/// Γ¹₁₁ = 2 X₂, Γ¹₁₂ = 3 X₁.
+struct Linear;
+
+impl AffineConnection for Linear {
+    fn at<T: Real>(&self, place: &Vector3<T>) -> ConnectionCoefficients<T> {
+        let mut components = [[[T::zero(); 3]; 3]; 3];
+        components[0][0][0] = T::lit(2.0) * place.y;
+        components[0][0][1] = T::lit(3.0) * place.x;
+        ConnectionCoefficients { components }
+    }
+}
+
+#[test]
+fn curvature_is_compared_with_the_moduli_of_its_terms() {
+    // R¹₁₁₂ = ∂₂ Γ¹₁₁ − ∂₁ Γ¹₁₂ = 2 − 3; no products where Γ vanishes.
+    let curvature = Linear.curvature(&Vector3::<f64>::zeros()).expect("R");
+    assert_eq!([curvature.components[0][0][0][1], curvature.components[0][0][1][0]], [-1.0, 1.0]);
+    assert_eq!([curvature.largest(), curvature.scale, curvature.relative()], [1.0, 5.0, 0.2]);
+}

@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use piola_integrators::{DormandPrince853, Field, State, Tolerance};
 use piola_numerics::Real;
-use piola_solids::isochoric::{Gent, Isochoric, MooneyRivlin, NeoHookean};
+use piola_solids::isochoric::{Gent, Isochoric, MooneyRivlin, NeoHookean, Rivlin, RivlinTerm};
 use piola_tensor::Symmetric;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale, difference_quotient, golden};
 use piola_uniformity::UniformityError;
@@ -179,6 +179,23 @@ fn laminated_bodies_reduce_to_homogeneous_ones() {
         }
     }
     assert_eq!(compared, 18, "points of families 1 to 4 with two laws, and two twisted rods");
+}
+
+/// W = C₁₀ (I − 3) + C₀₂ (II − 3)²: both invariants of the stretch must be right.
+#[test]
+fn stress_of_a_stretched_plate_equals_the_closed_form_of_a_law_of_both_invariants() {
+    let (c10, c02) = (0.5, 0.3);
+    let term = |first, second, coefficient| RivlinTerm { first, second, coefficient };
+    let law = Rivlin::new(vec![term(1, 0, c10), term(0, 2, c02)]).expect("a law");
+    let plate = LaminatedPlate::new(HomogeneousPlate, [0.0, 1.0]).expect("a plate");
+    let [y, z]: [f64; 2] = [1.3, 0.9];
+    let [a, b, c] = [1.0 / (y * z), y, z].map(|stretch| stretch * stretch);
+    // Tᵢ − Tⱼ = 2 (λᵢ² − λⱼ²)(W₁ + λₖ² W₂) with W₁ = C₁₀, W₂ = 2 C₀₂ (II − 3).
+    let slope = 2.0 * c02 * (a * b + b * c + c * a - 3.0);
+    let expected = [0.0, 2.0 * (b - a) * (c10 + c * slope), 2.0 * (c - a) * (c10 + b * slope), 0.0, 0.0, 0.0];
+    let state = plate.flat(0.0, [[y, 0.0], [0.0, z]]).expect("a state");
+    let stress = state.stress(&law, 0.5, 0.0).expect("T").cauchy.0.components;
+    assert_close_at_scale("T", &stress, &expected, 1.0, Tol::ulps(16.0));
 }
 
 /// A solid rod, twisted and stretched: axial force and torque.
@@ -649,6 +666,7 @@ fn small_oscillations_have_the_linear_frequency_and_large_ones_keep_their_energy
     let mut swing = LaminatedOscillation::of_tube(&tube, matrix, &law, density, 0.0).expect("a swing");
     let square = 2.0 / density * (a.powi(-2) - b.powi(-2)) / (b / a).ln();
     let start = swing.at_rest_with_radius(a + amplitude);
+    assert_close("r₀", &[swing.radius(start)], &[a + amplitude], Tol::ulps(4.0));
     let end = {
         let mut run = |state: &mut State, time: f64| integrate(&mut swing, state, time, tolerance);
         opposite(&mut run, start, half_period(square))

@@ -149,6 +149,20 @@ fn open_broken_and_short_curves_are_refused_by_name() {
 }
 
 #[test]
+fn a_density_has_parts_of_screws_and_edges() {
+    let value = Matrix3::new(1.0, 2.0, 0.0, 0.0, 3.0, -1.0, 4.0, 0.0, 5.0);
+    let map = Matrix3::new(2.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 3.0);
+    let density = DislocationDensity { value, map, scale: 5.0 };
+    let in_reference = Matrix3::new(2.0, 7.0, -1.0, 0.0, 3.0, -1.0, 13.0, 2.0, 15.0);
+    assert_eq!(density.in_reference(), in_reference);
+    // N = (3/5, 4/5, 0): α N = (11/5, 12/5, 12/5), K α N = (34/5, 12/5, 47/5), N · K α N = 6.
+    let line = Vector3::new(0.6, 0.8, 0.0);
+    assert_close("α N", density.through(&line).as_slice(), &[2.2, 2.4, 2.4], Tol::ulps(4.0));
+    assert_close("screws", &[density.screw(&line)], &[6.0], Tol::ulps(4.0));
+    assert_close("edges", density.edge(&line).as_slice(), &[3.2, -2.4, 9.4], Tol::ulps(16.0));
+}
+
+#[test]
 fn a_circuit_through_the_dislocation_is_refused() {
     let through = RoundCircuit::new(Vector3::new(1.0, 0.0, 0.0), Vector3::z(), 1.0).expect("a circle");
     // The middle of the circle lies on the line, where K is not regular.

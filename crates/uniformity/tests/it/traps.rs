@@ -57,6 +57,17 @@ fn singular_and_reversing_maps_are_refused_by_name() {
 }
 
 #[test]
+fn a_singular_sample_is_refused_with_its_node() {
+    let nodes = [2, 3, 4].map(|count: u32| (0..count).map(f64::from).collect::<Vec<_>>());
+    let mut values = vec![Matrix3::identity(); 24];
+    // The node (1, 2, 1), the last axis first.
+    values[12 + 2 * 4 + 1] = Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 0.0));
+    let samples = UniformityMapSamples { nodes, values, interpolation: Interpolation::Linear };
+    let refused = SampledUniformityMap::new(samples);
+    assert!(matches!(refused, Err(UniformityError::SingularMap { place: [1.0, 2.0, 1.0], .. })), "{refused:?}");
+}
+
+#[test]
 fn metrics_that_are_not_positive_definite_are_refused_by_name() {
     let metric = Uniform(Symmetric::diagonal([1.0, -1.0, 1.0]));
     assert!(matches!(
