@@ -501,6 +501,27 @@ fn check_limit<C: LoadCurve>(curve: &C, range: (f64, f64)) {
     assert!(0.0 < states[0].slope && states[1].slope < 0.0);
 }
 
+/// The curve s x².
+struct Parabola(f64);
+
+impl LoadCurve for Parabola {
+    const LOAD: &'static str = "load";
+    const PARAMETER: &'static str = "x";
+
+    fn load_and_slope(&self, x: f64) -> Result<[f64; 2], SolutionsError> {
+        Ok([self.0 * x * x, 2.0 * self.0 * x])
+    }
+}
+
+#[test]
+fn a_limit_point_at_a_node_of_the_search_is_found_once() {
+    for parabola in [Parabola(1.0), Parabola(-1.0)] {
+        // x = 0 is the middle of 256 intervals, and exact.
+        let limits = parabola.limit_points((-1.0, 1.0)).expect("limits");
+        assert_eq!(limits.iter().map(|limit| [limit.parameter, limit.load]).collect::<Vec<_>>(), [[0.0; 2]]);
+    }
+}
+
 /// g₁ = exp(−(I − 3)/5): a rubber that softens.
 struct Softening;
 

@@ -58,6 +58,28 @@ fn radial_oscillation_keeps_its_energy_and_its_period_is_that_of_the_quadrature(
 }
 
 #[test]
+fn kinetic_energy_equals_the_integral_over_the_wall() {
+    let law = NeoHookean::new(1.0).expect("law");
+    let (inner, outer, axial, density) = (0.5_f64, 0.8_f64, 1.25, 2.5);
+    let state = RadialState { stretch: 1.6, rate: 0.7 };
+    // r and ṙ of the inner face.
+    let (r, speed) = (inner * state.stretch, inner * state.rate);
+    // Every cylinder and every sphere keeps its flux: s ṡ = r ṙ and s² ṡ = r² ṙ.
+    let tube = TubeInflation { tube: Tube::new(inner, outer).expect("tube"), law: &law, ends: Ends::Stretch(axial) };
+    let wall = (r * r + (outer * outer - inner * inner) / axial).sqrt();
+    let of_tube = integral(r, wall, |s: f64| 0.5 * density * (r * speed / s).powi(2) * TAU * s);
+    let shell = Shell::new(inner, outer).expect("shell");
+    let shell = SphereInflation { shell, law: &law, orientation: Orientation::Kept };
+    let wall = (r.powi(3) + outer.powi(3) - inner.powi(3)).cbrt();
+    let of_shell = integral(r, wall, |s: f64| 0.5 * density * (r * r * speed / (s * s)).powi(2) * 2.0 * TAU * s * s);
+    let found = [
+        RadialOscillation { body: tube, density, pressure: 0.0 }.kinetic_energy(state).expect("tube"),
+        RadialOscillation { body: shell, density, pressure: 0.0 }.kinetic_energy(state).expect("shell"),
+    ];
+    assert_close("½ ∫ ρ v² dV", &found, &[of_tube, of_shell], Tol::ulps(64.0));
+}
+
+#[test]
 fn period_between_events_equals_the_quadrature() {
     let law = Gent::new(1.0, 20.0).expect("law");
     let shell = Shell::new(1.0, 1.4).expect("shell");
