@@ -120,3 +120,21 @@ fn what_the_quadrature_cannot_tell_is_unresolved() {
     let report = hyperelasticity(&Stored(&wall()), &Search { samples: 4, tolerance: 0.0, ..Search::default() });
     assert_eq!(report.verdict(), Verdict::Unresolved, "{report:?}");
 }
+
+#[test]
+fn the_circuit_that_stays_open_does_not_depend_on_the_unit_of_stress() {
+    let open = |unit: f64| {
+        // Powers of two leave all digits as they are.
+        let rough = of_size(move |size| if (1e7 * size).sin() < 0.0 { unit } else { 2.0 * unit });
+        let report = hyperelasticity(&rough, &Search { samples: 4, ..Search::default() });
+        assert_eq!(report.verdict(), Verdict::Unresolved, "{report:?}");
+        report.worst.expect("a circuit")
+    };
+    let expected = open(1.0);
+    for power in [-20, 20] {
+        let unit = 2.0_f64.powi(power);
+        let found = open(unit);
+        assert_eq!(found.corners, expected.corners, "in units of 2^{power}");
+        assert_close("quadrature", &[found.quadrature], &[unit * expected.quadrature], Tol::ulps(4.0));
+    }
+}
