@@ -3,6 +3,7 @@
 use piola_testkit::CountingAllocator;
 
 mod alloc;
+mod balance;
 mod errors;
 mod fixtures;
 mod images;
