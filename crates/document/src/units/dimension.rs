@@ -53,14 +53,14 @@ impl Dimension {
     /// Moment of a force, N m.
     pub const MOMENT: Self = Self { length: 2, ..Self::FORCE };
 
-    /// The dimension of a product.
+    /// The dimension of a product. Exponents stop at those of the type.
     #[must_use]
     pub const fn times(self, other: Self) -> Self {
         Self {
-            length: self.length + other.length,
-            mass: self.mass + other.mass,
-            time: self.time + other.time,
-            angle: self.angle + other.angle,
+            length: self.length.saturating_add(other.length),
+            mass: self.mass.saturating_add(other.mass),
+            time: self.time.saturating_add(other.time),
+            angle: self.angle.saturating_add(other.angle),
         }
     }
     /// The dimension of a quotient.
@@ -68,10 +68,20 @@ impl Dimension {
     pub const fn over(self, other: Self) -> Self {
         self.times(other.power(-1))
     }
-    /// The dimension of a power.
+    /// The dimension of a power. Exponents stop at those of the type.
     #[must_use]
     pub const fn power(self, n: i16) -> Self {
-        Self { length: self.length * n, mass: self.mass * n, time: self.time * n, angle: self.angle * n }
+        Self {
+            length: self.length.saturating_mul(n),
+            mass: self.mass.saturating_mul(n),
+            time: self.time.saturating_mul(n),
+            angle: self.angle.saturating_mul(n),
+        }
+    }
+
+    /// The largest exponent, without its sign.
+    pub(super) fn largest_exponent(self) -> u16 {
+        [self.length, self.mass, self.time, self.angle].map(i16::unsigned_abs).into_iter().max().unwrap_or(0)
     }
     /// The SI unit, as a document would write it: `kg m^2`, `m/s^2`, `Pa`; empty for a pure number.
     #[must_use]

@@ -61,6 +61,12 @@ pub enum UnitError {
         /// The exponent as written.
         found: String,
     },
+    /// Powers of powers that lead beyond an exponent of 99.
+    #[error("`{found}` has a dimension with an exponent beyond 99")]
+    DimensionTooLarge {
+        /// The unit as written.
+        found: String,
+    },
     /// A bracket that is not closed, or closed twice.
     #[error("brackets do not match in `{found}`")]
     UnmatchedBracket {

@@ -75,6 +75,9 @@ impl FromStr for Unit {
 /// Brackets deeper than this are refused: no unit has them, and the reader recurses.
 const DEEPEST: usize = 8;
 
+/// Of a dimension, without its sign.
+const LARGEST_EXPONENT: u16 = 99;
+
 struct Reader<'t> {
     whole: &'t str,
     rest: &'t str,
@@ -94,16 +97,21 @@ impl<'t> Reader<'t> {
                 ')' => return Ok(unit),
                 '/' => {
                     self.skip(sign);
-                    unit = unit.times(self.factor()?.power(-1));
+                    let divisor = self.factor()?.power(-1);
+                    unit = self.checked(unit.times(divisor))?;
                     divided = true;
                 }
                 '*' | '·' | '⋅' => {
                     self.skip(sign);
-                    unit = unit.times(self.factor()?);
+                    let factor = self.factor()?;
+                    unit = self.checked(unit.times(factor))?;
                 }
                 _ if before.len() == self.rest.len() => return Err(self.unexpected()),
                 _ if divided => return Err(UnitError::AmbiguousDivision { found: self.whole.to_string() }),
-                _ => unit = unit.times(self.factor()?),
+                _ => {
+                    let factor = self.factor()?;
+                    unit = self.checked(unit.times(factor))?;
+                }
             }
         }
     }
@@ -134,7 +142,17 @@ impl<'t> Reader<'t> {
             None => return Err(UnitError::UnexpectedText { found: self.whole.to_string() }),
             Some(_) => return Err(self.unexpected()),
         };
-        Ok(base.power(self.exponent()?))
+        let exponent = self.exponent()?;
+        self.checked(base.power(exponent))
+    }
+
+    /// Refuses what no table of units has, and what powers of powers would make too large to count.
+    fn checked(&self, unit: Unit) -> Result<Unit, UnitError> {
+        if unit.dimension.largest_exponent() <= LARGEST_EXPONENT {
+            Ok(unit)
+        } else {
+            Err(UnitError::DimensionTooLarge { found: self.whole.to_string() })
+        }
     }
 
     /// An exponent, 1 when there is none.

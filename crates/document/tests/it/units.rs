@@ -158,3 +158,16 @@ proptest! {
         prop_assert_eq!(unit.dimension, UNITS[a].unit.dimension.times(UNITS[b].unit.dimension.power(n)));
     }
 }
+
+#[test]
+fn powers_of_powers_are_refused_before_they_overflow() {
+    for text in ["((m^99)^99)^99", "(m^50 s)^2", "m^60 m^60", "kg^-99/kg", "1/(s^99 s)", "((m^-99)^99)^-99 · kg"] {
+        let refused = text.parse::<Unit>();
+        assert_eq!(refused, Err(UnitError::DimensionTooLarge { found: text.to_owned() }), "{text}");
+    }
+    assert_eq!("(m^33)^3".parse::<Unit>().map(|unit| unit.dimension.length), Ok(99));
+    // In code exponents stop at those of the type.
+    let most = Dimension::LENGTH.power(i16::MAX);
+    assert_eq!(most.times(Dimension::LENGTH), most);
+    assert_eq!(most.power(-2).length, i16::MIN);
+}

@@ -210,6 +210,19 @@ fn plan_of_a_study_lists_what_is_skipped_and_written() {
     assert!(shown.contains("reflection") && shown.contains("output.figures = false"), "{shown}");
 }
 
+/// All characteristics meet in the middle, which is a point of the grid: its time is known, and the run goes on.
+#[test]
+fn signal_from_a_circle_about_the_middle_completes() {
+    for (grid, radius) in [(41, 0.5), (51, 0.8), (61, 1.0)] {
+        let text = replaced(ROOM, "grid = 61", &format!("grid = {grid}\nsignal = \"circle\"\nradius = {radius:?}"));
+        let run = run(&text);
+        let middle = arrivals(&run).arrival.iter().find(|(place, _)| *place == [0.0, 0.0]);
+        let time = middle.and_then(|(_, time)| *time).expect("the time in the middle");
+        let tolerance = Tol::stated(2e-3, "interpolation between characteristics, 1/2000 of the shorter semi-axis");
+        assert_close("arrival", &[time], &[0.5 * radius], tolerance);
+    }
+}
+
 #[test]
 fn mistakes_of_studies_are_shown_at_their_places() {
     assert_mistake(&format!("{ROOM}[time]\nend = 1.0\n"), "[time]", &["[time] in a scene of [room]", "a study"]);

@@ -146,7 +146,7 @@ impl Room {
             if progress.stopped() {
                 return Ok(false);
             }
-            found.compare(&solution, side, self)?;
+            found.compare(&solution, side, self);
             found.follow(&solution, 1.5 * grid.spacing[0] / self.least_speed());
             if progress.stopped() {
                 return Ok(false);
@@ -208,7 +208,7 @@ impl Arrivals {
     }
 
     /// Compares some points with the characteristics through them.
-    fn compare(&mut self, solution: &Solution<'_>, side: f64, room: &Room) -> Result<(), CharacteristicsError> {
+    fn compare(&mut self, solution: &Solution<'_>, side: f64, room: &Room) {
         let start = room.circle.unwrap_or(room.outline);
         let known: Vec<_> = self
             .arrival
@@ -216,10 +216,10 @@ impl Arrivals {
             .filter(|(place, time)| time.is_some() && 0.0 < side * (start.level(*place) - 1.0))
             .collect();
         for (place, time) in known.iter().step_by((known.len() / CHECKED).max(1)) {
-            let sheet = solution.first_arrival(place)?;
+            // Where all characteristics meet none of them can be followed to the point: it is passed over.
+            let Ok(sheet) = solution.first_arrival(place) else { continue };
             self.difference = self.difference.max((sheet.point.u - time.unwrap_or(sheet.point.u)).abs());
         }
-        Ok(())
     }
 
     /// Characteristics until another one has been there before.
