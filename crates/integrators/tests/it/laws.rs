@@ -336,3 +336,30 @@ fn rounding_of_a_million_small_steps_stays_below_an_ulp() {
     method.integrate_to(&mut Free, &mut state, 1.0).unwrap();
     assert_close("position", &state.values, &[1.1, 0.1], Tol::ulps(1.0));
 }
+
+/// A clock y′ = 1 from a late time, where that is rounded to 1e-7: the steps still add up to the span.
+#[test]
+fn steps_from_a_late_time_add_up_to_the_span() {
+    let mut clock = field(1, |_t, _y: &[f64], rate: &mut [f64]| rate[0] = 1.0);
+    for (start, span) in [(1e9, 10.0), (-1e9, 10.0), (1e9, -10.0)] {
+        let mut state = State::new(start, vec![0.0]).unwrap();
+        let mut method =
+            DormandPrince853::new(Tolerance::relative(1e-9).unwrap()).with_longest_step(1.0 / 3.0).unwrap();
+        let report = method.integrate_to(&mut clock, &mut state, start + span).unwrap();
+        assert!(30 <= report.steps, "{report:?}");
+        assert_close("y", &state.values, &[span], Tol::ulps(2.0));
+    }
+}
+
+/// Of an even number of components the first half are positions, the others velocities; of an odd number all are alike.
+#[test]
+fn errors_are_relative_to_the_largest_position_and_to_the_largest_velocity() {
+    let still = |_t: f64, _y: &[f64], rate: &mut [f64]| rate.fill(0.0);
+    let mut found = [0.0; 4];
+    field(4, still).magnitudes(&[1.0, -3.0, 0.25, -0.125], &mut found);
+    assert_close("four", &found, &[3.0, 3.0, 0.25, 0.25], Tol::ulps(0.0));
+    field(3, still).magnitudes(&[1.0, -0.5, -2.0], &mut found[..3]);
+    assert_close("three", &found[..3], &[2.0; 3], Tol::ulps(0.0));
+    field(4, still).componentwise().magnitudes(&[1.0, -3.0, 0.25, -0.125], &mut found);
+    assert_close("each", &found, &[1.0, 3.0, 0.25, 0.125], Tol::ulps(0.0));
+}
