@@ -55,6 +55,36 @@ impl Order {
             Self::Eight => 8,
         }
     }
+
+    /// The steps of second order that a step of this order is composed of, in units of the step: γ₁, …, γₛ.
+    ///
+    /// Any symmetric map of second order may be composed, as a free rotation between two kicks.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_integrators::Order;
+    /// assert_eq!(Order::Two.substeps().collect::<Vec<_>>(), [1.0]);
+    /// // ẋ = v, v̇ = −x by kick, drift, kick: a radian in ten steps of order eight.
+    /// let [mut x, mut v] = [1.0_f64, 0.0];
+    /// for _ in 0..10 {
+    ///     for h in Order::Eight.substeps().map(|part| 0.1 * part) {
+    ///         v -= 0.5 * h * x;
+    ///         x += h * v;
+    ///         v -= 0.5 * h * x;
+    ///     }
+    /// }
+    /// assert!((x - 1.0_f64.cos()).abs() < 1e-11);
+    /// ```
+    pub fn substeps(self) -> impl Iterator<Item = f64> {
+        let half: &[f64] = match self {
+            Self::Two => &[],
+            Self::Four => &SUZUKI_4,
+            Self::Six => &KAHAN_LI_6,
+            Self::Eight => &KAHAN_LI_8,
+        };
+        let middle = 1.0 - 2.0 * half.iter().sum::<f64>();
+        half.iter().copied().chain([middle]).chain(half.iter().rev().copied())
+    }
 }
 
 // First halves of the symmetric coefficient lists; the middle one is 1 − 2 Σ, so that each list sums to one.
@@ -117,19 +147,11 @@ impl<T: Real> Composition<T> {
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
     pub fn new(order: Order, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
-        let half: &[f64] = match order {
-            Order::Two => &[],
-            Order::Four => &SUZUKI_4,
-            Order::Six => &KAHAN_LI_6,
-            Order::Eight => &KAHAN_LI_8,
-        };
-        let stages = 2 * half.len() + 1;
-        let mut kicks = [0.0; MOST_STAGES];
-        kicks[..half.len()].copy_from_slice(half);
-        for (i, &gamma) in half.iter().enumerate() {
-            kicks[stages - 1 - i] = gamma;
+        let (mut kicks, mut stages) = ([0.0; MOST_STAGES], 0);
+        for (kick, gamma) in kicks.iter_mut().zip(order.substeps()) {
+            *kick = gamma;
+            stages += 1;
         }
-        kicks[half.len()] = 1.0 - 2.0 * half.iter().sum::<f64>();
         Ok(Self { order, step, stages, kicks, rate: Vec::new(), next: (Vec::new(), Vec::new()) })
     }
 

@@ -4,10 +4,12 @@
 
 pub mod attitude;
 pub mod curve;
+mod elliptic;
 mod error;
 pub mod euler_angles;
 #[cfg(feature = "serde")]
 mod finite;
+mod free_rotation;
 pub mod inertia;
 pub mod mesh;
 pub mod particle;
@@ -24,6 +26,7 @@ mod vector;
 pub use attitude::Attitude;
 pub use error::KinematicsError;
 pub use euler_angles::{EulerAngles, EulerChart, EulerSequence};
+pub use free_rotation::FreeRotation;
 pub use inertia::Inertia;
 pub use placement::{Holonomic, Placement};
 #[cfg(feature = "glam")]

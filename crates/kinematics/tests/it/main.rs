@@ -6,6 +6,7 @@ mod alloc;
 mod charts;
 mod equations;
 mod exponential;
+mod free_rotation;
 mod golden;
 mod laws;
 mod meshes;

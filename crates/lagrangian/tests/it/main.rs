@@ -4,6 +4,7 @@ mod alloc;
 mod any;
 mod counts;
 mod golden;
+mod heavy_top_splitting;
 mod laws;
 mod systems;
 mod traps;
