@@ -4,9 +4,9 @@
 
 use std::f64::consts::PI;
 
-use piola_fluids::{Newtonian, SecondOrder, ViscometricFluid};
+use piola_fluids::{Bingham, Newtonian, SecondOrder, ViscometricFluid};
 use piola_testkit::{Tol, assert_close, assert_each_close};
-use piola_viscometry::{Channel, ConeAndPlate, Couette, Poiseuille, Stresses};
+use piola_viscometry::{Channel, ConeAndPlate, Couette, ParallelPlates, Poiseuille, Stresses};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -132,6 +132,37 @@ fn cone_with_normal_stresses_equals_values_by_hand() -> Outcome {
         assert_each_close("τ", &[fluid.shear_stress(sign * 2.0)], &[sign * 4.0], CLOSED);
         assert_each_close("M", &[cone.torque(&fluid)?.value], &[sign * PI / 3.0], CLOSED);
         assert_each_close("F", &[cone.thrust(&fluid)?.value], &[0.5 * PI], CLOSED);
+    }
+    Ok(())
+}
+
+#[test]
+fn velocity_between_discs_equals_the_rate_times_the_height() -> Outcome {
+    // R = 2, h = 1/2, Ω = 3: v = Ω r z/h.
+    let discs = ParallelPlates::new(2.0, 0.5, 3.0)?;
+    for (r, share, velocity) in [(1.0, 0.25, 0.75), (2.0, 0.5, 3.0), (0.5, 1.0, 1.5), (1.5, 0.0, 0.0)] {
+        assert_each_close("v", &[discs.velocity(&fluid(), r, share)?], &[velocity], CLOSED);
+    }
+    Ok(())
+}
+
+/// Bingham's fluid with `τ_y` = 1 and μ = 2 between cylinders of radii 1 and 2: T₁ = 2.25, so that it turns rigidly beyond r = 3/2.
+#[test]
+fn centrifugal_pressure_and_its_error_scale_with_the_unit_of_time() -> Outcome {
+    let difference = |unit: f64| -> Result<_, Box<dyn std::error::Error>> {
+        let fluid = Bingham::new(unit * unit, 2.0 * unit)?;
+        let couette =
+            Couette::new(1.0, 2.0, 4.5 * PI * unit * unit)?.with_inner_speed(0.25 * unit)?.with_density(3.0)?;
+        Ok(couette.radial_difference(&fluid)?)
+    };
+    let expected = difference(1.0)?;
+    assert!(expected.value < 0.0 && 0.0 < expected.error);
+    // Powers of two leave all digits as they are.
+    for unit in [1024.0, 1.0 / 1024.0] {
+        let found = difference(unit)?;
+        let square = unit * unit;
+        let scaled = [square * expected.value, square * expected.error];
+        assert_each_close("T_rr(R₂) − T_rr(R₁)", &[found.value, found.error], &scaled, Tol::ulps(64.0));
     }
     Ok(())
 }

@@ -147,6 +147,16 @@ fn power_laws_of_every_exponent_and_rate_equal_their_formulas() -> Outcome {
 }
 
 #[test]
+fn a_film_is_found_from_where_the_rates_are_no_numbers() -> Outcome {
+    // ρ g = 1, n = 1/20: Q = ∫ ξ (ξ/K)²⁰ dξ = δ²²/(22 K²⁰). A film of a Newtonian fluid of viscosity K has k = 10⁻⁴⁰⁰.
+    let thick = PowerLaw::new(1e30, 0.05)?;
+    let film = FallingFilm::with_discharge(1.0, 1.0, 1.0, PI / 2.0, &thick)?;
+    let expected = ((22.0_f64.ln() + 20.0 * 1e30_f64.ln()) / 22.0).exp();
+    assert_close("δ", &[film.thickness()], &[expected], Tol::ulps_because(256.0, "logarithms of 63, of few ulp each"));
+    Ok(())
+}
+
+#[test]
 fn extreme_flows_of_a_carreau_fluid_equal_those_of_its_plateaus() -> Outcome {
     let fluid = CarreauYasuda::new(2.0, 0.05, 1.5, 0.4, 1.25)?;
     let slow = Poiseuille::new(1.0, 4e-8)?.discharge(&fluid)?.value;
@@ -340,6 +350,11 @@ fn warnings_equal_what_is_wrong() -> Outcome {
     assert_close("Re", &[discs.reynolds_number], &[1.0], Tol::ulps(8.0));
     let film = FallingFilm::new(1e-3, 1000.0, 9.8, PI / 2.0)?.validity(&water)?;
     assert!(matches!(film.warnings().next(), Some(Warning::Waves { .. })));
+    // On a slope long waves grow from 5/6 cot β.
+    let critical = 5.0 / (6.0 * 0.1_f64.tan());
+    let slope = FallingFilm::new(1e-3, 1000.0, 9.8, 0.1)?.validity(&water)?;
+    let Some(Warning::Waves { critical: found, .. }) = slope.warnings().next() else { panic!("{slope:?}") };
+    assert_close("Re", &[found], &[critical], Tol::ulps(8.0));
     let plane = PlaneCouette::new(1e-3, 10.0)?.validity(&water, 1000.0, 1.0)?;
     assert_close("Re", &[plane.reynolds_number], &[1e4], Tol::ulps(8.0));
     assert!(matches!(plane.warnings().next(), Some(Warning::Turbulence { .. })));

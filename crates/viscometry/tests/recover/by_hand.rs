@@ -5,7 +5,7 @@ use core::f64::consts::{PI, TAU};
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_each_close};
 use piola_viscometry::recover::{
-    self, ChannelGeometry, CouetteGeometry, FlowCurve, FlowTable, MeasuredCurve, PipeGeometry, functions,
+    self, ChannelGeometry, ConeGeometry, CouetteGeometry, FlowCurve, FlowTable, MeasuredCurve, PipeGeometry, functions,
 };
 
 /// Some ten operations on numbers of one sign.
@@ -128,3 +128,12 @@ fn tables_of_any_size_recover_the_rates_by_hand() {
 
 /// Splines of degree 7 through rows at e^⅛.
 const TABLE: Tol = Tol::stated(2e-6, "(⅛)⁷ = 5e-7 of the change of the slope");
+
+#[test]
+fn a_cone_of_any_radius_gives_the_stresses_of_its_torque_and_thrust() {
+    // τ = 3 and N₁ = 2 at R = ½: 𝓜 = 2π R³ τ/3 = π/4, 𝓕 = π R² N₁/2 = π/4.
+    let cone = ConeGeometry::new(0.5, 0.05).expect("a cone");
+    let point = recover::cone_and_plate(cone, 0.2, PI / 4.0, PI / 4.0).expect("a point");
+    let found = [point.shear_rate, point.shear_stress, point.first_normal_stress_difference];
+    assert_each_close("k, τ, N₁", &found, &[4.0, 3.0, 2.0], CLOSED);
+}

@@ -1,10 +1,13 @@
 //! Slip and ends of capillaries.
 
+use core::f64::consts::PI;
+
 use piola_testkit::{Tol, assert_close};
 use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{
     self, Capillary, Criterion, FlowTable, Noise, PipeGeometry, end_correction, slip_at_walls,
 };
+use statrs::distribution::{ContinuousCDF, Normal as StandardNormal};
 
 use super::noise::Normal;
 
@@ -19,7 +22,7 @@ fn slipping(radius: f64, count: u32) -> Result<FlowTable<PipeGeometry>, Viscomet
         .map(|i| (0.15 * f64::from(i)).exp())
         .map(|stress| {
             let apparent = 0.8 * stress * stress + 4.0 * 0.3 * stress.powf(1.5) / radius;
-            [2.0 * stress / radius, 0.25 * core::f64::consts::PI * radius.powi(3) * apparent]
+            [2.0 * stress / radius, 0.25 * PI * radius.powi(3) * apparent]
         })
         .collect();
     FlowTable::pipe(radius, &rows)
@@ -64,7 +67,7 @@ fn pressure_without_ends_recovers_the_fluid() {
         let rows: Vec<_> = (0..20)
             .map(|i| (0.1 * f64::from(i)).exp())
             .map(|stress| {
-                let discharge = core::f64::consts::PI * 0.125 * stress * stress / 5.0;
+                let discharge = PI * 0.125 * stress * stress / 5.0;
                 [discharge, 2.0 * stress * length / 0.5 + 4.0 * stress]
             })
             .collect();
@@ -96,7 +99,7 @@ fn pipes(mut error: impl FnMut() -> f64) -> Result<Vec<FlowTable<PipeGeometry>>,
             .map(|i| (0.1 * f64::from(i) + shift).exp())
             .map(|stress| {
                 let apparent = stress + 0.8 * stress * stress + 4.0 * 0.3 * stress.powf(1.5) / radius;
-                let discharge = 0.25 * core::f64::consts::PI * radius.powi(3) * apparent;
+                let discharge = 0.25 * PI * radius.powi(3) * apparent;
                 [2.0 * stress / radius, discharge * (1.0 + error())]
             })
             .collect();
@@ -111,7 +114,7 @@ fn capillaries(mut error: impl FnMut() -> f64) -> Result<Vec<Capillary>, Viscome
         let rows: Vec<_> = (0..25)
             .map(|i| (0.1 * f64::from(i) + shift).exp())
             .map(|stress| {
-                let discharge = 0.25 * core::f64::consts::PI * 0.125 * (stress + 0.8 * stress * stress);
+                let discharge = 0.25 * PI * 0.125 * (stress + 0.8 * stress * stress);
                 [discharge, (2.0 * stress * length / 0.5 + 4.0 * stress) * (1.0 + error())]
             })
             .collect();
@@ -173,4 +176,88 @@ fn bands_of_corrected_tables_with_a_percent_of_noise_hold_the_fluid_in_nine_of_t
     for held in held {
         assert!(9 * trials <= 10 * held, "{held} of {trials}");
     }
+}
+
+#[test]
+fn standard_errors_of_slip_and_ends_are_those_of_a_line() {
+    // Answers that lie on no line over the abscissas 2, 1, ½: their regression by hand.
+    let places = [2.0_f64, 1.0, 0.5];
+    let factors = [4.0, 2.5, 2.5];
+    let mean = 3.5 / 3.0;
+    let square: f64 = places.iter().map(|x| (x - mean).powi(2)).sum();
+    let slope = places.iter().zip(factors).map(|(x, y)| (x - mean) * y).sum::<f64>() / square;
+    let value = 3.0 - mean * slope;
+    let variance: f64 = places.iter().zip(factors).map(|(x, y)| (y - value - slope * x).powi(2)).sum();
+    // Pipes with 4Q/(πR³) = factor τ and capillaries with Δp = factor Q.
+    let pipe = |(place, factor): (&f64, f64)| {
+        let radius = 1.0 / place;
+        let rows: Vec<_> = (1..9)
+            .map(f64::from)
+            .map(|stress| [2.0 * stress / radius, 0.25 * PI * radius.powi(3) * factor * stress])
+            .collect();
+        FlowTable::pipe(radius, &rows).expect("a table")
+    };
+    let slip = slip_at_walls(&places.iter().zip(factors).map(pipe).collect::<Vec<_>>()).expect("slip");
+    let capillary = |(place, factor): (&f64, f64)| {
+        let rows: Vec<_> = (1..9).map(f64::from).map(|discharge| [discharge, factor * discharge]).collect();
+        Capillary::new(1.0, *place, &rows).expect("a capillary")
+    };
+    let ends = end_correction(&places.iter().zip(factors).map(capillary).collect::<Vec<_>>()).expect("ends");
+    assert_eq!((slip.points.len(), ends.points.len()), (8, 8));
+    for (slip, ends) in slip.points.iter().zip(&ends.points) {
+        let (stress, discharge) = (slip.wall_stress, ends.discharge);
+        let expected = 0.25 * stress * (variance / square).sqrt();
+        assert_close("slip", &[slip.slip_error.expect("three pipes")], &[expected], ROUNDING);
+        let expected = discharge * (variance * (1.0 / 3.0 + mean * mean / square)).sqrt();
+        assert_close("ends", &[ends.end_error.expect("three capillaries")], &[expected], ROUNDING);
+    }
+}
+
+/// Half the width of a band of ln k at both ends of a table of 20 rows over `step`, over the deviation of the regression of
+/// logarithms, and the probability that a path of such deviations is left somewhere (D. Q. Naiman's inequality).
+///
+/// ln k has the error Σ wᵢ (a δBᵢ + b δBᵢ′), of all tables alike but for wᵢ: √(a²/N + (a (u − ū) + b)²/S) √Σ wᵢ² σ.
+fn check_band(halves: [f64; 2], step: f64, [a, b]: [f64; 2], weights: [f64; 3]) {
+    let square = step * step * 20.0 * 399.0 / 12.0;
+    let parts = [-9.5, 9.5].map(|place| [a / 20.0_f64.sqrt(), (a * place * step + b) / square.sqrt()]);
+    let size = 0.01 * weights.iter().map(|w| w * w).sum::<f64>().sqrt();
+    let [first, last] = [0, 1].map(|end| halves[end] / (size * parts[end][0].hypot(parts[end][1])));
+    let tol = Tol::stated(1e-3, "what the smoothing leaves of curvature, less than 1e-3 of the deviation");
+    assert_close("multiple of the deviation", &[first], &[last], tol);
+    let [from, to] = parts.map(|[x, y]| y.atan2(x));
+    let left = (to - from) / PI * (-0.5 * first * first).exp() + 2.0 * StandardNormal::standard().sf(first);
+    assert_close("probability", &[left], &[0.05], tol.times(10.0));
+}
+
+#[test]
+fn bands_of_power_laws_with_known_noise_are_those_of_straight_lines() {
+    let known = Noise::Relative(0.01);
+    let rows = |step: f64| (0..20).map(move |i| (step * f64::from(i)).exp());
+    let half = |rate: f64, band: Option<[f64; 2]>| (band.expect("asked for")[1] / rate).ln();
+    // 4Q/(πR³) = (4/5 + 2/(5R)) τ², so that k = τ²; aᵢ of the line through 2, 1, ½ at 0.
+    let radii = [0.5, 1.0, 2.0];
+    let pipe = |radius: f64| {
+        let discharge = |stress: f64| 0.25 * PI * radius.powi(3) * (0.8 + 0.4 / radius) * stress * stress;
+        let rows: Vec<_> = rows(0.15).map(|stress| [2.0 * stress / radius, discharge(stress)]).collect();
+        FlowTable::pipe(radius, &rows)?.with_noise(known)
+    };
+    let slip = slip_at_walls(&radii.map(|radius| pipe(radius).expect("a table")));
+    let points = slip.and_then(|slip| slip.with_band(0.95)).expect("slip").points;
+    let halves = [0, 19].map(|at: usize| half(points[at].shear_rate, points[at].band));
+    let weights = radii.map(|radius| {
+        let share = 1.0 / 3.0 - 7.0 / 6.0 * (1.0 / radius - 7.0 / 6.0) / (7.0 / 6.0);
+        0.25 * share * (0.8 + 0.4 / radius)
+    });
+    check_band(halves, 0.15, [5.0, 1.0], weights);
+    // Δp = 2 τ L/R + 4 τ with τ = √Q: bᵢ of the line through 10, 20, 40, d ln k/d ln τ = 2, N (3N + 1) = 5/4.
+    let capillary = |length: f64| {
+        let rows: Vec<_> = rows(0.2).map(|q| [q, (4.0 * length + 4.0) * q.sqrt()]).collect();
+        Capillary::new(0.5, length, &rows)?.with_noise(known)
+    };
+    let lengths = [5.0, 10.0, 20.0];
+    let ends = end_correction(&lengths.map(|length| capillary(length).expect("a capillary")));
+    let points = ends.and_then(|ends| ends.with_band(0.95)).expect("ends").points;
+    let halves = [0, 19].map(|at: usize| half(points[at].shear_rate, points[at].band));
+    let weights = lengths.map(|length| (2.0 * length - 70.0 / 3.0) / (1400.0 / 3.0) * (2.0 * length + 2.0));
+    check_band(halves, 0.2, [2.0, 0.8], weights);
 }

@@ -38,6 +38,21 @@ fn rows_that_cannot_be_are_named() {
 }
 
 #[test]
+fn a_response_may_fall_by_what_noise_explains_in_any_unit() {
+    // 5 √2 σ = 0.0707: ln(6/5.7) = 0.0513 is noise, ln(6/5.5) = 0.0870 is not.
+    for unit in [1e-6, 1.0, 1e6] {
+        let rising = |response: f64| {
+            let rows = with(4, [5.0, response]).map(|[drive, response]| [drive, unit * response]);
+            let table = FlowTable::pipe(1.0, &rows).and_then(|table| table.with_noise(Noise::Relative(0.01)));
+            table.expect("a table").check_rising()
+        };
+        assert_eq!(rising(5.7), Ok(()), "in units of {unit}");
+        let (value, previous) = (unit * 5.5, unit * 6.0);
+        assert_eq!(rising(5.5), Err(ViscometryError::ResponseFalls { row: 4, value, previous }), "in units of {unit}");
+    }
+}
+
+#[test]
 fn geometries_that_cannot_be_are_named() {
     assert_eq!(sentence(PipeGeometry::new(0.0)), "pipe: radius = 0e0 violates 0 < R");
     assert_eq!(sentence(ChannelGeometry::new(f64::NAN)), "channel: half width = NaN is not finite");
