@@ -5,7 +5,7 @@ use piola_fields::compatibility::Curvature;
 use piola_fields::{Coordinates, Cylindrical, Field, Material};
 use piola_numerics::linear::matrix3::{from_rows, inverse_and_determinant, rows_of};
 use piola_numerics::{Gradient, Real};
-use piola_testkit::{Tol, assert_close_at_scale};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use piola_uniformity::{
     AffineConnection, CharacteristicMetric, ConnectionCoefficients, ConnectionIn, HomogeneousIn, LeviCivita,
     LieAlgebra, MaterialConnection, MaterialityResidual, MetricGeometry, UniformityMap,
@@ -308,6 +308,8 @@ impl AffineConnection for Linear {
 fn curvature_is_compared_with_the_moduli_of_its_terms() {
     // R¹₁₁₂ = ∂₂ Γ¹₁₁ − ∂₁ Γ¹₁₂ = 2 − 3; no products where Γ vanishes.
     let curvature = Linear.curvature(&Vector3::<f64>::zeros()).expect("R");
-    assert_eq!([curvature.components[0][0][0][1], curvature.components[0][0][1][0]], [-1.0, 1.0]);
-    assert_eq!([curvature.largest(), curvature.scale, curvature.relative()], [1.0, 5.0, 0.2]);
+    let components = [curvature.components[0][0][0][1], curvature.components[0][0][1][0]];
+    assert_close("R¹₁₁₂, R¹₁₂₁", &components, &[-1.0, 1.0], Tol::ulps(1.0));
+    let sizes = [curvature.largest(), curvature.scale, curvature.relative()];
+    assert_close("largest, scale, relative", &sizes, &[1.0, 5.0, 0.2], Tol::ulps(1.0));
 }
