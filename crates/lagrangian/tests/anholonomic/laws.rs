@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use piola_integrators::{DormandPrince853, State, Tolerance};
 use piola_kinematics::EulerSequence;
 use piola_lagrangian::anholonomic::{
-    BodyAngularVelocity, ByCoframe, ByFrame, Coframe, InFrame, Nonholonomic, QuasiVelocities, drift_coefficients,
-    structure_coefficients,
+    AnholonomicFrame, BodyAngularVelocity, ByCoframe, ByFrame, Coframe, InFrame, Nonholonomic, QuasiVelocities,
+    drift_coefficients, structure_coefficients,
 };
 use piola_lagrangian::{Holonomic, Lagrangian, Placement, Workspace};
 use piola_numerics::{Dual, Real};
@@ -119,6 +119,29 @@ proptest! {
                 let sum: Vec<f64> = (0..3).map(|d| (0..3).map(|c| k[c][(a, b)] * matrix[(c, d)]).sum()).collect();
                 assert_close_at_scale("[k_A, k_B]", &sum, &bracket, 1.0, rounding());
             }
+        }
+    }
+
+    #[test]
+    fn bracket_with_drift_and_time_equals_drift_coefficients_times_frame((q, _, weights, t, _) in state()) {
+        // [k_A, ∂_t + d]f = k_A(d f) − (∂_t + d)(k_A f) for f = q^D, with dual numbers along k_A and along ∂_t + d.
+        let moving = Moving(weights);
+        let along = |direction: &[f64], rate: f64| {
+            let q: Vec<Dual<f64>> = q.iter().zip(direction).map(|(&q, &v)| Dual::new(q, v)).collect();
+            let (mut rows, mut drift) = ([Dual::constant(0.0); 9], [Dual::constant(0.0); 3]);
+            AnholonomicFrame::frame(&moving, &q, Dual::new(t, rate), &mut rows);
+            AnholonomicFrame::drift(&moving, &q, Dual::new(t, rate), &mut drift);
+            (rows, drift)
+        };
+        let (rows, drift) = along(&[0.0; 3], 0.0);
+        let (rows, drift) = (rows.map(|x| x.value), drift.map(|x| x.value));
+        let k = drift_coefficients(&ByFrame(moving), &q, t).unwrap();
+        let carried = along(&drift, 1.0).0;
+        for a in 0..3 {
+            let slipped = along(&rows[3 * a..3 * a + 3], 0.0).1;
+            let bracket: Vec<f64> = (0..3).map(|d| slipped[d].tangent - carried[3 * a + d].tangent).collect();
+            let sum: Vec<f64> = (0..3).map(|d| (0..3).map(|c| k[(c, a)] * rows[3 * c + d]).sum()).collect();
+            assert_close_at_scale("[k_A, ∂_t + d]", &sum, &bracket, 1.0, rounding());
         }
     }
 

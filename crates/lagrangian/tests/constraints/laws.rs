@@ -124,3 +124,29 @@ fn drifting_constraint_takes_the_particle_with_it() {
     assert_close("q", q, &[6.0, -45.0, 1.0], Tol::stated(1e-14, "rounding of a few steps"));
     assert_close("v", v, &[2.0, -30.0, 0.0], Tol::stated(1e-14, "rounding of a few steps"));
 }
+
+/// n₁·x = 0 and (n₁ + δ n₂)·x = 0 hold a particle to the line along n₁×n₂, where gravity moves it. However small δ is, both
+/// hold to rounding; the direction of the line is known to rounding over δ.
+#[test]
+fn nearly_dependent_constraints_are_both_satisfied_to_rounding() {
+    let gravity = [1.0, -2.0, -9.8];
+    let (first, second, along) = ([0.6, 0.48, 0.64], [-0.8, 0.36, 0.48], [0.0, -0.8, 0.6]);
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    for share in [1e-2, 1e-4, 1e-6] {
+        let near: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a + share * b).collect();
+        let rows = [&first[..], &near].map(|row| [&[0.0; 2], row].concat());
+        let free = mechanism(System::Particles { last_has_mass: true }, gravity, 0.0);
+        let system = free.with_constraints(Ties::Linear(rows.to_vec()));
+        let found = system.acceleration(&[0.0; 3], &[0.0; 3], 0.0).unwrap();
+        let across = [dot(&first, found.as_slice()), dot(&near, found.as_slice())];
+        assert_close_at_scale("∂²g/∂t²", &across, &[0.0; 2], 10.0, Tol::ulps(8.0));
+        let fall = dot(&along, &gravity);
+        assert_close_at_scale(
+            "fall",
+            &[dot(&along, found.as_slice())],
+            &[fall],
+            10.0,
+            Tol::ulps(8.0).times(1.0 / share),
+        );
+    }
+}

@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use piola_integrators::{State, Tolerance};
 use piola_lagrangian::constraints::{Constrained, Rattle};
-use piola_testkit::{Tol, assert_close_at_scale, assert_order};
+use piola_testkit::{Tol, assert_close, assert_close_at_scale, assert_order};
 
 use crate::four_bar::{GRAVITY, RATE, state};
 use crate::systems::{Drive, Mechanism, Spring, System, Ties, mechanism};
@@ -96,6 +96,17 @@ fn energy_of_rattle_does_not_drift_and_loops_stay_closed() {
         // Angles grow by many turns; a rounding of them opens the loops.
         assert_close_at_scale("loops", &[open], &[0.0], slip.max(1.0), Tol::ulps(8.0));
     }
+}
+
+/// Where nothing moves, a step ends after one sweep: its two evaluations, and one of the force at the end.
+#[test]
+fn steps_of_rattle_at_rest_cost_three_evaluations_each() {
+    let free = mechanism(System::Particles { last_has_mass: true }, [0.0; 3], 0.0);
+    let held = free.with_constraints(Ties::Linear(vec![vec![0.0, 0.0, 1.0, 2.0, -1.0]]));
+    let mut state = held.canonical_state(&[0.0; 3], &[0.0; 3], 0.0).unwrap();
+    let report = Rattle::new(0.125).unwrap().integrate_to(&held, &mut state, 1.0).unwrap();
+    assert_eq!((report.steps, report.evaluations), (8, 24));
+    assert_close("state", &state.values, &[0.0; 6], Tol::ulps(0.0));
 }
 
 /// The step maps the states on the constraint to each other; in the coordinates (θ, p) of a system with one degree of

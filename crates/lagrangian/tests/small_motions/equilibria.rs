@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use nalgebra::DMatrix;
+use piola_kinematics::{Inertia, RigidBody};
 use piola_lagrangian::Lagrangian;
 use piola_lagrangian::small_motions::{ModeMotion, Stability};
 use piola_lagrangian::{LagrangianError, SmallMotionsError};
@@ -64,6 +65,19 @@ fn double_pendulum_has_one_stable_equilibrium_of_four() {
     }
     // An exact guess is accepted as it is.
     assert_eq!(pendulum().equilibrium(&[0.0, 0.0], 0.0).unwrap().iterations, 0);
+}
+
+/// π is the number next to the angle of the upright pendulum: the moment m g l sin π there is rounding in any unit of mass.
+#[test]
+fn guess_that_is_exact_but_for_rounding_is_accepted_in_any_unit_of_mass() {
+    for mass in [1e-12, 1.0, 1e12] {
+        let upright = standing(Still::Pendulums(vec![mass], vec![0.5])).equilibrium(&[PI], 0.0).unwrap();
+        assert_eq!((upright.iterations, upright.stability), (0, Stability::Unstable), "{mass}");
+        assert_close("θ", upright.coordinates.as_slice(), &[PI], Tol::ulps(1.0));
+        // K = −m g l, and its condition number is one.
+        let stiffness = upright.linearisation.stiffness[(0, 0)];
+        assert_close("K", &[stiffness, upright.condition], &[-0.5 * mass * GRAVITY, 1.0], Tol::ulps(8.0));
+    }
 }
 
 #[test]
@@ -145,6 +159,23 @@ fn forces_that_nothing_balances_are_refused() {
         ),
         "{error}"
     );
+}
+
+/// Along e^q Newton's hundred steps have the length one each: the force left is e^(−99.5), compared with the weight m g.
+#[test]
+fn force_that_is_left_is_compared_with_the_weight_of_particles_and_bodies() {
+    let mass = 2.5;
+    let body = RigidBody::new(mass, Inertia::principal([1.0; 3]).unwrap()).unwrap();
+    for system in [Still::Masses(vec![mass]), Still::Slide(body)] {
+        let fading = Lagrangian::of(system).with_gravity(GRAVITY).with_potential(Acts::Exponential);
+        let error = fading.with_forces(Linear::default()).equilibrium(&[0.5], 0.0).unwrap_err();
+        let LagrangianError::SmallMotions(SmallMotionsError::NoEquilibrium { iterations, residual }) = error else {
+            panic!("{error}")
+        };
+        assert_eq!(iterations, 100);
+        let places = Tol::ulps_because(6400.0, "a hundred steps, each rounded at places up to a hundred");
+        assert_close("residual", &[residual], &[(-99.5_f64).exp() / (mass * GRAVITY)], places);
+    }
 }
 
 #[test]

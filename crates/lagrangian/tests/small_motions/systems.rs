@@ -23,6 +23,8 @@ pub(crate) enum Still {
     Sheared(f64),
     /// Tilts about x and y, then the spin.
     Top(RigidBody),
+    /// A body that slides along a line.
+    Slide(RigidBody),
 }
 
 impl Still {
@@ -63,6 +65,9 @@ impl Holonomic for Still {
                     Attitude::about_x(q[0]).product(Attitude::about_y(q[1])).product(Attitude::about_z(q[2]));
                 let centre = attitude.to_space(&Vector3::new(T::zero(), T::zero(), T::lit(TOP[3])));
                 bodies.body(body, centre, attitude);
+            }
+            Self::Slide(body) => {
+                bodies.body(body, Vector3::new(q[0], T::zero(), T::zero()), Attitude::about_x(T::zero()));
             }
         }
     }

@@ -5,7 +5,7 @@ use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_lagrangian::rigid_motion::{RigidRotation, Torque};
 use piola_lagrangian::{Forces, Holonomic, Lagrangian, LagrangianFunction, Potential, Workspace};
 use piola_numerics::Real;
-use piola_testkit::{Tol, assert_close_at_scale};
+use piola_testkit::{Tol, assert_close_at_scale, difference_quotient};
 
 use crate::any::{Law, for_all_systems};
 
@@ -27,6 +27,15 @@ impl Law for Canonical {
         method().integrate_to(&mut lagrangian.motion(n), &mut direct, t + 0.5).unwrap();
 
         let momenta = lagrangian.momenta(q, v, t).unwrap();
+        // dH = (−∂L/∂q, q̇): the differences of H, and the velocities that the momenta were made of.
+        let energy = |q: &[f64]| vec![lagrangian.hamiltonian(q, momenta.as_slice(), t).unwrap()];
+        let along = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect::<Vec<_>>();
+        let slopes: Vec<f64> = (0..n).map(|i| difference_quotient(energy, q, &along(i))[0]).collect();
+        let differential = lagrangian.hamiltonian_differential(q, momenta.as_slice(), t).unwrap();
+        let (scale, differences) = (energy(q)[0].abs().max(10.0), Tol::stated(1e-8, "sixth-order differences"));
+        assert_close_at_scale(name, &differential.as_slice()[..n], &slopes, scale, differences);
+        assert_close_at_scale(name, &differential.as_slice()[n..], v, 1.0, ADAPTIVE);
+
         let mut canonical = State::new(t, [q, momenta.as_slice()].concat()).unwrap();
         method().integrate_to(&mut lagrangian.canonical_motion(n), &mut canonical, t + 0.5).unwrap();
         assert_close_at_scale(name, &canonical.values[..n], &direct.values[..n], 1.0, ADAPTIVE.times(10.0));
@@ -119,13 +128,17 @@ fn driven_rotation_equals_lagranges_equations_in_eulerian_angles() {
 fn run_equals_motion_and_estimates_its_error() {
     let pendulum = Lagrangian::of(crate::systems::DoublePendulum { mass: [1.0, 1.0], length: [1.0, 1.0] })
         .with_uniform_gravity([0.0, -9.8125, 0.0]);
-    let run = pendulum.integrate(&[0.25, -0.125], &[0.0, 0.0], 0.0..10.0, Tolerance::relative(1e-9).unwrap()).unwrap();
     let mut exact = State::new(0.0, vec![0.25, -0.125, 0.0, 0.0]).unwrap();
     let mut method = DormandPrince853::new(Tolerance::relative(1e-14).unwrap());
     method.integrate_to(&mut pendulum.motion(2), &mut exact, 10.0).unwrap();
+    let run_to = |tolerance| pendulum.integrate(&[0.25, -0.125], &[0.0, 0.0], 0.0..10.0, tolerance).unwrap();
+    let run = run_to(Tolerance::relative(1e-9).unwrap());
+    // The tolerance is relative, or absolute alone.
+    for run in [&run, &run_to(Tolerance::new(0.0, 1e-9).unwrap())] {
+        let error = run.last().0.iter().zip(&exact.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(0.5 * error <= run.error_estimate() && run.error_estimate() <= 2.0 * error, "{error:e}");
+    }
     let (q, v) = run.last();
-    let error = q.iter().zip(&exact.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    assert!(0.5 * error <= run.error_estimate() && run.error_estimate() <= 2.0 * error, "{error:e}");
     assert_eq!(run.times().len() as u64, run.steps() + 1);
     assert_eq!(run.coordinates(0), Some(&[0.25, -0.125][..]));
     assert_eq!((run.velocities(run.times().len() - 1), run.coordinates(run.times().len())), (Some(v), None));
