@@ -2,6 +2,7 @@
 
 mod alloc;
 mod candidates;
+mod closed_forms;
 mod fronts;
 mod golden;
 mod laws;

@@ -138,6 +138,39 @@ fn kepler_is_one_problem_in_polar_and_parabolic_coordinates() {
     }
 }
 
+/// p² = 2(E + cos(q/a)): wells of the width 2πa, one beside the other.
+struct Corrugated(f64);
+
+impl Separable for Corrugated {
+    fn freedom(&self) -> usize {
+        1
+    }
+    fn square<T: Real>(&self, _coordinate: usize, x: T, c: &[T]) -> T {
+        T::lit(2.0) * (c[0] + (x / T::lit(self.0)).cos())
+    }
+    fn constants(&self, q: &[f64], p: &[f64], constants: &mut [f64]) {
+        constants[0] = 0.5 * p[0] * p[0] - (q[0] / self.0).cos();
+    }
+}
+
+/// Within ±a arccos(−E) about the bottom of a well, however narrow the wells are.
+#[test]
+fn turning_points_are_those_of_the_well_in_which_the_motion_is() {
+    let mut compared = 0;
+    for pitch in [1e-5, 1e-3, 1.0, 1e3] {
+        for energy in [-0.5, 0.0, 0.5] {
+            let p = (2.0 * (energy + 1.0_f64)).sqrt();
+            let wells = Corrugated(pitch);
+            let motion = SeparableMotion::through(&wells, (&[0.0], &[p], 0.0)).unwrap();
+            let (Some(low), Some(high)) = motion.turning_points(0) else { panic!("a well has two") };
+            let expected = pitch * (-energy).acos();
+            assert_close("q", &[low, high], &[-expected, expected], Tol::ulps(16.0));
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 12);
+}
+
 #[test]
 fn circular_orbits_and_forbidden_places() {
     let kepler = KeplerPolar { mass: 1.0, strength: 1.0 };

@@ -1,6 +1,8 @@
 //! Monge strips and characteristic strips.
 
-use piola_hamiltonian::hamilton_jacobi::{Strip, StripResidual};
+use piola_hamiltonian::PhaseFunction;
+use piola_hamiltonian::hamilton_jacobi::{CharacteristicStrip, Strip, StripResidual};
+use piola_integrators::Field;
 use piola_numerics::Real;
 use piola_testkit::{Tol, assert_close};
 use proptest::prelude::*;
@@ -58,4 +60,26 @@ proptest! {
         let bent = of(0.0, b);
         assert_close("q′ − H_p t′", &bent.direction, &[0.5 * b], Tol::stated(1e-12, "rounding"));
     }
+}
+
+/// H = p₁²/2 + 3p₂²/2 + t q₁ + t² q₂.
+struct Pulled;
+
+impl PhaseFunction for Pulled {
+    fn value<T: Real>(&self, q: &[T], p: &[T], t: T) -> T {
+        T::lit(0.5) * (p[0] * p[0] + T::lit(3.0) * p[1] * p[1]) + t * q[0] + t * t * q[1]
+    }
+}
+
+/// W(12.4) by hand: q′ = (p₁, 3p₂), t′ = 1, U′ = p₁² + 3p₂² + p_t, p′ = −(t, t²) and p_t′ = −(q₁ + 2t q₂).
+#[test]
+fn rates_of_a_characteristic_strip_in_a_field_that_depends_on_time_equal_those_by_hand() {
+    let (q, p, t) = ([0.75, -1.25], [2.0, 0.5], 0.25);
+    let start = CharacteristicStrip::<_>::start(&Pulled, &q, &p, t, 7.0).unwrap();
+    let energy = 2.0 + 0.375 + 0.25 * 0.75 - 0.0625 * 1.25;
+    assert_close("strip", &start, &[0.75, -1.25, 0.25, 7.0, 2.0, 0.5, -energy], Tol::ulps(2.0));
+    let mut rate = [0.0; 7];
+    CharacteristicStrip::new(&Pulled, 2).rate(0.0, &start, &mut rate).unwrap();
+    let expected = [2.0, 1.5, 1.0, 4.0 + 0.75 - energy, -0.25, -0.0625, -(0.75 - 2.0 * 0.25 * 1.25)];
+    assert_close("rates", &rate, &expected, Tol::ulps(2.0));
 }

@@ -205,6 +205,8 @@ fn energy_moment_and_runges_vector_are_found_among_their_terms() {
             _ => panic!("{row:?}"),
         };
         assert_close("coefficients", &[actual], &[expected], Tol::stated(1e-12, "the null space of forty rows"));
+        // One of both has the larger share, and the coefficient one.
+        assert!(used.iter().any(|&c| (row[c] - 1.0).abs() <= f64::EPSILON), "{row:?}");
         seen[which] = true;
     }
     assert_eq!(seen, [true; 4]);
@@ -232,6 +234,25 @@ fn four_integrals_of_keplers_plane_have_rank_three() {
     assert_close("{A_x, A_y}", &[test.brackets[2][3]], &[-2.0 * KEPLER.mass * energy * moment], Tol::ulps(40.0));
     // Integrals commute with H: terms of a few units cancel.
     assert!(test.brackets[0].iter().all(|bracket| bracket.abs() < 1e-14));
+}
+
+/// {½(q² + p²), q p} = q² − p², of terms whose magnitudes are q² and p².
+#[test]
+fn brackets_are_compared_with_the_magnitudes_of_their_terms() {
+    struct Two;
+    impl PhaseFunctions for Two {
+        fn count(&self) -> usize {
+            2
+        }
+        fn values<T: Real>(&self, q: &[T], p: &[T], _t: T, out: &mut [T]) {
+            out.copy_from_slice(&[T::lit(0.5) * (q[0] * q[0] + p[0] * p[0]), q[0] * p[0]]);
+        }
+    }
+    let point = PhasePoint::new(&[1.0], &[2.0], 0.0).unwrap();
+    let test = involution_test(&Two, &point).unwrap();
+    assert_eq!(test.pair, [1, 0]);
+    assert_close("{qp, E}, {E, qp}", &[test.brackets[1][0], test.brackets[0][1]], &[3.0, -3.0], Tol::ulps(2.0));
+    assert_close("share", &[test.relative], &[3.0 / 5.0], Tol::ulps(4.0));
 }
 
 #[test]
