@@ -6,6 +6,7 @@
 //!
 //! The error is the largest of 1000 times of the run, relative to the energy at the start. Bodies as in Hairer, Lubich &
 //! Wanner, *Geometric Numerical Integration*, I.2.4: `testdata/reference/outer_solar_system.json`.
+#![expect(clippy::print_stdout, reason = "it prints its table")]
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -77,9 +78,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 seconds = seconds.min(began.elapsed().as_secs_f64());
             }
             let (mut state, mut largest) = (State::new(0.0, start.clone())?, 0.0_f64);
-            let mut shown = (END / step / 1000.0) as u64;
-            shown = shown.max(1);
-            let report = method.integrate(&bodies, &mut state, END, shown, |step| {
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps, 2 to 146")]
+            let shown = (END / step / 1000.0) as u64;
+            let report = method.integrate(&bodies, &mut state, END, shown.max(1), |step| {
                 largest = largest.max((bodies.invariants(step.values).energy / energy - 1.0).abs());
                 ControlFlow::Continue(())
             })?;

@@ -169,6 +169,9 @@ pub fn unobserved<T>(_step: Step<'_, T>) -> ControlFlow<()> {
 }
 
 /// Splits [start, end] into the fewest equal steps no longer than `step`; backwards in time if end < start.
+///
+/// # Errors
+/// [`IntegratorsError::StepTooSmall`] where the steps cannot be counted or told from one another.
 pub fn equal_steps<E>(start: f64, end: f64, step: f64) -> Result<(u64, f64), IntegratorsError<E>> {
     /// 2⁵³: beyond it steps can neither be counted nor told from one another.
     const MOST_STEPS: f64 = 9_007_199_254_740_992.0;

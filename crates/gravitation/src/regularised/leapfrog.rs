@@ -145,8 +145,8 @@ impl<T: Real> Bodies<'_, T> {
                 };
                 let other = self.parameters[chain.order[second]];
                 let inverse_cube = inverse_cube(distance, T::zero());
-                for axis in 0..3 {
-                    let by_unit = inverse_cube * distance[axis];
+                for (axis, component) in distance.into_iter().enumerate() {
+                    let by_unit = inverse_cube * component;
                     memory.accelerations[first][axis] += other * by_unit;
                     memory.accelerations[second][axis] -= own * by_unit;
                 }

@@ -26,7 +26,7 @@
 //! let mut state = State::new(0.0, start)?;
 //! let period = 2.0_f64.sqrt() * std::f64::consts::PI;
 //! Regularised::to_rounding().integrate_to(&pair, &mut state, 10.0 * period)?;
-//! assert!((pair.position(&state.values, 0)[0] - 1.0).abs() < 1e-13);
+//! assert!((pair.position(&state.values, 0)[0] - 1.0).abs() < 1e-11);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

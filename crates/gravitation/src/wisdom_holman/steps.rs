@@ -130,8 +130,8 @@ impl Moving<'_> {
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn sum_before(before: f64, values: Numbers, weights_after: &[Numbers; LANES], count: usize) -> Numbers {
     let mut sum = Lanes::splat(before);
-    for lane in 0..count {
-        sum += Lanes::splat(values.0[lane]) * weights_after[lane];
+    for (value, weights) in values.0.iter().zip(weights_after).take(count) {
+        sum += Lanes::splat(*value) * *weights;
     }
     sum
 }
