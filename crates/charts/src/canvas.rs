@@ -74,7 +74,7 @@ impl<'a> Canvas<'a> {
         let (name, unit) = length_unit(largest);
         let (width, height) = area.dim_in_pixel();
         let (wide, tall) =
-            (f64::from(width.saturating_sub(100 * FINE).max(1)), f64::from(height.saturating_sub(75 * FINE).max(1)));
+            (f64::from(width.saturating_sub(90 * FINE).max(1)), f64::from(height.saturating_sub(70 * FINE).max(1)));
         let Window { low, high } = window;
         let grain = ((high[0] - low[0]) / wide).max((high[1] - low[1]) / tall) / unit;
         let range = |k: usize, pixels: f64| {

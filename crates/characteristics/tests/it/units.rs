@@ -59,7 +59,7 @@ impl InitialManifold for Arc {
     }
 }
 
-/// ξ is k times the tangent (−sin τ, cos τ), along which the ray leaves the circle at once: of 0 = ξ′ = a ξ_τ the right side
+/// ξ is k times the tangent (−sin τ, cos τ), along which the ray leaves the circle at once: of 0 = ξ′ = `a ξ_τ` the right side
 /// is −a k (cos τ, sin τ), of the length a k, and its larger component is the magnitude that it is compared with.
 #[test]
 fn residual_of_a_monge_strip_does_not_depend_on_units() {
@@ -102,7 +102,7 @@ impl InitialManifold for Straight {
     }
 }
 
-/// A normal is known to rounding, and ξ·x_τ then to rounding of |ξ||x_τ|, whatever the unit of x.
+/// A normal is known to rounding, and `ξ·x_τ` then to rounding of `|ξ||x_τ|`, whatever the unit of x.
 #[test]
 fn given_covector_is_a_strip_in_any_unit_of_length() {
     let mut rounded = 0;

@@ -1,6 +1,6 @@
 //! The steady stress of a mode at any constant velocity gradient.
 
-use nalgebra::{Matrix6, Schur};
+use nalgebra::{Matrix3, Matrix6, Schur};
 use piola_continuum::Symmetric;
 use piola_continuum::rates::VelocityGradient;
 use piola_numerics::linear::lu;
@@ -228,11 +228,13 @@ pub(super) fn steady_mode<M: StressRate, T: Real>(
         drawing: Symmetric { components: problem.drawing.components.map(|x| x.primal(0)) },
     };
     let Some(solution) = values.solve() else {
-        let rates = velocity_gradient.rate_of_deformation().0.components.map(|x| x.primal(0));
+        // Stretching the axes leaves eigenvalues as they are.
+        let carrying = Matrix3::from_fn(|row, column| values.carrying[row][column]);
+        let largest = carrying.complex_eigenvalues().iter().fold(f64::NEG_INFINITY, |largest, own| largest.max(own.re));
         return Err(FluidsError::BeyondLimit {
             law: M::NAME,
-            quantity: "the largest real part of an eigenvalue of 2 λ L",
-            value: 2.0 * mode.time() * Symmetric { components: rates }.norm(),
+            quantity: "the largest real part of an eigenvalue of 2 λ (L − ξ D)",
+            value: 2.0 * largest,
             limit: 1.0,
         });
     };

@@ -71,7 +71,7 @@ impl PhaseFunction for Pulled {
     }
 }
 
-/// W(12.4) by hand: q′ = (p₁, 3p₂), t′ = 1, U′ = p₁² + 3p₂² + p_t, p′ = −(t, t²) and p_t′ = −(q₁ + 2t q₂).
+/// W(12.4) by hand: q′ = (p₁, 3p₂), t′ = 1, U′ = p₁² + 3p₂² + `p_t`, p′ = −(t, t²) and `p_t′` = −(q₁ + 2t q₂).
 #[test]
 fn rates_of_a_characteristic_strip_in_a_field_that_depends_on_time_equal_those_by_hand() {
     let (q, p, t) = ([0.75, -1.25], [2.0, 0.5], 0.25);
