@@ -1,5 +1,6 @@
 //! Runs: repeatable, continued, backwards, from rest; Jacobians of all kinds; no allocation.
 
+use core::cell::Cell;
 use core::convert::Infallible;
 use core::ops::ControlFlow;
 
@@ -55,6 +56,27 @@ fn jacobians_of_all_kinds_lead_to_one_end() {
     // The inexact Jacobian costs few steps, if any.
     assert!(given_report.run.steps.abs_diff(exact_report.run.steps) < 20, "{given_report:?}");
     assert!(difference_report.run.evaluations < 2 * exact_report.run.evaluations, "{difference_report:?}");
+}
+
+/// Those for Jacobians apart; also where steps are rejected, and their errors estimated once more.
+#[test]
+fn evaluations_reported_are_the_calls_of_the_field() {
+    let mut rejected = 0;
+    for tolerance in [1e-2, 1e-4, 1e-6, 1e-8] {
+        let calls = Cell::new(0);
+        let counted = field(2, |_t: f64, y: &[f64], rate: &mut [f64]| {
+            calls.set(calls.get() + 1);
+            VanDerPol.rate(0.0, y, rate).expect("a field without refusals");
+        });
+        let mut given = GivenJacobian::new(counted, |_t, y: &[f64], jacobian: &mut [f64]| {
+            (jacobian[0], jacobian[1]) = (0.0, (-2.0 * y[0] * y[1] - 1.0) * 1e6);
+            (jacobian[2], jacobian[3]) = (1.0, (1.0 - y[0] * y[0]) * 1e6);
+        });
+        let report = van_der_pol(&mut given, tolerance).1;
+        assert_eq!(report.run.evaluations, calls.get(), "{report:?}");
+        rejected += report.run.rejected;
+    }
+    assert!(0 < rejected);
 }
 
 #[test]
