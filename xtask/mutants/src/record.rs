@@ -239,7 +239,8 @@ a test of the crate where its name was given to `cargo xtask mutants`, else any 
 do not count.
 
 Some changes leave every result as it was: a product with ±1 made a quotient, the capacity of a list, the cost of a step.
-`xtask/mutants/without_effect.tsv` lists them with a reason each. The share is that of the others. Written by
+`xtask/mutants/without_effect.tsv` lists them with a reason each. The share is that of the others. Tests were written for what this
+sample showed, so it does not tell what share of all formulas is tested: another seed does. Written by
 `cargo xtask mutants [CRATE…] --page`.
 
 | crate | operators | seed | changed | without effect | caught | not noticed | not reached | share caught |
