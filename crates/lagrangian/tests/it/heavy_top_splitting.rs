@@ -65,7 +65,7 @@ fn top_of_order_eight_follows_its_reference() {
         let mut time = golden::number(&states[0]["t"]);
         for state in &states[1..] {
             let end = golden::number(&state["t"]);
-            let steps = 320;
+            let steps = 400;
             for _ in 0..steps {
                 top.step(Order::Eight, (end - time) / f64::from(steps));
             }
