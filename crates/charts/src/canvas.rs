@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::contour::{Lattice, area};
 use crate::figure::{Area, Drawn, FINE, FONT, INK, format_short, length_unit, pixels};
-use crate::plane::{Plane, plane_chart, thinned};
+use crate::plane::{Plane, plane_chart, plane_in, thinned};
 
 /// A rectangle of the plane.
 ///
@@ -73,8 +73,7 @@ impl<'a> Canvas<'a> {
         let largest = window.low.iter().chain(&window.high).fold(0.0, |m: f64, x| m.max(x.abs()));
         let (name, unit) = length_unit(largest);
         let (width, height) = area.dim_in_pixel();
-        let (wide, tall) =
-            (f64::from(width.saturating_sub(90 * FINE).max(1)), f64::from(height.saturating_sub(70 * FINE).max(1)));
+        let [wide, tall] = plane_in(width, height);
         let Window { low, high } = window;
         let grain = ((high[0] - low[0]) / wide).max((high[1] - low[1]) / tall) / unit;
         let range = |k: usize, pixels: f64| {

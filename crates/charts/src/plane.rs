@@ -7,6 +7,17 @@ use plotters::prelude::*;
 
 use crate::figure::{Area, Drawn, FINE, FONT, GRID, INK, format_short, pixels};
 
+/// Pixels around a chart, for the labels below it and for those beside it.
+const MARGIN: u32 = 10;
+const BELOW: u32 = 50;
+const BESIDE: u32 = 70;
+
+/// The pixels of a chart in an area of so many.
+pub(crate) fn plane_in(width: u32, height: u32) -> [f64; 2] {
+    let within = |whole: u32, labels: u32| f64::from(whole.saturating_sub((labels + 2 * MARGIN) * FINE).max(1));
+    [within(width, BESIDE), within(height, BELOW)]
+}
+
 /// A chart of a plane.
 pub type Plane<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
@@ -20,9 +31,9 @@ pub fn plane_chart<'a>(
     (across_name, up_name): (String, String),
 ) -> Result<Plane<'a>, Box<dyn core::error::Error>> {
     let mut chart = ChartBuilder::on(area)
-        .margin(pixels(10))
-        .x_label_area_size(pixels(50))
-        .y_label_area_size(pixels(70))
+        .margin(pixels(MARGIN))
+        .x_label_area_size(pixels(BELOW))
+        .y_label_area_size(pixels(BESIDE))
         .build_cartesian_2d(across, up)?;
     let short = |x: &f64| format_short(*x);
     chart

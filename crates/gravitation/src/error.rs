@@ -58,22 +58,22 @@ pub enum GravitationError {
         /// The number of bodies.
         bodies: usize,
     },
-    /// The attracting centre of the post-Newtonian term has no mass.
-    #[error("body {body} has no mass, so it cannot be the centre of a post-Newtonian term")]
+    /// The central body has no mass: of a post-Newtonian term, or of planets.
+    #[error("body {body} has no mass, so it cannot be a central body")]
     MasslessCentre {
         /// The body's index.
         body: usize,
     },
     /// A force that the map of Wisdom and Holman does not have.
-    #[error("the map of Wisdom and Holman is of point masses that attract each other by Newton's law, without {force}")]
+    #[error("the map of Wisdom and Holman moves point masses by Newton's attraction alone; take {force} away")]
     NotKeplerian {
-        /// What is on.
+        /// The force: softening or the post-Newtonian term.
         force: &'static str,
     },
     /// Fewer than two bodies with mass, or a softened or relativistic attraction, where collisions are to be regularised.
-    #[error("regularisation is of two or more bodies, all with mass, and of Newton's law alone: {found}")]
+    #[error("only two or more bodies with mass can be regularised, and only under Newton's attraction: {found}")]
     NotRegularisable {
-        /// What was found.
+        /// Which condition is violated, as in "a body has no mass".
         found: &'static str,
     },
     /// 0 < c < ∞ violated.

@@ -39,5 +39,5 @@ pub use tolerance::Tolerance;
 #[doc(hidden)]
 pub mod internal {
     pub use crate::radau_iia::Tableau;
-    pub use crate::state::equal_steps;
+    pub use crate::state::{compensated_add, equal_steps};
 }

@@ -105,7 +105,7 @@ impl<T> From<State<T>> for Unchecked<T> {
 ///
 /// The exact sum of two numbers of any size is wanted, not Kahan's for a large y: states start from rest.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn compensated_add<T: Real>(y: &mut T, carry: &mut T, increment: T) {
+pub fn compensated_add<T: Real>(y: &mut T, carry: &mut T, increment: T) {
     (*y, *carry) = two_sum(*y, increment + *carry);
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::attitude::products;
 use crate::elliptic::{first_kind, jacobi, third_kind};
 use crate::error::finite;
 use crate::{Attitude, Inertia, KinematicsError};
@@ -23,10 +24,10 @@ use crate::{Attitude, Inertia, KinematicsError};
 /// | ω | `angular_velocity` | 3, body components | rad/s |
 ///
 /// # Accuracy
-/// Some ulps, and some of the angles that the body has turned by.
+/// Some ulps of ω, of 1, and of the angle by which the body has turned.
 ///
-/// Derivatives: the parameters of the closed form have none where the body spins about a principal axis; integrate
-/// Euler's equations over `Dual` for them.
+/// It is in `f64` only: where the body spins about a principal axis, the amplitudes have no derivatives, though the motion has.
+/// For derivatives integrate Euler's equations over `Dual`.
 ///
 /// # Example
 /// ```
@@ -163,7 +164,8 @@ impl FreeRotation {
         (self.attitude.product(self.in_body(turned)), self.axes * in_axes)
     }
 
-    /// The period of H and ω in the body, s; infinite if they rest or need for ever.
+    /// The period of H and ω in the body, s: infinite where the body is spherical, rests, or turns about its middle axis or
+    /// towards it. Of a spin about the first or the third axis it is the period of a small disturbance.
     #[must_use]
     pub fn period(&self) -> f64 {
         match &self.path {
@@ -185,26 +187,9 @@ impl FreeRotation {
         first[axis] = (0..3).filter(|&other| other != axis).map(|other| third[other] * third[other]).sum();
         let first = first.normalize();
         let second = third.cross(&first);
-        rotation([first, second, third])
+        let [w, x, y, z] = products(&Matrix3::from_columns(&[first, second, third]));
+        Attitude { w, x, y, z }.normalise()
     }
-}
-
-/// The rotation that carries e₁, e₂ and e₃ to these vectors: the largest component of the quaternion divides.
-fn rotation(columns: [Vector3<f64>; 3]) -> Attitude<f64> {
-    let r = Matrix3::from_columns(&columns);
-    let trace = r.trace();
-    let [w, x, y, z] = if 0.0 <= trace {
-        [1.0 + trace, r[(2, 1)] - r[(1, 2)], r[(0, 2)] - r[(2, 0)], r[(1, 0)] - r[(0, 1)]]
-    } else {
-        let i = (0..3).fold(0, |most, i| if r[(most, most)] < r[(i, i)] { i } else { most });
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        let mut q = [r[(k, j)] - r[(j, k)], 0.0, 0.0, 0.0];
-        q[i + 1] = 1.0 + 2.0 * r[(i, i)] - trace;
-        q[j + 1] = r[(i, j)] + r[(j, i)];
-        q[k + 1] = r[(i, k)] + r[(k, i)];
-        q
-    };
-    Attitude { w, x, y, z }.normalise()
 }
 
 impl Path {

@@ -42,7 +42,7 @@ pub(crate) struct Path {
     pub(crate) width: u32,
 }
 
-/// What stands in an SVG.
+/// The elements of a figure in SVG.
 pub(crate) struct Drawing {
     elements: Vec<Element>,
 }

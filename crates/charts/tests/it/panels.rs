@@ -4,7 +4,7 @@ use piola_charts::{LogPanel, Panel, colour, figure, format_short, power_of_ten, 
 
 use super::drawing::{Drawing, even, hex};
 
-/// Left, right, lower and upper end of what is drawn, in shares of the frame from its left and lower side.
+/// The ends of the drawn curves, left, right, lower and upper: zero is the left or lower side of the frame, one the opposite side.
 fn shares(drawing: &Drawing, places: &[[f64; 2]]) -> [f64; 4] {
     let [left, right, bottom, top] = drawing.frame();
     let along = places.iter().map(|[x, _]| (x - left) / (right - left));

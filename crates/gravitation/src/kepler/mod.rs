@@ -1,4 +1,6 @@
-//! Elliptic motion about a fixed centre in closed form.
+//! Motion about a fixed centre in closed form.
+//!
+//! [`advance`] moves a body on any conic, [`KeplerMotion`] on an ellipse over many revolutions:
 //!
 //! ```text
 //! M = M₀ + n (t − t₀)      n = √(μ/a³)      E − e sin E = M

@@ -1,7 +1,7 @@
 //! The leapfrog of the logarithmic Hamiltonian, along a chain.
 
+use piola_integrators::internal::compensated_add;
 use piola_numerics::Real;
-use piola_numerics::sums::two_sum;
 
 use super::chain::{Chain, total};
 use crate::attraction::inverse_cube;
@@ -21,11 +21,6 @@ pub(super) struct Bodies<'a, T> {
 pub(super) struct Increments<T> {
     pub(super) links: Vec<[T; 3]>,
     pub(super) time: T,
-}
-
-/// y ← y + change, where `carry` keeps what rounding leaves.
-fn add<T: Real>(y: &mut T, carry: &mut T, change: T) {
-    (*y, *carry) = two_sum(*y, *carry + change);
 }
 
 /// What a leapfrog works in.
@@ -50,7 +45,7 @@ impl<T: Real> Memory<T> {
 impl<T: Real> Bodies<'_, T> {
     /// What `count` equal substeps of the total length `step` add to the chain.
     ///
-    /// The increments are summed by themselves, so that they round as what they are and not as the places.
+    /// Increments are summed apart from the places that they belong to: each addition then rounds to the size of an increment.
     pub(super) fn leap(&self, chain: &Chain<T>, step: T, count: u32, memory: &mut Memory<T>, out: &mut Increments<T>) {
         out.links.fill([T::zero(); 3]);
         out.time = T::zero();
@@ -74,12 +69,12 @@ impl<T: Real> Bodies<'_, T> {
         let links = chain.order.len() - 1;
         let kinetic = self.kinetic(chain, Some(&*out), memory);
         let time = step / (kinetic + self.binding);
-        add(&mut out.time, &mut memory.time_carry, time);
+        compensated_add(&mut out.time, &mut memory.time_carry, time);
         let (places, velocities) = out.links.split_at_mut(links);
         let places = places.iter_mut().zip(&mut memory.carries);
         for (((place, carry), velocity), start) in places.zip(velocities).zip(&chain.vectors[links..]) {
             for axis in 0..3 {
-                add(&mut place[axis], &mut carry[axis], time * (start[axis] + velocity[axis]));
+                compensated_add(&mut place[axis], &mut carry[axis], time * (start[axis] + velocity[axis]));
             }
         }
     }
@@ -92,7 +87,7 @@ impl<T: Real> Bodies<'_, T> {
         let velocities = out.links[links..].iter_mut().zip(&mut memory.carries[links..]);
         for ((velocity, carry), pair) in velocities.zip(memory.accelerations.windows(2)) {
             for axis in 0..3 {
-                add(&mut velocity[axis], &mut carry[axis], time * (pair[1][axis] - pair[0][axis]));
+                compensated_add(&mut velocity[axis], &mut carry[axis], time * (pair[1][axis] - pair[0][axis]));
             }
         }
     }

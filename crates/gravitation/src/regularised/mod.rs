@@ -40,9 +40,9 @@ mod leapfrog;
 
 use core::ops::ControlFlow;
 
+use piola_integrators::internal::compensated_add;
 use piola_integrators::{Ending, IntegratorsError, Report, State, Step, Tolerance, unobserved};
 use piola_numerics::Real;
-use piola_numerics::sums::two_sum;
 
 use crate::check::{check_finite, check_length};
 use crate::{Gravitation, GravitationError};
@@ -136,14 +136,13 @@ impl Regularised {
         }
         let mut run = Run::new(bodies, &state.values, self.tolerance, span.signum());
         let mut values = state.values.clone();
-        let mut outcome = Ok(());
-        while report.steps < self.most_steps {
+        let error = loop {
+            if report.steps == self.most_steps {
+                break IntegratorsError::TooManySteps { t: start + run.elapsed(), steps: report.steps };
+            }
             let is_last = match run.step(span, &mut report) {
                 Ok(is_last) => is_last,
-                Err(step) => {
-                    outcome = Err(IntegratorsError::StepTooSmall { t: start + run.elapsed(), step });
-                    break;
-                }
+                Err(step) => break IntegratorsError::StepTooSmall { t: start + run.elapsed(), step },
             };
             report.steps += 1;
             run.write(&mut values);
@@ -154,11 +153,10 @@ impl Regularised {
                 *state = State::new(time, values).map_err(IntegratorsError::with_field_error)?;
                 return Ok(report);
             }
-        }
-        let t = start + run.elapsed();
+        };
         run.write(&mut values);
-        *state = State::new(t, values).map_err(IntegratorsError::with_field_error)?;
-        outcome.and(Err(IntegratorsError::TooManySteps { t, steps: report.steps }))
+        *state = State::new(start + run.elapsed(), values).map_err(IntegratorsError::with_field_error)?;
+        Err(error)
     }
 }
 
@@ -361,11 +359,11 @@ impl<T: Real> Run<T> {
         let links = self.chain.vectors.iter_mut().zip(&mut self.chain.carries).zip(&increments.links);
         for ((value, carry), increment) in links {
             for axis in 0..3 {
-                (value[axis], carry[axis]) = two_sum(value[axis], carry[axis] + increment[axis]);
+                compensated_add(&mut value[axis], &mut carry[axis], increment[axis]);
             }
         }
-        let [time, carry] = self.time;
-        (self.time[0], self.time[1]) = two_sum(time, carry + increments.time);
+        let [time, carry] = &mut self.time;
+        compensated_add(time, carry, increments.time);
     }
 
     fn write(&self, values: &mut [T]) {

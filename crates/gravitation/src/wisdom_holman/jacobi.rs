@@ -29,18 +29,18 @@ pub(super) struct Masses {
     pub(super) groups: Vec<GroupMasses>,
 }
 
-/// The same in lanes; zero where there is no planet.
+/// The masses of up to eight planets, in lanes. Lanes without a planet hold zero.
 #[derive(Clone, Debug)]
 pub(super) struct GroupMasses {
     /// How many planets the group has.
     pub(super) planets: usize,
     /// Gm.
     pub(super) parameters: Numbers,
-    /// What draws each planet in its Kepler's motion: Gm of all bodies up to itself.
-    pub(super) drawing: Numbers,
+    /// Gm of all bodies up to each planet, itself included: the parameter μ of its Kepler's motion.
+    pub(super) up_to: Numbers,
     /// The same, Gm of the central body, and Gm of the planets, but none of the first planet: its attraction by the central
     /// body is Kepler's motion.
-    pub(super) drawing_but_first: Numbers,
+    pub(super) up_to_but_first: Numbers,
     pub(super) centre_but_first: Numbers,
     pub(super) parameters_but_first: Numbers,
     /// 1/Gm of all bodies before.
@@ -86,8 +86,8 @@ impl GroupMasses {
         Self {
             planets: count,
             parameters: lanes(&|planet| planets[planet]),
-            drawing: lanes(&|planet| before[planet + 1]),
-            drawing_but_first: lanes(&|planet| but_first(planet, before[planet + 1])),
+            up_to: lanes(&|planet| before[planet + 1]),
+            up_to_but_first: lanes(&|planet| but_first(planet, before[planet + 1])),
             centre_but_first: lanes(&|planet| but_first(planet, centre)),
             parameters_but_first: lanes(&|planet| but_first(planet, planets[planet])),
             inverse_before: lanes(&|planet| before[planet].recip()),

@@ -2,17 +2,17 @@
 //!
 //! ```text
 //! H = Σᵢ [½ pᵢ′²/mᵢ′ − Gmᵢ ηᵢ₋₁/rᵢ′]                    Kepler's motions in Jacobi's coordinates, exact
-//!   + Σᵢ Gmᵢ ηᵢ₋₁/rᵢ′ − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ                 what is left: smaller by ε = mass of planets/mass of the centre
+//!   + Σᵢ Gmᵢ ηᵢ₋₁/rᵢ′ − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ                 attractions between planets, smaller by ε = their mass/mass of the centre
 //! ηᵢ = m₀ + … + mᵢ        xᵢ′ = xᵢ − (m₀ x₀ + … + mᵢ₋₁ xᵢ₋₁)/ηᵢ₋₁
 //! ```
 //!
-//! Each part by itself is solved exactly, in turn: the map is symplectic, its steps are a tenth to a thirtieth of the shortest
-//! period whatever the accuracy of Kepler's motions, and the energy does not drift but for rounding. [`Splitting`] names the
-//! sequences. Planets move eight at a time in lanes.
+//! A step alternates the exact motions of the two parts. The map is symplectic, so the energy does not drift but for rounding.
+//! Ten to thirty steps in the shortest period suffice. [`Splitting`] names the sequences. Planets move eight at a time in lanes.
 //!
 //! # Validity
-//! Orbits that do not cross: where planets come as near each other as some Hill radii, or near the central body, what is left
-//! is not small any more. There take [`GaussRadau15`](piola_integrators::GaussRadau15).
+//! Orbits that do not cross. Where two planets come within some Hill radii of each other, or one comes near the central body,
+//! the second part is not small any more: take [`GaussRadau15`](piola_integrators::GaussRadau15) or
+//! [`Regularised`](crate::regularised::Regularised) there.
 //!
 //! # Example
 //! ```
@@ -27,7 +27,7 @@
 //! )?;
 //! let before = bodies.invariants(&start).energy;
 //! let mut state = State::new(0.0, start)?;
-//! let mut method = WisdomHolman::new(0.2, Splitting::Corrected(Corrector::Seventeen))?;
+//! let method = WisdomHolman::new(0.2, Splitting::Corrected(Corrector::Seventeen))?;
 //! method.integrate_to(&bodies, &mut state, 6283.0)?;
 //! let change = bodies.invariants(&state.values).energy / before - 1.0;
 //! assert!(change.abs() < 2e-9, "{change}");

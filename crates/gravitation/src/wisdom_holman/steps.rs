@@ -1,6 +1,6 @@
 //! Steps of all planets, in lanes.
 
-use piola_numerics::sums::two_sum;
+use piola_integrators::internal::compensated_add;
 use piola_numerics::{Kernel, Lanes, dispatch};
 
 use super::jacobi::{Coordinates, Group, Masses, Numbers, total};
@@ -49,7 +49,7 @@ impl Moving<'_> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn motion(&mut self, time: f64) {
         for (group, masses) in self.coordinates.groups.iter_mut().zip(&self.masses.groups) {
-            let increment = advance(masses.drawing, group.position, group.velocity, Lanes::splat(time));
+            let increment = advance(masses.up_to, group.position, group.velocity, Lanes::splat(time));
             group.shift(&increment.position);
             group.push(&increment.velocity);
         }
@@ -102,7 +102,7 @@ impl Moving<'_> {
         let mut before = on_centre.map(|lanes| masses.centre * total(lanes));
         let time = Lanes::splat(time);
         for ((group, acceleration), masses) in coordinates.groups.iter_mut().zip(accelerations).zip(&masses.groups) {
-            let mut change = attraction(group.position, masses.drawing_but_first, zero);
+            let mut change = attraction(group.position, masses.up_to_but_first, zero);
             for axis in 0..3 {
                 let own = acceleration[axis];
                 let all = sum_before(before[axis], own, &masses.parameter_after, masses.planets);
@@ -190,6 +190,6 @@ impl Group {
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn add_compensated(values: &mut Block, carries: &mut Block, changes: &Block) {
     for ((value, carry), change) in values.iter_mut().zip(carries).zip(changes) {
-        (*value, *carry) = two_sum(*value, *carry + *change);
+        compensated_add(value, carry, *change);
     }
 }

@@ -53,26 +53,31 @@ impl Attitude<f64> {
         if ROTATION_TOLERANCE < deviation || determinant < 0.0 {
             return Err(KinematicsError::NotRotation { deviation, determinant });
         }
-        // Products 4 q_a q_b of the components; Q is the transpose of the usual body-to-space matrix.
-        let r = rows;
-        let trace = r[(0, 0)] + r[(1, 1)] + r[(2, 2)];
-        let wx = r[(2, 1)] - r[(1, 2)];
-        let wy = r[(0, 2)] - r[(2, 0)];
-        let wz = r[(1, 0)] - r[(0, 1)];
-        let xy = r[(0, 1)] + r[(1, 0)];
-        let yz = r[(1, 2)] + r[(2, 1)];
-        let zx = r[(2, 0)] + r[(0, 2)];
-        let squares = [1.0 + trace, 1.0 + 2.0 * r[(0, 0)] - trace, 1.0 + 2.0 * r[(1, 1)] - trace];
-        let column = if 0.0 <= trace {
-            [squares[0], wx, wy, wz]
-        } else if r[(1, 1)].max(r[(2, 2)]) <= r[(0, 0)] {
-            [wx, squares[1], xy, zx]
-        } else if r[(2, 2)] <= r[(1, 1)] {
-            [wy, xy, squares[2], yz]
-        } else {
-            [wz, zx, yz, 1.0 + 2.0 * r[(2, 2)] - trace]
-        };
+        // Q is the transpose of the usual body-to-space matrix.
+        let column = products(&rows);
         Self::from_quaternion(if column[0] < 0.0 { column.map(|a| -a) } else { column })
+    }
+}
+
+/// Of a body-to-space matrix: products 4 `q_a` `q_b` of the components of its quaternion, of the largest component `q_a`
+/// with all.
+pub(crate) fn products(r: &Matrix3<f64>) -> [f64; 4] {
+    let trace = r[(0, 0)] + r[(1, 1)] + r[(2, 2)];
+    let wx = r[(2, 1)] - r[(1, 2)];
+    let wy = r[(0, 2)] - r[(2, 0)];
+    let wz = r[(1, 0)] - r[(0, 1)];
+    let xy = r[(0, 1)] + r[(1, 0)];
+    let yz = r[(1, 2)] + r[(2, 1)];
+    let zx = r[(2, 0)] + r[(0, 2)];
+    let squares = [1.0 + trace, 1.0 + 2.0 * r[(0, 0)] - trace, 1.0 + 2.0 * r[(1, 1)] - trace];
+    if 0.0 <= trace {
+        [squares[0], wx, wy, wz]
+    } else if r[(1, 1)].max(r[(2, 2)]) <= r[(0, 0)] {
+        [wx, squares[1], xy, zx]
+    } else if r[(2, 2)] <= r[(1, 1)] {
+        [wy, xy, squares[2], yz]
+    } else {
+        [wz, zx, yz, 1.0 + 2.0 * r[(2, 2)] - trace]
     }
 }
 

@@ -16,6 +16,8 @@
 
 mod conversions;
 
+pub(crate) use conversions::products;
+
 use nalgebra::{Matrix3, Vector3};
 use piola_numerics::{Mask, Real};
 
