@@ -201,6 +201,13 @@ fn looking_does_not_change_the_run_and_may_end_it() {
         let (number, time, values) = &seen[9];
         assert_eq!((*number, *time), (70, 17.5));
         assert_eq!(values, &end(&bodies, &start, splitting, 0.25, 17.5));
+        // More steps between two looks than are made at once.
+        let mut seldom = Vec::new();
+        let run = method.integrate(&bodies, &mut State::new(0.0, start.clone()).unwrap(), 200.0, 300, |step| {
+            seldom.push(step.number);
+            ControlFlow::Continue(())
+        });
+        assert_eq!((run.unwrap().steps, &seldom[..]), (800, &[300, 600, 800][..]));
         let mut stopped = State::new(0.0, start.clone()).unwrap();
         let report = method.integrate(&bodies, &mut stopped, 200.0, 70, |_| ControlFlow::Break(())).unwrap();
         assert_eq!((report.ending, report.steps, stopped.time), (Ending::Stopped, 70, 17.5));
