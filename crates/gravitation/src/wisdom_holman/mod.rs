@@ -48,7 +48,7 @@ pub use splitting::{Corrector, Splitting};
 use crate::check::{check_finite, check_length};
 use crate::{Gravitation, GravitationError};
 use jacobi::{Coordinates, Masses};
-use steps::{Memory, Moving, Task};
+use steps::{Memory, Moving};
 
 /// The map of Wisdom and Holman with a fixed step.
 ///
@@ -209,10 +209,10 @@ impl Run {
     }
 
     fn enter(&mut self) {
-        let corrector = Task::Corrector(self.splitting.corrector(), self.step, 1.0);
-        self.moving().run(corrector);
-        let motion = Task::Motion(self.splitting.stages().motions[0] * self.step);
-        self.moving().run(motion);
+        let (splitting, step) = (self.splitting, self.step);
+        let mut moving = self.moving();
+        moving.correct(splitting.corrector(), step, false);
+        moving.motion(splitting.stages().motions[0] * step);
     }
 
     fn moving(&mut self) -> Moving<'_> {
@@ -222,17 +222,15 @@ impl Run {
     /// Makes so many steps, or as many as leave numbers finite: returns how many.
     fn advance(&mut self, count: u64) -> u64 {
         self.spare.copy(&self.coordinates);
-        let stages = self.splitting.stages();
-        let task = Task::Steps(count, self.step, stages);
-        self.moving().run(task);
+        let (stages, step) = (self.splitting.stages(), self.step);
+        self.moving().steps(count, step, stages);
         let Some(found) = self.coordinates.not_finite(&self.masses) else { return count };
         self.not_finite = found;
         // Again from where all was well, step by step.
         self.coordinates.copy(&self.spare);
         for good in 0..count {
             self.spare.copy(&self.coordinates);
-            let task = Task::Steps(1, self.step, stages);
-            self.moving().run(task);
+            self.moving().steps(1, step, stages);
             if let Some(found) = self.coordinates.not_finite(&self.masses) {
                 self.not_finite = found;
                 self.coordinates.copy(&self.spare);
@@ -245,10 +243,10 @@ impl Run {
     /// Writes the state, so many seconds after the start.
     fn show(&mut self, elapsed: f64, values: &mut [f64]) {
         self.spare.copy(&self.coordinates);
-        let motion = Task::Motion(-self.splitting.stages().motions[0] * self.step);
-        self.moving().run(motion);
-        let corrector = Task::Corrector(self.splitting.corrector(), self.step, -1.0);
-        self.moving().run(corrector);
+        let (splitting, step) = (self.splitting, self.step);
+        let mut moving = self.moving();
+        moving.motion(-splitting.stages().motions[0] * step);
+        moving.correct(splitting.corrector(), step, true);
         self.coordinates.write(&self.masses, elapsed, values);
         core::mem::swap(&mut self.coordinates, &mut self.spare);
     }

@@ -29,25 +29,80 @@ pub(super) struct Moving<'a> {
     pub(super) coordinates: &'a mut Coordinates,
 }
 
-/// What is done.
-#[derive(Clone, Copy)]
-pub(super) enum Task {
-    /// Kepler's motion for a time.
-    Motion(f64),
-    /// So many steps from after the first motion of a step to after the first motion of another.
-    Steps(u64, f64, Stages),
-    /// The corrector of these attractions for a step, or with −1 as last argument its inverse.
-    Corrector(&'static [f64], f64, f64),
+/// Kepler's motion of all planets for a time.
+struct Motion<'a>(Moving<'a>, f64);
+
+/// What Kepler's motions leave out, for a time.
+struct Attraction<'a>(Moving<'a>, f64);
+
+// One kernel for each part and not for whole steps: compilers then have each part once for a set of instructions.
+impl Kernel for Motion<'_> {
+    type Output = ();
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(mut self) {
+        self.0.motion_in_lanes(self.1);
+    }
+}
+
+impl Kernel for Attraction<'_> {
+    type Output = ();
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(mut self) {
+        self.0.attraction_in_lanes(self.1);
+    }
 }
 
 impl Moving<'_> {
-    /// At the best set of instructions.
-    pub(super) fn run(self, task: Task) {
-        dispatch(Run { moving: self, task });
+    /// Kepler's motion for a time.
+    pub(super) fn motion(&mut self, time: f64) {
+        dispatch(Motion(self.borrowed(), time));
+    }
+
+    fn attraction(&mut self, time: f64) {
+        dispatch(Attraction(self.borrowed(), time));
+    }
+
+    fn borrowed(&mut self) -> Moving<'_> {
+        Moving { masses: self.masses, memory: self.memory, coordinates: self.coordinates }
+    }
+
+    /// So many steps, from after the first motion of a step to after the first motion of another.
+    pub(super) fn steps(&mut self, count: u64, step: f64, Stages { motions, attractions }: Stages) {
+        // The last motion of a step and the first of the next are one.
+        let ends = motions[0] + motions[motions.len() - 1];
+        for _ in 0..count {
+            for (stage, attraction) in attractions.iter().enumerate() {
+                self.attraction(attraction * step);
+                let motion = if stage + 1 == attractions.len() { ends } else { motions[stage + 1] };
+                self.motion(motion * step);
+            }
+        }
+    }
+
+    /// The corrector of these attractions for a step, or its inverse.
+    pub(super) fn correct(&mut self, attractions: &[f64], step: f64, is_inverse: bool) {
+        let last = attractions.len();
+        for index in 0..last {
+            // The inverse takes the same way back.
+            let (index, sign) = if is_inverse { (index, -1.0) } else { (last - 1 - index, 1.0) };
+            let motion = (index + 1) as f64 * CORRECTOR_MOTION * step;
+            let attraction = sign * attractions[index] * step;
+            self.difference(motion, attraction);
+            self.difference(-motion, -attraction);
+        }
+    }
+
+    /// Motion, attraction backwards, motion back, attraction, motion: what is left is the change of the attraction.
+    fn difference(&mut self, motion: f64, attraction: f64) {
+        self.motion(motion);
+        self.attraction(-attraction);
+        self.motion(-2.0 * motion);
+        self.attraction(attraction);
+        self.motion(motion);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn motion(&mut self, time: f64) {
+    fn motion_in_lanes(&mut self, time: f64) {
         for (group, masses) in self.coordinates.groups.iter_mut().zip(&self.masses.groups) {
             let increment = advance(masses.up_to, group.position, group.velocity, Lanes::splat(time));
             group.shift(&increment.position);
@@ -55,9 +110,8 @@ impl Moving<'_> {
         }
     }
 
-    /// Changes velocities by what Kepler's motions leave out, for a time.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn attraction(&mut self, time: f64) {
+    fn attraction_in_lanes(&mut self, time: f64) {
         let Self { masses, memory, coordinates } = self;
         let Memory { places, accelerations } = &mut **memory;
         let zero = Lanes::splat(0.0);
@@ -114,16 +168,6 @@ impl Moving<'_> {
             group.push(&change);
         }
     }
-
-    /// Motion, attraction backwards, motion back, attraction, motion: what is left is the change of the attraction.
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn difference(&mut self, motion: f64, attraction: f64) {
-        self.motion(motion);
-        self.attraction(-attraction);
-        self.motion(-2.0 * motion);
-        self.attraction(attraction);
-        self.motion(motion);
-    }
 }
 
 /// In each lane the sum of all lanes before it, times their weights, and of what was before all.
@@ -134,45 +178,6 @@ fn sum_before(before: f64, values: Numbers, weights_after: &[Numbers; LANES], co
         sum += Lanes::splat(*value) * *weights;
     }
     sum
-}
-
-struct Run<'a> {
-    moving: Moving<'a>,
-    task: Task,
-}
-
-impl Kernel for Run<'_> {
-    type Output = ();
-
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn run(self) {
-        let Self { mut moving, task } = self;
-        match task {
-            Task::Motion(time) => moving.motion(time),
-            Task::Steps(count, step, Stages { motions, attractions }) => {
-                // The last motion of a step and the first of the next are one.
-                let ends = motions[0] + motions[motions.len() - 1];
-                for _ in 0..count {
-                    for (stage, attraction) in attractions.iter().enumerate() {
-                        moving.attraction(attraction * step);
-                        let motion = if stage + 1 == attractions.len() { ends } else { motions[stage + 1] };
-                        moving.motion(motion * step);
-                    }
-                }
-            }
-            Task::Corrector(attractions, step, direction) => {
-                let last = attractions.len();
-                for index in 0..last {
-                    // The inverse takes the same way back.
-                    let index = if 0.0 < direction { last - 1 - index } else { index };
-                    let motion = (index + 1) as f64 * CORRECTOR_MOTION * step;
-                    let attraction = direction * attractions[index] * step;
-                    moving.difference(motion, attraction);
-                    moving.difference(-motion, -attraction);
-                }
-            }
-        }
-    }
 }
 
 impl Group {
