@@ -24,6 +24,7 @@ mod orders;
 pub mod smooth_cube;
 pub mod spectral;
 pub mod strategies;
+pub mod svg;
 mod tolerance;
 
 pub use allocations::{CountingAllocator, allocations_in};

@@ -1,30 +1,10 @@
 //! Reads a figure as its reader does: an axis by the labels of its ticks.
 
-use std::collections::BTreeMap;
-use std::fmt::Debug;
-use std::str::FromStr;
-
 use piola_charts::{FINE, INK, RGBColor};
+use piola_testkit::svg::{Element, elements};
 
 /// Half a pixel: coordinates are whole in the drawing, those of ticks as those of marks.
 pub(crate) const WHOLE: f64 = 0.5 * FINE as f64;
-
-/// An element of the drawing, with its attributes and the words in it.
-struct Element {
-    name: String,
-    attributes: BTreeMap<String, String>,
-    words: String,
-}
-
-impl Element {
-    fn number<N: FromStr<Err: Debug>>(&self, name: &str) -> N {
-        self.attributes[name].parse().unwrap()
-    }
-    fn points(&self) -> Vec<[f64; 2]> {
-        let pairs = self.attributes["points"].split_whitespace().map(|pair| pair.split_once(',').unwrap());
-        pairs.map(|(x, y)| [x.parse().unwrap(), y.parse().unwrap()]).collect()
-    }
-}
 
 /// A disc.
 pub(crate) struct Disc {
@@ -49,21 +29,11 @@ pub(crate) struct Drawing {
 
 impl Drawing {
     pub(crate) fn of(svg: &str) -> Self {
-        let element = |piece: &str| {
-            let (head, words) = piece.split_once('>').unwrap();
-            let (name, rest) = head.trim_end_matches('/').split_once(' ')?;
-            let mut parts = rest.split('"');
-            let mut attributes = BTreeMap::new();
-            while let (Some(key), Some(value)) = (parts.next(), parts.next()) {
-                attributes.insert(key.trim().trim_end_matches('=').to_owned(), value.to_owned());
-            }
-            Some(Element { name: name.to_owned(), attributes, words: words.trim().to_owned() })
-        };
-        Self { elements: svg.split('<').skip(1).filter_map(element).collect() }
+        Self { elements: elements(svg) }
     }
 
     fn named<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Element> {
-        self.elements.iter().filter(move |element| element.name == name)
+        self.elements.iter().filter(move |element| element.tag() == name)
     }
 
     pub(crate) fn discs(&self) -> Vec<Disc> {
@@ -71,7 +41,7 @@ impl Drawing {
             centre: [e.number("cx"), e.number("cy")],
             radius: e.number("r"),
             stroke: e.number("stroke-width"),
-            fill: e.attributes["fill"].clone(),
+            fill: e.get("fill").to_owned(),
         };
         self.named("circle").map(disc).collect()
     }
@@ -79,7 +49,7 @@ impl Drawing {
     pub(crate) fn curves(&self) -> Vec<Path> {
         let path = |e: &Element| Path {
             points: e.points(),
-            colour: e.attributes["stroke"].clone(),
+            colour: e.get("stroke").to_owned(),
             width: e.number("stroke-width"),
         };
         self.named("polyline").map(path).collect()
@@ -92,12 +62,12 @@ impl Drawing {
 
     /// Both ends of the single lines of a colour.
     pub(crate) fn strokes(&self, colour: RGBColor) -> Vec<[[f64; 2]; 2]> {
-        let lines = self.named("line").filter(|e| e.attributes["stroke"] == hex(colour));
+        let lines = self.named("line").filter(|e| e.get("stroke") == hex(colour));
         lines.map(|e| [["x1", "y1"], ["x2", "y2"]].map(|end| end.map(|name| e.number(name)))).collect()
     }
 
     pub(crate) fn polygons(&self) -> Vec<Path> {
-        let path = |e: &Element| Path { points: e.points(), colour: e.attributes["fill"].clone(), width: 0 };
+        let path = |e: &Element| Path { points: e.points(), colour: e.get("fill").to_owned(), width: 0 };
         self.named("polygon").map(path).collect()
     }
 
@@ -105,13 +75,13 @@ impl Drawing {
     pub(crate) fn rectangles(&self) -> Vec<([[i32; 2]; 2], String)> {
         let rectangle = |e: &Element| {
             let [x, y, w, h] = ["x", "y", "width", "height"].map(|name| e.number::<i32>(name));
-            ([[x, y], [x + w, y + h]], e.attributes["fill"].clone())
+            ([[x, y], [x + w, y + h]], e.get("fill").to_owned())
         };
         self.named("rect").map(rectangle).collect()
     }
 
     pub(crate) fn words(&self) -> Vec<([f64; 2], &str)> {
-        self.named("text").map(|e| ([e.number("x"), e.number("y")], e.words.as_str())).collect()
+        self.named("text").map(|e| ([e.number("x"), e.number("y")], e.text())).collect()
     }
 
     /// Left, right, bottom and top of the frame: the longest lines in the colour of axes.
@@ -134,14 +104,10 @@ impl Drawing {
         // Labels stand below the ticks of the abscissa, and end left of those of the ordinate.
         let anchors = [("middle", "0.76em", "x"), ("end", "0.5ex", "y")];
         let ends = anchors.map(|(anchor, shift, coordinate)| {
-            let is_label = |e: &&Element| {
-                let attributes = &e.attributes;
-                attributes["text-anchor"] == anchor
-                    && attributes["dy"] == shift
-                    && !attributes.contains_key("transform")
-            };
+            let is_label =
+                |e: &&Element| e.get("text-anchor") == anchor && e.get("dy") == shift && e.get("transform").is_empty();
             let labels = self.named("text").filter(is_label);
-            let mut ticks: Vec<_> = labels.filter_map(|e| Some((value(&e.words)?, e.number(coordinate)))).collect();
+            let mut ticks: Vec<_> = labels.filter_map(|e| Some((value(e.text())?, e.number(coordinate)))).collect();
             ticks.sort_by(|a, b| a.0.total_cmp(&b.0));
             [ticks[0], ticks[ticks.len() - 1]]
         });

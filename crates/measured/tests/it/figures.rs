@@ -8,45 +8,19 @@ use piola_measured::fitting::{self, Measurements};
 use piola_measured::rheology::{
     FlowKind, Measured, Noise, RecoveryRequest, Request, compare, recover, recover_without_ends, recover_without_slip,
 };
+use piola_testkit::svg::{Element, elements};
 use piola_testkit::{Tol, assert_each_close};
 
 use crate::newtonian::written;
 use crate::rheology::csv;
 
-/// An element of a figure: its tag, its attributes and its text.
-struct Element<'s> {
-    tag: &'s str,
-    attributes: &'s str,
-    text: &'s str,
-}
-
-impl<'s> Element<'s> {
-    fn get(&self, name: &str) -> &'s str {
-        let (_, rest) = self.attributes.split_once(&format!(" {name}=\"")).unwrap_or_else(|| panic!("{name}"));
-        rest.split_once('"').map_or(rest, |(value, _)| value)
-    }
-
-    fn number(&self, name: &str) -> f64 {
-        self.get(name).parse().unwrap_or_else(|_| panic!("{name} of {}", self.attributes))
-    }
-
-    /// The value of a mark of a logarithmic axis, such as 10⁻³.
-    fn power_of_ten(&self) -> Option<f64> {
-        let digits = self.text.strip_prefix("10")?.chars().map(|c| match c {
-            '⁻' => Some('-'),
-            _ => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().zip('0'..='9').find(|(above, _)| *above == c).map(|(_, digit)| digit),
-        });
-        digits.collect::<Option<String>>()?.parse().ok().map(|exponent| 10.0_f64.powi(exponent))
-    }
-}
-
-fn elements(svg: &str) -> Vec<Element<'_>> {
-    fn element(part: &str) -> Element<'_> {
-        let (head, text) = part.split_once('>').unwrap_or((part, ""));
-        let tag = head.split(' ').next().unwrap_or(head);
-        Element { tag, attributes: &head[tag.len()..], text: text.trim() }
-    }
-    svg.split('<').skip(1).filter(|part| !part.starts_with('/')).map(element).collect()
+/// The value of a mark of a logarithmic axis, such as 10⁻³.
+fn power_of_ten(mark: &Element) -> Option<f64> {
+    let digits = mark.text().strip_prefix("10")?.chars().map(|c| match c {
+        '⁻' => Some('-'),
+        _ => "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().zip('0'..='9').find(|(above, _)| *above == c).map(|(_, digit)| digit),
+    });
+    digits.collect::<Option<String>>()?.parse().ok().map(|exponent| 10.0_f64.powi(exponent))
 }
 
 /// What a panel with logarithmic axes shows, in the units of its axes.
@@ -58,16 +32,17 @@ struct LogPanel {
 /// The panel below these words.
 fn panel(svg: &str, title: &str) -> LogPanel {
     let all = elements(svg);
-    let from = all.iter().position(|element| element.text == title).unwrap_or_else(|| panic!("{title}"));
+    let from = all.iter().position(|element| element.text() == title).unwrap_or_else(|| panic!("{title}"));
     let size = all[from].get("font-size");
     // The next panel begins with words of the same size.
-    let inside = all[from + 1..].iter().take_while(|element| element.tag != "text" || element.get("font-size") != size);
-    let inside: Vec<&Element<'_>> = inside.collect();
+    let inside =
+        all[from + 1..].iter().take_while(|element| element.tag() != "text" || element.get("font-size") != size);
+    let inside: Vec<&Element> = inside.collect();
     // Marks of an axis, by the side of their text that is at the axis.
     let axis = |anchor: &str, coordinate: &str| {
-        let marks = inside.iter().filter(|element| element.tag == "text" && element.get("text-anchor") == anchor);
+        let marks = inside.iter().filter(|element| element.tag() == "text" && element.get("text-anchor") == anchor);
         let mut marks: Vec<(f64, f64)> =
-            marks.filter_map(|mark| Some((mark.number(coordinate), mark.power_of_ten()?.ln()))).collect();
+            marks.filter_map(|mark| Some((mark.number(coordinate), power_of_ten(mark)?.ln()))).collect();
         marks.sort_by(|a, b| a.1.total_cmp(&b.1));
         let [(a, low), .., (b, high)] = marks.as_slice() else { panic!("{title}: {marks:?}") };
         let (a, low, slope) = (*a, *low, (high - low) / (b - a));
@@ -75,15 +50,11 @@ fn panel(svg: &str, title: &str) -> LogPanel {
     };
     let (across, up) = (axis("middle", "x"), axis("end", "y"));
     let place = |x: f64, y: f64| [across(x), up(y)];
-    let circles = inside.iter().filter(|element| element.tag == "circle");
+    let circles = inside.iter().filter(|element| element.tag() == "circle");
     // Curves are two pixels wide, axes and what marks them one.
     let width = (2 * FINE).to_string();
-    let lines = inside.iter().filter(|element| element.tag == "polyline" && element.get("stroke-width") == width);
-    let points = |line: &&Element<'_>| -> Vec<[f64; 2]> {
-        let pairs = line.get("points").split_whitespace().filter_map(|pair| pair.split_once(','));
-        let number = |text: &str| text.parse::<f64>().unwrap_or_else(|_| panic!("{text}"));
-        pairs.map(|(x, y)| place(number(x), number(y))).collect()
-    };
+    let lines = inside.iter().filter(|element| element.tag() == "polyline" && element.get("stroke-width") == width);
+    let points = |line: &&Element| line.points().into_iter().map(|[x, y]| place(x, y)).collect();
     LogPanel {
         marks: circles.map(|circle| place(circle.number("cx"), circle.number("cy"))).collect(),
         curves: lines.map(points).collect(),
@@ -115,11 +86,11 @@ fn table(
 fn assert_within(svg: &str) {
     let all = elements(svg);
     let size: Vec<f64> = all[0].get("viewBox").split(' ').map(|x| x.parse().expect("a number")).collect();
-    let texts: Vec<&Element<'_>> = all.iter().filter(|element| element.tag == "text").collect();
+    let texts: Vec<&Element> = all.iter().filter(|element| element.tag() == "text").collect();
     assert!(10 < texts.len(), "{} texts", texts.len());
     for text in texts {
-        let (x, y) = (text.number("x"), text.number("y"));
-        assert!((0.0..=size[2]).contains(&x) && (0.0..=size[3]).contains(&y), "`{}` at {x}, {y}", text.text);
+        let (x, y) = (text.number::<f64>("x"), text.number::<f64>("y"));
+        assert!((0.0..=size[2]).contains(&x) && (0.0..=size[3]).contains(&y), "`{}` at {x}, {y}", text.text());
     }
 }
 
@@ -127,12 +98,12 @@ fn assert_within(svg: &str) {
 fn assert_legend(svg: &str, names: &[&str]) {
     assert_within(svg);
     let all = elements(svg);
-    let drawn = all.iter().filter(|element| element.tag == "circle").map(|circle| circle.number("cx"));
+    let drawn = all.iter().filter(|element| element.tag() == "circle").map(|circle| circle.number("cx"));
     let right = drawn.fold(0.0, f64::max);
     assert!(0.0 < right);
     for name in names {
-        let text = all.iter().find(|element| element.text.starts_with(name)).unwrap_or_else(|| panic!("{name}"));
-        assert!(right < text.number("x"), "{name}");
+        let text = all.iter().find(|element| element.text().starts_with(name)).unwrap_or_else(|| panic!("{name}"));
+        assert!(right < text.number::<f64>("x"), "{name}");
     }
 }
 
@@ -257,7 +228,7 @@ fn a_figure_of_laws_grows_by_panels_of_one_size_three_beside_each_other() -> Res
         let [svg] = written(&name, ["fit.svg"], |folder| comparison.write(folder, &measurements));
         assert_legend(&svg, &["neo-hookean"]);
         let all = elements(&svg);
-        assert_eq!(all.iter().filter(|element| element.tag == "circle").count(), 3 * count);
+        assert_eq!(all.iter().filter(|element| element.tag() == "circle").count(), 3 * count);
         Ok(["width", "height"].map(|side| all[0].get(side).parse().expect("a whole number")))
     };
     let [one, two, three, four] = [drawn(1)?, drawn(2)?, drawn(3)?, drawn(4)?];

@@ -3,10 +3,11 @@
 use core::f64::consts::PI;
 
 use piola_scene::studies::{Findings, SolidFindings};
+use piola_testkit::svg::Element;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 
 use crate::support::{ORBIT, replaced};
-use crate::svg::{Element, FINE, Svg, extent, figure, trajectory};
+use crate::svg::{FINE, Svg, extent, figure, trajectory};
 
 const BLUE: &str = "#0072B2";
 const INK: &str = "#282828";
@@ -65,7 +66,7 @@ fn bodies_of_a_far_smaller_reach_have_a_panel_but_a_sun_by_itself_has_none() {
     let text = ["[gravity]\n", &body("sun", 1.0), &body("near", 100.0), &body("far", 1e4), "[time]\nend = 1.0\n"];
     let widths = [text.concat(), text.concat() + &body("nearer", 60.0)].map(|text| {
         let svg = trajectory(&text);
-        svg.all("svg").map(|root| root.number("width")).sum::<f64>()
+        svg.all("svg").map(|root| root.number::<f64>("width")).sum::<f64>()
     });
     assert_eq!(widths.map(f64::to_bits), [780.0, 1180.0].map(f64::to_bits));
 }
@@ -77,7 +78,7 @@ fn axes_count_in_the_units_that_they_name() {
         (TUBE, "tube.svg", ["T (kPa)", "T_θθ (kPa)", "p (kPa)"]),
     ] {
         let (_, svg) = figure(text, name);
-        let shown: Vec<&str> = svg.all("text").map(|element| element.text.as_str()).collect();
+        let shown: Vec<&str> = svg.all("text").map(Element::text).collect();
         for unit in units {
             assert!(shown.contains(&unit), "{unit} is not in {shown:?}");
         }
@@ -138,7 +139,7 @@ fn map_of_a_box_shows_its_middle_and_no_more() {
         2.0 * force
     );
     let (_, svg) = figure(&text, "displacement.svg");
-    let title = svg.all("text").map(|element| element.text.as_str()).next().unwrap_or("");
+    let title = svg.all("text").map(Element::text).next().unwrap_or("");
     // The largest is drawn as 0.06 of the longer side.
     assert!(title.ends_with(", z = 0.5 m (grid: displacement times 2.5)"), "{title}");
     let outline = extents(&svg.curves(INK, 2.0).concat());

@@ -5,64 +5,31 @@ use std::path::PathBuf;
 use piola_scene::output::{self, Folder, Summary};
 use piola_scene::studies::{self, StudyPlan, StudyRun};
 use piola_scene::{Plan, run};
+use piola_testkit::svg::{Element, elements};
 
 use crate::support::{scene, study};
 
 /// Coordinates of the drawing in a pixel.
 pub(crate) const FINE: f64 = 8.0;
 
-/// A drawn element.
-#[derive(Debug)]
-pub(crate) struct Element {
-    tag: String,
-    attributes: String,
-    /// The text that it holds.
-    pub(crate) text: String,
-}
-
-impl Element {
-    /// An attribute as text; empty where there is none.
-    pub(crate) fn get(&self, name: &str) -> &str {
-        let key = format!(" {name}=\"");
-        let from = self.attributes.find(&key).map(|at| &self.attributes[at + key.len()..]);
-        from.and_then(|rest| rest.split('"').next()).unwrap_or("")
-    }
-
-    /// An attribute as a number.
-    pub(crate) fn number(&self, name: &str) -> f64 {
-        self.get(name).parse().unwrap_or_else(|error| panic!("{name} of {self:?}: {error}"))
-    }
-
-    /// The points of a curve or polygon.
-    pub(crate) fn points(&self) -> Vec<[f64; 2]> {
-        let number = |text: &str| -> f64 { text.parse().unwrap_or_else(|error| panic!("{text}: {error}")) };
-        let pairs = self.get("points").split_whitespace().filter_map(|pair| pair.split_once(','));
-        pairs.map(|(x, y)| [number(x), number(y)]).collect()
-    }
-}
-
 /// A figure.
 pub(crate) struct Svg(Vec<Element>);
 
 impl Svg {
     fn of(text: &str) -> Self {
-        let elements = text.split('<').skip(1).filter(|piece| !piece.starts_with('/')).map(|piece| {
-            let (head, text) = piece.split_once('>').unwrap_or((piece, ""));
-            let (tag, attributes) = head.split_once(' ').unwrap_or((head, ""));
-            Element { tag: tag.to_string(), attributes: format!(" {attributes}"), text: text.trim().to_string() }
-        });
-        Self(elements.collect())
+        Self(elements(text))
     }
 
     /// All elements of a kind.
     pub(crate) fn all<'s>(&'s self, tag: &'s str) -> impl Iterator<Item = &'s Element> {
-        self.0.iter().filter(move |element| element.tag == tag)
+        self.0.iter().filter(move |element| element.tag() == tag)
     }
 
     /// The points of all curves of a colour and a width in pixels.
     pub(crate) fn curves(&self, stroke: &str, width: f64) -> Vec<Vec<[f64; 2]>> {
-        let is_such =
-            |line: &&Element| line.get("stroke") == stroke && (line.number("stroke-width") - width * FINE).abs() < 0.5;
+        let is_such = |line: &&Element| {
+            line.get("stroke") == stroke && (line.number::<f64>("stroke-width") - width * FINE).abs() < 0.5
+        };
         self.all("polyline").filter(is_such).map(Element::points).collect()
     }
 }
