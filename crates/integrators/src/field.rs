@@ -4,6 +4,8 @@ use core::convert::Infallible;
 
 use piola_numerics::Real;
 
+use crate::IntegratorsError;
+
 /// A first-order system ẏ = f(t, y) over any scalar.
 ///
 /// Any `FnMut(f64, &[f64], &mut [f64])` with a dimension is one: see [`field`].
@@ -11,6 +13,10 @@ use piola_numerics::Real;
 pub trait Field<T: Real = f64> {
     /// Why an evaluation can fail; [`Infallible`] when it cannot.
     type Error;
+    /// The number of components of y where it is the same for every value of this type. Methods then unroll their loops.
+    ///
+    /// A run refuses a value that differs from [`dimension`](Self::dimension).
+    const DIMENSION: Option<usize> = None;
     /// The number of components of y.
     fn dimension(&self) -> usize;
     /// Writes f(t, y) to `rate`. Both slices have the length of [`dimension`](Self::dimension).
@@ -67,6 +73,17 @@ pub trait Field<T: Real = f64> {
     /// magnitude is that of the largest lane.
     fn magnitudes(&self, y: &[T], magnitudes: &mut [f64]) {
         magnitudes_of_blocks(y, magnitudes);
+    }
+}
+
+/// Refuses a field whose dimension differs from the one its type states.
+pub(crate) fn check_field<T: Real, F: Field<T>>(field: &F) -> Result<(), IntegratorsError<F::Error>> {
+    let found = field.dimension();
+    match F::DIMENSION {
+        Some(expected) if expected != found => {
+            Err(IntegratorsError::WrongLength { quantity: "field", expected, found })
+        }
+        _ => Ok(()),
     }
 }
 

@@ -10,6 +10,7 @@ mod dormand_prince;
 mod error;
 mod estimate;
 mod events;
+mod explicit;
 mod field;
 mod gauss_legendre;
 mod gauss_legendre_16;

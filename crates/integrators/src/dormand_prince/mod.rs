@@ -15,7 +15,6 @@
 #[expect(clippy::unreadable_literal, reason = "seventeen digits, to be compared with printed tables")]
 mod coefficients;
 mod dense;
-mod first_step;
 mod stages;
 mod with_events;
 
@@ -25,9 +24,9 @@ use piola_numerics::Real;
 
 pub use dense::DenseStep;
 
-use crate::accepted::AcceptedStep;
 use crate::events::{Stop, stopped_by};
-use crate::state::{check_finite, check_longest, check_run};
+use crate::explicit::{Limits, follow, settle};
+use crate::state::check_longest;
 use crate::{Field, IntegratorsError, Report, State, Tolerance};
 
 /// The adaptive method of order 8(5,3).
@@ -63,39 +62,42 @@ use crate::{Field, IntegratorsError, Report, State, Tolerance};
 #[derive(Clone, Debug)]
 pub struct DormandPrince853<T = f64> {
     tolerance: Tolerance,
-    first_step: Option<f64>,
-    longest_step: f64,
-    most_steps: u64,
-    /// k₁ … k₁₆; stage 12 is the rate at the end of the step.
-    stages: [Vec<T>; 16],
-    /// The stage's argument, then the step's end.
-    trial: Vec<T>,
-    trial_carry: Vec<T>,
-    start: Vec<T>,
-    start_carry: Vec<T>,
+    limits: Limits,
+    /// Rows of one state each: see `Row`.
+    memory: Vec<T>,
+    /// Components of the state.
+    components: usize,
     magnitudes: Vec<f64>,
     magnitudes_at_end: Vec<f64>,
-    /// The coefficients of the interpolating polynomial; see `dense`.
-    interpolant: [Vec<T>; 7],
+}
+
+/// The rows of the memory.
+#[derive(Clone, Copy, Debug)]
+struct Row;
+impl Row {
+    /// k₁ … k₁₆ come first; stage 12 is the rate at the end of the step.
+    const STAGES: usize = 16;
+    /// The stage's argument, then the step's end and what rounding left of it.
+    const TRIAL: usize = 16;
+    /// The step's start and what rounding left of it.
+    const START: usize = 18;
+    const START_CARRY: usize = 19;
+    /// The seven coefficients of the interpolating polynomial; see `dense`.
+    const INTERPOLANT: usize = 20;
+    const COUNT: usize = 27;
 }
 
 impl<T: Real> DormandPrince853<T> {
     /// A method with the given tolerance.
     #[must_use]
-    pub fn new(tolerance: Tolerance) -> Self {
+    pub const fn new(tolerance: Tolerance) -> Self {
         Self {
             tolerance,
-            first_step: None,
-            longest_step: f64::INFINITY,
-            most_steps: u64::MAX,
-            stages: core::array::from_fn(|_| Vec::new()),
-            trial: Vec::new(),
-            trial_carry: Vec::new(),
-            start: Vec::new(),
-            start_carry: Vec::new(),
+            limits: Limits::none(),
+            memory: Vec::new(),
+            components: 0,
             magnitudes: Vec::new(),
             magnitudes_at_end: Vec::new(),
-            interpolant: core::array::from_fn(|_| Vec::new()),
         }
     }
 
@@ -105,7 +107,7 @@ impl<T: Real> DormandPrince853<T> {
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
     pub fn with_first_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
         crate::state::check_step(step)?;
-        self.first_step = Some(step);
+        self.limits.first_step = Some(step);
         Ok(self)
     }
 
@@ -114,14 +116,14 @@ impl<T: Real> DormandPrince853<T> {
     /// # Errors
     /// [`IntegratorsError::InvalidStep`] unless 0 < step; ∞ is no bound.
     pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
-        self.longest_step = check_longest(step)?;
+        self.limits.longest_step = check_longest(step)?;
         Ok(self)
     }
 
     /// Bounds the number of steps of one run; by default it is not bounded.
     #[must_use]
     pub const fn with_most_steps(mut self, steps: u64) -> Self {
-        self.most_steps = steps;
+        self.limits.most_steps = steps;
         self
     }
 
@@ -165,19 +167,8 @@ impl<T: Real> DormandPrince853<T> {
         self.run(field, state, end, &mut |step| Ok(stopped_by(observer(step))))
     }
 
-    fn prepare(&mut self, n: usize) {
-        for buffer in self.stages.iter_mut().chain(&mut self.interpolant) {
-            buffer.resize(n, T::zero());
-        }
-        for buffer in [&mut self.trial, &mut self.trial_carry, &mut self.start, &mut self.start_carry] {
-            buffer.resize(n, T::zero());
-        }
-        self.magnitudes.resize(n, 0.0);
-        self.magnitudes_at_end.resize(n, 0.0);
-    }
-
-    /// The loop of all runs. `inspect` sees each accepted step; to end the run it gives the time of the end
-    /// (the step's own end when `None`) and how the run ended.
+    /// Runs to `end`. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end
+    /// when `None`) and how the run ended.
     fn run<F: Field<T>>(
         &mut self,
         field: &mut F,
@@ -185,108 +176,13 @@ impl<T: Real> DormandPrince853<T> {
         end: f64,
         inspect: &mut impl FnMut(&mut DenseStep<'_, T, F>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        check_run(field.dimension(), state, end)?;
-        self.prepare(state.values.len());
-        let mut report = Report::begin();
-        let span = end - state.time;
-        if span.abs() <= 0.0 {
-            return Ok(report);
-        }
-        let direction = span.signum();
-
-        evaluate(field, state.time, &state.values, &mut self.stages[0])?;
-        report.evaluations += 1;
-        check_finite("rate", Some(state.time), &self.stages[0])?;
-        field.magnitudes(&state.values, &mut self.magnitudes);
-        let mut step = match self.first_step {
-            Some(step) => step,
-            None => self.estimate_first_step(field, state, span, &mut report),
-        };
-        let mut just_rejected = false;
-        // Why the last trial could not be made at all, if it could not.
-        let mut obstacle = None;
-        loop {
-            if self.most_steps <= report.steps {
-                return Err(IntegratorsError::TooManySteps { t: state.time, steps: report.steps });
-            }
-            let remaining = (end - state.time) - state.time_carry;
-            step = step.min(self.longest_step);
-            // A last step may be longer by one hundredth, rather than leave a tiny one behind.
-            let last = remaining.abs() <= (1.01 * step).min(self.longest_step);
-            let h = if last { remaining } else { direction * step };
-            let stuck = h.abs() <= 2.0 * f64::EPSILON * state.time.abs();
-            if stuck && !last || h.abs() <= 0.0 {
-                return Err(obstacle.unwrap_or(IntegratorsError::StepTooSmall { t: state.time, step: h }));
-            }
-
-            let error = match self.try_step(field, state, h, &mut report) {
-                Ok(error) => error,
-                Err(refusal) => {
-                    // A stage left the field's domain: a shorter step may stay in it.
-                    obstacle = Some(refusal);
-                    f64::INFINITY
-                }
-            };
-            // The new step: h · SAFETY / error^(1/8), changed by a factor between 1/3 and 6. Square roots are
-            // rounded in the same way on every machine; powers are not.
-            let factor = (SAFETY / error.sqrt().sqrt().sqrt()).clamp(1.0 / 3.0, 6.0);
-            if error.is_nan() || 1.0 < error {
-                report.rejected += 1;
-                if error.is_finite() {
-                    obstacle = None;
-                    step = h.abs() * factor;
-                } else {
-                    step = 0.1 * h.abs();
-                }
-                just_rejected = true;
-                continue;
-            }
-            obstacle = None;
-            step = h.abs() * if just_rejected { factor.min(1.0) } else { factor };
-            just_rejected = false;
-
-            let start_time = state.time;
-            core::mem::swap(&mut self.start, &mut state.values);
-            core::mem::swap(&mut self.start_carry, &mut state.carry);
-            state.values.copy_from_slice(&self.trial);
-            state.carry.copy_from_slice(&self.trial_carry);
-            if last {
-                state.set_time(end);
-            } else {
-                state.advance_time(h);
-            }
-            report.steps += 1;
-
-            let step = AcceptedStep { number: report.steps, start: start_time, end: state.time, length: h };
-            let mut dense = DenseStep::new(self, field, step);
+        follow(self, field, state, end, &mut |method, field, state, step, report| {
+            let mut dense = DenseStep::new(method, field, step);
             let verdict = inspect(&mut dense);
-            if let Ok(ControlFlow::Break((Some(time), _))) = verdict {
-                dense.at(time, &mut state.values)?;
-                state.carry.fill(T::zero());
-                state.set_time(time);
-            }
-            report.evaluations += dense.evaluations();
-            if let ControlFlow::Break((_, ending)) = verdict? {
-                report.ending = ending;
-                return Ok(report);
-            }
-            if last {
-                return Ok(report);
-            }
-            // The rate at the end is the first stage of the next step.
-            let (first, rest) = self.stages.split_at_mut(1);
-            core::mem::swap(&mut first[0], &mut rest[11]);
-            core::mem::swap(&mut self.magnitudes, &mut self.magnitudes_at_end);
-        }
+            settle(verdict, &mut dense, state, report)
+        })
     }
 }
-
-/// The part of the largest step allowed that is taken.
-///
-/// At the usual 0.9 every fourth step of a double pendulum or an eccentric orbit is rejected. At 0.7 few are,
-/// and for the same error at the end 23 % fewer evaluations are made (mean over double pendulum, e = 0.7 and
-/// e = 0.99, tolerances from 1e-7 to 1e-13).
-const SAFETY: f64 = 0.7;
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn evaluate<T: Real, F: Field<T>>(

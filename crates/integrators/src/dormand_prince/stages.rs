@@ -1,16 +1,71 @@
 //! One trial step: its stages, its end and its error.
 
+use core::cell::RefCell;
+
 use piola_numerics::Real;
 
 use super::coefficients as c;
-use super::{DormandPrince853, evaluate};
-use crate::field::largest_lane;
-use crate::state::{check_finite, compensated_add};
+use super::{DormandPrince853, Row, evaluate};
+use crate::explicit::{EmbeddedPair, Guess, Limits, combine, row, row_mut, weighted_sums};
+use crate::field::{check_field, largest_lane};
+use crate::state::{check_finite, check_run, compensated_add};
 use crate::{Field, IntegratorsError, Report, State};
 
-impl<T: Real> DormandPrince853<T> {
-    /// Makes the stages of one step and its end in `trial`; returns the error over the tolerance.
-    pub(super) fn try_step<F: Field<T>>(
+impl<T: Real, F: Field<T>> EmbeddedPair<T, F> for DormandPrince853<T> {
+    type Error = F::Error;
+
+    fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    fn begin(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        report: &mut Report,
+    ) -> Result<f64, IntegratorsError<F::Error>> {
+        check_field::<T, F>(field)?;
+        check_run(field.dimension(), state, end)?;
+        let n = state.values.len();
+        self.components = n;
+        self.memory.resize(Row::COUNT * n, T::zero());
+        self.magnitudes.resize(n, 0.0);
+        self.magnitudes_at_end.resize(n, 0.0);
+        let span = end - state.time;
+        if span.abs() <= 0.0 {
+            return Ok(0.0);
+        }
+        let (stages, rest) = self.memory.split_at_mut(Row::STAGES * n);
+        let (rate, others) = stages.split_at_mut(n);
+        evaluate(field, state.time, &state.values, rate)?;
+        report.evaluations += 1;
+        check_finite("rate", Some(state.time), rate)?;
+        field.magnitudes(&state.values, &mut self.magnitudes);
+        if let Some(step) = self.limits.first_step {
+            return Ok(step);
+        }
+        let guess = Guess {
+            tolerance: self.tolerance,
+            longest_step: self.limits.longest_step,
+            rate,
+            trial: &mut rest[..n],
+            trial_rate: &mut others[..n],
+            magnitudes: &self.magnitudes,
+            magnitudes_at_trial: &mut self.magnitudes_at_end,
+        };
+        let field = RefCell::new(field);
+        Ok(guess.first_step(
+            state,
+            span,
+            report,
+            eighth_root,
+            |t, y, rate| evaluate(&mut **field.borrow_mut(), t, y, rate),
+            |y, magnitudes| field.borrow().magnitudes(y, magnitudes),
+        ))
+    }
+
+    fn attempt(
         &mut self,
         field: &mut F,
         state: &State<T>,
@@ -18,14 +73,15 @@ impl<T: Real> DormandPrince853<T> {
         report: &mut Report,
     ) -> Result<f64, IntegratorsError<F::Error>> {
         let t = state.time;
-        let y = (&state.values[..], &state.carry[..]);
-        let k = &mut self.stages;
-        let trial = &mut self.trial;
+        let n = F::DIMENSION.unwrap_or(self.components);
+        let (k, rest) = self.memory[..Row::COUNT * n].split_at_mut(Row::STAGES * n);
+        let trial = &mut rest[..n];
+        let y = (&state.values[..n], &state.carry[..n]);
         macro_rules! stage {
             ($number:literal, $row:expr) => {
                 combine(&$row, k, y, h, trial);
                 report.evaluations += 1;
-                evaluate(field, t + c::C[$number] * h, trial, &mut k[$number])?;
+                evaluate(field, t + c::C[$number] * h, trial, row_mut(k, $number, n))?;
             };
         }
         stage!(1, c::A2);
@@ -40,19 +96,57 @@ impl<T: Real> DormandPrince853<T> {
         stage!(10, c::A11);
         stage!(11, c::A12);
         let error = self.finish(field, state, h);
+        let (k, rest) = self.memory[..Row::COUNT * n].split_at_mut(Row::STAGES * n);
+        let trial = &mut rest[..n];
         if error <= 1.0 {
-            field.project(t + h, &mut self.trial).map_err(|source| IntegratorsError::Field { t: t + h, source })?;
+            field.project(t + h, trial).map_err(|source| IntegratorsError::Field { t: t + h, source })?;
             report.evaluations += 1;
-            evaluate(field, t + h, &self.trial, &mut self.stages[12])?;
-            check_finite("rate", Some(t), &self.stages[12])?;
+            let rate = row_mut(k, 12, n);
+            evaluate(field, t + h, trial, rate)?;
+            check_finite("rate", Some(t), rate)?;
         } else if error.is_nan() {
-            for rate in &self.stages[1..12] {
-                check_finite("rate", Some(t), rate)?;
+            for number in 1..12 {
+                check_finite("rate", Some(t), row(k, number, n))?;
             }
         }
         Ok(error)
     }
 
+    fn root(error: f64) -> f64 {
+        eighth_root(error)
+    }
+
+    fn accept(&mut self, state: &mut State<T>) {
+        let n = F::DIMENSION.unwrap_or(self.components);
+        let rows = &mut self.memory[Row::TRIAL * n..Row::COUNT * n];
+        let (trial, start) = rows.split_at_mut(2 * n);
+        let (values, carry) = (&mut state.values[..n], &mut state.carry[..n]);
+        start[..n].copy_from_slice(values);
+        start[n..2 * n].copy_from_slice(carry);
+        values.copy_from_slice(&trial[..n]);
+        carry.copy_from_slice(&trial[n..]);
+    }
+
+    fn advance(
+        &mut self,
+        _field: &mut F,
+        _state: &State<T>,
+        _report: &mut Report,
+    ) -> Result<(), IntegratorsError<F::Error>> {
+        // The rate at the end is the first stage of the next step.
+        let n = F::DIMENSION.unwrap_or(self.components);
+        let (first, rest) = self.memory[..13 * n].split_at_mut(n);
+        first.copy_from_slice(row(rest, 11, n));
+        core::mem::swap(&mut self.magnitudes, &mut self.magnitudes_at_end);
+        Ok(())
+    }
+}
+
+fn eighth_root(x: f64) -> f64 {
+    x.sqrt().sqrt().sqrt()
+}
+
+impl<T: Real> DormandPrince853<T> {
     /// The end of the step, and its error over the tolerance: the estimate of order five, damped by that of
     /// order three.
     ///
@@ -61,15 +155,17 @@ impl<T: Real> DormandPrince853<T> {
     /// ```
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn finish<F: Field<T>>(&mut self, field: &F, state: &State<T>, h: f64) -> f64 {
-        let n = self.trial.len();
+        let n = F::DIMENSION.unwrap_or(self.components);
         // E5 has the stages of B; those of B3 are among them.
         let h_lit = T::lit(h);
         let (y, carry) = (&state.values[..n], &state.carry[..n]);
-        let (trial, trial_carry) = (&mut self.trial[..n], &mut self.trial_carry[..n]);
-        let [fifth_error, third_error, ..] = self.interpolant.each_mut().map(|f| &mut f[..n]);
-        weighted_sums(&c::E5, &self.stages, fifth_error);
-        weighted_sums(&c::B, &self.stages, trial);
-        weighted_sums(&c::B3, &self.stages, third_error);
+        let (k, rest) = self.memory[..Row::COUNT * n].split_at_mut(Row::STAGES * n);
+        let (ends, rest) = rest.split_at_mut((Row::INTERPOLANT - Row::TRIAL) * n);
+        let (trial, trial_carry) = ends[..2 * n].split_at_mut(n);
+        let (fifth_error, third_error) = rest[..2 * n].split_at_mut(n);
+        weighted_sums(&c::E5, k, fifth_error);
+        weighted_sums(&c::B, k, trial);
+        weighted_sums(&c::B3, k, third_error);
         for (i, trial) in trial.iter_mut().enumerate() {
             let slope = *trial;
             third_error[i] = slope - third_error[i];
@@ -77,12 +173,11 @@ impl<T: Real> DormandPrince853<T> {
             compensated_add(trial, &mut trial_carry[i], slope * h_lit);
         }
 
-        field.magnitudes(trial, &mut self.magnitudes_at_end);
+        let (before, after) = (&self.magnitudes[..n], &mut self.magnitudes_at_end[..n]);
+        field.magnitudes(trial, after);
         let (absolute, relative) = (self.tolerance.absolute_part(), self.tolerance.relative_part());
         let (mut fifth, mut third) = (0.0, 0.0);
-        for (((e5, e3), &before), &after) in
-            fifth_error.iter().zip(&*third_error).zip(&self.magnitudes).zip(&self.magnitudes_at_end)
-        {
+        for (((e5, e3), &before), &after) in fifth_error.iter().zip(&*third_error).zip(before).zip(&*after) {
             let allowed = absolute + relative * if before < after { after } else { before };
             let (e5, e3) = (largest_lane(*e5), largest_lane(*e3));
             // An exact component is exact whatever the tolerance: also where its magnitude is zero.
@@ -100,80 +195,4 @@ impl<T: Real> DormandPrince853<T> {
         }
         h.abs() * fifth / (denominator * n as f64).sqrt()
     }
-}
-
-/// Components worked on at once: small systems are one block, whose sums the compiler keeps in registers.
-const BLOCK: usize = 4;
-
-/// Blocks of a system of n components: none beyond the size where the plain loop, in vector registers, is faster.
-const fn blocks_of(n: usize) -> usize {
-    if n < 16 { n / BLOCK } else { 0 }
-}
-
-/// y + (carry + h Σ aⱼ kⱼ).
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn combine<T: Real, const M: usize>(
-    row: &[(usize, f64); M],
-    stages: &[Vec<T>; 16],
-    (y, carry): (&[T], &[T]),
-    h: f64,
-    out: &mut [T],
-) {
-    let n = out.len();
-    let h = T::lit(h);
-    let weights: [T; M] = core::array::from_fn(|m| T::lit(row[m].1));
-    let terms: [&[T]; M] = core::array::from_fn(|m| &stages[row[m].0][..n]);
-    let (y, carry) = (&y[..n], &carry[..n]);
-    let blocks = blocks_of(n);
-    let term_blocks: [&[[T; BLOCK]]; M] = core::array::from_fn(|m| &terms[m].as_chunks::<BLOCK>().0[..blocks]);
-    let (y_blocks, carry_blocks) = (&y.as_chunks::<BLOCK>().0[..blocks], &carry.as_chunks::<BLOCK>().0[..blocks]);
-    for (b, out) in out.as_chunks_mut::<BLOCK>().0[..blocks].iter_mut().enumerate() {
-        let sum = sum_of_terms(&weights, |m| term_blocks[m][b]);
-        for l in 0..BLOCK {
-            out[l] = y_blocks[b][l] + (carry_blocks[b][l] + h * sum[l]);
-        }
-    }
-    for i in blocks * BLOCK..n {
-        let [sum] = sum_of_terms(&weights, |m| [terms[m][i]]);
-        out[i] = y[i] + (carry[i] + h * sum);
-    }
-}
-
-/// Writes Σ aⱼ kⱼ, for rows whose length the compiler knows.
-///
-/// The sum runs over even and odd terms apart, which halves the time spent waiting for additions.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn weighted_sums<T: Real, const M: usize>(row: &[(usize, f64); M], stages: &[Vec<T>; 16], out: &mut [T]) {
-    let n = out.len();
-    let weights: [T; M] = core::array::from_fn(|m| T::lit(row[m].1));
-    let terms: [&[T]; M] = core::array::from_fn(|m| &stages[row[m].0][..n]);
-    let blocks = blocks_of(n);
-    let term_blocks: [&[[T; BLOCK]]; M] = core::array::from_fn(|m| &terms[m].as_chunks::<BLOCK>().0[..blocks]);
-    let (out_blocks, _) = out.as_chunks_mut::<BLOCK>();
-    for (b, out) in out_blocks[..blocks].iter_mut().enumerate() {
-        *out = sum_of_terms(&weights, |m| term_blocks[m][b]);
-    }
-    for i in blocks * BLOCK..n {
-        [out[i]] = sum_of_terms(&weights, |m| [terms[m][i]]);
-    }
-}
-
-/// Σ aⱼ kⱼ, even and odd terms apart.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn sum_of_terms<T: Real, const M: usize, const N: usize>(weights: &[T; M], term: impl Fn(usize) -> [T; N]) -> [T; N] {
-    let first = term(0);
-    let mut even: [T; N] = core::array::from_fn(|l| weights[0] * first[l]);
-    if M == 1 {
-        return even;
-    }
-    let second = term(1);
-    let mut odd: [T; N] = core::array::from_fn(|l| weights[1] * second[l]);
-    for (m, &weight) in weights.iter().enumerate().skip(2) {
-        let term = term(m);
-        let sum = if m % 2 == 0 { &mut even } else { &mut odd };
-        for l in 0..N {
-            sum[l] += weight * term[l];
-        }
-    }
-    core::array::from_fn(|l| even[l] + odd[l])
 }
