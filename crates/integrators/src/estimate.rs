@@ -4,8 +4,8 @@ use piola_numerics::{Lanes, Real};
 
 use crate::field::largest_lane;
 use crate::{
-    DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, RadauIia, Report, SecondOrder, State,
-    StiffField, Tolerance,
+    Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom, NystromPair, RadauIia, Report, RungeKutta,
+    RungeKuttaPair, SecondOrder, State, StiffField,
 };
 
 /// How far the state at the end of a run is from the exact one, as a second, finer run tells.
@@ -47,7 +47,7 @@ const FINER_EIGHT: f64 = 1e-2;
 /// The part of the tolerance that the finer run of orders fifteen and sixteen has.
 const FINER_SIXTEEN: f64 = 1e-3;
 
-impl<T: Real> DormandPrince853<T> {
+impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
     /// Integrates to `end`, as [`integrate_to`](Self::integrate_to), and estimates the error there by a second run, which
     /// costs about 1.8 times the first.
     ///
@@ -61,9 +61,29 @@ impl<T: Real> DormandPrince853<T> {
     ) -> Result<ErrorEstimate, IntegratorsError<F::Error>> {
         let mut finer_state = state.clone();
         let run = self.integrate_to(field, state, end)?;
-        let (relative, absolute) = (self.tolerance().relative_part(), self.tolerance().absolute_part());
-        let finer = Tolerance::new(relative * FINER_EIGHT, absolute * FINER_EIGHT);
-        let finer = finer.map_err(IntegratorsError::with_field_error)?;
+        let finer = self.tolerance().times(FINER_EIGHT).map_err(IntegratorsError::with_field_error)?;
+        let coarse = core::mem::replace(self.tolerance_mut(), finer);
+        let finer_run = self.integrate_to(field, &mut finer_state, end);
+        *self.tolerance_mut() = coarse;
+        Ok(ErrorEstimate { errors: differences(state, &finer_state), run, finer_run: finer_run? })
+    }
+}
+
+impl<P: NystromPair, T: Real> Nystrom<P, T> {
+    /// Integrates to `end`, as [`integrate_to`](Self::integrate_to), and estimates the error there by a second run, which
+    /// costs about 1.8 times the first.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate), of either run. The state then stands where the first run ended.
+    pub fn integrate_and_estimate<F: SecondOrder<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+    ) -> Result<ErrorEstimate, IntegratorsError<F::Error>> {
+        let mut finer_state = state.clone();
+        let run = self.integrate_to(field, state, end)?;
+        let finer = self.tolerance().times(FINER_EIGHT).map_err(IntegratorsError::with_field_error)?;
         let coarse = core::mem::replace(self.tolerance_mut(), finer);
         let finer_run = self.integrate_to(field, &mut finer_state, end);
         *self.tolerance_mut() = coarse;

@@ -15,26 +15,32 @@ mod field;
 mod gauss_legendre;
 mod gauss_legendre_16;
 mod gauss_radau_15;
+mod legendre;
+mod nystrom;
 mod radau_iia;
 mod second_order;
 mod state;
 mod stiff_field;
 mod tolerance;
+mod verner;
 
 pub use composition::{Composition, Order};
-pub use dormand_prince::{DenseStep, DormandPrince853};
+pub use dormand_prince::{DormandPrince853, DormandPrincePair};
 pub use error::IntegratorsError;
 pub use estimate::ErrorEstimate;
 pub use events::{Crossing, Event, EventAction, Occurrence};
+pub use explicit::{DenseStep, RungeKutta, RungeKuttaPair};
 pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
 pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
+pub use nystrom::{Nystrom, Nystrom86, Nystrom1210, NystromPair, NystromPair86, NystromPair1210, NystromStep};
 pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};
 pub use second_order::SecondOrder;
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
 pub use tolerance::Tolerance;
+pub use verner::{Verner98, VernerPair};
 
 /// For tests, and for methods in other crates of Piola: no part of the interface.
 #[doc(hidden)]

@@ -2,6 +2,8 @@
 
 use piola_numerics::Real;
 
+use crate::IntegratorsError;
+
 /// A system of second order q̈ = f(t, q, q̇), over any scalar, the time too.
 ///
 /// Methods for such systems do not integrate q̇ = v, which they know: they need fewer evaluations and less memory. A field
@@ -48,4 +50,15 @@ pub trait SecondOrder<T: Real = f64> {
     /// # Errors
     /// Whatever makes the acceleration undefined at (t, q, q̇).
     fn acceleration(&mut self, t: T, q: &[T], v: &[T], acceleration: &mut [T]) -> Result<(), Self::Error>;
+}
+
+/// Refuses a system whose number of coordinates differs from the one its type states.
+pub(crate) fn check_freedom<T: Real, F: SecondOrder<T>>(field: &F) -> Result<(), IntegratorsError<F::Error>> {
+    let found = field.freedom();
+    match F::FREEDOM {
+        Some(expected) if expected != found => {
+            Err(IntegratorsError::WrongLength { quantity: "field", expected, found })
+        }
+        _ => Ok(()),
+    }
 }

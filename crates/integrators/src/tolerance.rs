@@ -46,6 +46,11 @@ impl Tolerance {
         }
     }
 
+    /// A part of it.
+    pub(crate) fn times(self, part: f64) -> Result<Self, IntegratorsError> {
+        Self::new(self.relative * part, self.absolute * part)
+    }
+
     /// The relative part.
     #[must_use]
     pub const fn relative_part(self) -> f64 {

@@ -14,20 +14,11 @@
 
 #[expect(clippy::unreadable_literal, reason = "seventeen digits, to be compared with printed tables")]
 mod coefficients;
-mod dense;
-mod stages;
-mod with_events;
-
-use core::ops::ControlFlow;
 
 use piola_numerics::Real;
 
-pub use dense::DenseStep;
-
-use crate::events::{Stop, stopped_by};
-use crate::explicit::{Limits, follow, settle};
-use crate::state::check_longest;
-use crate::{Field, IntegratorsError, Report, State, Tolerance};
+use self::coefficients as c;
+use crate::explicit::{Coefficients, RungeKutta, RungeKuttaPair, Weights, row, row_mut, weighted_sums};
 
 /// The adaptive method of order 8(5,3).
 ///
@@ -59,137 +50,77 @@ use crate::{Field, IntegratorsError, Report, State, Tolerance};
 /// # Ok::<(), piola_integrators::IntegratorsError>(())
 /// ```
 #[doc(alias("DOP853", "Runge-Kutta"))]
-#[derive(Clone, Debug)]
-pub struct DormandPrince853<T = f64> {
-    tolerance: Tolerance,
-    limits: Limits,
-    /// Rows of one state each: see `Row`.
-    memory: Vec<T>,
-    /// Components of the state.
-    components: usize,
-    magnitudes: Vec<f64>,
-    magnitudes_at_end: Vec<f64>,
-}
+pub type DormandPrince853<T = f64> = RungeKutta<DormandPrincePair, T>;
 
-/// The rows of the memory.
+/// The formulas of Dormand and Prince, of order eight, with estimates of orders five and three.
+///
+/// # Example
+/// ```
+/// use piola_integrators::{DormandPrince853, DormandPrincePair, RungeKutta, Tolerance};
+/// let method: RungeKutta<DormandPrincePair> = DormandPrince853::new(Tolerance::relative(1e-9)?);
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
+/// ```
 #[derive(Clone, Copy, Debug)]
-struct Row;
-impl Row {
-    /// k₁ … k₁₆ come first; stage 12 is the rate at the end of the step.
-    const STAGES: usize = 16;
-    /// The stage's argument, then the step's end and what rounding left of it.
-    const TRIAL: usize = 16;
-    /// The step's start and what rounding left of it.
-    const START: usize = 18;
-    const START_CARRY: usize = 19;
-    /// The seven coefficients of the interpolating polynomial; see `dense`.
-    const INTERPOLANT: usize = 20;
-    const COUNT: usize = 27;
-}
+pub struct DormandPrincePair;
 
-impl<T: Real> DormandPrince853<T> {
-    /// A method with the given tolerance.
-    #[must_use]
-    pub const fn new(tolerance: Tolerance) -> Self {
-        Self {
-            tolerance,
-            limits: Limits::none(),
-            memory: Vec::new(),
-            components: 0,
-            magnitudes: Vec::new(),
-            magnitudes_at_end: Vec::new(),
+impl RungeKuttaPair for DormandPrincePair {}
+
+impl Coefficients for DormandPrincePair {
+    const STAGES: usize = 16;
+    const NODES: &'static [f64] = &c::C;
+    const ROWS: &'static [(usize, Weights)] = &c::ROWS;
+    const END: usize = 12;
+    const WEIGHTS: Weights = &c::B;
+    const ERROR: Weights = &c::E5;
+    const COARSER: Weights = &c::B3;
+    const DENSE_ROWS: &'static [(usize, Weights)] = &c::DENSE_ROWS;
+    const INTERPOLANT: usize = 7;
+
+    /// The estimate of order five, damped by that of order three.
+    ///
+    /// ```text
+    /// e = |h| ‖e₅‖² / √(n (‖e₅‖² + 0.01 ‖e₃‖²)),    ‖x‖² = Σᵢ (xᵢ/allowedᵢ)²
+    /// ```
+    fn error(h: f64, n: usize, fifth: f64, third: f64) -> f64 {
+        let denominator = fifth + 0.01 * third;
+        if denominator <= 0.0 {
+            0.0
+        } else if denominator.is_infinite() {
+            f64::INFINITY
+        } else {
+            h.abs() * fifth / (denominator * n as f64).sqrt()
         }
     }
 
-    /// Sets the first step tried, s; by default it is estimated.
-    ///
-    /// # Errors
-    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
-    pub fn with_first_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
-        crate::state::check_step(step)?;
-        self.limits.first_step = Some(step);
-        Ok(self)
+    fn root(error: f64) -> f64 {
+        error.sqrt().sqrt().sqrt()
     }
 
-    /// Bounds every step, s; by default steps are not bounded.
-    ///
-    /// # Errors
-    /// [`IntegratorsError::InvalidStep`] unless 0 < step; ∞ is no bound.
-    pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
-        self.limits.longest_step = check_longest(step)?;
-        Ok(self)
+    fn interpolant<T: Real>(k: &[T], increment: &[T], h: f64, interpolant: &mut [T]) {
+        let (n, h) = (increment.len(), T::lit(h));
+        let (low, high) = interpolant.split_at_mut(2 * n);
+        for (i, &increment) in increment.iter().enumerate() {
+            let (first, last) = (h * k[i], h * k[Self::END * n + i]);
+            low[i] = first - increment;
+            low[n + i] = increment + increment - (last + first);
+        }
+        for (j, weights) in [&c::D4[..], &c::D5, &c::D6, &c::D7].into_iter().enumerate() {
+            let f = row_mut(high, j, n);
+            weighted_sums(weights, k, f);
+            for f in f {
+                *f *= h;
+            }
+        }
     }
 
-    /// Bounds the number of steps of one run; by default it is not bounded.
-    #[must_use]
-    pub const fn with_most_steps(mut self, steps: u64) -> Self {
-        self.limits.most_steps = steps;
-        self
+    /// ```text
+    /// θ(F₀ + θ̄(F₁ + θ(F₂ + θ̄(F₃ + θ(F₄ + θ̄(F₅ + θF₆)))))),   θ̄ = 1 − θ
+    /// ```
+    fn increment<T: Real>(interpolant: &[T], n: usize, i: usize, theta: f64) -> T {
+        let f = |j: usize| row(interpolant, j, n)[i];
+        let theta = T::lit(theta);
+        let rest = T::one() - theta;
+        let inner = f(3) + theta * (f(4) + rest * (f(5) + theta * f(6)));
+        theta * (f(0) + rest * (f(1) + theta * (f(2) + rest * inner)))
     }
-
-    /// The tolerance.
-    #[must_use]
-    pub const fn tolerance(&self) -> Tolerance {
-        self.tolerance
-    }
-
-    pub(crate) const fn tolerance_mut(&mut self) -> &mut Tolerance {
-        &mut self.tolerance
-    }
-
-    /// Integrates to `end`, unobserved.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.integrate(field, state, end, |_| ControlFlow::Continue(()))
-    }
-
-    /// Integrates to `end`, backwards if it is earlier than the state's time. The observer sees every step,
-    /// may ask for the state at any time within it, and may stop the run.
-    ///
-    /// # Errors
-    /// The state does not fit or is not finite; the field fails or its rate is not finite at the start or, however
-    /// small the step, beyond a time; the step no longer advances the time; or the limit on steps is reached.
-    /// The state then stands at the last accepted step.
-    pub fn integrate<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-        mut observer: impl FnMut(&mut DenseStep<'_, T, F>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, state, end, &mut |step| Ok(stopped_by(observer(step))))
-    }
-
-    /// Runs to `end`. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end
-    /// when `None`) and how the run ended.
-    fn run<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-        inspect: &mut impl FnMut(&mut DenseStep<'_, T, F>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        follow(self, field, state, end, &mut |method, field, state, step, report| {
-            let mut dense = DenseStep::new(method, field, step);
-            let verdict = inspect(&mut dense);
-            settle(verdict, &mut dense, state, report)
-        })
-    }
-}
-
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn evaluate<T: Real, F: Field<T>>(
-    field: &mut F,
-    time: f64,
-    y: &[T],
-    rate: &mut [T],
-) -> Result<(), IntegratorsError<F::Error>> {
-    field.rate(time, y, rate).map_err(|source| IntegratorsError::Field { t: time, source })
 }

@@ -6,15 +6,21 @@
 //!
 //! with the error e of a step over what the tolerance allows. A step of e > 1 is made again.
 
+mod dense;
 mod first_step;
 mod rows;
+mod runge_kutta;
+mod with_events;
 
 use core::ops::ControlFlow;
 
 use piola_numerics::Real;
 
+pub use self::dense::DenseStep;
 pub(crate) use self::first_step::Guess;
 pub(crate) use self::rows::{combine, row, row_mut, weighted_sums};
+pub(crate) use self::runge_kutta::{Coefficients, Weights};
+pub use self::runge_kutta::{RungeKutta, RungeKuttaPair};
 use crate::accepted::AcceptedStep;
 use crate::events::Stop;
 use crate::{Ending, IntegratorsError, Report, State};
@@ -197,3 +203,45 @@ pub(crate) fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
         pair.advance(field, state, &mut report)?;
     }
 }
+
+/// How a user bounds the steps of a method that has the fields `tolerance` and `limits`.
+macro_rules! limits_of_steps {
+    () => {
+        /// Sets the first step tried, s; by default it is estimated.
+        ///
+        /// # Errors
+        /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+        pub fn with_first_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
+            crate::state::check_step(step)?;
+            self.limits.first_step = Some(step);
+            Ok(self)
+        }
+
+        /// Bounds every step, s; by default steps are not bounded.
+        ///
+        /// # Errors
+        /// [`IntegratorsError::InvalidStep`] unless 0 < step; ∞ is no bound.
+        pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
+            self.limits.longest_step = crate::state::check_longest(step)?;
+            Ok(self)
+        }
+
+        /// Bounds the number of steps of one run; by default it is not bounded.
+        #[must_use]
+        pub const fn with_most_steps(mut self, steps: u64) -> Self {
+            self.limits.most_steps = steps;
+            self
+        }
+
+        /// The tolerance.
+        #[must_use]
+        pub const fn tolerance(&self) -> Tolerance {
+            self.tolerance
+        }
+
+        pub(crate) const fn tolerance_mut(&mut self) -> &mut Tolerance {
+            &mut self.tolerance
+        }
+    };
+}
+pub(crate) use limits_of_steps;

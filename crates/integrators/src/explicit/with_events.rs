@@ -2,12 +2,12 @@
 
 use core::ops::ControlFlow;
 
-use super::{DenseStep, DormandPrince853};
+use super::{DenseStep, RungeKutta, RungeKuttaPair};
 use crate::events::{Event, Interpolated, Occurrence, begin, locate, stopped_by};
 use crate::state::check_run;
 use crate::{Field, IntegratorsError, Report, State};
 
-impl<F: Field> Interpolated<F::Error> for DenseStep<'_, f64, F> {
+impl<P: RungeKuttaPair, F: Field> Interpolated<F::Error> for DenseStep<'_, P, f64, F> {
     fn ends(&self) -> (f64, f64) {
         (self.start(), self.time())
     }
@@ -16,7 +16,7 @@ impl<F: Field> Interpolated<F::Error> for DenseStep<'_, f64, F> {
     }
 }
 
-impl DormandPrince853<f64> {
+impl<P: RungeKuttaPair> RungeKutta<P, f64> {
     /// Integrates to `end` and reports the crossings of the events in the order of time. The run ends early
     /// at an event whose action is [`EventAction::Stop`](crate::EventAction::Stop), with the state there, or when one of the observers
     /// breaks. The observer sees a step after its events; a step cut short by a stop it does not see.
@@ -50,7 +50,7 @@ impl DormandPrince853<f64> {
         end: f64,
         events: &mut [Event<'_>],
         mut on_event: impl FnMut(Occurrence<'_>) -> ControlFlow<()>,
-        mut observer: impl FnMut(&mut DenseStep<'_, f64, F>) -> ControlFlow<()>,
+        mut observer: impl FnMut(&mut DenseStep<'_, P, f64, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         check_run(field.dimension(), state, end)?;
         let mut values = state.values.clone();

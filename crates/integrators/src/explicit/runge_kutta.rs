@@ -1,0 +1,321 @@
+//! Explicit Runge–Kutta pairs: any smooth field ẏ = f(t, y), with adaptive steps, dense output and events.
+
+use core::cell::RefCell;
+use core::marker::PhantomData;
+use core::ops::ControlFlow;
+
+use piola_numerics::Real;
+
+use super::{DenseStep, EmbeddedPair, Guess, Limits, combine, limits_of_steps, row, row_mut, weighted_sums};
+use crate::events::{Stop, stopped_by};
+use crate::explicit::{follow, settle};
+use crate::field::{check_field, largest_lane};
+use crate::state::{check_finite, check_run, compensated_add};
+use crate::{Field, IntegratorsError, Report, State, Tolerance};
+
+/// A pair of explicit formulas: [`DormandPrincePair`](crate::DormandPrincePair) or [`VernerPair`](crate::VernerPair).
+pub trait RungeKuttaPair: Coefficients {}
+
+/// A row of a tableau: stages, counted from zero, with their coefficients.
+pub(crate) type Weights = &'static [(usize, f64)];
+
+/// What makes a pair of formulas. Stages are counted from zero.
+pub trait Coefficients: Copy + core::fmt::Debug {
+    /// Stages of all kinds.
+    const STAGES: usize;
+    /// The times of the stages, as parts of the step.
+    const NODES: &'static [f64];
+    /// The stages of a step after the first, by their numbers.
+    const ROWS: &'static [(usize, Weights)];
+    /// The stage that holds the rate at the end of a step: the first stage of the next one.
+    const END: usize;
+    /// The weights of the result.
+    const WEIGHTS: Weights;
+    /// The weights of the estimate of the error.
+    const ERROR: Weights;
+    /// The weights of a second, coarser result, from which another estimate is made; may be empty.
+    const COARSER: Weights;
+    /// Stages that dense output alone needs, by their numbers.
+    const DENSE_ROWS: &'static [(usize, Weights)];
+    /// Coefficients of dense output, each a state.
+    const INTERPOLANT: usize;
+
+    /// The error over the tolerance, of n components, from Σ (eᵢ/allowedᵢ)² of both estimates.
+    fn error(h: f64, n: usize, first: f64, second: f64) -> f64;
+    /// e^(1/p), where the error e falls with the power p of the step.
+    fn root(error: f64) -> f64;
+    /// Writes the coefficients of dense output to `interpolant` from the stages and the ends of a step.
+    fn interpolant<T: Real>(stages: &[T], increment: &[T], h: f64, interpolant: &mut [T]);
+    /// The increment of component i from the start of the step to its part θ.
+    fn increment<T: Real>(interpolant: &[T], n: usize, i: usize, theta: f64) -> T;
+}
+
+/// An explicit Runge–Kutta method with adaptive steps: [`DormandPrince853`](crate::DormandPrince853) or
+/// [`Verner98`](crate::Verner98), whose pages have examples.
+///
+/// # Accuracy
+/// The local error of each step is below the tolerance; the global error is proportional to it, by a factor
+/// that the problem's sensitivity sets. The state and the time are summed with compensation.
+#[derive(Clone, Debug)]
+pub struct RungeKutta<P, T = f64> {
+    pub(super) tolerance: Tolerance,
+    pub(super) limits: Limits,
+    /// Rows of one state each: the stages, then those of `Rows`.
+    pub(super) memory: Vec<T>,
+    /// Components of the state.
+    pub(super) components: usize,
+    magnitudes: Vec<f64>,
+    magnitudes_at_end: Vec<f64>,
+    pair: PhantomData<P>,
+}
+
+/// The rows of the memory after the stages.
+pub(super) struct Rows;
+impl Rows {
+    /// The stage's argument, then the step's end and what rounding left of it.
+    pub(super) const TRIAL: usize = 0;
+    /// The step's start and what rounding left of it.
+    pub(super) const START: usize = 2;
+    pub(super) const START_CARRY: usize = 3;
+    /// The coefficients of dense output.
+    pub(super) const INTERPOLANT: usize = 4;
+}
+
+impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
+    /// A method with the given tolerance.
+    #[must_use]
+    pub const fn new(tolerance: Tolerance) -> Self {
+        Self {
+            tolerance,
+            limits: Limits::none(),
+            memory: Vec::new(),
+            components: 0,
+            magnitudes: Vec::new(),
+            magnitudes_at_end: Vec::new(),
+            pair: PhantomData,
+        }
+    }
+
+    limits_of_steps!();
+
+    /// Integrates to `end`, unobserved.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_to<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.integrate(field, state, end, |_| ControlFlow::Continue(()))
+    }
+
+    /// Integrates to `end`, backwards if it is earlier than the state's time. The observer sees every step,
+    /// may ask for the state at any time within it, and may stop the run.
+    ///
+    /// # Errors
+    /// The state does not fit or is not finite; the field fails or its rate is not finite at the start or, however
+    /// small the step, beyond a time; the step no longer advances the time; or the limit on steps is reached.
+    /// The state then stands at the last accepted step.
+    pub fn integrate<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        mut observer: impl FnMut(&mut DenseStep<'_, P, T, F>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.run(field, state, end, &mut |step| Ok(stopped_by(observer(step))))
+    }
+
+    /// Runs to `end`. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end
+    /// when `None`) and how the run ended.
+    pub(super) fn run<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        inspect: &mut impl FnMut(&mut DenseStep<'_, P, T, F>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        follow(self, field, state, end, &mut |method, field, state, step, report| {
+            let mut dense = DenseStep::new(method, field, step);
+            let verdict = inspect(&mut dense);
+            settle(verdict, &mut dense, state, report)
+        })
+    }
+}
+
+impl<P: RungeKuttaPair, T: Real, F: Field<T>> EmbeddedPair<T, F> for RungeKutta<P, T> {
+    type Error = F::Error;
+
+    fn limits(&self) -> Limits {
+        self.limits
+    }
+
+    fn begin(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        report: &mut Report,
+    ) -> Result<f64, IntegratorsError<F::Error>> {
+        check_field::<T, F>(field)?;
+        check_run(field.dimension(), state, end)?;
+        let n = state.values.len();
+        self.components = n;
+        self.memory.resize(Self::count() * n, T::zero());
+        self.magnitudes.resize(n, 0.0);
+        self.magnitudes_at_end.resize(n, 0.0);
+        let span = end - state.time;
+        if span.abs() <= 0.0 {
+            return Ok(0.0);
+        }
+        let (stages, rest) = self.memory.split_at_mut(P::STAGES * n);
+        let (rate, others) = stages.split_at_mut(n);
+        evaluate(field, state.time, &state.values, rate)?;
+        report.evaluations += 1;
+        check_finite("rate", Some(state.time), rate)?;
+        field.magnitudes(&state.values, &mut self.magnitudes);
+        if let Some(step) = self.limits.first_step {
+            return Ok(step);
+        }
+        let guess = Guess {
+            tolerance: self.tolerance,
+            longest_step: self.limits.longest_step,
+            rate,
+            trial: &mut rest[..n],
+            trial_rate: &mut others[..n],
+            magnitudes: &self.magnitudes,
+            magnitudes_at_trial: &mut self.magnitudes_at_end,
+        };
+        let field = RefCell::new(field);
+        Ok(guess.first_step(
+            state,
+            span,
+            report,
+            P::root,
+            |t, y, rate| evaluate(&mut **field.borrow_mut(), t, y, rate),
+            |y, magnitudes| field.borrow().magnitudes(y, magnitudes),
+        ))
+    }
+
+    fn attempt(
+        &mut self,
+        field: &mut F,
+        state: &State<T>,
+        h: f64,
+        report: &mut Report,
+    ) -> Result<f64, IntegratorsError<F::Error>> {
+        let t = state.time;
+        let n = F::DIMENSION.unwrap_or(self.components);
+        let (k, rest) = self.memory[..Self::count() * n].split_at_mut(P::STAGES * n);
+        let trial = &mut rest[..n];
+        let y = (&state.values[..n], &state.carry[..n]);
+        // A loop, not a line for each stage: the field is then compiled once.
+        for (number, weights) in P::ROWS.iter().copied() {
+            combine(weights, k, y, h, trial);
+            report.evaluations += 1;
+            evaluate(field, t + P::NODES[number] * h, trial, row_mut(k, number, n))?;
+        }
+        let error = self.finish(field, state, h);
+        let (k, rest) = self.memory[..Self::count() * n].split_at_mut(P::STAGES * n);
+        let trial = &mut rest[..n];
+        if error <= 1.0 {
+            field.project(t + h, trial).map_err(|source| IntegratorsError::Field { t: t + h, source })?;
+            report.evaluations += 1;
+            let rate = row_mut(k, P::END, n);
+            evaluate(field, t + h, trial, rate)?;
+            check_finite("rate", Some(t), rate)?;
+        } else if error.is_nan() {
+            for &(number, _) in P::ROWS {
+                check_finite("rate", Some(t), row(k, number, n))?;
+            }
+        }
+        Ok(error)
+    }
+
+    fn root(error: f64) -> f64 {
+        P::root(error)
+    }
+
+    fn accept(&mut self, state: &mut State<T>) {
+        let n = F::DIMENSION.unwrap_or(self.components);
+        let rows = &mut self.memory[P::STAGES * n..Self::count() * n];
+        let (trial, start) = rows.split_at_mut(Rows::START * n);
+        let (values, carry) = (&mut state.values[..n], &mut state.carry[..n]);
+        start[..n].copy_from_slice(values);
+        start[n..2 * n].copy_from_slice(carry);
+        values.copy_from_slice(&trial[..n]);
+        carry.copy_from_slice(&trial[n..2 * n]);
+    }
+
+    fn advance(
+        &mut self,
+        _field: &mut F,
+        _state: &State<T>,
+        _report: &mut Report,
+    ) -> Result<(), IntegratorsError<F::Error>> {
+        // The rate at the end is the first stage of the next step.
+        let n = F::DIMENSION.unwrap_or(self.components);
+        let (first, rest) = self.memory[..P::STAGES * n].split_at_mut(n);
+        first.copy_from_slice(row(rest, P::END - 1, n));
+        core::mem::swap(&mut self.magnitudes, &mut self.magnitudes_at_end);
+        Ok(())
+    }
+}
+
+impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
+    /// Rows of the memory.
+    const fn count() -> usize {
+        P::STAGES + Rows::INTERPOLANT + P::INTERPOLANT
+    }
+
+    /// The end of the step, and its error over the tolerance.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn finish<F: Field<T>>(&mut self, field: &F, state: &State<T>, h: f64) -> f64 {
+        let n = F::DIMENSION.unwrap_or(self.components);
+        let h_lit = T::lit(h);
+        let (y, carry) = (&state.values[..n], &state.carry[..n]);
+        let (k, rest) = self.memory[..Self::count() * n].split_at_mut(P::STAGES * n);
+        let (ends, interpolant) = rest.split_at_mut(Rows::INTERPOLANT * n);
+        let (trial, trial_carry) = ends[..Rows::START * n].split_at_mut(n);
+        let (first_error, second_error) = interpolant[..2 * n].split_at_mut(n);
+        weighted_sums(P::ERROR, k, first_error);
+        weighted_sums(P::WEIGHTS, k, trial);
+        if !P::COARSER.is_empty() {
+            weighted_sums(P::COARSER, k, second_error);
+        }
+        for (i, trial) in trial.iter_mut().enumerate() {
+            let slope = *trial;
+            second_error[i] = slope - second_error[i];
+            (*trial, trial_carry[i]) = (y[i], carry[i]);
+            compensated_add(trial, &mut trial_carry[i], slope * h_lit);
+        }
+
+        let (before, after) = (&self.magnitudes[..n], &mut self.magnitudes_at_end[..n]);
+        field.magnitudes(trial, after);
+        let (absolute, relative) = (self.tolerance.absolute_part(), self.tolerance.relative_part());
+        let (mut first, mut second) = (0.0, 0.0);
+        for (((e, coarse), &before), &after) in first_error.iter().zip(&*second_error).zip(before).zip(&*after) {
+            let allowed = absolute + relative * if before < after { after } else { before };
+            let e = largest_lane(*e);
+            let coarse = if P::COARSER.is_empty() { 0.0 } else { largest_lane(*coarse) };
+            // An exact component is exact whatever the tolerance: also where its magnitude is zero.
+            let allowed = if e <= 0.0 && coarse <= 0.0 { 1.0 } else { allowed };
+            let (e, coarse) = (e / allowed, coarse / allowed);
+            first += e * e;
+            second += coarse * coarse;
+        }
+        P::error(h, n, first, second)
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn evaluate<T: Real, F: Field<T>>(
+    field: &mut F,
+    time: f64,
+    y: &[T],
+    rate: &mut [T],
+) -> Result<(), IntegratorsError<F::Error>> {
+    field.rate(time, y, rate).map_err(|source| IntegratorsError::Field { t: time, source })
+}
