@@ -30,7 +30,7 @@ pub use error::IntegratorsError;
 pub use estimate::ErrorEstimate;
 pub use events::{Crossing, Event, EventAction, Occurrence};
 pub use explicit::{DenseStep, RungeKutta, RungeKuttaPair};
-pub use field::{Field, FunctionField, Separable, field, separable};
+pub use field::{Field, FunctionField, Separable, SizedField, field, separable, sized_field};
 pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
 pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
@@ -45,6 +45,8 @@ pub use verner::{Verner98, VernerPair};
 /// For tests, and for methods in other crates of Piola: no part of the interface.
 #[doc(hidden)]
 pub mod internal {
+    pub use crate::explicit::Coefficients as RungeKuttaCoefficients;
+    pub use crate::nystrom::Coefficients as NystromCoefficients;
     pub use crate::radau_iia::Tableau;
     pub use crate::state::{compensated_add, equal_steps};
 }

@@ -92,6 +92,8 @@ pub struct Nystrom<P, T = f64> {
     memory: Vec<T>,
     /// Positions at which dense output evaluates the acceleration.
     argument: Vec<T>,
+    /// Magnitudes, one for each component, for the first step.
+    spread: Vec<f64>,
     /// Coordinates.
     freedom: usize,
     /// The largest position and the largest velocity, at the start of a step and at its end.
@@ -199,6 +201,7 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
             limits: Limits::none(),
             memory: Vec::new(),
             argument: Vec::new(),
+            spread: Vec::new(),
             freedom: 0,
             magnitudes: [0.0; 2],
             magnitudes_at_end: [0.0; 2],

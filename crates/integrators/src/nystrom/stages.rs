@@ -37,27 +37,28 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         let (rate, others_too) = others.split_at_mut(2 * n);
         rate[..n].copy_from_slice(&state.values[n..]);
         rate[n..].copy_from_slice(&stages[..n]);
-        let both = |[q, v]: [f64; 2]| {
-            let mut all = vec![q; n];
-            all.resize(2 * n, v);
-            all
+        let spread = |[q, v]: [f64; 2], all: &mut [f64]| {
+            all[..n].fill(q);
+            all[n..].fill(v);
         };
-        let mut at_trial = both(self.magnitudes);
+        self.spread.resize(4 * n, 0.0);
+        let (at_start, at_trial) = self.spread.split_at_mut(2 * n);
+        spread(self.magnitudes, at_start);
         let guess = Guess {
             tolerance: self.tolerance,
             longest_step: self.limits.longest_step,
             rate,
             trial: &mut rest[..2 * n],
             trial_rate: &mut others_too[..2 * n],
-            magnitudes: &both(self.magnitudes),
-            magnitudes_at_trial: &mut at_trial,
+            magnitudes: at_start,
+            magnitudes_at_trial: at_trial,
         };
         let evaluate = |t: f64, y: &[T], rate: &mut [T]| {
             let (velocity, acceleration) = rate.split_at_mut(n);
             velocity.copy_from_slice(&y[n..]);
             evaluate(field, t, &y[..n], acceleration)
         };
-        guess.first_step(state, span, report, P::root, evaluate, |y, all| all.copy_from_slice(&both(magnitudes(y))))
+        guess.first_step(state, span, report, P::root, evaluate, |y, all| spread(magnitudes(y), all))
     }
 
     /// The end of the step, and its error over the tolerance.

@@ -1,4 +1,4 @@
-//! The coefficients of the 9(8) pair and of its dense output of order eight.
+//! The coefficients of the 9(8) pair and of its dense output of order nine.
 //!
 //! Each row lists only the stages that take part, as (stage, coefficient), stages counted from zero; stage
 //! 16 is the rate at the end of the step.

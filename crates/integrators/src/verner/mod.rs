@@ -22,7 +22,7 @@ use crate::explicit::{Coefficients, RungeKutta, RungeKuttaPair, Weights, row, ro
 /// # Accuracy
 /// The local error of each step is below the tolerance; the global error is proportional to it, by a factor
 /// that the problem's sensitivity sets. The state and the time are summed with compensation. Dense output is of order
-/// eight.
+/// nine.
 ///
 /// # Example
 /// ```

@@ -3,8 +3,8 @@
 use core::convert::Infallible;
 
 use piola_integrators::{
-    DormandPrince853, ErrorEstimate, Field, GaussLegendre16, GaussRadau15, IntegratorsError, SecondOrder, State,
-    Tolerance,
+    DormandPrince853, ErrorEstimate, Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom86, Nystrom1210,
+    SecondOrder, State, Tolerance, Verner98,
 };
 use piola_numerics::Lanes;
 use piola_testkit::golden::{self, number, text, vector};
@@ -54,6 +54,18 @@ fn eight<F: Field<Error = Infallible>>(name: &str, mut field: F) -> Vec<f64> {
     })
 }
 
+fn nine<F: Field<Error = Infallible>>(name: &str, mut field: F) -> Vec<f64> {
+    ratios(name, |state, end, tolerance| Verner98::new(tolerance).integrate_and_estimate(&mut field, state, end))
+}
+
+fn nystrom_eight<F: SecondOrder<Error = Infallible>>(name: &str, mut field: F) -> Vec<f64> {
+    ratios(name, |state, end, tolerance| Nystrom86::new(tolerance).integrate_and_estimate(&mut field, state, end))
+}
+
+fn nystrom_twelve<F: SecondOrder<Error = Infallible>>(name: &str, mut field: F) -> Vec<f64> {
+    ratios(name, |state, end, tolerance| Nystrom1210::new(tolerance).integrate_and_estimate(&mut field, state, end))
+}
+
 fn sixteen<F: SecondOrder<Lanes<f64, 8>, Error = Infallible>>(name: &str, mut field: F) -> Vec<f64> {
     ratios(name, |state, end, tolerance| GaussLegendre16::new(tolerance).integrate_and_estimate(&mut field, state, end))
 }
@@ -81,6 +93,29 @@ macro_rules! all_problems {
 #[test]
 fn estimate_of_order_eight_equals_the_true_error_within_three() {
     judge("order eight", &all_problems!(eight), 80);
+}
+
+#[test]
+fn estimate_of_order_nine_equals_the_true_error_within_three() {
+    judge("order nine", &all_problems!(nine), 80);
+}
+
+#[test]
+fn estimates_of_nystrom_pairs_equal_the_true_errors_within_three() {
+    macro_rules! problems {
+        ($run:ident) => {
+            [
+                $run("kepler_e0.3", kepler()),
+                $run("kepler_e0.9", kepler()),
+                $run("kepler_e0.99", kepler()),
+                $run("henon_heiles_E_1_12", henon_heiles()),
+                $run("figure_eight", three_bodies()),
+            ]
+            .concat()
+        };
+    }
+    judge("Nyström, order eight", &problems!(nystrom_eight), 50);
+    judge("Nyström, order twelve", &problems!(nystrom_twelve), 50);
 }
 
 #[test]

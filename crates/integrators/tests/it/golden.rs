@@ -3,7 +3,8 @@
 use core::convert::Infallible;
 
 use piola_integrators::{
-    Composition, DormandPrince853, Field, GaussLegendre, IntegratorsError, Order, Report, Separable, State, Tolerance,
+    Composition, DormandPrince853, Field, GaussLegendre, IntegratorsError, Nystrom86, Nystrom1210, Order, Report,
+    SecondOrder, Separable, State, Tolerance, Verner98,
 };
 use piola_testkit::golden::{self, number, text, vector};
 use piola_testkit::{Tol, assert_close};
@@ -24,6 +25,18 @@ fn check(name: &str, mut integrate_to: impl FnMut(&mut State, f64) -> Result<Rep
 
 fn adaptive<F: Field<Error = Infallible>>(name: &str, mut field: F) {
     let mut method = DormandPrince853::new(Tolerance::relative(1e-15).unwrap());
+    check(name, |state, end| method.integrate_to(&mut field, state, end));
+}
+
+fn verner<F: Field<Error = Infallible>>(name: &str, mut field: F) {
+    let mut method = Verner98::new(Tolerance::relative(1e-15).unwrap());
+    check(name, |state, end| method.integrate_to(&mut field, state, end));
+}
+
+fn nystrom<F: SecondOrder<Error = Infallible>>(name: &str, mut field: F) {
+    let mut method = Nystrom86::new(Tolerance::relative(1e-14).unwrap());
+    check(name, |state, end| method.integrate_to(&mut field, state, end));
+    let mut method = Nystrom1210::new(Tolerance::relative(1e-15).unwrap());
     check(name, |state, end| method.integrate_to(&mut field, state, end));
 }
 
@@ -55,6 +68,28 @@ fn dormand_prince_follows_double_pendulums_from_rest() {
     let pendulum = |masses, lengths| DoublePendulum { masses, lengths, gravity: 9.8125 };
     adaptive("double_pendulum_low", pendulum([1.0, 1.0], [1.0, 1.0]));
     adaptive("double_pendulum_high", pendulum([1.0, 2.0], [1.0, 0.5]));
+}
+
+#[test]
+fn verner_follows_the_references() {
+    verner("kepler_e0.3", kepler());
+    verner("kepler_e0.9", kepler());
+    verner("kepler_e0.99", kepler());
+    verner("henon_heiles_E_1_12", henon_heiles());
+    verner("figure_eight", three_bodies());
+    let low = DoublePendulum { masses: [1.0; 2], lengths: [1.0; 2], gravity: 9.8125 };
+    verner("double_pendulum_low", low);
+    let high = DoublePendulum { masses: [1.0, 2.0], lengths: [1.0, 0.5], gravity: 9.8125 };
+    verner("double_pendulum_high", high);
+}
+
+#[test]
+fn nystrom_follows_the_references() {
+    nystrom("kepler_e0.3", kepler());
+    nystrom("kepler_e0.9", kepler());
+    nystrom("kepler_e0.99", kepler());
+    nystrom("henon_heiles_E_1_12", henon_heiles());
+    nystrom("figure_eight", three_bodies());
 }
 
 #[test]

@@ -11,6 +11,7 @@ mod gauss_16;
 mod golden;
 mod laws;
 mod orders;
+mod pairs;
 mod problems;
 mod radau;
 mod radau_15;
