@@ -4,8 +4,8 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use piola_integrators::{
-    Composition, DormandPrince853, Field, GaussLegendre, GaussLegendre16, GaussRadau15, Order, Report, SecondOrder,
-    State, Tolerance, field, separable,
+    Composition, DormandPrince853, Field, GaussLegendre, GaussLegendre16, GaussRadau15, Nystrom86, Nystrom1210, Order,
+    Report, SecondOrder, State, Tolerance, Verner98, separable,
 };
 use piola_numerics::{Lanes, Real};
 use serde_json::{Value, json};
@@ -43,6 +43,12 @@ pub enum Family {
     GaussLegendre16,
     /// Collocation of order fifteen at Radau's nodes, adaptive, one stage after the other.
     GaussRadau15,
+    /// The explicit Nyström pair of order eight.
+    Nystrom86,
+    /// The explicit Nyström pair of order twelve.
+    Nystrom1210,
+    /// The explicit Runge–Kutta pair of order nine.
+    Verner,
     /// The adaptive method on the equations written by hand.
     DormandPrince,
     /// The adaptive method on equations that Piola derives.
@@ -351,6 +357,60 @@ pub fn dormand_prince<E: Equations<D>, const D: usize>(problem: &Problem<E, D>) 
     Method { name, family: Family::DormandPrince, order: 8, parameters: tolerances(), run: Box::new(run) }
 }
 
+/// The explicit pair of order nine on equations written by hand.
+#[must_use]
+pub fn verner<E: Equations<D>, const D: usize>(problem: &Problem<E, D>) -> Method<'_> {
+    let run = move |tolerance: f64| {
+        let mut state = State::new(0.0, problem.start.to_vec()).map_err(|error| error.to_string())?;
+        let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+        let report = Verner98::new(tolerance).integrate_to(&mut by_hand(problem), &mut state, problem.end);
+        Ok(Outcome::of(report.map_err(|error| error.to_string())?, state))
+    };
+    Method {
+        name: "Verner 9(8)".into(),
+        family: Family::Verner,
+        order: 9,
+        parameters: tolerances(),
+        run: Box::new(run),
+    }
+}
+
+/// Both explicit Nyström pairs on equations written by hand whose accelerations depend on positions alone.
+#[must_use]
+pub fn nystrom<E: Force, const D: usize>(problem: &Problem<E, D>) -> [Method<'_>; 2] {
+    macro_rules! method {
+        ($method:ident, $name:literal, $order:literal) => {{
+            let run = move |tolerance: f64| {
+                let mut state = State::new(0.0, problem.start.to_vec()).map_err(|error| error.to_string())?;
+                let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+                let mut field = Forced::<'_, E, D>(&problem.equations);
+                let report = $method::new(tolerance).integrate_to(&mut field, &mut state, problem.end);
+                Ok(Outcome::of(report.map_err(|error| error.to_string())?, state))
+            };
+            let parameters = (2..=16).map(|k| 10.0_f64.powi(-k)).collect();
+            Method { name: $name.into(), family: Family::$method, order: $order, parameters, run: Box::new(run) }
+        }};
+    }
+    [method!(Nystrom86, "Nyström 8(6)", 8), method!(Nystrom1210, "Nyström 12(10)", 12)]
+}
+
+/// The force of a problem of D components.
+struct Forced<'a, E, const D: usize>(&'a E);
+
+impl<E: Force, const D: usize> SecondOrder for Forced<'_, E, D> {
+    type Error = std::convert::Infallible;
+    const VELOCITY_DEPENDENT: bool = false;
+    const FREEDOM: Option<usize> = Some(D / 2);
+    fn freedom(&self) -> usize {
+        D / 2
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn acceleration(&mut self, _t: f64, q: &[f64], _v: &[f64], acceleration: &mut [f64]) -> Result<(), Self::Error> {
+        self.0.force(q, acceleration);
+        Ok(())
+    }
+}
+
 /// The adaptive method on a field that Piola derives.
 #[must_use]
 pub fn derived_dormand_prince<'a, F: Field, const D: usize>(
@@ -390,16 +450,32 @@ pub fn peer_methods<E: Equations<D>, const D: usize>(problem: &Problem<E, D>) ->
     ]
 }
 
-/// The equations of a problem as a field.
+/// The equations of a problem as a field whose size the compiler knows.
 pub fn by_hand<E: Equations<D>, const D: usize>(
     problem: &Problem<E, D>,
 ) -> impl Field<f64, Error = std::convert::Infallible> {
-    field(D, |_t, y: &[f64], rate: &mut [f64]| {
+    ByHand(&problem.equations)
+}
+
+/// Equations written by hand.
+struct ByHand<'a, E, const D: usize>(&'a E);
+
+impl<E: Equations<D>, const D: usize> Field for ByHand<'_, E, D> {
+    type Error = std::convert::Infallible;
+    const DIMENSION: Option<usize> = Some(D);
+    fn dimension(&self) -> usize {
+        D
+    }
+    fn is_second_order(&self) -> bool {
+        true
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn rate(&mut self, _t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
         if let (Some(y), Some(rate)) = (y.first_chunk(), rate.first_chunk_mut()) {
-            problem.equations.rate(y, rate);
+            self.0.rate(y, rate);
         }
-    })
-    .of_second_order()
+        Ok(())
+    }
 }
 
 fn collocate<F: Field>(order: Order, field: &mut F, start: &[f64], end: f64, steps: f64) -> Result<Outcome, String>

@@ -10,7 +10,8 @@ use piola_benches::figure::figure;
 use piola_benches::problems::{self, Accelerations, Equations, Force, Problem};
 use piola_benches::work_precision::{
     Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, derived_gauss_legendre_16,
-    derived_gauss_radau_15, dormand_prince, gauss_legendre, gauss_legendre_16, gauss_radau_15, measure, peer_methods,
+    derived_gauss_radau_15, dormand_prince, gauss_legendre, gauss_legendre_16, gauss_radau_15, measure, nystrom,
+    peer_methods, verner,
 };
 use piola_gravitation::Gravitation;
 use piola_integrators::Order;
@@ -46,7 +47,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     if "arenstorf".contains(&filter) {
         let problem = problems::arenstorf()?;
-        let mut methods = vec![dormand_prince(&problem), gauss_legendre_16(&problem), gauss_radau_15(&problem)];
+        let mut methods =
+            vec![dormand_prince(&problem), verner(&problem), gauss_legendre_16(&problem), gauss_radau_15(&problem)];
         methods.extend(COLLOCATION.map(|order| gauss_legendre(&problem, order, 200.0)));
         methods.extend(peer_methods(&problem));
         records.extend(run(&problem, &methods, &folder)?);
@@ -83,6 +85,7 @@ fn double_pendulum(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
     };
     let mut methods = vec![
         dormand_prince(&problem),
+        verner(&problem),
         gauss_legendre_16(&problem),
         gauss_radau_15(&problem),
         derived_gauss_legendre_16("by placement", problem.start, problem.end, || lagrangian.motion(2)),
@@ -113,7 +116,9 @@ fn separable_methods<E: Equations<D> + Force + Accelerations, const D: usize>(
     problem: &Problem<E, D>,
     fewest: f64,
 ) -> Vec<Method<'_>> {
-    let mut methods = vec![dormand_prince(problem), gauss_legendre_16(problem), gauss_radau_15(problem)];
+    let mut methods =
+        vec![dormand_prince(problem), verner(problem), gauss_legendre_16(problem), gauss_radau_15(problem)];
+    methods.extend(nystrom(problem));
     methods.extend(Order::ALL.map(|order| composition(problem, order, fewest)));
     methods.extend(COLLOCATION.map(|order| gauss_legendre(problem, order, fewest)));
     methods.extend(peer_methods(problem));

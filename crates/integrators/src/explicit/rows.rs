@@ -53,8 +53,8 @@ pub(crate) fn weighted_sums<T: Real>(weights: &[(usize, f64)], stages: &[T], out
     for (b, out) in out.as_chunks_mut::<BLOCK>().0.iter_mut().enumerate() {
         *out = sum_of_row(weights, stages, n, b * BLOCK);
     }
-    for i in whole..n {
-        [out[i]] = sum_of_row(weights, stages, n, i);
+    for (i, out) in out.iter_mut().enumerate().skip(whole) {
+        [*out] = sum_of_row(weights, stages, n, i);
     }
 }
 

@@ -1,6 +1,6 @@
 //! Dense output: the state at any time within an accepted step.
 //!
-//! The accelerations within a step are a polynomial Σ γ_k P_k(x), x = 2θ − 1, whose integrals are the velocities and the
+//! The accelerations within a step are a polynomial `Σ γ_k P_k(x)`, x = 2θ − 1, whose integrals are the velocities and the
 //! positions. Both ends of the step give γ₀ and γ₁; the accelerations there γ₂ and γ₃. With positions from this polynomial f
 //! is evaluated at two more places, and at four, which gives two and four more coefficients: positions err by h⁶, h⁸ and
 //! h¹⁰. Places lie in pairs ±x, so that even and odd coefficients follow from small matrices of their own.
@@ -34,7 +34,7 @@ const FOUR: Layer<3> = Layer {
     places: [1.0, 0.75, 0.3],
     even: [
         [0.3566720366945044, 0.8106301336449665, -0.9991064516850366],
-        [-0.8370614594168235, -7.122544411191980, -9.001194796613882],
+        [-0.8370614594168235, -7.12254441119198, -9.001194796613882],
         [1.480389422722319, 6.311914277547014, 10.000301248298918],
     ],
     odd: [
@@ -131,7 +131,7 @@ impl<'a, P: NystromPair, T: Real, F: SecondOrder<T>> NystromStep<'a, P, T, F> {
         }
     }
 
-    /// Finds the coefficients γ_k.
+    /// Finds the coefficients `γ_k`.
     fn prepare(&mut self) -> Result<(), IntegratorsError<F::Error>> {
         let (n, h) = (self.method.freedom, T::lit(self.step.length));
         let (stages, rest) = self.method.memory.split_at_mut(P::STAGES * n);

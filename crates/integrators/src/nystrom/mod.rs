@@ -47,9 +47,13 @@ pub trait Coefficients: Copy + core::fmt::Debug {
     const ROWS: &'static [Weights];
     /// The stage that holds the acceleration at the end of a step: the first stage of the next one.
     const END: usize;
+    /// The weights of the position at the end, in units of h².
     const POSITION: Weights;
+    /// The weights of the velocity at the end, in units of h.
     const VELOCITY: Weights;
+    /// The weights of the position less those of the lower order.
     const POSITION_ERROR: Weights;
+    /// The weights of the velocity less those of the lower order.
     const VELOCITY_ERROR: Weights;
     /// Times that the polynomial of dense output is made better: each adds two to its order.
     const LAYERS: usize;

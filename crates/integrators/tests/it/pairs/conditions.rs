@@ -59,7 +59,7 @@ fn trees(stages: usize, nodes: &[f64], rows: &[(usize, Weights)], nystrom: bool,
             trees.extend(found);
             done = from;
         }
-        for tree in trees[done..].to_vec() {
+        for tree in &trees[done..] {
             let gained = if nystrom { 2 } else { 1 };
             let mut argument = Tree {
                 values: vec![wide(0.0); stages],
@@ -71,7 +71,7 @@ fn trees(stages: usize, nodes: &[f64], rows: &[(usize, Weights)], nystrom: bool,
                 argument.exact /= degree_as(degree + 2);
             }
             for &(i, weights) in rows {
-                argument.values[i] = summed(weights, &tree).0;
+                argument.values[i] = summed(weights, tree).0;
                 argument.sizes[i] = weights.iter().map(|&(j, a)| a.abs() * tree.sizes[j]).sum();
             }
             arguments.push(argument);
