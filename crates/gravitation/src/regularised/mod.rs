@@ -129,7 +129,7 @@ impl Regularised {
         if !end.is_finite() {
             return Err(IntegratorsError::NotFinite { quantity: "end", index: 0, value: end, t: None });
         }
-        let mut report = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
+        let mut report = Report::begin();
         let span = end - start;
         if span.abs() <= 0.0 {
             return Ok(report);

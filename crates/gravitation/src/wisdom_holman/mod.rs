@@ -129,7 +129,7 @@ impl WisdomHolman {
         let start = state.time;
         check(bodies, state).map_err(|source| IntegratorsError::Field { t: start, source })?;
         let (count, h) = equal_steps(start, end, self.step)?;
-        let mut report = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
+        let mut report = Report::begin();
         if count == 0 {
             return Ok(report);
         }

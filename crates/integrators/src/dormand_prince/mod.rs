@@ -70,6 +70,8 @@ impl Coefficients for DormandPrincePair {
     const NODES: &'static [f64] = &c::C;
     const ROWS: &'static [(usize, Weights)] = &c::ROWS;
     const END: usize = 12;
+    /// The interval of stability ends at −6.39.
+    const NEARLY_UNSTABLE: f64 = 5.5;
     const WEIGHTS: Weights = &c::B;
     const ERROR: Weights = &c::E5;
     const COARSER: Weights = &c::B3;

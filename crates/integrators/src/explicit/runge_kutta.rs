@@ -29,6 +29,8 @@ pub trait Coefficients: Copy + core::fmt::Debug {
     const ROWS: &'static [(usize, Weights)];
     /// The stage that holds the rate at the end of a step: the first stage of the next one.
     const END: usize;
+    /// |hλ| above which the step is near the limit of stability, for negative real λ.
+    const NEARLY_UNSTABLE: f64;
     /// The weights of the result.
     const WEIGHTS: Weights;
     /// The weights of the estimate of the error.
@@ -79,6 +81,8 @@ impl Rows {
     pub(super) const START_CARRY: usize = 3;
     /// The coefficients of dense output.
     pub(super) const INTERPOLANT: usize = 4;
+    /// Among these, before they are made: the argument of the last stage.
+    const LAST_ARGUMENT: usize = 2;
 }
 
 impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
@@ -217,6 +221,9 @@ impl<P: RungeKuttaPair, T: Real, F: Field<T>> EmbeddedPair<T, F> for RungeKutta<
             report.evaluations += 1;
             evaluate(field, t + P::NODES[number] * h, trial, row_mut(k, number, n))?;
         }
+        // The argument of the last stage tells of stability.
+        let (ends, interpolant) = rest.split_at_mut(Rows::INTERPOLANT * n);
+        row_mut(interpolant, Rows::LAST_ARGUMENT, n).copy_from_slice(&ends[..n]);
         let error = self.finish(field, state, h);
         let (k, rest) = self.memory[..Self::count() * n].split_at_mut(P::STAGES * n);
         let trial = &mut rest[..n];
@@ -226,6 +233,7 @@ impl<P: RungeKuttaPair, T: Real, F: Field<T>> EmbeddedPair<T, F> for RungeKutta<
             let rate = row_mut(k, P::END, n);
             evaluate(field, t + h, trial, rate)?;
             check_finite("rate", Some(t), rate)?;
+            report.stiff_steps += u64::from(self.is_nearly_unstable(h));
         } else if error.is_nan() {
             for &(number, _) in P::ROWS {
                 check_finite("rate", Some(t), row(k, number, n))?;
@@ -265,9 +273,32 @@ impl<P: RungeKuttaPair, T: Real, F: Field<T>> EmbeddedPair<T, F> for RungeKutta<
 }
 
 impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
+    /// The last stage of a step.
+    const LAST: usize = P::ROWS[P::ROWS.len() - 1].0;
+
     /// Rows of the memory.
     const fn count() -> usize {
         P::STAGES + Rows::INTERPOLANT + P::INTERPOLANT
+    }
+
+    /// Whether the step that is about to be accepted is near the limit of stability: see [`Report::was_stiff`].
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_nearly_unstable(&self, h: f64) -> bool {
+        let n = self.components;
+        let (k, rest) = self.memory.split_at(P::STAGES * n);
+        let (last, end) = (row(k, Self::LAST, n), row(k, P::END, n));
+        let (argument, trial) = (row(rest, Rows::INTERPOLANT + Rows::LAST_ARGUMENT, n), row(rest, Rows::TRIAL, n));
+        let (mut rates, mut states) = (0.0, 0.0);
+        for i in 0..n {
+            let weight = self.magnitudes_at_end[i];
+            let weight = if 0.0 < weight { weight.recip() } else { 0.0 };
+            let (rate, state) =
+                (largest_lane(end[i] - last[i]) * weight, largest_lane(trial[i] - argument[i]) * weight);
+            rates += rate * rate;
+            states += state * state;
+        }
+        let limit = P::NEARLY_UNSTABLE / h;
+        limit * limit * states < rates
     }
 
     /// The end of the step, and its error over the tolerance.

@@ -112,7 +112,7 @@ macro_rules! tests_of {
 
             #[test]
             fn runs_of_zero_length_and_stopped_runs_end_where_they_say() {
-                let nothing = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
+                let nothing = Report::begin();
                 for mut method in both_paces(0.1) {
                     let start = State::new(2.0, kepler_at(0.3, 2.0).to_vec()).unwrap();
                     let mut state = start.clone();

@@ -1,15 +1,16 @@
 //! Places where integrators fail silently: rest, symmetry, singularities, the ends of runs, bad input.
 
+use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
     Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Order, Report, Separable, State,
-    Tolerance, field, separable,
+    Tolerance, Verner98, field, separable,
 };
 use piola_numerics::{Lanes, Real};
 use piola_testkit::{Tol, assert_close};
 
-use crate::problems::{DoublePendulum, kepler, kepler_at, three_bodies};
+use crate::problems::{DoublePendulum, FIGURE_EIGHT, kepler, kepler_at, three_bodies};
 
 fn adaptive<T: Real>(tolerance: f64) -> DormandPrince853<T> {
     DormandPrince853::new(Tolerance::relative(tolerance).unwrap())
@@ -83,7 +84,7 @@ fn backward_run_returns_to_the_start() {
 fn run_of_zero_length_changes_nothing() {
     let start = State::new(2.0, kepler_at(0.3, 2.0).to_vec()).unwrap();
     let mut state = start.clone();
-    let nothing = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
+    let nothing = Report::begin();
     assert_eq!(adaptive(1e-9).integrate_to(&mut kepler(), &mut state, 2.0).unwrap(), nothing);
     let mut composition = Composition::new(Order::Eight, 0.1).unwrap();
     assert_eq!(composition.integrate_to(&mut kepler(), &mut state, 2.0).unwrap(), nothing);
@@ -315,4 +316,47 @@ fn state_with_replaced_values_is_integrated_from_them() {
     state.values = kepler_at(0.3, 0.0).to_vec();
     Composition::new(Order::Eight, 0.01).unwrap().integrate_to(&mut kepler(), &mut state, 1.0).unwrap();
     assert_close("kepler", &state.values, &kepler_at(0.3, 1.0), Tol::stated(1e-12, "order eight at step 0.01"));
+}
+
+/// Steps that stability bounded, among all, of both Runge–Kutta pairs.
+fn stiff_steps<F: Field<Error = Infallible>>(
+    mut field: F,
+    start: &[f64],
+    end: f64,
+    tolerance: f64,
+) -> [(u64, u64, bool); 2] {
+    let tolerance = Tolerance::relative(tolerance).unwrap();
+    let (mut one, mut other) = (State::new(0.0, start.to_vec()).unwrap(), State::new(0.0, start.to_vec()).unwrap());
+    let eight = DormandPrince853::new(tolerance).integrate_to(&mut field, &mut one, end).unwrap();
+    let nine = Verner98::new(tolerance).integrate_to(&mut field, &mut other, end).unwrap();
+    [eight, nine].map(|report| (report.stiff_steps, report.steps, report.was_stiff()))
+}
+
+#[test]
+fn a_stiff_problem_is_reported_and_no_other() {
+    for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
+        // Decay a thousand times as fast as the motion; van der Pol's relaxation with μ = 1000.
+        let follower = field(1, |t: f64, y: &[f64], rate: &mut [f64]| rate[0] = -1000.0 * (y[0] - t.cos()));
+        for (stiff, all, was) in stiff_steps(follower, &[1.0], 10.0, tolerance) {
+            assert!(was && all < 2 * stiff, "tolerance {tolerance:e}: {stiff} of {all}");
+        }
+        let van_der_pol = field(2, |_t, y: &[f64], rate: &mut [f64]| {
+            rate[0] = y[1];
+            rate[1] = 1000.0 * (1.0 - y[0] * y[0]) * y[1] - y[0];
+        });
+        for (stiff, all, was) in stiff_steps(van_der_pol, &[2.0, 0.0], 10.0, tolerance) {
+            assert!(was && all < 2 * stiff, "van der Pol, tolerance {tolerance:e}: {stiff} of {all}");
+        }
+        // Close encounters and fast oscillations are not stiff.
+        let pendulum = DoublePendulum { masses: [1.0; 2], lengths: [1.0; 2], gravity: 9.8125 };
+        for (stiff, all, was) in [
+            stiff_steps(kepler(), &kepler_at(0.9, 0.0), 20.0, tolerance),
+            stiff_steps(three_bodies(), &FIGURE_EIGHT, 20.0, tolerance),
+            stiff_steps(pendulum, &[2.0, 1.0, 0.0, 0.0], 20.0, tolerance),
+        ]
+        .concat()
+        {
+            assert!(!was && 20 * stiff < all, "tolerance {tolerance:e}: {stiff} of {all}");
+        }
+    }
 }

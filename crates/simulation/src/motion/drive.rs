@@ -130,7 +130,7 @@ impl<'o> Driver<'o> {
         landings.dedup_by(|a, b| span.order(*a, *b).is_eq());
         Self {
             history: History { names, ..History::default() },
-            report: Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached },
+            report: Report::begin(),
             time: span.start,
             span,
             instants: timetable.instants().to_vec(),
