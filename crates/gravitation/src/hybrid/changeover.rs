@@ -5,7 +5,7 @@ use piola_numerics::{Mask, Real};
 /// How the attraction of two planets passes from the part of attractions, far away, to Kepler's part, near by.
 ///
 /// The attraction's energy is −Gm m′ K/r in the part of attractions and −Gm m′ (1 − K)/r in Kepler's part, with K a function of
-/// y = r/r_crit, from 0 at y = 0 to 1 at y = 1:
+/// y = r/R, the distance over the critical radius, from 0 at y = 0 to 1 at y = 1:
 ///
 /// | changeover | K | derivatives that exist everywhere |
 /// |---|---|---|

@@ -10,7 +10,7 @@ const STEPS: f64 = 0.4;
 /// The critical radius of each body, m: so many Hill radii, and at least the way of a body in four tenths of a step.
 ///
 /// ```text
-/// r_crit,i = max(k aᵢ (mᵢ/(3m₀))^(1/3), 0.4 h √(Gm₀/aᵢ), 0.4 h |vᵢ − v₀|)        r_crit,0 = 0
+/// Rᵢ = max(k aᵢ (mᵢ/(3m₀))^(1/3), 0.4 h √(Gm₀/aᵢ), 0.4 h |vᵢ − v₀|)        R₀ = 0
 /// ```
 ///
 /// | symbol | argument | unit |

@@ -1,20 +1,16 @@
 //! Planets that come near each other in a motion: who they are, and how they move.
 
-use core::ops::ControlFlow;
-
-use piola_integrators::{GaussRadau15, GaussRadauStep, IntegratorsError, State};
+use piola_integrators::{GaussRadau15, IntegratorsError, State};
 use piola_numerics::Real;
 
-use super::paths::{Arc, dot, length};
-use super::together::{Pair, Together, far};
+use super::paths::Arc;
+use super::together::{Together, far};
+use super::watch::Watch;
 use super::{Changeover, ClosestApproach};
 use crate::GravitationError;
-use crate::kepler::{Increment, advance};
+use crate::kepler::Increment;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
 use crate::wisdom_holman::run::{Failure, Near};
-
-/// Halvings of a step in the search for the nearest approach.
-const HALVINGS: u32 = 50;
 
 /// What bodies are, besides their masses: by bodies, the central one first.
 #[derive(Clone, Debug)]
@@ -29,11 +25,11 @@ pub(super) struct Sizes {
 impl Sizes {
     /// The critical radius of two planets, m.
     fn critical(&self, first: usize, second: usize) -> f64 {
-        self.critical[first + 1].max(self.critical[second + 1]).max(self.contact(first + 1, second + 1))
+        self.critical[first + 1].max(self.critical[second + 1])
     }
 
     /// The distance at which two bodies touch, m.
-    fn contact(&self, first: usize, second: usize) -> f64 {
+    pub(super) fn contact(&self, first: usize, second: usize) -> f64 {
         if self.radii.is_empty() { 0.0 } else { self.radii[first] + self.radii[second] }
     }
 }
@@ -44,12 +40,16 @@ pub(super) struct Encounters<'a, T> {
     sizes: &'a Sizes,
     changeover: Changeover,
     arcs: Vec<Arc>,
+    /// The pairs that attract, with their critical radii.
+    pairs: Vec<(usize, usize, f64)>,
     /// The number of the group of each planet: that of its first member.
     groups: Vec<usize>,
     /// Whether a group has been integrated.
     is_done: Vec<bool>,
     together: Together<T>,
     method: GaussRadau15<T>,
+    /// The length of the last step of the integrator, s, with which the next motion begins.
+    last_step: f64,
     is_counted: bool,
     /// Steps in which planets moved together.
     pub(super) steps: u64,
@@ -58,8 +58,11 @@ pub(super) struct Encounters<'a, T> {
 }
 
 impl<'a, T: Real> Encounters<'a, T> {
-    pub(super) fn new(planets: usize, sizes: &'a Sizes, changeover: Changeover) -> Self {
+    pub(super) fn new(masses: &PlanetMasses, sizes: &'a Sizes, changeover: Changeover) -> Self {
+        let planets = masses.planets.len();
+        let pair = |(first, second)| (first, second, sizes.critical(first, second));
         Self {
+            pairs: masses.pairs().map(pair).collect(),
             sizes,
             changeover,
             arcs: vec![Arc::default(); planets],
@@ -67,6 +70,7 @@ impl<'a, T: Real> Encounters<'a, T> {
             is_done: vec![false; planets],
             together: Together::new(changeover),
             method: GaussRadau15::to_rounding(),
+            last_step: 0.0,
             is_counted: false,
             steps: 0,
             evaluations: 0,
@@ -75,21 +79,19 @@ impl<'a, T: Real> Encounters<'a, T> {
     }
 
     /// Joins planets that are not certainly apart; whether there were any.
-    fn join(&mut self, masses: &PlanetMasses, time: f64) -> bool {
+    fn join(&mut self, time: f64) -> bool {
+        let Self { pairs, arcs, groups, is_done, .. } = self;
         let mut found = false;
-        for (first, second) in masses.pairs() {
-            let [own, other] = [self.groups[first], self.groups[second]];
-            let critical = self.sizes.critical(first, second);
-            if own == other || self.arcs[first].is_clear_of(&self.arcs[second], time, critical) {
+        for &(first, second, critical) in &*pairs {
+            let [own, other] = [groups[first], groups[second]];
+            if own == other || arcs[first].is_clear_of(&arcs[second], time, critical) {
                 continue;
             }
             found = true;
             let joined = own.min(other);
-            self.is_done[joined] = false;
-            for group in &mut self.groups {
-                if *group == own || *group == other {
-                    *group = joined;
-                }
+            is_done[joined] = false;
+            for group in groups.iter_mut().filter(|group| **group == own || **group == other) {
+                *group = joined;
             }
         }
         found
@@ -105,7 +107,7 @@ impl<'a, T: Real> Encounters<'a, T> {
         t: Option<f64>,
         increments: &mut [Increment<T>],
     ) -> Result<(), Failure> {
-        let Self { sizes, arcs, groups, together, method, closest, evaluations, .. } = self;
+        let Self { sizes, arcs, groups, together, method, last_step, closest, evaluations, .. } = self;
         let members = (0..groups.len()).filter(|&planet| groups[planet] == group);
         together.begin(masses, planets, members, |first, second| sizes.critical(first, second));
         let freedom = 3 * together.members.len();
@@ -126,7 +128,16 @@ impl<'a, T: Real> Encounters<'a, T> {
             watch.arcs[member].excursion = 0.0;
         }
         let mut state = State::new(0.0, vec![T::zero(); 2 * freedom]).map_err(IntegratorsError::with_field_error)?;
-        let run = method.integrate(together, &mut state, time, |step| watch.see(step));
+        if let Ok(hasty) = core::mem::take(method).with_first_step(*last_step) {
+            *method = hasty;
+        }
+        let run = method.integrate(together, &mut state, time, |step| {
+            // A look must not change the run.
+            if t.is_some() {
+                *last_step = (step.time() - step.start()).abs();
+            }
+            watch.see(step)
+        });
         let start = t.unwrap_or(0.0);
         *evaluations += run.map_err(|error| later(error, start))?.evaluations;
         if let Some(collision) = watch.collision {
@@ -146,8 +157,11 @@ impl<'a, T: Real> Encounters<'a, T> {
 
     /// Refuses planets that come too near the central body.
     fn check_centre(&self, t: f64) -> Result<(), Failure> {
+        if self.sizes.radii.is_empty() && self.sizes.least <= 0.0 {
+            return Ok(());
+        }
         for (arc, body) in self.arcs.iter().zip(1..) {
-            let (distance, least) = (arc.nearest, self.sizes.least);
+            let (distance, least) = (arc.nearest(), self.sizes.least);
             let contact = self.sizes.contact(0, body);
             let source = if distance < contact {
                 GravitationError::Collision { first: 0, second: body, distance, contact }
@@ -205,7 +219,7 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
         }
         self.is_done.fill(true);
         // A planet that leaves its arc may come near others.
-        while self.join(masses, time) {
+        while self.join(time) {
             for group in 0..self.groups.len() {
                 if !self.is_done[group] {
                     self.integrate(group, masses, planets, time, t, increments)?;
@@ -222,95 +236,5 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
 
     fn end_step(&mut self) {
         self.is_counted = false;
-    }
-}
-
-/// What is looked for in the steps of a group.
-struct Watch<'a, T> {
-    members: &'a [usize],
-    pairs: &'a [Pair<T>],
-    sizes: &'a Sizes,
-    arcs: &'a mut [Arc],
-    mu: f64,
-    /// The time at the start; none in correctors and looks, which are not followed by their own time.
-    start: Option<f64>,
-    /// Whether there are planets outside the group.
-    others: bool,
-    values: Vec<T>,
-    closest: Option<ClosestApproach>,
-    collision: Option<Failure>,
-}
-
-impl<T: Real> Watch<'_, T> {
-    fn see(&mut self, step: &GaussRadauStep<'_, T>) -> ControlFlow<()> {
-        if self.others {
-            self.measure_excursions(step);
-        }
-        let Some(start) = self.start else { return ControlFlow::Continue(()) };
-        for pair in self.pairs {
-            let (t, distance) = self.least_distance(pair, step);
-            let [first, second] = pair.members.map(|rank| self.members[rank] + 1);
-            let t = start + t;
-            if self.closest.is_none_or(|closest| distance < closest.distance) {
-                self.closest = Some(ClosestApproach { first, second, distance, t });
-            }
-            let contact = self.sizes.contact(first, second);
-            if distance < contact {
-                let source = GravitationError::Collision { first, second, distance, contact };
-                self.collision = Some(IntegratorsError::Field { t, source });
-                return ControlFlow::Break(());
-            }
-        }
-        ControlFlow::Continue(())
-    }
-
-    /// How far the members leave their Keplerian arcs in a step.
-    fn measure_excursions(&mut self, step: &GaussRadauStep<'_, T>) {
-        let length_of_step = step.time() - step.start();
-        for (rank, &member) in self.members.iter().enumerate() {
-            let arc = self.arcs[member];
-            let [place, velocity] = arc.start();
-            let by = advance(self.mu, place, velocity, step.time());
-            let own = 3 * rank;
-            let state = step.values();
-            let half = state.len() / 2;
-            let apart = |axis: usize| velocity[axis] * step.time() + state[own + axis].primal(0) - by.position[axis];
-            let rate = |axis: usize| state[half + own + axis].primal(0) - by.velocity[axis];
-            let [apart, rate] = [[0, 1, 2].map(apart), [0, 1, 2].map(rate)];
-            // Within the step the planet moves away no faster than at one of the ends, but for a turn in between.
-            let excursion = length(apart) + 0.5 * length_of_step.abs() * length(rate);
-            self.arcs[member].excursion = arc.excursion.max(excursion);
-        }
-    }
-
-    /// The least distance of a pair in a step, and its time from the start of the motion.
-    fn least_distance(&mut self, pair: &Pair<T>, step: &GaussRadauStep<'_, T>) -> (f64, f64) {
-        let look = |t: f64, values: &[T]| {
-            let [d, u] = Together::relative(pair, T::lit(t), values).map(|x| x.map(|x| x.primal(0)));
-            (dot(d, u), length(d))
-        };
-        let direction = (step.time() - step.start()).signum();
-        let (first, last) = (look(step.start(), step.start_values()), look(step.time(), step.values()));
-        let mut least = if last.1 < first.1 { (step.time(), last.1) } else { (step.start(), first.1) };
-        if !(first.0 * direction < 0.0 && 0.0 < last.0 * direction) {
-            return least;
-        }
-        let (mut low, mut high) = (step.start(), step.time());
-        for _ in 0..HALVINGS {
-            let t = 0.5 * (low + high);
-            if step.at(t, &mut self.values).is_err() {
-                break;
-            }
-            let (approach, distance) = look(t, &self.values);
-            if distance < least.1 {
-                least = (t, distance);
-            }
-            if approach * direction < 0.0 {
-                low = t;
-            } else {
-                high = t;
-            }
-        }
-        least
     }
 }

@@ -2,13 +2,13 @@
 //! integrator for those that meet, and one Hamiltonian for both.
 //!
 //! ```text
-//! H = Σᵢ [½ Pᵢ²/mᵢ − Gm₀ mᵢ/Qᵢ] − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ (1 − K(rᵢⱼ/r_crit))        motion: Kepler's, or integrated to rounding
-//!   + |Σᵢ Pᵢ|²/(2 m₀)          − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ K(rᵢⱼ/r_crit)              motion of the central body, and attractions
+//! H = Σᵢ [½ Pᵢ²/mᵢ − Gm₀ mᵢ/Qᵢ] − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ (1 − K(rᵢⱼ/R))        motion: Kepler's, or integrated to rounding
+//!   + |Σᵢ Pᵢ|²/(2 m₀)          − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ K(rᵢⱼ/R)              motion of the central body, and attractions
 //! ```
 //!
-//! K goes smoothly from 0, where two planets are in one place, to 1 at the distance r_crit of some Hill radii ([`critical_radii`]).
+//! K goes smoothly from 0, where two planets are in one place, to 1 at the critical radius R, some Hill radii ([`critical_radii`]).
 //! Far apart, planets move as in
-//! [`DemocraticHeliocentric`](crate::wisdom_holman::DemocraticHeliocentric). Two planets that come within r_crit move together in the first
+//! [`DemocraticHeliocentric`](crate::wisdom_holman::DemocraticHeliocentric). Two planets that come within R move together in the first
 //! part, by [`GaussRadau15`](piola_integrators::GaussRadau15) to rounding; all others keep to Kepler's motion. Since both parts are
 //! moved exactly, the map is symplectic through encounters too. Both parts can be moved backwards, so every [`Splitting`] applies.
 //!
@@ -28,8 +28,11 @@
 mod changeover;
 mod critical;
 mod encounters;
+#[cfg(test)]
+mod halves;
 mod paths;
 mod together;
+mod watch;
 
 use core::ops::ControlFlow;
 
@@ -40,6 +43,7 @@ pub use changeover::Changeover;
 pub use critical::critical_radii;
 
 use crate::check::check_length;
+use crate::wisdom_holman::planets::PlanetMasses;
 use crate::wisdom_holman::run::Course;
 use crate::wisdom_holman::{Splitting, check};
 use crate::{Gravitation, GravitationError};
@@ -221,13 +225,18 @@ impl HybridSymplectic {
         let mut sizes = self.sizes.clone();
         if sizes.critical.is_empty() {
             let values: Vec<f64> = state.values.iter().map(|x| x.primal(0)).collect();
-            sizes.critical = critical_radii(bodies, &values, HILL_RADII, self.course.step).map_err(at_start)?;
+            sizes.critical =
+                critical_radii(bodies, &values, HILL_RADII, self.course.longest_attraction()).map_err(at_start)?;
         }
         check_length("critical radii", n, sizes.critical.len()).map_err(at_start)?;
         if !sizes.radii.is_empty() {
             check_length("radii", n, sizes.radii.len()).map_err(at_start)?;
+            // Bodies that touch are near each other.
+            for (critical, radius) in sizes.critical.iter_mut().zip(&sizes.radii) {
+                *critical = critical.max(2.0 * radius);
+            }
         }
-        let mut near = Encounters::new(n - 1, &sizes, self.changeover);
+        let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), &sizes, self.changeover);
         let mut run = self.course.integrate(&mut near, bodies, state, end, shown, observer)?;
         run.evaluations += near.evaluations;
         Ok(HybridReport { run, encounter_steps: near.steps, closest: near.closest })

@@ -8,6 +8,8 @@
 //! The cubic has the places and the velocities of both ends. Its own distance from the origin is bounded by the control points of
 //! Bézier's form, on ever shorter parts.
 
+use core::f64::consts::PI;
+
 type Vector = [f64; 3];
 
 /// Halvings after which two planets count as near each other.
@@ -20,35 +22,43 @@ pub(super) struct Arc {
     places: [Vector; 2],
     /// Velocities at both ends, m/s.
     velocities: [Vector; 2],
+    /// Gm of the centre.
+    mu: f64,
+    /// The square of the least distance from the centre on the arc, m².
+    nearest_squared: f64,
     /// Bound of |ẍ| on the arc, m/s².
     acceleration: f64,
-    /// Bound of |x⁗| on the arc, m/s⁴.
-    snap: f64,
-    /// The least distance from the centre on the arc, m.
-    pub(super) nearest: f64,
     /// How far the planet is from the arc at most, m.
     pub(super) excursion: f64,
 }
 
 impl Arc {
     /// The arc about a centre of Gm = μ between two states, a time apart.
-    pub(super) fn new(mu: f64, [start, end]: [Vector; 2], velocities: [Vector; 2], time: f64) -> Self {
-        let [r, r_end] = [length(start), length(end)];
-        let squared_speed = dot(velocities[0], velocities[0]);
-        let radial = dot(start, velocities[0]);
-        // 2/r − v²/μ = 1/a times μ, and the squared angular momentum by Lagrange's identity.
-        let energy = 2.0 * mu / r - squared_speed;
-        let moment = (r * r * squared_speed - radial * radial).max(0.0);
-        let pericentre = moment / (mu * (1.0 + (1.0 - energy * moment / (mu * mu)).max(0.0).sqrt()));
-        let (first, last) = (radial * time, dot(end, velocities[1]) * time);
-        let is_long = 0.0 < energy && core::f64::consts::PI * mu < time.abs() * energy * energy.sqrt();
+    pub(super) fn new(mu: f64, places: [Vector; 2], velocities: [Vector; 2], time: f64) -> Self {
+        let [r_squared, end_squared] = places.map(|x| dot(x, x));
+        let mut nearest_squared = r_squared.min(end_squared);
+        let [first, last] = [0, 1].map(|end| dot(places[end], velocities[end]) * time);
         let passes = first <= 0.0 && 0.0 <= last;
-        let nearest = if passes || is_long { pericentre.min(r).min(r_end) } else { r.min(r_end) };
-        let square = nearest * nearest;
-        let acceleration = mu / square;
-        let fastest = (2.0 * mu / nearest - energy).max(0.0);
-        let snap = (2.0 * acceleration + 6.0 * fastest / nearest) * acceleration / nearest;
-        Self { places: [start, end], velocities, acceleration, snap, nearest, excursion: 0.0 }
+        // The semi-major axis is at least half of any distance, so half a revolution lasts at least π √(r³/8μ).
+        let is_short = 8.0 * mu * time * time < PI * PI * r_squared * r_squared.sqrt();
+        if passes || !is_short {
+            nearest_squared = nearest_squared.min(pericentre(mu, places[0], velocities[0]).powi(2));
+        }
+        let acceleration = mu / nearest_squared;
+        Self { places, velocities, mu, nearest_squared, acceleration, excursion: 0.0 }
+    }
+
+    /// The least distance from the centre on the arc, m.
+    pub(super) fn nearest(&self) -> f64 {
+        self.nearest_squared.sqrt()
+    }
+
+    /// Bound of |x⁗| on the arc, m/s⁴.
+    fn snap(&self) -> f64 {
+        let nearest = self.nearest();
+        let energy = 2.0 * self.mu / length(self.places[0]) - dot(self.velocities[0], self.velocities[0]);
+        let fastest_squared = (2.0 * self.mu / nearest - energy).max(0.0);
+        (2.0 * self.acceleration + 6.0 * fastest_squared / nearest) * self.acceleration / nearest
     }
 
     /// Place and velocity at the start.
@@ -57,17 +67,21 @@ impl Arc {
     }
 
     /// Whether two planets certainly stay further apart than a distance.
+    #[cfg_attr(not(debug_assertions), inline(always))]
     pub(super) fn is_clear_of(&self, other: &Self, time: f64, distance: f64) -> bool {
         let distance = distance + self.excursion + other.excursion;
         let ends = [0, 1].map(|end| minus(other.places[end], self.places[end]));
         let sag = 0.125 * time * time * (self.acceleration + other.acceleration);
-        if distance + sag < distance_of_chord(ends) {
-            return true;
-        }
+        is_chord_clear(ends, distance + sag) || self.is_cubic_clear_of(other, time, distance, ends)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn is_cubic_clear_of(&self, other: &Self, time: f64, distance: f64, ends: [Vector; 2]) -> bool {
         let third = time / 3.0;
         let handles = [0, 1].map(|end| minus(other.velocities[end], self.velocities[end]).map(|u| third * u));
         let cubic = [ends[0], plus(ends[0], handles[0]), minus(ends[1], handles[1]), ends[1]];
-        let error = time.powi(4) / 384.0 * (self.snap + other.snap);
+        let error = time.powi(4) / 384.0 * (self.snap() + other.snap());
         is_clear(cubic, distance + error, MOST_HALVINGS)
     }
 }
@@ -79,11 +93,12 @@ fn is_clear(points: [Vector; 4], distance: f64, halvings: u32) -> bool {
     // How far the cubic is from the point that moves evenly along the chord: at most ¾ of the control points' own distance.
     let sags =
         [(b, 1.0 / 3.0), (c, 2.0 / 3.0)].map(|(point, part)| length(minus(point, plus(a, chord.map(|x| part * x)))));
-    if distance + 0.75 * sags[0].max(sags[1]) < distance_of_chord([a, d]) {
+    if is_chord_clear([a, d], distance + 0.75 * sags[0].max(sags[1])) {
         return true;
     }
     // What is NaN is not clear.
-    if halvings == 0 || !(distance < length(a).min(length(d))) {
+    let may_be_clear = distance < length(a).min(length(d));
+    if halvings == 0 || !may_be_clear {
         return false;
     }
     let [ab, bc, cd] = [middle(a, b), middle(b, c), middle(c, d)];
@@ -92,12 +107,28 @@ fn is_clear(points: [Vector; 4], distance: f64, halvings: u32) -> bool {
     is_clear([a, ab, abc, centre], distance, halvings - 1) && is_clear([centre, bcd, cd, d], distance, halvings - 1)
 }
 
-/// The distance of a straight line between two points from the origin.
-fn distance_of_chord([a, b]: [Vector; 2]) -> f64 {
-    let along = minus(b, a);
-    let square = dot(along, along);
-    let part = if 0.0 < square { (-dot(a, along) / square).clamp(0.0, 1.0) } else { 0.0 };
-    length(plus(a, along.map(|x| part * x)))
+/// Whether a straight line between two points stays further from the origin than a distance.
+fn is_chord_clear([a, b]: [Vector; 2], distance: f64) -> bool {
+    let (along, square) = (minus(b, a), distance * distance);
+    if 0.0 <= dot(a, along) {
+        return square < dot(a, a);
+    }
+    if dot(b, along) <= 0.0 {
+        return square < dot(b, b);
+    }
+    // Twice the area of the triangle over its base.
+    let moment = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    square * dot(along, along) < dot(moment, moment)
+}
+
+/// The least distance from the centre on a whole orbit.
+#[cold]
+fn pericentre(mu: f64, x: Vector, v: Vector) -> f64 {
+    let (r, squared_speed, radial) = (length(x), dot(v, v), dot(x, v));
+    // 2μ/r − v² = μ/a, and the squared angular momentum by Lagrange's identity.
+    let energy = 2.0 * mu / r - squared_speed;
+    let moment = (r * r * squared_speed - radial * radial).max(0.0);
+    moment / (mu * (1.0 + (1.0 - energy * moment / (mu * mu)).max(0.0).sqrt()))
 }
 
 pub(super) fn dot(a: Vector, b: Vector) -> f64 {

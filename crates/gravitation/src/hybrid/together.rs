@@ -24,7 +24,7 @@ pub(super) struct Pair<T> {
     start: [[T; 3]; 2],
     /// Gm of both.
     parameters: [f64; 2],
-    /// r_crit, m.
+    /// R, m.
     pub(super) critical: f64,
 }
 
@@ -145,23 +145,29 @@ impl<T: Real> SecondOrder<T> for Together<T> {
 /// |d|⁻³ times the part of an attraction that moves with Kepler's motions: 1 − K + r K′.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn near<T: Real>(changeover: Changeover, critical: f64, d: [T; 3]) -> T {
-    let y = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt() / T::lit(critical);
-    if T::one().at_most(y).all() {
-        return T::zero();
+    match part_of_critical(critical, d) {
+        None => T::zero(),
+        Some(y) => {
+            let [value, slope] = changeover.of(y);
+            ((T::one() - value) + slope) * inverse_cube(d, T::zero())
+        }
     }
-    let [value, slope] = changeover.of(y);
-    ((T::one() - value) + slope) * inverse_cube(d, T::zero())
 }
 
 /// |d|⁻³ times the part that is left: K − r K′.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn far<T: Real>(changeover: Changeover, critical: f64, d: [T; 3]) -> T {
-    let y = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt() / T::lit(critical);
-    if T::one().at_most(y).all() {
-        return inverse_cube(d, T::zero());
-    }
+    let Some(y) = part_of_critical(critical, d) else { return inverse_cube(d, T::zero()) };
     let [value, slope] = changeover.of(y);
     let part = value - slope;
     // So near that nothing is left: the attraction itself may be infinite there.
     if part.abs().at_most(T::zero()).all() { T::zero() } else { part * inverse_cube(d, T::zero()) }
+}
+
+/// y = r/R below one.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn part_of_critical<T: Real>(critical: f64, d: [T; 3]) -> Option<T> {
+    let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    let is_far = T::lit(critical * critical).at_most(square).all();
+    if is_far { None } else { Some(square.sqrt() / T::lit(critical)) }
 }

@@ -53,16 +53,19 @@ pub(crate) struct Planet<T> {
 impl<T: Real> Planet<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn shift(&mut self, change: [T; 3]) {
-        for axis in 0..3 {
-            compensated_add(&mut self.position[axis], &mut self.position_carry[axis], change[axis]);
-        }
+        add_compensated(&mut self.position, &mut self.position_carry, change);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn push(&mut self, change: [T; 3]) {
-        for axis in 0..3 {
-            compensated_add(&mut self.velocity[axis], &mut self.velocity_carry[axis], change[axis]);
-        }
+        add_compensated(&mut self.velocity, &mut self.velocity_carry, change);
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn add_compensated<T: Real>(values: &mut [T; 3], carries: &mut [T; 3], changes: [T; 3]) {
+    for ((value, carry), change) in values.iter_mut().zip(carries).zip(changes) {
+        compensated_add(value, carry, change);
     }
 }
 
@@ -163,16 +166,18 @@ impl<T: Real> Planets<T> {
             return;
         }
         for (planets, out) in self.planets.chunks(LANES).zip(out.chunks_mut(LANES)) {
-            // Where there is no planet a body rests.
+            // Where there is no planet a body rests beside a centre that does not draw it.
+            let mut parameter = Lanes::splat(0.0);
             let mut position = [Lanes::splat(1.0), Lanes::splat(0.0), Lanes::splat(0.0)];
             let mut velocity = [Lanes::splat(0.0); 3];
             for (lane, planet) in planets.iter().enumerate() {
+                parameter.0[lane] = masses.centre;
                 for axis in 0..3 {
                     position[axis].0[lane] = planet.position[axis].primal(0);
                     velocity[axis].0[lane] = planet.velocity[axis].primal(0);
                 }
             }
-            let increment = dispatch(AdvanceEight { parameter: masses.centre, position, velocity, time });
+            let increment = dispatch(AdvanceEight { parameter, position, velocity, time });
             for (lane, out) in out.iter_mut().enumerate() {
                 *out = Increment {
                     position: increment.position.map(|x| T::lit(x.0[lane])),
@@ -222,8 +227,8 @@ impl<T: Real> Planets<T> {
         }
         let mut momentum = [T::zero(); 3];
         for (&parameter, planet) in masses.planets.iter().zip(&self.planets) {
-            for axis in 0..3 {
-                momentum[axis] += T::lit(parameter) * planet.velocity[axis];
+            for (momentum, velocity) in momentum.iter_mut().zip(planet.velocity) {
+                *momentum += T::lit(parameter) * velocity;
             }
         }
         let shift = momentum.map(|p| T::lit(time / masses.centre) * p);
@@ -250,7 +255,7 @@ fn is_double<T: Real>() -> bool {
 
 /// Kepler's motion of eight planets.
 struct AdvanceEight {
-    parameter: f64,
+    parameter: Lanes<f64, LANES>,
     position: [Lanes<f64, LANES>; 3],
     velocity: [Lanes<f64, LANES>; 3],
     time: f64,
@@ -260,6 +265,6 @@ impl Kernel for AdvanceEight {
     type Output = Increment<Lanes<f64, LANES>>;
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
-        advance(Lanes::splat(self.parameter), self.position, self.velocity, Lanes::splat(self.time))
+        advance(self.parameter, self.position, self.velocity, Lanes::splat(self.time))
     }
 }

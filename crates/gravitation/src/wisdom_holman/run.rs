@@ -51,6 +51,11 @@ impl Course {
         Ok(Self { step, splitting })
     }
 
+    /// The longest time of one attraction in a step, s.
+    pub(crate) fn longest_attraction(self) -> f64 {
+        self.splitting.stages().attractions.iter().fold(0.0, |longest, part| part.abs().max(longest)) * self.step
+    }
+
     /// Integrates to `end` in equal steps. The observer sees every `shown`-th step and the last.
     pub(crate) fn integrate<T: Real, N: Near<T>>(
         self,
