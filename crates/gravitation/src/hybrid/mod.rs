@@ -61,18 +61,18 @@ use encounters::{Encounters, Sizes};
 /// use piola_gravitation::hybrid::HybridSymplectic;
 /// use piola_gravitation::wisdom_holman::Splitting;
 /// use piola_integrators::State;
-/// // The second planet runs after the first on a wider orbit, and meets it.
-/// let bodies = Gravitation::new(vec![1.0, 1e-3, 1e-4])?;
+/// // Two light planets run against each other on one circle, the second one higher by 0.01: they pass at that distance at t = 0.1.
+/// let bodies = Gravitation::new(vec![1.0, 1e-9, 1e-9])?;
+/// let (sine, cosine) = 0.2_f64.sin_cos();
 /// let start = bodies.state(
-///     &[[0.0; 3], [0.0, 1.0, 0.0], [1.03, 0.0, 0.01]],
-///     &[[0.0; 3], [-1.0, 0.0, 0.0], [0.0, 0.985, 0.0]],
+///     &[[0.0; 3], [1.0, 0.0, 0.0], [cosine, sine, 0.01]],
+///     &[[0.0; 3], [0.0, 1.0, 0.0], [sine, -cosine, 0.0]],
 /// )?;
-/// let before = bodies.invariants(&start).energy;
 /// let mut state = State::new(0.0, start)?;
-/// let report = HybridSymplectic::new(0.1, Splitting::TenSixFour)?.integrate_to(&bodies, &mut state, 300.0)?;
-/// assert!(0 < report.encounter_steps);
-/// let change = bodies.invariants(&state.values).energy / before - 1.0;
-/// assert!(change.abs() < 1e-9, "{change}");
+/// let report = HybridSymplectic::new(0.3, Splitting::Leapfrog)?.integrate_to(&bodies, &mut state, 3.0)?;
+/// let closest = report.closest.ok_or("nobody met")?;
+/// assert!((closest.distance - 0.01).abs() < 1e-4 && (closest.t - 0.1).abs() < 1e-4);
+/// assert_eq!((closest.first, closest.second), (1, 2));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[doc(alias("MERCURY", "MERCURIUS", "close encounter"))]
