@@ -13,14 +13,16 @@
 //! moved exactly, the map is symplectic through encounters too. Both parts can be moved backwards, so every [`Splitting`] applies.
 //!
 //! # Which planets meet
-//! A pair counts as apart in a motion if a bound of its distance says so: the arcs of Kepler's motion are between their chords, or
-//! their cubics through both ends, and known multiples of the greatest acceleration, or of the greatest fourth derivative, on the
-//! arc. A planet in an encounter that is thrown off its arc so far that it may meet a third one is found out afterwards, and the motion is
-//! made again with all three. To take too many planets into a group changes nothing but the time it takes.
+//! A pair counts as apart in a motion if a bound of its distance says so. An arc of Kepler's motion is nearer to its chord than a
+//! multiple of its greatest acceleration, and nearer to the cubic through both ends than a multiple of its greatest fourth derivative.
+//! A planet in an encounter may be thrown off its arc and meet a third one: then the motion is made again with all three. To take too
+//! many planets into a group changes nothing but the time it takes.
 //!
 //! # Validity
-//! Passages near the central body must be resolved by the step: see
-//! [`with_least_distance`](HybridSymplectic::with_least_distance).
+//! Passages of two planets down to some 10⁻⁵ of their distance from the central body: nearer ones end with
+//! [`IntegratorsError::StepTooSmall`], or with [`GravitationError::Collision`] where the bodies have radii. Passages near the central
+//! body must be resolved by the step: see [`with_least_distance`](HybridSymplectic::with_least_distance). Test particles do not feel
+//! each other and do not collide with each other.
 //!
 //! # References
 //! J. E. Chambers, MNRAS 304 (1999) 793; H. Rein, D. M. Hernandez, D. Tamayo et al., MNRAS 485 (2019) 5490.
@@ -53,7 +55,19 @@ use encounters::{Encounters, Sizes};
 /// The map of Wisdom and Holman in democratic heliocentric coordinates with close encounters, with a fixed step.
 ///
 /// # Accuracy
-/// As [`Splitting`] says.
+/// As [`Splitting`] says, away from encounters and through them. Momentum and angular momentum are kept to rounding. Two planets of
+/// 2⁻¹⁰ and 2⁻¹² of the central mass that pass at 0.04 Hill radii, with critical radii of three Hill radii, where P is the period of
+/// the inner one (example `encounter`):
+///
+/// | splitting | step/P | error of the energy | of a place, by the semi-major axis |
+/// |---|---|---|---|
+/// | [`Leapfrog`](Splitting::Leapfrog) | 1/60 | 2e-7 | 2e-3 |
+/// | [`Leapfrog`](Splitting::Leapfrog) | 1/240 | 2e-9 | 1e-4 |
+/// | [`TenSixFour`](Splitting::TenSixFour) | 1/30 | 7e-10 | 1e-7 |
+/// | [`TenSixFour`](Splitting::TenSixFour) | 1/120 | 5e-12 | 7e-10 |
+/// | [`TenSixFour`](Splitting::TenSixFour) | 1/480 | 7e-15 | 1e-12 |
+///
+/// Correctors apply, too; through encounters they gain little.
 ///
 /// # Example
 /// ```

@@ -10,9 +10,10 @@
 //! Ten to thirty steps in the shortest period suffice. [`Splitting`] names the sequences. Planets move eight at a time in lanes.
 //!
 //! # Validity
-//! Orbits that do not cross. Where two planets come within some Hill radii of each other, or one comes near the central body,
-//! the second part is not small any more: take [`GaussRadau15`](piola_integrators::GaussRadau15) or
-//! [`Regularised`](crate::regularised::Regularised) there.
+//! Orbits that do not cross: for others there are heliocentric coordinates ([`DemocraticHeliocentric`]). Where two planets come
+//! within some Hill radii of each other, the second part is not small any more: take
+//! [`HybridSymplectic`](crate::hybrid::HybridSymplectic) there. Where one comes near the central body, take
+//! [`GaussRadau15`](piola_integrators::GaussRadau15) or [`Regularised`](crate::regularised::Regularised).
 //!
 //! # Example
 //! ```

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use piola_gravitation::hybrid::{Changeover, ClosestApproach, HybridReport, HybridSymplectic, critical_radii};
+use piola_gravitation::regularised::Regularised;
 use piola_gravitation::wisdom_holman::{Corrector, DemocraticHeliocentric, Splitting};
 use piola_gravitation::{Gravitation, GravitationError};
 use piola_integrators::{Ending, GaussRadau15, IntegratorsError, State};
@@ -261,6 +262,27 @@ fn pairs_and_test_particles_meet_as_without_splitting() {
         let tolerance = Tol::stated(1e-9, "error of the splitting, measured");
         assert_close_at_scale("pairs", &state.values, &expected, 1.0, tolerance);
     }
+}
+
+/// So near that an integrator of places from the origin cannot resolve the distance: beside the regularised motion.
+#[test]
+fn very_close_passage_is_that_of_the_regularised_motion() {
+    let bodies = Gravitation::new(vec![1.0, 1e-3, 5e-4]).unwrap();
+    let start = bodies
+        .state(&[[0.0; 3], [1.0, 0.0, 0.0], [0.98, 0.023, 0.0]], &[[0.0; 3], [0.0, 1.0, 0.0], [0.1, 0.9, 0.0]])
+        .unwrap();
+    let mut reference = State::new(0.0, start.clone()).unwrap();
+    Regularised::to_rounding().integrate_to(&bodies, &mut reference, 0.15).unwrap();
+    let mut state = State::new(0.0, start.clone()).unwrap();
+    let report = hybrid(0.0125, Splitting::TenSixFour).integrate_to(&bodies, &mut state, 0.15).unwrap();
+    let closest = report.closest.unwrap().distance;
+    assert!(closest < 2e-5, "{closest}");
+    let change = bodies.invariants(&state.values).energy / bodies.invariants(&start).energy - 1.0;
+    assert!(change.abs() < 1e-12, "energy changed by {change}");
+    let tolerance =
+        Tol::stated(1e-8, "rounding of the start, which the passage blows up by the inverse of its distance");
+    let places = bodies.bodies() * 3;
+    assert_close_at_scale("places", &state.values[..places], &reference.values[..places], 1.0, tolerance);
 }
 
 #[test]
