@@ -65,6 +65,28 @@ pub fn critical_radii(
     Ok(radii)
 }
 
+/// What bodies are, besides their masses: by bodies, the central one first.
+#[derive(Clone, Debug)]
+pub(super) struct Sizes {
+    pub(super) critical: Vec<f64>,
+    /// Radii of the bodies, m; none where collisions are not looked for.
+    pub(super) radii: Vec<f64>,
+    /// The least distance from the central body, m.
+    pub(super) least: f64,
+}
+
+impl Sizes {
+    /// The critical radius of two planets, m.
+    pub(super) fn critical(&self, first: usize, second: usize) -> f64 {
+        self.critical[first + 1].max(self.critical[second + 1])
+    }
+
+    /// The distance at which two bodies touch, m.
+    pub(super) fn contact(&self, first: usize, second: usize) -> f64 {
+        if self.radii.is_empty() { 0.0 } else { self.radii[first] + self.radii[second] }
+    }
+}
+
 pub(super) fn check_radii(quantity: &'static str, radii: &[f64]) -> Result<(), GravitationError> {
     for (body, &value) in radii.iter().enumerate() {
         if !(0.0 <= value && value < f64::INFINITY) {

@@ -3,36 +3,15 @@
 use piola_integrators::{GaussRadau15, IntegratorsError, State};
 use piola_numerics::Real;
 
+use super::critical::Sizes;
 use super::paths::Arc;
 use super::together::{Together, far};
-use super::watch::Watch;
+use super::watch::{Findings, Watch};
 use super::{Changeover, ClosestApproach};
 use crate::GravitationError;
 use crate::kepler::Increment;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
 use crate::wisdom_holman::run::{Failure, Near};
-
-/// What bodies are, besides their masses: by bodies, the central one first.
-#[derive(Clone, Debug)]
-pub(super) struct Sizes {
-    pub(super) critical: Vec<f64>,
-    /// Radii of the bodies, m; none where collisions are not looked for.
-    pub(super) radii: Vec<f64>,
-    /// The least distance from the central body, m.
-    pub(super) least: f64,
-}
-
-impl Sizes {
-    /// The critical radius of two planets, m.
-    fn critical(&self, first: usize, second: usize) -> f64 {
-        self.critical[first + 1].max(self.critical[second + 1])
-    }
-
-    /// The distance at which two bodies touch, m.
-    pub(super) fn contact(&self, first: usize, second: usize) -> f64 {
-        if self.radii.is_empty() { 0.0 } else { self.radii[first] + self.radii[second] }
-    }
-}
 
 /// The planets that come near each other in a motion.
 #[derive(Debug)]
@@ -44,8 +23,9 @@ pub(super) struct Encounters<'a, T> {
     pairs: Vec<(usize, usize, f64)>,
     /// The number of the group of each planet: that of its first member.
     groups: Vec<usize>,
-    /// Whether a group has been integrated.
+    /// Whether a group has been integrated, and what was found then.
     is_done: Vec<bool>,
+    findings: Vec<Findings>,
     together: Together<T>,
     method: GaussRadau15<T>,
     /// The length of the last step of the integrator, s, with which the next motion begins.
@@ -68,6 +48,7 @@ impl<'a, T: Real> Encounters<'a, T> {
             arcs: vec![Arc::default(); planets],
             groups: vec![0; planets],
             is_done: vec![false; planets],
+            findings: vec![Findings::default(); planets],
             together: Together::new(changeover),
             method: GaussRadau15::to_rounding(),
             last_step: 0.0,
@@ -80,7 +61,7 @@ impl<'a, T: Real> Encounters<'a, T> {
 
     /// Joins planets that are not certainly apart; whether there were any.
     fn join(&mut self, time: f64) -> bool {
-        let Self { pairs, arcs, groups, is_done, .. } = self;
+        let Self { pairs, arcs, groups, is_done, findings, .. } = self;
         let mut found = false;
         for &(first, second, critical) in &*pairs {
             let [own, other] = [groups[first], groups[second]];
@@ -89,7 +70,10 @@ impl<'a, T: Real> Encounters<'a, T> {
             }
             found = true;
             let joined = own.min(other);
-            is_done[joined] = false;
+            for group in [own, other] {
+                is_done[group] = group != joined;
+                findings[group] = Findings::default();
+            }
             for group in groups.iter_mut().filter(|group| **group == own || **group == other) {
                 *group = joined;
             }
@@ -107,7 +91,7 @@ impl<'a, T: Real> Encounters<'a, T> {
         t: Option<f64>,
         increments: &mut [Increment<T>],
     ) -> Result<(), Failure> {
-        let Self { sizes, arcs, groups, together, method, last_step, closest, evaluations, .. } = self;
+        let Self { sizes, arcs, groups, together, method, last_step, findings, evaluations, .. } = self;
         let members = (0..groups.len()).filter(|&planet| groups[planet] == group);
         together.begin(masses, planets, members, |first, second| sizes.critical(first, second));
         let freedom = 3 * together.members.len();
@@ -121,8 +105,7 @@ impl<'a, T: Real> Encounters<'a, T> {
             start: t,
             others: members.len() < groups.len(),
             values: vec![T::zero(); 2 * freedom],
-            closest: None,
-            collision: None,
+            findings: Findings::default(),
         };
         for &member in &members {
             watch.arcs[member].excursion = 0.0;
@@ -140,17 +123,26 @@ impl<'a, T: Real> Encounters<'a, T> {
         });
         let start = t.unwrap_or(0.0);
         *evaluations += run.map_err(|error| later(error, start))?.evaluations;
-        if let Some(collision) = watch.collision {
-            return Err(collision);
-        }
-        if let Some(found) = watch.closest
-            && closest.is_none_or(|closest| found.distance < closest.distance)
-        {
-            *closest = Some(found);
-        }
+        findings[group] = watch.findings;
         for (rank, &member) in members.iter().enumerate() {
             let [position, velocity] = together.increment(rank, T::lit(time), &state.values);
             increments[member] = Increment { position, velocity };
+        }
+        Ok(())
+    }
+
+    /// Takes over what was found in a motion.
+    fn collect(&mut self) -> Result<(), Failure> {
+        for findings in &mut self.findings {
+            let Findings { closest, collision } = core::mem::take(findings);
+            if let Some(collision) = collision {
+                return Err(collision);
+            }
+            if let Some(found) = closest
+                && self.closest.is_none_or(|closest| found.distance < closest.distance)
+            {
+                self.closest = Some(found);
+            }
         }
         Ok(())
     }
@@ -218,18 +210,21 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
             *group = planet;
         }
         self.is_done.fill(true);
+        let mut are_together = false;
         // A planet that leaves its arc may come near others.
         while self.join(time) {
+            are_together = true;
             for group in 0..self.groups.len() {
                 if !self.is_done[group] {
                     self.integrate(group, masses, planets, time, t, increments)?;
                     self.is_done[group] = true;
                 }
             }
-            if t.is_some() && !self.is_counted {
-                self.is_counted = true;
-                self.steps += 1;
-            }
+        }
+        if are_together && t.is_some() {
+            self.steps += u64::from(!self.is_counted);
+            self.is_counted = true;
+            self.collect()?;
         }
         Ok(())
     }

@@ -30,9 +30,9 @@
 mod changeover;
 mod critical;
 mod encounters;
-#[cfg(test)]
-mod halves;
 mod paths;
+#[cfg(test)]
+mod tests;
 mod together;
 mod watch;
 
@@ -49,8 +49,8 @@ use crate::wisdom_holman::planets::PlanetMasses;
 use crate::wisdom_holman::run::Course;
 use crate::wisdom_holman::{Splitting, check};
 use crate::{Gravitation, GravitationError};
-use critical::check_radii;
-use encounters::{Encounters, Sizes};
+use critical::{Sizes, check_radii};
+use encounters::Encounters;
 
 /// The map of Wisdom and Holman in democratic heliocentric coordinates with close encounters, with a fixed step.
 ///
@@ -130,7 +130,7 @@ const HILL_RADII: f64 = 3.0;
 
 impl HybridSymplectic {
     /// The map with steps no longer than `step` (s). Each run takes its critical radii from its start: [`critical_radii`] with
-    /// three Hill radii.
+    /// three Hill radii, and with the longest attraction in place of the step (with [`Splitting::TenSixFour`] 0.22 of it).
     ///
     /// # Errors
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
@@ -164,7 +164,7 @@ impl HybridSymplectic {
     }
 
     /// Gives the bodies radii (m), the central one first: a run ends with [`GravitationError::Collision`] where two bodies come
-    /// nearer than the sum of their radii.
+    /// nearer than the sum of their radii. Critical radii are raised to twice the radii.
     ///
     /// # Errors
     /// [`GravitationError::InvalidRadius`] unless every radius is 0 ≤ r < ∞.

@@ -6,7 +6,7 @@ use piola_integrators::{GaussRadauStep, IntegratorsError};
 use piola_numerics::Real;
 
 use super::ClosestApproach;
-use super::encounters::Sizes;
+use super::critical::Sizes;
 use super::paths::{Arc, dot, length};
 use super::together::{Pair, Together};
 use crate::GravitationError;
@@ -15,6 +15,13 @@ use crate::wisdom_holman::run::Failure;
 
 /// Halvings of a step in the search for the nearest approach.
 const HALVINGS: u32 = 50;
+
+/// What is found in the steps of a group.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Findings {
+    pub(super) closest: Option<ClosestApproach>,
+    pub(super) collision: Option<Failure>,
+}
 
 /// What is looked for in the steps of a group.
 pub(super) struct Watch<'a, T> {
@@ -28,8 +35,7 @@ pub(super) struct Watch<'a, T> {
     /// Whether there are planets outside the group.
     pub(super) others: bool,
     pub(super) values: Vec<T>,
-    pub(super) closest: Option<ClosestApproach>,
-    pub(super) collision: Option<Failure>,
+    pub(super) findings: Findings,
 }
 
 impl<T: Real> Watch<'_, T> {
@@ -42,13 +48,13 @@ impl<T: Real> Watch<'_, T> {
             let (t, distance) = self.least_distance(pair, step);
             let [first, second] = pair.members.map(|rank| self.members[rank] + 1);
             let t = start + t;
-            if self.closest.is_none_or(|closest| distance < closest.distance) {
-                self.closest = Some(ClosestApproach { first, second, distance, t });
+            if self.findings.closest.is_none_or(|closest| distance < closest.distance) {
+                self.findings.closest = Some(ClosestApproach { first, second, distance, t });
             }
             let contact = self.sizes.contact(first, second);
             if distance < contact {
                 let source = GravitationError::Collision { first, second, distance, contact };
-                self.collision = Some(IntegratorsError::Field { t, source });
+                self.findings.collision = Some(IntegratorsError::Field { t, source });
                 return ControlFlow::Break(());
             }
         }

@@ -1,7 +1,8 @@
 //! A motion is that of its parts, whoever meets in them.
 
 use super::Changeover;
-use super::encounters::{Encounters, Sizes};
+use super::critical::Sizes;
+use super::encounters::Encounters;
 use crate::kepler::Increment;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
 use crate::wisdom_holman::run::Near;
