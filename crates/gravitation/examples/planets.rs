@@ -1,4 +1,4 @@
-//! The outer Solar System for ten thousand years: time and error of the energy by splitting and step.
+//! The outer Solar System for ten thousand years: time and error of the energy by coordinates, splitting and step.
 //!
 //! ```sh
 //! cargo run --release -p piola-gravitation --example planets
@@ -13,8 +13,9 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use piola_gravitation::Gravitation;
-use piola_gravitation::wisdom_holman::{Corrector, Splitting, WisdomHolman};
-use piola_integrators::State;
+use piola_gravitation::hybrid::HybridSymplectic;
+use piola_gravitation::wisdom_holman::{Corrector, DemocraticHeliocentric, Splitting, WisdomHolman};
+use piola_integrators::{State, Step, unobserved};
 
 /// G in AU³/(Sun's mass · day²).
 const G: f64 = 2.959_122_082_86e-4;
@@ -49,6 +50,44 @@ const END: f64 = 3_652_500.0;
 const RUNS: usize = 200;
 const STEPS: f64 = 1000.0;
 
+#[derive(Clone, Copy)]
+enum Coordinates {
+    Jacobi,
+    Heliocentric,
+    /// Heliocentric, with a look for close encounters in every motion.
+    Hybrid,
+}
+
+impl Coordinates {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Jacobi => "Jacobi",
+            Self::Heliocentric => "heliocentric",
+            Self::Hybrid => "heliocentric, hybrid",
+        }
+    }
+
+    /// Integrates to a time and shows every so many steps.
+    fn integrate(
+        self,
+        (step, splitting): (f64, Splitting),
+        bodies: &Gravitation,
+        state: &mut State,
+        end: f64,
+        shown: u64,
+        observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
+    ) -> Result<(), Box<dyn std::error::Error>> {
+        match self {
+            Self::Jacobi => WisdomHolman::new(step, splitting)?.integrate(bodies, state, end, shown, observer)?,
+            Self::Heliocentric => {
+                DemocraticHeliocentric::new(step, splitting)?.integrate(bodies, state, end, shown, observer)?
+            }
+            Self::Hybrid => HybridSymplectic::new(step, splitting)?.integrate(bodies, state, end, shown, observer)?.run,
+        };
+        Ok(())
+    }
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let bodies = Gravitation::new(MASSES.map(|mass| G * mass).to_vec())?;
     // About the mass centre, which else takes all bodies away.
@@ -59,37 +98,44 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let start = bodies.state(&centred(POSITIONS), &centred(VELOCITIES))?;
     let energy = bodies.invariants(&start).energy;
-    println!("| splitting | step, d | ns a step | ns a day | error of the energy |");
-    println!("|---|---|---|---|---|");
+    println!("| coordinates | splitting | step, d | ns a step | ns a day | error of the energy |");
+    println!("|---|---|---|---|---|---|");
     let splittings = [
         Splitting::Leapfrog,
         Splitting::Corrected(Corrector::Three),
         Splitting::Corrected(Corrector::Seventeen),
         Splitting::TenSixFour,
     ];
-    for splitting in splittings {
-        let steps: &[f64] = match splitting {
-            Splitting::TenSixFour => &[1600.0, 800.0, 400.0, 200.0],
-            _ => &[200.0, 100.0, 50.0, 25.0],
-        };
-        for &step in steps {
-            let method = WisdomHolman::new(step, splitting)?;
-            let mut seconds = f64::INFINITY;
-            for _ in 0..RUNS {
-                let mut state = State::new(0.0, start.clone())?;
-                let began = Instant::now();
-                method.integrate_to(&bodies, &mut state, STEPS * step)?;
-                seconds = seconds.min(began.elapsed().as_secs_f64());
+    for coordinates in [Coordinates::Jacobi, Coordinates::Heliocentric, Coordinates::Hybrid] {
+        for splitting in splittings {
+            let steps: &[f64] = match splitting {
+                Splitting::TenSixFour => &[1600.0, 800.0, 400.0, 200.0],
+                _ => &[200.0, 100.0, 50.0, 25.0],
+            };
+            for &step in steps {
+                let method = (step, splitting);
+                let mut seconds = f64::INFINITY;
+                for _ in 0..RUNS {
+                    let mut state = State::new(0.0, start.clone())?;
+                    let began = Instant::now();
+                    coordinates.integrate(method, &bodies, &mut state, STEPS * step, 0, unobserved)?;
+                    seconds = seconds.min(began.elapsed().as_secs_f64());
+                }
+                let (mut state, mut largest) = (State::new(0.0, start.clone())?, 0.0_f64);
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "a number of steps, 2 to 146"
+                )]
+                let shown = (END / step / 1000.0) as u64;
+                coordinates.integrate(method, &bodies, &mut state, END, shown.max(1), |step| {
+                    largest = largest.max((bodies.invariants(step.values).energy / energy - 1.0).abs());
+                    ControlFlow::Continue(())
+                })?;
+                let each = 1e9 * seconds / STEPS;
+                let name = coordinates.name();
+                println!("| {name} | {splitting:?} | {step} | {each:.0} | {:.2} | {largest:.1e} |", each / step);
             }
-            let (mut state, mut largest) = (State::new(0.0, start.clone())?, 0.0_f64);
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps, 2 to 146")]
-            let shown = (END / step / 1000.0) as u64;
-            method.integrate(&bodies, &mut state, END, shown.max(1), |step| {
-                largest = largest.max((bodies.invariants(step.values).energy / energy - 1.0).abs());
-                ControlFlow::Continue(())
-            })?;
-            let each = 1e9 * seconds / STEPS;
-            println!("| {splitting:?} | {step} | {each:.0} | {:.2} | {largest:.1e} |", each / step);
         }
     }
     Ok(())

@@ -82,4 +82,38 @@ pub enum GravitationError {
         /// The value given.
         value: f64,
     },
+    /// 0 ≤ r < ∞ violated.
+    #[error("entry {body} of `{quantity}` is {value} m; it must satisfy 0 ≤ r < ∞")]
+    InvalidRadius {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The body's index.
+        body: usize,
+        /// The value given.
+        value: f64,
+    },
+    /// Two bodies came nearer to each other than the sum of their radii.
+    #[error(
+        "bodies {first} and {second} collide: they come within {distance} m, and the sum of their radii is {contact} m"
+    )]
+    Collision {
+        /// The first body's index.
+        first: usize,
+        /// The second body's index.
+        second: usize,
+        /// The least distance of their centres, m.
+        distance: f64,
+        /// The sum of their radii, m.
+        contact: f64,
+    },
+    /// A planet came nearer to the central body than the run was told to follow it.
+    #[error("body {body} comes within {distance} m of the central body; the least distance allowed is {least} m")]
+    NearCentre {
+        /// The body's index.
+        body: usize,
+        /// Its least distance, m.
+        distance: f64,
+        /// The least distance allowed, m.
+        least: f64,
+    },
 }

@@ -33,6 +33,7 @@ mod error;
 mod field;
 #[cfg(feature = "glam")]
 mod glam;
+pub mod hybrid;
 mod invariants;
 pub mod kepler;
 mod post_newtonian;

@@ -55,6 +55,8 @@ pub(crate) enum Control {
 pub(crate) struct Plan {
     /// The longest of equal steps; none for steps that adapt.
     pub(crate) equal: Option<f64>,
+    /// The first of steps that adapt, s; none where it is to be estimated.
+    pub(crate) first_step: Option<f64>,
     pub(crate) longest_step: f64,
     pub(crate) most_steps: u64,
     /// r₀.
@@ -163,7 +165,11 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         None => None,
     };
     let most = if equal.is_some() { f64::INFINITY } else { HOPELESS * plan.aim };
-    let mut h = equal.map_or_else(|| first_step(state, span), |(_, h)| h);
+    let mut h = match (equal, plan.first_step) {
+        (Some((_, h)), _) => h,
+        (None, Some(h)) => h.copysign(span),
+        (None, None) => first_step(state, span),
+    };
     let mut attempts_at_first = 0;
     // The best length of the step before; zero before the first.
     let mut best_before = 0.0_f64;

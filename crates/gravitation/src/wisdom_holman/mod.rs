@@ -10,9 +10,10 @@
 //! Ten to thirty steps in the shortest period suffice. [`Splitting`] names the sequences. Planets move eight at a time in lanes.
 //!
 //! # Validity
-//! Orbits that do not cross. Where two planets come within some Hill radii of each other, or one comes near the central body,
-//! the second part is not small any more: take [`GaussRadau15`](piola_integrators::GaussRadau15) or
-//! [`Regularised`](crate::regularised::Regularised) there.
+//! Orbits that do not cross: for others there are heliocentric coordinates ([`DemocraticHeliocentric`]). Where two planets come
+//! within some Hill radii of each other, the second part is not small any more: take
+//! [`HybridSymplectic`](crate::hybrid::HybridSymplectic) there. Where one comes near the central body, take
+//! [`GaussRadau15`](piola_integrators::GaussRadau15) or [`Regularised`](crate::regularised::Regularised).
 //!
 //! # Example
 //! ```
@@ -34,7 +35,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod alternation;
+mod democratic;
 mod jacobi;
+pub(crate) mod planets;
+pub(crate) mod run;
 mod splitting;
 mod steps;
 
@@ -42,11 +47,14 @@ use core::ops::ControlFlow;
 
 use piola_integrators::internal::equal_steps;
 use piola_integrators::{Ending, IntegratorsError, Report, State, Step, unobserved};
+use piola_numerics::Real;
 
+pub use democratic::DemocraticHeliocentric;
 pub use splitting::{Corrector, Splitting};
 
 use crate::check::{check_finite, check_length};
 use crate::{Gravitation, GravitationError};
+use alternation::Parts;
 use jacobi::{Coordinates, Masses};
 use steps::{Memory, Moving};
 
@@ -127,7 +135,7 @@ impl WisdomHolman {
         mut observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<GravitationError>> {
         let start = state.time;
-        check(bodies, state).map_err(|source| IntegratorsError::Field { t: start, source })?;
+        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t: start, source })?;
         let (count, h) = equal_steps(start, end, self.step)?;
         let mut report = Report::begin();
         if count == 0 {
@@ -168,7 +176,7 @@ impl WisdomHolman {
 }
 
 /// Whether the map is one of these bodies, and the state theirs.
-fn check(bodies: &Gravitation, state: &State) -> Result<(), GravitationError> {
+pub(crate) fn check<T: Real>(bodies: &Gravitation, values: &[T]) -> Result<(), GravitationError> {
     if 0.0 < bodies.softening() {
         return Err(GravitationError::NotKeplerian { force: "softening" });
     }
@@ -178,12 +186,15 @@ fn check(bodies: &Gravitation, state: &State) -> Result<(), GravitationError> {
     if bodies.parameters().first().is_none_or(|&centre| centre <= 0.0) {
         return Err(GravitationError::MasslessCentre { body: 0 });
     }
-    check_length("state", 6 * bodies.bodies(), state.values.len())?;
-    check_finite("state", &state.values)?;
-    match bodies.coincident(&state.values) {
-        Some((first, second)) => Err(GravitationError::CoincidentBodies { first, second }),
-        None => Ok(()),
+    check_length("state", 6 * bodies.bodies(), values.len())?;
+    check_finite("state", values)?;
+    for lane in 0..T::LANES {
+        let places: Vec<f64> = values.iter().map(|x| x.primal(lane)).collect();
+        if let Some((first, second)) = bodies.coincident(&places) {
+            return Err(GravitationError::CoincidentBodies { first, second });
+        }
     }
+    Ok(())
 }
 
 /// A run: between steps it stands after the first motion of the next one.
@@ -211,8 +222,8 @@ impl Run {
     fn enter(&mut self) {
         let (splitting, step) = (self.splitting, self.step);
         let mut moving = self.moving();
-        moving.correct(splitting.corrector(), step, false);
-        moving.motion(splitting.stages().motions[0] * step);
+        let Ok(()) = moving.correct(splitting.corrector(), step, false);
+        let Ok(()) = moving.motion(splitting.stages().motions[0] * step);
     }
 
     fn moving(&mut self) -> Moving<'_> {
@@ -223,14 +234,17 @@ impl Run {
     fn advance(&mut self, count: u64) -> u64 {
         self.spare.copy(&self.coordinates);
         let (stages, step) = (self.splitting.stages(), self.step);
-        self.moving().steps(count, step, stages);
+        let mut moving = self.moving();
+        for _ in 0..count {
+            let Ok(()) = moving.step(step, stages);
+        }
         let Some(found) = self.coordinates.not_finite(&self.masses) else { return count };
         self.not_finite = found;
         // Again from where all was well, step by step.
         self.coordinates.copy(&self.spare);
         for good in 0..count {
             self.spare.copy(&self.coordinates);
-            self.moving().steps(1, step, stages);
+            let Ok(()) = self.moving().step(step, stages);
             if let Some(found) = self.coordinates.not_finite(&self.masses) {
                 self.not_finite = found;
                 self.coordinates.copy(&self.spare);
@@ -245,8 +259,8 @@ impl Run {
         self.spare.copy(&self.coordinates);
         let (splitting, step) = (self.splitting, self.step);
         let mut moving = self.moving();
-        moving.motion(-splitting.stages().motions[0] * step);
-        moving.correct(splitting.corrector(), step, true);
+        let Ok(()) = moving.motion(-splitting.stages().motions[0] * step);
+        let Ok(()) = moving.correct(splitting.corrector(), step, true);
         self.coordinates.write(&self.masses, elapsed, values);
         core::mem::swap(&mut self.coordinates, &mut self.spare);
     }

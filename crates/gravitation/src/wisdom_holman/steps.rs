@@ -1,10 +1,12 @@
 //! Steps of all planets, in lanes.
 
+use core::convert::Infallible;
+
 use piola_integrators::internal::compensated_add;
 use piola_numerics::{Kernel, Lanes, dispatch};
 
+use super::alternation::Parts;
 use super::jacobi::{Coordinates, Group, Masses, Numbers, total};
-use super::splitting::{CORRECTOR_MOTION, Stages};
 use crate::attraction::{Block, LANES, accumulate, attraction};
 use crate::kepler::advance;
 
@@ -52,53 +54,22 @@ impl Kernel for Attraction<'_> {
     }
 }
 
-impl Moving<'_> {
-    /// Kepler's motion for a time.
-    pub(super) fn motion(&mut self, time: f64) {
+impl Parts for Moving<'_> {
+    type Error = Infallible;
+
+    fn motion(&mut self, time: f64) -> Result<(), Infallible> {
         dispatch(Motion(self.borrowed(), time));
+        Ok(())
     }
 
     fn attraction(&mut self, time: f64) {
         dispatch(Attraction(self.borrowed(), time));
     }
+}
 
+impl Moving<'_> {
     fn borrowed(&mut self) -> Moving<'_> {
         Moving { masses: self.masses, memory: self.memory, coordinates: self.coordinates }
-    }
-
-    /// So many steps, from after the first motion of a step to after the first motion of another.
-    pub(super) fn steps(&mut self, count: u64, step: f64, Stages { motions, attractions }: Stages) {
-        // The last motion of a step and the first of the next are one.
-        let ends = motions[0] + motions[motions.len() - 1];
-        for _ in 0..count {
-            for (stage, attraction) in attractions.iter().enumerate() {
-                self.attraction(attraction * step);
-                let motion = if stage + 1 == attractions.len() { ends } else { motions[stage + 1] };
-                self.motion(motion * step);
-            }
-        }
-    }
-
-    /// The corrector of these attractions for a step, or its inverse.
-    pub(super) fn correct(&mut self, attractions: &[f64], step: f64, is_inverse: bool) {
-        let last = attractions.len();
-        for index in 0..last {
-            // The inverse takes the same way back.
-            let (index, sign) = if is_inverse { (index, -1.0) } else { (last - 1 - index, 1.0) };
-            let motion = (index + 1) as f64 * CORRECTOR_MOTION * step;
-            let attraction = sign * attractions[index] * step;
-            self.difference(motion, attraction);
-            self.difference(-motion, -attraction);
-        }
-    }
-
-    /// Motion, attraction backwards, motion back, attraction, motion: what is left is the change of the attraction.
-    fn difference(&mut self, motion: f64, attraction: f64) {
-        self.motion(motion);
-        self.attraction(-attraction);
-        self.motion(-2.0 * motion);
-        self.attraction(attraction);
-        self.motion(motion);
     }
 
     #[cfg_attr(not(debug_assertions), inline(always))]

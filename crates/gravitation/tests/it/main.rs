@@ -2,9 +2,12 @@
 
 mod alloc;
 mod conics;
+mod democratic;
 mod golden;
+mod hybrid;
 mod kepler;
 mod laws;
+mod planets;
 mod regularised;
 mod solar_system;
 mod traps;

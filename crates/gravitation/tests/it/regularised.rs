@@ -8,6 +8,8 @@ use piola_integrators::{Ending, IntegratorsError, State, Tolerance};
 use piola_numerics::Dual;
 use piola_testkit::{Tol, allocations_in, assert_close_at_scale, golden};
 
+use crate::planets::reference;
+
 /// A plane state of bodies from (x₁, y₁, x₂, …) and velocities in the same order.
 fn plane(bodies: &Gravitation, values: &[f64]) -> Vec<f64> {
     let (x, v) = values.split_at(values.len() / 2);
@@ -19,11 +21,6 @@ fn in_plane(bodies: &Gravitation, state: &[f64]) -> Vec<f64> {
     let pair = |[x, y, _]: [f64; 3]| [x, y];
     let places = (0..bodies.bodies()).flat_map(|body| pair(bodies.position(state, body)));
     places.chain((0..bodies.bodies()).flat_map(|body| pair(bodies.velocity(state, body)))).collect()
-}
-
-fn reference(name: &str) -> serde_json::Value {
-    let text = std::fs::read_to_string(format!("../../testdata/reference/{name}.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
 }
 
 /// How much the largest component grows with a change of each component of the start, up to some times.

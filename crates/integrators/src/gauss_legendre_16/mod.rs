@@ -181,6 +181,7 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
         };
         let plan = Plan {
             equal,
+            first_step: None,
             longest_step: f64::INFINITY,
             most_steps: method.most_steps,
             // r₀ of the module's head.

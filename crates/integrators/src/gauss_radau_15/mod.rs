@@ -102,6 +102,7 @@ use crate::{Event, IntegratorsError, Occurrence, Report, SecondOrder, State, Tol
 #[derive(Clone, Debug)]
 pub struct GaussRadau15<T = f64> {
     control: Control,
+    first_step: Option<f64>,
     longest_step: f64,
     most_steps: u64,
     work: Workspace<T>,
@@ -125,7 +126,7 @@ impl<T: Real> Default for GaussRadau15<T> {
 
 impl<T: Real> GaussRadau15<T> {
     fn controlled(control: Control, most_steps: u64) -> Self {
-        Self { control, longest_step: f64::INFINITY, most_steps, work: Workspace::default() }
+        Self { control, first_step: None, longest_step: f64::INFINITY, most_steps, work: Workspace::default() }
     }
 
     /// Steps so short that only rounding errs: ε = 10⁻⁹ for the last coefficient over the acceleration.
@@ -160,6 +161,17 @@ impl<T: Real> GaussRadau15<T> {
     pub fn with_step(step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
         Ok(Self::controlled(Control::Fixed(step), u64::MAX))
+    }
+
+    /// Sets the first step to try (s) of adaptive runs instead of estimating it; a step that proves too long, or much too short, is
+    /// made again.
+    ///
+    /// # Errors
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+    pub fn with_first_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
+        check_step(step)?;
+        self.first_step = Some(step);
+        Ok(self)
     }
 
     /// Bounds every adaptive step, s; by default steps are not bounded.
@@ -280,6 +292,7 @@ where
         };
         let plan = Plan {
             equal,
+            first_step: method.first_step,
             longest_step: method.longest_step,
             most_steps: method.most_steps,
             aim,

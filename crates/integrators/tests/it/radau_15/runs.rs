@@ -295,6 +295,27 @@ fn steps_are_no_longer_than_the_longest() {
 }
 
 #[test]
+fn run_begins_with_the_first_step_given() {
+    let first = |method: &mut GaussRadau15| {
+        let mut end = None;
+        let mut state = State::new(1.0, kepler_at(0.3, 0.0).to_vec()).unwrap();
+        let run = method.integrate(&mut kepler(), &mut state, -3.0, |step| {
+            end.get_or_insert(step.start() - step.time());
+            ControlFlow::Continue(())
+        });
+        (end.unwrap(), run.unwrap())
+    };
+    let (estimated, run) = first(&mut GaussRadau15::to_rounding());
+    let given = 0.75 * estimated;
+    let (found, hasty) = first(&mut GaussRadau15::to_rounding().with_first_step(given).unwrap());
+    assert_eq!(found.to_bits(), (1.0 - (1.0 - given)).to_bits());
+    assert!(hasty.rejected < run.rejected && hasty.evaluations < run.evaluations, "{hasty:?} and {run:?}");
+    // What is too long is made again.
+    let (found, _) = first(&mut GaussRadau15::to_rounding().with_first_step(100.0).unwrap());
+    assert!(found < 2.0 * estimated, "{found} and {estimated}");
+}
+
+#[test]
 fn events_stand_where_the_motion_crosses() {
     // The node y = 0 of an ellipse is passed at its pericentre, whose times are the revolutions.
     let mut state = State::new(0.0, kepler_at(0.6, 1.0).to_vec()).unwrap();
@@ -356,6 +377,10 @@ fn events_stand_where_the_motion_crosses() {
 fn longest_steps_and_epsilons_out_of_range_are_refused_by_name() {
     let unbounded = GaussRadau15::<f64>::to_rounding();
     assert!(matches!(unbounded.with_longest_step(f64::NAN), Err(IntegratorsError::InvalidStep { .. })));
+    for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = GaussRadau15::<f64>::to_rounding().with_first_step(step);
+        assert!(matches!(refused, Err(IntegratorsError::InvalidStep { .. })), "{step}");
+    }
     for epsilon in [0.0, -1e-9, 1.0, f64::NAN] {
         let refused = GaussRadau15::<f64>::with_epsilon(epsilon);
         assert!(matches!(refused, Err(IntegratorsError::InvalidTolerance { .. })), "{epsilon}");

@@ -1,0 +1,202 @@
+//! A run in democratic heliocentric coordinates, with or without close encounters.
+
+use core::ops::ControlFlow;
+
+use piola_integrators::internal::equal_steps;
+use piola_integrators::{Ending, IntegratorsError, Report, State, Step};
+use piola_numerics::Real;
+
+use super::alternation::Parts;
+use super::planets::{PlanetMasses, Planets};
+use super::{Splitting, check};
+use crate::kepler::Increment;
+use crate::{Gravitation, GravitationError};
+
+/// Why a run ends early.
+pub(crate) type Failure = IntegratorsError<GravitationError>;
+
+/// What is done with planets that come near each other.
+pub(crate) trait Near<T> {
+    /// |d|⁻³ times the part of an attraction between two planets that Kepler's motions leave out.
+    fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T;
+
+    /// Replaces what Kepler's motions add to planets that come near each other in a time.
+    ///
+    /// `t` is the time at the start, where the motion is one of the run and not one of a corrector or of a look.
+    fn correct(
+        &mut self,
+        masses: &PlanetMasses,
+        planets: &Planets<T>,
+        time: f64,
+        t: Option<f64>,
+        increments: &mut [Increment<T>],
+    ) -> Result<(), Failure>;
+
+    /// Ends a step.
+    fn end_step(&mut self) {}
+}
+
+/// The steps of a run and their order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Course {
+    pub(crate) step: f64,
+    pub(crate) splitting: Splitting,
+}
+
+impl Course {
+    pub(crate) const fn new(step: f64, splitting: Splitting) -> Result<Self, IntegratorsError> {
+        if !(0.0 < step && step < f64::INFINITY) {
+            return Err(IntegratorsError::InvalidStep { step });
+        }
+        Ok(Self { step, splitting })
+    }
+
+    /// The longest time of one attraction in a step, s.
+    pub(crate) fn longest_attraction(self) -> f64 {
+        self.splitting.stages().attractions.iter().fold(0.0, |longest, part| part.abs().max(longest)) * self.step
+    }
+
+    /// Integrates to `end` in equal steps. The observer sees every `shown`-th step and the last.
+    pub(crate) fn integrate<T: Real, N: Near<T>>(
+        self,
+        near: &mut N,
+        bodies: &Gravitation,
+        state: &mut State<T>,
+        end: f64,
+        shown: u64,
+        mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, Failure> {
+        let start = state.time;
+        check(bodies, &state.values).map_err(|source| IntegratorsError::Field { t: start, source })?;
+        if !(end.is_finite() && start.is_finite()) {
+            let (quantity, value) = if start.is_finite() { ("end", end) } else { ("t", start) };
+            return Err(IntegratorsError::NotFinite { quantity, index: 0, value, t: None });
+        }
+        let (count, h) = equal_steps(start, end, self.step)?;
+        let mut report = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
+        if count == 0 {
+            return Ok(report);
+        }
+        let mut run = Run::new(near, bodies.parameters(), &state.values, h, self.splitting);
+        let mut values = state.values.clone();
+        let time = |steps: u64| if steps == count { end } else { start + h * steps as f64 };
+        // The steps after which the state is `values`.
+        let mut reached = 0;
+        let mut failure = run.enter(start).err();
+        while failure.is_none() && report.steps < count {
+            run.spare.copy(&run.planets);
+            if let Err(error) = run.step(time(report.steps)) {
+                run.planets.copy(&run.spare);
+                failure = Some(error);
+                break;
+            }
+            report.steps += 1;
+            report.evaluations += self.splitting.attractions() as u64;
+            let number = report.steps;
+            if number < count && (shown == 0 || !number.is_multiple_of(shown)) {
+                continue;
+            }
+            if let Err(error) = run.show(h * number as f64, &mut values) {
+                failure = Some(error);
+                break;
+            }
+            reached = number;
+            if observer(Step { number, time: time(number), values: &values }).is_break() {
+                report.ending = Ending::Stopped;
+                break;
+            }
+        }
+        // Where the last good step cannot be shown, the state is the one that was shown last.
+        if reached < report.steps && run.show(h * report.steps as f64, &mut values).is_ok() {
+            reached = report.steps;
+        }
+        if 0 < reached {
+            *state = State::new(time(reached), values).map_err(IntegratorsError::with_field_error)?;
+        }
+        match failure {
+            None => Ok(report),
+            Some(error) => Err(error),
+        }
+    }
+}
+
+/// A run: between steps it stands after the first motion of the next one.
+struct Run<'a, T, N> {
+    masses: PlanetMasses,
+    planets: Planets<T>,
+    /// What was before the last step, and what is shown.
+    spare: Planets<T>,
+    increments: Vec<Increment<T>>,
+    accelerations: Vec<[T; 3]>,
+    near: &'a mut N,
+    step: f64,
+    splitting: Splitting,
+    /// The time, s; none in correctors and looks.
+    t: Option<f64>,
+}
+
+impl<'a, T: Real, N: Near<T>> Run<'a, T, N> {
+    fn new(near: &'a mut N, parameters: &[f64], state: &[T], step: f64, splitting: Splitting) -> Self {
+        let masses = PlanetMasses::new(parameters);
+        let planets = Planets::new(&masses, state);
+        let (spare, zero) = (planets.clone(), [T::zero(); 3]);
+        let increments = vec![Increment { position: zero, velocity: zero }; planets.planets.len()];
+        let accelerations = vec![zero; planets.planets.len()];
+        Self { masses, planets, spare, increments, accelerations, near, step, splitting, t: None }
+    }
+
+    fn enter(&mut self, start: f64) -> Result<(), Failure> {
+        let (splitting, step) = (self.splitting, self.step);
+        self.correct(splitting.corrector(), step, false)?;
+        self.t = Some(start);
+        self.motion(splitting.stages().motions[0] * step)
+    }
+
+    /// Makes a step that begins at a time.
+    fn step(&mut self, start: f64) -> Result<(), Failure> {
+        let (stages, step) = (self.splitting.stages(), self.step);
+        self.t = Some(start + stages.motions[0] * step);
+        Parts::step(self, step, stages)?;
+        self.near.end_step();
+        match self.planets.not_finite() {
+            None => Ok(()),
+            Some((index, value)) => {
+                Err(IntegratorsError::NotFinite { quantity: "state", index, value, t: Some(start) })
+            }
+        }
+    }
+
+    /// Writes the state, so many seconds after the start.
+    fn show(&mut self, elapsed: f64, values: &mut [T]) -> Result<(), Failure> {
+        self.spare.copy(&self.planets);
+        let (splitting, step) = (self.splitting, self.step);
+        self.t = None;
+        let back = self.motion(-splitting.stages().motions[0] * step);
+        let made = back.and_then(|()| self.correct(splitting.corrector(), step, true));
+        if made.is_ok() {
+            self.planets.write(&self.masses, elapsed, values);
+        }
+        core::mem::swap(&mut self.planets, &mut self.spare);
+        made
+    }
+}
+
+impl<T: Real, N: Near<T>> Parts for Run<'_, T, N> {
+    type Error = Failure;
+
+    fn motion(&mut self, time: f64) -> Result<(), Failure> {
+        self.planets.keplerian(&self.masses, time, &mut self.increments);
+        self.near.correct(&self.masses, &self.planets, time, self.t, &mut self.increments)?;
+        self.planets.add(&self.increments);
+        if let Some(t) = &mut self.t {
+            *t += time;
+        }
+        Ok(())
+    }
+
+    fn attraction(&mut self, time: f64) {
+        let near = &*self.near;
+        let weight = |first: usize, second: usize, d: [T; 3]| near.weight(first, second, d);
+        self.planets.attract(&self.masses, time, &weight, &mut self.accelerations);
+    }
+}
