@@ -6,14 +6,17 @@
 mod accepted;
 mod collocation;
 mod composition;
+mod discrete_gradient;
 mod dormand_prince;
 mod error;
 mod estimate;
 mod events;
 mod field;
+mod fixed_step;
 mod gauss_legendre;
 mod gauss_legendre_16;
 mod gauss_radau_15;
+mod newton;
 mod radau_iia;
 mod second_order;
 mod state;
@@ -21,6 +24,7 @@ mod stiff_field;
 mod tolerance;
 
 pub use composition::{Composition, Order};
+pub use discrete_gradient::{DiscreteGradient, EnergySystem};
 pub use dormand_prince::{DenseStep, DormandPrince853};
 pub use error::IntegratorsError;
 pub use estimate::ErrorEstimate;

@@ -4,6 +4,7 @@ mod alloc;
 mod coefficients;
 mod collocation;
 mod dense;
+mod discrete_gradient;
 mod estimates;
 mod events;
 mod first_step;
