@@ -22,6 +22,7 @@ mod second_order;
 mod state;
 mod stiff_field;
 mod tolerance;
+mod variational;
 
 pub use composition::{Composition, Order};
 pub use discrete_gradient::{DiscreteGradient, EnergySystem};
@@ -38,10 +39,15 @@ pub use second_order::SecondOrder;
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
 pub use tolerance::Tolerance;
+pub use variational::{
+    ActionRule, Chord, DiscreteEulerLagrange, DiscreteLagrangian, VariationalIntegrator, VariationalSystem,
+    momentum_map,
+};
 
 /// For tests, and for methods in other crates of Piola: no part of the interface.
 #[doc(hidden)]
 pub mod internal {
     pub use crate::radau_iia::Tableau;
     pub use crate::state::{compensated_add, equal_steps};
+    pub use crate::variational::ActionTableau;
 }

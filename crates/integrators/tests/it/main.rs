@@ -18,6 +18,7 @@ mod radau_15;
 #[cfg(feature = "serde")]
 mod serialised;
 mod traps;
+mod variational;
 
 use piola_testkit::CountingAllocator;
 

@@ -30,7 +30,13 @@ macro_rules! assert_change {
                     let slope = ($f(Dual::variable(point[0]), Dual::constant(point[1])).tangent * point[0])
                         .abs()
                         .max(($f(Dual::constant(point[0]), Dual::variable(point[1])).tangent * point[1]).abs());
-                    assert_each_close_at_scales(&what, &[actual.change], &[expected], &[slope * largest], Tol::ulps(16.0));
+                    assert_each_close_at_scales(
+                        &what,
+                        &[actual.change],
+                        &[expected],
+                        &[slope * largest],
+                        Tol::ulps(16.0),
+                    );
                     assert_eq!(actual.start, $f(from[0], from[1]), "{what}");
                     assert_eq!(actual.end, $f(to[0], to[1]), "{what}");
                 }

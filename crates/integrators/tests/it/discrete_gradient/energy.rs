@@ -59,7 +59,8 @@ fn energy_of_a_pendulum_is_kept_to_rounding_across_its_separatrix() {
     for (p, steps) in [(1.999_999_999, 30_000), (2.0, 40_000), (2.000_000_001, 30_000)] {
         let (largest, end) = largest_change(&Pendulum, Order::Two, 0.1, steps, &[0.0, p]);
         println!("pendulum {p}: {largest:e}, {end:?}");
-        assert_close_at_scale("energy", &[largest], &[0.0], 1.0, KEPT);
+        // Turning over and over, q grows, and with it its ulp, which moves the energy.
+        assert_close_at_scale("energy", &[largest], &[0.0], 2.0_f64.max(end[0].abs()), KEPT);
         turns.push(end[0]);
     }
     assert!(turns[0].abs() < 3.2 && 10.0 < turns[2], "{turns:?}");

@@ -71,7 +71,10 @@ fn repeated_runs_are_bit_identical_also_by_a_used_method() {
 fn lanes_give_what_each_lane_gets_alone_to_rounding() {
     let starts = [[0.5, 0.0], [2.5, 0.25]];
     let mut state = State::new(0.0, (0..2).map(|i| Lanes([starts[0][i], starts[1][i]])).collect()).unwrap();
-    DiscreteGradient::<Lanes<f64, 2>>::new(Order::Four, 0.1).unwrap().integrate_to(&Pendulum, &mut state, 10.0).unwrap();
+    DiscreteGradient::<Lanes<f64, 2>>::new(Order::Four, 0.1)
+        .unwrap()
+        .integrate_to(&Pendulum, &mut state, 10.0)
+        .unwrap();
     for (lane, start) in starts.into_iter().enumerate() {
         let mut alone = State::new(0.0, start.to_vec()).unwrap();
         DiscreteGradient::new(Order::Four, 0.1).unwrap().integrate_to(&Pendulum, &mut alone, 10.0).unwrap();
