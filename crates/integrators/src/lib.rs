@@ -16,6 +16,7 @@ mod fixed_step;
 mod gauss_legendre;
 mod gauss_legendre_16;
 mod gauss_radau_15;
+mod lobatto_pair;
 mod newton;
 mod radau_iia;
 mod second_order;
@@ -34,6 +35,7 @@ pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
 pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
+pub use lobatto_pair::LobattoPair;
 pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};
 pub use second_order::SecondOrder;
 pub use state::{Ending, Report, State, Step, unobserved};
@@ -47,6 +49,7 @@ pub use variational::{
 /// For tests, and for methods in other crates of Piola: no part of the interface.
 #[doc(hidden)]
 pub mod internal {
+    pub use crate::lobatto_pair::LobattoTableau;
     pub use crate::radau_iia::Tableau;
     pub use crate::state::{compensated_add, equal_steps};
     pub use crate::variational::ActionTableau;

@@ -8,7 +8,7 @@ use crate::IntegratorsError;
 use crate::field::largest_lane;
 
 /// Iterations after which a step is given up.
-const MOST_ITERATIONS: usize = 60;
+const MOST_ITERATIONS: usize = 100;
 /// The part of the rounding error of an increment that may be left out of it.
 const UNROUNDED: f64 = 1e-4;
 /// Corrections that fall more slowly than this ask for a new matrix.
@@ -20,6 +20,8 @@ const MOST_WITH_OLD_MATRIX: usize = 6;
 pub(crate) trait Equations<T: Real> {
     /// Why the field cannot be evaluated.
     type Error;
+    /// Whether the iteration is x ← x − r(x), without a matrix.
+    const BY_FIXED_POINT: bool = false;
     /// Writes r(x).
     fn residual(&mut self, x: &[T], residual: &mut [T]) -> Result<(), IntegratorsError<Self::Error>>;
     /// Writes ∂r/∂x, or a matrix close to it, down its columns.
@@ -60,8 +62,8 @@ impl<T: Real> Newton<T> {
     }
 
     /// Makes room for n unknowns, and forgets the matrix.
-    pub(crate) fn begin(&mut self, n: usize) {
-        self.factors.resize(n * n, T::zero());
+    pub(crate) fn begin(&mut self, n: usize, with_matrix: bool) {
+        self.factors.resize(if with_matrix { n * n } else { 0 }, T::zero());
         self.exchanges.resize(n, 0);
         self.residual.resize(n, T::zero());
         self.guess.resize(n, T::zero());
@@ -98,7 +100,7 @@ impl<T: Real> Newton<T> {
         let mut fresh = self.kept;
         let (mut previous, mut change) = (f64::INFINITY, 0.0);
         for iteration in 1..=MOST_ITERATIONS {
-            if !fresh {
+            if !fresh && !Q::BY_FIXED_POINT {
                 equations.matrix(x, &mut self.factors)?;
                 self.factor((t, step))?;
                 fresh = true;
@@ -140,7 +142,9 @@ impl<T: Real> Newton<T> {
     ) -> Result<(f64, Progress), IntegratorsError<Q::Error>> {
         equations.residual(x, &mut self.residual)?;
         // The lengths fit: nothing is refused.
-        let _ = lu::solve_in_place(&self.factors, &self.exchanges, &mut self.residual);
+        if !Q::BY_FIXED_POINT {
+            let _ = lu::solve_in_place(&self.factors, &self.exchanges, &mut self.residual);
+        }
         for (x, &correction) in x.iter_mut().zip(&self.residual) {
             *x -= correction;
         }

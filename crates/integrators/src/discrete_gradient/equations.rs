@@ -1,5 +1,6 @@
 //! The equations of one step: Δ = h (S − R)(m) ∇̄H.
 
+use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Gradient, Real, Secant};
 
 use super::EnergySystem;
@@ -10,8 +11,6 @@ use crate::state::check_finite;
 
 /// Directions that are differentiated at once.
 const D: usize = 4;
-/// The part of the gradient that the correction of the energy may change: half of the digits of a double.
-const LARGEST_CORRECTION: f64 = 1.0 / 67_108_864.0;
 
 /// Memory for the derivatives of a system.
 #[derive(Clone, Debug)]
@@ -141,7 +140,8 @@ impl<S: EnergySystem, T: Real> MidpointStep<'_, S, T> {
             bound += (g * d).abs();
             largest = largest.max(d.abs());
         }
-        let bound = T::lit(LARGEST_CORRECTION) * bound;
+        // No more of the gradient than half of its digits is changed: the rest of the excess is left to later steps.
+        let bound = T::lit(unit_in_last_place::<T>().sqrt()) * bound;
         let returned = self.excess.min(bound).max(-bound);
         // By the largest component, so that no square of a short step underflows; where there is no step, no correction.
         let moves = T::zero().less_than(largest);

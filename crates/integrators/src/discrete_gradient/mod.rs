@@ -23,9 +23,9 @@
 //! The correction along Δ depends on the units of the components: give them similar sizes.
 //!
 //! # References
-//! O. Gonzalez, *Time integration and discrete Hamiltonian systems*, J. Nonlinear Sci. 6 (1996) 449; R. I. McLachlan,
-//! G. R. W. Quispel, N. Robidoux, *Geometric integration using discrete gradients*, Phil. Trans. R. Soc. A 357 (1999)
-//! 1021.
+//! O. Gonzalez, *Time integration and discrete Hamiltonian systems*, J. Nonlinear Sci. 6 (1996) 449; G. R. W. Quispel,
+//! G. S. Turner, *Discrete gradient methods for solving ODEs numerically while preserving a first integral*, J. Phys. A 29
+//! (1996) L341.
 
 mod equations;
 mod system;
@@ -157,7 +157,7 @@ impl<T: Real> DiscreteGradient<T> {
         for substep in &mut self.substeps {
             substep.increment.clear();
             substep.increment.resize(n, T::zero());
-            substep.newton.begin(n);
+            substep.newton.begin(n, true);
         }
         for (copy, original) in [(&mut self.anchor.0, &state.values), (&mut self.anchor.1, &state.carry)] {
             copy.clear();

@@ -183,21 +183,21 @@ fn seed<U: Real>(
     value: impl Fn(usize) -> [U; 3],
     variable_of_start: bool,
 ) {
-    for i in 0..n {
+    let [starts, ends, changes] = chord;
+    for (i, ((at_start, at_end), moving)) in starts.iter_mut().zip(ends).zip(changes).enumerate() {
         let [start, end, change] = value(i);
-        let at_start = Gradient::variable(start, if variable_of_start { i.wrapping_sub(first) } else { usize::MAX });
+        *at_start = Gradient::variable(start, if variable_of_start { i.wrapping_sub(first) } else { usize::MAX });
         let offset = if variable_of_start { n } else { 0 };
-        let moving = Gradient::variable(change, (i + offset).wrapping_sub(first));
+        *moving = Gradient::variable(change, (i + offset).wrapping_sub(first));
         // q₁ moves with both.
-        let mut at_end = Gradient::constant(end);
+        *at_end = Gradient::constant(end);
         for (k, partial) in at_end.partials.iter_mut().enumerate() {
             *partial = at_start.partials[k] + moving.partials[k];
         }
-        (chord[0][i], chord[1][i], chord[2][i]) = (at_start, at_end, moving);
     }
 }
 
-fn chord_of<'a, U>(vectors: &'a [Vec<U>; 3], t: f64, step: f64) -> Chord<'a, U> {
+fn chord_of<U>(vectors: &[Vec<U>; 3], t: f64, step: f64) -> Chord<'_, U> {
     Chord { start: &vectors[0], end: &vectors[1], change: &vectors[2], t, step }
 }
 

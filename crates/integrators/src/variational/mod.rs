@@ -26,7 +26,7 @@
 
 mod discrete;
 mod galerkin;
-mod rule;
+pub(crate) mod rule;
 mod step;
 mod system;
 

@@ -3,7 +3,7 @@
 use crate::Order;
 
 /// The largest number of nodes of a polynomial, and of points of a quadrature.
-const MOST: usize = 5;
+pub(crate) const MOST: usize = 5;
 
 /// The points at which the Lagrangian of one step is evaluated.
 ///
@@ -38,7 +38,7 @@ pub struct ActionTableau {
 impl ActionTableau {
     /// The polynomial and the quadrature of a rule and an order.
     ///
-    /// Source: the zeros of P_s and of P_s′ with their weights in closed form; M. Abramowitz, I. A. Stegun, *Handbook of
+    /// Source: the zeros of Pₛ and of Pₛ′ with their weights in closed form; M. Abramowitz, I. A. Stegun, *Handbook of
     /// Mathematical Functions*, 25.4.29 and 25.4.32.
     #[must_use]
     pub fn new(rule: ActionRule, order: Order) -> Self {
@@ -68,7 +68,7 @@ impl ActionTableau {
 }
 
 /// ℓⱼ(x) and ℓⱼ′(x).
-fn lagrange(nodes: &[f64], j: usize, x: f64) -> (f64, f64) {
+pub(crate) fn lagrange(nodes: &[f64], j: usize, x: f64) -> (f64, f64) {
     let (mut value, mut slope) = (1.0, 0.0);
     for (k, &node) in nodes.iter().enumerate() {
         if k != j {
@@ -96,7 +96,7 @@ fn symmetric(middle: Option<f64>, above: &[(f64, f64)]) -> ([f64; MOST], [f64; M
 }
 
 /// Gauss's s points.
-fn gauss(s: usize) -> ([f64; MOST], [f64; MOST]) {
+pub(crate) fn gauss(s: usize) -> ([f64; MOST], [f64; MOST]) {
     match s {
         1 => symmetric(Some(2.0), &[]),
         2 => symmetric(None, &[((1.0_f64 / 3.0).sqrt(), 1.0)]),
@@ -115,7 +115,7 @@ fn gauss(s: usize) -> ([f64; MOST], [f64; MOST]) {
 }
 
 /// Lobatto's s + 1 points.
-fn lobatto(s: usize) -> ([f64; MOST], [f64; MOST]) {
+pub(crate) fn lobatto(s: usize) -> ([f64; MOST], [f64; MOST]) {
     match s {
         1 => symmetric(None, &[(1.0, 1.0)]),
         2 => symmetric(Some(4.0 / 3.0), &[(1.0, 1.0 / 3.0)]),

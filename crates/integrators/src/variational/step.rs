@@ -7,12 +7,12 @@ use crate::field::largest_lane;
 use crate::newton::{Equations, Newton};
 use crate::state::{State, check_finite, compensated_add};
 
-/// A discrete action A(q₀, U) of the start q₀ and of the increments U₁ … U_s of the nodes after it, U_s = q₁ − q₀, with forces.
+/// A discrete action A(q₀, U) of the start q₀ and of the increments U₁ … Uₛ of the nodes after it, Uₛ = q₁ − q₀, with forces.
 ///
 /// With A held as a function of U the equations are
 ///
 /// ```text
-/// 0 = ∂A/∂Uⱼ + forces (j < s)        p₀ = ∂A/∂U_s − ∂A/∂q₀ + forces        p₁ − p₀ = ∂A/∂q₀ + forces
+/// 0 = ∂A/∂Uⱼ + forces (j < s)        p₀ = ∂A/∂Uₛ − ∂A/∂q₀ + forces        p₁ − p₀ = ∂A/∂q₀ + forces
 /// ```
 pub(super) trait DiscreteAction<T: Real> {
     /// n.
@@ -41,7 +41,7 @@ pub(super) struct Start<'a, T> {
 #[derive(Clone, Debug)]
 pub(super) struct Stepper<T> {
     newton: Newton<T>,
-    /// U₁ … U_s.
+    /// U₁ … Uₛ.
     increments: Vec<T>,
     impulse: Vec<T>,
     residual: Vec<T>,
@@ -85,7 +85,7 @@ impl<T: Real> Stepper<T> {
     }
 
     pub(super) fn begin(&mut self, n: usize, nodes: usize) {
-        self.newton.begin(n * nodes);
+        self.newton.begin(n * nodes, true);
         self.increments.clear();
         self.increments.resize(n * nodes, T::zero());
         self.residual.resize(n * nodes, T::zero());
