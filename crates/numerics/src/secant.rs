@@ -29,6 +29,7 @@ use crate::{Mask, Real};
 /// ```
 #[doc(alias("divided difference", "discrete derivative", "cancellation"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Secant<T> {
     /// The value a₀ at the start.
     pub start: T,

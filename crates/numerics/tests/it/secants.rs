@@ -37,8 +37,8 @@ macro_rules! assert_change {
                         &[slope * largest],
                         Tol::ulps(16.0),
                     );
-                    assert_eq!(actual.start, $f(from[0], from[1]), "{what}");
-                    assert_eq!(actual.end, $f(to[0], to[1]), "{what}");
+                    let (start, end): (f64, f64) = ($f(from[0], from[1]), $f(to[0], to[1]));
+                    assert_eq!([actual.start, actual.end].map(f64::to_bits), [start, end].map(f64::to_bits), "{what}");
                 }
             }
         }
@@ -71,7 +71,7 @@ fn changes_of_powers_equal_differences_in_31_digits() {
     assert_change!(case("fifth power", points), |x, _| of(|a, _| Real::powi(a, 5))(x, x));
     assert_change!(case("inverse cube", points), |x, _| of(|a, _| Real::powi(a, -3))(x, x));
     assert_change!(case("reciprocal", points), |x, _| of(|a, _| Real::recip(a))(x, x));
-    assert_change!(case("power", points), |x, y| of(|a, b| Real::powf(a, b))(x, y));
+    assert_change!(case("power", points), |x, y| Real::powf(x, y));
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn changes_of_angles_equal_differences_in_31_digits() {
     assert_change!(case("asin", [[0.25, 1.0], [-0.6, 1.0]]), |x, _| of(|a, _| Real::asin(a))(x, x));
     assert_change!(case("acos", [[0.25, 1.0], [-0.6, 1.0]]), |x, _| of(|a, _| Real::acos(a))(x, x));
     assert_change!(case("atan", points), |x, _| of(|a, _| Real::atan(a))(x, x));
-    assert_change!(case("atan2", points), |x, y| of(|a, b| Real::atan2(a, b))(x, y));
+    assert_change!(case("atan2", points), |x, y| Real::atan2(x, y));
 }
 
 #[test]
@@ -113,14 +113,14 @@ fn ends_on_different_branches_give_the_difference_of_values() {
     assert_eq!(crossing.abs(), Secant { start: 0.5, end: 0.25, change: -0.25 });
     assert_eq!(Secant::lit(2.0).copysign(crossing), Secant { start: -2.0, end: 2.0, change: 4.0 });
     assert_eq!(crossing.max(Secant::lit(0.0)), Secant { start: 0.0, end: 0.25, change: 0.25 });
-    assert_eq!(crossing.sqrt().end, 0.5);
     // The angle jumps by a whole turn at the negative axis.
     let (y, x) = (Secant { start: 1e-3, end: -1e-3, change: -2e-3 }, Secant::lit(-1.0));
     let angle = y.atan2(x);
     assert_close("turn", &[angle.change], &[angle.end - angle.start], Tol::ulps(2.0));
-    assert_eq!(Secant { start: 0.0, end: 4.0, change: 4.0 }.sqrt().change, 2.0);
-    assert_eq!(Secant { start: 0.0, end: 4.0, change: 4.0 }.powf(Secant::lit(0.5)).change, 2.0);
-    assert_eq!(Secant::<f64>::constant(0.0).sqrt().change, 0.0);
+    let (from_zero, root) =
+        (Secant { start: 0.0, end: 4.0, change: 4.0 }, Secant { start: 0.0, end: 2.0, change: 2.0 });
+    assert_eq!((from_zero.sqrt(), from_zero.powf(Secant::lit(0.5))), (root, root));
+    assert_eq!(Secant::<f64>::constant(0.0).sqrt(), Secant::constant(0.0));
     let masks = crossing.less_than(Secant::lit(0.0));
     assert!(masks.any() && !masks.all() && (masks | !masks).all() && !(masks & !masks).any());
 }
