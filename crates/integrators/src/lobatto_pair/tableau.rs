@@ -17,7 +17,7 @@ pub struct LobattoTableau {
     pub weights: [f64; MOST],
     /// μᵢⱼ = aᵢⱼ/bⱼ of Lobatto IIIA, for the positions.
     pub positions: [[f64; MOST]; MOST],
-    /// νᵢⱼ = âᵢⱼ/bⱼ = 1 − μⱼᵢ of Lobatto IIIB, for the momenta: the rounded numbers obey it to their rounding.
+    /// νᵢⱼ = âᵢⱼ/bⱼ = 1 − μⱼᵢ of Lobatto IIIB, for the momenta: the stored numbers obey it exactly.
     pub momenta: [[f64; MOST]; MOST],
 }
 
@@ -49,7 +49,11 @@ impl LobattoTableau {
         positions[degree] = [1.0; MOST];
         for i in 0..stages {
             for j in 0..stages {
+                // 1 − x is exact for x between ½ and 2, and one of the two coefficients is.
                 momenta[i][j] = 1.0 - positions[j][i];
+                if 0.5 <= momenta[i][j] {
+                    positions[j][i] = 1.0 - momenta[i][j];
+                }
             }
         }
         Self { stages, nodes, weights, positions, momenta }

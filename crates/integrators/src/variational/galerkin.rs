@@ -111,9 +111,7 @@ impl<S, T: Real> PolynomialAction<'_, S, T> {
         }
     }
 
-    /// The weight of ∂L/∂q at point i in the equation of node j.
-    ///
-    /// In the last equation the whole impulse is taken off, since it belongs to p₁.
+    /// The weight of ∂L/∂q at point i in the equation of node j, of which the last lacks the impulse.
     fn weight(&self, i: usize, j: usize, h: f64) -> T {
         let whole = if j + 1 == self.tableau.degree { 1.0 } else { 0.0 };
         T::lit(h * self.tableau.weights[i] * (self.tableau.values[i][j] - whole))
@@ -144,19 +142,25 @@ impl<S: VariationalSystem, T: Real> DiscreteAction<T> for PolynomialAction<'_, S
             if S::FORCED {
                 VectorFunction::call(&at, &memory.point, &mut memory.force);
             }
-            let weight = self.tableau.weights[i];
+            // Each coefficient enters as it is stored, in the node and in its equation: products of coefficients would be
+            // rounded each in its own way, and momenta of symmetries would drift by it.
+            let (weight, duration) = (T::lit(h * self.tableau.weights[i]), T::lit(h));
             for k in 0..n {
-                let memory = &mut *self.memory;
                 if S::FORCED {
                     memory.gradient[k] += memory.force[k];
                 }
-                let (force, momentum) = (memory.gradient[k], memory.gradient[n + k]);
-                impulse[k] += T::lit(h * weight) * force;
+                let (force, momentum) = (weight * memory.gradient[k], weight * memory.gradient[n + k] / duration);
+                impulse[k] += force;
                 for j in 0..self.tableau.degree {
                     out[j * n + k] +=
-                        T::lit(weight * self.tableau.slopes[i][j]) * momentum + self.weight(i, j, h) * force;
+                        T::lit(self.tableau.slopes[i][j]) * momentum + T::lit(self.tableau.values[i][j]) * force;
                 }
             }
+        }
+        // The momentum at the start is that at the end without the impulse.
+        let last = out.len() - n;
+        for (out, &impulse) in out[last..].iter_mut().zip(&*impulse) {
+            *out -= impulse;
         }
         Ok(())
     }
