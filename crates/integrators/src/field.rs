@@ -88,7 +88,7 @@ pub(crate) fn check_field<T: Real, F: Field<T>>(field: &F) -> Result<(), Integra
 }
 
 /// The largest |y| of each block: positions and velocities where the dimension is even.
-fn magnitudes_of_blocks<T: Real>(y: &[T], magnitudes: &mut [f64]) {
+pub(crate) fn magnitudes_of_blocks<T: Real>(y: &[T], magnitudes: &mut [f64]) {
     let blocks = if y.len().is_multiple_of(2) { 2 } else { 1 };
     let length = (y.len() / blocks).max(1);
     for (block, magnitudes) in y.chunks(length).zip(magnitudes.chunks_mut(length)) {

@@ -33,7 +33,7 @@ pub(crate) fn record<F: Field<Error = LagrangianError>>(
         dimension: start.len(),
         times: vec![times.start],
         states: start.to_vec(),
-        report: Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached },
+        report: Report::begin(),
         energy_drift: 0.0,
         error_estimate: f64::INFINITY,
         residual: 0.0,

@@ -5,6 +5,7 @@
 //! | to get | use |
 //! |---|---|
 //! | a derivative of a formula, exact to rounding | [`derivatives`], or [`Dual`], [`Gradient`], [`Jet`] directly |
+//! | the change of a formula between two close points, without cancellation | [`Secant`] |
 //! | several points at once, in the lanes of one scalar | [`Lanes`], run by [`dispatch`] |
 //! | a linear system solved over any scalar, with the reason when it cannot be | [`linear`] |
 //! | integrals of functions of one variable, with their errors | [`quadrature`] |
@@ -28,6 +29,7 @@ mod parameters;
 mod prefetch;
 pub mod quadrature;
 mod real;
+mod secant;
 pub mod sums;
 
 pub use dispatch::{Kernel, LaneKernel, Level, dispatch, dispatch_at, dispatch_lanes};
@@ -37,6 +39,7 @@ pub use gradient::Gradient;
 pub use jet::Jet;
 pub use lanes::{Element, LaneMask, Lanes};
 pub use real::{Mask, Real};
+pub use secant::{Secant, SecantMask};
 
 /// For the other crates of Piola alone: no part of the interface.
 #[doc(hidden)]

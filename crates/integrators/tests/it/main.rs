@@ -4,12 +4,14 @@ mod alloc;
 mod coefficients;
 mod collocation;
 mod dense;
+mod discrete_gradient;
 mod estimates;
 mod events;
 mod first_step;
 mod gauss_16;
 mod golden;
 mod laws;
+mod lobatto_pair;
 mod orders;
 mod pairs;
 mod problems;
@@ -18,6 +20,7 @@ mod radau_15;
 #[cfg(feature = "serde")]
 mod serialised;
 mod traps;
+mod variational;
 
 use piola_testkit::CountingAllocator;
 

@@ -49,7 +49,7 @@ fn invalid_states_are_refused() {
 
 #[test]
 fn reports_and_orders_round_trip() {
-    let report = Report { steps: 3, rejected: 1, evaluations: 40, ending: Ending::Event(2) };
+    let report = Report { steps: 3, rejected: 1, evaluations: 40, stiff_steps: 0, ending: Ending::Event(2) };
     assert_eq!(serde_json::from_str::<Report>(&serde_json::to_string(&report).unwrap()).unwrap(), report);
     let report = RadauReport { run: report, jacobians: 2, factorisations: 5 };
     assert_eq!(serde_json::from_str::<RadauReport>(&serde_json::to_string(&report).unwrap()).unwrap(), report);

@@ -148,7 +148,7 @@ impl Rattle {
         mut observer: impl FnMut(Step<'_>) -> ControlFlow<()>,
     ) -> Result<Report, LagrangianError> {
         let n = state.values.len() / 2;
-        let mut report = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
+        let mut report = Report::begin();
         let failed = |time: f64, error: IntegratorsError<LagrangianError>| LagrangianError::Run {
             time,
             source: Box::new(error),

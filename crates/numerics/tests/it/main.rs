@@ -10,6 +10,7 @@ mod linear;
 mod peers;
 mod quadrature;
 mod scalars;
+mod secants;
 mod sums;
 mod traps;
 

@@ -1,0 +1,4 @@
+//! Lobatto's pairs: orders, what is kept, coefficients, and what goes wrong.
+
+mod runs;
+mod tableaux;
