@@ -14,6 +14,7 @@ mod field;
 mod gauss_legendre;
 mod gauss_legendre_16;
 mod gauss_radau_15;
+mod lie_group;
 mod radau_iia;
 mod second_order;
 mod state;
@@ -29,6 +30,10 @@ pub use field::{Field, FunctionField, Separable, field, separable};
 pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
 pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
+pub use lie_group::{
+    CommutatorFree, DirectPower, DirectProduct, FunctionGroupField, GeneralisedAlpha, GroupField, GroupMotion, LieGroup,
+    MuntheKaas, RigidMotions, Rotations, Translations, group_field,
+};
 pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};
 pub use second_order::SecondOrder;
 pub use state::{Ending, Report, State, Step, unobserved};
