@@ -167,5 +167,7 @@ fn combine<T: Real>(row: Row, stages: &[Vec<T>], h: f64, displacement: &mut [T])
         }
     }
     let h = T::lit(h);
-    displacement.iter_mut().for_each(|sum| *sum *= h);
+    for sum in displacement {
+        *sum *= h;
+    }
 }

@@ -138,6 +138,7 @@ impl<T: Real, G: LieGroup<T>> LieGroup<T> for DirectPower<G> {
     fn defect(&self, element: &[T]) -> Option<(usize, f64)> {
         let (length, _) = self.lengths();
         let mut elements = element.chunks_exact(length).enumerate();
-        elements.find_map(|(i, element)| self.factor.defect(element).map(|(index, defect)| (index + i * length, defect)))
+        elements
+            .find_map(|(i, element)| self.factor.defect(element).map(|(index, defect)| (index + i * length, defect)))
     }
 }

@@ -21,8 +21,9 @@ use crate::state::compensated_add;
 ///
 /// # Accuracy
 /// The exponential is right to a few ulp at any angle. The differential of its inverse is right to a few ulp × 2π/(2π − a) and
-/// not finite at a = |θ| = 2π. The length of q stays 1 within 2⁻⁵² (f64) for any number of steps: products are
-/// compensated, and what they round off the length is removed after each step.
+/// not finite at a = |θ| = 2π. The length of q stays 1 within 2⁻⁵³ (f64) for any number of steps, as the nearest
+/// doubles to a unit quaternion have it: products are compensated, and what they round off the length is removed after each
+/// step, along q.
 ///
 /// # Example
 /// ```

@@ -18,8 +18,7 @@ pub(super) struct Tableau {
     pub(super) weights: Row,
 }
 
-pub(super) const HALF_STEP_2: Tableau =
-    Tableau { nodes: &[0.0, 0.5], rows: &[&[], &[(0, 0.5)]], weights: &[(1, 1.0)] };
+pub(super) const HALF_STEP_2: Tableau = Tableau { nodes: &[0.0, 0.5], rows: &[&[], &[(0, 0.5)]], weights: &[(1, 1.0)] };
 
 pub(super) const KUTTA_4: Tableau = Tableau {
     nodes: &[0.0, 0.5, 0.5, 1.0],

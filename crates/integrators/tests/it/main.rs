@@ -10,6 +10,7 @@ mod first_step;
 mod gauss_16;
 mod golden;
 mod laws;
+mod lie_group;
 mod orders;
 mod problems;
 mod radau;

@@ -170,7 +170,10 @@ impl<T: Real> Workspace<T> {
         let ulp = unit_in_last_place::<T>();
         let (element, velocity) = state.values.split_at(length);
         let speed = if h.abs() <= 0.0 { 0.0 } else { largest(velocity) / h.abs() };
-        let noise = STALLED_ULPS * ulp * largest(element);
+        // What has decayed so far that numbers of its size have lost digits is rounding, too.
+        let smallest = if ulp < 1e-10 { f64::MIN_POSITIVE } else { f64::from(f32::MIN_POSITIVE) };
+        let noise = STALLED_ULPS * (ulp * largest(element)).max(smallest);
+        let displacing = parameters.beta * h * h;
         let (mut evaluations, mut previous) = (0, f64::INFINITY);
         // Once the values have converged each iteration brings in one more order of derivatives.
         let mut derivatives = T::ORDER;
@@ -188,7 +191,7 @@ impl<T: Real> Workspace<T> {
             let ratio = if previous.is_finite() { (change / previous).min(1.0) } else { 1.0 };
             let predicted = if change <= 0.0 { 0.0 } else { change * ratio * ratio };
             let stalled = previous <= 2.0 * change
-                && (change <= STALLED * size || parameters.beta * h * h * change <= noise);
+                && (change <= STALLED * size || change <= smallest || 0.0 < displacing && displacing * change <= noise);
             if predicted <= UNROUNDED * ulp * size || stalled {
                 if derivatives == 0 {
                     return Ok(evaluations);
@@ -251,7 +254,10 @@ impl<T: Real> Workspace<T> {
 /// The largest modulus in any lane; NaN when there is one.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn largest<T: Real>(values: &[T]) -> f64 {
-    values.iter().map(|&x| largest_lane(x)).fold(0.0, |largest, x| if x <= largest { largest } else { x })
+    values
+        .iter()
+        .map(|&x| largest_lane(x))
+        .fold(0.0, |largest: f64, x| if x <= largest || largest.is_nan() { largest } else { x })
 }
 
 /// The pivot at which a decomposition ended.
