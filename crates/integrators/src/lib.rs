@@ -31,8 +31,8 @@ pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
 pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
 pub use lie_group::{
-    CommutatorFree, DirectPower, DirectProduct, FunctionGroupField, GeneralisedAlpha, GroupField, GroupMotion,
-    LieGroup, MuntheKaas, RigidMotions, Rotations, Translations, group_field,
+    AdaptiveMuntheKaas, CommutatorFree, DirectPower, DirectProduct, FunctionGroupField, GeneralisedAlpha, GroupField,
+    GroupMotion, LieGroup, MuntheKaas, RigidMotions, Rotations, Translations, group_field,
 };
 pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};
 pub use second_order::SecondOrder;

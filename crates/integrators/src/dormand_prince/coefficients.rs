@@ -134,9 +134,9 @@ pub(super) const A16: [(usize, f64); 8] = [
     (14, -9.15095847217987),
 ];
 /// The embedded formula of order three: what it gives to the stages that the step of order eight also uses.
-pub(super) const B3: [(usize, f64); 3] = [(0, 0.2440944881889764), (8, 0.7338466882816118), (11, 0.022058823529411766)];
+pub(crate) const B3: [(usize, f64); 3] = [(0, 0.2440944881889764), (8, 0.7338466882816118), (11, 0.022058823529411766)];
 /// The difference to the embedded formula of order five.
-pub(super) const E5: [(usize, f64); 8] = [
+pub(crate) const E5: [(usize, f64); 8] = [
     (0, 0.01312004499419488),
     (5, -1.2251564463762044),
     (6, -0.4957589496572502),

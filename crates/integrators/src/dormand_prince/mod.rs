@@ -227,9 +227,7 @@ impl<T: Real> DormandPrince853<T> {
                     f64::INFINITY
                 }
             };
-            // The new step: h · SAFETY / error^(1/8), changed by a factor between 1/3 and 6. Square roots are
-            // rounded in the same way on every machine; powers are not.
-            let factor = (SAFETY / error.sqrt().sqrt().sqrt()).clamp(1.0 / 3.0, 6.0);
+            let factor = step_factor(error);
             if error.is_nan() || 1.0 < error {
                 report.rejected += 1;
                 if error.is_finite() {
@@ -287,6 +285,32 @@ impl<T: Real> DormandPrince853<T> {
 /// and for the same error at the end 23 % fewer evaluations are made (mean over double pendulum, e = 0.7 and
 /// e = 0.99, tolerances from 1e-7 to 1e-13).
 const SAFETY: f64 = 0.7;
+
+/// The new step over the old, from the error over the tolerance: SAFETY / error^(1/8), between 1/3 and 6.
+///
+/// Square roots are rounded in the same way on every machine; powers are not.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn step_factor(error: f64) -> f64 {
+    (SAFETY / error.sqrt().sqrt().sqrt()).clamp(1.0 / 3.0, 6.0)
+}
+
+/// The error of a step of n components over the tolerance, from the squares of its two estimates: that of order five, damped by
+/// that of order three.
+///
+/// ```text
+/// e = |h| ‖e₅‖² / √(n (‖e₅‖² + 0.01 ‖e₃‖²)),    ‖x‖² = Σᵢ (xᵢ/allowedᵢ)²
+/// ```
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn error_of_pair(fifth: f64, third: f64, n: usize, h: f64) -> f64 {
+    let denominator = fifth + 0.01 * third;
+    if denominator <= 0.0 {
+        return 0.0;
+    }
+    if denominator.is_infinite() {
+        return f64::INFINITY;
+    }
+    h.abs() * fifth / (denominator * n as f64).sqrt()
+}
 
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn evaluate<T: Real, F: Field<T>>(

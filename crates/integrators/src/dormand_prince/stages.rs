@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use super::coefficients as c;
-use super::{DormandPrince853, evaluate};
+use super::{DormandPrince853, error_of_pair, evaluate};
 use crate::field::largest_lane;
 use crate::state::{check_finite, compensated_add};
 use crate::{Field, IntegratorsError, Report, State};
@@ -53,12 +53,7 @@ impl<T: Real> DormandPrince853<T> {
         Ok(error)
     }
 
-    /// The end of the step, and its error over the tolerance: the estimate of order five, damped by that of
-    /// order three.
-    ///
-    /// ```text
-    /// e = |h| ‖e₅‖² / √(n (‖e₅‖² + 0.01 ‖e₃‖²)),    ‖x‖² = Σᵢ (xᵢ/allowedᵢ)²
-    /// ```
+    /// The end of the step, and its error over the tolerance.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn finish<F: Field<T>>(&mut self, field: &F, state: &State<T>, h: f64) -> f64 {
         let n = self.trial.len();
@@ -91,14 +86,7 @@ impl<T: Real> DormandPrince853<T> {
             fifth += e5 * e5;
             third += e3 * e3;
         }
-        let denominator = fifth + 0.01 * third;
-        if denominator <= 0.0 {
-            return 0.0;
-        }
-        if denominator.is_infinite() {
-            return f64::INFINITY;
-        }
-        h.abs() * fifth / (denominator * n as f64).sqrt()
+        error_of_pair(fifth, third, n, h)
     }
 }
 

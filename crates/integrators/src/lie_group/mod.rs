@@ -22,14 +22,15 @@
 //! | many of one group | [`DirectPower`] | one after the other | one after the other |
 //!
 //! # Which method?
-//! [`MuntheKaas`] of orders 2, 4, 6, 8 for smooth fields. [`CommutatorFree`], order 4, for groups of your own of which only the
+//! [`AdaptiveMuntheKaas`], order 8(5,3), for smooth fields; [`MuntheKaas`] of orders 2, 4, 6, 8 with a fixed step. [`CommutatorFree`], order 4, for groups of your own of which only the
 //! exponential is known. [`GeneralisedAlpha`], implicit and of order 2, for stiff mechanical systems whose fast vibrations
-//! should be damped. Steps are fixed.
+//! should be damped.
 //!
 //! # References
 //! A. Iserles, H. Munthe-Kaas, S. P. Nørsett & A. Zanna, *Lie-group methods*, Acta Numerica 9 (2000) 215; E. Hairer,
 //! C. Lubich & G. Wanner, *Geometric Numerical Integration*, IV.8.
 
+mod adaptive;
 mod commutator_free;
 mod generalised_alpha;
 mod munthe_kaas;
@@ -43,6 +44,7 @@ use core::convert::Infallible;
 
 use piola_numerics::Real;
 
+pub use self::adaptive::AdaptiveMuntheKaas;
 pub use self::commutator_free::CommutatorFree;
 pub use self::generalised_alpha::{GeneralisedAlpha, GroupMotion};
 pub use self::munthe_kaas::MuntheKaas;
@@ -107,6 +109,11 @@ pub trait LieGroup<T: Real = f64> {
     ///
     /// Methods call it at the end of each step. The default, for groups whose elements are any numbers, does nothing.
     fn renormalise(&self, _element: &mut [T], _carry: &mut [T]) {}
+    /// Writes the magnitude against which the error of each component of a displacement is relative. The default is one, as for
+    /// angles. Only [`AdaptiveMuntheKaas`] needs it.
+    fn magnitudes(&self, _element: &[T], magnitudes: &mut [f64]) {
+        magnitudes.fill(1.0);
+    }
     /// By how much given numbers miss the group, beyond what [`renormalise`](Self::renormalise) removes: the index of the
     /// first number of the part that does, and the defect. A run refuses such a start. The default is none.
     fn defect(&self, _element: &[T]) -> Option<(usize, f64)> {

@@ -28,7 +28,8 @@ use crate::{IntegratorsError, Order, Report, State, Step, unobserved};
 /// | 6 | Butcher's | 7 |
 /// | 8 | Dormand and Prince's, of the pair 8(5,3) | 12 |
 ///
-/// A step must turn by less than one turn, and well by less than half a turn.
+/// A step must turn by less than one turn, and well by less than half a turn. [`AdaptiveMuntheKaas`](crate::AdaptiveMuntheKaas)
+/// chooses its steps.
 ///
 /// # Accuracy
 /// Global error O(hᵒʳᵈᵉʳ). The element is multiplied with compensation. On [`Translations`](crate::Translations) it is the
@@ -128,23 +129,33 @@ impl<T: Real> MuntheKaas<T> {
         h: f64,
     ) -> Result<u64, IntegratorsError<F::Error>> {
         let Self { stages, displacement, trial, .. } = self;
-        for (i, (row, c)) in tableau.rows.iter().zip(tableau.nodes).enumerate() {
-            trial.begin(state);
-            if 0 < i {
-                combine(row, stages, h, displacement);
-                trial.advance(field.group(), displacement);
-            }
-            evaluate(field, state.time, state.time + c * h, &trial.element, &mut stages[i])?;
-            if 0 < i {
-                field.group().inverse_differential(displacement, &mut stages[i]);
-            }
-        }
-        combine(tableau.weights, stages, h, displacement);
-        trial.begin(state);
-        trial.advance(field.group(), displacement);
+        evaluate(field, state.time, state.time, &state.values, &mut stages[0])?;
+        make_stages(tableau, field, state, h, (stages, displacement, trial))?;
         trial.accept(field.group(), state)?;
         Ok(tableau.rows.len() as u64)
     }
+}
+
+/// Makes the stages k₂ … kₛ of a step from k₁, and the end of the step in `trial`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn make_stages<T: Real, F: GroupField<T>>(
+    tableau: &Tableau,
+    field: &mut F,
+    state: &State<T>,
+    h: f64,
+    (stages, displacement, trial): (&mut [Vec<T>], &mut [T], &mut Trial<T>),
+) -> Result<(), IntegratorsError<F::Error>> {
+    for (i, (row, c)) in tableau.rows.iter().zip(tableau.nodes).enumerate().skip(1) {
+        combine(row, stages, h, displacement);
+        trial.begin(state);
+        trial.advance(field.group(), displacement);
+        evaluate(field, state.time, state.time + c * h, &trial.element, &mut stages[i])?;
+        field.group().inverse_differential(displacement, &mut stages[i]);
+    }
+    combine(tableau.weights, stages, h, displacement);
+    trial.begin(state);
+    trial.advance(field.group(), displacement);
+    Ok(())
 }
 
 const fn tableau(order: Order) -> &'static Tableau {
@@ -158,7 +169,7 @@ const fn tableau(order: Order) -> &'static Tableau {
 
 /// θ = h Σⱼ aⱼ kⱼ.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn combine<T: Real>(row: Row, stages: &[Vec<T>], h: f64, displacement: &mut [T]) {
+pub(super) fn combine<T: Real>(row: Row, stages: &[Vec<T>], h: f64, displacement: &mut [T]) {
     displacement.fill(T::zero());
     for &(stage, weight) in row {
         let weight = T::lit(weight);

@@ -3,6 +3,7 @@
 use piola_numerics::Real;
 
 use super::LieGroup;
+use crate::field::largest_lane;
 use crate::state::compensated_add;
 
 /// The vectors ℝⁿ with their sum: momenta, angular velocities, positions. The number is n.
@@ -34,6 +35,16 @@ impl<T: Real> LieGroup<T> for Translations {
         }
     }
     fn inverse_differential(&self, _displacement: &[T], _velocity: &mut [T]) {}
+    /// The largest component of the vector.
+    fn magnitudes(&self, element: &[T], magnitudes: &mut [f64]) {
+        magnitudes.fill(largest(element));
+    }
+}
+
+/// The largest modulus in any lane.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn largest<T: Real>(values: &[T]) -> f64 {
+    values.iter().map(|&x| largest_lane(x)).fold(0.0, f64::max)
 }
 
 /// The direct product of two groups: elements of both, one after the other, which move side by side.
@@ -74,6 +85,11 @@ impl<T: Real, A: LieGroup<T>, B: LieGroup<T>> LieGroup<T> for DirectProduct<A, B
         let length = self.0.element_length();
         self.0.renormalise(&mut element[..length], &mut carry[..length]);
         self.1.renormalise(&mut element[length..], &mut carry[length..]);
+    }
+    fn magnitudes(&self, element: &[T], magnitudes: &mut [f64]) {
+        let (length, dimension) = (self.0.element_length(), self.0.dimension());
+        self.0.magnitudes(&element[..length], &mut magnitudes[..dimension]);
+        self.1.magnitudes(&element[length..], &mut magnitudes[dimension..]);
     }
     fn defect(&self, element: &[T]) -> Option<(usize, f64)> {
         let length = self.0.element_length();
@@ -133,6 +149,12 @@ impl<T: Real, G: LieGroup<T>> LieGroup<T> for DirectPower<G> {
         let (length, _) = self.lengths();
         for (element, carry) in element.chunks_exact_mut(length).zip(carry.chunks_exact_mut(length)) {
             self.factor.renormalise(element, carry);
+        }
+    }
+    fn magnitudes(&self, element: &[T], magnitudes: &mut [f64]) {
+        let (length, dimension) = self.lengths();
+        for (element, magnitudes) in element.chunks_exact(length).zip(magnitudes.chunks_exact_mut(dimension)) {
+            self.factor.magnitudes(element, magnitudes);
         }
     }
     fn defect(&self, element: &[T]) -> Option<(usize, f64)> {

@@ -6,6 +6,7 @@
 use piola_numerics::{Dual, Real};
 
 use super::LieGroup;
+use super::products::largest;
 use super::rotations::{Rotations, excess_of_exponential, inverse_differential, product, quaternion, vector};
 use crate::state::compensated_add;
 
@@ -70,6 +71,12 @@ impl<T: Real> LieGroup<T> for RigidMotions {
     }
     fn renormalise(&self, element: &mut [T], carry: &mut [T]) {
         Rotations.renormalise(&mut element[..4], &mut carry[..4]);
+    }
+    /// One for angles; for places the largest coordinate.
+    fn magnitudes(&self, element: &[T], magnitudes: &mut [f64]) {
+        let (angles, places) = magnitudes.split_at_mut(3);
+        angles.fill(1.0);
+        places.fill(largest(&element[4..7]));
     }
     fn defect(&self, element: &[T]) -> Option<(usize, f64)> {
         Rotations.defect(&element[..4])

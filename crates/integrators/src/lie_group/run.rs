@@ -43,8 +43,12 @@ impl<T: Real> Trial<T> {
         group: &impl LieGroup<T>,
         state: &mut State<T>,
     ) -> Result<(), IntegratorsError<E>> {
-        group.renormalise(&mut self.element, &mut self.carry);
+        self.renormalise(group);
         self.replace(state)
+    }
+
+    pub(super) fn renormalise(&mut self, group: &impl LieGroup<T>) {
+        group.renormalise(&mut self.element, &mut self.carry);
     }
 
     /// Becomes the state if it is finite.

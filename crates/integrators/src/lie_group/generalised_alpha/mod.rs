@@ -86,7 +86,7 @@ impl Parameters {
 ///
 /// The state is the element q and then the velocity v. A step solves for the acceleration at its end by Newton's iteration,
 /// whose matrix is exact: the residual is evaluated over numbers with derivatives, four directions at once, from the exponential
-/// on. Systems are therefore generic over their scalar.
+/// on. It mostly takes two or three iterations, and is given up after thirty. Systems are therefore generic over their scalar.
 ///
 /// | ρ∞ | vibrations with hω → ∞ | |
 /// |---|---|---|

@@ -1,5 +1,6 @@
 //! Integration on Lie groups: the groups, the orders, tops, the damping of generalised-α, failures.
 
+mod adaptive;
 mod allocations;
 mod generalised_alpha;
 mod groups;
