@@ -239,10 +239,6 @@ macro_rules! limits_of_steps {
         pub const fn tolerance(&self) -> Tolerance {
             self.tolerance
         }
-
-        pub(crate) const fn tolerance_mut(&mut self) -> &mut Tolerance {
-            &mut self.tolerance
-        }
     };
 }
 pub(crate) use limits_of_steps;

@@ -60,7 +60,7 @@ pub trait Coefficients: Copy + core::fmt::Debug {
 /// that the problem's sensitivity sets. The state and the time are summed with compensation.
 #[derive(Clone, Debug)]
 pub struct RungeKutta<P, T = f64> {
-    pub(super) tolerance: Tolerance,
+    pub(crate) tolerance: Tolerance,
     pub(super) limits: Limits,
     /// Rows of one state each: the stages, then those of `Rows`.
     pub(super) memory: Vec<T>,

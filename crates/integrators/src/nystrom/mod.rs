@@ -90,7 +90,7 @@ pub trait Coefficients: Copy + core::fmt::Debug {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Nystrom<P, T = f64> {
-    tolerance: Tolerance,
+    pub(crate) tolerance: Tolerance,
     limits: Limits,
     /// Rows of one acceleration each: the stages, then those of `Rows`.
     memory: Vec<T>,

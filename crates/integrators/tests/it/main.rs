@@ -11,6 +11,7 @@ mod first_step;
 mod gauss_16;
 mod golden;
 mod laws;
+mod lie_group;
 mod lobatto_pair;
 mod orders;
 mod pairs;
