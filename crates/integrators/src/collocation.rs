@@ -14,6 +14,7 @@ use core::ops::ControlFlow;
 use piola_numerics::Real;
 
 use crate::accepted::AcceptedStep;
+use crate::checkpoint::{Checkpoint, RunSoFar};
 use crate::events::Stop;
 use crate::field::largest_lane;
 use crate::state::equal_steps;
@@ -156,10 +157,13 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
     state: &mut State<T>,
     end: f64,
     plan: &Plan,
+    resumed: Option<&Checkpoint<T>>,
     mut inspect: impl FnMut(&W, &State<T>, AcceptedStep) -> Result<ControlFlow<Stop>, IntegratorsError<W::Error>>,
 ) -> Result<Report, IntegratorsError<W::Error>> {
-    let (start, span) = (state.time, end - state.time);
-    let mut report = Report::begin();
+    // Equal steps are counted from the start of the whole run.
+    let start = resumed.map_or(state.time, |checkpoint| checkpoint.numbers[0]);
+    let span = end - start;
+    let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report);
     let equal = match plan.equal {
         Some(longest) => Some(equal_steps(start, end, longest)?),
         None => None,
@@ -175,8 +179,12 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
     let mut best_before = 0.0_f64;
     // When the field last could not be evaluated, and what it said.
     let mut refused: Option<(f64, W::Error)> = None;
-    if equal.is_some_and(|(count, _)| count == 0) {
+    if equal.is_some_and(|(count, _)| count <= report.steps) {
         return Ok(report);
+    }
+    if let Some(Checkpoint { numbers, .. }) = resumed {
+        h = equal.map_or(numbers[1], |(_, h)| h);
+        best_before = numbers[2];
     }
     loop {
         let remaining = end - state.time;
@@ -241,7 +249,12 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             None if !last => state.advance_time(h),
             _ => state.set_time(end),
         }
-        let step = AcceptedStep { number: report.steps, start: from, end: state.time, length: h };
+        // As the best step changed, it will change.
+        let best = h.abs() * factor;
+        let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
+        let next = if equal.is_none() { h * (SAFETY * factor * trend).min(MOST_GROWTH) } else { h };
+        let progress = RunSoFar { report, start, time_carry: state.time_carry, next, best };
+        let step = AcceptedStep { number: report.steps, start: from, end: state.time, length: h, progress };
         if let ControlFlow::Break((time, ending)) = inspect(work, state, step)? {
             if let Some(time) = time.filter(|time| time.to_bits() != state.time.to_bits()) {
                 work.state_at(step.part(time), &mut state.values);
@@ -255,11 +268,7 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             return Ok(report);
         }
         if equal.is_none() {
-            // As the best step changed, it will change.
-            let best = h.abs() * factor;
-            let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
-            best_before = best;
-            h *= (SAFETY * factor * trend).min(MOST_GROWTH);
+            (best_before, h) = (best, next);
         }
     }
 }

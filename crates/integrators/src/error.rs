@@ -53,6 +53,14 @@ pub enum IntegratorsError<E = Infallible> {
         /// The step given.
         step: f64,
     },
+    /// A number that must be positive.
+    #[error("`{quantity}` is {value}, which is not positive")]
+    NotPositive {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The number given.
+        value: f64,
+    },
     /// A tolerance that violates 0 ≤ tolerance < 1, or both tolerances zero.
     #[error(
         "the relative tolerance {relative} and the absolute tolerance {absolute} must be finite, not negative and not \
@@ -151,6 +159,7 @@ impl IntegratorsError<Infallible> {
             Self::NotFinite { quantity, index, value, t } => IntegratorsError::NotFinite { quantity, index, value, t },
             Self::OutsideGroup { index, defect } => IntegratorsError::OutsideGroup { index, defect },
             Self::InvalidDamping { spectral_radius } => IntegratorsError::InvalidDamping { spectral_radius },
+            Self::NotPositive { quantity, value } => IntegratorsError::NotPositive { quantity, value },
             Self::InvalidStep { step } => IntegratorsError::InvalidStep { step },
             Self::InvalidTolerance { relative, absolute } => IntegratorsError::InvalidTolerance { relative, absolute },
             Self::Field { source, .. } => match source {},

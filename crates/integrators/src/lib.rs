@@ -4,6 +4,8 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod accepted;
+mod advice;
+mod checkpoint;
 mod collocation;
 mod composition;
 mod discrete_gradient;
@@ -31,6 +33,8 @@ mod verner;
 
 mod variational;
 
+pub use advice::{Advice, AdvisedMethod, Character, advise};
+pub use checkpoint::Checkpoint;
 pub use composition::{Composition, Order};
 pub use discrete_gradient::{DiscreteGradient, EnergySystem};
 pub use dormand_prince::{DormandPrince853, DormandPrincePair};

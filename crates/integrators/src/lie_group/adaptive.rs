@@ -8,6 +8,7 @@ use super::munthe_kaas::{combine, make_stages};
 use super::run::{Trial, check_start, evaluate};
 use super::tableaux::DORMAND_PRINCE_8;
 use super::{GroupField, LieGroup};
+use crate::checkpoint::Checkpoint;
 use crate::dormand_prince::coefficients as pair;
 use crate::explicit::{Coefficients, EmbeddedPair, Limits, follow, limits_of_steps};
 use crate::field::largest_lane;
@@ -100,7 +101,7 @@ impl<T: Real> AdaptiveMuntheKaas<T> {
         end: f64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        follow(self, field, state, end, &mut |_method, _field, state, step, _report| {
+        follow(self, field, state, end, None, &mut |_method, _field, state, step, _report| {
             let seen = observer(Step { number: step.number, time: state.time, values: &state.values });
             Ok(if seen.is_break() { ControlFlow::Break(Ending::Stopped) } else { ControlFlow::Continue(()) })
         })
@@ -186,6 +187,7 @@ impl<T: Real, F: GroupField<T>> EmbeddedPair<T, F> for AdaptiveMuntheKaas<T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
+        _resumed: Option<&Checkpoint<T>>,
         report: &mut Report,
     ) -> Result<f64, IntegratorsError<F::Error>> {
         check_start(field.group(), 0, state, end)?;

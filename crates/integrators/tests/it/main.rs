@@ -1,6 +1,7 @@
 //! Tests of the integrators: one binary, one module for each kind of evidence.
 
 mod alloc;
+mod checkpoints;
 mod coefficients;
 mod collocation;
 mod dense;
