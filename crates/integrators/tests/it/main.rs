@@ -1,5 +1,6 @@
 //! Tests of the integrators: one binary, one module for each kind of evidence.
 
+mod advice;
 mod alloc;
 mod checkpoints;
 mod coefficients;
