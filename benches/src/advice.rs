@@ -84,7 +84,7 @@ fn method(curve: &Curve) -> Option<&'static str> {
 pub fn table(entries: &[Entry]) -> String {
     let mut text = String::from(
         "//! Error against time, measured: written by `cargo xtask work-precision`.\n\n\
-         use super::table::{Curve, Measured, Point};\nuse super::AdvisedMethod::*;\n\n\
+         use super::table::{Curve, Measured, Point};\nuse super::AdvisedMethod::{\n    Composition8, DormandPrince853, GaussLegendre16, GaussRadau15, Nystrom86, Nystrom1210, Verner98,\n};\n\n\
          pub(super) const MEASURED: &[Measured] = &[\n",
     );
     for entry in entries {

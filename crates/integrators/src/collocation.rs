@@ -198,16 +198,7 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         if equal.is_none() {
             (h, last) = shared(h.clamp(-plan.longest_step, plan.longest_step), remaining);
             if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
-                return Err(match refused {
-                    // The last refusal is the reason if it was here.
-                    Some((t, source)) if (state.time - t).abs() <= HERE * span.abs() => {
-                        IntegratorsError::Field { t: state.time, source }
-                    }
-                    _ => {
-                        let too_small = IntegratorsError::StepTooSmall { t: state.time, step: h };
-                        work.check_rates(state.time).err().unwrap_or(too_small)
-                    }
-                });
+                return Err(too_small(work, refused, state.time, h, span));
             }
         }
         work.begin_step(field, state, &mut report.evaluations)?;
@@ -249,10 +240,7 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             None if !last => state.advance_time(h),
             _ => state.set_time(end),
         }
-        // As the best step changed, it will change.
-        let best = h.abs() * factor;
-        let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
-        let next = if equal.is_none() { h * (SAFETY * factor * trend).min(MOST_GROWTH) } else { h };
+        let (best, next) = if equal.is_none() { next_step(h, factor, best_before) } else { (h, h) };
         let progress = RunSoFar { report, start, time_carry: state.time_carry, next, best };
         let step = AcceptedStep { number: report.steps, start: from, end: state.time, length: h, progress };
         if let ControlFlow::Break((time, ending)) = inspect(work, state, step)? {
@@ -270,6 +258,28 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         if equal.is_none() {
             (best_before, h) = (best, next);
         }
+    }
+}
+
+/// The step that would have been the best one, and the next one to try: as the best step changed, it will change.
+fn next_step(h: f64, factor: f64, best_before: f64) -> (f64, f64) {
+    let best = h.abs() * factor;
+    let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
+    (best, h * (SAFETY * factor * trend).min(MOST_GROWTH))
+}
+
+/// Why steps shrink until they no longer advance the time.
+fn too_small<T: Real, F, W: Collocation<T, F>>(
+    work: &W,
+    refused: Option<(f64, W::Error)>,
+    t: f64,
+    step: f64,
+    span: f64,
+) -> IntegratorsError<W::Error> {
+    match refused {
+        // The last refusal is the reason if it was here.
+        Some((at, source)) if (t - at).abs() <= HERE * span.abs() => IntegratorsError::Field { t, source },
+        _ => work.check_rates(t).err().unwrap_or(IntegratorsError::StepTooSmall { t, step }),
     }
 }
 

@@ -1,6 +1,8 @@
 //! Error against time, measured: written by `cargo xtask work-precision`.
 
-use super::AdvisedMethod::*;
+use super::AdvisedMethod::{
+    Composition8, DormandPrince853, GaussLegendre16, GaussRadau15, Nystrom86, Nystrom1210, Verner98,
+};
 use super::table::{Curve, Measured, Point};
 
 pub(super) const MEASURED: &[Measured] = &[
