@@ -260,7 +260,7 @@ impl<'d> Builder<'d> {
             method,
         };
         if let Some(table) = table {
-            let adaptive = request.method == "dormand-prince-853";
+            let adaptive = ["dormand-prince-853", "verner-98"].contains(&request.method.as_str());
             let fixed = !adaptive && request.method != "auto";
             for (key, wrong) in [("step", adaptive), ("tolerance", fixed)] {
                 if wrong && table.has(key) {

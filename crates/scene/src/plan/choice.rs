@@ -1,6 +1,6 @@
 //! The choice of a method and its step.
 
-use piola_integrators::Order;
+use piola_integrators::{Advice, AdvisedMethod, Character, Order, advise};
 
 use super::Method;
 use crate::model::{Central, Gravitation, Scene, System};
@@ -33,14 +33,41 @@ pub(super) fn method(scene: &Scene) -> (Method, String) {
             (Method::GaussLegendre { order, step }, format!("integrator.method asks for it; {why}"))
         }
         ("dormand-prince", _) => {
-            (adaptive(scene, TOLERANCE), "integrator.method asks for it; the step adapts".to_string())
+            let tolerance = scene.integrator.tolerance.unwrap_or(TOLERANCE);
+            (Method::DormandPrince { tolerance }, "integrator.method asks for it; the step adapts".to_string())
+        }
+        ("verner", _) => {
+            let tolerance = scene.integrator.tolerance.unwrap_or(TOLERANCE);
+            (Method::Verner { tolerance }, "integrator.method asks for it; the step adapts".to_string())
         }
         _ => automatic(scene),
     }
 }
 
-fn adaptive(scene: &Scene, tolerance: f64) -> Method {
-    Method::DormandPrince { tolerance: scene.integrator.tolerance.unwrap_or(tolerance) }
+/// The adaptive method that takes the least time on measured problems, and why.
+fn adaptive(scene: &Scene, tolerance: f64, why: &str) -> (Method, String) {
+    /// The error at the end of a run, in tolerances of a step.
+    const AT_THE_END: f64 = 10.0;
+    let tolerance = scene.integrator.tolerance.unwrap_or(tolerance);
+    let uneven = !matches!(scene.system, System::Mechanism(_));
+    let character = Character::of_first_order();
+    let character = if uneven { character.with_uneven_steps() } else { character };
+    let turns = turn(scene).map(|turn| scene.time.length() / turn);
+    let character = turns.and_then(|turns| character.for_turns(turns).ok()).unwrap_or(character);
+    match advise(&character, (AT_THE_END * tolerance).clamp(1e-15, 0.1)) {
+        Ok(Advice { method: AdvisedMethod::Verner98, reason, evaluations, .. }) => {
+            (Method::Verner { tolerance }, format!("{why}; {reason}{}", expected(turns.and(evaluations))))
+        }
+        Ok(Advice { reason, evaluations, .. }) => {
+            (Method::DormandPrince { tolerance }, format!("{why}; {reason}{}", expected(turns.and(evaluations))))
+        }
+        Err(_) => (Method::DormandPrince { tolerance }, why.to_string()),
+    }
+}
+
+/// The predicted cost, where it is known.
+fn expected(evaluations: Option<f64>) -> String {
+    evaluations.map(|count| format!("; about {count:.1e} evaluations")).unwrap_or_default()
 }
 
 fn automatic(scene: &Scene) -> (Method, String) {
@@ -50,7 +77,7 @@ fn automatic(scene: &Scene) -> (Method, String) {
         System::Gravitation(system) if system.post_newtonian.is_some() => {
             let depends = "the post-Newtonian force depends on velocity, which no explicit composition allows";
             if request.tolerance.is_some() || (request.step.is_none() && !hierarchical(system)) {
-                return (adaptive(scene, TOLERANCE), format!("{depends}; the step adapts"));
+                return adaptive(scene, TOLERANCE, &format!("{depends}; the step adapts"));
             }
             let (step, why) = step(scene, Order::Eight);
             (
@@ -65,7 +92,7 @@ fn automatic(scene: &Scene) -> (Method, String) {
                 } else {
                     "no body dominates, so that close encounters may come: the step adapts"
                 };
-                return (adaptive(scene, TOLERANCE), asked(why));
+                return adaptive(scene, TOLERANCE, why);
             }
             let (step, why) = step(scene, Order::Eight);
             (
@@ -86,10 +113,8 @@ fn automatic(scene: &Scene) -> (Method, String) {
                     ),
                 );
             }
-            (
-                adaptive(scene, FINE_TOLERANCE),
-                format!("the eccentricity {e:.4} needs steps of very different lengths: the step adapts"),
-            )
+            let why = format!("the eccentricity {e:.4} needs steps of very different lengths: the step adapts");
+            adaptive(scene, FINE_TOLERANCE, &why)
         }
         System::Mechanism(_) => match request.step {
             Some(step) => (
@@ -98,11 +123,10 @@ fn automatic(scene: &Scene) -> (Method, String) {
                     "a fixed step is asked for, and the inertia metric depends on the coordinates: implicit, symplectic",
                 ),
             ),
-            None => (
-                adaptive(scene, MECHANISM_TOLERANCE),
-                asked(
-                    "the inertia metric depends on the coordinates, so that no explicit symplectic method applies; adaptive, order 8(5,3)",
-                ),
+            None => adaptive(
+                scene,
+                MECHANISM_TOLERANCE,
+                "the inertia metric depends on the coordinates, so that no explicit symplectic method applies; the step adapts",
             ),
         },
     }
@@ -114,11 +138,7 @@ fn step(scene: &Scene, order: Order) -> (f64, String) {
     if let Some(step) = scene.integrator.step {
         return (step.min(span), "the step is integrator.step".to_string());
     }
-    let turn = match &scene.system {
-        System::Gravitation(system) => fastest_turn(system),
-        System::Central(system) => turn_at_pericentre(system),
-        System::Mechanism(_) => None,
-    };
+    let turn = turn(scene);
     let per_turn = STEPS_PER_TURN * if order == Order::Eight { 1.0 } else { 4.0 };
     match turn {
         Some(turn) if turn.is_finite() && 0.0 < turn => (
@@ -126,6 +146,15 @@ fn step(scene: &Scene, order: Order) -> (f64, String) {
             format!("the step is 1/{per_turn} of the fastest turn, {:.4} d", turn / 86_400.0),
         ),
         _ => (span / 10_000.0, "the step is 1/10000 of the time, for want of a better measure".to_string()),
+    }
+}
+
+/// The time of the fastest turn at the start, s.
+fn turn(scene: &Scene) -> Option<f64> {
+    match &scene.system {
+        System::Gravitation(system) => fastest_turn(system),
+        System::Central(system) => turn_at_pericentre(system),
+        System::Mechanism(_) => None,
     }
 }
 

@@ -28,7 +28,7 @@ use crate::model::{ReferenceKind, Scene, System};
 ///     revolutions = 3
 /// ");
 /// let plan = Plan::of(&Scene::from_document(&document)?);
-/// assert_eq!(plan.method.to_string(), "dormand-prince-853");
+/// assert_eq!(plan.method.to_string(), "verner-98");
 /// assert!(plan.reason.contains("eccentricity"));
 /// # Ok::<(), piola_scene::SceneError>(())
 /// ```
@@ -93,6 +93,7 @@ impl From<Method> for MethodSummary {
                 (order.value(), true, Some(step), None)
             }
             Method::DormandPrince { tolerance } => (8, false, None, Some(tolerance)),
+            Method::Verner { tolerance } => (9, false, None, Some(tolerance)),
         };
         Self { name: method.to_string(), order, symplectic, step_s, relative_tolerance }
     }
@@ -290,7 +291,9 @@ impl fmt::Display for Plan {
         writeln!(f, ", recorded at {} instants", self.instants)?;
         write!(f, "method    {}", self.method)?;
         match self.method {
-            Method::DormandPrince { tolerance } => writeln!(f, ", relative tolerance {tolerance:e}")?,
+            Method::DormandPrince { tolerance } | Method::Verner { tolerance } => {
+                writeln!(f, ", relative tolerance {tolerance:e}")?
+            }
             Method::Composition { step, .. } | Method::GaussLegendre { step, .. } => {
                 let (step, count) = (seconds(step), self.steps.unwrap_or_default());
                 writeln!(f, ", steps of at most {step} s that land on every instant: {count}")?;

@@ -263,6 +263,7 @@ pub static METHODS: [Word; 10] = [
     word("gauss-legendre-6", "the same of order 6"),
     word("gauss-legendre-8", "the same of order 8"),
     word("dormand-prince-853", "explicit Runge–Kutta of order 8(5,3), adaptive step"),
+    word("verner-98", "explicit Runge–Kutta of order 9(8), adaptive step"),
 ];
 
 table! {

@@ -86,6 +86,7 @@ fn every_method_comes_to_the_same_result() {
         "gauss-legendre-6",
         "gauss-legendre-8",
         "dormand-prince-853",
+        "verner-98",
     ];
     for method in methods {
         let text = replaced(ORBIT, "eccentricity = 0.5", "eccentricity = 0.2");

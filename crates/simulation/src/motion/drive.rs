@@ -7,7 +7,8 @@ use core::fmt::Display;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Report, Separable, State, Tolerance,
+    Composition, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Report, RungeKutta, RungeKuttaPair,
+    Separable, State, Tolerance, Verner98,
 };
 
 use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
@@ -238,15 +239,19 @@ impl<'o> Driver<'o> {
                 let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
                 self.adaptive(&mut DormandPrince853::new(tolerance), &mut field, state, reading)
             }
+            Method::Verner { tolerance } => {
+                let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+                self.adaptive(&mut Verner98::new(tolerance), &mut field, state, reading)
+            }
             Method::Composition { .. } => {
                 Err("an explicit composition needs forces that depend on positions alone".to_string())
             }
         }
     }
 
-    fn adaptive(
+    fn adaptive<P: RungeKuttaPair>(
         &mut self,
-        method: &mut DormandPrince853,
+        method: &mut RungeKutta<P>,
         field: &mut AnyField<dyn FieldWithText + '_>,
         state: &mut State,
         reading: &mut dyn Reading,

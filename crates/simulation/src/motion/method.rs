@@ -35,6 +35,11 @@ pub enum Method {
         /// Relative tolerance of a step.
         tolerance: f64,
     },
+    /// Adaptive Runge–Kutta of order 9(8).
+    Verner {
+        /// Relative tolerance of a step.
+        tolerance: f64,
+    },
 }
 
 impl fmt::Display for Method {
@@ -43,6 +48,7 @@ impl fmt::Display for Method {
             Self::Composition { order, .. } => write!(f, "composition-{}", order.value()),
             Self::GaussLegendre { order, .. } => write!(f, "gauss-legendre-{}", order.value()),
             Self::DormandPrince { .. } => f.write_str("dormand-prince-853"),
+            Self::Verner { .. } => f.write_str("verner-98"),
         }
     }
 }
@@ -53,7 +59,7 @@ impl Method {
     pub fn step(&self) -> Option<f64> {
         match self {
             Self::Composition { step, .. } | Self::GaussLegendre { step, .. } => Some(*step),
-            Self::DormandPrince { .. } => None,
+            Self::DormandPrince { .. } | Self::Verner { .. } => None,
         }
     }
 }
