@@ -21,6 +21,9 @@ macro_rules! follow_over {
 
         impl<$($generics)*> SecondOrder<$scalar> for Gravitation {
             type Error = GravitationError;
+            fn is_velocity_dependent(&self) -> bool {
+                self.post_newtonian().is_some()
+            }
             fn freedom(&self) -> usize {
                 3 * self.bodies()
             }

@@ -61,6 +61,9 @@ pub enum IntegratorsError<E = Infallible> {
         /// The number given.
         value: f64,
     },
+    /// Accelerations that depend on velocities, given to a Nyström pair.
+    #[error("the accelerations depend on velocities: a Nyström pair is for q̈ = f(t, q)")]
+    VelocityDependent,
     /// A tolerance that violates 0 ≤ tolerance < 1, or both tolerances zero.
     #[error(
         "the relative tolerance {relative} and the absolute tolerance {absolute} must be finite, not negative and not \
@@ -160,6 +163,7 @@ impl IntegratorsError<Infallible> {
             Self::OutsideGroup { index, defect } => IntegratorsError::OutsideGroup { index, defect },
             Self::InvalidDamping { spectral_radius } => IntegratorsError::InvalidDamping { spectral_radius },
             Self::NotPositive { quantity, value } => IntegratorsError::NotPositive { quantity, value },
+            Self::VelocityDependent => IntegratorsError::VelocityDependent,
             Self::InvalidStep { step } => IntegratorsError::InvalidStep { step },
             Self::InvalidTolerance { relative, absolute } => IntegratorsError::InvalidTolerance { relative, absolute },
             Self::Field { source, .. } => match source {},

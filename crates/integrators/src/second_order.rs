@@ -43,6 +43,11 @@ pub trait SecondOrder<T: Real = f64> {
     ///
     /// A run refuses a value that differs from [`freedom`](Self::freedom).
     const FREEDOM: Option<usize> = None;
+    /// Whether this very system's f depends on q̇. The default is what its type says; a system that decides when it is made, as
+    /// one with optional velocity-dependent forces, says so here.
+    fn is_velocity_dependent(&self) -> bool {
+        Self::VELOCITY_DEPENDENT
+    }
     /// The number n of coordinates.
     fn freedom(&self) -> usize;
     /// Writes q̈ = f(t, q, q̇) to `acceleration`. All slices have the length of [`freedom`](Self::freedom).

@@ -232,28 +232,9 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
     /// Integrates to `end`, backwards if it is earlier than the state's time. The observer sees every step,
     /// may ask for the state at any time within it, and may stop the run.
     ///
-    /// A field whose accelerations depend on velocities
-    /// ([`VELOCITY_DEPENDENT`](SecondOrder::VELOCITY_DEPENDENT)) does not compile:
-    ///
-    /// ```compile_fail
-    /// # use piola_integrators::{Nystrom86, SecondOrder, State, Tolerance};
-    /// struct Damped;
-    /// impl SecondOrder for Damped {
-    ///     type Error = core::convert::Infallible;
-    ///     fn freedom(&self) -> usize {
-    ///         1
-    ///     }
-    ///     fn acceleration(&mut self, _t: f64, _q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Self::Error> {
-    ///         a[0] = -v[0];
-    ///         Ok(())
-    ///     }
-    /// }
-    /// let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
-    /// Nystrom86::new(Tolerance::relative(1e-9).unwrap()).integrate_to(&mut Damped, &mut state, 1.0).unwrap();
-    /// ```
-    ///
     /// # Errors
-    /// The state does not fit or is not finite; the field fails or its acceleration is not finite at the start or, however
+    /// The accelerations depend on velocities ([`SecondOrder::is_velocity_dependent`]): [`IntegratorsError::VelocityDependent`]. The
+    /// state does not fit or is not finite; the field fails or its acceleration is not finite at the start or, however
     /// small the step, beyond a time; the step no longer advances the time; or the limit on steps is reached.
     /// The state then stands at the last accepted step.
     pub fn integrate<F: SecondOrder<T>>(
@@ -292,7 +273,6 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         resumed: Option<&Checkpoint<T>>,
         inspect: &mut impl FnMut(&mut NystromStep<'_, P, T, F>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        const { assert!(!F::VELOCITY_DEPENDENT, "a Nyström pair is for accelerations that do not depend on velocities") };
         follow(self, field, state, end, resumed, &mut |method, field, state, step, report| {
             let mut dense = NystromStep::new(method, field, step);
             let verdict = inspect(&mut dense);

@@ -122,6 +122,9 @@ impl<P: NystromPair, T: Real, F: SecondOrder<T>> EmbeddedPair<T, F> for Nystrom<
         report: &mut Report,
     ) -> Result<f64, IntegratorsError<F::Error>> {
         check_freedom::<T, F>(field)?;
+        if field.is_velocity_dependent() {
+            return Err(IntegratorsError::VelocityDependent);
+        }
         let n = field.freedom();
         if let Some(checkpoint) = resumed {
             checkpoint.open(state, n, 3)?;

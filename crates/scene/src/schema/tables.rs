@@ -249,7 +249,7 @@ table! {
 }
 
 /// The methods of integration.
-pub static METHODS: [Word; 10] = [
+pub static METHODS: [Word; 11] = [
     word("auto", "chosen by the planner, which says why"),
     word(
         "composition-2",

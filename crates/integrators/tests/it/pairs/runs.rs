@@ -314,3 +314,29 @@ fn bad_input_is_refused_by_name() {
     assert!(matches!(few, Err(IntegratorsError::TooManySteps { steps: 3, .. })));
     assert!(Nystrom86::<f64>::new(Tolerance::relative(1e-9).unwrap()).with_first_step(0.0).is_err());
 }
+
+/// q̈ = −q̇, or without damping: decided when it is made.
+struct Damped(bool);
+impl SecondOrder for Damped {
+    type Error = Infallible;
+    fn is_velocity_dependent(&self) -> bool {
+        self.0
+    }
+    fn freedom(&self) -> usize {
+        1
+    }
+    fn acceleration(&mut self, _t: f64, _q: &[f64], v: &[f64], acceleration: &mut [f64]) -> Result<(), Infallible> {
+        acceleration[0] = if self.0 { -v[0] } else { 0.0 };
+        Ok(())
+    }
+}
+
+#[test]
+fn accelerations_that_depend_on_velocities_are_refused() {
+    let mut state = State::new(0.0, vec![0.0, 1.0]).unwrap();
+    let mut method = Nystrom86::new(Tolerance::relative(1e-9).unwrap());
+    assert_eq!(method.integrate_to(&mut Damped(true), &mut state, 1.0), Err(IntegratorsError::VelocityDependent));
+    assert_eq!(state.time.to_bits(), 0.0_f64.to_bits());
+    method.integrate_to(&mut Damped(false), &mut state, 1.0).unwrap();
+    assert_close("uniform", &state.values, &[1.0, 1.0], Tol::ulps(4.0));
+}
