@@ -25,7 +25,9 @@ use crate::{IntegratorsError, Report, State, Step};
 /// The scalar may itself carry derivatives: over [`Dual`](piola_numerics::Dual) second derivatives come along.
 ///
 /// # Accuracy
-/// The error of the derivatives is of the order of the method. The tolerance bounds the error of the state alone.
+/// The error of the derivatives is of the order of the method. The tolerance bounds the error of the state alone: a state at rest is
+/// followed in long steps, whatever its derivatives do. Bound the steps there by
+/// [`with_longest_step`](RungeKutta::with_longest_step).
 ///
 /// # Example
 /// ```

@@ -21,7 +21,7 @@ fn compare<P: RungeKuttaPair>(
     start: &[f64],
     p: &[f64],
     end: f64,
-    tol: Tol,
+    scale: impl Fn(Vec<f64>) -> Vec<f64>,
 ) {
     let c: Vec<f64> = (0..start.len()).map(|i| 1.0 - 0.75 * i as f64).collect();
     let (_, forwards) = forward(method::<P, f64>(1e-11), field, start, p, end);
@@ -29,29 +29,30 @@ fn compare<P: RungeKuttaPair>(
     for (actual, matrix) in
         [(&backwards.by_start, forwards.by_start()), (&backwards.by_parameters, forwards.by_parameters())]
     {
-        let sizes = sizes_of_terms(&c, matrix);
-        assert_each_close_at_scales("gradient", actual, &covector_times(&c, matrix), &sizes, tol);
+        let sizes = scale(sizes_of_terms(&c, matrix));
+        assert_each_close_at_scales("gradient", actual, &covector_times(&c, matrix), &sizes, Tol::ulps(64.0));
     }
 }
 
 #[test]
 fn adjoint_gradient_equals_forward_derivatives_to_rounding() {
-    let tol = Tol::ulps(64.0);
-    compare::<DormandPrincePair>(&Oscillator, &[0.25, -1.5], &[1.75], 6.0, tol);
-    compare::<VernerPair>(&Oscillator, &[0.25, -1.5], &[1.75], 6.0, tol);
-    compare::<DormandPrincePair>(&Kepler, &[0.75, 0.25, -0.5, 1.125], &[1.0625], 12.0, tol);
-    compare::<VernerPair>(&Kepler, &[0.75, 0.25, -0.5, 1.125], &[1.0625], 12.0, tol);
-    compare::<DormandPrincePair>(&LotkaVolterra, &[1.0, 0.5], &[1.5, 1.0, 3.0, 1.25], 5.0, tol);
-    compare::<VernerPair>(&LotkaVolterra, &[1.0, 0.5], &[1.5, 1.0, 3.0, 1.25], -2.0, tol);
+    let own = |sizes| sizes;
+    compare::<DormandPrincePair>(&Oscillator, &[0.25, -1.5], &[1.75], 6.0, own);
+    compare::<VernerPair>(&Oscillator, &[0.25, -1.5], &[1.75], 6.0, own);
+    compare::<DormandPrincePair>(&Kepler, &[0.75, 0.25, -0.5, 1.125], &[1.0625], 12.0, own);
+    compare::<VernerPair>(&Kepler, &[0.75, 0.25, -0.5, 1.125], &[1.0625], 12.0, own);
+    compare::<DormandPrincePair>(&LotkaVolterra, &[1.0, 0.5], &[1.5, 1.0, 3.0, 1.25], 5.0, own);
+    compare::<VernerPair>(&LotkaVolterra, &[1.0, 0.5], &[1.5, 1.0, 3.0, 1.25], -2.0, own);
 }
 
 #[test]
 fn gradient_by_two_hundred_parameters_equals_forward_derivatives_from_rest() {
     let p = coefficients(199);
     let field = Driven { coefficients: 199 };
-    let tol = Tol::ulps_because(256.0, "sums over 200 terms in each evaluation");
-    compare::<DormandPrincePair>(&field, &[0.0, 0.0], &p, 3.0, tol);
-    compare::<VernerPair>(&DrivenWithProduct(field), &[0.0, 0.0], &p, 3.0, tol);
+    // Derivatives by the later coefficients are integrals of fast oscillations, whose terms are of the size of the first ones.
+    let largest = |sizes: Vec<f64>| vec![sizes.iter().copied().fold(0.0, f64::max); sizes.len()];
+    compare::<DormandPrincePair>(&field, &[0.0, 0.0], &p, 3.0, largest);
+    compare::<VernerPair>(&DrivenWithProduct(field), &[0.0, 0.0], &p, 3.0, largest);
 }
 
 #[test]

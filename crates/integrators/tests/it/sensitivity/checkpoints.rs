@@ -59,6 +59,9 @@ fn steps_made_again_are_the_fewest_for_the_states_kept() {
             method.gradient(&Kepler, &Mixed, &mut gradient).unwrap();
             let first = gradient.clone();
             assert_eq!(gradient.replayed_steps, expected(steps, checkpoints, &mut known), "{steps} by {checkpoints}");
+            if steps <= (checkpoints + 1) * (checkpoints + 1) {
+                assert!(10 * gradient.replayed_steps <= 21 * steps as u64);
+            }
             // Once more, from the start alone.
             method.gradient(&Kepler, &Mixed, &mut gradient).unwrap();
             assert_eq!(gradient.replayed_steps, fewest(steps, checkpoints + 1, &mut known));
