@@ -14,6 +14,9 @@
 //! that the field gives itself costs about as much as an evaluation, so that the adjoint method then takes a time that does not
 //! grow with m. The default product is made by differentiable numbers and costs (n + m)/4 evaluations with four derivatives.
 //!
+//! Other methods that are generic over their scalar, as [`GaussLegendre`](crate::GaussLegendre), differentiate their runs where the
+//! start and the parameters are numbers with derivatives: [`Gradient`](piola_numerics::Gradient) for all directions at once.
+//!
 //! # Accuracy
 //! Both differentiate the run that was made: its accepted steps, their lengths held fixed. The two therefore agree to rounding. From
 //! the derivatives of the exact solution they differ by an error of the order of the method. The steps are chosen by the solution

@@ -4,12 +4,12 @@ use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    DormandPrince853, DormandPrincePair, ForwardSensitivity, ParametricField, RungeKuttaPair, Sensitivities,
-    SensitivityInputs, State, Tolerance, Verner98, VernerPair, WithParameters,
+    DormandPrince853, DormandPrincePair, ForwardSensitivity, GaussLegendre, Order, ParametricField, RungeKuttaPair,
+    Sensitivities, SensitivityInputs, State, Tolerance, Verner98, VernerPair, WithParameters,
 };
-use piola_numerics::{Dual, Lanes, Real};
+use piola_numerics::{Dual, Gradient, Lanes, Real};
 use piola_testkit::{
-    Tol, allocations_in, assert_close, assert_close_at_scale, assert_each_close, assert_order, golden,
+    Tol, allocations_in, assert_close, assert_close_at_scale, assert_each_close, assert_order, golden, relative_error,
 };
 
 use super::{
@@ -176,7 +176,7 @@ fn derivatives_there_and_back_are_those_of_the_start() {
     assert_close_at_scale("∂y/∂p", sensitivities.by_parameters(), unit.by_parameters(), 1.0, tol);
 }
 
-/// max |ΦᵀJΦ − J|/max |Φ|² in the plane.
+/// The largest entry of `ΦᵀJΦ − J` over the square of the largest of Φ, in the plane.
 fn symplectic_defect(phi: &[f64]) -> f64 {
     let entry = |i: usize, j: usize| phi[i * 4 + j];
     let mut defect = 0.0_f64;
@@ -211,6 +211,28 @@ fn derivatives_of_a_hamiltonian_flow_are_symplectic() {
     // At a loose tolerance the defect is that of the method: the check above is no identity of the derivatives.
     let coarse = forward(fixed::<DormandPrincePair, f64>(1.0), &Kepler, &[1.0, 0.0, 0.0, 1.25], &[1.0], 10.0).1;
     assert!(1e-9 < symplectic_defect(coarse.by_start()));
+}
+
+#[test]
+fn derivatives_by_a_symplectic_method_are_symplectic_to_rounding() {
+    // Any method that is generic over its scalar differentiates its run: the start and the parameters carry the directions.
+    let start = [0.75, 0.25, -0.5, 1.125];
+    let variables = start.iter().enumerate().map(|(i, &x)| Gradient::<f64, 5>::variable(x, i)).collect();
+    let p = [Gradient::variable(1.0625, 4)];
+    let mut state = State::new(0.0, variables).unwrap();
+    GaussLegendre::new(Order::Four, 0.125)
+        .unwrap()
+        .integrate_to(&mut WithParameters::new(&Kepler, &p), &mut state, 3.0)
+        .unwrap();
+    let phi: Vec<f64> = state.values.iter().flat_map(|y| y.partials[..4].to_vec()).collect();
+    let tol = Tol::ulps(16.0);
+    assert!(symplectic_defect(&phi) < tol.value(), "{:e}", symplectic_defect(&phi));
+    // The run itself has the error of its long steps.
+    let exact = forward(method::<VernerPair, f64>(1e-13), &Kepler, &start, &[1.0625], 3.0).1;
+    let by_parameter: Vec<f64> = state.values.iter().map(|y| y.partials[4]).collect();
+    let errors =
+        [(&phi[..], exact.by_start()), (&by_parameter, exact.by_parameters())].map(|(a, e)| relative_error(a, e));
+    assert!(errors.iter().all(|error| (1e-7..1e-2).contains(error)), "{errors:?}");
 }
 
 #[test]
