@@ -91,8 +91,9 @@ impl ParametricField for WithProduct {
         _p: &[T],
         product: &mut JacobianProduct<T>,
     ) -> Result<(), Infallible> {
-        let (of_velocity, of_force) = product.covector.split_at(MASSES);
-        let (by_q, by_v) = product.by_state.split_at_mut(MASSES);
+        let (covector, by_state, by_parameters) = product.parts();
+        let (of_velocity, of_force) = covector.split_at(MASSES);
+        let (by_q, by_v) = by_state.split_at_mut(MASSES);
         for (sum, &lambda) in by_v.iter_mut().zip(of_velocity) {
             *sum += lambda;
         }
@@ -107,7 +108,7 @@ impl ParametricField for WithProduct {
             }
             before = y[i];
         }
-        for (sum, wave) in product.by_parameters.iter_mut().zip(Chain::waves(t)) {
+        for (sum, wave) in by_parameters.iter_mut().zip(Chain::waves(t)) {
             *sum += of_force[0] * T::lit(wave);
         }
         Ok(())

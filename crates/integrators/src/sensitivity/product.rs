@@ -30,45 +30,76 @@ use super::{DIRECTIONS, Directional};
 ///     fn vector_jacobian_product<T: Real>(
 ///         &self, _t: f64, y: &[T], p: &[T], product: &mut JacobianProduct<T>,
 ///     ) -> Result<(), Infallible> {
-///         let lambda = product.covector[0];
-///         product.by_state[0] += T::lit(2.0) * lambda * p[0] * y[0];
-///         product.by_parameters[0] += lambda * y[0] * y[0];
+///         let (lambda, by_state, by_parameters) = product.parts();
+///         by_state[0] += T::lit(2.0) * lambda[0] * p[0] * y[0];
+///         by_parameters[0] += lambda[0] * y[0] * y[0];
 ///         Ok(())
 ///     }
 /// }
-/// let mut product = JacobianProduct::zero(1, 1);
-/// product.covector[0] = 1.0;
+/// let mut product = JacobianProduct::of(vec![1.0], 1);
 /// Blowup.vector_jacobian_product(0.0, &[3.0], &[0.5], &mut product)?;
-/// assert_eq!((product.by_state[0], product.by_parameters[0]), (3.0, 9.0));
+/// assert_eq!((product.by_state(), product.by_parameters()), (&[3.0][..], &[9.0][..]));
 /// # Ok::<(), Infallible>(())
 /// ```
 #[doc(alias("VJP", "pullback", "reverse mode"))]
 #[derive(Clone, Debug)]
 pub struct JacobianProduct<T = f64> {
-    /// λ, n components.
-    pub covector: Vec<T>,
-    /// The sum of λᵀ ∂f/∂y, n components.
-    pub by_state: Vec<T>,
-    /// The sum of λᵀ ∂f/∂p, m components.
-    pub by_parameters: Vec<T>,
+    covector: Vec<T>,
+    by_state: Vec<T>,
+    by_parameters: Vec<T>,
     y: Vec<Directional<T>>,
     p: Vec<Directional<T>>,
     rate: Vec<Directional<T>>,
 }
 
 impl<T: Real> JacobianProduct<T> {
-    /// A covector of n components and sums for n components and m parameters, all zero.
+    /// A covector of n components, with sums for m parameters, all zero.
     #[must_use]
-    pub fn zero(n: usize, m: usize) -> Self {
-        let constants = |length| vec![Gradient::constant(T::zero()); length];
-        Self {
-            covector: vec![T::zero(); n],
-            by_state: vec![T::zero(); n],
-            by_parameters: vec![T::zero(); m],
-            y: constants(n),
-            p: constants(m),
-            rate: constants(n),
-        }
+    pub fn of(covector: Vec<T>, m: usize) -> Self {
+        let n = covector.len();
+        let mut product = Self::empty();
+        product.covector = covector;
+        product.resize(n, m);
+        product
+    }
+
+    /// The covector λ, and the sums of λᵀ ∂f/∂y and λᵀ ∂f/∂p, to which an implementation adds. The lengths are n, n and m.
+    pub fn parts(&mut self) -> (&[T], &mut [T], &mut [T]) {
+        (&self.covector, &mut self.by_state, &mut self.by_parameters)
+    }
+
+    /// The sum of λᵀ ∂f/∂y, n components.
+    #[must_use]
+    pub fn by_state(&self) -> &[T] {
+        &self.by_state
+    }
+
+    /// The sum of λᵀ ∂f/∂p, m components.
+    #[must_use]
+    pub fn by_parameters(&self) -> &[T] {
+        &self.by_parameters
+    }
+
+    /// Of no components.
+    pub(super) fn empty() -> Self {
+        let [covector, by_state, by_parameters] = [const { Vec::new() }; 3];
+        let [y, p, rate] = [const { Vec::new() }; 3];
+        Self { covector, by_state, by_parameters, y, p, rate }
+    }
+
+    /// The covector, to be written.
+    pub(super) fn covector_mut(&mut self) -> &mut [T] {
+        &mut self.covector
+    }
+
+    /// Sets the sums by the state to zero.
+    pub(super) fn clear_by_state(&mut self) {
+        self.by_state.fill(T::zero());
+    }
+
+    /// Sets the sums by the parameters to zero.
+    pub(super) fn clear_by_parameters(&mut self) {
+        self.by_parameters.fill(T::zero());
     }
 
     /// Makes room for n components and m parameters.

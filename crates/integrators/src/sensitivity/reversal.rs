@@ -41,7 +41,7 @@ impl<T: Real> Reversal<T> {
     pub(super) fn new() -> Self {
         let [y, y_carry, lambda, lambda_carry, mu, mu_carry, kappa, change] = [const { Vec::new() }; 8];
         let (value, value_carry) = (T::zero(), T::zero());
-        let (stages, product) = (Stages::new(), JacobianProduct::zero(0, 0));
+        let (stages, product) = (Stages::new(), JacobianProduct::empty());
         Self { stages, y, y_carry, value, value_carry, lambda, lambda_carry, mu, mu_carry, product, kappa, change }
     }
 
@@ -54,13 +54,13 @@ impl<T: Real> Reversal<T> {
         }
         self.kappa.resize(P::END * n, T::zero());
         self.product.resize(n, m);
-        self.product.by_state.fill(T::zero());
-        self.product.by_parameters.fill(T::zero());
+        self.product.clear_by_state();
+        self.product.clear_by_parameters();
         (self.value, self.value_carry) = (objective.terminal(t, y, p), T::zero());
         self.product.add_of_scalar(y, p, T::one(), |y, p| objective.terminal(t, y, p));
         for (sum, carry, start) in [
-            (&mut self.lambda, &mut self.lambda_carry, &self.product.by_state),
-            (&mut self.mu, &mut self.mu_carry, &self.product.by_parameters),
+            (&mut self.lambda, &mut self.lambda_carry, self.product.by_state()),
+            (&mut self.mu, &mut self.mu_carry, self.product.by_parameters()),
         ] {
             sum.clear();
             sum.extend_from_slice(start);
@@ -96,14 +96,14 @@ impl<T: Real> Reversal<T> {
             add_to_row(&mut self.kappa, i, b, &self.lambda);
         }
         self.change.fill(T::zero());
-        self.product.by_parameters.fill(T::zero());
+        self.product.clear_by_parameters();
         let mut integral = T::zero();
         for index in (0..=P::ROWS.len()).rev() {
             let (number, row) = stage::<P>(index);
             let t = times.stage::<P>(number);
             let argument = self.stages.argument::<P>(index, times.length, y);
-            scaled_row(&self.kappa, number, times.length, &mut self.product.covector);
-            self.product.by_state.fill(T::zero());
+            scaled_row(&self.kappa, number, times.length, self.product.covector_mut());
+            self.product.clear_by_state();
             field
                 .vector_jacobian_product(t, argument, p, &mut self.product)
                 .map_err(|source| IntegratorsError::Field { t, source })?;
@@ -114,14 +114,14 @@ impl<T: Real> Reversal<T> {
                 objective.running_gradient(t, argument, p, weight, &mut self.product);
             }
             for &(j, a) in row {
-                add_to_row(&mut self.kappa, j, a, &self.product.by_state);
+                add_to_row(&mut self.kappa, j, a, self.product.by_state());
             }
-            add_to_row(&mut self.change, 0, 1.0, &self.product.by_state);
+            add_to_row(&mut self.change, 0, 1.0, self.product.by_state());
         }
         compensated_add(&mut self.value, &mut self.value_carry, integral);
         for (sum, carry, changes) in [
-            (&mut self.lambda, &mut self.lambda_carry, &self.change),
-            (&mut self.mu, &mut self.mu_carry, &self.product.by_parameters),
+            (&mut self.lambda, &mut self.lambda_carry, &self.change[..]),
+            (&mut self.mu, &mut self.mu_carry, self.product.by_parameters()),
         ] {
             for ((sum, carry), &change) in sum.iter_mut().zip(carry).zip(changes) {
                 compensated_add(sum, carry, change);

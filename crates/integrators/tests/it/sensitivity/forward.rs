@@ -307,3 +307,20 @@ fn repeated_runs_are_bit_identical_and_allocate_nothing() {
     assert_eq!(count, 0);
     assert_eq!((again_state, again), (state, sensitivities));
 }
+
+#[test]
+fn runs_of_ten_and_of_a_thousand_steps_allocate_alike() {
+    let allocations = [10_u32, 1000].map(|steps| {
+        let mut taken = 0;
+        let (count, ()) = allocations_in(|| {
+            let mut state = State::new(0.0, vec![1.0, 0.5]).unwrap();
+            let mut sensitivities = Sensitivities::at_start(2, 4, BOTH);
+            let mut method = ForwardSensitivity::new(fixed::<DormandPrincePair, f64>(1.0 / 1024.0));
+            let (p, end) = ([1.5, 1.0, 3.0, 1.25], f64::from(steps) / 1024.0);
+            taken = method.integrate_to(&LotkaVolterra, &p, &mut state, &mut sensitivities, end).unwrap().steps;
+        });
+        assert_eq!(taken, u64::from(steps));
+        count
+    });
+    assert_eq!(allocations[0], allocations[1]);
+}

@@ -109,11 +109,12 @@ impl ParametricField for DrivenWithProduct {
         p: &[T],
         product: &mut JacobianProduct<T>,
     ) -> Result<(), Infallible> {
-        let (first, second) = (product.covector[0], product.covector[1]);
-        product.by_state[0] -= second * y[0].cos();
-        product.by_state[1] += first - second * p[0];
-        product.by_parameters[0] -= second * y[1];
-        for (k, sum) in product.by_parameters[1..].iter_mut().enumerate() {
+        let (covector, by_state, by_parameters) = product.parts();
+        let (first, second) = (covector[0], covector[1]);
+        by_state[0] -= second * y[0].cos();
+        by_state[1] += first - second * p[0];
+        by_parameters[0] -= second * y[1];
+        for (k, sum) in by_parameters[1..].iter_mut().enumerate() {
             *sum += second * T::lit((0.125 * (k as f64 + 1.0) * t).cos());
         }
         Ok(())
