@@ -2,6 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`advice`] | such tables as the data of `piola_integrators::advise` |
 //! | [`boxes`] | static solutions on a cube: ours, other transforms, differences |
 //! | [`problems`] | initial value problems with known solutions, hand-coded as their authors' peers would |
 //! | [`peers`] | the same equations given to other crates |
@@ -15,6 +16,7 @@
 //! | [`figure`] | such a table as a figure |
 //! | [`notes`] | what a bench knows beside its time |
 
+pub mod advice;
 pub mod boxes;
 pub mod chain;
 pub mod constitutive;

@@ -1,10 +1,12 @@
 //! Error against time on eight problems, our methods and the peers': `work-precision.json` and one SVG each.
 //!
-//! Options: `--out FOLDER` (default: the current one), `--filter PROBLEM` (part of a problem's name).
+//! Options: `--out FOLDER` (default: the current one), `--filter PROBLEM` (part of a problem's name), `--table FILE` (the data
+//! of `piola_integrators::advise`).
 
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use piola_benches::advice::{self, Entry};
 use piola_benches::chain::Chain;
 use piola_benches::figure::figure;
 use piola_benches::problems::{self, Accelerations, Equations, Force, Problem};
@@ -20,29 +22,39 @@ use serde_json::Value;
 
 const COLLOCATION: [Order; 3] = [Order::Four, Order::Six, Order::Eight];
 
+/// What has been measured so far.
+struct Results {
+    folder: PathBuf,
+    records: Vec<Value>,
+    entries: Vec<Entry>,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let (mut folder, mut filter) = (PathBuf::from("."), String::new());
+    let (mut folder, mut filter, mut table) = (PathBuf::from("."), String::new(), None);
     let mut arguments = std::env::args().skip(1);
     while let Some(argument) = arguments.next() {
         let value = arguments.next().ok_or_else(|| format!("{argument} wants a value"))?;
         match argument.as_str() {
             "--out" => folder = value.into(),
             "--filter" => filter = value,
-            _ => return Err(format!("unknown option {argument}: --out FOLDER, --filter PROBLEM").into()),
+            "--table" => table = Some(PathBuf::from(value)),
+            _ => {
+                return Err(format!("unknown option {argument}: --out FOLDER, --filter PROBLEM, --table FILE").into());
+            }
         }
     }
     std::fs::create_dir_all(&folder)?;
-    let mut records = Vec::new();
+    let mut results = Results { folder, records: Vec::new(), entries: Vec::new() };
     if "double-pendulum".contains(&filter) {
-        records.extend(double_pendulum(&folder)?);
+        double_pendulum(&mut results)?;
     }
     if "henon-heiles".contains(&filter) {
         let problem = problems::henon_heiles()?;
-        records.extend(run(&problem, &separable_methods(&problem, 200.0), &folder)?);
+        run(&problem, &separable_methods(&problem, 200.0), &mut results)?;
     }
     for problem in [problems::kepler_round(), problems::kepler(), problems::kepler_long()] {
         if problem.name.contains(&filter) {
-            records.extend(run(&problem, &separable_methods(&problem, 200.0), &folder)?);
+            run(&problem, &separable_methods(&problem, 200.0), &mut results)?;
         }
     }
     if "arenstorf".contains(&filter) {
@@ -51,15 +63,16 @@ fn main() -> Result<(), Box<dyn Error>> {
             vec![dormand_prince(&problem), verner(&problem), gauss_legendre_16(&problem), gauss_radau_15(&problem)];
         methods.extend(COLLOCATION.map(|order| gauss_legendre(&problem, order, 200.0)));
         methods.extend(peer_methods(&problem));
-        records.extend(run(&problem, &methods, &folder)?);
+        run(&problem, &methods, &mut results)?;
     }
     if "pleiades".contains(&filter) {
         let problem = problems::pleiades()?;
-        records.extend(run(&problem, &separable_methods(&problem, 100.0), &folder)?);
+        run(&problem, &separable_methods(&problem, 100.0), &mut results)?;
     }
     if "outer-solar-system".contains(&filter) {
-        records.extend(outer_solar_system(&folder)?);
+        outer_solar_system(&mut results)?;
     }
+    let Results { folder, records, entries } = results;
     if records.is_empty() {
         return Err(format!(
             "no problem is called {filter}: there are double-pendulum, henon-heiles, kepler-03, kepler, \
@@ -70,10 +83,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     // One record a line: differences stay readable.
     let lines: Vec<String> = records.iter().map(Value::to_string).collect();
     std::fs::write(folder.join("work-precision.json"), format!("[\n{}\n]\n", lines.join(",\n")))?;
+    if let Some(table) = table {
+        std::fs::write(table, advice::table(&entries))?;
+    }
     Ok(())
 }
 
-fn double_pendulum(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
+fn double_pendulum(results: &mut Results) -> Result<(), Box<dyn Error>> {
     let problem = problems::double_pendulum()?;
     let pendulum = problem.equations;
     let chain = Chain::<2> { masses: pendulum.masses, lengths: pendulum.lengths };
@@ -97,10 +113,10 @@ fn double_pendulum(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
         canonical_gauss_legendre(problem.start, problem.end, || lagrangian.canonical_motion(2), back, order, 30.0)
     }));
     methods.extend(peer_methods(&problem));
-    run(&problem, &methods, folder)
+    run(&problem, &methods, results)
 }
 
-fn outer_solar_system(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
+fn outer_solar_system(results: &mut Results) -> Result<(), Box<dyn Error>> {
     let problem = problems::outer_solar_system()?;
     let gravitation = Gravitation::new(problem.equations.parameters.to_vec())?;
     let mut methods = separable_methods(&problem, 100.0);
@@ -108,7 +124,7 @@ fn outer_solar_system(folder: &Path) -> Result<Vec<Value>, Box<dyn Error>> {
     methods.insert(1, derived_dormand_prince("Gravitation", problem.start, problem.end, gravitation));
     methods.insert(2, derived_gauss_legendre_16("Gravitation", problem.start, problem.end, gravitation));
     methods.insert(3, derived_gauss_radau_15("Gravitation", problem.start, problem.end, gravitation));
-    run(&problem, &methods, folder)
+    run(&problem, &methods, results)
 }
 
 /// All methods on equations written by hand that separate.
@@ -125,15 +141,17 @@ fn separable_methods<E: Equations<D> + Force + Accelerations, const D: usize>(
     methods
 }
 
-fn run<E, const D: usize>(
+fn run<E: Equations<D>, const D: usize>(
     problem: &Problem<E, D>,
     methods: &[Method<'_>],
-    folder: &Path,
-) -> Result<Vec<Value>, Box<dyn Error>> {
+    results: &mut Results,
+) -> Result<(), Box<dyn Error>> {
     eprintln!("{}", problem.title);
     let curves: Vec<Curve> = measure(problem, methods, |complaint| eprintln!("  left out: {complaint}"));
-    let path = folder.join(format!("work-precision-{}.svg", problem.name));
+    let path = results.folder.join(format!("work-precision-{}.svg", problem.name));
     std::fs::write(&path, figure(problem.title, &curves))?;
     eprintln!("  {}", path.display());
-    Ok(curves.iter().flat_map(|curve| curve.records(problem.name)).collect())
+    results.records.extend(curves.iter().flat_map(|curve| curve.records(problem.name)));
+    results.entries.extend(advice::entry(problem, &curves));
+    Ok(())
 }

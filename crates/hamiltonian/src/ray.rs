@@ -8,7 +8,7 @@
 use core::cmp::Ordering;
 use core::ops::ControlFlow;
 
-use piola_integrators::{DenseStep, DormandPrince853, Field, State, Tolerance};
+use piola_integrators::{DenseStep, DormandPrince853, DormandPrincePair, Field, State, Tolerance};
 use piola_numerics::{Dual, Gradient, Real};
 
 use super::partial_derivatives::Slopes;
@@ -163,7 +163,7 @@ impl RayEnd {
 }
 
 /// What sees the steps of a ray.
-pub(crate) type Observed<'s, 'f, 'a, H> = &'s mut DenseStep<'f, f64, RayField<'a, H>>;
+pub(crate) type Observed<'s, 'f, 'a, H> = &'s mut DenseStep<'f, DormandPrincePair, f64, RayField<'a, H>>;
 
 /// Follows a ray from y = (q, p, S, variations); the observer sees every step.
 pub(crate) fn follow<'a, H: PhaseFunction>(

@@ -1,6 +1,7 @@
 //! What all accepted steps know: their number and their times.
 
 use crate::IntegratorsError;
+use crate::checkpoint::RunSoFar;
 
 /// An accepted step in time.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +14,8 @@ pub(crate) struct AcceptedStep {
     pub(crate) end: f64,
     /// Its length, negative where a run goes backwards, s; `end - start` but for rounding.
     pub(crate) length: f64,
+    /// What a checkpoint needs beside the state and the method.
+    pub(crate) progress: RunSoFar,
 }
 
 impl AcceptedStep {

@@ -14,6 +14,7 @@ use core::ops::ControlFlow;
 use piola_numerics::Real;
 
 use crate::accepted::AcceptedStep;
+use crate::checkpoint::{Checkpoint, RunSoFar};
 use crate::events::Stop;
 use crate::field::largest_lane;
 use crate::state::equal_steps;
@@ -156,10 +157,13 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
     state: &mut State<T>,
     end: f64,
     plan: &Plan,
+    resumed: Option<&Checkpoint<T>>,
     mut inspect: impl FnMut(&W, &State<T>, AcceptedStep) -> Result<ControlFlow<Stop>, IntegratorsError<W::Error>>,
 ) -> Result<Report, IntegratorsError<W::Error>> {
-    let (start, span) = (state.time, end - state.time);
-    let mut report = Report::begin();
+    // Equal steps are counted from the start of the whole run.
+    let start = resumed.map_or(state.time, |checkpoint| checkpoint.numbers[0]);
+    let span = end - start;
+    let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report);
     let equal = match plan.equal {
         Some(longest) => Some(equal_steps(start, end, longest)?),
         None => None,
@@ -175,8 +179,12 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
     let mut best_before = 0.0_f64;
     // When the field last could not be evaluated, and what it said.
     let mut refused: Option<(f64, W::Error)> = None;
-    if equal.is_some_and(|(count, _)| count == 0) {
+    if equal.is_some_and(|(count, _)| count <= report.steps) {
         return Ok(report);
+    }
+    if let Some(Checkpoint { numbers, .. }) = resumed {
+        h = equal.map_or(numbers[1], |(_, h)| h);
+        best_before = numbers[2];
     }
     loop {
         let remaining = end - state.time;
@@ -190,16 +198,7 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         if equal.is_none() {
             (h, last) = shared(h.clamp(-plan.longest_step, plan.longest_step), remaining);
             if h.abs() <= 2.0 * f64::EPSILON * state.time.abs() || h.abs() < f64::MIN_POSITIVE {
-                return Err(match refused {
-                    // The last refusal is the reason if it was here.
-                    Some((t, source)) if (state.time - t).abs() <= HERE * span.abs() => {
-                        IntegratorsError::Field { t: state.time, source }
-                    }
-                    _ => {
-                        let too_small = IntegratorsError::StepTooSmall { t: state.time, step: h };
-                        work.check_rates(state.time).err().unwrap_or(too_small)
-                    }
-                });
+                return Err(too_small(work, refused, state.time, h, span));
             }
         }
         work.begin_step(field, state, &mut report.evaluations)?;
@@ -241,7 +240,9 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             None if !last => state.advance_time(h),
             _ => state.set_time(end),
         }
-        let step = AcceptedStep { number: report.steps, start: from, end: state.time, length: h };
+        let (best, next) = if equal.is_none() { next_step(h, factor, best_before) } else { (h, h) };
+        let progress = RunSoFar { report, start, time_carry: state.time_carry, next, best };
+        let step = AcceptedStep { number: report.steps, start: from, end: state.time, length: h, progress };
         if let ControlFlow::Break((time, ending)) = inspect(work, state, step)? {
             if let Some(time) = time.filter(|time| time.to_bits() != state.time.to_bits()) {
                 work.state_at(step.part(time), &mut state.values);
@@ -255,12 +256,30 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             return Ok(report);
         }
         if equal.is_none() {
-            // As the best step changed, it will change.
-            let best = h.abs() * factor;
-            let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
-            best_before = best;
-            h *= (SAFETY * factor * trend).min(MOST_GROWTH);
+            (best_before, h) = (best, next);
         }
+    }
+}
+
+/// The step that would have been the best one, and the next one to try: as the best step changed, it will change.
+fn next_step(h: f64, factor: f64, best_before: f64) -> (f64, f64) {
+    let best = h.abs() * factor;
+    let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
+    (best, h * (SAFETY * factor * trend).min(MOST_GROWTH))
+}
+
+/// Why steps shrink until they no longer advance the time.
+fn too_small<T: Real, F, W: Collocation<T, F>>(
+    work: &W,
+    refused: Option<(f64, W::Error)>,
+    t: f64,
+    step: f64,
+    span: f64,
+) -> IntegratorsError<W::Error> {
+    match refused {
+        // The last refusal is the reason if it was here.
+        Some((at, source)) if (t - at).abs() <= HERE * span.abs() => IntegratorsError::Field { t, source },
+        _ => work.check_rates(t).err().unwrap_or(IntegratorsError::StepTooSmall { t, step }),
     }
 }
 

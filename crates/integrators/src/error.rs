@@ -24,7 +24,7 @@ pub enum IntegratorsError<E = Infallible> {
     /// An adaptive method returns the latter only where no shorter step avoids it.
     #[error("entry {index} of `{quantity}` is {value}{}, which is not a finite number", at(*t))]
     NotFinite {
-        /// The name of the argument, `rate`, or `state`.
+        /// The name of the argument, `rate`, `residual`, or `state`.
         quantity: &'static str,
         /// The index of the first such entry, counted from 0.
         index: usize,
@@ -33,11 +33,33 @@ pub enum IntegratorsError<E = Infallible> {
         /// The time of the last complete step where a step led to the number; none where it was given.
         t: Option<f64>,
     },
+    /// Numbers that should be an element of a Lie group are none: a quaternion whose length is not one.
+    #[error("the state is off its group by {defect:e} from entry {index} on: a quaternion there must have length one")]
+    OutsideGroup {
+        /// The index of the first number of the part that is off, counted from 0.
+        index: usize,
+        /// By how much; for a quaternion |q| − 1, to first order.
+        defect: f64,
+    },
+    /// A spectral radius at infinity that violates 0 ≤ ρ∞ ≤ 1.
+    #[error("the spectral radius at infinity {spectral_radius} must satisfy 0 ≤ ρ∞ ≤ 1")]
+    InvalidDamping {
+        /// The radius given.
+        spectral_radius: f64,
+    },
     /// A time step that violates 0 < h < ∞.
     #[error("the time step {step} must satisfy 0 < h < ∞")]
     InvalidStep {
         /// The step given.
         step: f64,
+    },
+    /// A number that must be positive.
+    #[error("`{quantity}` is {value}, which is not positive")]
+    NotPositive {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The number given.
+        value: f64,
     },
     /// A tolerance that violates 0 ≤ tolerance < 1, or both tolerances zero.
     #[error(
@@ -135,6 +157,9 @@ impl IntegratorsError<Infallible> {
                 IntegratorsError::WrongLength { quantity, expected, found }
             }
             Self::NotFinite { quantity, index, value, t } => IntegratorsError::NotFinite { quantity, index, value, t },
+            Self::OutsideGroup { index, defect } => IntegratorsError::OutsideGroup { index, defect },
+            Self::InvalidDamping { spectral_radius } => IntegratorsError::InvalidDamping { spectral_radius },
+            Self::NotPositive { quantity, value } => IntegratorsError::NotPositive { quantity, value },
             Self::InvalidStep { step } => IntegratorsError::InvalidStep { step },
             Self::InvalidTolerance { relative, absolute } => IntegratorsError::InvalidTolerance { relative, absolute },
             Self::Field { source, .. } => match source {},

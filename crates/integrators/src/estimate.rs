@@ -62,9 +62,9 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
         let mut finer_state = state.clone();
         let run = self.integrate_to(field, state, end)?;
         let finer = self.tolerance().times(FINER_EIGHT).map_err(IntegratorsError::with_field_error)?;
-        let coarse = core::mem::replace(self.tolerance_mut(), finer);
+        let coarse = core::mem::replace(&mut self.tolerance, finer);
         let finer_run = self.integrate_to(field, &mut finer_state, end);
-        *self.tolerance_mut() = coarse;
+        self.tolerance = coarse;
         Ok(ErrorEstimate { errors: differences(state, &finer_state), run, finer_run: finer_run? })
     }
 }
@@ -84,9 +84,9 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         let mut finer_state = state.clone();
         let run = self.integrate_to(field, state, end)?;
         let finer = self.tolerance().times(FINER_EIGHT).map_err(IntegratorsError::with_field_error)?;
-        let coarse = core::mem::replace(self.tolerance_mut(), finer);
+        let coarse = core::mem::replace(&mut self.tolerance, finer);
         let finer_run = self.integrate_to(field, &mut finer_state, end);
-        *self.tolerance_mut() = coarse;
+        self.tolerance = coarse;
         Ok(ErrorEstimate { errors: differences(state, &finer_state), run, finer_run: finer_run? })
     }
 }

@@ -4,6 +4,8 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod accepted;
+mod advice;
+mod checkpoint;
 mod collocation;
 mod composition;
 mod discrete_gradient;
@@ -18,6 +20,7 @@ mod gauss_legendre;
 mod gauss_legendre_16;
 mod gauss_radau_15;
 mod legendre;
+mod lie_group;
 mod lobatto_pair;
 mod newton;
 mod nystrom;
@@ -31,6 +34,8 @@ mod verner;
 
 mod variational;
 
+pub use advice::{Advice, AdvisedMethod, Character, advise};
+pub use checkpoint::Checkpoint;
 pub use composition::{Composition, Order};
 pub use discrete_gradient::{DiscreteGradient, EnergySystem};
 pub use dormand_prince::{DormandPrince853, DormandPrincePair};
@@ -42,6 +47,10 @@ pub use field::{Field, FunctionField, Separable, SizedField, field, separable, s
 pub use gauss_legendre::GaussLegendre;
 pub use gauss_legendre_16::{CollocationStep, GaussLegendre16};
 pub use gauss_radau_15::{GaussRadau15, GaussRadauStep};
+pub use lie_group::{
+    AdaptiveMuntheKaas, CommutatorFree, DirectPower, DirectProduct, FunctionGroupField, GeneralisedAlpha, GroupField,
+    GroupMotion, LieGroup, MuntheKaas, RigidMotions, Rotations, Translations, group_field,
+};
 pub use lobatto_pair::LobattoPair;
 pub use nystrom::{Nystrom, Nystrom86, Nystrom1210, NystromPair, NystromPair86, NystromPair1210, NystromStep};
 pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};

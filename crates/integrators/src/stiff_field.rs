@@ -70,7 +70,7 @@ macro_rules! delegate_field {
 }
 
 /// The directions in which a field is differentiated at once.
-const DIRECTIONS: usize = 4;
+pub(crate) const DIRECTIONS: usize = 4;
 
 /// Numbers with derivatives in four directions, over which [`ExactJacobian`] evaluates a field.
 pub type Differentiable = Gradient<f64, DIRECTIONS>;

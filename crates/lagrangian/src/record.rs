@@ -2,7 +2,7 @@
 
 use core::ops::{ControlFlow, Range};
 
-use piola_integrators::{DormandPrince853, Ending, Field, IntegratorsError, Report, State, Tolerance};
+use piola_integrators::{DormandPrince853, Field, IntegratorsError, Report, State, Tolerance};
 
 use super::run::Run;
 use crate::LagrangianError;

@@ -73,7 +73,7 @@ impl Course {
             return Err(IntegratorsError::NotFinite { quantity, index: 0, value, t: None });
         }
         let (count, h) = equal_steps(start, end, self.step)?;
-        let mut report = Report { steps: 0, rejected: 0, evaluations: 0, ending: Ending::Reached };
+        let mut report = Report::begin();
         if count == 0 {
             return Ok(report);
         }

@@ -5,7 +5,7 @@ use piola_numerics::Real;
 use super::runge_kutta::{Rows, evaluate};
 use super::{Dense, RungeKutta, RungeKuttaPair, combine, row, row_mut};
 use crate::accepted::{AcceptedStep, number_and_times};
-use crate::{Field, IntegratorsError};
+use crate::{Checkpoint, Field, IntegratorsError};
 
 /// An accepted step, with the state at any time within it.
 ///
@@ -39,6 +39,13 @@ impl<'a, P: RungeKuttaPair, T: Real, F: Field<T>> DenseStep<'a, P, T, F> {
     }
     pub(crate) fn row(&self, number: usize) -> &[T] {
         row(&self.method.memory, P::STAGES + number, self.method.components)
+    }
+
+    /// The run at the end of this step, to be written down and continued. Evaluations made for dense output of this step are
+    /// not counted.
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint<T> {
+        self.method.checkpoint(self.step.end, &self.step.progress)
     }
 
     /// Writes the state at a time within the step to `out`.

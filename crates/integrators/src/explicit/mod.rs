@@ -23,6 +23,7 @@ pub use self::runge_kutta::Coefficients;
 pub(crate) use self::runge_kutta::{Rows, Weights};
 pub use self::runge_kutta::{RungeKutta, RungeKuttaPair};
 use crate::accepted::AcceptedStep;
+use crate::checkpoint::{Checkpoint, RunSoFar};
 use crate::events::Stop;
 use crate::{Ending, IntegratorsError, Report, State};
 
@@ -58,12 +59,14 @@ pub(crate) trait EmbeddedPair<T: Real, F> {
     /// What the user allows.
     fn limits(&self) -> Limits;
 
-    /// Checks the state, makes the first rate, and returns the first step to try.
+    /// Checks the state, makes the first rate, and returns the first step to try. A run that is resumed takes the rate from the
+    /// checkpoint.
     fn begin(
         &mut self,
         field: &mut F,
         state: &mut State<T>,
         end: f64,
+        resumed: Option<&Checkpoint<T>>,
         report: &mut Report,
     ) -> Result<f64, IntegratorsError<Self::Error>>;
 
@@ -128,6 +131,7 @@ pub(crate) fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
     field: &mut F,
     state: &mut State<T>,
     end: f64,
+    resumed: Option<&Checkpoint<T>>,
     inspect: &mut impl FnMut(
         &mut P,
         &mut F,
@@ -136,10 +140,10 @@ pub(crate) fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
         &mut Report,
     ) -> Result<ControlFlow<Ending>, IntegratorsError<P::Error>>,
 ) -> Result<Report, IntegratorsError<P::Error>> {
-    let mut report = Report::begin();
+    let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report);
+    let mut step = pair.begin(field, state, end, resumed, &mut report)?;
     let span = end - state.time;
     let direction = span.signum();
-    let mut step = pair.begin(field, state, end, &mut report)?;
     if span.abs() <= 0.0 {
         return Ok(report);
     }
@@ -193,7 +197,8 @@ pub(crate) fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
             state.advance_time(h);
         }
         report.steps += 1;
-        let accepted = AcceptedStep { number: report.steps, start: start_time, end: state.time, length: h };
+        let progress = RunSoFar { report, time_carry: state.time_carry, start: start_time, next: step, best: step };
+        let accepted = AcceptedStep { number: report.steps, start: start_time, end: state.time, length: h, progress };
         if let ControlFlow::Break(ending) = inspect(pair, field, state, accepted, &mut report)? {
             report.ending = ending;
             return Ok(report);
@@ -238,10 +243,6 @@ macro_rules! limits_of_steps {
         #[must_use]
         pub const fn tolerance(&self) -> Tolerance {
             self.tolerance
-        }
-
-        pub(crate) const fn tolerance_mut(&mut self) -> &mut Tolerance {
-            &mut self.tolerance
         }
     };
 }

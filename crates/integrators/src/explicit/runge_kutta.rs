@@ -7,6 +7,7 @@ use core::ops::ControlFlow;
 use piola_numerics::Real;
 
 use super::{DenseStep, EmbeddedPair, Guess, Limits, combine, limits_of_steps, row, row_mut, weighted_sums};
+use crate::checkpoint::{Checkpoint, RunSoFar};
 use crate::events::{Stop, stopped_by};
 use crate::explicit::{follow, settle};
 use crate::field::{check_field, largest_lane};
@@ -60,7 +61,7 @@ pub trait Coefficients: Copy + core::fmt::Debug {
 /// that the problem's sensitivity sets. The state and the time are summed with compensation.
 #[derive(Clone, Debug)]
 pub struct RungeKutta<P, T = f64> {
-    pub(super) tolerance: Tolerance,
+    pub(crate) tolerance: Tolerance,
     pub(super) limits: Limits,
     /// Rows of one state each: the stages, then those of `Rows`.
     pub(super) memory: Vec<T>,
@@ -129,7 +130,23 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
         end: f64,
         mut observer: impl FnMut(&mut DenseStep<'_, P, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, state, end, &mut |step| Ok(stopped_by(observer(step))))
+        self.run(field, state, end, None, &mut |step| Ok(stopped_by(observer(step))))
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        mut observer: impl FnMut(&mut DenseStep<'_, P, T, F>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.run(field, state, end, Some(checkpoint), &mut |step| Ok(stopped_by(observer(step))))
     }
 
     /// Runs to `end`. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end
@@ -139,9 +156,10 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
+        resumed: Option<&Checkpoint<T>>,
         inspect: &mut impl FnMut(&mut DenseStep<'_, P, T, F>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        follow(self, field, state, end, &mut |method, field, state, step, report| {
+        follow(self, field, state, end, resumed, &mut |method, field, state, step, report| {
             let mut dense = DenseStep::new(method, field, step);
             let verdict = inspect(&mut dense);
             settle(verdict, &mut dense, state, report)
@@ -161,11 +179,15 @@ impl<P: RungeKuttaPair, T: Real, F: Field<T>> EmbeddedPair<T, F> for RungeKutta<
         field: &mut F,
         state: &mut State<T>,
         end: f64,
+        resumed: Option<&Checkpoint<T>>,
         report: &mut Report,
     ) -> Result<f64, IntegratorsError<F::Error>> {
         check_field::<T, F>(field)?;
-        check_run(field.dimension(), state, end)?;
-        let n = state.values.len();
+        let n = field.dimension();
+        if let Some(checkpoint) = resumed {
+            checkpoint.open(state, n, n + 1)?;
+        }
+        check_run(n, state, end)?;
         self.components = n;
         self.memory.resize(Self::count() * n, T::zero());
         self.magnitudes.resize(n, 0.0);
@@ -176,6 +198,11 @@ impl<P: RungeKuttaPair, T: Real, F: Field<T>> EmbeddedPair<T, F> for RungeKutta<
         }
         let (stages, rest) = self.memory.split_at_mut(P::STAGES * n);
         let (rate, others) = stages.split_at_mut(n);
+        if let Some(Checkpoint { memory, numbers, .. }) = resumed {
+            rate.copy_from_slice(memory);
+            self.magnitudes.copy_from_slice(&numbers[1..]);
+            return Ok(numbers[0]);
+        }
         evaluate(field, state.time, &state.values, rate)?;
         report.evaluations += 1;
         check_finite("rate", Some(state.time), rate)?;
@@ -279,6 +306,19 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
     /// Rows of the memory.
     const fn count() -> usize {
         P::STAGES + Rows::INTERPOLANT + P::INTERPOLANT
+    }
+
+    /// The run at the end of the step that was accepted.
+    pub(super) fn checkpoint(&self, time: f64, progress: &RunSoFar) -> Checkpoint<T> {
+        let (n, RunSoFar { report, time_carry, next, .. }) = (self.components, *progress);
+        let ends = &self.memory[P::STAGES * n..];
+        let (values, carry) = (row(ends, Rows::TRIAL, n).to_vec(), row(ends, Rows::TRIAL + 1, n).to_vec());
+        Checkpoint {
+            state: State { time, values, carry, time_carry },
+            report,
+            memory: row(&self.memory, P::END, n).to_vec(),
+            numbers: core::iter::once(&next).chain(&self.magnitudes_at_end).copied().collect(),
+        }
     }
 
     /// Whether the step that is about to be accepted is near the limit of stability: see [`Report::was_stiff`].

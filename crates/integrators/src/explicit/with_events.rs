@@ -55,7 +55,7 @@ impl<P: RungeKuttaPair> RungeKutta<P, f64> {
         check_run(field.dimension(), state, end)?;
         let mut values = state.values.clone();
         begin(events, state)?;
-        self.run(field, state, end, &mut |step| {
+        self.run(field, state, end, None, &mut |step| {
             if !events.is_empty()
                 && let Some(stop) = locate(step, events, &mut values, &mut on_event)?
             {

@@ -4,7 +4,7 @@ use super::stages::Workspace;
 use super::tableau::LEGENDRE;
 use crate::accepted::{AcceptedStep, number_and_times};
 use crate::legendre::integrals;
-use crate::{IntegratorsError, State};
+use crate::{Checkpoint, IntegratorsError, State};
 
 /// An accepted step of [`GaussLegendre16`](super::GaussLegendre16), with the state at any time within it.
 ///
@@ -17,13 +17,13 @@ use crate::{IntegratorsError, State};
 #[derive(Debug)]
 pub struct CollocationStep<'a> {
     work: &'a Workspace,
-    values: &'a [f64],
+    state: &'a State,
     step: AcceptedStep,
 }
 
 impl<'a> CollocationStep<'a> {
     pub(super) fn new(work: &'a Workspace, state: &'a State, step: AcceptedStep) -> Self {
-        Self { work, values: &state.values, step }
+        Self { work, state, step }
     }
 
     number_and_times!();
@@ -35,8 +35,16 @@ impl<'a> CollocationStep<'a> {
     }
     /// The state (q, v) at its end.
     #[must_use]
-    pub const fn values(&self) -> &[f64] {
-        self.values
+    pub fn values(&self) -> &[f64] {
+        &self.state.values
+    }
+
+    /// The run at the end of this step, to be written down and continued.
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint {
+        let (memory, numbers) = self.work.saved();
+        let State { values, carry, .. } = self.state;
+        self.step.progress.checkpoint(self.step.end, values, carry, memory, numbers)
     }
 
     /// Writes the state (q, v) at a time within the step to `out`.
@@ -48,9 +56,9 @@ impl<'a> CollocationStep<'a> {
     /// # Errors
     /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::WrongLength`].
     pub fn at(&self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError> {
-        self.step.check(t, self.values.len(), out.len())?;
+        self.step.check(t, self.state.values.len(), out.len())?;
         if self.step.is_end(t) {
-            out.copy_from_slice(self.values);
+            out.copy_from_slice(&self.state.values);
         } else {
             self.work.state_between(self.step.part(t), out);
         }

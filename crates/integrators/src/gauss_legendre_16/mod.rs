@@ -38,7 +38,7 @@ use self::tableau::Stages;
 use crate::collocation::{Control, Plan, follow};
 use crate::events::stopped_by;
 use crate::state::{check_run, check_step};
-use crate::{IntegratorsError, Report, SecondOrder, State, Tolerance};
+use crate::{Checkpoint, IntegratorsError, Report, SecondOrder, State, Tolerance};
 
 /// Gauss–Legendre collocation of order 16 for q̈ = f(t, q, q̇), with steps that adapt or with a fixed one.
 ///
@@ -153,7 +153,23 @@ impl GaussLegendre16 {
         end: f64,
         observer: impl FnMut(&CollocationStep<'_>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        dispatch(Run { method: self, field, state, end, observer })
+        dispatch(Run { method: self, field, state, end, resumed: None, observer })
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<F: SecondOrder<Stages>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint,
+        state: &mut State,
+        end: f64,
+        observer: impl FnMut(&CollocationStep<'_>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        dispatch(Run { method: self, field, state, end, resumed: Some(checkpoint), observer })
     }
 }
 
@@ -163,6 +179,7 @@ struct Run<'a, F, O> {
     field: &'a mut F,
     state: &'a mut State,
     end: f64,
+    resumed: Option<&'a Checkpoint>,
     observer: O,
 }
 
@@ -171,10 +188,14 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
-        let Run { method, field, state, end, mut observer } = self;
+        let Run { method, field, state, end, resumed, mut observer } = self;
         let n = field.freedom();
-        check_run(2 * n, state, end)?;
         method.work.begin(n);
+        if let Some(checkpoint) = resumed {
+            checkpoint.open(state, 8 * n, 5)?;
+            method.work.restore(&checkpoint.memory, [checkpoint.numbers[3], checkpoint.numbers[4]]);
+        }
+        check_run(2 * n, state, end)?;
         let (tolerance, equal) = match method.control {
             Control::Adaptive(tolerance) => (tolerance, None),
             Control::Fixed(longest) => (ROUNDING, Some(longest)),
@@ -189,7 +210,7 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
             tolerance,
             rejected: REJECTED,
         };
-        follow(&mut method.work, field, state, end, &plan, |work, state, step| {
+        follow(&mut method.work, field, state, end, &plan, resumed, |work, state, step| {
             Ok(stopped_by(observer(&CollocationStep::new(work, state, step))))
         })
     }

@@ -125,6 +125,19 @@ impl Workspace {
         self.previous_step = 0.0;
         self.expected = 0.1;
     }
+
+    /// The polynomial of the last step, its length, and the contraction that is expected, for a checkpoint.
+    pub(super) fn saved(&self) -> (Vec<f64>, [f64; 2]) {
+        (self.previous.iter().flat_map(|stages| stages.0).collect(), [self.previous_step, self.expected])
+    }
+
+    /// The same from a checkpoint.
+    pub(super) fn restore(&mut self, memory: &[f64], [previous_step, expected]: [f64; 2]) {
+        for (stages, saved) in self.previous.iter_mut().zip(memory.as_chunks::<8>().0) {
+            *stages = Lanes(*saved);
+        }
+        (self.previous_step, self.expected) = (previous_step, expected);
+    }
 }
 
 impl<F: SecondOrder<Stages>> Collocation<f64, F> for Workspace {

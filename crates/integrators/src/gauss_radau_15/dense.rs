@@ -5,7 +5,7 @@ use piola_numerics::Real;
 use super::stages::Workspace;
 use crate::accepted::{AcceptedStep, number_and_times};
 use crate::events::Interpolated;
-use crate::{IntegratorsError, State};
+use crate::{Checkpoint, IntegratorsError, State};
 
 /// An accepted step of [`GaussRadau15`](super::GaussRadau15), with the state at any time within it.
 ///
@@ -18,13 +18,13 @@ use crate::{IntegratorsError, State};
 #[derive(Debug)]
 pub struct GaussRadauStep<'a, T = f64> {
     work: &'a Workspace<T>,
-    values: &'a [T],
+    state: &'a State<T>,
     step: AcceptedStep,
 }
 
 impl<'a, T: Real> GaussRadauStep<'a, T> {
     pub(super) fn new(work: &'a Workspace<T>, state: &'a State<T>, step: AcceptedStep) -> Self {
-        Self { work, values: &state.values, step }
+        Self { work, state, step }
     }
 
     number_and_times!();
@@ -36,8 +36,16 @@ impl<'a, T: Real> GaussRadauStep<'a, T> {
     }
     /// The state (q, v) at its end.
     #[must_use]
-    pub const fn values(&self) -> &[T] {
-        self.values
+    pub fn values(&self) -> &[T] {
+        &self.state.values
+    }
+
+    /// The run at the end of this step, to be written down and continued.
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint<T> {
+        let (memory, numbers) = self.work.saved();
+        let State { values, carry, .. } = self.state;
+        self.step.progress.checkpoint(self.step.end, values, carry, memory, numbers)
     }
 
     /// Writes the state (q, v) at a time within the step to `out`.
@@ -51,9 +59,9 @@ impl<'a, T: Real> GaussRadauStep<'a, T> {
     /// # Errors
     /// [`IntegratorsError::OutsideStep`]: dense output never extrapolates. [`IntegratorsError::WrongLength`].
     pub fn at(&self, t: f64, out: &mut [T]) -> Result<(), IntegratorsError> {
-        self.step.check(t, self.values.len(), out.len())?;
+        self.step.check(t, self.state.values.len(), out.len())?;
         if self.step.is_end(t) {
-            out.copy_from_slice(self.values);
+            out.copy_from_slice(&self.state.values);
         } else {
             self.work.state_between(self.step.part(t), out);
         }

@@ -45,7 +45,7 @@ use self::stages::Workspace;
 use crate::collocation::{Control, Plan, follow};
 use crate::events::{Stop, begin, locate, stopped_by};
 use crate::state::{check_longest, check_run, check_step};
-use crate::{Event, IntegratorsError, Occurrence, Report, SecondOrder, State, Tolerance};
+use crate::{Checkpoint, Event, IntegratorsError, Occurrence, Report, SecondOrder, State, Tolerance};
 
 /// Gauss–Radau collocation of order 15 for q̈ = f(t, q, q̇), with steps that adapt, to rounding if nothing else is said.
 ///
@@ -227,7 +227,24 @@ impl<T: Real> GaussRadau15<T> {
         mut observer: impl FnMut(&GaussRadauStep<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         let inspect = |step: &mut GaussRadauStep<'_, T>| Ok(stopped_by(observer(step)));
-        dispatch(Run { method: self, field, state, end, inspect })
+        dispatch(Run { method: self, field, state, end, resumed: None, inspect })
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<F: SecondOrder<T>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        mut observer: impl FnMut(&GaussRadauStep<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        let inspect = |step: &mut GaussRadauStep<'_, T>| Ok(stopped_by(observer(step)));
+        dispatch(Run { method: self, field, state, end, resumed: Some(checkpoint), inspect })
     }
 }
 
@@ -257,7 +274,7 @@ impl GaussRadau15<f64> {
             Some(stop) => Ok(ControlFlow::Break(stop)),
             None => Ok(stopped_by(observer(step))),
         };
-        dispatch(Run { method: self, field, state, end, inspect })
+        dispatch(Run { method: self, field, state, end, resumed: None, inspect })
     }
 }
 
@@ -270,6 +287,7 @@ struct Run<'a, T, F, I> {
     field: &'a mut F,
     state: &'a mut State<T>,
     end: f64,
+    resumed: Option<&'a Checkpoint<T>>,
     inspect: I,
 }
 
@@ -281,11 +299,15 @@ where
 
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) -> Self::Output {
-        let Run { method, field, state, end, mut inspect } = self;
+        let Run { method, field, state, end, resumed, mut inspect } = self;
         let n = field.freedom();
-        check_run(2 * n, state, end)?;
         let work = &mut method.work;
         work.begin(n);
+        if let Some(checkpoint) = resumed {
+            checkpoint.open(state, 8 * n, 5)?;
+            work.restore(&checkpoint.memory, [checkpoint.numbers[3], checkpoint.numbers[4]]);
+        }
+        check_run(2 * n, state, end)?;
         let (aim, equal) = match method.control {
             Control::Adaptive(epsilon) => (epsilon.max(work.smallest_ratio()), None),
             Control::Fixed(longest) => (0.0, Some(longest)),
@@ -299,6 +321,8 @@ where
             tolerance: aim.powf(1.0 / POWER),
             rejected: REJECTED,
         };
-        follow(work, field, state, end, &plan, |work, state, step| inspect(&mut GaussRadauStep::new(work, state, step)))
+        follow(work, field, state, end, &plan, resumed, |work, state, step| {
+            inspect(&mut GaussRadauStep::new(work, state, step))
+        })
     }
 }

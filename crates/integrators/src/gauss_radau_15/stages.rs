@@ -117,6 +117,19 @@ impl<T: Real> Workspace<T> {
         self.begun = false;
     }
 
+    /// The polynomial of the last step, its length, and the contraction that is expected, for a checkpoint.
+    pub(super) fn saved(&self) -> (Vec<T>, [f64; 2]) {
+        (self.last.iter().flatten().copied().collect(), [self.previous_step, self.expected])
+    }
+
+    /// The same from a checkpoint.
+    pub(super) fn restore(&mut self, memory: &[T], [previous_step, expected]: [f64; 2]) {
+        for (last, saved) in self.last.iter_mut().zip(memory.as_chunks::<8>().0) {
+            *last = *saved;
+        }
+        (self.previous_step, self.expected) = (previous_step, expected);
+    }
+
     /// The ratio |b₆|/|a| that rounding alone can make.
     pub(super) fn smallest_ratio(&self) -> f64 {
         self.rounding * self.tables.last.iter().map(|x| x.primal(0).abs()).sum::<f64>()

@@ -10,9 +10,10 @@ use piola_numerics::Real;
 use super::stages::evaluate;
 use super::{Nystrom, NystromPair, Rows};
 use crate::accepted::{AcceptedStep, number_and_times};
+use crate::checkpoint::{Checkpoint, RunSoFar};
 use crate::explicit::{Dense, row};
 use crate::legendre::integrals;
-use crate::{IntegratorsError, SecondOrder};
+use crate::{IntegratorsError, SecondOrder, State};
 
 /// The places ±x of one layer beside the ends, and the matrices that make coefficients of half the sums and half the
 /// differences of accelerations at x = 1 and at these places.
@@ -78,6 +79,25 @@ impl<'a, P: NystromPair, T: Real, F: SecondOrder<T>> NystromStep<'a, P, T, F> {
     fn rows(&self, first: usize, count: usize) -> &[T] {
         let n = self.method.freedom;
         &self.method.memory[(P::STAGES + first) * n..][..count * n]
+    }
+
+    /// The run at the end of this step, to be written down and continued. Evaluations made for dense output of this step are
+    /// not counted.
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint<T> {
+        let (n, RunSoFar { report, time_carry, next, .. }) = (self.method.freedom, self.step.progress);
+        let [q, v] = self.method.magnitudes_at_end;
+        Checkpoint {
+            state: State {
+                time: self.step.end,
+                values: self.values().to_vec(),
+                carry: self.rows(Rows::TRIAL + 2, 2).to_vec(),
+                time_carry,
+            },
+            report,
+            memory: row(&self.method.memory, P::END, n).to_vec(),
+            numbers: vec![next, q, v],
+        }
     }
 
     /// Writes the state (q, v) at a time within the step to `out`.

@@ -30,6 +30,7 @@ use core::ops::ControlFlow;
 use piola_numerics::Real;
 
 pub use self::dense::NystromStep;
+use crate::checkpoint::Checkpoint;
 use crate::events::{Stop, stopped_by};
 use crate::explicit::{Limits, Weights, follow, limits_of_steps, settle};
 use crate::{IntegratorsError, Report, SecondOrder, State, Tolerance};
@@ -90,7 +91,7 @@ pub trait Coefficients: Copy + core::fmt::Debug {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Nystrom<P, T = f64> {
-    tolerance: Tolerance,
+    pub(crate) tolerance: Tolerance,
     limits: Limits,
     /// Rows of one acceleration each: the stages, then those of `Rows`.
     memory: Vec<T>,
@@ -262,7 +263,23 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         end: f64,
         mut observer: impl FnMut(&mut NystromStep<'_, P, T, F>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.run(field, state, end, &mut |step| Ok(stopped_by(observer(step))))
+        self.run(field, state, end, None, &mut |step| Ok(stopped_by(observer(step))))
+    }
+
+    /// Continues a run from a [`Checkpoint`] that this method made with the same settings: the state becomes that of the
+    /// checkpoint. To the same end the run takes the same steps, to the last bit.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate); [`IntegratorsError::WrongLength`] for a checkpoint of another method or system.
+    pub fn resume<F: SecondOrder<T>>(
+        &mut self,
+        field: &mut F,
+        checkpoint: &Checkpoint<T>,
+        state: &mut State<T>,
+        end: f64,
+        mut observer: impl FnMut(&mut NystromStep<'_, P, T, F>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.run(field, state, end, Some(checkpoint), &mut |step| Ok(stopped_by(observer(step))))
     }
 
     /// Runs to `end`. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end
@@ -272,10 +289,11 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
         field: &mut F,
         state: &mut State<T>,
         end: f64,
+        resumed: Option<&Checkpoint<T>>,
         inspect: &mut impl FnMut(&mut NystromStep<'_, P, T, F>) -> Result<ControlFlow<Stop>, IntegratorsError<F::Error>>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         const { assert!(!F::VELOCITY_DEPENDENT, "a Nyström pair is for accelerations that do not depend on velocities") };
-        follow(self, field, state, end, &mut |method, field, state, step, report| {
+        follow(self, field, state, end, resumed, &mut |method, field, state, step, report| {
             let mut dense = NystromStep::new(method, field, step);
             let verdict = inspect(&mut dense);
             settle(verdict, &mut dense, state, report)

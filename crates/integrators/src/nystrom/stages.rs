@@ -3,6 +3,7 @@
 use piola_numerics::Real;
 
 use super::{Nystrom, NystromPair, Rows};
+use crate::checkpoint::Checkpoint;
 use crate::explicit::{EmbeddedPair, Guess, Limits, combine, row, row_mut, weighted_sums};
 use crate::field::largest_lane;
 use crate::second_order::check_freedom;
@@ -117,10 +118,14 @@ impl<P: NystromPair, T: Real, F: SecondOrder<T>> EmbeddedPair<T, F> for Nystrom<
         field: &mut F,
         state: &mut State<T>,
         end: f64,
+        resumed: Option<&Checkpoint<T>>,
         report: &mut Report,
     ) -> Result<f64, IntegratorsError<F::Error>> {
         check_freedom::<T, F>(field)?;
         let n = field.freedom();
+        if let Some(checkpoint) = resumed {
+            checkpoint.open(state, n, 3)?;
+        }
         check_run(2 * n, state, end)?;
         self.freedom = n;
         self.memory.resize((P::STAGES + Rows::COUNT) * n, T::zero());
@@ -130,6 +135,11 @@ impl<P: NystromPair, T: Real, F: SecondOrder<T>> EmbeddedPair<T, F> for Nystrom<
             return Ok(0.0);
         }
         let first = &mut self.memory[..n];
+        if let Some(Checkpoint { memory, numbers, .. }) = resumed {
+            first.copy_from_slice(memory);
+            self.magnitudes = [numbers[1], numbers[2]];
+            return Ok(numbers[0]);
+        }
         evaluate(field, state.time, &state.values[..n], first)?;
         report.evaluations += 1;
         check_finite("rate", Some(state.time), first)?;

@@ -34,7 +34,7 @@ impl<P: NystromPair> Nystrom<P, f64> {
         check_run(2 * field.freedom(), state, end)?;
         let mut values = state.values.clone();
         begin(events, state)?;
-        self.run(field, state, end, &mut |step| {
+        self.run(field, state, end, None, &mut |step| {
             if !events.is_empty()
                 && let Some(stop) = locate(step, events, &mut values, &mut on_event)?
             {

@@ -84,7 +84,8 @@ impl RadauIia {
                 None if !last => state.advance_time(h),
                 _ => state.set_time(end),
             }
-            let step = AcceptedStep { number: report.run.steps, start, end: state.time, length: h };
+            let so_far = crate::checkpoint::RunSoFar::unknown();
+            let step = AcceptedStep { number: report.run.steps, start, end: state.time, length: h, progress: so_far };
             let mut seen = RadauIiaStep::new(&self.work, order, step);
             if let ControlFlow::Break((time, ending)) = inspect(&mut seen)? {
                 report.run.ending = ending;

@@ -1,6 +1,8 @@
 //! Tests of the integrators: one binary, one module for each kind of evidence.
 
+mod advice;
 mod alloc;
+mod checkpoints;
 mod coefficients;
 mod collocation;
 mod dense;
@@ -11,6 +13,7 @@ mod first_step;
 mod gauss_16;
 mod golden;
 mod laws;
+mod lie_group;
 mod lobatto_pair;
 mod orders;
 mod pairs;

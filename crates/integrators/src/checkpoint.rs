@@ -1,0 +1,116 @@
+//! A run at one of its accepted steps, to be written down and continued.
+
+use piola_numerics::Real;
+
+use crate::state::check_finite;
+use crate::{IntegratorsError, Report, State};
+
+/// A run at the end of an accepted step. Continued by the `resume` of the same method with the same settings, to the same end,
+/// the run takes the same steps, to the last bit.
+///
+/// # Example
+/// ```
+/// use core::ops::ControlFlow;
+/// use piola_integrators::{Checkpoint, State, Tolerance, Verner98, field};
+/// let mut pendulum = field(2, |_t, y: &[f64], rate: &mut [f64]| rate.copy_from_slice(&[y[1], -y[0].sin()]));
+/// let start = State::new(0.0, vec![1.0, 0.0])?;
+/// let mut method = Verner98::new(Tolerance::relative(1e-9)?);
+/// // A run, and what it was after its fifth step: with the feature `serde`, this can be written to a file.
+/// let (mut whole, mut kept) = (start.clone(), None);
+/// method.integrate(&mut pendulum, &mut whole, 20.0, |step| {
+///     if step.number() == 5 {
+///         kept = Some(step.checkpoint());
+///     }
+///     ControlFlow::Continue(())
+/// })?;
+/// let kept: Checkpoint = kept.expect("more than five steps");
+/// let mut continued = kept.state().clone();
+/// Verner98::new(Tolerance::relative(1e-9)?)
+///     .resume(&mut pendulum, &kept, &mut continued, 20.0, |_step| ControlFlow::Continue(()))?;
+/// assert_eq!(continued, whole);
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
+/// ```
+#[doc(alias("restart", "snapshot"))]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "T: Real + serde::Serialize", deserialize = "T: Real + serde::Deserialize<'de>"))
+)]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Checkpoint<T = f64> {
+    pub(crate) state: State<T>,
+    pub(crate) report: Report,
+    /// What the method knows of the run beside the state: stages or polynomials.
+    pub(crate) memory: Vec<T>,
+    /// The same, numbers: lengths of steps, magnitudes.
+    pub(crate) numbers: Vec<f64>,
+}
+
+impl<T: Real> Checkpoint<T> {
+    /// The state.
+    #[must_use]
+    pub const fn state(&self) -> &State<T> {
+        &self.state
+    }
+    /// What the run has cost so far.
+    #[must_use]
+    pub const fn report(&self) -> Report {
+        self.report
+    }
+
+    /// Refuses a checkpoint of another method or of another size, and one that is not finite; the state becomes its state.
+    pub(crate) fn open<E>(
+        &self,
+        state: &mut State<T>,
+        memory: usize,
+        numbers: usize,
+    ) -> Result<(), IntegratorsError<E>> {
+        for (quantity, expected, found) in
+            [("checkpoint.memory", memory, self.memory.len()), ("checkpoint.numbers", numbers, self.numbers.len())]
+        {
+            if expected != found {
+                return Err(IntegratorsError::WrongLength { quantity, expected, found });
+            }
+        }
+        check_finite("checkpoint.memory", None, &self.memory)?;
+        check_finite("checkpoint.numbers", None, &self.numbers)?;
+        state.clone_from(&self.state);
+        Ok(())
+    }
+}
+
+/// What the loop over the steps knows of a run when a step is accepted, beside state and method.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RunSoFar {
+    pub(crate) report: Report,
+    pub(crate) time_carry: f64,
+    /// When the whole run started, s.
+    pub(crate) start: f64,
+    /// The next step to try, s.
+    pub(crate) next: f64,
+    /// The step that would have been the best one, s.
+    pub(crate) best: f64,
+}
+
+impl RunSoFar {
+    /// Of a method that makes no checkpoints.
+    pub(crate) const fn unknown() -> Self {
+        Self { report: Report::begin(), time_carry: 0.0, start: 0.0, next: 0.0, best: 0.0 }
+    }
+
+    /// The checkpoint of a collocation method at the end of a step: its numbers are the start of the run, the next step, the
+    /// best one, the last one, and the contraction that is expected.
+    pub(crate) fn checkpoint<T: Real>(
+        &self,
+        time: f64,
+        values: &[T],
+        carry: &[T],
+        memory: Vec<T>,
+        [previous_step, expected]: [f64; 2],
+    ) -> Checkpoint<T> {
+        let Self { report, time_carry, start, next, best } = *self;
+        let state = State { time, values: values.to_vec(), carry: carry.to_vec(), time_carry };
+        Checkpoint { state, report, memory, numbers: vec![start, next, best, previous_step, expected] }
+    }
+}

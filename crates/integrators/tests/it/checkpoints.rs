@@ -1,0 +1,125 @@
+//! A run continued from any of its steps is the whole run, to the last bit.
+
+use core::ops::ControlFlow;
+
+use piola_integrators::{
+    Checkpoint, DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom86, Nystrom1210,
+    State, Tolerance, Verner98,
+};
+
+use crate::problems::{henon_heiles, kepler, kepler_at};
+
+const END: f64 = 30.0;
+
+fn start() -> State {
+    State::new(0.25, kepler_at(0.6, 0.0).to_vec()).unwrap()
+}
+
+/// Writes and reads a checkpoint, where the feature allows it.
+#[cfg(feature = "serde")]
+fn written_and_read(checkpoint: &Checkpoint) -> Checkpoint {
+    let text = serde_json::to_string(checkpoint).unwrap();
+    let read: Checkpoint = serde_json::from_str(&text).unwrap();
+    assert_eq!(read, *checkpoint);
+    read
+}
+#[cfg(not(feature = "serde"))]
+fn written_and_read(checkpoint: &Checkpoint) -> Checkpoint {
+    checkpoint.clone()
+}
+
+macro_rules! continued_runs_are_whole {
+    ($method:expr, $field:expr) => {{
+        let mut whole = start();
+        let mut kept = Vec::new();
+        let mut seen = Vec::new();
+        let report = $method
+            .integrate(&mut $field, &mut whole, END, |step| {
+                kept.push(step.checkpoint());
+                seen.push(step.values().to_vec());
+                ControlFlow::Continue(())
+            })
+            .unwrap();
+        assert!(10 < kept.len());
+        for (number, checkpoint) in kept.into_iter().enumerate().step_by(7) {
+            assert_eq!(checkpoint.state().values, seen[number]);
+            let checkpoint = written_and_read(&checkpoint);
+            // A new method, and a state that has nothing to do with it.
+            let mut continued = State::new(-1.0, vec![7.0; 4]).unwrap();
+            let mut next = number + 1;
+            let resumed = $method
+                .resume(&mut $field, &checkpoint, &mut continued, END, |step| {
+                    assert_eq!(step.values(), &seen[next][..]);
+                    next += 1;
+                    assert_eq!(step.number(), next as u64);
+                    ControlFlow::Continue(())
+                })
+                .unwrap();
+            assert_eq!((continued, resumed), (whole.clone(), report), "from step {number}");
+        }
+    }};
+}
+
+#[test]
+fn explicit_pairs_continue_from_any_step() {
+    let tolerance = Tolerance::relative(1e-9).unwrap();
+    continued_runs_are_whole!(DormandPrince853::new(tolerance), kepler());
+    continued_runs_are_whole!(Verner98::new(tolerance), kepler());
+    continued_runs_are_whole!(Nystrom86::new(tolerance), kepler());
+    continued_runs_are_whole!(Nystrom1210::new(tolerance), kepler());
+}
+
+#[test]
+fn collocation_continues_from_any_step() {
+    let tolerance = Tolerance::relative(1e-12).unwrap();
+    continued_runs_are_whole!(GaussLegendre16::new(tolerance), kepler());
+    continued_runs_are_whole!(GaussRadau15::new(tolerance), kepler());
+    continued_runs_are_whole!(GaussRadau15::to_rounding(), kepler());
+    continued_runs_are_whole!(GaussLegendre16::with_step(0.3).unwrap(), kepler());
+    continued_runs_are_whole!(GaussRadau15::with_step(0.3).unwrap(), kepler());
+}
+
+/// The attraction, with its ends of steps brought back to the plane of an integral: the angular momentum.
+struct Projected;
+impl Field for Projected {
+    type Error = core::convert::Infallible;
+    fn dimension(&self) -> usize {
+        4
+    }
+    fn rate(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
+        Field::rate(&mut kepler(), t, y, rate)
+    }
+    fn project(&mut self, _t: f64, y: &mut [f64]) -> Result<(), Self::Error> {
+        let found = y[0] * y[3] - y[1] * y[2];
+        let factor = (1.0 - 0.6_f64 * 0.6).sqrt() / found;
+        y[2] *= factor;
+        y[3] *= factor;
+        Ok(())
+    }
+}
+
+#[test]
+fn projected_ends_of_steps_continue_too() {
+    continued_runs_are_whole!(DormandPrince853::new(Tolerance::relative(1e-7).unwrap()), Projected);
+}
+
+#[test]
+fn a_checkpoint_of_another_system_or_method_is_refused() {
+    let tolerance = Tolerance::relative(1e-9).unwrap();
+    let mut kept = None;
+    let mut state = start();
+    Verner98::new(tolerance)
+        .integrate(&mut kepler(), &mut state, END, |step| {
+            kept = Some(step.checkpoint());
+            ControlFlow::Break(())
+        })
+        .unwrap();
+    let kept: Checkpoint = kept.unwrap();
+    let untouched = state.clone();
+    let run = GaussLegendre16::new(tolerance)
+        .resume(&mut henon_heiles(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
+    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 16, found: 4 }));
+    let run = Nystrom86::new(tolerance).resume(&mut kepler(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
+    assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 2, found: 4 }));
+    assert_eq!(state, untouched);
+}
