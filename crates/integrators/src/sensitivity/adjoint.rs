@@ -150,7 +150,7 @@ impl<P: RungeKuttaPair, T: Real> AdjointSensitivity<P, T> {
         checkpoints.clear(n);
         self.p.clear();
         self.p.extend_from_slice(p);
-        let run = method.run(&mut WithParameters::new(field, p), state, end, &mut |dense| {
+        let run = method.run(&mut WithParameters::new(field, p), state, end, None, &mut |dense| {
             checkpoints.offer(steps.len(), dense.row(Rows::START), dense.row(Rows::START_CARRY));
             steps.push((dense.step.start, dense.step.length));
             let step = Step { number: dense.number(), time: dense.time(), values: dense.values() };

@@ -133,7 +133,7 @@ impl<P: RungeKuttaPair, T: Real> ForwardSensitivity<P, T> {
         let mut first = state.time;
         let mut clock = (state.time, state.time_carry);
         let mut incomplete = false;
-        let run = method.run(&mut WithParameters::new(field, p), state, end, &mut |dense| {
+        let run = method.run(&mut WithParameters::new(field, p), state, end, None, &mut |dense| {
             let times = StepTimes { first, start: dense.step.start, length: dense.step.length };
             work.start.copy_from_slice(dense.row(Rows::START));
             work.start_carry.copy_from_slice(dense.row(Rows::START_CARRY));
