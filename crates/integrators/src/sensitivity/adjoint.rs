@@ -22,6 +22,11 @@ use crate::{IntegratorsError, Report, State, Step};
 /// The scalar may itself carry derivatives: over [`Dual`](piola_numerics::Dual) the gradient's own derivative along a direction comes
 /// along, a product of the Hessian with a vector.
 ///
+/// # Cost
+/// With a product of the field's own ([`ParametricField::vector_jacobian_product`]) the time does not grow with the number of
+/// parameters: 4 to 5 times that of the run in the example `sensitivities`. With the default product it is about that of the forward
+/// method.
+///
 /// # Memory
 /// ```text
 /// 2 numbers for each accepted step  +  2 n (c + 1) numbers,    c: the states kept beside the start
@@ -39,6 +44,10 @@ use crate::{IntegratorsError, Report, State, Step};
 ///
 /// # Accuracy
 /// As [`ForwardSensitivity`](super::ForwardSensitivity). The gradient has the same bits for any number of states kept.
+///
+/// # References
+/// Griewank & Walther, *Evaluating Derivatives*, 2nd ed., chapter 12; A. Sandu, *On the properties of Runge–Kutta discrete adjoints*,
+/// LNCS 3994 (2006) 550–557.
 ///
 /// # Example
 /// ```

@@ -29,6 +29,9 @@ use crate::{IntegratorsError, Report, State, Step};
 /// followed in long steps, whatever its derivatives do. Bound the steps there by
 /// [`with_longest_step`](RungeKutta::with_longest_step).
 ///
+/// # References
+/// Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, I.14.
+///
 /// # Example
 /// ```
 /// use core::convert::Infallible;

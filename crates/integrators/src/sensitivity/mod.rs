@@ -11,9 +11,10 @@
 //! | one number by many parameters | [`AdjointSensitivity`] | s products λᵀ ∂f/∂(y, p), and replayed steps |
 //!
 //! n is the number of components of y, m that of p, and s the number of stages: 12 for Dormand–Prince, 16 for Verner. A product
-//! that the field gives itself costs about as much as an evaluation, so that the adjoint method then takes a time that does not
-//! grow with m: 4 to 5 times that of the run in the example `sensitivities`, where 200 parameters take the forward method 100 times as
-//! long. The default product is made by differentiable numbers in (n + m)/4 evaluations, so that it saves little over the forward method.
+//! that the field gives itself costs about as much as an evaluation. The adjoint method then takes a time that does not grow with
+//! m: 4 to 5 times that of the run in the example `sensitivities`, where 200 parameters take the forward method some hundred times
+//! as long. The default product takes (n + m)/4 evaluations over numbers with four derivatives, and saves little over the forward
+//! method.
 //!
 //! Other methods that are generic over their scalar, as [`GaussLegendre`](crate::GaussLegendre), differentiate their runs where the
 //! start and the parameters are numbers with derivatives: [`Gradient`](piola_numerics::Gradient) for all directions at once.
