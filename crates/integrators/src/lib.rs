@@ -26,6 +26,7 @@ mod newton;
 mod nystrom;
 mod radau_iia;
 mod second_order;
+mod sensitivity;
 mod state;
 mod stiff_field;
 mod tolerance;
@@ -54,6 +55,10 @@ pub use lobatto_pair::LobattoPair;
 pub use nystrom::{Nystrom, Nystrom86, Nystrom1210, NystromPair, NystromPair86, NystromPair1210, NystromStep};
 pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};
 pub use second_order::SecondOrder;
+pub use sensitivity::{
+    AdjointSensitivity, ForwardSensitivity, JacobianProduct, Objective, ObjectiveGradient, ParametricField,
+    Sensitivities, SensitivityInputs, WithParameters,
+};
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
 pub use tolerance::Tolerance;

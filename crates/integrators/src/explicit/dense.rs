@@ -16,7 +16,7 @@ use crate::{Checkpoint, Field, IntegratorsError};
 pub struct DenseStep<'a, P, T, F> {
     method: &'a mut RungeKutta<P, T>,
     field: &'a mut F,
-    step: AcceptedStep,
+    pub(crate) step: AcceptedStep,
     evaluations: u64,
 }
 
@@ -37,7 +37,7 @@ impl<'a, P: RungeKuttaPair, T: Real, F: Field<T>> DenseStep<'a, P, T, F> {
     pub fn values(&self) -> &[T] {
         self.row(Rows::TRIAL)
     }
-    fn row(&self, number: usize) -> &[T] {
+    pub(crate) fn row(&self, number: usize) -> &[T] {
         row(&self.method.memory, P::STAGES + number, self.method.components)
     }
 

@@ -20,7 +20,7 @@ pub use self::dense::DenseStep;
 pub(crate) use self::first_step::Guess;
 pub(crate) use self::rows::{combine, row, row_mut, weighted_sums};
 pub use self::runge_kutta::Coefficients;
-pub(crate) use self::runge_kutta::Weights;
+pub(crate) use self::runge_kutta::{Rows, Weights};
 pub use self::runge_kutta::{RungeKutta, RungeKuttaPair};
 use crate::accepted::AcceptedStep;
 use crate::checkpoint::{Checkpoint, RunSoFar};

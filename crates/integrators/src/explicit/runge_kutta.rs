@@ -73,13 +73,13 @@ pub struct RungeKutta<P, T = f64> {
 }
 
 /// The rows of the memory after the stages.
-pub(super) struct Rows;
+pub(crate) struct Rows;
 impl Rows {
     /// The stage's argument, then the step's end and what rounding left of it.
     pub(super) const TRIAL: usize = 0;
     /// The step's start and what rounding left of it.
-    pub(super) const START: usize = 2;
-    pub(super) const START_CARRY: usize = 3;
+    pub(crate) const START: usize = 2;
+    pub(crate) const START_CARRY: usize = 3;
     /// The coefficients of dense output.
     pub(super) const INTERPOLANT: usize = 4;
     /// Among these, before they are made: the argument of the last stage.
@@ -151,7 +151,7 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
 
     /// Runs to `end`. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own end
     /// when `None`) and how the run ended.
-    pub(super) fn run<F: Field<T>>(
+    pub(crate) fn run<F: Field<T>>(
         &mut self,
         field: &mut F,
         state: &mut State<T>,

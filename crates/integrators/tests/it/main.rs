@@ -20,6 +20,7 @@ mod pairs;
 mod problems;
 mod radau;
 mod radau_15;
+mod sensitivity;
 #[cfg(feature = "serde")]
 mod serialised;
 mod traps;
