@@ -84,7 +84,7 @@ fn method(curve: &Curve) -> Option<&'static str> {
 pub fn table(entries: &[Entry]) -> String {
     let mut text = String::from(
         "//! Error against time, measured: written by `cargo xtask work-precision`.\n\n\
-         use super::table::{Curve, Measured, Point};\nuse super::AdvisedMethod::{\n    Composition8, DormandPrince853, GaussLegendre16, GaussRadau15, Nystrom86, Nystrom1210, Verner98,\n};\n\n\
+         use super::table::{Curve, Measured};\nuse super::AdvisedMethod::{\n    Composition8, DormandPrince853, GaussLegendre16, GaussRadau15, Nystrom86, Nystrom1210, Verner98,\n};\n\n\
          pub(super) const MEASURED: &[Measured] = &[\n",
     );
     for entry in entries {
@@ -103,7 +103,7 @@ pub fn table(entries: &[Entry]) -> String {
                 let parameter = if fixed { end / turns / point.parameter } else { point.parameter };
                 let _ = writeln!(
                     text,
-                    "            Point {{ parameter: {parameter:.3e}, error: {:.2e}, seconds: {:.3e}, evaluations: {}.0 }},",
+                    "            [{parameter:.3e}, {:.2e}, {:.3e}, {}.0],",
                     point.error, point.seconds, point.evaluations
                 );
             }

@@ -9,6 +9,7 @@
 //! Bodies as in Hairer, Lubich & Wanner, *Geometric Numerical Integration*, I.2.4.
 #![expect(clippy::print_stdout, reason = "it prints its table")]
 
+use std::array::from_fn;
 use std::error::Error;
 
 use piola_gravitation::Gravitation;
@@ -54,7 +55,13 @@ fn rows(
     mut advance: impl FnMut(&mut Gravitation, &mut State, f64) -> Result<Report, Box<dyn Error>>,
 ) -> Result<(), Box<dyn Error>> {
     let mut bodies = Gravitation::new(MASSES.map(|mass| G * mass).to_vec())?;
-    let mut state = State::new(0.0, bodies.state(&POSITIONS, &VELOCITIES)?)?;
+    // About the centre of mass, at rest: far from the origin positions would be rounded more and more coarsely.
+    let centred = |values: &[[f64; 3]; 6]| {
+        let total: f64 = MASSES.iter().sum();
+        let mean: [f64; 3] = from_fn(|k| MASSES.iter().zip(values).map(|(mass, x)| mass * x[k]).sum::<f64>() / total);
+        values.map(|x| from_fn(|k| x[k] - mean[k]))
+    };
+    let mut state = State::new(0.0, bodies.state(&centred(&POSITIONS), &centred(&VELOCITIES))?)?;
     let start = bodies.invariants(&state.values).energy;
     let trial = advance(&mut bodies, &mut state.clone(), 1000.0 * YEAR)?;
     let per_year = trial.evaluations as f64 / 1000.0;

@@ -71,9 +71,9 @@ pub use verner::{Verner98, VernerPair};
 /// For tests, and for methods in other crates of Piola: no part of the interface.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::explicit::Coefficients as RungeKuttaCoefficients;
+    pub use crate::explicit::RungeKuttaCoefficients;
     pub use crate::lobatto_pair::LobattoTableau;
-    pub use crate::nystrom::Coefficients as NystromCoefficients;
+    pub use crate::nystrom::NystromCoefficients;
     pub use crate::radau_iia::Tableau;
     pub use crate::state::{compensated_add, equal_steps};
     pub use crate::variational::ActionTableau;

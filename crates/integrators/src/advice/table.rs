@@ -19,16 +19,14 @@ pub(super) struct Measured {
 /// The curve of a method.
 pub(super) struct Curve {
     pub(super) method: AdvisedMethod,
-    /// Towards smaller errors.
-    pub(super) points: &'static [Point],
+    /// Towards smaller errors: the tolerance or the steps in a turn, the error, the time in seconds, the evaluations.
+    pub(super) points: &'static [[f64; 4]],
 }
 
 /// One run.
-#[derive(Clone, Copy)]
 pub(super) struct Point {
     /// The tolerance, or the steps in a turn.
     pub(super) parameter: f64,
-    pub(super) error: f64,
     pub(super) seconds: f64,
     pub(super) evaluations: f64,
 }
@@ -37,19 +35,18 @@ impl Curve {
     /// The run that would have this error: between two measured ones, straight lines of the logarithms. A larger error than the
     /// first one costs no less than that; a smaller one than the smallest is not reached.
     pub(super) fn at(&self, error: f64) -> Option<Point> {
-        let first = self.points.first()?;
-        if first.error <= error {
-            return Some(*first);
+        let between = |[parameter, _, seconds, evaluations]: [f64; 4], after: [f64; 4], part: f64| Point {
+            parameter: parameter * (after[0] / parameter).powf(part),
+            seconds: seconds * (after[2] / seconds).powf(part),
+            evaluations: evaluations * (after[3] / evaluations).powf(part),
+        };
+        let first = *self.points.first()?;
+        if first[1] <= error {
+            return Some(between(first, first, 0.0));
         }
-        // The last crossing: beyond it all errors are smaller, until rounding.
-        let (before, after) = self.points.iter().zip(&self.points[1..]).find(|(_, after)| after.error <= error)?;
-        let part = (before.error / error).ln() / (before.error / after.error).ln();
-        let between = |a: f64, b: f64| a * (b / a).powf(part);
-        Some(Point {
-            parameter: between(before.parameter, after.parameter),
-            error,
-            seconds: between(before.seconds, after.seconds),
-            evaluations: between(before.evaluations, after.evaluations),
-        })
+        // The first crossing: beyond it errors are smaller, until rounding.
+        let (before, after) = self.points.iter().zip(&self.points[1..]).find(|(_, after)| after[1] <= error)?;
+        let part = (before[1] / error).ln() / (before[1] / after[1]).ln();
+        Some(between(*before, *after, part))
     }
 }

@@ -18,7 +18,7 @@ pub(crate) mod coefficients;
 use piola_numerics::Real;
 
 use self::coefficients as c;
-use crate::explicit::{Coefficients, RungeKutta, RungeKuttaPair, Weights, row, row_mut, weighted_sums};
+use crate::explicit::{RungeKutta, RungeKuttaCoefficients, RungeKuttaPair, Weights, row, row_mut, weighted_sums};
 
 /// The adaptive method of order 8(5,3).
 ///
@@ -65,7 +65,7 @@ pub struct DormandPrincePair;
 
 impl RungeKuttaPair for DormandPrincePair {}
 
-impl Coefficients for DormandPrincePair {
+impl RungeKuttaCoefficients for DormandPrincePair {
     const STAGES: usize = 16;
     const NODES: &'static [f64] = &c::C;
     const ROWS: &'static [(usize, Weights)] = &c::ROWS;

@@ -2,8 +2,8 @@
 
 use piola_numerics::Real;
 
-use super::runge_kutta::{Rows, evaluate};
-use super::{Dense, RungeKutta, RungeKuttaPair, combine, row, row_mut};
+use super::pair::{Rows, RungeKutta, RungeKuttaPair, evaluate};
+use super::{Dense, combine, row, row_mut};
 use crate::accepted::{AcceptedStep, number_and_times};
 use crate::{Checkpoint, Field, IntegratorsError};
 

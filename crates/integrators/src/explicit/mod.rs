@@ -8,6 +8,7 @@
 
 mod dense;
 mod first_step;
+mod pair;
 mod rows;
 mod runge_kutta;
 mod with_events;
@@ -18,10 +19,10 @@ use piola_numerics::Real;
 
 pub use self::dense::DenseStep;
 pub(crate) use self::first_step::Guess;
+pub use self::pair::RungeKuttaCoefficients;
+pub(crate) use self::pair::{Rows, Weights};
+pub use self::pair::{RungeKutta, RungeKuttaPair};
 pub(crate) use self::rows::{combine, row, row_mut, weighted_sums};
-pub use self::runge_kutta::Coefficients;
-pub(crate) use self::runge_kutta::{Rows, Weights};
-pub use self::runge_kutta::{RungeKutta, RungeKuttaPair};
 use crate::accepted::AcceptedStep;
 use crate::checkpoint::{Checkpoint, RunSoFar};
 use crate::events::Stop;

@@ -10,7 +10,7 @@ use super::tableaux::DORMAND_PRINCE_8;
 use super::{GroupField, LieGroup};
 use crate::checkpoint::Checkpoint;
 use crate::dormand_prince::coefficients as pair;
-use crate::explicit::{Coefficients, EmbeddedPair, Limits, follow, limits_of_steps};
+use crate::explicit::{EmbeddedPair, Limits, RungeKuttaCoefficients, follow, limits_of_steps};
 use crate::field::largest_lane;
 use crate::state::check_finite;
 use crate::{DormandPrincePair, Ending, IntegratorsError, Report, State, Step, Tolerance, unobserved};

@@ -36,10 +36,10 @@ use crate::explicit::{Limits, Weights, follow, limits_of_steps, settle};
 use crate::{IntegratorsError, Report, SecondOrder, State, Tolerance};
 
 /// A pair of Nyström formulas: [`NystromPair86`] or [`NystromPair1210`].
-pub trait NystromPair: Coefficients {}
+pub trait NystromPair: NystromCoefficients {}
 
 /// What makes a Nyström pair. Stages are counted from zero.
-pub trait Coefficients: Copy + core::fmt::Debug {
+pub trait NystromCoefficients: Copy + core::fmt::Debug {
     /// Stages, with the one at the end of the step.
     const STAGES: usize;
     /// The times of the stages, as parts of the step.
@@ -148,7 +148,7 @@ pub struct NystromPair86;
 
 impl NystromPair for NystromPair86 {}
 
-impl Coefficients for NystromPair86 {
+impl NystromCoefficients for NystromPair86 {
     const STAGES: usize = 9;
     const NODES: &'static [f64] = &order_8::C;
     const ROWS: &'static [Weights] = &order_8::ROWS;
@@ -179,7 +179,7 @@ pub struct NystromPair1210;
 
 impl NystromPair for NystromPair1210 {}
 
-impl Coefficients for NystromPair1210 {
+impl NystromCoefficients for NystromPair1210 {
     const STAGES: usize = 18;
     const NODES: &'static [f64] = &order_12::C;
     const ROWS: &'static [Weights] = &order_12::ROWS;

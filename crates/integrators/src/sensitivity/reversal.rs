@@ -5,7 +5,7 @@ use piola_numerics::Real;
 use super::stages::{Stages, StepTimes, add_to_row, scaled_row, stage};
 use super::{JacobianProduct, Objective, ParametricField};
 use crate::IntegratorsError;
-use crate::explicit::Coefficients;
+use crate::explicit::RungeKuttaCoefficients;
 use crate::state::{check_finite, compensated_add};
 
 /// The gradient of an objective, on its way from the end of a run to its start.
@@ -46,7 +46,7 @@ impl<T: Real> Reversal<T> {
     }
 
     /// Starts from the end of a run.
-    pub(super) fn begin<P: Coefficients, G: Objective>(&mut self, objective: &G, t: f64, y: &[T], p: &[T]) {
+    pub(super) fn begin<P: RungeKuttaCoefficients, G: Objective>(&mut self, objective: &G, t: f64, y: &[T], p: &[T]) {
         let (n, m) = (y.len(), p.len());
         self.stages.resize::<P>(n);
         for memory in [&mut self.y, &mut self.y_carry, &mut self.change] {
@@ -70,7 +70,7 @@ impl<T: Real> Reversal<T> {
     }
 
     /// Makes a step again, forwards.
-    pub(super) fn replay<P: Coefficients, F: ParametricField>(
+    pub(super) fn replay<P: RungeKuttaCoefficients, F: ParametricField>(
         &mut self,
         field: &F,
         p: &[T],
@@ -82,7 +82,7 @@ impl<T: Real> Reversal<T> {
     }
 
     /// Takes the gradient from the end of a step to its start, where y is.
-    pub(super) fn step<P: Coefficients, F: ParametricField, G: Objective>(
+    pub(super) fn step<P: RungeKuttaCoefficients, F: ParametricField, G: Objective>(
         &mut self,
         field: &F,
         objective: &G,

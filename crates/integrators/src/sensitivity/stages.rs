@@ -4,7 +4,7 @@ use piola_numerics::Real;
 
 use super::ParametricField;
 use crate::IntegratorsError;
-use crate::explicit::{Coefficients, Weights, combine, row, row_mut, weighted_sums};
+use crate::explicit::{RungeKuttaCoefficients, Weights, combine, row, row_mut, weighted_sums};
 use crate::state::compensated_add;
 
 /// The times of an accepted step.
@@ -20,7 +20,7 @@ pub(super) struct StepTimes {
 
 impl StepTimes {
     /// The time of a stage.
-    pub(super) fn stage<P: Coefficients>(self, number: usize) -> f64 {
+    pub(super) fn stage<P: RungeKuttaCoefficients>(self, number: usize) -> f64 {
         if number == 0 { self.first } else { self.start + P::NODES[number] * self.length }
     }
 
@@ -31,7 +31,7 @@ impl StepTimes {
 }
 
 /// A stage of a pair: its number and its row of the tableau.
-pub(super) fn stage<P: Coefficients>(index: usize) -> (usize, Weights) {
+pub(super) fn stage<P: RungeKuttaCoefficients>(index: usize) -> (usize, Weights) {
     match index.checked_sub(1) {
         None => (0, &[]),
         Some(index) => P::ROWS[index],
@@ -51,13 +51,13 @@ impl<S: Real> Stages<S> {
     }
 
     /// Makes room for a pair's stages of n components.
-    pub(super) fn resize<P: Coefficients>(&mut self, n: usize) {
+    pub(super) fn resize<P: RungeKuttaCoefficients>(&mut self, n: usize) {
         self.rates.resize(P::END * n, S::zero());
         self.argument.resize(n, S::zero());
     }
 
     /// Evaluates the stages of a step from y, of which rounding left the second part.
-    pub(super) fn evaluate<P: Coefficients, F: ParametricField>(
+    pub(super) fn evaluate<P: RungeKuttaCoefficients, F: ParametricField>(
         &mut self,
         field: &F,
         p: &[S],
@@ -77,7 +77,7 @@ impl<S: Real> Stages<S> {
     }
 
     /// Writes the argument of a stage; the stages before it are known.
-    fn write_argument<P: Coefficients>(&mut self, index: usize, h: f64, (y, carry): (&[S], &[S])) {
+    fn write_argument<P: RungeKuttaCoefficients>(&mut self, index: usize, h: f64, (y, carry): (&[S], &[S])) {
         match stage::<P>(index) {
             // The rate at the start was evaluated at the rounded state.
             (0, _) => self.argument.copy_from_slice(y),
@@ -86,13 +86,13 @@ impl<S: Real> Stages<S> {
     }
 
     /// The argument of a stage whose step has been evaluated.
-    pub(super) fn argument<P: Coefficients>(&mut self, index: usize, h: f64, y: (&[S], &[S])) -> &[S] {
+    pub(super) fn argument<P: RungeKuttaCoefficients>(&mut self, index: usize, h: f64, y: (&[S], &[S])) -> &[S] {
         self.write_argument::<P>(index, h, y);
         &self.argument
     }
 
     /// Moves y to the end of the step, whose stages have been evaluated.
-    pub(super) fn advance<P: Coefficients>(&mut self, h: f64, y: &mut [S], carry: &mut [S]) {
+    pub(super) fn advance<P: RungeKuttaCoefficients>(&mut self, h: f64, y: &mut [S], carry: &mut [S]) {
         weighted_sums(P::WEIGHTS, &self.rates, &mut self.argument);
         for ((y, carry), &slope) in y.iter_mut().zip(carry).zip(&self.argument) {
             compensated_add(y, carry, slope * S::lit(h));

@@ -15,7 +15,7 @@ pub(crate) mod coefficients;
 use piola_numerics::Real;
 
 use self::coefficients as c;
-use crate::explicit::{Coefficients, RungeKutta, RungeKuttaPair, Weights, row, row_mut, weighted_sums};
+use crate::explicit::{RungeKutta, RungeKuttaCoefficients, RungeKuttaPair, Weights, row, row_mut, weighted_sums};
 
 /// The adaptive method of order 9(8).
 ///
@@ -53,7 +53,7 @@ pub struct VernerPair;
 
 impl RungeKuttaPair for VernerPair {}
 
-impl Coefficients for VernerPair {
+impl RungeKuttaCoefficients for VernerPair {
     const STAGES: usize = 26;
     const NODES: &'static [f64] = &c::C;
     const ROWS: &'static [(usize, Weights)] = &c::ROWS;

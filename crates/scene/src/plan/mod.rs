@@ -292,7 +292,7 @@ impl fmt::Display for Plan {
         write!(f, "method    {}", self.method)?;
         match self.method {
             Method::DormandPrince { tolerance } | Method::Verner { tolerance } => {
-                writeln!(f, ", relative tolerance {tolerance:e}")?
+                writeln!(f, ", relative tolerance {tolerance:e}")?;
             }
             Method::Composition { step, .. } | Method::GaussLegendre { step, .. } => {
                 let (step, count) = (seconds(step), self.steps.unwrap_or_default());
