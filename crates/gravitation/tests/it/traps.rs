@@ -118,14 +118,14 @@ fn written_gravitation_is_checked_when_read() {
 fn nystrom_pairs_follow_newton_and_refuse_the_post_newtonian_term() {
     let bodies = Gravitation::new(vec![1.0, 1e-3]).unwrap();
     let start = bodies.state(&[[0.0; 3], [1.0, 0.0, 0.0]], &[[0.0; 3], [0.0, 1.0, 0.0]]).unwrap();
-    let tolerance = piola_integrators::Tolerance::relative(1e-13).unwrap();
+    let tolerance = Tolerance::relative(1e-13).unwrap();
     let (mut state, mut other) = (State::new(0.0, start.clone()).unwrap(), State::new(0.0, start.clone()).unwrap());
     let mut newton = bodies.clone();
     piola_integrators::Nystrom1210::new(tolerance).integrate_to(&mut newton, &mut state, 20.0).unwrap();
     piola_integrators::GaussRadau15::to_rounding().integrate_to(&mut newton, &mut other, 20.0).unwrap();
     let tol = Tol::stated(1e-11, "twenty steps of tolerance 1e-13, amplified by three revolutions");
     assert_close("places and velocities", &state.values, &other.values, tol);
-    let term = piola_gravitation::PostNewtonian { centre: 0, speed_of_light: 1e4 };
+    let term = PostNewtonian { centre: 0, speed_of_light: 1e4 };
     let mut relativistic = bodies.with_post_newtonian(term).unwrap();
     let mut state = State::new(0.0, start).unwrap();
     let run = piola_integrators::Nystrom1210::new(tolerance).integrate_to(&mut relativistic, &mut state, 1.0);
