@@ -47,6 +47,8 @@ pub use radau_iia::{RadauIia, RadauIiaStep, RadauOrder, RadauReport};
 pub use second_order::SecondOrder;
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
+#[cfg(feature = "sparse")]
+pub use stiff_field::{SparseJacobian, Sparsity};
 pub use tolerance::Tolerance;
 pub use variational::{
     ActionRule, Chord, DiscreteEulerLagrange, DiscreteLagrangian, VariationalIntegrator, VariationalSystem,

@@ -137,9 +137,9 @@ impl RadauIia {
         let order = progress.controller.order;
         if progress.jacobian == Jacobian::None {
             field
-                .jacobian(state.time, &state.values, &mut self.work.jacobian)
+                .jacobian(state.time, &state.values, self.work.matrices.jacobian())
                 .map_err(|source| IntegratorsError::Field { t: state.time, source })?;
-            check_finite("jacobian", Some(state.time), &self.work.jacobian)?;
+            check_finite("jacobian", Some(state.time), self.work.matrices.jacobian())?;
             report.jacobians += 1;
             (progress.jacobian, progress.factored) = (Jacobian::Current, None);
         }
@@ -148,7 +148,7 @@ impl RadauIia {
         }
         report.factorisations += 1;
         progress.factored = None;
-        if let Err(pivot) = self.work.factor(order.tableau(), h) {
+        if let Err(pivot) = self.work.matrices.factor(order.tableau(), h) {
             let refusal = IntegratorsError::SingularMatrix { t: state.time, step: h, pivot };
             progress.singular += 1;
             if MOST_SINGULAR <= progress.singular {

@@ -21,7 +21,7 @@ impl RadauIia {
     ) -> f64 {
         let longest = span.abs().min(self.longest_step);
         let shortest = SHORT * longest;
-        if field.mass().is_some() {
+        if field.mass().is_some() || field.mass_entries().is_some() {
             return shortest;
         }
         let aim = Aim::of(self.control, order);

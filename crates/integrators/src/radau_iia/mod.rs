@@ -50,8 +50,13 @@ mod control;
 mod dense;
 mod first_step;
 mod lu;
+mod matrices;
 mod order;
 mod run;
+#[cfg(feature = "sparse")]
+mod sparse;
+#[cfg(feature = "sparse")]
+mod sparse_lu;
 mod stages;
 mod tableau;
 #[expect(

@@ -29,7 +29,7 @@ impl RadauIia {
         let n = field.dimension();
         check_run(n, state, end)?;
         let [lowest, highest] = self.orders.unwrap_or_else(|| self.control.orders());
-        self.work.begin(n, highest.tableau().stages(), field.mass());
+        self.work.begin(n, highest.tableau().stages(), field)?;
         let mut report = RadauReport::begin();
         let (origin, span) = (state.time, end - state.time);
         if span.abs() <= 0.0 {

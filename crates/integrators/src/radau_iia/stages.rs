@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use super::aim::Aim;
-use super::lu::Factors;
+use super::matrices::Matrices;
 use super::tableau::{MOST_STAGES, Tableau};
 use crate::state::check_finite;
 use crate::{IntegratorsError, State, StiffField};
@@ -39,10 +39,7 @@ pub(super) struct Workspace {
     pub(super) rate_at_end: Vec<f64>,
     pub(super) trial: Vec<f64>,
     pub(super) trial_carry: Vec<f64>,
-    pub(super) jacobian: Vec<f64>,
-    pub(super) mass: Vec<f64>,
-    real: Factors<f64>,
-    complex: [Factors<Complex64>; MOST_STAGES / 2],
+    pub(super) matrices: Matrices,
     pair: Vec<Complex64>,
     pub(super) magnitudes: Vec<f64>,
     magnitudes_at_end: Vec<f64>,
@@ -65,7 +62,16 @@ pub(super) enum Solved<E> {
 }
 
 impl Workspace {
-    pub(super) fn begin(&mut self, n: usize, most_stages: usize, mass: Option<&[f64]>) {
+    /// Makes room for a run.
+    ///
+    /// # Errors
+    /// Mass matrix and pattern must fit the field.
+    pub(super) fn begin<F: StiffField>(
+        &mut self,
+        n: usize,
+        most_stages: usize,
+        field: &F,
+    ) -> Result<(), IntegratorsError<F::Error>> {
         for buffer in [&mut self.stages, &mut self.accepted, &mut self.rates, &mut self.residuals] {
             buffer.resize(most_stages * n, 0.0);
         }
@@ -83,34 +89,9 @@ impl Workspace {
         ] {
             buffer.resize(n, 0.0);
         }
-        self.jacobian.resize(n * n, 0.0);
-        self.mass.clear();
-        self.mass.extend_from_slice(mass.unwrap_or(&[]));
-        self.real.resize(n);
-        for factors in self.complex.iter_mut().take(most_stages / 2) {
-            factors.resize(n);
-        }
+        self.matrices.begin(n, most_stages / 2, field)?;
         self.pair.resize(n, Complex64::default());
         self.rest = 1.0;
-    }
-
-    /// Factors γ/h M − J and (α − iβ)/h M − J; the index of a pivot that is zero where there is one.
-    pub(super) fn factor(&mut self, tableau: &Tableau, h: f64) -> Result<(), usize> {
-        let n = self.rate.len();
-        let identity = self.mass.is_empty();
-        let mass = |k: usize| if identity { f64::from(u8::from(k.is_multiple_of(n + 1))) } else { self.mass[k] };
-        let gamma = tableau.real / h;
-        for (k, (entry, j)) in self.real.entries.iter_mut().zip(&self.jacobian).enumerate() {
-            *entry = gamma * mass(k) - j;
-        }
-        self.real.factor()?;
-        for (factors, [alpha, beta]) in self.complex.iter_mut().zip(tableau.pairs) {
-            let (alpha, beta) = (alpha / h, beta / h);
-            for (k, (entry, j)) in factors.entries.iter_mut().zip(&self.jacobian).enumerate() {
-                *entry = Complex64::new(alpha * mass(k) - j, -beta * mass(k));
-            }
-            factors.factor()?;
-        }
         Ok(())
     }
 
@@ -218,7 +199,7 @@ impl Workspace {
         // r = h A f − M Z: small where the iteration has converged, so that only then it is transformed.
         apply(tableau.matrix, s, h, &self.rates, &mut self.residuals, n);
         for (z, r) in self.stages.chunks_exact(n.max(1)).zip(self.residuals.chunks_exact_mut(n.max(1))).take(s) {
-            subtract_mass_times(&self.mass, z, r);
+            self.matrices.subtract_mass_times(z, r);
         }
         // Λ/h T⁻¹ r.
         apply(tableau.inverse, s, 1.0 / h, &self.residuals, &mut self.rates, n);
@@ -226,14 +207,14 @@ impl Workspace {
         for r in &mut *real {
             *r *= tableau.real;
         }
-        self.real.solve(real);
+        self.matrices.solve_real(real);
         let pairs = pairs.chunks_exact_mut((2 * n).max(1));
-        for ((pair, factors), [alpha, beta]) in pairs.zip(&self.complex).zip(tableau.pairs) {
+        for (k, (pair, [alpha, beta])) in pairs.zip(tableau.pairs).enumerate() {
             let (r2, r3) = pair.split_at_mut(n);
             for ((x, &r2), &r3) in self.pair.iter_mut().zip(&*r2).zip(&*r3) {
                 *x = Complex64::new(alpha * r2 + beta * r3, alpha * r3 - beta * r2);
             }
-            factors.solve(&mut self.pair);
+            self.matrices.solve_complex(k, &mut self.pair);
             for ((x, re), im) in self.pair.iter().zip(r2).zip(r3) {
                 (*re, *im) = (x.re, x.im);
             }
@@ -281,11 +262,11 @@ impl Workspace {
             }
         }
         self.residuals[..n].copy_from_slice(&self.rate);
-        subtract_mass_times(&self.mass, &self.error, &mut self.residuals[..n]);
+        self.matrices.subtract_mass_times(&self.error, &mut self.residuals[..n]);
         let (residual, solution) = self.residuals.split_at_mut(n);
         let solution = &mut solution[..n];
         solution.copy_from_slice(residual);
-        self.real.solve(solution);
+        self.matrices.solve_real(solution);
         let error = norm(solution, &self.weights);
         let Some(evaluations) = again.filter(|_| 1.0 <= error) else { return error };
         for (k, trial) in self.trial.iter_mut().enumerate() {
@@ -300,7 +281,7 @@ impl Workspace {
         {
             *solution = residual + (new - old);
         }
-        self.real.solve(solution);
+        self.matrices.solve_real(solution);
         let filtered = norm(solution, &self.weights);
         if filtered.is_finite() { filtered } else { error }
     }
@@ -326,21 +307,6 @@ fn apply_unrolled<const S: usize>(matrix: &[f64], factor: f64, x: &[f64], out: &
                 sum += row[j] * x[j];
             }
             out[i * n + k] = factor * sum;
-        }
-    }
-}
-
-/// r ← r − M x; no mass matrix stands for the identity.
-fn subtract_mass_times(mass: &[f64], x: &[f64], r: &mut [f64]) {
-    if mass.is_empty() {
-        for (r, x) in r.iter_mut().zip(x) {
-            *r -= x;
-        }
-        return;
-    }
-    for (column, x) in mass.chunks_exact(r.len().max(1)).zip(x) {
-        for (r, m) in r.iter_mut().zip(column) {
-            *r -= m * x;
         }
     }
 }
