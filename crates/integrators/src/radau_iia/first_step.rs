@@ -1,8 +1,8 @@
 //! The first step of a run that was not given one.
 
 use super::aim::Aim;
+use super::estimate::norm;
 use super::order::RadauOrder;
-use super::stages::norm;
 use super::{RadauIia, RadauReport};
 use crate::{State, StiffField};
 

@@ -48,6 +48,7 @@ mod aim;
 mod attempt;
 mod control;
 mod dense;
+mod estimate;
 mod first_step;
 mod lu;
 mod matrices;

@@ -1,8 +1,9 @@
-//! The stages of a step by Newton's iteration in transformed variables, and the estimate of its error.
+//! The stages of a step by Newton's iteration in transformed variables.
 
 use num_complex::Complex64;
 
 use super::aim::Aim;
+use super::estimate::norm;
 use super::matrices::Matrices;
 use super::tableau::{MOST_STAGES, Tableau};
 use crate::state::check_finite;
@@ -28,9 +29,9 @@ pub(super) struct Workspace {
     /// Those of the last accepted step.
     pub(super) accepted: Vec<f64>,
     /// f at the stages, then the transformed right-hand sides.
-    rates: Vec<f64>,
+    pub(super) rates: Vec<f64>,
     /// The residuals of the stages, then their corrections.
-    residuals: Vec<f64>,
+    pub(super) residuals: Vec<f64>,
     /// The state at the start of the last accepted step.
     pub(super) start: Vec<f64>,
     pub(super) start_carry: Vec<f64>,
@@ -45,7 +46,7 @@ pub(super) struct Workspace {
     magnitudes_at_end: Vec<f64>,
     /// The error allowed in each component.
     pub(super) weights: Vec<f64>,
-    error: Vec<f64>,
+    pub(super) error: Vec<f64>,
     /// θ/(1 − θ) of the last iteration, by which the first change of the next is judged.
     rest: f64,
 }
@@ -226,7 +227,7 @@ impl Workspace {
     }
 
     /// The error allowed in each component, from the magnitudes at both ends of the step.
-    fn weigh<F: StiffField>(&mut self, field: &F, tableau: &Tableau, state: &State, h: f64, aim: Aim) {
+    pub(super) fn weigh<F: StiffField>(&mut self, field: &F, tableau: &Tableau, state: &State, h: f64, aim: Aim) {
         let n = self.rate.len();
         let end = &self.stages[(tableau.stages() - 1) * n..][..n];
         for (k, trial) in self.trial.iter_mut().enumerate() {
@@ -240,50 +241,6 @@ impl Workspace {
                 *weight /= h.abs().min(1.0);
             }
         }
-    }
-
-    /// The error of the step, relative to what is allowed. Where it is too large it is estimated once more with f at the
-    /// corrected start, if there is a count of evaluations to add that one to.
-    pub(super) fn estimate<F: StiffField>(
-        &mut self,
-        field: &mut F,
-        tableau: &Tableau,
-        state: &State,
-        h: f64,
-        aim: Aim,
-        again: Option<&mut u64>,
-    ) -> f64 {
-        let n = self.rate.len();
-        self.weigh(field, tableau, state, h, aim);
-        self.error.fill(0.0);
-        for (defect, stage) in tableau.defect.iter().zip(self.stages.chunks_exact(n.max(1))) {
-            for (error, z) in self.error.iter_mut().zip(stage) {
-                *error -= defect / h * z;
-            }
-        }
-        self.residuals[..n].copy_from_slice(&self.rate);
-        self.matrices.subtract_mass_times(&self.error, &mut self.residuals[..n]);
-        let (residual, solution) = self.residuals.split_at_mut(n);
-        let solution = &mut solution[..n];
-        solution.copy_from_slice(residual);
-        self.matrices.solve_real(solution);
-        let error = norm(solution, &self.weights);
-        let Some(evaluations) = again.filter(|_| 1.0 <= error) else { return error };
-        for (k, trial) in self.trial.iter_mut().enumerate() {
-            *trial = state.values[k] + (state.carry[k] + solution[k]);
-        }
-        *evaluations += 1;
-        if field.rate(state.time, &self.trial, &mut self.rate_at_end).is_err() {
-            return error;
-        }
-        for ((solution, &residual), (new, old)) in
-            solution.iter_mut().zip(&*residual).zip(self.rate_at_end.iter().zip(&self.rate))
-        {
-            *solution = residual + (new - old);
-        }
-        self.matrices.solve_real(solution);
-        let filtered = norm(solution, &self.weights);
-        if filtered.is_finite() { filtered } else { error }
     }
 }
 
@@ -309,20 +266,4 @@ fn apply_unrolled<const S: usize>(matrix: &[f64], factor: f64, x: &[f64], out: &
             out[i * n + k] = factor * sum;
         }
     }
-}
-
-/// The root of the mean square of x over the weights, whose pattern repeats. Components that may have no error and have none
-/// do not count.
-pub(super) fn norm(x: &[f64], weights: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for block in x.chunks_exact(weights.len().max(1)) {
-        for (x, weight) in block.iter().zip(weights) {
-            if x.abs() <= 0.0 {
-                continue;
-            }
-            let ratio = x / weight;
-            sum += ratio * ratio;
-        }
-    }
-    (sum / x.len().max(1) as f64).sqrt()
 }
