@@ -19,6 +19,8 @@ pub(super) struct Aim {
     /// The change up to which an iteration that no longer contracts is taken to show the rounding of a stiff field.
     pub(super) noise: f64,
     pub(super) most_sweeps: u32,
+    /// Whether the step is like the last one, so that its iteration contracts alike.
+    pub(super) is_familiar: bool,
 }
 
 /// The least tolerance to which the stiff part of an error is held.
@@ -32,7 +34,15 @@ impl Aim {
             // Below the smallest magnitudes nothing is iterated.
             Control::Fixed(_) => {
                 let (absolute, noise) = (f64::MIN_POSITIVE, 1e4);
-                return Self { absolute, relative: ROUNDING, widening: 1.0, unswept: 1e-2, noise, most_sweeps: 50 };
+                return Self {
+                    absolute,
+                    relative: ROUNDING,
+                    widening: 1.0,
+                    unswept: 1e-2,
+                    noise,
+                    most_sweeps: 50,
+                    is_familiar: false,
+                };
             }
             Control::Adaptive(tolerance) => tolerance,
         };
@@ -44,7 +54,15 @@ impl Aim {
         let (absolute, relative) = (tolerance.absolute_part(), tolerance.relative_part());
         if relative <= 0.0 {
             // An absolute tolerance has a unit: only a relative one has powers.
-            return Self { absolute, relative, widening: 1.0, unswept: 1e-2, noise: NOISE, most_sweeps };
+            return Self {
+                absolute,
+                relative,
+                widening: 1.0,
+                unswept: 1e-2,
+                noise: NOISE,
+                most_sweeps,
+                is_familiar: false,
+            };
         }
         // The error of the estimate is of order s + 1, that of the step of order 2s.
         let s = order.tableau().stages() as f64;
@@ -62,6 +80,7 @@ impl Aim {
             unswept,
             noise: NOISE,
             most_sweeps,
+            is_familiar: false,
         }
     }
 }

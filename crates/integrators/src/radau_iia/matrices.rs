@@ -12,14 +12,14 @@ use crate::{IntegratorsError, StiffField};
 /// M, J, γ/h M − J and (α − iβ)/h M − J.
 #[derive(Clone, Debug)]
 pub(super) enum Matrices {
-    Dense(DenseMatrices),
+    Dense(Box<DenseMatrices>),
     #[cfg(feature = "sparse")]
     Sparse(Box<SparseMatrices>),
 }
 
 impl Default for Matrices {
     fn default() -> Self {
-        Self::Dense(DenseMatrices::default())
+        Self::Dense(Box::default())
     }
 }
 
@@ -54,7 +54,7 @@ impl Matrices {
             Self::Dense(dense) => dense.begin(n, pairs, field),
             #[cfg(feature = "sparse")]
             Self::Sparse(_) => {
-                let mut dense = DenseMatrices::default();
+                let mut dense = Box::<DenseMatrices>::default();
                 dense.begin(n, pairs, field);
                 *self = Self::Dense(dense);
             }

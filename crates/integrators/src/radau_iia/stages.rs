@@ -127,7 +127,8 @@ impl Workspace {
         evaluations: &mut u64,
     ) -> Solved<F::Error> {
         let (n, s) = (self.rate.len(), tableau.stages());
-        self.rest = self.rest.max(f64::EPSILON).powf(0.8);
+        // What earlier steps contracted by says nothing of one much longer, which may lead where the field is another.
+        self.rest = if aim.is_familiar { self.rest.max(f64::EPSILON).powf(0.8) } else { 1.0 };
         let (mut first, mut before, mut ratio_before) = (f64::NAN, f64::NAN, f64::NAN);
         let mut contraction = None;
         // Changes of this size are rounding.

@@ -199,7 +199,7 @@ fn rate_that_is_nan_leaves_the_last_good_state() {
 fn velocity_that_is_nan_is_refused() {
     struct Broken;
     impl Separable for Broken {
-        type Error = core::convert::Infallible;
+        type Error = Infallible;
         fn freedom(&self) -> usize {
             1
         }

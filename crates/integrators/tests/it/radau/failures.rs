@@ -1,10 +1,12 @@
 //! Runs that fail say why and keep the last good state.
 
 use piola_integrators::{
-    DifferenceJacobian, Field, GivenJacobian, IntegratorsError, RadauIia, RadauOrder, State, StiffField, Tolerance,
-    WithMass, field,
+    DifferenceJacobian, ExactJacobian, Field, GivenJacobian, IntegratorsError, RadauIia, RadauOrder, State, StiffField,
+    Tolerance, WithMass, field,
 };
-use piola_testkit::{Tol, assert_close};
+use piola_testkit::{Tol, assert_close, assert_each_close};
+
+use super::problems::Robertson;
 
 fn method(tolerance: f64) -> RadauIia {
     RadauIia::new(Tolerance::relative(tolerance).unwrap())
@@ -205,4 +207,19 @@ fn mass_matrix_of_a_field_that_does_not_fit_is_refused_by_name() {
     let error = method(1e-6).integrate_to(&mut Misfit(infinite), &mut state, 1.0).unwrap_err();
     assert!(matches!(error, IntegratorsError::NotFinite { quantity: "mass", index: 2, .. }), "{error:?}");
     assert_eq!(state, start);
+}
+
+/// The first of the equal steps ends a fast decay: its polynomial continued is no start for the second.
+#[test]
+fn equal_steps_go_on_after_a_fast_decay() {
+    let mut robertson = ExactJacobian::new(Robertson);
+    let start = State::new(0.0, vec![1.0, 3.65e-5, 1e-3]).unwrap();
+    let mut exact = start.clone();
+    RadauIia::new(Tolerance::new(1e-12, 1e-20).unwrap()).integrate_to(&mut robertson, &mut exact, 1.0).unwrap();
+    for order in RadauOrder::ALL {
+        let mut state = start.clone();
+        RadauIia::with_step(order, 0.05).unwrap().integrate_to(&mut robertson, &mut state, 1.0).unwrap();
+        // Within the first step alone is the motion faster than the steps.
+        assert_each_close("end", &state.values, &exact.values, Tol::stated(1e-6, "steps of 0.05"));
+    }
 }
