@@ -23,7 +23,7 @@ use piola_integrators::{
 };
 
 /// The largest number of components for which dense matrices are tried.
-const LARGEST_DENSE: usize = 500;
+const LARGEST_DENSE: usize = 1024;
 
 /// Seconds, report and end of a run.
 fn run(

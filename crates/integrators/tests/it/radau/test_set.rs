@@ -86,7 +86,7 @@ fn stiff_chain_from_rest_ends_at_the_reference() {
         let mut system = ExactJacobian::new(Chain { masses });
         let values = run(&mut system, &[0.0; 40], number(&file["end"]), tolerance);
         let own = vector(&file["values"]);
-        let tol = Tol::stated(100.0, "growth over ten swings").times(tolerance);
+        let tol = Tol::stated(10.0, "growth over two swings").times(tolerance);
         assert_each_close("chain", &values, &own, tol);
     }
 }
