@@ -9,6 +9,7 @@
 
 #![expect(clippy::print_stdout, reason = "the table is what this program is for")]
 
+mod heavy_top;
 #[expect(dead_code, reason = "diffusion is for `stiff_sparse`")]
 mod large;
 mod mechanisms;
@@ -18,6 +19,7 @@ use core::convert::Infallible;
 use std::fs;
 use std::time::Instant;
 
+use heavy_top::HeavyTop;
 use large::Chain;
 use mechanisms::{CarAxis, Squeezer};
 use piola_integrators::{
@@ -103,6 +105,9 @@ fn mechanisms() -> Result<(), IntegratorsError> {
     let expected = vector(&file["own_reference"]["values"]);
     let error = |values: &[f64]| error_of_motion(values, &expected, 4);
     rows("car axis, index 2", 0.0, &mut CarAxis.system()?, &CarAxis::START, 3.0, error)?;
+    let expected = HeavyTop::at(HeavyTop::END);
+    let error = |values: &[f64]| error_of_motion(values, &expected, 9);
+    rows("heavy top, index 2", 0.0, &mut HeavyTop.system()?, &HeavyTop::at(0.0), HeavyTop::END, error)?;
     let expected = vector(&reference("stiff_chain")["values"]);
     let error = |values: &[f64]| error_of_motion(values, &expected, 20);
     rows("chain of 20", 0.0, &mut ExactJacobian::new(Chain { masses: 20 }), &[0.0; 40], 10.0, error)

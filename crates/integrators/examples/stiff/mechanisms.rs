@@ -11,7 +11,7 @@ fn diagonal(masses: impl IntoIterator<Item = f64>) -> Vec<(usize, usize, f64)> {
 }
 
 /// Makes the error of each component relative to the largest of its group.
-fn magnitudes_of_groups<T: Real>(lengths: &[usize], mut y: &[T], mut magnitudes: &mut [f64]) {
+pub(crate) fn magnitudes_of_groups<T: Real>(lengths: &[usize], mut y: &[T], mut magnitudes: &mut [f64]) {
     for &length in lengths {
         let (group, others) = y.split_at(length);
         let (of_group, of_others) = magnitudes.split_at_mut(length);

@@ -13,7 +13,7 @@ use crate::{Field, IntegratorsError};
 /// matrices alone.
 ///
 /// The pattern must hold every entry that can differ from zero: derivatives outside of it are lost, or added to others of
-/// their row. [`Sparsity::of_field`] finds it.
+/// their row, and Newton's iteration then converges slowly or not at all. [`Sparsity::of_field`] finds the pattern.
 ///
 /// # Accuracy
 /// That of the field's own operations: there is no step width and no truncation.

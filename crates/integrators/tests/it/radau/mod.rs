@@ -11,6 +11,8 @@ mod steps;
 mod tables;
 mod test_set;
 
+#[path = "../../../examples/stiff/heavy_top.rs"]
+mod heavy_top;
 #[path = "../../../examples/stiff/large.rs"]
 #[cfg_attr(not(feature = "sparse"), expect(dead_code, reason = "diffusion is solved by sparse matrices"))]
 mod large;

@@ -330,3 +330,18 @@ fn pattern_is_found_only_where_the_field_is_defined() {
     let error = Sparsity::of_field(&mut Nowhere, 2.0, &[1.0]).unwrap_err();
     assert_eq!(error, IntegratorsError::Field { t: 2.0, source: Undefined });
 }
+
+/// Residuals are those of the field: the end is right, or there is an error.
+#[test]
+fn pattern_that_lacks_entries_does_not_mislead() {
+    let line = Diffusion { side: 8, rows: 1 };
+    let start = line.start();
+    let method = || RadauIia::new(Tolerance::relative(1e-7).unwrap()).with_most_steps(2000);
+    let (exact, report) = run(&mut ExactJacobian::new(line), &mut method(), &start, 0.1);
+    let diagonal = Sparsity::from_entries(8, (0..8).map(|k| (k, k))).unwrap();
+    let mut lacking = SparseJacobian::new(line, diagonal).unwrap();
+    let mut state = State::new(0.0, start.clone()).unwrap();
+    let slower = method().integrate_to(&mut lacking, &mut state, 0.1).unwrap();
+    assert_close("end", &state.values, &exact, Tol::stated(1e-6, "tolerance 1e-7"));
+    assert!(report.run.evaluations < slower.run.evaluations && report.jacobians < slower.jacobians, "{slower:?}");
+}

@@ -8,6 +8,7 @@ use piola_testkit::golden::{number, vector};
 use piola_testkit::{Tol, assert_close, assert_each_close};
 use serde_json::Value;
 
+use super::heavy_top::HeavyTop;
 use super::large::Chain;
 use super::mechanisms::{CarAxis, Squeezer};
 
@@ -88,5 +89,26 @@ fn stiff_chain_from_rest_ends_at_the_reference() {
         let own = vector(&file["values"]);
         let tol = Tol::stated(10.0, "growth over two swings").times(tolerance);
         assert_each_close("chain", &values, &own, tol);
+    }
+}
+
+#[test]
+fn heavy_top_in_directors_precesses_steadily() {
+    let (start, end) = (HeavyTop::at(0.0), HeavyTop::at(HeavyTop::END));
+    let mut rate = [1.0; 24];
+    HeavyTop.rate(0.0, &start, &mut rate).unwrap();
+    assert_close("constraints", &rate[18..], &[0.0; 6], Tol::stated(1e-13, "rounding of 150 rad/s"));
+    for tolerance in [1e-5, 1e-8] {
+        let values = run(&mut HeavyTop.system().unwrap(), &start, HeavyTop::END, tolerance);
+        let tol = Tol::stated(20.0, "growth over seven turns").times(tolerance);
+        for (name, part) in [("directors", 0..9), ("velocities", 9..18), ("reactions", 18..24)] {
+            assert_close(name, &values[part.clone()], &end[part], tol);
+        }
+        // Directors stay orthonormal, though the constraints stand on velocities.
+        let [one, two, three] = [0, 3, 6].map(|k| &values[k..k + 3]);
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let products = [(one, one), (two, two), (three, three), (one, two), (two, three), (three, one)];
+        let products = products.map(|(a, b)| dot(a, b));
+        assert_close("orthonormality", &products, &[1.0, 1.0, 1.0, 0.0, 0.0, 0.0], tol);
     }
 }
