@@ -34,7 +34,7 @@ if __name__ == "__main__":
                    "Ni = 1e6 (u(i+1) - ui) + 1e3 (v(i+1) - vi), N20 = 0; from rest at u = 0; state (u1 ... u20, v1 ... v20)",
         "masses": MASSES, "stiffness": STIFFNESS, "damping": DAMPING, "gravity": GRAVITY, "end": END,
         "values": ["{0:.30g}".format(x) for x in values],
-        "source": f"collocation on {STAGES} nodes of Radau (order {2 * STAGES - 1}) with {BITS} bits, by testdata/scripts/stiff_chain.py",
+        "provenance": f"collocation on {STAGES} nodes of Radau (order {2 * STAGES - 1}) with {BITS} bits, by testdata/scripts/stiff_chain.py",
         "largest_relative_distance_from_coarser_mesh": f"{distance:.1e}",
     }, sys.stdout, indent=1)
     print()

@@ -2,6 +2,7 @@
 
 use super::aim::Aim;
 use super::matrices::Matrices;
+use super::norm::norm;
 use super::stages::Workspace;
 use super::tableau::Tableau;
 use crate::{State, StiffField};
@@ -84,20 +85,4 @@ fn judge<F: StiffField>(
         }
     }
     error.max(aim.widening * norm(e, weights))
-}
-
-/// The root of the mean square of x over the weights, whose pattern repeats. Components that may have no error and have none
-/// do not count.
-pub(super) fn norm(x: &[f64], weights: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for block in x.chunks_exact(weights.len().max(1)) {
-        for (x, weight) in block.iter().zip(weights) {
-            if x.abs() <= 0.0 {
-                continue;
-            }
-            let ratio = x / weight;
-            sum += ratio * ratio;
-        }
-    }
-    (sum / x.len().max(1) as f64).sqrt()
 }

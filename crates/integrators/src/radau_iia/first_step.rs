@@ -1,7 +1,7 @@
 //! The first step of a run that was not given one.
 
 use super::aim::Aim;
-use super::estimate::norm;
+use super::norm::norm;
 use super::order::RadauOrder;
 use super::{RadauIia, RadauReport};
 use crate::{State, StiffField};

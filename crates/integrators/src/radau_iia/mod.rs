@@ -60,6 +60,7 @@ mod estimate;
 mod first_step;
 mod lu;
 mod matrices;
+mod norm;
 mod order;
 mod run;
 #[cfg(feature = "sparse")]

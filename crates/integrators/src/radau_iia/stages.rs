@@ -3,8 +3,8 @@
 use num_complex::Complex64;
 
 use super::aim::Aim;
-use super::estimate::norm;
 use super::matrices::Matrices;
+use super::norm::norm;
 use super::tableau::{MOST_STAGES, Tableau};
 use crate::state::check_finite;
 use crate::{IntegratorsError, State, StiffField};
