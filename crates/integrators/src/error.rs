@@ -19,6 +19,20 @@ pub enum IntegratorsError<E = Infallible> {
         /// The number of entries it has.
         found: usize,
     },
+    /// An entry of a sparse matrix lies outside of it.
+    #[error(
+        "`{quantity}` has an entry in row {row}, column {column}; it has {dimension} rows and columns, counted from 0"
+    )]
+    OutsideMatrix {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The entry's row, counted from 0.
+        row: usize,
+        /// The entry's column, counted from 0.
+        column: usize,
+        /// The number of rows and of columns.
+        dimension: usize,
+    },
     /// A number is infinite or NaN: a time or a state that was given, or a rate or a state that a step led to.
     ///
     /// An adaptive method returns the latter only where no shorter step avoids it.
@@ -158,6 +172,9 @@ impl IntegratorsError<Infallible> {
         match self {
             Self::WrongLength { quantity, expected, found } => {
                 IntegratorsError::WrongLength { quantity, expected, found }
+            }
+            Self::OutsideMatrix { quantity, row, column, dimension } => {
+                IntegratorsError::OutsideMatrix { quantity, row, column, dimension }
             }
             Self::NotFinite { quantity, index, value, t } => IntegratorsError::NotFinite { quantity, index, value, t },
             Self::OutsideGroup { index, defect } => IntegratorsError::OutsideGroup { index, defect },

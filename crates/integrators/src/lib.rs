@@ -61,6 +61,8 @@ pub use sensitivity::{
 };
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use stiff_field::{DifferenceJacobian, Differentiable, ExactJacobian, GivenJacobian, StiffField, WithMass};
+#[cfg(feature = "sparse")]
+pub use stiff_field::{SparseJacobian, Sparsity};
 pub use tolerance::Tolerance;
 pub use variational::{
     ActionRule, Chord, DiscreteEulerLagrange, DiscreteLagrangian, VariationalIntegrator, VariationalSystem,

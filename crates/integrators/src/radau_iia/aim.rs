@@ -12,13 +12,19 @@ pub(super) struct Aim {
     /// The error allowed in a component: absolute + relative · magnitude.
     pub(super) absolute: f64,
     pub(super) relative: f64,
+    /// How many times that is what the stiff part of the error may be.
+    pub(super) widening: f64,
     /// The part of it that Newton's iteration may leave.
     pub(super) unswept: f64,
     /// The change up to which an iteration that no longer contracts is taken to show the rounding of a stiff field.
     pub(super) noise: f64,
     pub(super) most_sweeps: u32,
+    /// Whether the step is like the last one, so that its iteration contracts alike.
+    pub(super) is_familiar: bool,
 }
 
+/// The least tolerance to which the stiff part of an error is held.
+const SEEN: f64 = 1e-12;
 /// [`Aim::noise`] of steps that adapt.
 const NOISE: f64 = 0.01;
 
@@ -28,7 +34,15 @@ impl Aim {
             // Below the smallest magnitudes nothing is iterated.
             Control::Fixed(_) => {
                 let (absolute, noise) = (f64::MIN_POSITIVE, 1e4);
-                return Self { absolute, relative: ROUNDING, unswept: 1e-2, noise, most_sweeps: 50 };
+                return Self {
+                    absolute,
+                    relative: ROUNDING,
+                    widening: 1.0,
+                    unswept: 1e-2,
+                    noise,
+                    most_sweeps: 50,
+                    is_familiar: false,
+                };
             }
             Control::Adaptive(tolerance) => tolerance,
         };
@@ -40,7 +54,15 @@ impl Aim {
         let (absolute, relative) = (tolerance.absolute_part(), tolerance.relative_part());
         if relative <= 0.0 {
             // An absolute tolerance has a unit: only a relative one has powers.
-            return Self { absolute, relative, unswept: 1e-2, noise: NOISE, most_sweeps };
+            return Self {
+                absolute,
+                relative,
+                widening: 1.0,
+                unswept: 1e-2,
+                noise: NOISE,
+                most_sweeps,
+                is_familiar: false,
+            };
         }
         // The error of the estimate is of order s + 1, that of the step of order 2s.
         let s = order.tableau().stages() as f64;
@@ -49,7 +71,17 @@ impl Aim {
         // What the iteration leaves is an error of the step itself.
         let unswept = (0.3 * relative.powf(1.0 - exponent)).min(0.03);
         let unswept = unswept.max(10.0 * f64::EPSILON / (relative * widening));
-        Self { absolute: absolute * widening, relative: relative * widening, unswept, noise: NOISE, most_sweeps }
+        // Nearer to rounding than that the stiff part of an error cannot be seen.
+        let seen = widening * (relative / relative.max(SEEN));
+        Self {
+            absolute: absolute * widening,
+            relative: relative * widening,
+            widening: seen,
+            unswept,
+            noise: NOISE,
+            most_sweeps,
+            is_familiar: false,
+        }
     }
 }
 

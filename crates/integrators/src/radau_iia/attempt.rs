@@ -9,6 +9,8 @@ use super::{RadauIia, RadauReport};
 use crate::state::{check_finite, compensated_add};
 use crate::{IntegratorsError, State, StiffField};
 
+/// Growth of the step that is not worth another factorisation, and after which Newton's iteration contracts as before.
+pub(super) const LITTLE_GROWTH: f64 = 1.2;
 /// Singular matrices of one step after which it is given up.
 const MOST_SINGULAR: u32 = 6;
 /// The part of a step that is tried after one within which the field is not defined.
@@ -82,12 +84,23 @@ impl RadauIia {
         report: &mut RadauReport,
     ) -> Result<Option<Attempt>, IntegratorsError<F::Error>> {
         let order = progress.controller.order;
-        let (tableau, aim) = (order.tableau(), Aim::of(self.control, order));
+        let tableau = order.tableau();
+        let is_familiar = progress
+            .last
+            .is_some_and(|(before, last)| before.stages() == tableau.stages() && h.abs() <= LITTLE_GROWTH * last.abs());
+        let aim = Aim { is_familiar, ..Aim::of(self.control, order) };
         if !self.linearise(field, state, h, progress, report)? {
             return Ok(None);
         }
         self.work.predict(tableau, h, progress.last);
-        let (sweeps, contraction) = match self.work.solve(field, tableau, state, h, aim, &mut report.run.evaluations) {
+        let evaluations = &mut report.run.evaluations;
+        let mut solved = self.work.solve(field, tableau, state, h, aim, evaluations);
+        if progress.is_fixed && progress.jacobian == Jacobian::Current && !matches!(solved, Solved::Converged { .. }) {
+            // A polynomial through a fast decay leads far away; no shorter step will be tried.
+            self.work.predict(tableau, h, None);
+            solved = self.work.solve(field, tableau, state, h, Aim { is_familiar: false, ..aim }, evaluations);
+        }
+        let (sweeps, contraction) = match solved {
             Solved::Converged { sweeps, contraction } => (sweeps, contraction),
             Solved::Diverged { .. } if progress.jacobian == Jacobian::Kept => {
                 progress.jacobian = Jacobian::None;
@@ -137,9 +150,9 @@ impl RadauIia {
         let order = progress.controller.order;
         if progress.jacobian == Jacobian::None {
             field
-                .jacobian(state.time, &state.values, &mut self.work.jacobian)
+                .jacobian(state.time, &state.values, self.work.matrices.jacobian())
                 .map_err(|source| IntegratorsError::Field { t: state.time, source })?;
-            check_finite("jacobian", Some(state.time), &self.work.jacobian)?;
+            check_finite("jacobian", Some(state.time), self.work.matrices.jacobian())?;
             report.jacobians += 1;
             (progress.jacobian, progress.factored) = (Jacobian::Current, None);
         }
@@ -148,7 +161,7 @@ impl RadauIia {
         }
         report.factorisations += 1;
         progress.factored = None;
-        if let Err(pivot) = self.work.factor(order.tableau(), h) {
+        if let Err(pivot) = self.work.matrices.factor(order.tableau(), h) {
             let refusal = IntegratorsError::SingularMatrix { t: state.time, step: h, pivot };
             progress.singular += 1;
             if MOST_SINGULAR <= progress.singular {

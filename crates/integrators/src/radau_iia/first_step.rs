@@ -1,8 +1,8 @@
 //! The first step of a run that was not given one.
 
 use super::aim::Aim;
+use super::norm::norm;
 use super::order::RadauOrder;
-use super::stages::norm;
 use super::{RadauIia, RadauReport};
 use crate::{State, StiffField};
 
@@ -21,7 +21,7 @@ impl RadauIia {
     ) -> f64 {
         let longest = span.abs().min(self.longest_step);
         let shortest = SHORT * longest;
-        if field.mass().is_some() {
+        if field.mass().is_some() || field.mass_entries().is_some() {
             return shortest;
         }
         let aim = Aim::of(self.control, order);

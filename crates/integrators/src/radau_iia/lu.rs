@@ -40,6 +40,11 @@ impl<T: Entry> Factors<T> {
         self.exchanges.resize(n, 0);
     }
 
+    /// The number of rows.
+    pub(super) fn order(&self) -> usize {
+        self.exchanges.len()
+    }
+
     /// Factors `entries` in place.
     ///
     /// # Errors

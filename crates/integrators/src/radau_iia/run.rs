@@ -2,7 +2,7 @@
 
 use core::ops::ControlFlow;
 
-use super::attempt::{Jacobian, Progress};
+use super::attempt::{Jacobian, LITTLE_GROWTH, Progress};
 use super::control::{Attempt, Controller};
 use super::dense::RadauIiaStep;
 use super::{Control, RadauIia, RadauReport};
@@ -13,8 +13,6 @@ use crate::{IntegratorsError, State, StiffField};
 
 /// Contraction below which the Jacobian is kept for the next step.
 const FAST: f64 = 1e-3;
-/// Growth of the step that is not worth another factorisation.
-const LITTLE_GROWTH: f64 = 1.2;
 
 impl RadauIia {
     /// The loop of all runs. `inspect` sees each accepted step; to end the run it gives the time of the end (the step's own
@@ -29,7 +27,7 @@ impl RadauIia {
         let n = field.dimension();
         check_run(n, state, end)?;
         let [lowest, highest] = self.orders.unwrap_or_else(|| self.control.orders());
-        self.work.begin(n, highest.tableau().stages(), field.mass());
+        self.work.begin(n, highest.tableau().stages(), field)?;
         let mut report = RadauReport::begin();
         let (origin, span) = (state.time, end - state.time);
         if span.abs() <= 0.0 {

@@ -1,9 +1,10 @@
-//! The stages of a step by Newton's iteration in transformed variables, and the estimate of its error.
+//! The stages of a step by Newton's iteration in transformed variables.
 
 use num_complex::Complex64;
 
 use super::aim::Aim;
-use super::lu::Factors;
+use super::matrices::Matrices;
+use super::norm::norm;
 use super::tableau::{MOST_STAGES, Tableau};
 use crate::state::check_finite;
 use crate::{IntegratorsError, State, StiffField};
@@ -28,9 +29,9 @@ pub(super) struct Workspace {
     /// Those of the last accepted step.
     pub(super) accepted: Vec<f64>,
     /// f at the stages, then the transformed right-hand sides.
-    rates: Vec<f64>,
+    pub(super) rates: Vec<f64>,
     /// The residuals of the stages, then their corrections.
-    residuals: Vec<f64>,
+    pub(super) residuals: Vec<f64>,
     /// The state at the start of the last accepted step.
     pub(super) start: Vec<f64>,
     pub(super) start_carry: Vec<f64>,
@@ -39,16 +40,13 @@ pub(super) struct Workspace {
     pub(super) rate_at_end: Vec<f64>,
     pub(super) trial: Vec<f64>,
     pub(super) trial_carry: Vec<f64>,
-    pub(super) jacobian: Vec<f64>,
-    pub(super) mass: Vec<f64>,
-    real: Factors<f64>,
-    complex: [Factors<Complex64>; MOST_STAGES / 2],
+    pub(super) matrices: Matrices,
     pair: Vec<Complex64>,
     pub(super) magnitudes: Vec<f64>,
     magnitudes_at_end: Vec<f64>,
     /// The error allowed in each component.
     pub(super) weights: Vec<f64>,
-    error: Vec<f64>,
+    pub(super) error: Vec<f64>,
     /// θ/(1 − θ) of the last iteration, by which the first change of the next is judged.
     rest: f64,
 }
@@ -65,7 +63,16 @@ pub(super) enum Solved<E> {
 }
 
 impl Workspace {
-    pub(super) fn begin(&mut self, n: usize, most_stages: usize, mass: Option<&[f64]>) {
+    /// Makes room for a run.
+    ///
+    /// # Errors
+    /// Mass matrix and pattern must fit the field.
+    pub(super) fn begin<F: StiffField>(
+        &mut self,
+        n: usize,
+        most_stages: usize,
+        field: &F,
+    ) -> Result<(), IntegratorsError<F::Error>> {
         for buffer in [&mut self.stages, &mut self.accepted, &mut self.rates, &mut self.residuals] {
             buffer.resize(most_stages * n, 0.0);
         }
@@ -83,34 +90,9 @@ impl Workspace {
         ] {
             buffer.resize(n, 0.0);
         }
-        self.jacobian.resize(n * n, 0.0);
-        self.mass.clear();
-        self.mass.extend_from_slice(mass.unwrap_or(&[]));
-        self.real.resize(n);
-        for factors in self.complex.iter_mut().take(most_stages / 2) {
-            factors.resize(n);
-        }
+        self.matrices.begin(n, most_stages / 2, field)?;
         self.pair.resize(n, Complex64::default());
         self.rest = 1.0;
-    }
-
-    /// Factors γ/h M − J and (α − iβ)/h M − J; the index of a pivot that is zero where there is one.
-    pub(super) fn factor(&mut self, tableau: &Tableau, h: f64) -> Result<(), usize> {
-        let n = self.rate.len();
-        let identity = self.mass.is_empty();
-        let mass = |k: usize| if identity { f64::from(u8::from(k.is_multiple_of(n + 1))) } else { self.mass[k] };
-        let gamma = tableau.real / h;
-        for (k, (entry, j)) in self.real.entries.iter_mut().zip(&self.jacobian).enumerate() {
-            *entry = gamma * mass(k) - j;
-        }
-        self.real.factor()?;
-        for (factors, [alpha, beta]) in self.complex.iter_mut().zip(tableau.pairs) {
-            let (alpha, beta) = (alpha / h, beta / h);
-            for (k, (entry, j)) in factors.entries.iter_mut().zip(&self.jacobian).enumerate() {
-                *entry = Complex64::new(alpha * mass(k) - j, -beta * mass(k));
-            }
-            factors.factor()?;
-        }
         Ok(())
     }
 
@@ -145,7 +127,8 @@ impl Workspace {
         evaluations: &mut u64,
     ) -> Solved<F::Error> {
         let (n, s) = (self.rate.len(), tableau.stages());
-        self.rest = self.rest.max(f64::EPSILON).powf(0.8);
+        // What earlier steps contracted by says nothing of one much longer, which may lead where the field is another.
+        self.rest = if aim.is_familiar { self.rest.max(f64::EPSILON).powf(0.8) } else { 1.0 };
         let (mut first, mut before, mut ratio_before) = (f64::NAN, f64::NAN, f64::NAN);
         let mut contraction = None;
         // Changes of this size are rounding.
@@ -218,7 +201,7 @@ impl Workspace {
         // r = h A f − M Z: small where the iteration has converged, so that only then it is transformed.
         apply(tableau.matrix, s, h, &self.rates, &mut self.residuals, n);
         for (z, r) in self.stages.chunks_exact(n.max(1)).zip(self.residuals.chunks_exact_mut(n.max(1))).take(s) {
-            subtract_mass_times(&self.mass, z, r);
+            self.matrices.subtract_mass_times(z, r);
         }
         // Λ/h T⁻¹ r.
         apply(tableau.inverse, s, 1.0 / h, &self.residuals, &mut self.rates, n);
@@ -226,14 +209,14 @@ impl Workspace {
         for r in &mut *real {
             *r *= tableau.real;
         }
-        self.real.solve(real);
+        self.matrices.solve_real(real);
         let pairs = pairs.chunks_exact_mut((2 * n).max(1));
-        for ((pair, factors), [alpha, beta]) in pairs.zip(&self.complex).zip(tableau.pairs) {
+        for (k, (pair, [alpha, beta])) in pairs.zip(tableau.pairs).enumerate() {
             let (r2, r3) = pair.split_at_mut(n);
             for ((x, &r2), &r3) in self.pair.iter_mut().zip(&*r2).zip(&*r3) {
                 *x = Complex64::new(alpha * r2 + beta * r3, alpha * r3 - beta * r2);
             }
-            factors.solve(&mut self.pair);
+            self.matrices.solve_complex(k, &mut self.pair);
             for ((x, re), im) in self.pair.iter().zip(r2).zip(r3) {
                 (*re, *im) = (x.re, x.im);
             }
@@ -245,7 +228,7 @@ impl Workspace {
     }
 
     /// The error allowed in each component, from the magnitudes at both ends of the step.
-    fn weigh<F: StiffField>(&mut self, field: &F, tableau: &Tableau, state: &State, h: f64, aim: Aim) {
+    pub(super) fn weigh<F: StiffField>(&mut self, field: &F, tableau: &Tableau, state: &State, h: f64, aim: Aim) {
         let n = self.rate.len();
         let end = &self.stages[(tableau.stages() - 1) * n..][..n];
         for (k, trial) in self.trial.iter_mut().enumerate() {
@@ -259,50 +242,6 @@ impl Workspace {
                 *weight /= h.abs().min(1.0);
             }
         }
-    }
-
-    /// The error of the step, relative to what is allowed. Where it is too large it is estimated once more with f at the
-    /// corrected start, if there is a count of evaluations to add that one to.
-    pub(super) fn estimate<F: StiffField>(
-        &mut self,
-        field: &mut F,
-        tableau: &Tableau,
-        state: &State,
-        h: f64,
-        aim: Aim,
-        again: Option<&mut u64>,
-    ) -> f64 {
-        let n = self.rate.len();
-        self.weigh(field, tableau, state, h, aim);
-        self.error.fill(0.0);
-        for (defect, stage) in tableau.defect.iter().zip(self.stages.chunks_exact(n.max(1))) {
-            for (error, z) in self.error.iter_mut().zip(stage) {
-                *error -= defect / h * z;
-            }
-        }
-        self.residuals[..n].copy_from_slice(&self.rate);
-        subtract_mass_times(&self.mass, &self.error, &mut self.residuals[..n]);
-        let (residual, solution) = self.residuals.split_at_mut(n);
-        let solution = &mut solution[..n];
-        solution.copy_from_slice(residual);
-        self.real.solve(solution);
-        let error = norm(solution, &self.weights);
-        let Some(evaluations) = again.filter(|_| 1.0 <= error) else { return error };
-        for (k, trial) in self.trial.iter_mut().enumerate() {
-            *trial = state.values[k] + (state.carry[k] + solution[k]);
-        }
-        *evaluations += 1;
-        if field.rate(state.time, &self.trial, &mut self.rate_at_end).is_err() {
-            return error;
-        }
-        for ((solution, &residual), (new, old)) in
-            solution.iter_mut().zip(&*residual).zip(self.rate_at_end.iter().zip(&self.rate))
-        {
-            *solution = residual + (new - old);
-        }
-        self.real.solve(solution);
-        let filtered = norm(solution, &self.weights);
-        if filtered.is_finite() { filtered } else { error }
     }
 }
 
@@ -328,35 +267,4 @@ fn apply_unrolled<const S: usize>(matrix: &[f64], factor: f64, x: &[f64], out: &
             out[i * n + k] = factor * sum;
         }
     }
-}
-
-/// r ← r − M x; no mass matrix stands for the identity.
-fn subtract_mass_times(mass: &[f64], x: &[f64], r: &mut [f64]) {
-    if mass.is_empty() {
-        for (r, x) in r.iter_mut().zip(x) {
-            *r -= x;
-        }
-        return;
-    }
-    for (column, x) in mass.chunks_exact(r.len().max(1)).zip(x) {
-        for (r, m) in r.iter_mut().zip(column) {
-            *r -= m * x;
-        }
-    }
-}
-
-/// The root of the mean square of x over the weights, whose pattern repeats. Components that may have no error and have none
-/// do not count.
-pub(super) fn norm(x: &[f64], weights: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for block in x.chunks_exact(weights.len().max(1)) {
-        for (x, weight) in block.iter().zip(weights) {
-            if x.abs() <= 0.0 {
-                continue;
-            }
-            let ratio = x / weight;
-            sum += ratio * ratio;
-        }
-    }
-    (sum / x.len().max(1) as f64).sqrt()
 }

@@ -1,9 +1,12 @@
 //! Runs that fail say why and keep the last good state.
 
 use piola_integrators::{
-    DifferenceJacobian, Field, GivenJacobian, IntegratorsError, RadauIia, RadauOrder, State, StiffField, Tolerance,
-    WithMass, field,
+    DifferenceJacobian, ExactJacobian, Field, GivenJacobian, IntegratorsError, RadauIia, RadauOrder, State, StiffField,
+    Tolerance, WithMass, field,
 };
+use piola_testkit::{Tol, assert_close, assert_each_close};
+
+use super::problems::Robertson;
 
 fn method(tolerance: f64) -> RadauIia {
     RadauIia::new(Tolerance::relative(tolerance).unwrap())
@@ -132,4 +135,91 @@ fn steps_that_are_not_positive_are_refused() {
     }
     assert!(matches!(method(1e-6).with_longest_step(0.0), Err(IntegratorsError::InvalidStep { .. })));
     assert!(method(1e-6).with_longest_step(f64::INFINITY).is_ok());
+}
+
+/// A pendulum of length 1 in Cartesian coordinates (x, y, u, v, λ) with the constraint on positions: index 3.
+#[test]
+fn constraint_of_index_three_stops_with_the_state_on_the_motion() {
+    let pendulum = field(5, |_t, y: &[f64], rate: &mut [f64]| {
+        rate.copy_from_slice(&[y[2], y[3], -y[4] * y[0], -y[4] * y[1] - 1.0, y[0] * y[0] + y[1] * y[1] - 1.0]);
+    });
+    let mass = (0..4).map(|k| (k, k, 1.0)).collect();
+    let mut system = WithMass::from_entries(DifferenceJacobian::new(pendulum), mass).unwrap();
+    let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
+    let error =
+        RadauIia::new(Tolerance::new(1e-8, 1e-8).unwrap()).integrate_to(&mut system, &mut state, 5.0).unwrap_err();
+    assert!(matches!(error, IntegratorsError::StepTooSmall { .. }), "{error:?}");
+    // Before it stopped the mass fell: y = −t²/2, v = −t.
+    let t = state.time;
+    let expected = [1.0, -0.5 * t * t, 0.0, -t];
+    assert!(0.0 < t && t < 0.1);
+    assert_close("fall", &state.values[..4], &expected, Tol::stated(1e-8, "tolerance 1e-8"));
+}
+
+/// J has the wrong sign: Newton's iteration leads away, unless the step is so short that J does not matter.
+#[test]
+fn iteration_that_a_wrong_jacobian_leads_astray_says_so() {
+    let decay = field(1, |_t, y: &[f64], rate: &mut [f64]| rate[0] = -1e6 * y[0]);
+    let mut system = GivenJacobian::new(decay, |_t, _y: &[f64], jacobian: &mut [f64]| jacobian[0] = 1e6);
+    let start = State::new(0.0, vec![1.0]).unwrap();
+    let mut state = start.clone();
+    let error =
+        RadauIia::with_step(RadauOrder::Nine, 1.0).unwrap().integrate_to(&mut system, &mut state, 1.0).unwrap_err();
+    let known = matches!(error, IntegratorsError::StagesDiverged { .. } | IntegratorsError::NotFinite { .. });
+    assert!(known, "{error:?}");
+    assert_eq!(state, start);
+    let mut adaptive = method(1e-8).with_most_steps(100);
+    let error = adaptive.integrate_to(&mut system, &mut state, 1.0).unwrap_err();
+    assert!(matches!(error, IntegratorsError::TooManySteps { steps: 100, .. }), "{error:?}");
+    let exact = (-1e6 * state.time).exp();
+    assert_close("decay", &state.values, &[exact], Tol::stated(1e-6, "tolerance 1e-8 over a hundred steps"));
+}
+
+/// A field whose mass matrix has the wrong length.
+struct Misfit(Vec<f64>);
+impl Field for Misfit {
+    type Error = core::convert::Infallible;
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn rate(&mut self, _t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
+        rate.copy_from_slice(y);
+        Ok(())
+    }
+}
+impl StiffField for Misfit {
+    fn jacobian(&mut self, _t: f64, _y: &[f64], jacobian: &mut [f64]) -> Result<(), Self::Error> {
+        jacobian.copy_from_slice(&[1.0, 0.0, 0.0, 1.0]);
+        Ok(())
+    }
+    fn mass(&self) -> Option<&[f64]> {
+        Some(&self.0)
+    }
+}
+
+#[test]
+fn mass_matrix_of_a_field_that_does_not_fit_is_refused_by_name() {
+    let start = State::new(0.0, vec![1.0, 1.0]).unwrap();
+    let mut state = start.clone();
+    let error = method(1e-6).integrate_to(&mut Misfit(vec![1.0; 3]), &mut state, 1.0).unwrap_err();
+    assert_eq!(error, IntegratorsError::WrongLength { quantity: "mass", expected: 4, found: 3 });
+    let infinite = vec![1.0, 0.0, f64::INFINITY, 1.0];
+    let error = method(1e-6).integrate_to(&mut Misfit(infinite), &mut state, 1.0).unwrap_err();
+    assert!(matches!(error, IntegratorsError::NotFinite { quantity: "mass", index: 2, .. }), "{error:?}");
+    assert_eq!(state, start);
+}
+
+/// The first of the equal steps ends a fast decay: its polynomial continued is no start for the second.
+#[test]
+fn equal_steps_go_on_after_a_fast_decay() {
+    let mut robertson = ExactJacobian::new(Robertson);
+    let start = State::new(0.0, vec![1.0, 3.65e-5, 1e-3]).unwrap();
+    let mut exact = start.clone();
+    RadauIia::new(Tolerance::new(1e-12, 1e-20).unwrap()).integrate_to(&mut robertson, &mut exact, 1.0).unwrap();
+    for order in RadauOrder::ALL {
+        let mut state = start.clone();
+        RadauIia::with_step(order, 0.05).unwrap().integrate_to(&mut robertson, &mut state, 1.0).unwrap();
+        // Within the first step alone is the motion faster than the steps.
+        assert_each_close("end", &state.values, &exact.values, Tol::stated(1e-6, "steps of 0.05"));
+    }
 }

@@ -4,10 +4,20 @@ mod constraints;
 mod failures;
 mod golden;
 mod runs;
+#[cfg(feature = "sparse")]
+mod sparse;
 mod stability;
 mod steps;
 mod tables;
+mod test_set;
 
+#[path = "../../../examples/stiff/heavy_top.rs"]
+mod heavy_top;
+#[path = "../../../examples/stiff/large.rs"]
+#[cfg_attr(not(feature = "sparse"), expect(dead_code, reason = "diffusion is solved by sparse matrices"))]
+mod large;
+#[path = "../../../examples/stiff/mechanisms.rs"]
+mod mechanisms;
 #[path = "../../../examples/stiff/problems.rs"]
 mod problems;
 

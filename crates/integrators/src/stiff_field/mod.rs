@@ -2,7 +2,19 @@
 
 use piola_numerics::Gradient;
 
-use crate::{Field, IntegratorsError};
+use crate::Field;
+
+mod mass;
+#[cfg(feature = "sparse")]
+mod sparse_jacobian;
+#[cfg(feature = "sparse")]
+mod sparsity;
+
+pub use self::mass::WithMass;
+#[cfg(feature = "sparse")]
+pub use self::sparse_jacobian::SparseJacobian;
+#[cfg(feature = "sparse")]
+pub use self::sparsity::Sparsity;
 
 /// A field M ẏ = f(t, y) with its Jacobian ∂f/∂y.
 ///
@@ -15,6 +27,12 @@ use crate::{Field, IntegratorsError};
 /// | by differences | [`DifferenceJacobian`] | nothing: any closure in `f64` |
 ///
 /// [`WithMass`] adds a mass matrix to any of them. Matrices are stored down their columns, entry (i, j) at `i + j * n`.
+#[cfg_attr(feature = "sparse", doc = "")]
+#[cfg_attr(
+    feature = "sparse",
+    doc = "[`SparseJacobian`] is [`ExactJacobian`] for large systems in which each rate depends on few components: only the \
+           entries that its [`Sparsity`] names are computed, stored and factored."
+)]
 ///
 /// # Example
 /// ```
@@ -28,12 +46,26 @@ use crate::{Field, IntegratorsError};
 #[doc(alias("DAE", "mass matrix", "implicit"))]
 pub trait StiffField: Field {
     /// Writes ∂f/∂y at (t, y), n×n down the columns, to `jacobian`.
+    #[cfg_attr(
+        feature = "sparse",
+        doc = "\nWhere [`sparsity`](Self::sparsity) names the entries, `jacobian` has one place for each of them, in their order."
+    )]
     ///
     /// # Errors
     /// Whatever makes the field undefined at (t, y).
     fn jacobian(&mut self, t: f64, y: &[f64], jacobian: &mut [f64]) -> Result<(), Self::Error>;
     /// M, constant, n×n down the columns; it may be singular. The default is none: ẏ = f(t, y).
     fn mass(&self) -> Option<&[f64]> {
+        None
+    }
+    /// M by its nonzero entries (row, column, value), where [`mass`](Self::mass) is none. Repeated entries are added. The
+    /// default is none.
+    fn mass_entries(&self) -> Option<&[(usize, usize, f64)]> {
+        None
+    }
+    /// The entries of ∂f/∂y that may differ from zero, if the field knows them. The default is none: all.
+    #[cfg(feature = "sparse")]
+    fn sparsity(&self) -> Option<&Sparsity> {
         None
     }
     /// The differentiation index of a component, 1 or 2. The default is 1.
@@ -68,6 +100,7 @@ macro_rules! delegate_field {
         }
     };
 }
+use delegate_field;
 
 /// The directions in which a field is differentiated at once.
 pub(crate) const DIRECTIONS: usize = 4;
@@ -235,68 +268,5 @@ impl<F: Field, J: FnMut(f64, &[f64], &mut [f64])> StiffField for GivenJacobian<F
         jacobian.fill(0.0);
         (self.jacobian)(t, y, jacobian);
         Ok(())
-    }
-}
-
-/// A stiff field with a constant mass matrix: M ẏ = f(t, y). M may be singular.
-///
-/// Rows of zeros are constraints 0 = f(t, y). The start must satisfy them: nothing corrects it.
-///
-/// # Example
-/// ```
-/// use piola_integrators::{DifferenceJacobian, RadauIia, State, Tolerance, WithMass, field};
-/// // ẋ = −z, 0 = x − z: x = e⁻ᵗ.
-/// let constrained = field(2, |_t, y: &[f64], f: &mut [f64]| f.copy_from_slice(&[-y[1], y[0] - y[1]]));
-/// let mass = vec![1.0, 0.0, 0.0, 0.0];
-/// let mut system = WithMass::new(DifferenceJacobian::new(constrained), mass)?;
-/// let mut state = State::new(0.0, vec![1.0, 1.0])?;
-/// RadauIia::new(Tolerance::relative(1e-10)?).integrate_to(&mut system, &mut state, 1.0)?;
-/// assert!((state.values[0] - (-1.0_f64).exp()).abs() < 1e-9);
-/// # Ok::<(), piola_integrators::IntegratorsError>(())
-/// ```
-#[doc(alias("DAE", "differential-algebraic", "constraints"))]
-#[derive(Clone, Debug)]
-pub struct WithMass<F> {
-    field: F,
-    mass: Vec<f64>,
-    /// The components from this one on have index 2.
-    first_of_index_two: usize,
-}
-
-impl<F: StiffField> WithMass<F> {
-    /// Takes a field and its mass matrix, down the columns.
-    ///
-    /// # Errors
-    /// [`IntegratorsError::WrongLength`], [`IntegratorsError::NotFinite`].
-    pub fn new(field: F, mass: Vec<f64>) -> Result<Self, IntegratorsError> {
-        let (expected, found) = (field.dimension().pow(2), mass.len());
-        if expected != found {
-            return Err(IntegratorsError::WrongLength { quantity: "mass", expected, found });
-        }
-        crate::state::check_finite("mass", None, &mass)?;
-        Ok(Self { field, mass, first_of_index_two: usize::MAX })
-    }
-
-    /// Declares that the components from `first` on have the differentiation index 2.
-    #[must_use]
-    pub const fn with_index_two_from(mut self, first: usize) -> Self {
-        self.first_of_index_two = first;
-        self
-    }
-}
-
-impl<F: StiffField> Field for WithMass<F> {
-    delegate_field!(F);
-}
-
-impl<F: StiffField> StiffField for WithMass<F> {
-    fn jacobian(&mut self, t: f64, y: &[f64], jacobian: &mut [f64]) -> Result<(), Self::Error> {
-        self.field.jacobian(t, y, jacobian)
-    }
-    fn mass(&self) -> Option<&[f64]> {
-        Some(&self.mass)
-    }
-    fn index(&self, component: usize) -> u32 {
-        if component < self.first_of_index_two { self.field.index(component) } else { 2 }
     }
 }
