@@ -66,7 +66,8 @@ pub trait NystromCoefficients: Copy + core::fmt::Debug {
 ///
 /// # Accuracy
 /// The local error of each step is below the tolerance, relative to the largest position and to the largest velocity. The
-/// state and the time are summed with compensation.
+/// state and the time are summed with compensation. A tolerance below rounding (1e-16 in doubles) makes steps short and the
+/// result no better.
 ///
 /// # Example
 /// ```
