@@ -6,7 +6,7 @@ use crate::state::check_finite;
 use crate::{IntegratorsError, Report, State};
 
 /// A run at the end of an accepted step. Continued by the `resume` of the same method with the same settings, to the same end,
-/// the run takes the same steps, to the last bit.
+/// the run takes the same steps, to the last bit. To another end it goes on from the same state.
 ///
 /// # Example
 /// ```
@@ -59,12 +59,14 @@ impl<T: Real> Checkpoint<T> {
         self.report
     }
 
-    /// Refuses a checkpoint of another method or of another size, and one that is not finite; the state becomes its state.
+    /// Refuses a checkpoint of another method or of another size, and one whose numbers are not finite or, at the places of
+    /// `positive`, not positive; the state becomes its state.
     pub(crate) fn open<E>(
         &self,
         state: &mut State<T>,
         memory: usize,
         numbers: usize,
+        positive: &[usize],
     ) -> Result<(), IntegratorsError<E>> {
         for (quantity, expected, found) in
             [("checkpoint.memory", memory, self.memory.len()), ("checkpoint.numbers", numbers, self.numbers.len())]
@@ -75,6 +77,12 @@ impl<T: Real> Checkpoint<T> {
         }
         check_finite("checkpoint.memory", None, &self.memory)?;
         check_finite("checkpoint.numbers", None, &self.numbers)?;
+        for &index in positive {
+            let value = self.numbers[index];
+            if value <= 0.0 {
+                return Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", value });
+            }
+        }
         state.clone_from(&self.state);
         Ok(())
     }
@@ -99,8 +107,8 @@ impl RunSoFar {
         Self { report: Report::begin(), time_carry: 0.0, start: 0.0, next: 0.0, best: 0.0 }
     }
 
-    /// The checkpoint of a collocation method at the end of a step: its numbers are the start of the run, the next step, the
-    /// best one, the last one, and the contraction that is expected.
+    /// The checkpoint of a collocation method at the end of a step: its numbers are the start of the run, the lengths of the
+    /// next step and of the best one, the last step, and the contraction that is expected.
     pub(crate) fn checkpoint<T: Real>(
         &self,
         time: f64,
@@ -111,6 +119,6 @@ impl RunSoFar {
     ) -> Checkpoint<T> {
         let Self { report, time_carry, start, next, best } = *self;
         let state = State { time, values: values.to_vec(), carry: carry.to_vec(), time_carry };
-        Checkpoint { state, report, memory, numbers: vec![start, next, best, previous_step, expected] }
+        Checkpoint { state, report, memory, numbers: vec![start, next.abs(), best, previous_step, expected] }
     }
 }

@@ -160,13 +160,11 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
     resumed: Option<&Checkpoint<T>>,
     mut inspect: impl FnMut(&W, &State<T>, AcceptedStep) -> Result<ControlFlow<Stop>, IntegratorsError<W::Error>>,
 ) -> Result<Report, IntegratorsError<W::Error>> {
-    // Equal steps are counted from the start of the whole run.
-    let start = resumed.map_or(state.time, |checkpoint| checkpoint.numbers[0]);
-    let span = end - start;
+    let span = end - state.time;
     let mut report = resumed.map_or(Report::begin(), |checkpoint| checkpoint.report);
-    let equal = match plan.equal {
-        Some(longest) => Some(equal_steps(start, end, longest)?),
-        None => None,
+    let (start, before, equal) = match plan.equal {
+        Some(longest) => Grid::of(longest, resumed, state.time, end)?.parts(),
+        None => (state.time, report.steps, None),
     };
     let most = if equal.is_some() { f64::INFINITY } else { HOPELESS * plan.aim };
     let mut h = match (equal, plan.first_step) {
@@ -183,7 +181,7 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         return Ok(report);
     }
     if let Some(Checkpoint { numbers, .. }) = resumed {
-        h = equal.map_or(numbers[1], |(_, h)| h);
+        h = equal.map_or(numbers[1].copysign(span), |(_, h)| h);
         best_before = numbers[2];
     }
     loop {
@@ -236,7 +234,7 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         work.accept(state, h)?;
         report.steps += 1;
         match equal {
-            Some((_, h)) if !last => state.set_time(start + h * report.steps as f64),
+            Some((_, h)) if !last => state.set_time(start + h * (report.steps - before) as f64),
             None if !last => state.advance_time(h),
             _ => state.set_time(end),
         }
@@ -261,11 +259,45 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
     }
 }
 
+/// The times of equal steps: so many steps of length h from a time on, of which some are done.
+struct Grid {
+    start: f64,
+    count: u64,
+    h: f64,
+    /// Steps of the run before this time.
+    before: u64,
+}
+
+impl Grid {
+    /// Steps no longer than `longest` to `end`. They are those of the whole run if one of them ends at `t`; else they begin there.
+    fn of<T: Real, E>(
+        longest: f64,
+        resumed: Option<&Checkpoint<T>>,
+        t: f64,
+        end: f64,
+    ) -> Result<Self, IntegratorsError<E>> {
+        let steps = resumed.map_or(0, |checkpoint| checkpoint.report.steps);
+        if let Some(Checkpoint { numbers, .. }) = resumed
+            && let Ok((count, h)) = equal_steps::<E>(numbers[0], end, longest)
+            && steps <= count
+            && (numbers[0] + h * steps as f64).to_bits() == t.to_bits()
+        {
+            return Ok(Self { start: numbers[0], count, h, before: 0 });
+        }
+        let (count, h) = equal_steps(t, end, longest)?;
+        Ok(Self { start: t, count: steps + count, h, before: steps })
+    }
+
+    const fn parts(self) -> (f64, u64, Option<(u64, f64)>) {
+        (self.start, self.before, Some((self.count, self.h)))
+    }
+}
+
 /// The step that would have been the best one, and the next one to try: as the best step changed, it will change.
 fn next_step(h: f64, factor: f64, best_before: f64) -> (f64, f64) {
     let best = h.abs() * factor;
     let trend = if 0.0 < best_before { (best / best_before).clamp(TREND.0, TREND.1) } else { 1.0 };
-    (best, h * (SAFETY * factor * trend).min(MOST_GROWTH))
+    (best.min(f64::MAX), h * (SAFETY * factor * trend).min(MOST_GROWTH))
 }
 
 /// Why steps shrink until they no longer advance the time.

@@ -114,7 +114,7 @@ impl<P: RungeKuttaPair, T: Real, F: Field<T>> EmbeddedPair<T, F> for RungeKutta<
         check_field::<T, F>(field)?;
         let n = field.dimension();
         if let Some(checkpoint) = resumed {
-            checkpoint.open(state, n, n + 1)?;
+            checkpoint.open(state, n, n + 1, &[0])?;
         }
         check_run(n, state, end)?;
         self.components = n;

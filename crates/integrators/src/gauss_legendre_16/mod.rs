@@ -192,7 +192,7 @@ impl<F: SecondOrder<Stages>, O: FnMut(&CollocationStep<'_>) -> ControlFlow<()>> 
         let n = field.freedom();
         method.work.begin(n);
         if let Some(checkpoint) = resumed {
-            checkpoint.open(state, 8 * n, 5)?;
+            checkpoint.open(state, 8 * n, 5, &[1, 4])?;
             method.work.restore(&checkpoint.memory, [checkpoint.numbers[3], checkpoint.numbers[4]]);
         }
         check_run(2 * n, state, end)?;

@@ -304,7 +304,7 @@ where
         let work = &mut method.work;
         work.begin(n);
         if let Some(checkpoint) = resumed {
-            checkpoint.open(state, 8 * n, 5)?;
+            checkpoint.open(state, 8 * n, 5, &[1, 4])?;
             work.restore(&checkpoint.memory, [checkpoint.numbers[3], checkpoint.numbers[4]]);
         }
         check_run(2 * n, state, end)?;

@@ -127,7 +127,7 @@ impl<P: NystromPair, T: Real, F: SecondOrder<T>> EmbeddedPair<T, F> for Nystrom<
         }
         let n = field.freedom();
         if let Some(checkpoint) = resumed {
-            checkpoint.open(state, n, 3)?;
+            checkpoint.open(state, n, 3, &[0])?;
         }
         check_run(2 * n, state, end)?;
         self.freedom = n;

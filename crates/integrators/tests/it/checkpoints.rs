@@ -4,8 +4,10 @@ use core::ops::ControlFlow;
 
 use piola_integrators::{
     Checkpoint, DormandPrince853, Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom86, Nystrom1210,
-    State, Tolerance, Verner98,
+    SecondOrder, State, Tolerance, Verner98,
 };
+use piola_numerics::Real;
+use piola_testkit::{Tol, assert_close};
 
 use crate::problems::{henon_heiles, kepler, kepler_at};
 
@@ -122,4 +124,83 @@ fn a_checkpoint_of_another_system_or_method_is_refused() {
     let run = Nystrom86::new(tolerance).resume(&mut kepler(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
     assert_eq!(run, Err(IntegratorsError::WrongLength { quantity: "checkpoint.memory", expected: 2, found: 4 }));
     assert_eq!(state, untouched);
+}
+
+#[test]
+fn a_resumed_run_may_have_another_end() {
+    // Farther, nearer, and back: collocation in adaptive and in equal steps, and an explicit pair.
+    macro_rules! check {
+        ($method:expr) => {{
+            let (mut state, mut kept) = (start(), None);
+            $method
+                .integrate(&mut kepler(), &mut state, END, |step| {
+                    kept = (step.number() == 20).then(|| step.checkpoint()).or(kept.take());
+                    ControlFlow::Continue(())
+                })
+                .unwrap();
+            let kept: Checkpoint = kept.unwrap();
+            let from = kept.state().time;
+            for end in [END + 7.0, from + 0.1, from, from - 0.1, 0.25, -3.0] {
+                let mut state = start();
+                let report =
+                    $method.resume(&mut kepler(), &kept, &mut state, end, |_step| ControlFlow::Continue(())).unwrap();
+                assert_eq!(state.time.to_bits(), end.to_bits());
+                assert_eq!(report.steps == 20, (end - from).abs() <= 0.0, "to {end}");
+                let tol = Tol::stated(1e-7, "tolerances and steps that err by 1e-9 in a turn, along five turns");
+                assert_close("state", &state.values, &kepler_at(0.6, end - 0.25), tol);
+            }
+        }};
+    }
+    let tolerance = Tolerance::relative(1e-11).unwrap();
+    check!(GaussLegendre16::new(tolerance));
+    check!(GaussRadau15::new(tolerance));
+    check!(GaussLegendre16::with_step(0.1).unwrap());
+    check!(Nystrom1210::new(tolerance));
+    check!(Verner98::new(tolerance));
+}
+
+#[test]
+fn a_run_without_forces_can_be_kept() {
+    // The best step is without bound there.
+    struct Free;
+    impl<T: Real> SecondOrder<T> for Free {
+        type Error = core::convert::Infallible;
+        fn freedom(&self) -> usize {
+            1
+        }
+        fn acceleration(&mut self, _t: T, _q: &[T], _v: &[T], acceleration: &mut [T]) -> Result<(), Self::Error> {
+            acceleration[0] = T::zero();
+            Ok(())
+        }
+    }
+    let tolerance = Tolerance::relative(1e-9).unwrap();
+    let (mut whole, mut kept) = (State::new(0.0, vec![0.0, 1.0]).unwrap(), None);
+    GaussLegendre16::new(tolerance)
+        .integrate(&mut Free, &mut whole, 50.0, |step| {
+            kept = kept.take().or_else(|| Some(step.checkpoint()));
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+    let kept = written_and_read(&kept.unwrap());
+    let mut state = start();
+    GaussLegendre16::new(tolerance).resume(&mut Free, &kept, &mut state, 50.0, |_| ControlFlow::Continue(())).unwrap();
+    assert_eq!(state, whole);
+}
+
+#[cfg(feature = "serde")]
+#[test]
+fn a_checkpoint_whose_next_step_is_not_positive_is_refused() {
+    let tolerance = Tolerance::relative(1e-9).unwrap();
+    let (mut state, mut kept) = (start(), None);
+    Nystrom86::new(tolerance)
+        .integrate(&mut kepler(), &mut state, END, |step| {
+            kept = Some(step.checkpoint());
+            ControlFlow::Break(())
+        })
+        .unwrap();
+    let mut value = serde_json::to_value(kept.unwrap()).unwrap();
+    value["numbers"][0] = serde_json::json!(-0.5);
+    let kept: Checkpoint = serde_json::from_value(value).unwrap();
+    let run = Nystrom86::new(tolerance).resume(&mut kepler(), &kept, &mut state, END, |_| ControlFlow::Continue(()));
+    assert_eq!(run, Err(IntegratorsError::NotPositive { quantity: "checkpoint.numbers", value: -0.5 }));
 }
