@@ -4,10 +4,10 @@ use super::paths::{dot, length};
 use crate::check::{check_finite, check_length};
 use crate::{Gravitation, GravitationError};
 
-/// Steps at a planet's own speed that its critical radius has at least.
+/// Least critical radius, in distances that a planet travels in one step.
 const STEPS: f64 = 0.4;
 
-/// The critical radius of each body, m: so many Hill radii, and at least the way of a body in four tenths of a step.
+/// Critical radius of each body, m: `hill_radii` Hill radii, but at least the distance that the body travels in 0.4 steps.
 ///
 /// ```text
 /// Rᵢ = max(k aᵢ (mᵢ/(3m₀))^(1/3), 0.4 h √(Gm₀/aᵢ), 0.4 h |vᵢ − v₀|)        R₀ = 0
@@ -21,7 +21,8 @@ const STEPS: f64 = 0.4;
 ///
 /// # Errors
 /// [`GravitationError::WrongLength`] and [`GravitationError::NotFinite`] of the state, [`GravitationError::MasslessCentre`], and
-/// [`GravitationError::InvalidRadius`] where a radius is not 0 ≤ r < ∞.
+/// [`GravitationError::InvalidRadius`] unless `hill_radii`, `step` and every radius are 0 ≤ x < ∞. [`GravitationError::CoincidentBodies`] of a body and
+/// the central one.
 ///
 /// # Example
 /// ```
@@ -48,11 +49,17 @@ pub fn critical_radii(
     let Some(&mu) = bodies.parameters().first().filter(|&&centre| 0.0 < centre) else {
         return Err(GravitationError::MasslessCentre { body: 0 });
     };
+    for (quantity, value) in [("hill radii", hill_radii), ("step", step)] {
+        check_radii(quantity, &[value])?;
+    }
     let (centre, velocity) = (bodies.position(state, 0), bodies.velocity(state, 0));
     let mut radii = vec![0.0];
     for (body, &parameter) in bodies.parameters().iter().enumerate().skip(1) {
         let (x, v) = (bodies.position(state, body), bodies.velocity(state, body));
         let r = length([0, 1, 2].map(|axis| x[axis] - centre[axis]));
+        if r <= 0.0 {
+            return Err(GravitationError::CoincidentBodies { first: 0, second: body });
+        }
         let relative = [0, 1, 2].map(|axis| v[axis] - velocity[axis]);
         let square = dot(relative, relative);
         let inverse = 2.0 / r - square / mu;
@@ -65,7 +72,7 @@ pub fn critical_radii(
     Ok(radii)
 }
 
-/// What bodies are, besides their masses: by bodies, the central one first.
+/// Critical radii, radii and least distance, by body, the central one first.
 #[derive(Clone, Debug)]
 pub(super) struct Sizes {
     pub(super) critical: Vec<f64>,
@@ -79,6 +86,23 @@ impl Sizes {
     /// The critical radius of two planets, m.
     pub(super) fn critical(&self, first: usize, second: usize) -> f64 {
         self.critical[first + 1].max(self.critical[second + 1])
+    }
+
+    /// Whether passages near the central body are to be refused.
+    pub(super) fn watch_the_centre(&self) -> bool {
+        !self.radii.is_empty() || 0.0 < self.least
+    }
+
+    /// Why a body is too near the central one at a distance, m.
+    pub(super) fn too_near(&self, body: usize, distance: f64) -> Option<GravitationError> {
+        let (contact, least) = (self.contact(0, body), self.least);
+        if distance < contact {
+            Some(GravitationError::Collision { first: 0, second: body, distance, contact })
+        } else if distance < least {
+            Some(GravitationError::NearCentre { body, distance, least })
+        } else {
+            None
+        }
     }
 
     /// The distance at which two bodies touch, m.

@@ -1,29 +1,27 @@
-//! Planets that come near each other in a motion: who they are, and how they move.
+//! Groups of planets that come near each other in a motion.
 
 use piola_integrators::{GaussRadau15, IntegratorsError, State};
 use piola_numerics::Real;
 
+use super::ClosestApproach;
 use super::critical::Sizes;
 use super::paths::Arc;
 use super::together::{Together, far};
 use super::watch::{Findings, Watch};
-use super::{Changeover, ClosestApproach};
-use crate::GravitationError;
 use crate::kepler::Increment;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
-use crate::wisdom_holman::run::{Failure, Near};
+use crate::wisdom_holman::run::{Failure, Moment, Near};
 
 /// The planets that come near each other in a motion.
 #[derive(Debug)]
 pub(super) struct Encounters<'a, T> {
     sizes: &'a Sizes,
-    changeover: Changeover,
     arcs: Vec<Arc>,
     /// The pairs that attract, with their critical radii.
     pairs: Vec<(usize, usize, f64)>,
     /// The number of the group of each planet: that of its first member.
     groups: Vec<usize>,
-    /// Whether a group has been integrated, and what was found then.
+    /// Whether a group is integrated, with its nearest approach.
     is_done: Vec<bool>,
     findings: Vec<Findings>,
     together: Together<T>,
@@ -38,18 +36,17 @@ pub(super) struct Encounters<'a, T> {
 }
 
 impl<'a, T: Real> Encounters<'a, T> {
-    pub(super) fn new(masses: &PlanetMasses, sizes: &'a Sizes, changeover: Changeover) -> Self {
+    pub(super) fn new(masses: &PlanetMasses, sizes: &'a Sizes) -> Self {
         let planets = masses.planets.len();
         let pair = |(first, second)| (first, second, sizes.critical(first, second));
         Self {
             pairs: masses.pairs().map(pair).collect(),
             sizes,
-            changeover,
             arcs: vec![Arc::default(); planets],
             groups: vec![0; planets],
             is_done: vec![false; planets],
             findings: vec![Findings::default(); planets],
-            together: Together::new(changeover),
+            together: Together::new(),
             method: GaussRadau15::to_rounding(),
             last_step: 0.0,
             is_counted: false,
@@ -59,7 +56,7 @@ impl<'a, T: Real> Encounters<'a, T> {
         }
     }
 
-    /// Joins planets that are not certainly apart; whether there were any.
+    /// Joins the groups of planets that may come within their critical radius. Returns whether it joined any.
     fn join(&mut self, time: f64) -> bool {
         let Self { pairs, arcs, groups, is_done, findings, .. } = self;
         let mut found = false;
@@ -81,14 +78,14 @@ impl<'a, T: Real> Encounters<'a, T> {
         found
     }
 
-    /// Integrates a group: what its members' places and velocities gain.
+    /// Integrates a group and writes its members' increments.
     fn integrate(
         &mut self,
         group: usize,
         masses: &PlanetMasses,
         planets: &Planets<T>,
         time: f64,
-        t: Option<f64>,
+        moment: Moment,
         increments: &mut [Increment<T>],
     ) -> Result<(), Failure> {
         let Self { sizes, arcs, groups, together, method, last_step, findings, evaluations, .. } = self;
@@ -102,7 +99,7 @@ impl<'a, T: Real> Encounters<'a, T> {
             sizes,
             arcs,
             mu: masses.centre,
-            start: t,
+            moment,
             others: members.len() < groups.len(),
             values: vec![T::zero(); 2 * freedom],
             findings: Findings::default(),
@@ -116,13 +113,12 @@ impl<'a, T: Real> Encounters<'a, T> {
         }
         let run = method.integrate(together, &mut state, time, |step| {
             // A look must not change the run.
-            if t.is_some() {
+            if moment.is_of_run {
                 *last_step = (step.time() - step.start()).abs();
             }
             watch.see(step)
         });
-        let start = t.unwrap_or(0.0);
-        *evaluations += run.map_err(|error| later(error, start))?.evaluations;
+        *evaluations += run.map_err(|error| later(error, moment.t))?.evaluations;
         findings[group] = watch.findings;
         for (rank, &member) in members.iter().enumerate() {
             let [position, velocity] = together.increment(rank, T::lit(time), &state.values);
@@ -131,7 +127,7 @@ impl<'a, T: Real> Encounters<'a, T> {
         Ok(())
     }
 
-    /// Takes over what was found in a motion.
+    /// Takes over the nearest approaches of a motion, or returns its collision.
     fn collect(&mut self) -> Result<(), Failure> {
         for findings in &mut self.findings {
             let Findings { closest, collision } = core::mem::take(findings);
@@ -147,22 +143,16 @@ impl<'a, T: Real> Encounters<'a, T> {
         Ok(())
     }
 
-    /// Refuses planets that come too near the central body.
+    /// Refuses planets that come too near the central body on their arcs; those that move together are watched meanwhile.
     fn check_centre(&self, t: f64) -> Result<(), Failure> {
-        if self.sizes.radii.is_empty() && self.sizes.least <= 0.0 {
+        if !self.sizes.watch_the_centre() {
             return Ok(());
         }
-        for (arc, body) in self.arcs.iter().zip(1..) {
-            let (distance, least) = (arc.nearest(), self.sizes.least);
-            let contact = self.sizes.contact(0, body);
-            let source = if distance < contact {
-                GravitationError::Collision { first: 0, second: body, distance, contact }
-            } else if distance < least {
-                GravitationError::NearCentre { body, distance, least }
-            } else {
-                continue;
-            };
-            return Err(IntegratorsError::Field { t, source });
+        for (planet, arc) in self.arcs.iter().enumerate() {
+            let is_alone = self.groups.iter().filter(|group| **group == self.groups[planet]).count() == 1;
+            if let Some(source) = self.sizes.too_near(planet + 1, arc.nearest()).filter(|_| is_alone) {
+                return Err(IntegratorsError::Field { t, source });
+            }
         }
         Ok(())
     }
@@ -184,7 +174,7 @@ fn later(error: Failure, start: f64) -> Failure {
 impl<T: Real> Near<T> for Encounters<'_, T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T {
-        far(self.changeover, self.sizes.critical(first, second), distance)
+        far(self.sizes.critical(first, second), distance)
     }
 
     fn correct(
@@ -192,7 +182,7 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
         masses: &PlanetMasses,
         planets: &Planets<T>,
         time: f64,
-        t: Option<f64>,
+        moment: Moment,
         increments: &mut [Increment<T>],
     ) -> Result<(), Failure> {
         for ((arc, planet), increment) in self.arcs.iter_mut().zip(&planets.planets).zip(&*increments) {
@@ -202,9 +192,6 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
             };
             let places = ends(planet.position, increment.position);
             *arc = Arc::new(masses.centre, places, ends(planet.velocity, increment.velocity), time);
-        }
-        if let Some(t) = t {
-            self.check_centre(t)?;
         }
         for (planet, group) in self.groups.iter_mut().enumerate() {
             *group = planet;
@@ -216,17 +203,20 @@ impl<T: Real> Near<T> for Encounters<'_, T> {
             are_together = true;
             for group in 0..self.groups.len() {
                 if !self.is_done[group] {
-                    self.integrate(group, masses, planets, time, t, increments)?;
+                    self.integrate(group, masses, planets, time, moment, increments)?;
                     self.is_done[group] = true;
                 }
             }
         }
-        if are_together && t.is_some() {
+        if !moment.is_of_run {
+            return Ok(());
+        }
+        if are_together {
             self.steps += u64::from(!self.is_counted);
             self.is_counted = true;
             self.collect()?;
         }
-        Ok(())
+        self.check_centre(moment.t)
     }
 
     fn end_step(&mut self) {

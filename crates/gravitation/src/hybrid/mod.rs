@@ -1,22 +1,24 @@
-//! Planets about one dominant body that come close to each other: the map of Wisdom and Holman away from encounters, an adaptive
-//! integrator for those that meet, and one Hamiltonian for both.
+//! Map of Wisdom and Holman for planets with close encounters. Planets far apart follow Kepler's motion; planets near each other are
+//! integrated to rounding. One Hamiltonian describes both.
 //!
 //! ```text
 //! H = Σᵢ [½ Pᵢ²/mᵢ − Gm₀ mᵢ/Qᵢ] − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ (1 − K(rᵢⱼ/R))        motion: Kepler's, or integrated to rounding
 //!   + |Σᵢ Pᵢ|²/(2 m₀)          − Σᵢ﹤ⱼ Gmᵢ mⱼ/rᵢⱼ K(rᵢⱼ/R)              motion of the central body, and attractions
 //! ```
 //!
-//! K goes smoothly from 0, where two planets are in one place, to 1 at the critical radius R, some Hill radii ([`critical_radii`]).
+//! K goes from 0, where two planets are in one place, to 1 at the critical radius R, some Hill radii ([`critical_radii`]). It is the
+//! polynomial of degree fifteen that has seven derivatives at both ends.
 //! Far apart, planets move as in
 //! [`DemocraticHeliocentric`](crate::wisdom_holman::DemocraticHeliocentric). Two planets that come within R move together in the first
 //! part, by [`GaussRadau15`](piola_integrators::GaussRadau15) to rounding; all others keep to Kepler's motion. Since both parts are
 //! moved exactly, the map is symplectic through encounters too. Both parts can be moved backwards, so every [`Splitting`] applies.
 //!
 //! # Which planets meet
-//! A pair counts as apart in a motion if a bound of its distance says so. An arc of Kepler's motion is nearer to its chord than a
-//! multiple of its greatest acceleration, and nearer to the cubic through both ends than a multiple of its greatest fourth derivative.
-//! A planet in an encounter may be thrown off its arc and meet a third one: then the motion is made again with all three. To take too
-//! many planets into a group changes nothing but the time it takes.
+//! Two planets move apart in a motion if a bound of their distance exceeds R; otherwise they move together. The distance of a
+//! Keplerian arc from its chord is bounded by its greatest acceleration, and that from its Hermite cubic by its greatest fourth
+//! derivative. An encounter may deflect a planet towards a third one. The motion is then repeated with all three; how far a planet
+//! leaves its arc is estimated from the ends of the integrator's steps. A group with too many planets costs time and changes nothing
+//! else.
 //!
 //! # Validity
 //! Passages of two planets down to some 10⁻⁵ of their distance from the central body: nearer ones end with
@@ -41,7 +43,6 @@ use core::ops::ControlFlow;
 use piola_integrators::{IntegratorsError, Report, State, Step, unobserved};
 use piola_numerics::Real;
 
-pub use changeover::Changeover;
 pub use critical::critical_radii;
 
 use crate::check::check_length;
@@ -93,11 +94,12 @@ use encounters::Encounters;
 #[derive(Clone, Debug)]
 pub struct HybridSymplectic {
     course: Course,
-    changeover: Changeover,
-    sizes: Sizes,
+    critical: Option<Vec<f64>>,
+    radii: Option<Vec<f64>>,
+    least_distance: f64,
 }
 
-/// What a run cost, how it ended, and who met.
+/// Cost, ending and encounters of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -125,26 +127,23 @@ pub struct ClosestApproach {
     pub t: f64,
 }
 
-/// Hill radii of a critical radius, if nothing else is said.
+/// Default critical radius, in Hill radii.
 const HILL_RADII: f64 = 3.0;
 
 impl HybridSymplectic {
-    /// The map with steps no longer than `step` (s). Each run takes its critical radii from its start: [`critical_radii`] with
+    /// The map with steps no longer than `step` (s). Each run computes its critical radii at its start: [`critical_radii`] with
     /// three Hill radii, and with the longest attraction in place of the step (with [`Splitting::TenSixFour`] 0.22 of it).
     ///
     /// # Errors
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
     pub const fn new(step: f64, splitting: Splitting) -> Result<Self, IntegratorsError> {
         match Course::new(step, splitting) {
-            Ok(course) => {
-                let sizes = Sizes { critical: Vec::new(), radii: Vec::new(), least: 0.0 };
-                Ok(Self { course, changeover: Changeover::Fifteenth, sizes })
-            }
+            Ok(course) => Ok(Self { course, critical: None, radii: None, least_distance: 0.0 }),
             Err(error) => Err(error),
         }
     }
 
-    /// Gives the bodies critical radii (m), the central one first: two planets have the larger of theirs.
+    /// Sets the critical radii of the bodies (m), the central one first. A pair has the larger of its two.
     ///
     /// The radii are part of the Hamiltonian: a motion that is followed in several runs, or backwards, needs the same in all.
     ///
@@ -152,15 +151,8 @@ impl HybridSymplectic {
     /// [`GravitationError::InvalidRadius`] unless every radius is 0 ≤ r < ∞.
     pub fn with_critical_radii(mut self, critical: Vec<f64>) -> Result<Self, GravitationError> {
         check_radii("critical radii", &critical)?;
-        self.sizes.critical = critical;
+        self.critical = Some(critical);
         Ok(self)
-    }
-
-    /// Changes the function K.
-    #[must_use]
-    pub fn with_changeover(mut self, changeover: Changeover) -> Self {
-        self.changeover = changeover;
-        self
     }
 
     /// Gives the bodies radii (m), the central one first: a run ends with [`GravitationError::Collision`] where two bodies come
@@ -170,7 +162,7 @@ impl HybridSymplectic {
     /// [`GravitationError::InvalidRadius`] unless every radius is 0 ≤ r < ∞.
     pub fn with_radii(mut self, radii: Vec<f64>) -> Result<Self, GravitationError> {
         check_radii("radii", &radii)?;
-        self.sizes.radii = radii;
+        self.radii = Some(radii);
         Ok(self)
     }
 
@@ -182,7 +174,7 @@ impl HybridSymplectic {
     /// [`GravitationError::InvalidRadius`] unless 0 ≤ distance < ∞.
     pub fn with_least_distance(mut self, distance: f64) -> Result<Self, GravitationError> {
         check_radii("least distance", &[distance])?;
-        self.sizes.least = distance;
+        self.least_distance = distance;
         Ok(self)
     }
 
@@ -215,14 +207,15 @@ impl HybridSymplectic {
     /// state's time.
     ///
     /// The observer sees every `shown`-th step (of 0: none) and the last, and may stop the run there. To show a state costs half a
-    /// motion, and the inverse corrector where there is one; it does not change the run.
+    /// motion, and the inverse corrector where there is one; it changes the count of evaluations, not the motion.
     ///
     /// # Errors
     /// [`IntegratorsError::Field`] where the forces are not those of this map
     /// ([`GravitationError::NotKeplerian`], [`GravitationError::MasslessCentre`]), the state or the radii do not fit the bodies, two
     /// bodies collide ([`GravitationError::Collision`]) or a planet comes too near the central body
     /// ([`GravitationError::NearCentre`]); [`IntegratorsError::StepTooSmall`] and [`IntegratorsError::NotFinite`] where planets
-    /// without radii meet in one place. The state then stands at the last complete step. Scalars of several lanes do not compile:
+    /// without radii meet in one place. The state then stands at the last complete step, or where that cannot be shown at the one
+    /// shown last. Scalars of several lanes do not compile:
     /// each lane has its own encounters.
     pub fn integrate<T: Real>(
         &self,
@@ -236,21 +229,23 @@ impl HybridSymplectic {
         let (n, start) = (bodies.bodies(), state.time);
         let at_start = |source| IntegratorsError::Field { t: start, source };
         check(bodies, &state.values).map_err(at_start)?;
-        let mut sizes = self.sizes.clone();
-        if sizes.critical.is_empty() {
+        let critical = if let Some(critical) = &self.critical {
+            critical.clone()
+        } else {
             let values: Vec<f64> = state.values.iter().map(|x| x.primal(0)).collect();
-            sizes.critical =
-                critical_radii(bodies, &values, HILL_RADII, self.course.longest_attraction()).map_err(at_start)?;
-        }
+            critical_radii(bodies, &values, HILL_RADII, self.course.longest_attraction()).map_err(at_start)?
+        };
+        let radii = self.radii.clone().unwrap_or_default();
+        let mut sizes = Sizes { critical, radii, least: self.least_distance };
         check_length("critical radii", n, sizes.critical.len()).map_err(at_start)?;
-        if !sizes.radii.is_empty() {
+        if self.radii.is_some() {
             check_length("radii", n, sizes.radii.len()).map_err(at_start)?;
             // Bodies that touch are near each other.
             for (critical, radius) in sizes.critical.iter_mut().zip(&sizes.radii) {
                 *critical = critical.max(2.0 * radius);
             }
         }
-        let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), &sizes, self.changeover);
+        let mut near = Encounters::new(&PlanetMasses::new(bodies.parameters()), &sizes);
         let mut run = self.course.integrate(&mut near, bodies, state, end, shown, observer)?;
         run.evaluations += near.evaluations;
         Ok(HybridReport { run, encounter_steps: near.steps, closest: near.closest })

@@ -156,11 +156,11 @@ mod tests {
     use super::{Arc, length, minus};
     use crate::kepler::advance;
 
-    /// Two planets on ellipses of all sizes; their least distance in a time by a thousand looks. What is called clear is clear,
-    /// and what is clear by a tenth is called so.
+    /// Compares `is_clear_of` with the least distance at 1001 times, for 4000 random pairs of arcs. Every pair that it calls clear
+    /// stays further apart than the distance; fewer than 200 clear pairs are not recognised.
     #[test]
     fn clear_arcs_are_those_that_stay_apart() {
-        let mut counts = [0; 3];
+        let mut counts = [0; 2];
         let mut seed = 1_u32;
         let mut random = || {
             seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -191,10 +191,9 @@ mod tests {
                 counts[0] += 1;
             } else if distance < least {
                 counts[1] += 1;
-                counts[2] += i32::from(1.1 * distance < 0.9 * least);
             }
         }
-        // Found clear; clear but not found so; the same by a fifth.
+        // Counts: found clear; clear but not found.
         assert!(2000 < counts[0] && counts[1] < 200, "{counts:?}");
     }
 }

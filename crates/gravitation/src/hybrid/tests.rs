@@ -1,21 +1,21 @@
 //! A motion is that of its parts, whoever meets in them.
 
-use super::Changeover;
 use super::critical::Sizes;
 use super::encounters::Encounters;
 use crate::kepler::Increment;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
-use crate::wisdom_holman::run::Near;
+use crate::wisdom_holman::run::{Moment, Near};
 
 /// The planets after a time, in so many motions, and the nearest approach.
 fn moved(masses: &PlanetMasses, sizes: &Sizes, state: &[f64], time: f64, motions: u32) -> (Vec<[f64; 3]>, f64) {
     let mut planets = Planets::new(masses, state);
-    let mut near = Encounters::new(masses, sizes, Changeover::Fifteenth);
+    let mut near = Encounters::new(masses, sizes);
     let mut increments = vec![Increment { position: [0.0; 3], velocity: [0.0; 3] }; masses.planets.len()];
     for motion in 0..motions {
         let part = time / f64::from(motions);
         planets.keplerian(masses, part, &mut increments);
-        near.correct(masses, &planets, part, Some(f64::from(motion) * part), &mut increments).unwrap();
+        let moment = Moment { t: f64::from(motion) * part, is_of_run: true };
+        near.correct(masses, &planets, part, moment, &mut increments).unwrap();
         planets.add(&increments);
     }
     let places = planets.planets.iter().map(|planet| planet.position).collect();

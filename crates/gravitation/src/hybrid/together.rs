@@ -5,18 +5,18 @@
 //! dᵢⱼ = (Qⱼ − Qᵢ) + (Vⱼ − Vᵢ) t + (εⱼ − εᵢ)
 //! ```
 //!
-//! What the integrator sums is the small ε, and distances are made of differences: planets far from the centre and close to each
-//! other keep the digits of their distance.
+//! The integrator sums only the small ε. Distances are differences of starts and of ε, so close planets far from the centre keep
+//! the digits of their distance.
 
 use piola_integrators::SecondOrder;
 use piola_numerics::{Mask, Real};
 
-use super::Changeover;
+use super::changeover::changeover;
 use crate::GravitationError;
 use crate::attraction::inverse_cube;
 use crate::wisdom_holman::planets::{PlanetMasses, Planets};
 
-/// Two planets of a group, by their places in it.
+/// Two members of a group, by index.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair<T> {
     pub(super) members: [usize; 2],
@@ -34,13 +34,12 @@ pub(super) struct Together<T> {
     pub(super) members: Vec<usize>,
     pub(super) pairs: Vec<Pair<T>>,
     start: Vec<[[T; 3]; 2]>,
-    changeover: Changeover,
     centre: f64,
 }
 
 impl<T: Real> Together<T> {
-    pub(super) fn new(changeover: Changeover) -> Self {
-        Self { members: Vec::new(), pairs: Vec::new(), start: Vec::new(), changeover, centre: 0.0 }
+    pub(super) const fn new() -> Self {
+        Self { members: Vec::new(), pairs: Vec::new(), start: Vec::new(), centre: 0.0 }
     }
 
     /// Becomes the group of these planets.
@@ -80,7 +79,7 @@ impl<T: Real> Together<T> {
         }
     }
 
-    /// What is added to the place (m) and the velocity (m/s) of a member in a time, of the integrator's state.
+    /// Change of a member's position (m) and velocity (m/s) in the time t, computed from the integrator's state.
     pub(super) fn increment(&self, rank: usize, t: T, state: &[T]) -> [[T; 3]; 2] {
         let (epsilon, rate) = state.split_at(state.len() / 2);
         let velocity = self.start[rank][1];
@@ -130,7 +129,7 @@ impl<T: Real> SecondOrder<T> for Together<T> {
         }
         for pair in &self.pairs {
             let d = pair.distance(t, q);
-            let weight = near(self.changeover, pair.critical, d);
+            let weight = near(pair.critical, d);
             let [first, second] = pair.members;
             for axis in 0..3 {
                 let force = weight * d[axis];
@@ -142,25 +141,25 @@ impl<T: Real> SecondOrder<T> for Together<T> {
     }
 }
 
-/// |d|⁻³ times the part of an attraction that moves with Kepler's motions: 1 − K + r K′.
+/// Factor of d in the force of the Kepler part: (1 − K + r K′)/|d|³.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn near<T: Real>(changeover: Changeover, critical: f64, d: [T; 3]) -> T {
+fn near<T: Real>(critical: f64, d: [T; 3]) -> T {
     match part_of_critical(critical, d) {
         None => T::zero(),
         Some(y) => {
-            let [value, slope] = changeover.of(y);
+            let [value, slope] = changeover(y);
             ((T::one() - value) + slope) * inverse_cube(d, T::zero())
         }
     }
 }
 
-/// |d|⁻³ times the part that is left: K − r K′.
+/// Factor of d in the force of the part of attractions: (K − r K′)/|d|³.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn far<T: Real>(changeover: Changeover, critical: f64, d: [T; 3]) -> T {
+pub(super) fn far<T: Real>(critical: f64, d: [T; 3]) -> T {
     let Some(y) = part_of_critical(critical, d) else { return inverse_cube(d, T::zero()) };
-    let [value, slope] = changeover.of(y);
+    let [value, slope] = changeover(y);
     let part = value - slope;
-    // So near that nothing is left: the attraction itself may be infinite there.
+    // The factor is zero. The attraction itself may be infinite here.
     if part.abs().at_most(T::zero()).all() { T::zero() } else { part * inverse_cube(d, T::zero()) }
 }
 

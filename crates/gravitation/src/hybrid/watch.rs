@@ -1,4 +1,4 @@
-//! What is looked for while planets move together: their nearest approach, collisions, and how far they leave their arcs.
+//! Observer of a group's steps: nearest approach, collisions, and distances from the Keplerian arcs.
 
 use core::ops::ControlFlow;
 
@@ -11,27 +11,27 @@ use super::paths::{Arc, dot, length};
 use super::together::{Pair, Together};
 use crate::GravitationError;
 use crate::kepler::advance;
-use crate::wisdom_holman::run::Failure;
+use crate::wisdom_holman::run::{Failure, Moment};
 
 /// Halvings of a step in the search for the nearest approach.
 const HALVINGS: u32 = 50;
 
-/// What is found in the steps of a group.
+/// The nearest approach and the first collision of a group.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Findings {
     pub(super) closest: Option<ClosestApproach>,
     pub(super) collision: Option<Failure>,
 }
 
-/// What is looked for in the steps of a group.
+/// Observer of the steps of a group.
 pub(super) struct Watch<'a, T> {
     pub(super) members: &'a [usize],
     pub(super) pairs: &'a [Pair<T>],
     pub(super) sizes: &'a Sizes,
     pub(super) arcs: &'a mut [Arc],
     pub(super) mu: f64,
-    /// The time at the start; none in correctors and looks, which are not followed by their own time.
-    pub(super) start: Option<f64>,
+    /// When the motion starts; approaches count in motions of the run alone.
+    pub(super) moment: Moment,
     /// Whether there are planets outside the group.
     pub(super) others: bool,
     pub(super) values: Vec<T>,
@@ -43,7 +43,20 @@ impl<T: Real> Watch<'_, T> {
         if self.others {
             self.measure_excursions(step);
         }
-        let Some(start) = self.start else { return ControlFlow::Continue(()) };
+        if !self.moment.is_of_run {
+            return ControlFlow::Continue(());
+        }
+        let start = self.moment.t;
+        if self.sizes.watch_the_centre() {
+            for (rank, &member) in self.members.iter().enumerate() {
+                let distance = length(self.place(rank, step.time(), step.values()));
+                if let Some(source) = self.sizes.too_near(member + 1, distance) {
+                    let t = start + step.time();
+                    self.findings.collision = Some(IntegratorsError::Field { t, source });
+                    return ControlFlow::Break(());
+                }
+            }
+        }
         for pair in self.pairs {
             let (t, distance) = self.least_distance(pair, step);
             let [first, second] = pair.members.map(|rank| self.members[rank] + 1);
@@ -61,21 +74,28 @@ impl<T: Real> Watch<'_, T> {
         ControlFlow::Continue(())
     }
 
+    /// The place of a member (m) from the central body, so long after the start of the motion.
+    fn place(&self, rank: usize, time: f64, state: &[T]) -> [f64; 3] {
+        let [place, velocity] = self.arcs[self.members[rank]].start();
+        [0, 1, 2].map(|axis| place[axis] + (velocity[axis] * time + state[3 * rank + axis].primal(0)))
+    }
+
     /// How far the members leave their Keplerian arcs in a step.
     fn measure_excursions(&mut self, step: &GaussRadauStep<'_, T>) {
-        let length_of_step = step.time() - step.start();
+        let length_of_step = (step.time() - step.start()).abs();
         for (rank, &member) in self.members.iter().enumerate() {
             let arc = self.arcs[member];
             let [place, velocity] = arc.start();
-            let by = advance(self.mu, place, velocity, step.time());
-            let own = 3 * rank;
-            let state = step.values();
-            let half = state.len() / 2;
-            let apart = |axis: usize| velocity[axis] * step.time() + state[own + axis].primal(0) - by.position[axis];
-            let rate = |axis: usize| state[half + own + axis].primal(0) - by.velocity[axis];
-            let [apart, rate] = [[0, 1, 2].map(apart), [0, 1, 2].map(rate)];
-            // Within the step the planet moves away no faster than at one of the ends, but for a turn in between.
-            let excursion = length(apart) + 0.5 * length_of_step.abs() * length(rate);
+            let off = |time: f64, state: &[T]| {
+                let by = advance(self.mu, place, velocity, time);
+                let (own, half) = (3 * rank, state.len() / 2);
+                let apart = |axis: usize| velocity[axis] * time + state[own + axis].primal(0) - by.position[axis];
+                let rate = |axis: usize| state[half + own + axis].primal(0) - by.velocity[axis];
+                [length([0, 1, 2].map(apart)), length([0, 1, 2].map(rate))]
+            };
+            let [first, last] = [off(step.start(), step.start_values()), off(step.time(), step.values())];
+            // The rate is largest at an end of the step, unless the planet turns within it.
+            let excursion = first[0].max(last[0]) + 0.5 * length_of_step * first[1].max(last[1]);
             self.arcs[member].excursion = arc.excursion.max(excursion);
         }
     }

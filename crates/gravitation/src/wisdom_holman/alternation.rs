@@ -13,10 +13,10 @@ pub(crate) trait Parts {
     /// The motion of the second part for a time: the attractions between planets, and what goes with them.
     fn attraction(&mut self, time: f64);
 
-    /// A step, from after its first motion to after the first motion of the next one.
-    fn step(&mut self, step: f64, Stages { motions, attractions }: Stages) -> Result<(), Self::Error> {
+    /// A step, from after its first motion to its end, or to after the first motion of the next one.
+    fn step(&mut self, step: f64, Stages { motions, attractions }: Stages, goes_on: bool) -> Result<(), Self::Error> {
         // The last motion of a step and the first of the next are one.
-        let ends = motions[0] + motions[motions.len() - 1];
+        let ends = if goes_on { motions[0] } else { 0.0 } + motions[motions.len() - 1];
         for (stage, attraction) in attractions.iter().enumerate() {
             self.attraction(attraction * step);
             let motion = if stage + 1 == attractions.len() { ends } else { motions[stage + 1] };
@@ -39,7 +39,7 @@ pub(crate) trait Parts {
         Ok(())
     }
 
-    /// Motion, attraction backwards, motion back, attraction, motion: what is left is the change of the attraction.
+    /// Motion, attraction backwards, motion back, attraction, motion: together the commutator of the two parts, to first order.
     fn difference(&mut self, motion: f64, attraction: f64) -> Result<(), Self::Error> {
         self.motion(motion)?;
         self.attraction(-attraction);

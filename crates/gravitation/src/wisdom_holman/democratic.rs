@@ -7,7 +7,7 @@ use piola_numerics::Real;
 
 use super::Splitting;
 use super::planets::{PlanetMasses, Planets, whole};
-use super::run::{Course, Failure, Near};
+use super::run::{Course, Failure, Moment, Near};
 use crate::kepler::Increment;
 use crate::{Gravitation, GravitationError};
 
@@ -25,12 +25,12 @@ use crate::{Gravitation, GravitationError};
 /// | Pᵢ | mᵢ (vᵢ − V), momentum seen from the mass centre of all bodies, V its velocity | kg m/s |
 ///
 /// The last two parts commute, so that together they are one part with an exact motion: every [`Splitting`] applies, correctors
-/// included, as in [`WisdomHolman`](super::WisdomHolman). Which coordinates? All planets are alike here: they may be listed in any
-/// order and their orbits may cross. Jacobi's coordinates have smaller errors where the orbits are nested, and follow a single
+/// included, as in [`WisdomHolman`](super::WisdomHolman). Which coordinates? The list may have any
+/// order here, and orbits may cross. Jacobi's coordinates have smaller errors where the orbits are nested, and follow a single
 /// planet exactly; these do not, since the motion of the central body is a part by itself. For planets that come within some Hill
 /// radii of each other see [`HybridSymplectic`](crate::hybrid::HybridSymplectic).
 ///
-/// Over `Dual` a run carries derivatives by the start; over `Lanes` it follows as many systems with the same masses.
+/// Over `Dual` a run carries derivatives with respect to the start; over `Lanes` it follows several systems of equal masses at once.
 ///
 /// # Accuracy
 /// As [`Splitting`] says. The momentum and the motion of the mass centre are kept to rounding of the state, the angular momentum
@@ -111,7 +111,7 @@ impl DemocraticHeliocentric {
     /// [`IntegratorsError::Field`] where the forces are not those of this map
     /// ([`GravitationError::NotKeplerian`], [`GravitationError::MasslessCentre`]) or the state does not fit them;
     /// [`IntegratorsError::StepTooSmall`]; [`IntegratorsError::NotFinite`] where two bodies meet, or where `end` is not finite.
-    /// The state then stands at the last complete step.
+    /// The state then stands at the last complete step, or where that cannot be shown at the one shown last.
     pub fn integrate<T: Real>(
         &self,
         bodies: &Gravitation,
@@ -138,7 +138,7 @@ impl<T: Real> Near<T> for Nowhere {
         _masses: &PlanetMasses,
         _planets: &Planets<T>,
         _time: f64,
-        _t: Option<f64>,
+        _moment: Moment,
         _increments: &mut [Increment<T>],
     ) -> Result<(), Failure> {
         Ok(())

@@ -236,7 +236,7 @@ impl Run {
         let (stages, step) = (self.splitting.stages(), self.step);
         let mut moving = self.moving();
         for _ in 0..count {
-            let Ok(()) = moving.step(step, stages);
+            let Ok(()) = moving.step(step, stages, true);
         }
         let Some(found) = self.coordinates.not_finite(&self.masses) else { return count };
         self.not_finite = found;
@@ -244,7 +244,7 @@ impl Run {
         self.coordinates.copy(&self.spare);
         for good in 0..count {
             self.spare.copy(&self.coordinates);
-            let Ok(()) = self.moving().step(step, stages);
+            let Ok(()) = self.moving().step(step, stages, true);
             if let Some(found) = self.coordinates.not_finite(&self.masses) {
                 self.not_finite = found;
                 self.coordinates.copy(&self.spare);

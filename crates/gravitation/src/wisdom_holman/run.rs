@@ -15,25 +15,32 @@ use crate::{Gravitation, GravitationError};
 /// Why a run ends early.
 pub(crate) type Failure = IntegratorsError<GravitationError>;
 
-/// What is done with planets that come near each other.
+/// Treatment of planets that come near each other.
 pub(crate) trait Near<T> {
     /// |d|⁻³ times the part of an attraction between two planets that Kepler's motions leave out.
     fn weight(&self, first: usize, second: usize, distance: [T; 3]) -> T;
 
-    /// Replaces what Kepler's motions add to planets that come near each other in a time.
-    ///
-    /// `t` is the time at the start, where the motion is one of the run and not one of a corrector or of a look.
+    /// Corrects the Keplerian increments of planets that come near each other in a motion.
     fn correct(
         &mut self,
         masses: &PlanetMasses,
         planets: &Planets<T>,
         time: f64,
-        t: Option<f64>,
+        moment: Moment,
         increments: &mut [Increment<T>],
     ) -> Result<(), Failure>;
 
     /// Ends a step.
     fn end_step(&mut self) {}
+}
+
+/// When a motion starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moment {
+    /// The time at the start, s.
+    pub(crate) t: f64,
+    /// Whether the motion is one of the run, not one of a corrector or of a state that is shown.
+    pub(crate) is_of_run: bool,
 }
 
 /// The steps of a run and their order.
@@ -85,8 +92,9 @@ impl Course {
         let mut failure = run.enter(start).err();
         while failure.is_none() && report.steps < count {
             run.spare.copy(&run.planets);
-            if let Err(error) = run.step(time(report.steps)) {
+            if let Err(error) = run.step(time(report.steps), report.steps + 1 < count) {
                 run.planets.copy(&run.spare);
+                run.is_ahead = true;
                 failure = Some(error);
                 break;
             }
@@ -96,7 +104,7 @@ impl Course {
             if number < count && (shown == 0 || !number.is_multiple_of(shown)) {
                 continue;
             }
-            if let Err(error) = run.show(h * number as f64, &mut values) {
+            if let Err(error) = run.show(h * number as f64, time(number), &mut values) {
                 failure = Some(error);
                 break;
             }
@@ -107,8 +115,9 @@ impl Course {
             }
         }
         // Where the last good step cannot be shown, the state is the one that was shown last.
-        if reached < report.steps && run.show(h * report.steps as f64, &mut values).is_ok() {
-            reached = report.steps;
+        let steps = report.steps;
+        if reached < steps && run.show(h * steps as f64, time(steps), &mut values).is_ok() {
+            reached = steps;
         }
         if 0 < reached {
             *state = State::new(time(reached), values).map_err(IntegratorsError::with_field_error)?;
@@ -120,19 +129,20 @@ impl Course {
     }
 }
 
-/// A run: between steps it stands after the first motion of the next one.
+/// A run: between steps it stands after the first motion of the next one, at last at the end of the last one.
 struct Run<'a, T, N> {
     masses: PlanetMasses,
     planets: Planets<T>,
-    /// What was before the last step, and what is shown.
+    /// Copy of the state before the last step, also used to show a state.
     spare: Planets<T>,
     increments: Vec<Increment<T>>,
     accelerations: Vec<[T; 3]>,
     near: &'a mut N,
     step: f64,
     splitting: Splitting,
-    /// The time, s; none in correctors and looks.
-    t: Option<f64>,
+    moment: Moment,
+    /// Whether the first motion of the next step is made.
+    is_ahead: bool,
 }
 
 impl<'a, T: Real, N: Near<T>> Run<'a, T, N> {
@@ -142,21 +152,35 @@ impl<'a, T: Real, N: Near<T>> Run<'a, T, N> {
         let (spare, zero) = (planets.clone(), [T::zero(); 3]);
         let increments = vec![Increment { position: zero, velocity: zero }; planets.planets.len()];
         let accelerations = vec![zero; planets.planets.len()];
-        Self { masses, planets, spare, increments, accelerations, near, step, splitting, t: None }
+        Self {
+            masses,
+            planets,
+            spare,
+            increments,
+            accelerations,
+            near,
+            step,
+            splitting,
+            moment: Moment { t: 0.0, is_of_run: false },
+            is_ahead: false,
+        }
     }
 
     fn enter(&mut self, start: f64) -> Result<(), Failure> {
         let (splitting, step) = (self.splitting, self.step);
+        self.moment = Moment { t: start, is_of_run: false };
         self.correct(splitting.corrector(), step, false)?;
-        self.t = Some(start);
+        self.moment = Moment { t: start, is_of_run: true };
+        self.is_ahead = true;
         self.motion(splitting.stages().motions[0] * step)
     }
 
-    /// Makes a step that begins at a time.
-    fn step(&mut self, start: f64) -> Result<(), Failure> {
+    /// Makes a step that begins at a time, and the first motion of the next one if the run goes on.
+    fn step(&mut self, start: f64, goes_on: bool) -> Result<(), Failure> {
         let (stages, step) = (self.splitting.stages(), self.step);
-        self.t = Some(start + stages.motions[0] * step);
-        Parts::step(self, step, stages)?;
+        self.moment = Moment { t: start + stages.motions[0] * step, is_of_run: true };
+        Parts::step(self, step, stages, goes_on)?;
+        self.is_ahead = goes_on;
         self.near.end_step();
         match self.planets.not_finite() {
             None => Ok(()),
@@ -166,18 +190,29 @@ impl<'a, T: Real, N: Near<T>> Run<'a, T, N> {
         }
     }
 
-    /// Writes the state, so many seconds after the start.
-    fn show(&mut self, elapsed: f64, values: &mut [T]) -> Result<(), Failure> {
+    /// Writes the state at the time t, so many seconds after the start.
+    fn show(&mut self, elapsed: f64, t: f64, values: &mut [T]) -> Result<(), Failure> {
         self.spare.copy(&self.planets);
-        let (splitting, step) = (self.splitting, self.step);
-        self.t = None;
-        let back = self.motion(-splitting.stages().motions[0] * step);
-        let made = back.and_then(|()| self.correct(splitting.corrector(), step, true));
+        let made = self.end_of_step(t);
         if made.is_ok() {
             self.planets.write(&self.masses, elapsed, values);
         }
         core::mem::swap(&mut self.planets, &mut self.spare);
         made
+    }
+
+    /// Moves back to the end of the step, and takes the corrector back.
+    fn end_of_step(&mut self, t: f64) -> Result<(), Failure> {
+        let (splitting, step) = (self.splitting, self.step);
+        self.moment = Moment { t, is_of_run: false };
+        if self.is_ahead {
+            self.motion(-splitting.stages().motions[0] * step)?;
+        }
+        self.correct(splitting.corrector(), step, true)?;
+        match self.planets.not_finite() {
+            None => Ok(()),
+            Some((index, value)) => Err(IntegratorsError::NotFinite { quantity: "state", index, value, t: Some(t) }),
+        }
     }
 }
 
@@ -186,11 +221,9 @@ impl<T: Real, N: Near<T>> Parts for Run<'_, T, N> {
 
     fn motion(&mut self, time: f64) -> Result<(), Failure> {
         self.planets.keplerian(&self.masses, time, &mut self.increments);
-        self.near.correct(&self.masses, &self.planets, time, self.t, &mut self.increments)?;
+        self.near.correct(&self.masses, &self.planets, time, self.moment, &mut self.increments)?;
         self.planets.add(&self.increments);
-        if let Some(t) = &mut self.t {
-            *t += time;
-        }
+        self.moment.t += time;
         Ok(())
     }
 

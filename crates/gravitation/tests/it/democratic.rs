@@ -191,7 +191,9 @@ fn looking_does_not_change_the_run_and_may_end_it() {
         assert!(seen.iter().map(|(number, ..)| *number).eq((1..=28).map(|k| 7 * k).chain([200])));
         let (number, t, values) = &seen[9];
         assert_eq!((*number, *t), (70, 17.5));
-        assert_eq!(values, &end(&bodies, &start, splitting, 0.25, 17.5));
+        // A run that ends there does not make the first motion of a next step, which a look takes back.
+        let rounding = Tol::ulps(64.0);
+        assert_close_at_scale("look", values, &end(&bodies, &start, splitting, 0.25, 17.5), 1.0, rounding);
         let mut stopped = State::new(0.0, start.clone()).unwrap();
         let report = method.integrate(&bodies, &mut stopped, 50.0, 70, |_| ControlFlow::Break(())).unwrap();
         assert_eq!((report.ending, report.steps, stopped.time), (Ending::Stopped, 70, 17.5));

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use piola_gravitation::hybrid::{Changeover, ClosestApproach, HybridReport, HybridSymplectic, critical_radii};
+use piola_gravitation::hybrid::{ClosestApproach, HybridReport, HybridSymplectic, critical_radii};
 use piola_gravitation::regularised::Regularised;
 use piola_gravitation::wisdom_holman::{Corrector, DemocraticHeliocentric, Splitting};
 use piola_gravitation::{Gravitation, GravitationError};
@@ -101,20 +101,6 @@ fn energy_after_an_encounter_falls_to_rounding_with_the_step() {
         let error = meeting.energy_error(&values);
         assert!(error < bound, "{splitting:?} of {step}: {error}");
         assert!(0 < report.encounter_steps && report.encounter_steps < report.run.steps, "{report:?}");
-    }
-}
-
-/// What limits the energy with two derivatives of the changeover is the changeover.
-#[test]
-fn more_derivatives_of_the_changeover_keep_more_of_the_energy() {
-    let meeting = Meeting::new();
-    for (splitting, step) in [(Splitting::Leapfrog, 0.05), (Splitting::TenSixFour, 0.075)] {
-        let error = |changeover: Changeover| {
-            let (values, _) = meeting.run(&hybrid(step, splitting).with_changeover(changeover), 20.0);
-            meeting.energy_error(&values)
-        };
-        let errors = [Changeover::Quintic, Changeover::Smooth, Changeover::Fifteenth].map(error);
-        assert!(10.0 * errors[1] < errors[0] && 3.0 * errors[2] < errors[1], "{splitting:?}: {errors:?}");
     }
 }
 
@@ -434,7 +420,16 @@ fn radii_and_states_out_of_range_are_refused_by_name() {
         critical_radii(&bodies, &start[..4], 3.0, 0.1),
         Err(GravitationError::WrongLength { quantity: "state", expected: 18, found: 4 })
     );
-    assert!(matches!(critical_radii(&bodies, &start, f64::NAN, f64::NAN), Err(GravitationError::InvalidRadius { .. })));
+    for (hill_radii, step) in [(f64::NAN, 0.1), (3.0, f64::NAN), (-1.0, 0.1), (3.0, f64::INFINITY)] {
+        let radii = critical_radii(&bodies, &start, hill_radii, step);
+        assert!(matches!(radii, Err(GravitationError::InvalidRadius { .. })), "{hill_radii}, {step}");
+    }
+    let mut in_the_centre = start.clone();
+    for component in 0..3 {
+        in_the_centre[3 * component + 1] = in_the_centre[3 * component];
+    }
+    let radii = critical_radii(&bodies, &in_the_centre, 3.0, 0.0);
+    assert_eq!(radii, Err(GravitationError::CoincidentBodies { first: 0, second: 1 }));
 }
 
 #[cfg(feature = "serde")]
@@ -444,8 +439,63 @@ fn reports_are_read_as_they_were_written() {
     let (_, report) = meeting.run(&hybrid(0.1, Splitting::Leapfrog), 12.0);
     let text = serde_json::to_string(&report).unwrap();
     assert_eq!(serde_json::from_str::<HybridReport>(&text).unwrap(), report);
-    for changeover in [Changeover::Quintic, Changeover::Fifteenth, Changeover::Smooth] {
-        let text = serde_json::to_string(&changeover).unwrap();
-        assert_eq!(serde_json::from_str::<Changeover>(&text).unwrap(), changeover);
+}
+
+/// Two planets that run against each other on one circle touch at t = 0.1.
+fn about_to_touch() -> (Gravitation, Vec<f64>) {
+    let bodies = Gravitation::new(vec![1.0, 1e-9, 1e-9]).unwrap();
+    let (sine, cosine) = 0.2_f64.sin_cos();
+    let places = [[0.0; 3], [1.0, 0.0, 0.0], [cosine, sine, 0.0]];
+    let start = bodies.state(&places, &[[0.0; 3], [0.0, 1.0, 0.0], [sine, -cosine, 0.0]]).unwrap();
+    (bodies, start)
+}
+
+#[test]
+fn a_collision_after_the_end_is_no_collision() {
+    let (bodies, start) = about_to_touch();
+    for splitting in [Splitting::Leapfrog, Splitting::TenSixFour] {
+        let method = HybridSymplectic::new(0.08, splitting).unwrap().with_radii(vec![0.01, 0.001, 0.001]).unwrap();
+        let mut state = State::new(0.0, start.clone()).unwrap();
+        // The first motion of a next step would end beyond 0.1.
+        let report = method.integrate_to(&bodies, &mut state, 0.08).unwrap();
+        assert_eq!(state.time.to_bits(), 0.08_f64.to_bits());
+        assert!(report.closest.is_none_or(|closest| closest.t <= 0.08), "{report:?}");
+        let run = method.integrate_to(&bodies, &mut state, 0.16);
+        let Err(IntegratorsError::Field { t, source: GravitationError::Collision { first: 1, second: 2, .. } }) = run
+        else {
+            panic!("{run:?}");
+        };
+        assert_close("time", &[t], &[0.099], Tol::stated(1e-3, "found at a step's end or at the least distance"));
     }
+}
+
+#[test]
+fn only_planets_alone_are_judged_by_their_arcs_about_the_centre() {
+    // A light planet revolves about a heavy one. Alone, with its velocity of the start, it would fall to 0.05 from the centre.
+    let bodies = Gravitation::new(vec![1.0, 1e-3, 0.0]).unwrap();
+    let near = 2e-3;
+    let speed = (1e-3_f64 / near).sqrt();
+    let places = [[0.0; 3], [1.0, 0.0, 0.0], [1.0 + near, 0.0, 0.0]];
+    let start = bodies.state(&places, &[[0.0; 3], [0.0, 1.0, 0.0], [0.0, 1.0 - speed, 0.0]]).unwrap();
+    let method = HybridSymplectic::new(3.0, Splitting::Leapfrog).unwrap().with_least_distance(0.2).unwrap();
+    let mut state = State::new(0.0, start.clone()).unwrap();
+    method.integrate_to(&bodies, &mut state, 3.0).unwrap();
+    let alone = method.with_critical_radii(vec![0.0; 3]).unwrap();
+    let mut state = State::new(0.0, start).unwrap();
+    let run = alone.integrate_to(&bodies, &mut state, 3.0);
+    assert!(matches!(run, Err(IntegratorsError::Field { source: GravitationError::NearCentre { body: 2, .. }, .. })));
+}
+
+#[test]
+fn radii_of_no_body_are_no_default() {
+    let meeting = Meeting::new();
+    let mut state = State::new(0.0, meeting.start.clone()).unwrap();
+    let none = hybrid(0.1, Splitting::Leapfrog).with_radii(Vec::new()).unwrap();
+    let expected = meeting.bodies.bodies();
+    let wrong = |quantity| GravitationError::WrongLength { quantity, expected, found: 0 };
+    let run = none.integrate_to(&meeting.bodies, &mut state, 1.0);
+    assert_eq!(run, Err(IntegratorsError::Field { t: 0.0, source: wrong("radii") }));
+    let none = hybrid(0.1, Splitting::Leapfrog).with_critical_radii(Vec::new()).unwrap();
+    let run = none.integrate_to(&meeting.bodies, &mut state, 1.0);
+    assert_eq!(run, Err(IntegratorsError::Field { t: 0.0, source: wrong("critical radii") }));
 }
