@@ -36,6 +36,7 @@ def row(name, step, integrator):
             simulation.dt = step
         if integrator == "mercurius":
             simulation.ri_mercurius.r_crit_hill = 3.0
+            simulation.ri_mercurius.safe_mode = 0
         before = simulation.energy()
         began = time.perf_counter()
         simulation.integrate(float(END["t"]))

@@ -38,7 +38,7 @@ pub enum IntegratorsError<E = Infallible> {
     /// An adaptive method returns the latter only where no shorter step avoids it.
     #[error("entry {index} of `{quantity}` is {value}{}, which is not a finite number", at(*t))]
     NotFinite {
-        /// The name of the argument, `rate`, `residual`, or `state`.
+        /// The name of the argument, or of what was computed, such as `rate`.
         quantity: &'static str,
         /// The index of the first such entry, counted from 0.
         index: usize,
@@ -74,6 +74,12 @@ pub enum IntegratorsError<E = Infallible> {
         quantity: &'static str,
         /// The number given.
         value: f64,
+    },
+    /// A field in (q, p) whose dimension is odd.
+    #[error("the dimension {dimension} is odd: a field in (q, p) has two equal halves")]
+    OddDimension {
+        /// The dimension of the field.
+        dimension: usize,
     },
     /// Accelerations that depend on velocities, given to a Nyström pair.
     #[error("the accelerations depend on velocities: a Nyström pair is for q̈ = f(t, q)")]
@@ -181,6 +187,7 @@ impl IntegratorsError<Infallible> {
             Self::InvalidDamping { spectral_radius } => IntegratorsError::InvalidDamping { spectral_radius },
             Self::NotPositive { quantity, value } => IntegratorsError::NotPositive { quantity, value },
             Self::VelocityDependent => IntegratorsError::VelocityDependent,
+            Self::OddDimension { dimension } => IntegratorsError::OddDimension { dimension },
             Self::InvalidStep { step } => IntegratorsError::InvalidStep { step },
             Self::InvalidTolerance { relative, absolute } => IntegratorsError::InvalidTolerance { relative, absolute },
             Self::Field { source, .. } => match source {},

@@ -14,10 +14,21 @@ pub(crate) fn take_equal_steps<T: Real, E>(
     step: f64,
     state: &mut State<T>,
     end: f64,
+    observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    advance: impl FnMut(&mut State<T>, f64) -> Result<u64, IntegratorsError<E>>,
+) -> Result<Report, IntegratorsError<E>> {
+    check_run(dimension, state, end)?;
+    take_checked_steps(step, state, end, observer, advance)
+}
+
+/// The same from a state that has been checked.
+pub(crate) fn take_checked_steps<T: Real, E>(
+    step: f64,
+    state: &mut State<T>,
+    end: f64,
     mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     mut advance: impl FnMut(&mut State<T>, f64) -> Result<u64, IntegratorsError<E>>,
 ) -> Result<Report, IntegratorsError<E>> {
-    check_run(dimension, state, end)?;
     let start = state.time;
     let (steps, h) = equal_steps(start, end, step)?;
     let mut report = Report::begin();

@@ -24,8 +24,9 @@ pub(crate) trait Equations<T: Real> {
     const BY_FIXED_POINT: bool = false;
     /// Writes r(x).
     fn residual(&mut self, x: &[T], residual: &mut [T]) -> Result<(), IntegratorsError<Self::Error>>;
-    /// Writes ∂r/∂x, or a matrix close to it, down its columns.
-    fn matrix(&mut self, x: &[T], matrix: &mut [T]) -> Result<(), IntegratorsError<Self::Error>>;
+    /// Writes ∂r/∂x, or a matrix close to it, down its columns; and for each component of r by how much it changes if the
+    /// state changes by its own size, which is what rounding of the state does to it. That is zero unless it is written.
+    fn matrix(&mut self, x: &[T], matrix: &mut [T], response: &mut [f64]) -> Result<(), IntegratorsError<Self::Error>>;
     /// Writes the magnitude against which each component of x is rounded, no less than its own.
     fn magnitudes(&self, x: &[T], magnitudes: &mut [f64]);
 }
@@ -38,6 +39,10 @@ pub(crate) struct Newton<T> {
     residual: Vec<T>,
     guess: Vec<T>,
     magnitudes: Vec<f64>,
+    /// Of the matrix: see [`Equations::matrix`].
+    response: Vec<f64>,
+    /// Residuals computed in a step.
+    residuals: u64,
     /// Whether `factors` are those of a step before, of the same size.
     kept: bool,
 }
@@ -57,6 +62,8 @@ impl<T: Real> Newton<T> {
             residual: Vec::new(),
             guess: Vec::new(),
             magnitudes: Vec::new(),
+            response: Vec::new(),
+            residuals: 0,
             kept: false,
         }
     }
@@ -68,6 +75,8 @@ impl<T: Real> Newton<T> {
         self.residual.resize(n, T::zero());
         self.guess.resize(n, T::zero());
         self.magnitudes.resize(n, 0.0);
+        self.response.clear();
+        self.response.resize(n, 0.0);
         self.kept = false;
     }
 
@@ -80,15 +89,17 @@ impl<T: Real> Newton<T> {
         (t, step): (f64, f64),
     ) -> Result<u64, IntegratorsError<Q::Error>> {
         self.guess.copy_from_slice(x);
+        self.residuals = 0;
         if self.kept && T::ORDER == 0 {
             // An old matrix that leads astray is no reason to give up.
-            if let Ok(iterations) = self.iterate(equations, x, (t, step)) {
-                return Ok(iterations);
+            if self.iterate(equations, x, (t, step)).is_ok() {
+                return Ok(self.residuals);
             }
             x.copy_from_slice(&self.guess);
         }
         self.kept = false;
-        self.iterate(equations, x, (t, step))
+        self.iterate(equations, x, (t, step))?;
+        Ok(self.residuals)
     }
 
     fn iterate<Q: Equations<T>>(
@@ -96,12 +107,13 @@ impl<T: Real> Newton<T> {
         equations: &mut Q,
         x: &mut [T],
         (t, step): (f64, f64),
-    ) -> Result<u64, IntegratorsError<Q::Error>> {
+    ) -> Result<(), IntegratorsError<Q::Error>> {
         let mut fresh = self.kept;
         let (mut previous, mut change) = (f64::INFINITY, 0.0);
         for iteration in 1..=MOST_ITERATIONS {
             if !fresh && !Q::BY_FIXED_POINT {
-                equations.matrix(x, &mut self.factors)?;
+                self.response.fill(0.0);
+                equations.matrix(x, &mut self.factors, &mut self.response)?;
                 self.factor((t, step))?;
                 fresh = true;
             }
@@ -111,10 +123,16 @@ impl<T: Real> Newton<T> {
                 Progress::Converged => {
                     self.kept = iteration <= MOST_WITH_OLD_MATRIX;
                     // Derivatives that the scalars carry converge as fast as the values did, each order after the one before.
-                    for _ in 0..iteration * T::ORDER {
+                    // Values that stood still at once tell nothing of a fixed point.
+                    let more = if Q::BY_FIXED_POINT { iteration.max(MOST_ITERATIONS / 2) } else { iteration };
+                    for _ in 0..more * T::ORDER {
+                        self.guess.copy_from_slice(x);
                         self.correct(equations, x, previous)?;
+                        if self.guess == *x {
+                            break;
+                        }
                     }
-                    return Ok((iteration * (1 + T::ORDER)) as u64);
+                    return Ok(());
                 }
                 Progress::Slow => fresh = false,
                 Progress::Going => {}
@@ -141,6 +159,7 @@ impl<T: Real> Newton<T> {
         previous: f64,
     ) -> Result<(f64, Progress), IntegratorsError<Q::Error>> {
         equations.residual(x, &mut self.residual)?;
+        self.residuals += 1;
         // The lengths fit: nothing is refused.
         if !Q::BY_FIXED_POINT {
             let _ = lu::solve_in_place(&self.factors, &self.exchanges, &mut self.residual);
@@ -150,9 +169,12 @@ impl<T: Real> Newton<T> {
         }
         equations.magnitudes(x, &mut self.magnitudes);
         let (mut change, mut size) = (0.0_f64, 0.0_f64);
+        for (magnitude, &response) in self.magnitudes.iter_mut().zip(&self.response) {
+            *magnitude = magnitude.max(response);
+        }
         for ((&x, &correction), &magnitude) in x.iter().zip(&self.residual).zip(&self.magnitudes) {
             let (correction, x) = (largest_lane(correction), largest_lane(x));
-            if !correction.is_finite() {
+            if !correction.is_finite() || magnitude.is_infinite() {
                 change = f64::INFINITY; // the next residual says so
             } else if 0.0 < correction {
                 change = change.max(correction / magnitude);

@@ -265,6 +265,17 @@ pub(crate) fn check_finite<T: Real, E>(
     }
 }
 
+/// Refuses a step from the time `t` whose sums would not be finite.
+pub(crate) fn check_sums<T: Real, E>(t: f64, values: &[T], increments: &[T]) -> Result<(), IntegratorsError<E>> {
+    for (index, (&y, &increment)) in values.iter().zip(increments).enumerate() {
+        let value = largest_lane(y + increment);
+        if !value.is_finite() {
+            return Err(IntegratorsError::NotFinite { quantity: "state", index, value, t: Some(t) });
+        }
+    }
+    Ok(())
+}
+
 /// The first component that is infinite or NaN in some lane, and its value there.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn first_non_finite<T: Real>(values: &[T]) -> Option<(usize, f64)> {

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! A formula over secants gives f(x₁) − f(x₀) with an error relative to the changes of its terms. The difference of
-//! two values has an error relative to the values, which is larger where the points are close.
+//! two computed values has an error relative to the values, which is far larger where the points are close.
 
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
@@ -13,11 +13,11 @@ use num_traits::{One, Zero};
 
 use crate::{Mask, Real};
 
-/// A number at a start and at an end, and its change from one to the other, exact to the rounding of the changes.
+/// A number at a start and at an end, and its change from one to the other, computed without the difference of the two.
 ///
 /// # Accuracy
-/// A sum, product or elementary function adds a few ulp of the changes that enter it. Where the two ends take different
-/// branches of a [`select`](Real::select), the change is the difference of the values.
+/// A sum, product or elementary function adds a few ulp of the changes that enter it. The change is the difference of the two
+/// values where the ends take different branches of a [`select`](Real::select), and for `atan2` where one end is the origin.
 ///
 /// # Example
 /// ```
@@ -328,7 +328,10 @@ impl<T: Real> Real for Secant<T> {
         let (pi, whole) = (T::lit(core::f64::consts::PI), T::lit(core::f64::consts::TAU));
         let jump = (end - start) - turn;
         let whole = T::select(pi.less_than(jump), whole, T::select(jump.less_than(-pi), -whole, T::zero()));
-        Self { start, end, change: turn + whole }
+        // The origin has no direction: the angle between the ends is none.
+        let lengths = (x.start.abs() + self.start.abs()) * (x.end.abs() + self.end.abs());
+        let change = T::select(T::zero().less_than(lengths), turn + whole, end - start);
+        Self { start, end, change }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn sinh(self) -> Self {

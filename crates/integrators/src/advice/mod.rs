@@ -9,7 +9,8 @@
 //! t = (t_table + N_table (c − c_table)) turns / turns_table
 //! ```
 //!
-//! with N evaluations of c seconds each. A third of the error is aimed at, since problems of one kind differ. Where evaluations take longer, methods that need fewer of them win.
+//! with N evaluations of c seconds each. The method is chosen for a third of the error asked for, since problems of one kind
+//! differ. Where evaluations take longer, methods that need fewer of them win.
 
 #[expect(clippy::unreadable_literal, reason = "written by a program")]
 mod measured;
@@ -122,7 +123,7 @@ impl Character {
         self.turns = positive("turns", turns)?;
         Ok(self)
     }
-    /// The time of one evaluation of the equations, s. Unless stated it is that of the measured problems, 5 to 150 ns.
+    /// The time of one evaluation of the equations, s. Unless stated it is that of the measured problems, 1 to 106 ns.
     ///
     /// # Errors
     /// [`IntegratorsError::NotFinite`], or [`IntegratorsError::NotPositive`] unless 0 < seconds.

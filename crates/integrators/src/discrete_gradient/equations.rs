@@ -8,9 +8,7 @@ use crate::IntegratorsError;
 use crate::field::{largest_lane, magnitudes_of_blocks};
 use crate::newton::Equations;
 use crate::state::check_finite;
-
-/// Directions that are differentiated at once.
-const D: usize = 4;
+use crate::stiff_field::DIRECTIONS as D;
 
 /// Memory for the derivatives of a system.
 #[derive(Clone, Debug)]
@@ -25,8 +23,6 @@ pub(super) struct Workspace<T> {
     rate_of_seeds: Vec<Gradient<T, D>>,
     damping_of_seeds: Vec<Gradient<T, D>>,
     nested: Vec<Gradient<Gradient<T, D>, D>>,
-    /// By how much an increment changes if the state changes by its own size: what rounding of the state does to it.
-    response: Vec<f64>,
 }
 
 impl<T: Real> Workspace<T> {
@@ -42,7 +38,6 @@ impl<T: Real> Workspace<T> {
             rate_of_seeds: Vec::new(),
             damping_of_seeds: Vec::new(),
             nested: Vec::new(),
-            response: Vec::new(),
         }
     }
 
@@ -58,7 +53,6 @@ impl<T: Real> Workspace<T> {
         }
         self.secants.resize(n, Secant::constant(T::zero()));
         self.nested.resize(n, Gradient::constant(zero));
-        self.response.resize(n, 0.0);
     }
 
     /// H(y + carry) − H(y₀ + carry₀), without cancellation.
@@ -175,10 +169,9 @@ impl<S: EnergySystem, T: Real> Equations<T> for MidpointStep<'_, S, T> {
     }
 
     /// 1 − ½ h ∂((S − R)∇H)/∂y at the middle: what the correction of the gradient adds is of order h³.
-    fn matrix(&mut self, x: &[T], matrix: &mut [T]) -> Result<(), IntegratorsError> {
+    fn matrix(&mut self, x: &[T], matrix: &mut [T], response: &mut [f64]) -> Result<(), IntegratorsError> {
         self.set_middle(x);
         let (n, work, half) = (x.len(), &mut *self.work, T::lit(0.5 * self.h));
-        work.response.fill(0.0);
         for first in (0..n).step_by(D) {
             for (i, (seed, &y)) in work.seeds.iter_mut().zip(&work.middle).enumerate() {
                 *seed = Gradient::variable(y, i.wrapping_sub(first));
@@ -201,18 +194,18 @@ impl<S: EnergySystem, T: Real> Equations<T> for MidpointStep<'_, S, T> {
             }
             for (i, rate) in work.rate_of_seeds.iter().enumerate() {
                 for (j, &partial) in (first..n).zip(&rate.partials) {
-                    work.response[i] += largest_lane(half * partial) * largest_lane(work.middle[j]);
+                    response[i] += largest_lane(half * partial) * largest_lane(work.middle[j]);
                     matrix[i + j * n] = if i == j { T::one() } else { T::zero() } - half * partial;
                 }
             }
         }
-        check_finite("Jacobian", Some(self.t), matrix)
+        check_finite("jacobian", Some(self.t), matrix)
     }
 
     fn magnitudes(&self, x: &[T], magnitudes: &mut [f64]) {
         magnitudes_of_blocks(self.values, magnitudes);
-        for ((magnitude, &x), &response) in magnitudes.iter_mut().zip(x).zip(&self.work.response) {
-            *magnitude = magnitude.max(largest_lane(x)).max(response);
+        for (magnitude, &x) in magnitudes.iter_mut().zip(x) {
+            *magnitude = magnitude.max(largest_lane(x));
         }
     }
 }

@@ -13,8 +13,8 @@
 //! # Rounding
 //! H(y₁) − H(y₀) is computed as a [`Secant`](piola_numerics::Secant), not as a difference of two rounded energies, so
 //! that nothing cancels as y₁ → y₀ or near an equilibrium. Before each substep the change of the energy since the start of
-//! the run is computed in the same way, and the substep takes it back. After a million steps of Hénon–Heiles (h = 0.1, H = 0.15)
-//! the energy has never been off by more than 1.1e-16; without the correction roundings add up to 8.8e-15.
+//! the run is computed in the same way, and the substep takes it back. Without this correction roundings add up, to 8.8e-15 after
+//! a million steps of Hénon–Heiles (h = 0.1, H = 0.15); with it the error does not grow.
 //!
 //! # When?
 //! When the energy itself must hold over very long runs, at any step, also near a separatrix, or when damping must never
@@ -38,7 +38,7 @@ use self::equations::{MidpointStep, Workspace};
 pub use self::system::EnergySystem;
 use crate::fixed_step::take_equal_steps;
 use crate::newton::Newton;
-use crate::state::{check_step, compensated_add};
+use crate::state::{check_step, check_sums, compensated_add};
 use crate::{IntegratorsError, Order, Report, State, Step, unobserved};
 
 /// The discrete-gradient method of Gonzalez, composed to the given order, with a fixed step.
@@ -185,6 +185,7 @@ impl<T: Real> DiscreteGradient<T> {
             };
             let mut step = MidpointStep { system, work: &mut self.work, values, carry, t, h, excess };
             evaluations += substep.newton.solve(&mut step, &mut substep.increment, (t, h))?;
+            check_sums(t, values, &substep.increment)?;
             for ((y, carry), &increment) in values.iter_mut().zip(carry.iter_mut()).zip(&substep.increment) {
                 compensated_add(y, carry, increment);
             }

@@ -26,11 +26,15 @@ use piola_numerics::Real;
 
 use self::tableaux::{STAGES_1, STAGES_2, STAGES_3, STAGES_4, Tableau};
 use crate::field::largest_lane;
-use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
+use crate::state::{check_finite, check_run, check_step, check_sums, compensated_add, equal_steps};
 use crate::{Ending, Field, IntegratorsError, Order, Report, State, Step, unobserved};
 
 /// Sweeps over the stages after which a step is given up.
 const MOST_SWEEPS: usize = 100;
+/// Values that settle in fewer sweeps were at rest.
+const FEW_SWEEPS: usize = 4;
+/// Most sweeps that bring in derivatives of each order where the values were at rest.
+const MOST_SWEEPS_AT_REST: usize = 40;
 
 /// The part of the rounding error of an increment that may be left out of it: in a million steps it adds up to
 /// less than rounding does.
@@ -173,15 +177,17 @@ impl<T: Real> GaussLegendre<T> {
         let mut report = Report::begin();
         for number in 1..=steps {
             report.evaluations += solve_stages(tableau, &weights, h, field, state, work)?;
-            let (values, carry) = (&mut state.values[..], &mut state.carry[..]);
-            for i in 0..n {
+            for (i, total) in work.rate.iter_mut().enumerate() {
                 // The increments of all stages are of one size, and one order is as good as another; what
                 // matters is that their sum enters the state compensated.
-                let mut increment = work.increments[i];
+                *total = work.increments[i];
                 for j in 1..S {
-                    increment += work.increments[j * n + i];
+                    *total += work.increments[j * n + i];
                 }
-                compensated_add(&mut values[i], &mut carry[i], increment);
+            }
+            check_sums(state.time, &state.values, &work.rate)?;
+            for ((y, carry), &total) in state.values.iter_mut().zip(&mut state.carry).zip(&work.rate) {
+                compensated_add(y, carry, total);
             }
             work.continued = true;
             state.set_time(if number == steps { end } else { start + h * number as f64 });
@@ -235,8 +241,10 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
     let second_order = field.is_second_order() && n.is_multiple_of(2);
     let half = n / 2;
     let mut previous = f64::INFINITY;
-    for sweep in 1..=MOST_SWEEPS {
-        let (mut change, mut size) = (0.0_f64, 0.0_f64);
+    // Sweeps that bring in derivatives, once the values stand still.
+    let mut more = None;
+    for sweep in 1..=MOST_SWEEPS + T::ORDER * MOST_SWEEPS_AT_REST {
+        let (mut change, mut size, mut is_same) = (0.0_f64, 0.0_f64, true);
         if second_order {
             // q̇ = v is known: take it at the newest velocities of all stages before any force is asked for.
             velocities_to_position_increments(tableau, weights, state, work);
@@ -266,8 +274,16 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
                 if 0.0 < increment {
                     size = size.max(increment / work.magnitudes[k]);
                 }
+                is_same &= T::ORDER == 0 || new == work.increments[i * n + k];
                 work.increments[i * n + k] = new;
             }
+        }
+        if let Some(left) = &mut more {
+            *left -= 1;
+            if is_same || *left == 0 {
+                break;
+            }
+            continue;
         }
         // Converged when the next change would be far below the rounding of the increments, since what is
         // left out has the same sign in every step and adds up; or when rounding has stopped the fall.
@@ -275,16 +291,19 @@ fn solve_stages<const S: usize, T: Real, F: Field<T>>(
         let negligible = UNROUNDED * f64::EPSILON * size.min(1.0);
         let stalled = previous <= change || sweep == MOST_SWEEPS;
         if predicted <= negligible && change <= 1e-3 || stalled && change < 64.0 * f64::EPSILON {
-            if second_order {
-                velocities_to_position_increments(tableau, weights, state, work);
+            if T::ORDER == 0 {
+                break;
             }
-            return Ok(evaluations);
-        }
-        if sweep == MOST_SWEEPS {
+            // Derivatives follow the values order by order, a few sweeps behind; values at rest told nothing of their pace.
+            more = Some(T::ORDER * if sweep < FEW_SWEEPS { MOST_SWEEPS_AT_REST } else { 2 + sweep / 4 });
+        } else if sweep == MOST_SWEEPS {
             return Err(IntegratorsError::StagesDiverged { t: time, step: h, iterations: sweep, change });
         }
         // The first change may be out of proportion: it can be relative to a velocity near rest.
         previous = change.min(1.0);
+    }
+    if second_order {
+        velocities_to_position_increments(tableau, weights, state, work);
     }
     Ok(evaluations)
 }

@@ -9,6 +9,10 @@ use crate::{IntegratorsError, SecondOrder, State};
 
 /// Sweeps after which a fixed step is given up.
 const MOST_SWEEPS: u64 = 40;
+/// Values that settle in fewer sweeps may have been at rest.
+const FEW_SWEEPS: u64 = 4;
+/// Sweeps that bring in derivatives of each order where they may have been.
+const SWEEPS_AT_REST: usize = 12;
 /// Sweeps after which an adaptive step is given up: a shorter one is cheaper.
 const MOST_ADAPTIVE_SWEEPS: u64 = 12;
 /// Changes larger than the one before after which sweeps of an adaptive step are given up.
@@ -246,9 +250,9 @@ impl<T: Real, F: SecondOrder<T>> Collocation<T, F> for Workspace<T> {
         let most_sweeps = if adaptive { MOST_ADAPTIVE_SWEEPS } else { MOST_SWEEPS };
         let negligible = (UNSWEPT * tolerance).max(UNROUNDED * self.rounding);
         // Sweeps that bring in derivatives, once the values stand still.
-        let mut more = T::ORDER;
+        let mut more = None;
         let (mut size, mut rises) = (at_start, 0);
-        while attempt.sweeps < most_sweeps {
+        while attempt.sweeps < most_sweeps || more.is_some() {
             // Sums, not maxima: what is not finite stays in them.
             let mut change = T::zero();
             size = at_start;
@@ -271,6 +275,14 @@ impl<T: Real, F: SecondOrder<T>> Collocation<T, F> for Workspace<T> {
                     stages[k][j] = difference;
                 }
             }
+            if let Some(left) = &mut more {
+                *left -= 1;
+                if *left == 0 {
+                    attempt.converged = true;
+                    break;
+                }
+                continue;
+            }
             attempt.sweeps += 1;
             if !(0..T::LANES).all(|lane| size.primal(lane).is_finite()) {
                 return Ok(attempt);
@@ -285,11 +297,13 @@ impl<T: Real, F: SecondOrder<T>> Collocation<T, F> for Workspace<T> {
             let settled = change * attempt.contraction.min(1.0) <= negligible;
             let rounded = 0.5 < fell && change < self.rounding.sqrt();
             if settled || rounded {
-                attempt.converged = more == 0;
-                if attempt.converged {
+                if T::ORDER == 0 {
+                    attempt.converged = true;
                     break;
                 }
-                more -= 1;
+                // Values at rest settle at once and tell nothing of the pace of derivatives.
+                more = Some(T::ORDER * if attempt.sweeps < FEW_SWEEPS { SWEEPS_AT_REST } else { 1 });
+                continue;
             }
             // A shorter step is cheaper than waiting; a fixed one waits: changes may grow at first and fall then.
             rises += u32::from(1.0 < fell);

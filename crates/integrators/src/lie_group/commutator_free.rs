@@ -12,12 +12,13 @@ use core::ops::ControlFlow;
 
 use piola_numerics::Real;
 
-use super::run::{Trial, check_start, evaluate, make_equal_steps};
+use super::run::{Trial, check_start, evaluate};
 use super::{GroupField, LieGroup};
+use crate::fixed_step::take_checked_steps;
 use crate::state::check_step;
 use crate::{IntegratorsError, Report, State, Step, unobserved};
 
-/// The commutator-free method of order 4 with a fixed step: four evaluations and five exponentials a step.
+/// The commutator-free method of order 4 with a fixed step: four evaluations and six exponentials a step.
 ///
 /// It needs nothing of the group but the exponential, and has no singular angle: a step may turn by any angle that the
 /// accuracy allows. On [`Translations`](crate::Translations) it is Kutta's classical method.
@@ -27,7 +28,7 @@ use crate::{IntegratorsError, Report, State, Step, unobserved};
 ///
 /// # Example
 /// See [`group_field`](crate::group_field).
-#[doc(alias("CF4", "Crouch-Grossman", "Lie group integrator"))]
+#[doc(alias("CF4", "Lie group integrator"))]
 #[derive(Clone, Debug)]
 pub struct CommutatorFree<T = f64> {
     step: f64,
@@ -83,7 +84,7 @@ impl<T: Real> CommutatorFree<T> {
             vector.resize(dimension, T::zero());
         }
         self.trial.resize(state.values.len());
-        make_equal_steps(state, end, self.step, observer, |state, h| self.advance(field, state, h))
+        take_checked_steps(self.step, state, end, observer, |state, h| self.advance(field, state, h))
     }
 
     /// Makes one step; the state changes only when it is complete.

@@ -22,8 +22,8 @@
 //! | many of one group | [`DirectPower`] | one after the other | one after the other |
 //!
 //! # Which method?
-//! [`AdaptiveMuntheKaas`], order 8(5,3), for smooth fields; [`MuntheKaas`] of orders 2, 4, 6, 8 with a fixed step. [`CommutatorFree`], order 4, for groups of your own of which only the
-//! exponential is known. [`GeneralisedAlpha`], implicit and of order 2, for stiff mechanical systems whose fast vibrations
+//! [`AdaptiveMuntheKaas`], order 8(5,3), for smooth fields; [`MuntheKaas`] of orders 2, 4, 6, 8 with a fixed step.
+//! [`CommutatorFree`], order 4, for a group of your own of which only the exponential is known. [`GeneralisedAlpha`], implicit and of order 2, for stiff mechanical systems whose fast vibrations
 //! should be damped.
 //!
 //! # References
@@ -54,8 +54,8 @@ pub use self::rotations::Rotations;
 
 /// A Lie group whose elements and whose algebra are numbers in slices.
 ///
-/// An element is held with a carry, what rounding left of the last multiplications, so that a million small steps round as
-/// one. The slices have the lengths [`element_length`](Self::element_length) and [`dimension`](Self::dimension).
+/// An element is held with a carry: what rounding has cut off its numbers so far. With it, a million small steps have no more
+/// rounding error than one. The slices have the lengths [`element_length`](Self::element_length) and [`dimension`](Self::dimension).
 ///
 /// # Example
 /// ```
@@ -101,11 +101,11 @@ pub trait LieGroup<T: Real = f64> {
     fn advance(&self, element: &mut [T], carry: &mut [T], displacement: &[T]);
     /// Turns the velocity ξ into the rate of the displacement: ξ ← dexp⁻¹_{−θ} ξ.
     ///
-    /// It inverts the derivative of the exponential, trivialised from the left: d/dt exp θ = (exp θ) dexp_{−θ} θ̇. Only
-    /// [`MuntheKaas`] needs it.
+    /// It inverts the derivative of the exponential, trivialised from the left: d/dt exp θ = (exp θ) dexp_{−θ} θ̇.
+    /// [`MuntheKaas`] and [`AdaptiveMuntheKaas`] need it.
     #[doc(alias("dexpinv", "inverse right Jacobian"))]
     fn inverse_differential(&self, displacement: &[T], velocity: &mut [T]);
-    /// Removes what rounding has moved the element off the group; the correction is of the size of that rounding.
+    /// Brings the element back to the group, from which rounding has moved it. The correction is as small as that rounding.
     ///
     /// Methods call it at the end of each step. The default, for groups whose elements are any numbers, does nothing.
     fn renormalise(&self, _element: &mut [T], _carry: &mut [T]) {}
@@ -114,8 +114,8 @@ pub trait LieGroup<T: Real = f64> {
     fn magnitudes(&self, _element: &[T], magnitudes: &mut [f64]) {
         magnitudes.fill(1.0);
     }
-    /// By how much given numbers miss the group, beyond what [`renormalise`](Self::renormalise) removes: the index of the
-    /// first number of the part that does, and the defect. A run refuses such a start. The default is none.
+    /// Tells whether these numbers are no element of the group, beyond what [`renormalise`](Self::renormalise) mends: the index of
+    /// the first number of the part that is wrong, and its defect. A run refuses such a start. The default is `None`.
     fn defect(&self, _element: &[T]) -> Option<(usize, f64)> {
         None
     }

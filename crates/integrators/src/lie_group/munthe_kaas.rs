@@ -11,9 +11,10 @@ use core::ops::ControlFlow;
 
 use piola_numerics::Real;
 
-use super::run::{Trial, check_start, evaluate, make_equal_steps};
+use super::run::{Trial, check_start, evaluate};
 use super::tableaux::{DORMAND_PRINCE_8, HALF_STEP_2, KUTTA_4, Row, SIX, Tableau};
 use super::{GroupField, LieGroup};
+use crate::fixed_step::take_checked_steps;
 use crate::state::check_step;
 use crate::{IntegratorsError, Order, Report, State, Step, unobserved};
 
@@ -117,7 +118,7 @@ impl<T: Real> MuntheKaas<T> {
         }
         self.trial.resize(state.values.len());
         let tableau = tableau(self.order);
-        make_equal_steps(state, end, self.step, observer, |state, h| self.advance(tableau, field, state, h))
+        take_checked_steps(self.step, state, end, observer, |state, h| self.advance(tableau, field, state, h))
     }
 
     /// Makes one step; the state changes only when it is complete.

@@ -21,9 +21,8 @@ use crate::state::compensated_add;
 ///
 /// # Accuracy
 /// The exponential is right to a few ulp at any angle. The differential of its inverse is right to a few ulp × 2π/(2π − a) and
-/// not finite at a = |θ| = 2π. The length of q stays 1 within 2⁻⁵³ (f64) for any number of steps, as the nearest
-/// doubles to a unit quaternion have it: products are compensated, and what they round off the length is removed after each
-/// step, along q.
+/// not finite at a = |θ| = 2π. The length of q stays 1 within 2⁻⁵³ (f64) for any number of steps, which is as near as four
+/// doubles come to a unit quaternion. Products are compensated; after each step the length is corrected along q.
 ///
 /// # Example
 /// ```

@@ -1,12 +1,10 @@
 //! What runs on groups share: the start, equal steps, a trial that the state becomes when it is complete.
 
-use core::ops::ControlFlow;
-
 use piola_numerics::Real;
 
 use super::{GroupField, LieGroup};
-use crate::state::{check_finite, check_run, equal_steps};
-use crate::{Ending, IntegratorsError, Report, State, Step};
+use crate::state::{check_finite, check_run};
+use crate::{IntegratorsError, State};
 
 /// An element with its carry while a step is made.
 #[derive(Clone, Debug)]
@@ -91,28 +89,4 @@ pub(super) fn check_start<T: Real, E>(
         None => Ok(()),
         Some((index, defect)) => Err(IntegratorsError::OutsideGroup { index, defect }),
     }
-}
-
-/// Makes equal steps no longer than `longest` from the state to `end`. `make` moves the state and returns its evaluations; where
-/// it fails it leaves the state as it was.
-pub(super) fn make_equal_steps<T: Real, E>(
-    state: &mut State<T>,
-    end: f64,
-    longest: f64,
-    mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    mut make: impl FnMut(&mut State<T>, f64) -> Result<u64, IntegratorsError<E>>,
-) -> Result<Report, IntegratorsError<E>> {
-    let start = state.time;
-    let (steps, h) = equal_steps(start, end, longest)?;
-    let mut report = Report::begin();
-    for number in 1..=steps {
-        report.evaluations += make(state, h)?;
-        state.set_time(if number == steps { end } else { start + h * number as f64 });
-        report.steps = number;
-        if observer(Step { number, time: state.time, values: &state.values }).is_break() {
-            report.ending = Ending::Stopped;
-            break;
-        }
-    }
-    Ok(report)
 }

@@ -8,10 +8,8 @@ use super::tableau::LobattoTableau;
 use crate::field::{largest_lane, magnitudes_of_blocks};
 use crate::newton::Equations;
 use crate::state::check_finite;
+use crate::stiff_field::DIRECTIONS as D;
 use crate::{Field, IntegratorsError};
-
-/// Directions that are differentiated at once.
-pub(super) const D: usize = 4;
 
 /// Memory of one step.
 #[derive(Clone, Debug)]
@@ -123,14 +121,20 @@ impl<F: Field<T>, T: Real, K: Jacobians<F, T>> Equations<T> for PairStep<'_, F, 
         Ok(())
     }
 
-    fn matrix(&mut self, x: &[T], matrix: &mut [T]) -> Result<(), IntegratorsError<F::Error>> {
+    fn matrix(&mut self, x: &[T], matrix: &mut [T], response: &mut [f64]) -> Result<(), IntegratorsError<F::Error>> {
         let (n, s) = (self.values.len(), self.tableau.stages);
         let size = s * n;
         for i in 0..s {
             self.set_stage(x, i);
             let t = self.time_of(i);
             K::write(self.field, t, self.work).map_err(|source| IntegratorsError::Field { t, source })?;
-            check_finite("Jacobian", Some(self.t), &self.work.jacobian)?;
+            check_finite("jacobian", Some(self.t), &self.work.jacobian)?;
+            for (column, &y) in self.work.stage.iter().enumerate() {
+                for row in 0..n {
+                    let slope = T::lit(self.weights[i]) * self.work.jacobian[row + column * n];
+                    response[i * n + row] += largest_lane(slope) * largest_lane(y);
+                }
+            }
             for j in 0..s {
                 for column in 0..n {
                     let row_of = if column < n / 2 { &self.tableau.positions[i] } else { &self.tableau.momenta[i] };

@@ -6,7 +6,7 @@ use crate::variational::rule::{MOST, gauss, lagrange, lobatto};
 /// The coefficients of s stages.
 ///
 /// Source: collocation on Lobatto's points, aᵢⱼ = ∫₀^cᵢ ℓⱼ, and symplecticity, bᵢ âᵢⱼ + bⱼ aⱼᵢ = bᵢ bⱼ; Hairer, Lubich & Wanner,
-/// *Geometric Numerical Integration*, II.1.4.
+/// *Geometric Numerical Integration*, II.1.4 and VI.4.
 #[derive(Clone, Copy, Debug)]
 pub struct LobattoTableau {
     /// s.

@@ -9,8 +9,9 @@
 //! a method for any field takes twelve of twice as many components.
 //!
 //! # When?
-//! [`Nystrom86`] for errors down to 1e-7, [`Nystrom1210`] below: gravitation, springs, potentials. Where the
-//! acceleration can be evaluated in lanes, [`GaussLegendre16`](crate::GaussLegendre16) is faster still.
+//! [`Nystrom1210`] for gravitation, springs and potentials; [`Nystrom86`] only where bodies pass each other closely and an error
+//! of 1e-7 is enough. Where the acceleration can be evaluated in lanes, [`GaussLegendre16`](crate::GaussLegendre16) is faster on
+//! most problems that were measured.
 //!
 //! # References
 //! Dormand, El-Mikkawy & Prince, IMA J. Numer. Anal. 7 (1987) 235–250 and 423–430.

@@ -28,10 +28,10 @@
 //! (γ/h M − J) e = f(t, y) + M Σ dᵢ Zᵢ / h
 //! ```
 //!
-//! Where a step would be rejected, the right-hand side is evaluated once more with f(t, y + e), which damps what is stiff.
-//! The error of the result is of order 2s where the motion is slow for the step; so ‖e‖ is compared with
-//! ⅒ tolerance^((s+1)/2s). Components that follow others within far less than the step have the order of e, and the error e.
-//! That part of e is compared with the tolerance itself, down to 1e-12:
+//! Where a step would be rejected, e is computed once more from f(t, y + e), which damps its stiff part.
+//! Components that are slow for the step have an error of order 2s, far smaller than e; for them ‖e‖ is compared with
+//! ⅒ tolerance^((s+1)/2s). Components that are fast for the step, which follow the others at once, have the error e itself.
+//! Their part of e is compared with the tolerance, down to 1e-12:
 //!
 //! ```text
 //! ‖(1 − F)² e‖ ≤ tolerance,    F = (γ/h M − J)⁻¹ γ/h M: near 1 for what is slow, near 0 for what is fast
@@ -90,11 +90,10 @@ use crate::{IntegratorsError, Report, State, StiffField, Tolerance};
 ///
 /// # Accuracy
 /// The error of a step is of order 6, 10 or 14; of components whose decay is far faster than the step, of order 4, 6 or 8. At
-/// the end of van der Pol's, Robertson's and the Oregonator's equations and of HIRES the error is below the tolerance, or of its
-/// size (at most seven times), at tolerances from 1e-3 to 1e-13. After a stiff spring pendulum it is some twenty times as large.
-/// At the end of Andrews' squeezer places and velocities are within the tolerance with constraints on accelerations (index 1),
-/// within twelve times of it with constraints on velocities (index 2); reactions of index 2 are some hundred times less
-/// accurate. The state and the time are summed with compensation.
+/// the end of van der Pol's, Robertson's and the Oregonator's equations and of HIRES the error is at most seven times the
+/// tolerance, at tolerances from 1e-3 to 1e-13; of a stiff spring pendulum some twenty times. At the end of Andrews' squeezer
+/// positions and velocities are within the tolerance if the constraints are on accelerations (index 1), within twelve times the
+/// tolerance if they are on velocities (index 2). Reactions of index 2 are some hundred times less accurate. The state and the time are summed with compensation.
 ///
 /// # Example
 /// ```

@@ -7,7 +7,7 @@ use piola_numerics::Real;
 use super::checkpoints::Checkpoints;
 use super::reversal::Reversal;
 use super::stages::StepTimes;
-use super::{Objective, ObjectiveGradient, ParametricField, WithParameters, check_length, check_parameters};
+use super::{Objective, ObjectiveGradient, ParametricField, WithParameters, check_length};
 use crate::events::stopped_by;
 use crate::explicit::{Rows, RungeKutta, RungeKuttaPair};
 use crate::state::check_run;
@@ -106,7 +106,7 @@ pub struct AdjointSensitivity<P, T = f64> {
 }
 
 impl<P: RungeKuttaPair, T: Real> AdjointSensitivity<P, T> {
-    /// Of the runs that a method makes, of which so many states are kept beside the start.
+    /// Records the runs of a method. It keeps at most `checkpoints` states of a run, beside the start.
     #[must_use]
     pub fn new(method: RungeKutta<P, T>, checkpoints: usize) -> Self {
         let (steps, p, end) = (Vec::new(), Vec::new(), Vec::new());
@@ -142,7 +142,8 @@ impl<P: RungeKuttaPair, T: Real> AdjointSensitivity<P, T> {
     ///
     /// # Errors
     /// The parameters do not fit the field or are not finite, or as [`RungeKutta::integrate`]. The state then stands at the last
-    /// accepted step, and the record ends there: its gradient can be had. Arguments that are refused leave the record before.
+    /// accepted step, and the record ends there; the gradient of this shorter run is available. If the arguments are refused, the
+    /// record of the run before stays.
     pub fn integrate<F: ParametricField>(
         &mut self,
         field: &F,
@@ -152,14 +153,14 @@ impl<P: RungeKuttaPair, T: Real> AdjointSensitivity<P, T> {
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         let n = field.dimension();
-        check_parameters(field, p)?;
+        let mut at_parameters = WithParameters::new(field, p)?;
         check_run(n, state, end)?;
         let Self { method, steps, checkpoints, .. } = self;
         steps.clear();
         checkpoints.clear(n);
         self.p.clear();
         self.p.extend_from_slice(p);
-        let run = method.run(&mut WithParameters::new(field, p), state, end, None, &mut |dense| {
+        let run = method.run(&mut at_parameters, state, end, None, &mut |dense| {
             checkpoints.offer(steps.len(), dense.row(Rows::START), dense.row(Rows::START_CARRY));
             steps.push((dense.step.start, dense.step.length));
             let step = Step { number: dense.number(), time: dense.time(), values: dense.values() };

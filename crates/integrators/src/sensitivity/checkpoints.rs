@@ -104,7 +104,7 @@ impl<T: Real> Checkpoints<T> {
         self.states.truncate(kept * size);
     }
 
-    /// How many steps after the last state the next one is kept, on the way backwards over so many steps: m above.
+    /// Of `length` steps to be made again from the last kept state: the number of steps after which the next state is kept (m above).
     pub(super) fn next_distance(&self, length: usize) -> usize {
         let c = (self.capacity - self.numbers.len() + 1) as u128;
         let length = length as u128;

@@ -4,7 +4,6 @@ use core::ops::ControlFlow;
 
 use piola_numerics::{Gradient, Real};
 
-use super::check_parameters;
 use super::stages::{Stages, StepTimes};
 use super::{DIRECTIONS, Directional, ParametricField, Sensitivities, SensitivityInputs, WithParameters};
 use crate::events::stopped_by;
@@ -126,7 +125,7 @@ impl<P: RungeKuttaPair, T: Real> ForwardSensitivity<P, T> {
         mut observer: impl FnMut(Step<'_, T>, &Sensitivities<T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
         let n = field.dimension();
-        check_parameters(field, p)?;
+        let mut at_parameters = WithParameters::new(field, p)?;
         check_run(n, state, end)?;
         sensitivities.check(n, p.len())?;
         let Self { method, work, next } = self;
@@ -136,7 +135,7 @@ impl<P: RungeKuttaPair, T: Real> ForwardSensitivity<P, T> {
         let mut first = state.time;
         let mut clock = (state.time, state.time_carry);
         let mut incomplete = false;
-        let run = method.run(&mut WithParameters::new(field, p), state, end, None, &mut |dense| {
+        let run = method.run(&mut at_parameters, state, end, None, &mut |dense| {
             let times = StepTimes { first, start: dense.step.start, length: dense.step.length };
             work.start.copy_from_slice(dense.row(Rows::START));
             work.start_carry.copy_from_slice(dense.row(Rows::START_CARRY));

@@ -91,7 +91,7 @@ impl<T: Real> Sensitivities<T> {
         self.start.count + self.parameters.count
     }
 
-    /// Refuses derivatives of another system, and numbers that are not finite.
+    /// Refuses derivatives of another system.
     pub(super) fn check<E>(&self, n: usize, m: usize) -> Result<(), IntegratorsError<E>> {
         check_length("sensitivities", n, self.n)?;
         check_length("sensitivities by parameters", m, self.m)

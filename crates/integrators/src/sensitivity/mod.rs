@@ -49,9 +49,7 @@ use piola_numerics::{Gradient, Real};
 
 use crate::IntegratorsError;
 use crate::state::check_finite;
-
-/// The directions in which a field is differentiated at once.
-const DIRECTIONS: usize = 4;
+use crate::stiff_field::DIRECTIONS;
 
 /// Numbers with derivatives in that many directions.
 type Directional<T> = Gradient<T, DIRECTIONS>;

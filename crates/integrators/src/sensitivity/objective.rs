@@ -1,4 +1,4 @@
-//! Numbers that a run is judged by.
+//! Objectives: numbers computed from a run, and their gradients.
 
 use piola_numerics::Real;
 
@@ -14,7 +14,7 @@ pub trait Objective {
     const RUNNING: bool = false;
     /// g(t₁, y(t₁), p).
     fn terminal<T: Real>(&self, t: f64, y: &[T], p: &[T]) -> T;
-    /// ℓ(t, y, p). Its integral is that of the method's formula: the tolerance bounds no error of it.
+    /// ℓ(t, y, p). The method's own weights integrate it over the steps of the run. The tolerance does not bound the error of this integral.
     fn running<T: Real>(&self, _t: f64, _y: &[T], _p: &[T]) -> T {
         T::zero()
     }

@@ -2,9 +2,9 @@
 
 use piola_numerics::Real;
 
-use super::JacobianProduct;
-use crate::Field;
+use super::{JacobianProduct, check_parameters};
 use crate::field::magnitudes_of_blocks;
+use crate::{Field, IntegratorsError};
 
 /// A first-order system with parameters, ẏ = f(t, y, p), over any scalar.
 ///
@@ -29,7 +29,7 @@ use crate::field::magnitudes_of_blocks;
 ///     }
 /// }
 /// let mut state = State::new(0.0, vec![1.0])?;
-/// let mut growth = WithParameters::new(&Growth, &[2.0]);
+/// let mut growth = WithParameters::new(&Growth, &[2.0])?;
 /// DormandPrince853::new(Tolerance::relative(1e-13)?).integrate_to(&mut growth, &mut state, 1.0)?;
 /// assert!((state.values[0] - 2.0_f64.exp()).abs() < 1e-12);
 /// # Ok::<(), piola_integrators::IntegratorsError>(())
@@ -87,9 +87,12 @@ pub struct WithParameters<'a, F, T = f64> {
 
 impl<'a, F: ParametricField, T: Real> WithParameters<'a, F, T> {
     /// The field at the parameters p.
-    #[must_use]
-    pub const fn new(field: &'a F, p: &'a [T]) -> Self {
-        Self { field, p }
+    ///
+    /// # Errors
+    /// Their number is not the field's, or one of them is not finite.
+    pub fn new(field: &'a F, p: &'a [T]) -> Result<Self, IntegratorsError<F::Error>> {
+        check_parameters(field, p)?;
+        Ok(Self { field, p })
     }
 }
 

@@ -58,7 +58,8 @@ impl Sparsity {
     /// The pattern of a field's Jacobian at (t, y): the rates that depend on each component, also where the derivative
     /// happens to be zero there. Costs n/4 evaluations over [`Differentiable`] numbers.
     ///
-    /// A direction that is not a number spreads to whatever is computed from it, while values stay as they are. Where the
+    /// Each component in turn gets NaN as its derivative. Whatever is computed from it has then a derivative that is NaN, and the
+    /// values are as always. Where the
     /// field branches on its values, the pattern is that of the branch taken at (t, y).
     ///
     /// # Errors

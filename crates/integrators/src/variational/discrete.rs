@@ -7,10 +7,8 @@ use piola_numerics::{Gradient, Real};
 use super::step::{DiscreteAction, Start, Stepper};
 use crate::fixed_step::take_equal_steps;
 use crate::state::check_step;
+use crate::stiff_field::DIRECTIONS as D;
 use crate::{IntegratorsError, Report, State, Step, unobserved};
-
-/// Directions that are differentiated at once.
-const D: usize = 4;
 
 /// One step between two positions.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +17,7 @@ pub struct Chord<'a, T> {
     pub start: &'a [T],
     /// q₁.
     pub end: &'a [T],
-    /// q₁ − q₀, with digits that the difference of the rounded positions lacks: velocities are made of it.
+    /// q₁ − q₀, more exact than the difference of the two rounded positions. Compute velocities from it.
     pub change: &'a [T],
     /// The time at the start, s.
     pub t: f64,

@@ -5,7 +5,7 @@ use piola_numerics::Real;
 use crate::IntegratorsError;
 use crate::field::largest_lane;
 use crate::newton::{Equations, Newton};
-use crate::state::{State, check_finite, compensated_add};
+use crate::state::{State, check_finite, check_sums, compensated_add};
 
 /// A discrete action A(q₀, U) of the start q₀ and of the increments U₁ … Uₛ of the nodes after it, Uₛ = q₁ − q₀, with forces.
 ///
@@ -68,9 +68,9 @@ impl<A: DiscreteAction<T>, T: Real> Equations<T> for PositionMomentum<'_, A, T> 
         check_finite("derivative of the action", Some(self.start.t), residual)
     }
 
-    fn matrix(&mut self, x: &[T], matrix: &mut [T]) -> Result<(), IntegratorsError> {
+    fn matrix(&mut self, x: &[T], matrix: &mut [T], _response: &mut [f64]) -> Result<(), IntegratorsError> {
         self.action.derivatives(&self.start, x, matrix)?;
-        check_finite("Jacobian", Some(self.start.t), matrix)
+        check_finite("jacobian", Some(self.start.t), matrix)
     }
 
     fn magnitudes(&self, x: &[T], magnitudes: &mut [f64]) {
@@ -112,6 +112,8 @@ impl<T: Real> Stepper<T> {
         equations.residual(&self.increments, &mut self.residual)?;
         check_finite("impulse", Some(t), &self.impulse)?;
         let last = self.increments.len() - n;
+        check_sums(t, q, &self.increments[last..])?;
+        check_sums(t, p, &self.impulse)?;
         for ((q, carry), &increment) in q.iter_mut().zip(q_carry).zip(&self.increments[last..]) {
             compensated_add(q, carry, increment);
         }

@@ -3,8 +3,8 @@
 //! Sixteen evaluations a step; nine more in the steps that are asked for a state within them.
 //!
 //! # When?
-//! For smooth fields of first order that are not stiff, at tolerances below 1e-9: there its longer steps make up for
-//! the stages that it has beyond [`DormandPrince853`](crate::DormandPrince853).
+//! For smooth fields of first order that are not stiff, for errors below 1e-7: there its longer steps make up for
+//! its stages, four more than those of [`DormandPrince853`](crate::DormandPrince853).
 //!
 //! # References
 //! J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*, Numer. Algorithms 53 (2010) 383–396.

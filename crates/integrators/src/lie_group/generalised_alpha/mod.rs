@@ -26,7 +26,8 @@ use piola_numerics::{Gradient, Real};
 
 use self::newton::Workspace;
 use super::LieGroup;
-use super::run::{check_start, make_equal_steps};
+use super::run::check_start;
+use crate::fixed_step::take_checked_steps;
 use crate::state::check_step;
 use crate::stiff_field::DIRECTIONS;
 use crate::{IntegratorsError, Report, State, Step, unobserved};
@@ -85,8 +86,9 @@ impl Parameters {
 /// The generalised-α method with a fixed step, for stiff mechanical systems on a Lie group.
 ///
 /// The state is the element q and then the velocity v. A step solves for the acceleration at its end by Newton's iteration,
-/// whose matrix is exact: the residual is evaluated over numbers with derivatives, four directions at once, from the exponential
-/// on. It mostly takes two or three iterations, and is given up after thirty. Systems are therefore generic over their scalar.
+/// whose matrix is exact: the residual is evaluated over numbers that carry four derivatives each, and so is the exponential
+/// before it. Systems are therefore generic over their scalar. Two or three iterations are usual; after thirty the step is
+/// given up.
 ///
 /// | ρ∞ | vibrations with hω → ∞ | |
 /// |---|---|---|
@@ -97,8 +99,8 @@ impl Parameters {
 /// Linear vibrations are stable at any step for any ρ∞ ≤ 1.
 ///
 /// # Accuracy
-/// Global error O(h²) in q and v. The linear oscillator keeps its energy to rounding with ρ∞ = 1. Roundings of a vibration ω are
-/// those of h²ω² x, (hω)² ulp of its amplitude. Each run begins with a = v̇: a run that is cut in two differs from one in one
+/// Global error O(h²) in q and v. The linear oscillator keeps its energy to rounding with ρ∞ = 1. A step rounds a vibration of
+/// frequency ω by (hω)² ulp of its amplitude. Each run begins with a = v̇: a run that is cut in two differs from one in one
 /// piece by O(h²).
 ///
 /// # Example
@@ -214,8 +216,9 @@ impl<T: Real> GeneralisedAlpha<T> {
             return Ok(Report::begin());
         }
         let first = work.begin(*parameters, system, state)?;
-        let mut report =
-            make_equal_steps(state, end, self.step, observer, |state, h| work.advance(*parameters, system, state, h))?;
+        let mut report = take_checked_steps(self.step, state, end, observer, |state, h| {
+            work.advance(*parameters, system, state, h)
+        })?;
         report.evaluations += first;
         Ok(report)
     }

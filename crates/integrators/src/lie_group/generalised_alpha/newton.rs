@@ -177,7 +177,9 @@ impl<T: Real> Workspace<T> {
         let (mut evaluations, mut previous) = (0, f64::INFINITY);
         // Once the values have converged each iteration brings in one more order of derivatives.
         let mut derivatives = T::ORDER;
-        for iteration in 1..=MOST_ITERATIONS {
+        let mut iteration = 0;
+        loop {
+            iteration += 1;
             evaluations += self.evaluate(parameters, system, state, h)?;
             check_finite("residual", Some(t), &self.correction)?;
             lu::factor_in_place(&mut self.jacobian, &mut self.exchanges)
@@ -204,7 +206,6 @@ impl<T: Real> Workspace<T> {
             }
             previous = change;
         }
-        Ok(evaluations)
     }
 
     /// Writes the residual to `correction` and its Jacobian to `jacobian`; returns the number of evaluations.

@@ -4,12 +4,13 @@ use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    ActionRule, Field, IntegratorsError, LobattoPair, Order, State, VariationalIntegrator, field, unobserved,
+    ActionRule, Field, GaussLegendre, GaussRadau15, IntegratorsError, LobattoPair, Order, State, Step,
+    VariationalIntegrator, field, unobserved,
 };
 use piola_numerics::{Dual, Gradient, Lanes, Real};
 use piola_testkit::{Tol, allocations_in, assert_close, assert_close_at_scale, assert_order, difference_quotient};
 
-use crate::problems::{kepler, kepler_at};
+use crate::problems::{Force, SecondOrder, kepler, kepler_at};
 use crate::variational::{Kepler, distance};
 
 #[test]
@@ -122,20 +123,97 @@ impl<T: Real> Field<T> for StiffSpring {
 
 #[test]
 fn newtons_iteration_converges_where_the_fixed_point_does_not() {
-    let start = || State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
-    let mut method = LobattoPair::new(Order::Four, 0.25).unwrap();
-    // The spring is at rest, so that only its matrix tells; then it is set swinging.
-    let mut state = State::new(0.0, vec![1.0, 1e-3, 0.0, 0.0]).unwrap();
-    let error = method.integrate_to(&mut StiffSpring, &mut state, 1.0).unwrap_err();
+    // hω = 5.8: the step of order eight is stable to six, and its fixed point is far away.
+    let mut method = LobattoPair::new(Order::Eight, 0.058).unwrap();
+    let start = [1.0, 1e-3, 0.0, 0.0];
+    let mut state = State::new(0.0, start.to_vec()).unwrap();
+    let error = method.integrate_to(&mut StiffSpring, &mut state, 0.58).unwrap_err();
     let is_told = matches!(error, IntegratorsError::StagesDiverged { .. } | IntegratorsError::NotFinite { .. });
     assert!(is_told, "{error}");
-    assert_eq!((state.time, &state.values[..]), (0.0, &[1.0, 1e-3, 0.0, 0.0][..]));
-    method.integrate_by_newton(&mut StiffSpring, &mut state, 1.0, unobserved).unwrap();
-    let mut slow = start();
-    method.integrate_by_newton(&mut StiffSpring, &mut slow, 1.0, unobserved).unwrap();
+    assert_eq!((state.time, &state.values[..]), (0.0, &start[..]));
+    let mut largest = 0.0_f64;
+    let observer = |step: Step<'_>| {
+        largest = largest.max(step.values[1].abs());
+        ControlFlow::Continue(())
+    };
+    method.integrate_by_newton(&mut StiffSpring, &mut state, 58.0, observer).unwrap();
+    assert!(largest < 2e-3, "the spring of amplitude 1e-3 reached {largest:e}");
+    let mut alone = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
+    method.integrate_by_newton(&mut StiffSpring, &mut alone, 58.0, unobserved).unwrap();
     // The pendulum does not know of the spring.
     let pendulum = |state: &State| [state.values[0], state.values[2]];
-    assert_close("pendulum", &pendulum(&state), &pendulum(&slow), Tol::ulps(16.0));
+    let tol = Tol::ulps_because(512.0, "a thousand steps whose iterations end at different roundings");
+    assert_close("pendulum", &pendulum(&state), &pendulum(&alone), tol);
+}
+
+#[test]
+fn newtons_iteration_ends_where_cancellation_hides_the_amplitude() {
+    // q̇ = p, ṗ = −1e4 (q − 1): the force of an amplitude of 1e-6 is known to a part in 1e10.
+    for order in Order::ALL {
+        let mut spring = Stretched;
+        let mut state = State::new(0.0, vec![1.0 + 1e-6, 0.0]).unwrap();
+        LobattoPair::new(order, 0.003).unwrap().integrate_by_newton(&mut spring, &mut state, 3.0, unobserved).unwrap();
+        let (stretch, speed): (f64, f64) = (state.values[0] - 1.0, state.values[1] / 100.0);
+        let amplitude = [stretch.hypot(speed)];
+        // The energy of a method of order two swings by (hω)²/8.
+        let tol = Tol::stated(if order == Order::Two { 0.02 } else { 1e-4 }, "the swing of the energy");
+        assert_close("amplitude", &amplitude, &[1e-6], tol);
+    }
+}
+
+/// A spring of frequency 100 and rest length 1.
+struct Stretched;
+impl<T: Real> Field<T> for Stretched {
+    type Error = Infallible;
+    fn dimension(&self) -> usize {
+        2
+    }
+    fn rate(&mut self, _t: f64, y: &[T], rate: &mut [T]) -> Result<(), Infallible> {
+        rate[0] = y[1];
+        rate[1] = -T::lit(1e4) * (y[0] - T::one());
+        Ok(())
+    }
+}
+
+#[test]
+fn a_step_that_overflows_is_refused_and_leaves_the_state() {
+    let start = [0.0, 1e308];
+    let mut push = field(2, |_t, _y: &[f64], rate: &mut [f64]| rate.copy_from_slice(&[1.0, 1e308]));
+    let mut state = State::new(0.0, start.to_vec()).unwrap();
+    let error = LobattoPair::new(Order::Four, 1.0).unwrap().integrate_to(&mut push, &mut state, 1.0).unwrap_err();
+    assert!(matches!(error, IntegratorsError::NotFinite { index: 1, .. }), "{error}");
+    assert_eq!((state.time, &state.values[..]), (0.0, &start[..]));
+    let error = GaussLegendre::new(Order::Four, 1.0).unwrap().integrate_to(&mut push, &mut state, 1.0).unwrap_err();
+    assert!(matches!(error, IntegratorsError::NotFinite { index: 1, .. }), "{error}");
+    assert_eq!((state.time, &state.values[..]), (0.0, &start[..]));
+}
+
+/// ṗ = −q
+struct Harmonic;
+impl Force for Harmonic {
+    fn force<T: Real>(&self, _t: f64, q: &[T], force: &mut [T]) {
+        force[0] = -q[0];
+    }
+}
+
+#[test]
+fn derivatives_at_rest_are_those_of_the_oscillator() {
+    // q̈ = −q at rest, moved: q = cos t, v = −sin t are the derivatives by the start, and values settle at once.
+    let expected = [1.0_f64.cos(), -1.0_f64.sin()];
+    let start = || State::new(0.0, vec![Dual::variable(0.0), Dual::constant(0.0)]).unwrap();
+    let tol = Tol::stated(1e-13, "the errors of the orders at these steps");
+    let mut oscillator = SecondOrder { freedom: 1, force: Harmonic };
+    for by in ["Lobatto", "Gauss", "Gauss-Radau"] {
+        let mut state = start();
+        let run = match by {
+            "Lobatto" => LobattoPair::new(Order::Eight, 0.05).unwrap().integrate_to(&mut oscillator, &mut state, 1.0),
+            "Gauss" => GaussLegendre::new(Order::Eight, 0.05).unwrap().integrate_to(&mut oscillator, &mut state, 1.0),
+            _ => GaussRadau15::with_step(0.5).unwrap().integrate_to(&mut oscillator, &mut state, 1.0),
+        };
+        run.unwrap();
+        let tangents: Vec<f64> = state.values.iter().map(|y| y.tangent).collect();
+        assert_close(by, &tangents, &expected, tol);
+    }
 }
 
 #[test]
@@ -188,7 +266,7 @@ fn bad_input_is_refused_and_a_failed_run_keeps_the_last_complete_step() {
     let mut state = State::new(0.0, vec![0.0; 3]).unwrap();
     assert_eq!(
         method.integrate_to(&mut odd, &mut state, 1.0).unwrap_err(),
-        IntegratorsError::WrongLength { quantity: "field", expected: 4, found: 3 }
+        IntegratorsError::OddDimension { dimension: 3 }
     );
     let mut edge = field(2, |_t, y: &[f64], rate: &mut [f64]| {
         rate[0] = y[1];

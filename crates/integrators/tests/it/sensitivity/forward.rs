@@ -119,7 +119,7 @@ fn state_has_the_bits_of_a_run_without_derivatives() {
     {
         let mut alone = State::new(0.5, start.to_vec()).unwrap();
         let mut plain = method::<P, f64>(1e-10);
-        let report = plain.integrate_to(&mut WithParameters::new(field, p), &mut alone, end).unwrap();
+        let report = plain.integrate_to(&mut WithParameters::new(field, p).unwrap(), &mut alone, end).unwrap();
         let mut state = State::new(0.5, start.to_vec()).unwrap();
         let mut sensitivities = Sensitivities::at_start(start.len(), p.len(), BOTH);
         let mut steps = 0;
@@ -222,7 +222,7 @@ fn derivatives_by_a_symplectic_method_are_symplectic_to_rounding() {
     let mut state = State::new(0.0, variables).unwrap();
     GaussLegendre::new(Order::Four, 0.125)
         .unwrap()
-        .integrate_to(&mut WithParameters::new(&Kepler, &p), &mut state, 3.0)
+        .integrate_to(&mut WithParameters::new(&Kepler, &p).unwrap(), &mut state, 3.0)
         .unwrap();
     let phi: Vec<f64> = state.values.iter().flat_map(|y| y.partials[..4].to_vec()).collect();
     let tol = Tol::ulps(16.0);

@@ -48,8 +48,9 @@ fn differences<P: RungeKuttaPair>(start: &[f64], p: &[f64], step: f64, end: f64)
         inputs[j] += change;
         let (start, p) = inputs.split_at(start.len());
         let mut state = State::new(0.0, start.to_vec()).unwrap();
-        let report =
-            fixed::<P, DoubleDouble>(step).integrate_to(&mut WithParameters::new(&Kepler, p), &mut state, end).unwrap();
+        let report = fixed::<P, DoubleDouble>(step)
+            .integrate_to(&mut WithParameters::new(&Kepler, p).unwrap(), &mut state, end)
+            .unwrap();
         (state.values, report.steps)
     };
     let column = |j: usize| {
