@@ -3,7 +3,7 @@
     pip install numpy scipy
     python3 benches/peers/stiff.py
 
-Tolerances, problems and columns are those of `cargo run --release -p piola-integrators --example stiff`; Jacobians are exact.
+Tolerances, problems and columns are those of `cargo run --release -p piola-stiff --example stiff`; Jacobians are exact.
 The error is the largest of a component at the end, relative to that component. The time is the least of three runs.
 """
 

@@ -22,7 +22,7 @@ use serde_json::Value;
 
 const COLLOCATION: [Order; 3] = [Order::Four, Order::Six, Order::Eight];
 
-/// What has been measured so far.
+/// The measured points of all problems, and the folder they are written to.
 struct Results {
     folder: PathBuf,
     records: Vec<Value>,

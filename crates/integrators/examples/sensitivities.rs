@@ -164,7 +164,7 @@ fn main() -> Result<(), IntegratorsError<Infallible>> {
         let mut plain = DormandPrince853::new(tolerance);
         let run = least(|| {
             let mut state = State::new(0.0, vec![0.0; 2 * MASSES])?;
-            steps = plain.integrate_to(&mut WithParameters::new(&field, &p), &mut state, END)?.steps;
+            steps = plain.integrate_to(&mut WithParameters::new(&field, &p)?, &mut state, END)?.steps;
             Ok(())
         })?;
         let mut method = ForwardSensitivity::new(DormandPrince853::new(tolerance));

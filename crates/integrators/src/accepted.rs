@@ -5,32 +5,44 @@ use crate::checkpoint::RunSoFar;
 
 /// An accepted step in time.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct AcceptedStep {
+pub struct AcceptedStep {
     /// From 1.
-    pub(crate) number: u64,
+    pub number: u64,
     /// The time at its start, s.
-    pub(crate) start: f64,
+    pub start: f64,
     /// The time at its end, s.
-    pub(crate) end: f64,
+    pub end: f64,
     /// Its length, negative where a run goes backwards, s; `end - start` but for rounding.
-    pub(crate) length: f64,
+    pub length: f64,
     /// What a checkpoint needs beside the state and the method.
     pub(crate) progress: RunSoFar,
 }
 
 impl AcceptedStep {
-    pub(crate) fn contains(self, t: f64) -> bool {
+    /// Of a method that makes no checkpoints.
+    #[must_use]
+    pub const fn new(number: u64, start: f64, end: f64, length: f64) -> Self {
+        Self { number, start, end, length, progress: RunSoFar::unknown() }
+    }
+
+    /// Whether a time lies within the step.
+    #[must_use]
+    pub fn contains(self, t: f64) -> bool {
         let (low, high) = if self.start <= self.end { (self.start, self.end) } else { (self.end, self.start) };
         low <= t && t <= high
     }
 
     /// The part of the step that is past at a time.
-    pub(crate) fn part(self, t: f64) -> f64 {
+    #[must_use]
+    pub fn part(self, t: f64) -> f64 {
         ((t - self.start) / self.length).clamp(0.0, 1.0)
     }
 
     /// Refuses a time outside the step, and a state to be written to `found` numbers where there are `expected`.
-    pub(crate) fn check<E>(self, t: f64, expected: usize, found: usize) -> Result<(), IntegratorsError<E>> {
+    ///
+    /// # Errors
+    /// What is refused.
+    pub fn check<E>(self, t: f64, expected: usize, found: usize) -> Result<(), IntegratorsError<E>> {
         if found != expected {
             return Err(IntegratorsError::WrongLength { quantity: "out", expected, found });
         }
@@ -40,12 +52,16 @@ impl AcceptedStep {
         Ok(())
     }
 
-    pub(crate) fn is_end(self, t: f64) -> bool {
+    /// Whether a time is that of the end.
+    #[must_use]
+    pub fn is_end(self, t: f64) -> bool {
         t.to_bits() == self.end.to_bits()
     }
 }
 
 /// The number and the times of a step that has them in its field `step`.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! number_and_times {
     () => {
         /// The number of the step, from 1.
@@ -70,4 +86,3 @@ macro_rules! number_and_times {
         }
     };
 }
-pub(crate) use number_and_times;

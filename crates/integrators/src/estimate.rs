@@ -4,8 +4,8 @@ use piola_numerics::{Lanes, Real};
 
 use crate::field::largest_lane;
 use crate::{
-    Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom, NystromPair, RadauIia, Report, RungeKutta,
-    RungeKuttaPair, SecondOrder, State, StiffField,
+    Field, GaussLegendre16, GaussRadau15, IntegratorsError, Nystrom, NystromPair, Report, RungeKutta, RungeKuttaPair,
+    SecondOrder, State,
 };
 
 /// How far the state at the end of a run is from the exact one, as a second, finer run tells.
@@ -42,7 +42,7 @@ pub struct ErrorEstimate {
     pub finer_run: Report,
 }
 
-/// The part of the tolerance that the finer run of order eight, or of Radau IIA, has.
+/// The part of the tolerance that the finer run of order eight has.
 const FINER_EIGHT: f64 = 1e-2;
 /// The part of the tolerance that the finer run of orders fifteen and sixteen has.
 const FINER_SIXTEEN: f64 = 1e-3;
@@ -129,28 +129,9 @@ impl<T: Real> GaussRadau15<T> {
     }
 }
 
-impl RadauIia {
-    /// Integrates to `end`, as [`integrate_to`](Self::integrate_to), and estimates the error there by a second run at a
-    /// hundredth of the tolerance; with a fixed step, by one of twice as many steps.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate), of either run. The state then stands where the first run ended.
-    pub fn integrate_and_estimate<F: StiffField>(
-        &mut self,
-        field: &mut F,
-        state: &mut State,
-        end: f64,
-    ) -> Result<ErrorEstimate, IntegratorsError<F::Error>> {
-        let mut finer_state = state.clone();
-        let run = self.integrate_to(field, state, end)?.run;
-        let mut finer = self.finer(FINER_EIGHT).map_err(IntegratorsError::with_field_error)?;
-        let finer_run = finer.integrate_to(field, &mut finer_state, end)?.run;
-        Ok(ErrorEstimate { errors: differences(state, &finer_state), run, finer_run })
-    }
-}
-
 /// How far two states are apart, with the parts that rounding left behind.
-fn differences<T: Real>(state: &State<T>, finer: &State<T>) -> Vec<f64> {
+#[must_use]
+pub fn differences<T: Real>(state: &State<T>, finer: &State<T>) -> Vec<f64> {
     let pairs = state.values.iter().zip(&state.carry).zip(finer.values.iter().zip(&finer.carry));
     pairs.map(|((&a, &a_carry), (&b, &b_carry))| largest_lane((a - b) + (a_carry - b_carry))).collect()
 }

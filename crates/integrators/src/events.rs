@@ -6,18 +6,21 @@ use core::ops::ControlFlow;
 use crate::{Ending, IntegratorsError, State};
 
 /// The time at which a run is stopped, where it is not the end of the step, and how it ended.
-pub(crate) type Stop = (Option<f64>, Ending);
+pub type Stop = (Option<f64>, Ending);
 
 /// What an observer's verdict means at the end of a step.
-pub(crate) fn stopped_by(verdict: ControlFlow<()>) -> ControlFlow<Stop> {
+pub fn stopped_by(verdict: ControlFlow<()>) -> ControlFlow<Stop> {
     if verdict.is_break() { ControlFlow::Break((None, Ending::Stopped)) } else { ControlFlow::Continue(()) }
 }
 
 /// An accepted step with the state at any time within it.
-pub(crate) trait Interpolated<E> {
+pub trait Interpolated<E> {
     /// The times of its start and of its end.
     fn ends(&self) -> (f64, f64);
     /// Writes the state at a time within the step to `out`.
+    ///
+    /// # Errors
+    /// Whatever keeps the state from being interpolated.
     fn state_at(&mut self, t: f64, out: &mut [f64]) -> Result<(), IntegratorsError<E>>;
 }
 
@@ -101,7 +104,10 @@ pub struct Occurrence<'a> {
 const PLACES: u32 = 8;
 
 /// Looks at the events where a run starts.
-pub(crate) fn begin<E>(events: &mut [Event<'_>], state: &State) -> Result<(), IntegratorsError<E>> {
+///
+/// # Errors
+/// An event function that is not finite.
+pub fn begin<E>(events: &mut [Event<'_>], state: &State) -> Result<(), IntegratorsError<E>> {
     for (index, event) in events.iter_mut().enumerate() {
         let g = event.value(index, state.time, &state.values)?;
         event.last = if g.abs() <= 0.0 { None } else { Some((state.time, g)) };
@@ -111,7 +117,10 @@ pub(crate) fn begin<E>(events: &mut [Event<'_>], state: &State) -> Result<(), In
 }
 
 /// Finds and reports the crossings of one step.
-pub(crate) fn locate<E>(
+///
+/// # Errors
+/// As [`begin`], or whatever keeps the state from being interpolated.
+pub fn locate<E>(
     step: &mut impl Interpolated<E>,
     events: &mut [Event<'_>],
     values: &mut [f64],

@@ -87,8 +87,11 @@ pub(crate) fn check_field<T: Real, F: Field<T>>(field: &F) -> Result<(), Integra
     }
 }
 
+/// Directions in which a field is differentiated at once.
+pub const DIRECTIONS: usize = 4;
+
 /// The largest |y| of each block: positions and velocities where the dimension is even.
-pub(crate) fn magnitudes_of_blocks<T: Real>(y: &[T], magnitudes: &mut [f64]) {
+pub fn magnitudes_of_blocks<T: Real>(y: &[T], magnitudes: &mut [f64]) {
     let blocks = if y.len().is_multiple_of(2) { 2 } else { 1 };
     let length = (y.len() / blocks).max(1);
     for (block, magnitudes) in y.chunks(length).zip(magnitudes.chunks_mut(length)) {
@@ -98,7 +101,7 @@ pub(crate) fn magnitudes_of_blocks<T: Real>(y: &[T], magnitudes: &mut [f64]) {
 
 /// The largest |value| among the lanes of one scalar; NaN when one of them is NaN, so that no lane hides it.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn largest_lane<T: Real>(x: T) -> f64 {
+pub fn largest_lane<T: Real>(x: T) -> f64 {
     let mut largest = x.primal(0).abs();
     for lane in 1..T::LANES {
         let value = x.primal(lane).abs();

@@ -36,7 +36,8 @@ pub struct State<T = f64> {
     /// The components y; for a mechanical system positions first, then velocities or momenta.
     pub values: Vec<T>,
     /// What rounding left of the last updates: y + carry is the compensated state.
-    pub(crate) carry: Vec<T>,
+    #[doc(hidden)]
+    pub carry: Vec<T>,
     pub(crate) time_carry: f64,
 }
 
@@ -57,11 +58,19 @@ impl<T: Real> State<T> {
         check_finite("state", None, &self.values)
     }
 
-    pub(crate) fn advance_time(&mut self, step: f64) {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn remaining(&self, end: f64) -> f64 {
+        (end - self.time) - self.time_carry
+    }
+
+    #[doc(hidden)]
+    pub fn advance_time(&mut self, step: f64) {
         compensated_add(&mut self.time, &mut self.time_carry, step);
     }
 
-    pub(crate) fn set_time(&mut self, time: f64) {
+    #[doc(hidden)]
+    pub fn set_time(&mut self, time: f64) {
         self.time = time;
         self.time_carry = 0.0;
     }
@@ -158,7 +167,7 @@ impl Report {
         Self { steps: 0, rejected: 0, evaluations: 0, stiff_steps: 0, ending: Ending::Reached }
     }
     /// Whether an explicit method worked on a stiff problem: stability bounded at least fifteen of its steps, and one in
-    /// ten. [`RadauIia`](crate::RadauIia) then takes far fewer.
+    /// ten. The implicit methods of `piola-stiff` then take far fewer.
     ///
     /// Each step of [`DormandPrince853`](crate::DormandPrince853) and [`Verner98`](crate::Verner98) estimates the largest
     /// eigenvalue λ of the Jacobian by two rates at its end, and compares |hλ| with the limit of stability:
@@ -224,21 +233,27 @@ pub fn equal_steps<E>(start: f64, end: f64, step: f64) -> Result<(u64, f64), Int
     Ok((steps, h))
 }
 
-pub(crate) fn check_step<E>(step: f64) -> Result<(), IntegratorsError<E>> {
+/// Refuses a step that is not positive and finite.
+///
+/// # Errors
+/// [`IntegratorsError::InvalidStep`].
+pub fn check_step<E>(step: f64) -> Result<(), IntegratorsError<E>> {
     if 0.0 < step && step < f64::INFINITY { Ok(()) } else { Err(IntegratorsError::InvalidStep { step }) }
 }
 
 /// Checks the longest step of a run; ∞ is no bound.
-pub(crate) fn check_longest(step: f64) -> Result<f64, IntegratorsError> {
+///
+/// # Errors
+/// [`IntegratorsError::InvalidStep`].
+pub fn check_longest(step: f64) -> Result<f64, IntegratorsError> {
     if 0.0 < step { Ok(step) } else { Err(IntegratorsError::InvalidStep { step }) }
 }
 
 /// Checks what a run starts from; the caller may have changed the state since it was made.
-pub(crate) fn check_run<T: Real, E>(
-    expected: usize,
-    state: &mut State<T>,
-    end: f64,
-) -> Result<(), IntegratorsError<E>> {
+///
+/// # Errors
+/// [`IntegratorsError::WrongLength`], [`IntegratorsError::NotFinite`].
+pub fn check_run<T: Real, E>(expected: usize, state: &mut State<T>, end: f64) -> Result<(), IntegratorsError<E>> {
     if state.values.len() != expected {
         return Err(IntegratorsError::WrongLength { quantity: "state", expected, found: state.values.len() });
     }
@@ -254,7 +269,10 @@ fn check_time<E>(quantity: &'static str, value: f64) -> Result<(), IntegratorsEr
 }
 
 /// Refuses numbers that are infinite or NaN in some lane: of a step from the time `t`, or as they were given.
-pub(crate) fn check_finite<T: Real, E>(
+///
+/// # Errors
+/// [`IntegratorsError::NotFinite`].
+pub fn check_finite<T: Real, E>(
     quantity: &'static str,
     t: Option<f64>,
     values: &[T],
@@ -266,7 +284,10 @@ pub(crate) fn check_finite<T: Real, E>(
 }
 
 /// Refuses a step from the time `t` whose sums would not be finite.
-pub(crate) fn check_sums<T: Real, E>(t: f64, values: &[T], increments: &[T]) -> Result<(), IntegratorsError<E>> {
+///
+/// # Errors
+/// [`IntegratorsError::NotFinite`].
+pub fn check_sums<T: Real, E>(t: f64, values: &[T], increments: &[T]) -> Result<(), IntegratorsError<E>> {
     for (index, (&y, &increment)) in values.iter().zip(increments).enumerate() {
         let value = largest_lane(y + increment);
         if !value.is_finite() {

@@ -61,6 +61,8 @@
 //! | scalars, exact derivatives, lanes, small linear systems, compensated sums | [`numerics`] | always |
 //! | particles, bodies, attitudes, inertia, placement maps | [`kinematics`] | `kinematics` |
 //! | time stepping | [`integrators`] | `integrators` |
+//! | time stepping on groups, variational, energy-keeping | [`geometric`] | `geometric` |
+//! | stiff and constrained systems | [`stiff`] | `stiff` |
 //! | Lagrange's equations, reactions, small motions, rolling, closed loops | [`lagrangian`] | `lagrangian` |
 //! | phase space, Hamilton–Jacobi theory, wave fronts | [`hamiltonian`] | `hamiltonian` |
 //! | attracting bodies, Kepler's motion | [`gravitation`] | `gravitation` |
@@ -98,6 +100,8 @@ pub use piola_fields as fields;
 pub use piola_fit as fit;
 #[cfg(feature = "fluids")]
 pub use piola_fluids as fluids;
+#[cfg(feature = "geometric")]
+pub use piola_geometric as geometric;
 #[cfg(feature = "gravitation")]
 pub use piola_gravitation as gravitation;
 #[cfg(feature = "hamiltonian")]
@@ -119,6 +123,8 @@ pub use piola_solutions as solutions;
 pub use piola_specimens as specimens;
 #[cfg(feature = "spectral")]
 pub use piola_spectral as spectral;
+#[cfg(feature = "stiff")]
+pub use piola_stiff as stiff;
 #[cfg(feature = "tensor")]
 pub use piola_tensor as tensor;
 #[cfg(feature = "uniformity")]

@@ -162,9 +162,9 @@ pub enum AdvisedMethod {
     GaussRadau15,
     /// [`Composition`](crate::Composition) of order eight.
     Composition8,
-    /// [`RadauIia`](crate::RadauIia).
+    /// `piola_stiff::RadauIia`.
     RadauIia,
-    /// [`AdaptiveMuntheKaas`](crate::AdaptiveMuntheKaas).
+    /// `piola_geometric::AdaptiveMuntheKaas`.
     AdaptiveMuntheKaas,
     /// `gravitation::wisdom_holman::WisdomHolman`.
     WisdomHolman,
@@ -196,9 +196,9 @@ impl fmt::Display for AdvisedMethod {
             Self::GaussLegendre16 => "integrators::GaussLegendre16",
             Self::GaussRadau15 => "integrators::GaussRadau15",
             Self::Composition8 => "integrators::Composition of order 8",
-            Self::RadauIia => "integrators::RadauIia",
-            Self::AdaptiveMuntheKaas => "integrators::AdaptiveMuntheKaas",
-            Self::WisdomHolman => "gravitation::wisdom_holman::WisdomHolman",
+            Self::RadauIia => "stiff::RadauIia",
+            Self::AdaptiveMuntheKaas => "geometric::AdaptiveMuntheKaas",
+            Self::WisdomHolman => "gravitation::wisdom_holman::WisdomHolman with the splitting (10, 6, 4)",
             Self::HybridSymplectic => "gravitation::hybrid::HybridSymplectic",
             Self::Regularised => "gravitation::regularised::Regularised",
         })

@@ -7,7 +7,7 @@
 //! coefficients of their program DOP853.
 
 /// The nodes of the sixteen stages.
-pub(crate) const C: [f64; 16] = [
+pub const C: [f64; 16] = [
     0.0,
     0.05260015195876773,
     0.0789002279381516,
@@ -26,26 +26,25 @@ pub(crate) const C: [f64; 16] = [
     0.7777777777777778,
 ];
 /// The stages after the first, by their numbers.
-pub(crate) const ROWS: [(usize, &[(usize, f64)]); 11] =
+pub const ROWS: [(usize, &[(usize, f64)]); 11] =
     [(1, &A2), (2, &A3), (3, &A4), (4, &A5), (5, &A6), (6, &A7), (7, &A8), (8, &A9), (9, &A10), (10, &A11), (11, &A12)];
 /// Stages of dense output alone, by their numbers.
-pub(crate) const DENSE_ROWS: [(usize, &[(usize, f64)]); 3] = [(13, &A14), (14, &A15), (15, &A16)];
+pub const DENSE_ROWS: [(usize, &[(usize, f64)]); 3] = [(13, &A14), (14, &A15), (15, &A16)];
 /// Stage 2.
-pub(crate) const A2: [(usize, f64); 1] = [(0, 0.05260015195876773)];
+pub const A2: [(usize, f64); 1] = [(0, 0.05260015195876773)];
 /// Stage 3.
-pub(crate) const A3: [(usize, f64); 2] = [(0, 0.0197250569845379), (1, 0.0591751709536137)];
+pub const A3: [(usize, f64); 2] = [(0, 0.0197250569845379), (1, 0.0591751709536137)];
 /// Stage 4.
-pub(crate) const A4: [(usize, f64); 2] = [(0, 0.02958758547680685), (2, 0.08876275643042054)];
+pub const A4: [(usize, f64); 2] = [(0, 0.02958758547680685), (2, 0.08876275643042054)];
 /// Stage 5.
-pub(crate) const A5: [(usize, f64); 3] = [(0, 0.2413651341592667), (2, -0.8845494793282861), (3, 0.924834003261792)];
+pub const A5: [(usize, f64); 3] = [(0, 0.2413651341592667), (2, -0.8845494793282861), (3, 0.924834003261792)];
 /// Stage 6.
-pub(crate) const A6: [(usize, f64); 3] =
-    [(0, 0.037037037037037035), (3, 0.17082860872947386), (4, 0.12546768756682242)];
+pub const A6: [(usize, f64); 3] = [(0, 0.037037037037037035), (3, 0.17082860872947386), (4, 0.12546768756682242)];
 /// Stage 7.
-pub(crate) const A7: [(usize, f64); 4] =
+pub const A7: [(usize, f64); 4] =
     [(0, 0.037109375), (3, 0.17025221101954405), (4, 0.06021653898045596), (5, -0.017578125)];
 /// Stage 8.
-pub(crate) const A8: [(usize, f64); 5] = [
+pub const A8: [(usize, f64); 5] = [
     (0, 0.03709200011850479),
     (3, 0.17038392571223998),
     (4, 0.10726203044637328),
@@ -53,7 +52,7 @@ pub(crate) const A8: [(usize, f64); 5] = [
     (6, 0.008273789163814023),
 ];
 /// Stage 9.
-pub(crate) const A9: [(usize, f64); 6] = [
+pub const A9: [(usize, f64); 6] = [
     (0, 0.6241109587160757),
     (3, -3.3608926294469414),
     (4, -0.868219346841726),
@@ -62,7 +61,7 @@ pub(crate) const A9: [(usize, f64); 6] = [
     (7, -43.48988418106996),
 ];
 /// Stage 10.
-pub(crate) const A10: [(usize, f64); 7] = [
+pub const A10: [(usize, f64); 7] = [
     (0, 0.47766253643826434),
     (3, -2.4881146199716677),
     (4, -0.590290826836843),
@@ -72,7 +71,7 @@ pub(crate) const A10: [(usize, f64); 7] = [
     (8, -0.020331201708508627),
 ];
 /// Stage 11.
-pub(crate) const A11: [(usize, f64); 8] = [
+pub const A11: [(usize, f64); 8] = [
     (0, -0.9371424300859873),
     (3, 5.186372428844064),
     (4, 1.0914373489967295),
@@ -83,7 +82,7 @@ pub(crate) const A11: [(usize, f64); 8] = [
     (9, -3.0467644718982196),
 ];
 /// Stage 12.
-pub(crate) const A12: [(usize, f64); 9] = [
+pub const A12: [(usize, f64); 9] = [
     (0, 2.273310147516538),
     (3, -10.53449546673725),
     (4, -2.0008720582248625),
@@ -95,7 +94,7 @@ pub(crate) const A12: [(usize, f64); 9] = [
     (10, 0.6433927460157636),
 ];
 /// The step of order eight.
-pub(crate) const B: [(usize, f64); 8] = [
+pub const B: [(usize, f64); 8] = [
     (0, 0.054293734116568765),
     (5, 4.450312892752409),
     (6, 1.8915178993145003),
@@ -139,9 +138,9 @@ const A16: [(usize, f64); 8] = [
     (14, -9.15095847217987),
 ];
 /// The embedded formula of order three: what it gives to the stages that the step of order eight also uses.
-pub(crate) const B3: [(usize, f64); 3] = [(0, 0.2440944881889764), (8, 0.7338466882816118), (11, 0.022058823529411766)];
+pub const B3: [(usize, f64); 3] = [(0, 0.2440944881889764), (8, 0.7338466882816118), (11, 0.022058823529411766)];
 /// The difference to the embedded formula of order five.
-pub(crate) const E5: [(usize, f64); 8] = [
+pub const E5: [(usize, f64); 8] = [
     (0, 0.01312004499419488),
     (5, -1.2251564463762044),
     (6, -0.4957589496572502),

@@ -13,7 +13,7 @@
 //! Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, II.4–II.6, II.10.
 
 #[expect(clippy::unreadable_literal, reason = "seventeen digits, to be compared with printed tables")]
-pub(crate) mod coefficients;
+pub mod coefficients;
 
 use piola_numerics::Real;
 

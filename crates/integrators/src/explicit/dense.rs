@@ -4,7 +4,8 @@ use piola_numerics::Real;
 
 use super::pair::{Rows, RungeKutta, RungeKuttaPair, evaluate};
 use super::{Dense, combine, row, row_mut};
-use crate::accepted::{AcceptedStep, number_and_times};
+use crate::accepted::AcceptedStep;
+use crate::number_and_times;
 use crate::{Checkpoint, Field, IntegratorsError};
 
 /// An accepted step, with the state at any time within it.

@@ -37,23 +37,25 @@ const SAFETY: f64 = 0.7;
 
 /// Bounds that a user sets on the steps of a run.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Limits {
+pub struct Limits {
     /// The first step tried, s; estimated when none.
-    pub(crate) first_step: Option<f64>,
+    pub first_step: Option<f64>,
     /// The longest step, s.
-    pub(crate) longest_step: f64,
+    pub longest_step: f64,
     /// The most steps of one run.
-    pub(crate) most_steps: u64,
+    pub most_steps: u64,
 }
 
 impl Limits {
-    pub(crate) const fn none() -> Self {
+    /// No bounds.
+    #[must_use]
+    pub const fn none() -> Self {
         Self { first_step: None, longest_step: f64::INFINITY, most_steps: u64::MAX }
     }
 }
 
 /// A pair of explicit formulas, with the memory of its run, for fields F.
-pub(crate) trait EmbeddedPair<T: Real, F> {
+pub trait EmbeddedPair<T: Real, F> {
     /// Why the field can fail.
     type Error;
 
@@ -62,6 +64,9 @@ pub(crate) trait EmbeddedPair<T: Real, F> {
 
     /// Checks the state, makes the first rate, and returns the first step to try. A run that is resumed takes the rate from the
     /// checkpoint.
+    ///
+    /// # Errors
+    /// Whatever is refused at the start of a run.
     fn begin(
         &mut self,
         field: &mut F,
@@ -72,6 +77,9 @@ pub(crate) trait EmbeddedPair<T: Real, F> {
     ) -> Result<f64, IntegratorsError<Self::Error>>;
 
     /// Makes the stages of a step and its end; returns the error over the tolerance.
+    ///
+    /// # Errors
+    /// Whatever keeps a stage from being evaluated; a shorter step may then be tried.
     fn attempt(
         &mut self,
         field: &mut F,
@@ -127,7 +135,10 @@ pub(crate) fn settle<T: Real, E>(
 }
 
 /// The loop of all runs. `inspect` sees each accepted step and may end the run.
-pub(crate) fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
+///
+/// # Errors
+/// As the pair and `inspect`; a step that is too small; too many steps.
+pub fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
     pair: &mut P,
     field: &mut F,
     state: &mut State<T>,
@@ -156,7 +167,7 @@ pub(crate) fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
         if most_steps <= report.steps {
             return Err(IntegratorsError::TooManySteps { t: state.time, steps: report.steps });
         }
-        let remaining = (end - state.time) - state.time_carry;
+        let remaining = state.remaining(end);
         step = step.min(longest_step);
         // A last step may be longer by one hundredth, rather than leave a tiny one behind.
         let last = remaining.abs() <= (1.01 * step).min(longest_step);
@@ -212,6 +223,8 @@ pub(crate) fn follow<T: Real, F, P: EmbeddedPair<T, F>>(
 }
 
 /// How a user bounds the steps of a method that has the fields `tolerance` and `limits`.
+#[doc(hidden)]
+#[macro_export]
 macro_rules! limits_of_steps {
     () => {
         /// Sets the first step tried, s; by default it is estimated.
@@ -219,7 +232,7 @@ macro_rules! limits_of_steps {
         /// # Errors
         /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
         pub fn with_first_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
-            crate::state::check_step(step)?;
+            $crate::internal::check_step(step)?;
             self.limits.first_step = Some(step);
             Ok(self)
         }
@@ -229,7 +242,7 @@ macro_rules! limits_of_steps {
         /// # Errors
         /// [`IntegratorsError::InvalidStep`] unless 0 < step; ∞ is no bound.
         pub fn with_longest_step(mut self, step: f64) -> Result<Self, IntegratorsError> {
-            self.limits.longest_step = crate::state::check_longest(step)?;
+            self.limits.longest_step = $crate::internal::check_longest(step)?;
             Ok(self)
         }
 
@@ -247,4 +260,3 @@ macro_rules! limits_of_steps {
         }
     };
 }
-pub(crate) use limits_of_steps;

@@ -7,11 +7,12 @@ use core::ops::ControlFlow;
 use piola_numerics::Real;
 
 use super::pair::{Rows, RungeKutta, RungeKuttaPair, evaluate};
-use super::{DenseStep, EmbeddedPair, Guess, Limits, combine, limits_of_steps, row, row_mut, weighted_sums};
+use super::{DenseStep, EmbeddedPair, Guess, Limits, combine, row, row_mut, weighted_sums};
 use crate::checkpoint::{Checkpoint, RunSoFar};
 use crate::events::{Stop, stopped_by};
 use crate::explicit::{follow, settle};
 use crate::field::{check_field, largest_lane};
+use crate::limits_of_steps;
 use crate::state::{check_finite, check_run, compensated_add};
 use crate::{Field, IntegratorsError, Report, State, Tolerance};
 

@@ -2,8 +2,9 @@
 
 use super::stages::Workspace;
 use super::tableau::LEGENDRE;
-use crate::accepted::{AcceptedStep, number_and_times};
+use crate::accepted::AcceptedStep;
 use crate::legendre::integrals;
+use crate::number_and_times;
 use crate::{Checkpoint, IntegratorsError, State};
 
 /// An accepted step of [`GaussLegendre16`](super::GaussLegendre16), with the state at any time within it.

@@ -3,8 +3,9 @@
 use piola_numerics::Real;
 
 use super::stages::Workspace;
-use crate::accepted::{AcceptedStep, number_and_times};
+use crate::accepted::AcceptedStep;
 use crate::events::Interpolated;
+use crate::number_and_times;
 use crate::{Checkpoint, IntegratorsError, State};
 
 /// An accepted step of [`GaussRadau15`](super::GaussRadau15), with the state at any time within it.

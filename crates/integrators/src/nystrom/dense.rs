@@ -9,10 +9,11 @@ use piola_numerics::Real;
 
 use super::stages::evaluate;
 use super::{Nystrom, NystromPair, Rows};
-use crate::accepted::{AcceptedStep, number_and_times};
+use crate::accepted::AcceptedStep;
 use crate::checkpoint::{Checkpoint, RunSoFar};
 use crate::explicit::{Dense, row};
 use crate::legendre::integrals;
+use crate::number_and_times;
 use crate::{IntegratorsError, SecondOrder, State};
 
 /// The places ±x of one layer beside the ends, and the matrices that make coefficients of half the sums and half the

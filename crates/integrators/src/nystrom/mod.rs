@@ -33,8 +33,8 @@ use piola_numerics::Real;
 pub use self::dense::NystromStep;
 use crate::checkpoint::Checkpoint;
 use crate::events::{Stop, stopped_by};
-use crate::explicit::{Limits, Weights, follow, limits_of_steps, settle};
-use crate::{IntegratorsError, Report, SecondOrder, State, Tolerance};
+use crate::explicit::{Limits, Weights, follow, settle};
+use crate::{IntegratorsError, Report, SecondOrder, State, Tolerance, limits_of_steps};
 
 /// A pair of Nyström formulas: [`NystromPair86`] or [`NystromPair1210`].
 pub trait NystromPair: NystromCoefficients {}

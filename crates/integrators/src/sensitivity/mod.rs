@@ -48,8 +48,8 @@ pub use self::product::JacobianProduct;
 use piola_numerics::{Gradient, Real};
 
 use crate::IntegratorsError;
+use crate::field::DIRECTIONS;
 use crate::state::check_finite;
-use crate::stiff_field::DIRECTIONS;
 
 /// Numbers with derivatives in that many directions.
 type Directional<T> = Gradient<T, DIRECTIONS>;

@@ -6,25 +6,20 @@ mod checkpoints;
 mod coefficients;
 mod collocation;
 mod dense;
-mod discrete_gradient;
 mod estimates;
 mod events;
 mod first_step;
 mod gauss_16;
 mod golden;
 mod laws;
-mod lie_group;
-mod lobatto_pair;
 mod orders;
 mod pairs;
 mod problems;
-mod radau;
 mod radau_15;
 mod sensitivity;
 #[cfg(feature = "serde")]
 mod serialised;
 mod traps;
-mod variational;
 
 use piola_testkit::CountingAllocator;
 

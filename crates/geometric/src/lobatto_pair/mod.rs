@@ -1,0 +1,195 @@
+//! Lobatto's pairs IIIA–IIIB of orders 2, 4, 6 and 8: symplectic, for fields in (q, p).
+//!
+//! Positions and momenta have their own coefficients on the same points, the ends of the step among them:
+//!
+//! ```text
+//! q̇ = f(t, q, p)      Qᵢ = q + h Σⱼ aᵢⱼ f(Qⱼ, Pⱼ)      q ← q + h Σ bᵢ f(Qᵢ, Pᵢ)        IIIA
+//! ṗ = g(t, q, p)      Pᵢ = p + h Σⱼ âᵢⱼ g(Qⱼ, Pⱼ)      p ← p + h Σ bᵢ g(Qᵢ, Pᵢ)        IIIB
+//! bᵢ âᵢⱼ + bⱼ aⱼᵢ = bᵢ bⱼ
+//! ```
+//!
+//! With s stages the order is 2s − 2. Order 2 is the Störmer–Verlet method, for Hamiltonians that do not separate too. Q₁ is the
+//! start of the step and Q_s its end.
+//!
+//! # References
+//! L. O. Jay, SIAM J. Numer. Anal. 33 (1996) 368; E. Hairer, C. Lubich & G. Wanner, *Geometric Numerical Integration*,
+//! II.2.2, VI.4.
+#![expect(clippy::doc_markdown, reason = "symbols with indices, as Q_s, are not code")]
+
+mod equations;
+mod tableau;
+
+use core::marker::PhantomData;
+use core::ops::ControlFlow;
+
+use piola_integrators::internal::{DIRECTIONS, check_step, check_sums, compensated_add};
+use piola_integrators::{Field, IntegratorsError, Order, Report, State, Step, unobserved};
+use piola_numerics::{Gradient, Real};
+
+use self::equations::{Exact, FixedPoint, Jacobians, PairStep, Workspace};
+pub use self::tableau::LobattoTableau;
+use crate::fixed_step::take_equal_steps;
+use crate::newton::Newton;
+
+/// Lobatto's pair IIIA–IIIB with a fixed step, for fields y = (q, p) in two halves.
+///
+/// # Accuracy
+/// Global error O(hᵒʳᵈᵉʳ). The stages are iterated until rounding stops them; the state is summed with compensation. The map
+/// is symplectic where the field is Hamiltonian.
+///
+/// # Example
+/// ```
+/// use piola_geometric::LobattoPair;
+/// use piola_integrators::{Order, State, field};
+/// // q̇ = p, ṗ = −q by one step h = 1 of Störmer and Verlet: q + p h − q h²/2, then p − (q₀ + q₁) h/2.
+/// let mut oscillator = field(2, |_t, y: &[f64], rate: &mut [f64]| rate.copy_from_slice(&[y[1], -y[0]]));
+/// let mut state = State::new(0.0, vec![1.0, 0.0])?;
+/// LobattoPair::new(Order::Two, 1.0)?.integrate_to(&mut oscillator, &mut state, 1.0)?;
+/// assert!((state.values[0] - 0.5).abs() < 1e-15 && (state.values[1] + 0.75).abs() < 1e-15);
+/// # Ok::<(), piola_integrators::IntegratorsError>(())
+/// ```
+#[doc(alias("Lobatto IIIA", "Lobatto IIIB", "partitioned Runge-Kutta", "Störmer", "Verlet"))]
+#[derive(Clone, Debug)]
+pub struct LobattoPair<T = f64> {
+    order: Order,
+    step: f64,
+    tableau: LobattoTableau,
+    newton: Newton<T>,
+    increments: Vec<T>,
+    work: Workspace<T>,
+}
+
+impl<T: Real> LobattoPair<T> {
+    /// The pair of the given order with steps no longer than `step` (s).
+    ///
+    /// # Errors
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+    pub fn new(order: Order, step: f64) -> Result<Self, IntegratorsError> {
+        check_step(step)?;
+        let work = Workspace {
+            stage: Vec::new(),
+            rate: Vec::new(),
+            seeds: Vec::new(),
+            rate_of_seeds: Vec::new(),
+            jacobian: Vec::new(),
+        };
+        let (tableau, newton) = (LobattoTableau::new(order), Newton::new());
+        Ok(Self { order, step, tableau, newton, increments: Vec::new(), work })
+    }
+
+    /// The order.
+    #[must_use]
+    pub const fn order(&self) -> Order {
+        self.order
+    }
+
+    /// The longest step, s.
+    #[must_use]
+    pub const fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// Integrates to `end` by fixed-point iteration, unobserved.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate).
+    pub fn integrate_to<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.integrate(field, state, end, unobserved)
+    }
+
+    /// Integrates to `end` in equal steps no longer than [`step`](Self::step) by fixed-point iteration; backwards if `end` is
+    /// earlier than the state's time. The observer sees every step and may stop the run.
+    ///
+    /// # Errors
+    /// The state does not fit, its dimension is odd, the field fails or gives a rate that is not finite, or the stages do not
+    /// converge ([`IntegratorsError::StagesDiverged`]: take a smaller step, or Newton's iteration). The state then stands at the
+    /// last complete step.
+    pub fn integrate<F: Field<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        self.run::<F, FixedPoint>(field, state, end, observer)
+    }
+
+    /// Integrates as [`integrate`](Self::integrate), by simplified Newton iteration with exact Jacobians, which converges where
+    /// fixed-point iteration does not. Stability still bounds the step: a vibration ω needs |hω| < 2, 2.8, 3.1 or 6 for order 2,
+    /// 4, 6 or 8. For faster vibrations take [`RadauIia`](piola_integrators::RadauIia). The field must be generic over its scalar.
+    ///
+    /// # Errors
+    /// As [`integrate`](Self::integrate), and a matrix that is singular or not finite.
+    pub fn integrate_by_newton<F, E>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<E>>
+    where
+        F: Field<T, Error = E> + Field<Gradient<T, DIRECTIONS>, Error = E>,
+    {
+        self.run::<F, Exact>(field, state, end, observer)
+    }
+
+    fn run<F: Field<T>, K: Jacobians<F, T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        end: f64,
+        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+    ) -> Result<Report, IntegratorsError<F::Error>> {
+        let n = field.dimension();
+        if !n.is_multiple_of(2) {
+            return Err(IntegratorsError::OddDimension { dimension: n });
+        }
+        let size = n * self.tableau.stages;
+        self.newton.begin(size, !K::NONE);
+        self.increments.clear();
+        self.increments.resize(size, T::zero());
+        self.work.resize(n, !K::NONE);
+        let Self { tableau, newton, increments, work, .. } = self;
+        take_equal_steps(n, self.step, state, end, observer, |state, h| {
+            // The weights sum to the step exactly.
+            let mut weights = tableau.weights.map(|b| h * b);
+            let middle = tableau.stages / 2;
+            let others: f64 = weights.iter().sum::<f64>() - weights[middle];
+            weights[middle] = h - others;
+            let (values, carry, t) = (&state.values, &state.carry, state.time);
+            let (weights, kind) = (&weights, PhantomData::<K>);
+            let mut step = PairStep { field, tableau, weights, work, values, carry, t, h, evaluations: 0, kind };
+            newton.solve(&mut step, increments, (t, h))?;
+            let evaluations = step.evaluations;
+            let total = &mut work.rate;
+            for (k, total) in total.iter_mut().enumerate() {
+                *total = T::zero();
+                for stage in increments.chunks(n.max(1)) {
+                    *total += stage[k];
+                }
+            }
+            check_sums(t, &state.values, total)?;
+            for ((y, carry), &increment) in state.values.iter_mut().zip(&mut state.carry).zip(&*total) {
+                compensated_add(y, carry, increment);
+            }
+            Ok(evaluations)
+        })
+    }
+}
+
+impl<T: Real> Workspace<T> {
+    fn resize(&mut self, n: usize, with_jacobian: bool) {
+        self.stage.resize(n, T::zero());
+        self.rate.resize(n, T::zero());
+        if with_jacobian {
+            self.seeds.resize(n, Gradient::constant(T::zero()));
+            self.rate_of_seeds.resize(n, Gradient::constant(T::zero()));
+            self.jacobian.resize(n * n, T::zero());
+        }
+    }
+}

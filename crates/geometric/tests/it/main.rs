@@ -1,0 +1,13 @@
+//! Tests of the methods that keep what the motion keeps: one binary, one module for each method.
+
+mod discrete_gradient;
+mod lie_group;
+mod lobatto_pair;
+#[path = "../../../integrators/tests/it/problems/kepler.rs"]
+mod problems;
+mod variational;
+
+use piola_testkit::CountingAllocator;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
