@@ -111,6 +111,12 @@ pub enum CharacteristicsError {
         /// The largest error of interpolation left.
         error: f64,
     },
+    /// The observer stopped the solution.
+    #[error("the solution was stopped after {rays} characteristics were integrated")]
+    Stopped {
+        /// The characteristics integrated so far, those made again included.
+        rays: usize,
+    },
     /// No generator of the Monge cone was found over a direction.
     #[error(
         "no generator of the Monge cone was found over the direction {direction:?}: at ξ = {covector:?} its conditions \

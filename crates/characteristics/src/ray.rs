@@ -74,6 +74,8 @@ pub(super) fn march<P: FirstOrderPde, T: Real>(
     Ok(state.values)
 }
 
+/// A characteristic of more steps is given up: rounding keeps its steps short.
+const MOST_STEPS: u64 = 1_000_000;
 /// A step of less than this share of the way to go says that ξ becomes infinite.
 const VANISHING_STEP: f64 = 1e-10;
 
@@ -154,7 +156,7 @@ impl<'a, P: FirstOrderPde> Marcher<'a, P> {
     pub(super) fn new(equation: &'a P, variables: usize, tolerance: Tolerance) -> Self {
         Self {
             field: RayField::new(equation, variables, variables - 1),
-            method: DormandPrince853::new(tolerance),
+            method: DormandPrince853::new(tolerance).with_most_steps(MOST_STEPS),
             variables,
         }
     }

@@ -1,5 +1,6 @@
 //! The solution surface: characteristics over a mesh of the initial manifold, refined where it bends.
 
+use core::ops::ControlFlow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::mesh::{Walk, cut, edges};
@@ -140,6 +141,22 @@ impl<'a, P: FirstOrderPde + Sync, M: InitialManifold + Sync> CauchyProblem<'a, P
         (from, to): (f64, f64),
         refinement: Refinement,
     ) -> Result<CharacteristicSolution<'a, P, M>, CharacteristicsError> {
+        self.solve_observed(intervals, (from, to), refinement, &mut |_| ControlFlow::Continue(()))
+    }
+
+    /// Solves the problem as [`solve`](Self::solve) does. The observer is called now and then with the number of characteristics
+    /// that have been integrated, those made again included, and may stop the solution.
+    ///
+    /// # Errors
+    /// [`CharacteristicsError::Stopped`] when the observer asks for it, or as [`solve`](Self::solve).
+    pub fn solve_observed(
+        &self,
+        intervals: &[ParameterInterval],
+        (from, to): (f64, f64),
+        refinement: Refinement,
+        observer: &mut dyn FnMut(usize) -> ControlFlow<()>,
+    ) -> Result<CharacteristicSolution<'a, P, M>, CharacteristicsError> {
+        let mut watch = Watch { rays: 0, observer };
         self.check_intervals(intervals)?;
         check_span(from, to)?;
         if refinement.resolution.is_nan() || refinement.resolution <= 0.0 {
@@ -168,7 +185,7 @@ impl<'a, P: FirstOrderPde + Sync, M: InitialManifold + Sync> CauchyProblem<'a, P
         let mut parts = refinement.levels.max(2);
         loop {
             solution.levels = levels(from, to, parts);
-            solution.rays = self.integrate(&starts, &solution.levels)?;
+            solution.rays = self.integrate(&starts, &solution.levels, &mut watch)?;
             // Cubic interpolation over the doubled parts is sixteen times less accurate.
             let error = solution.rays.iter().map(|ray| self.error_between_levels(ray, &solution.levels));
             let error = error.fold(0.0, f64::max) / 16.0;
@@ -181,29 +198,48 @@ impl<'a, P: FirstOrderPde + Sync, M: InitialManifold + Sync> CauchyProblem<'a, P
             }
             parts *= 2;
         }
-        solution.refine(refinement)?;
+        solution.refine(refinement, &mut watch)?;
         Ok(solution)
     }
 
     /// The rays of all starts, each by itself: the result does not depend on the number of threads.
-    fn integrate(&self, starts: &[(Vec<f64>, Vec<f64>)], levels: &[f64]) -> Result<Vec<Ray>, CharacteristicsError> {
+    fn integrate(
+        &self,
+        starts: &[(Vec<f64>, Vec<f64>)],
+        levels: &[f64],
+        watch: &mut Watch<'_>,
+    ) -> Result<Vec<Ray>, CharacteristicsError> {
+        let mut rays = Vec::with_capacity(starts.len());
+        for starts in starts.chunks(BETWEEN_LOOKS) {
+            // The first failure in the order of the rays, whichever thread met it first.
+            for ray in self.integrate_together(starts, levels) {
+                rays.push(ray?);
+            }
+            watch.integrated(starts.len())?;
+        }
+        Ok(rays)
+    }
+
+    fn integrate_together(
+        &self,
+        starts: &[(Vec<f64>, Vec<f64>)],
+        levels: &[f64],
+    ) -> Vec<Result<Ray, CharacteristicsError>> {
         let equation = self.data.equation;
         let marcher = || Marcher::new(equation, self.data.variables, self.tolerance);
         let ray = |marcher: &mut Marcher<'a, P>, (tau, start): &(Vec<f64>, Vec<f64>)| {
             marcher.ray(equation, (tau, start), levels)
         };
         #[cfg(feature = "rayon")]
-        let rays: Vec<Result<Ray, CharacteristicsError>> = {
+        {
             use rayon::prelude::*;
             starts.par_iter().map_init(marcher, ray).collect()
-        };
+        }
         #[cfg(not(feature = "rayon"))]
-        let rays: Vec<Result<Ray, CharacteristicsError>> = {
+        {
             let mut marcher = marcher();
             starts.iter().map(|start| ray(&mut marcher, start)).collect()
-        };
-        // The first failure in the order of the rays, whichever thread met it first.
-        rays.into_iter().collect()
+        }
     }
 
     /// The largest error, in the unit of x, of cubic interpolation over every two neighbouring parts, at the level
@@ -240,7 +276,7 @@ impl<'a, P: FirstOrderPde + Sync, M: InitialManifold + Sync> CauchyProblem<'a, P
 
 impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<'_, P, M> {
     /// Adds characteristics in the middles of edges until interpolation across them meets the resolution.
-    fn refine(&mut self, refinement: Refinement) -> Result<(), CharacteristicsError> {
+    fn refine(&mut self, refinement: Refinement, watch: &mut Watch<'_>) -> Result<(), CharacteristicsError> {
         if refinement.resolution.is_infinite() {
             return Ok(());
         }
@@ -260,7 +296,7 @@ impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<
                 let start = self.problem.ray_start(&tau, guess)?.1;
                 starts.push((tau, start));
             }
-            let rays = self.problem.integrate(&starts, &self.levels)?;
+            let rays = self.problem.integrate(&starts, &self.levels, watch)?;
             let (mut middles, mut worst) = (BTreeMap::new(), 0.0_f64);
             for ((a, b), ray) in open.into_iter().zip(rays) {
                 let error = self.error_across((a, b), &ray);
@@ -304,6 +340,25 @@ impl<P: FirstOrderPde + Sync, M: InitialManifold + Sync> CharacteristicSolution<
             }));
         }
         largest
+    }
+}
+
+/// Characteristics that are integrated between two calls of the observer.
+const BETWEEN_LOOKS: usize = 16;
+
+/// Counts the characteristics, and asks the observer whether to go on.
+struct Watch<'o> {
+    rays: usize,
+    observer: &'o mut dyn FnMut(usize) -> ControlFlow<()>,
+}
+
+impl Watch<'_> {
+    fn integrated(&mut self, count: usize) -> Result<(), CharacteristicsError> {
+        self.rays += count;
+        match (self.observer)(self.rays) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(CharacteristicsError::Stopped { rays: self.rays }),
+        }
     }
 }
 

@@ -27,7 +27,8 @@ impl Window {
     #[must_use]
     pub fn around(points: impl Iterator<Item = [f64; 2]>) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for point in points.filter(|point| point.iter().all(|x| x.is_finite())) {
+        // Differences and squares of larger numbers would overflow.
+        for point in points.filter(|point| point.iter().all(|x| x.abs() < 1e100)) {
             for k in 0..2 {
                 low[k] = low[k].min(point[k]);
                 high[k] = high[k].max(point[k]);

@@ -35,6 +35,7 @@ impl Folder {
         let trial = path.join(temporary("trial"));
         std::fs::write(&trial, b"trial").map_err(unwritable)?;
         std::fs::remove_file(&trial).map_err(unwritable)?;
+        remove_abandoned(path);
         Ok(Self { path: path.to_path_buf() })
     }
 
@@ -49,22 +50,46 @@ impl Folder {
     /// # Errors
     /// [`ChartsError::Unwritable`].
     pub fn write(&self, name: &str, text: &str) -> Result<PathBuf, ChartsError> {
-        let path = self.path.join(name);
+        self.stage(name, text)?;
+        self.publish(name)
+    }
+
+    /// Writes a file beside its place.
+    fn stage(&self, name: &str, text: &str) -> Result<(), ChartsError> {
         let temporary = self.path.join(temporary(name));
         let write = || {
             let mut file = std::fs::File::create(&temporary)?;
             file.write_all(text.as_bytes())?;
-            file.sync_all()?;
-            std::fs::rename(&temporary, &path)
+            file.sync_all()
         };
-        write().map_err(|cause| {
-            // Nothing more can be done about a temporary file that cannot be removed.
-            let _ = std::fs::remove_file(&temporary);
-            ChartsError::Unwritable { path: path.clone(), cause: cause.to_string() }
-        })?;
+        write().map_err(|cause| self.unwritable(name, &cause))
+    }
+
+    /// Moves a file that was written beside its place to its place.
+    fn publish(&self, name: &str) -> Result<PathBuf, ChartsError> {
+        let path = self.path.join(name);
+        std::fs::rename(self.path.join(temporary(name)), &path).map_err(|cause| self.unwritable(name, &cause))?;
         Ok(path)
     }
+
+    fn unwritable(&self, name: &str, cause: &std::io::Error) -> ChartsError {
+        // Nothing more can be done about a temporary file that cannot be removed.
+        let _ = std::fs::remove_file(self.path.join(temporary(name)));
+        ChartsError::Unwritable { path: self.path.join(name), cause: cause.to_string() }
+    }
+
+    /// The names of the files that stand here from the run before.
+    fn listed(&self) -> Vec<String> {
+        let list = std::fs::read_to_string(self.path.join(LIST)).unwrap_or_default();
+        // A name with a separator would lead elsewhere: nobody here has written it.
+        list.lines().filter(|name| !name.is_empty() && !name.contains(['/', '\\'])).map(str::to_owned).collect()
+    }
 }
+
+/// The summary of a set of results: it is removed before the first file of a new set is moved to its place, and comes last.
+const SUMMARY: &str = "summary.json";
+/// The list of the files of a set.
+const LIST: &str = ".piola-results";
 
 /// The files that were written, and those that could not be.
 #[derive(Debug, Default)]
@@ -77,17 +102,60 @@ pub struct Written {
 }
 
 impl Written {
-    /// Writes files into a folder.
+    /// Writes a set of files into a folder, in place of the set that was written there before.
+    ///
+    /// All files are first written beside their places. Then the old `summary.json` is removed, the files are moved to their
+    /// places, `summary.json` last, and files of the old set that the new one lacks are removed. So a folder with a
+    /// `summary.json` holds one whole set, whenever the program is killed.
     #[must_use]
     pub fn of<'n>(folder: &Folder, files: impl IntoIterator<Item = (&'n str, String)>) -> Self {
         let mut written = Self::default();
+        let mut staged = Vec::new();
         for (name, text) in files {
-            match folder.write(name, &text) {
+            match folder.stage(name, &text) {
+                Ok(()) => staged.push(name),
+                Err(error) => written.failures.push(error),
+            }
+        }
+        if staged.is_empty() {
+            return written;
+        }
+        let before = folder.listed();
+        // What is not there needs no removing; what cannot be removed is replaced below.
+        let remove = |name: &str| drop(std::fs::remove_file(folder.path.join(name)));
+        remove(SUMMARY);
+        let (last, first): (Vec<_>, Vec<_>) = staged.iter().partition(|name| **name == SUMMARY);
+        before.iter().filter(|name| !staged.contains(&name.as_str())).for_each(|name| remove(name));
+        let list: String = staged.iter().map(|name| format!("{name}\n")).collect();
+        if let Err(error) = folder.write(LIST, &list) {
+            written.failures.push(error);
+        }
+        for name in first.into_iter().chain(last) {
+            match folder.publish(name) {
                 Ok(path) => written.files.push(path),
                 Err(error) => written.failures.push(error),
             }
         }
+        // In the order of the caller.
+        written.files.sort_by_key(|path| staged.iter().position(|name| path.ends_with(name)));
         written
+    }
+}
+
+/// Removes the temporary files of programs that were killed: of processes that no longer run, where that can be told.
+fn remove_abandoned(folder: &Path) {
+    let processes = Path::new("/proc");
+    let (true, Ok(entries)) = (processes.join("self").exists(), std::fs::read_dir(folder)) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let process = name.to_str().and_then(|name| name.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.'));
+        if let Some((_, number)) = process
+            && number.parse::<u32>().is_ok()
+            && !processes.join(number).exists()
+        {
+            // Somebody else may have removed it.
+            let _ = std::fs::remove_file(entry.path());
+        }
     }
 }
 

@@ -59,6 +59,9 @@ pub(crate) struct RunArguments {
     /// Folder of the results instead of the scene's.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Start even a run that takes more than a day.
+    #[arg(long)]
+    pub(crate) yes: bool,
 }
 
 #[derive(Debug, Args)]

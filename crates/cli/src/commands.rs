@@ -1,14 +1,16 @@
 //! One function a command.
 
 use core::ops::ControlFlow;
+use std::borrow::Cow;
 use std::io::Write as _;
 use std::path::Path;
+use std::sync::OnceLock;
 
 use piola_charts::{Folder, Written};
 use piola_measured::MeasuredError;
 use piola_measured::fitting::{self, Measurements, Request};
 use piola_scene::output::{self, Summary};
-use piola_scene::run::{self, Outcome};
+use piola_scene::run::{self, Outcome, Prediction};
 use piola_scene::studies::{self, StudyPlan};
 use piola_scene::{Plan, Scene, SceneError, SceneFile, Study, schema};
 
@@ -60,6 +62,13 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
         Err(error) => return invalid(&error, arguments.scene.json),
     };
     let plan = Plan::of(scene);
+    match run::trial(scene, &plan) {
+        Err(why) => return refuse_start(&why, arguments.scene.json),
+        Ok(cost) if !arguments.yes && MOST_SECONDS < cost.seconds => {
+            return refuse(&format!("this run takes {cost}; with --yes it starts all the same"), arguments.scene.json);
+        }
+        Ok(_) => {}
+    }
     let interrupt = Interrupt::listen();
     let mut progress = ProgressLine::new(&plan.name, STRIDE);
     let run = run::run(scene, &plan, |step| {
@@ -99,9 +108,43 @@ fn ended(outcome: &Outcome, written: &Written, end: &str) -> Exit {
     }
 }
 
+/// Runs of more than a day need a confirmation.
+const MOST_SECONDS: f64 = 86_400.0;
+
+fn refuse_start(why: &str, json: bool) -> Exit {
+    refuse(&format!("the run fails at its start: {why}"), json)
+}
+
+fn refuse(why: &str, json: bool) -> Exit {
+    failure(&why, json);
+    Exit::Invalid
+}
+
+/// A plan with what the run will cost.
+#[derive(serde::Serialize)]
+struct PlanWithCost {
+    #[serde(flatten)]
+    plan: Plan,
+    cost: Prediction,
+}
+
+impl core::fmt::Display for PlanWithCost {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "{}\ncost      {}", self.plan, self.cost)
+    }
+}
+
+fn plan_of_motion(scene: &Scene, json: bool) -> Exit {
+    let plan = Plan::of(scene);
+    match run::trial(scene, &plan) {
+        Ok(cost) => show_plan(&PlanWithCost { plan, cost }, json),
+        Err(why) => refuse_start(&why, json),
+    }
+}
+
 pub(crate) fn plan(arguments: &SceneArguments) -> Exit {
     match load(arguments) {
-        Ok(SceneFile::Motion(scene)) => show_plan(&Plan::of(&scene), arguments.json),
+        Ok(SceneFile::Motion(scene)) => plan_of_motion(&scene, arguments.json),
         Ok(SceneFile::Study(study)) => show_plan(&StudyPlan::of(&study), arguments.json),
         Err(error) => invalid(&error, arguments.json),
     }
@@ -118,7 +161,13 @@ fn show_plan(plan: &(impl serde::Serialize + core::fmt::Display), json: bool) ->
 
 pub(crate) fn check(arguments: &SceneArguments) -> Exit {
     let (name, system) = match load(arguments) {
-        Ok(SceneFile::Motion(scene)) => (scene.name.clone(), Plan::of(&scene).system),
+        Ok(SceneFile::Motion(scene)) => {
+            let plan = Plan::of(&scene);
+            if let Err(why) = run::trial(&scene, &plan) {
+                return refuse_start(&why, arguments.json);
+            }
+            (plan.name, plan.system)
+        }
         Ok(SceneFile::Study(study)) => (study.name.clone(), StudyPlan::of(&study).system),
         Err(error) => return invalid(&error, arguments.json),
     };
@@ -242,12 +291,39 @@ fn print_json(value: &impl serde::Serialize) {
     print(&format!("{text}\n"));
 }
 
+/// Why standard output could not be written, if it could not.
+static UNWRITTEN: OnceLock<String> = OnceLock::new();
+
 /// Standard output; a reader that has gone away is no error.
 pub(crate) fn print(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+    let mut out = std::io::stdout().lock();
+    if let Err(error) = out.write_all(printable(text).as_bytes()).and_then(|()| out.flush())
+        && error.kind() != std::io::ErrorKind::BrokenPipe
+    {
+        let _ = UNWRITTEN.set(error.to_string());
+    }
+}
+
+/// Why standard output could not be written, if it could not.
+pub(crate) fn unwritten() -> Option<&'static str> {
+    UNWRITTEN.get().map(String::as_str)
 }
 
 /// Standard error.
 pub(crate) fn note(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    let _ = writeln!(std::io::stderr().lock(), "{}", printable(text));
+}
+
+/// The text with its control characters, and those that turn the direction of writing, escaped: names and paths come from files
+/// and must not command the terminal.
+fn printable(text: &str) -> Cow<'_, str> {
+    let commands = |c: char| {
+        c.is_control() && c != '\n' && c != '\t'
+            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.contains(commands) {
+        return Cow::Borrowed(text);
+    }
+    let escaped = text.chars().map(|c| if commands(c) { c.escape_unicode().to_string() } else { c.to_string() });
+    Cow::Owned(escaped.collect())
 }

@@ -3,7 +3,7 @@
 use std::io::{IsTerminal as _, Write as _};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 /// Parts of the whole that the bar counts.
 const PARTS: f64 = 10_000.0;
@@ -27,8 +27,14 @@ impl ProgressLine {
     pub(crate) fn new(name: &str, stride: u64) -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new(10_000);
-            let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} %, {eta} left");
+            let style = ProgressStyle::with_template("{msg} [{bar:40}] {percent:>3} %, {left} left");
             if let Ok(style) = style {
+                // Before the first part is done nobody knows how long the others take.
+                let style = style.with_key("left", |state: &ProgressState, text: &mut dyn core::fmt::Write| {
+                    let left =
+                        if state.pos() == 0 { "?".to_owned() } else { format!("{:.0} s", state.eta().as_secs_f64()) };
+                    let _ = text.write_str(&left);
+                });
                 bar.set_style(style.progress_chars("=> "));
             }
             bar.set_message(name.to_string());

@@ -273,6 +273,13 @@ fn check_dimension(expected: Dimension, found: Option<Dimension>, text: &str) ->
                 ..Wrong::found(format!("\"{text}\", which has the dimension {found} instead of {expected}"))
             })
         }
+        None if expected != Dimension::NONE => Err(Wrong {
+            valid: Some(format!(
+                "a number, which is in {unit}, or a text with a unit, as \"{text} {unit}\"",
+                unit = expected.si_unit()
+            )),
+            ..Wrong::found(format!("\"{text}\", a text without a unit"))
+        }),
         _ => Ok(()),
     }
 }

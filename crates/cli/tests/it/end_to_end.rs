@@ -9,30 +9,30 @@ use piola_testkit::{Tol, assert_close};
 /// Numbers recovered from tables without noise.
 const TABLE: Tol = Tol::stated(1e-10, "interpolation between rows of whole numbers, written with all digits");
 
-const ORBIT: &str = "[central]\ngm = 1.0\n[[body]]\nname = 'comet'\nsemi_major_axis = 1.0\neccentricity = 0.5\n\
+pub(crate) const ORBIT: &str = "[central]\ngm = 1.0\n[[body]]\nname = 'comet'\nsemi_major_axis = 1.0\neccentricity = 0.5\n\
                      [time]\nrevolutions = 2\n[reference]\nclosed_form = 'kepler'\n";
 
 /// A folder of its own for each test, removed at its end.
-struct Folder(PathBuf);
+pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Self {
+    pub(crate) fn new(name: &str) -> Self {
         let path = std::env::temp_dir().join(format!("piola-cli-{}-{name}", std::process::id()));
         std::fs::create_dir_all(&path).unwrap_or_else(|error| panic!("{error}"));
         Self(path)
     }
 
-    fn scene(&self, text: &str) -> PathBuf {
+    pub(crate) fn scene(&self, text: &str) -> PathBuf {
         let path = self.0.join("orbit.toml");
         std::fs::write(&path, text).unwrap_or_else(|error| panic!("{error}"));
         path
     }
 
-    fn piola(&self, arguments: &[&str]) -> Output {
+    pub(crate) fn piola(&self, arguments: &[&str]) -> Output {
         self.command(arguments).output().unwrap_or_else(|error| panic!("{error}"))
     }
 
-    fn command(&self, arguments: &[&str]) -> Command {
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
         command.args(arguments).current_dir(&self.0).stdin(Stdio::null());
         command
@@ -45,19 +45,19 @@ impl Drop for Folder {
     }
 }
 
-fn out(output: &Output) -> String {
+pub(crate) fn out(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-fn err(output: &Output) -> String {
+pub(crate) fn err(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-fn json(text: &str) -> serde_json::Value {
+pub(crate) fn json(text: &str) -> serde_json::Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error}: {text}"))
 }
 
-fn read(path: &Path) -> String {
+pub(crate) fn read(path: &Path) -> String {
     std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
@@ -160,7 +160,7 @@ fn signals_stop_a_run_which_writes_what_it_has() {
         let folder = Folder::new(&format!("signal{signal}"));
         folder.scene(&ORBIT.replace("revolutions = 2", "revolutions = 1e9"));
         let mut run = folder
-            .command(&["run", "orbit.toml"])
+            .command(&["run", "orbit.toml", "--yes"])
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
             .spawn()

@@ -3,6 +3,11 @@
 use super::{Builder, Gravitation, MassPoint, NEWTONIAN_CONSTANT, PostNewtonian};
 use piola_document::{Mistake, Record, words};
 
+/// c, m/s.
+const SPEED_OF_LIGHT: f64 = 299_792_458.0;
+/// The part of c up to which terms of first order in v²/c² mean something.
+const MOST_OF_LIGHT: f64 = 0.1;
+
 impl Builder<'_> {
     pub(super) fn gravitation(&mut self, scene: &Record, table: &Record) -> Option<Gravitation> {
         let records = scene.records("body");
@@ -107,6 +112,19 @@ impl Builder<'_> {
             let gm = |index: &usize| bodies[*index].as_ref().map_or(0.0, |body| body.gm);
             (0..bodies.len()).reduce(|a, b| if gm(&a) < gm(&b) { b } else { a })
         };
+        for (record, body) in records.iter().zip(bodies) {
+            let Some(body) = body else { continue };
+            let speed = body.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+            if !(speed < MOST_OF_LIGHT * SPEED_OF_LIGHT) {
+                self.wrong(
+                    Mistake::new(
+                        record.place_of("velocity"),
+                        format!("the speed {} m/s with a post-Newtonian term of first order", words::number(speed)),
+                    )
+                    .valid("less than a tenth of the speed of light, 299792458 m/s"),
+                );
+            }
+        }
         Some(Some(PostNewtonian { central: named.or_else(heaviest)? }))
     }
 }

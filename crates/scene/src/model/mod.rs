@@ -252,6 +252,8 @@ impl<'d> Builder<'d> {
     }
 
     fn integrator(&mut self, record: &Record) -> IntegratorRequest {
+        /// Some way below rounding errors still fall, since their estimate is pessimistic.
+        const LEAST_TOLERANCE: f64 = 1e-20;
         let table = record.record("integrator");
         let method = table.and_then(|table| table.text("method")).unwrap_or("auto").to_string();
         let request = IntegratorRequest {
@@ -259,6 +261,14 @@ impl<'d> Builder<'d> {
             tolerance: table.and_then(|table| table.number("tolerance")),
             method,
         };
+        if let (Some(table), Some(tolerance)) = (table, request.tolerance)
+            && tolerance < LEAST_TOLERANCE
+        {
+            self.wrong(
+                Mistake::new(table.place_of("tolerance"), format!("the tolerance {tolerance:e} is far below rounding"))
+                    .valid(format!("from {LEAST_TOLERANCE:e} to less than 1; rounding is 1e-16")),
+            );
+        }
         if let Some(table) = table {
             let adaptive = ["dormand-prince-853", "verner-98"].contains(&request.method.as_str());
             let fixed = !adaptive && request.method != "auto";

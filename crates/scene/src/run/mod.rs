@@ -66,13 +66,126 @@ pub fn run(scene: &Scene, plan: &Plan, mut observer: impl FnMut(Progress) -> Con
     observed(scene, plan, &mut observer)
 }
 
+/// What a run will cost, by a trial of its first steps.
+///
+/// # Example
+/// See [`trial`].
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
+pub struct Prediction {
+    /// Steps of the trial.
+    pub tried_steps: u64,
+    /// Evaluations of the forces in the whole run, about.
+    pub force_evaluations: f64,
+    /// Time of the whole run, s, about.
+    pub seconds: f64,
+    /// Memory of the record, bytes.
+    pub bytes: f64,
+}
+
+/// Tries the first steps of a run: whether it starts, and what it will cost. It takes a few hundredths of a second.
+///
+/// Steps that become shorter or longer later, as in close encounters, change the cost.
+///
+/// # Errors
+/// Why the run would fail at its start.
+///
+/// # Example
+/// ```
+/// use piola_scene::{Document, Plan, Scene, run};
+/// let orbit = |end: &str| Document::parse("orbit.toml", &format!("
+///     [central]
+///     gm = 1.0
+///     [[body]]
+///     name = 'comet'
+///     semi_major_axis = 1.0
+///     eccentricity = 0.5
+///     [time]
+///     end = {end}
+/// "));
+/// let long = Scene::from_document(&orbit("1e30"))?;
+/// assert!(run::trial(&long, &Plan::of(&long)).unwrap().seconds > 1e9);
+/// # Ok::<(), piola_scene::SceneError>(())
+/// ```
+pub fn trial(scene: &Scene, plan: &Plan) -> Result<Prediction, String> {
+    /// Steps of a trial.
+    const STEPS: u64 = 500;
+    /// Its time, s.
+    const SECONDS: f64 = 0.02;
+    let begun = Instant::now();
+    let mut fraction = 0.0;
+    let run = observed(scene, plan, &mut |progress| {
+        fraction = progress.fraction;
+        let enough = STEPS <= progress.steps || SECONDS <= begun.elapsed().as_secs_f64();
+        if enough { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    if let (Outcome::Failed(why), 0) = (&run.outcome, run.steps) {
+        return Err(why.clone());
+    }
+    let whole = if matches!(run.outcome, Outcome::Completed) { 1.0 } else { fraction };
+    let components = plan.equations + 16;
+    Ok(Prediction {
+        tried_steps: run.steps,
+        force_evaluations: run.force_evaluations as f64 / whole,
+        seconds: run.wall_time / whole,
+        bytes: (plan.instants * components * size_of::<f64>()) as f64,
+    })
+}
+
+impl core::fmt::Display for Prediction {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { force_evaluations, bytes, tried_steps, .. } = self;
+        write!(f, "about {force_evaluations:.1e} evaluations of the forces, {}", duration(self.seconds))?;
+        write!(f, ", {:.1e} bytes of record; from the first {tried_steps} steps", bytes)
+    }
+}
+
+/// A duration as people say it.
+fn duration(seconds: f64) -> String {
+    const DAY: f64 = 86_400.0;
+    match seconds {
+        s if s < 1.0 => format!("{:.0} ms", (1e3 * s).ceil()),
+        s if s < 300.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s if s < 2.0 * DAY => format!("{:.0} h", s / 3600.0),
+        s if s < 1000.0 * DAY => format!("{:.0} days", s / DAY),
+        s => format!("{:.1e} years", s / (365.25 * DAY)),
+    }
+}
+
 /// The same for any observer: whoever calls `run` compiles none of it again.
 fn observed(scene: &Scene, plan: &Plan, observer: &mut dyn FnMut(Progress) -> ControlFlow<()>) -> Run {
     let begun = Instant::now();
     let run = simulate(&scene.system, plan.method, &plan::timetable(scene), observer);
     let wall_time = begun.elapsed().as_secs_f64();
-    let MotionRun { outcome, time, steps, rejected, force_evaluations, history, .. } = run;
+    let MotionRun { mut outcome, time, steps, rejected, force_evaluations, history, .. } = run;
+    if let (Outcome::Completed, Some(why)) = (&outcome, not_finite(&history)) {
+        outcome = Outcome::Failed(why);
+    }
     let drifts = history.drifts();
     let errors = comparison::errors(scene, &history);
     Run { outcome, time, steps, rejected, force_evaluations, wall_time, history, drifts, errors }
+}
+
+/// The first recorded number that is not finite, in words: such a record is no result.
+fn not_finite(history: &History) -> Option<String> {
+    for record in &history.invariants {
+        let vectors = [("momentum", record.momentum), ("angular momentum", record.angular_momentum)];
+        let vectors = vectors.into_iter().filter_map(|(name, vector)| {
+            let (components, scale) = vector?;
+            components.into_iter().chain([scale]).find(|x| !x.is_finite()).map(|x| (name, x))
+        });
+        let energy = (!record.energy.is_finite()).then_some(("energy", record.energy));
+        if let Some((name, value)) = energy.into_iter().chain(vectors).next() {
+            return Some(format!(
+                "the {name} is {value} at {} s: the numbers have left the range of doubles",
+                record.time
+            ));
+        }
+    }
+    let places = history.times.iter().zip(&history.positions);
+    places.flat_map(|(t, places)| places.iter().map(move |place| (t, place))).find_map(|(t, place)| {
+        let value = place.iter().find(|x| !x.is_finite())?;
+        Some(format!("a position is {value} at {t} s: the numbers have left the range of doubles"))
+    })
 }

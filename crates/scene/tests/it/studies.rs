@@ -125,9 +125,12 @@ fn characteristics_from_a_circle_run_to_the_wall_over_a_grid_of_even_spacing() {
     let circle = "grid = 61\nsignal = \"circle\"\ncentre = [1.0, 0.5]\nradius = 0.8";
     let mut told = Vec::new();
     let run = studies::run(&study(&replaced(ROOM, "grid = 61", circle)), |done| {
+        assert!(told.last().is_none_or(|before| *before <= done), "{told:?}, {done}");
         told.push(done);
         ControlFlow::Continue(())
     });
+    assert!(8 < told.len());
+    told.retain(|done| (8.0 * done).fract() <= 0.0 && 0.0 < *done);
     assert_eq!(run.outcome, Outcome::Completed);
     // Four stages outside of the circle, and four inside.
     assert_eq!(told, [0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0]);

@@ -19,14 +19,19 @@ impl Builder<'_> {
             resolution: table.number("resolution").unwrap_or(a.min(b) / 2000.0),
             grid: table.count("grid")?,
         };
-        if room.least_speed() <= 0.0 {
-            let least = room.least_speed();
+        /// The part of the largest speed below which rounding of the place changes the speed by too much.
+        const LEAST_PART: f64 = 1e-5;
+        let least = room.least_speed();
+        if !(LEAST_PART * (2.0 * speed.at_origin - least) <= least) {
             self.wrong(
                 Mistake::new(
                     table.place_of("speed_gradient"),
-                    format!("the speed falls to {least} m/s at a corner of the rectangle around the room"),
+                    format!(
+                        "the speed falls to {} m/s at a corner of the rectangle around the room",
+                        words::number(least)
+                    ),
                 )
-                .valid("a gradient so small that the speed is positive there"),
+                .valid("a gradient so small that it is at least 1e-5 of the largest speed there"),
             );
             return None;
         }
@@ -44,10 +49,11 @@ impl Builder<'_> {
 
     fn outline(&mut self, table: &Record) -> Option<Outline> {
         let semi_axes = table.pair("semi_axes")?;
-        if semi_axes.iter().any(|axis| *axis <= 0.0) {
+        let [least, most] = [semi_axes[0].min(semi_axes[1]), semi_axes[0].max(semi_axes[1])];
+        if !(1e-12 <= least && most <= 1e12 && most <= 1e3 * least) {
             self.wrong(
                 Mistake::new(table.place_of("semi_axes"), format!("semi-axes of {} m", words::numbers(&semi_axes)))
-                    .valid("two lengths greater than zero"),
+                    .valid("two lengths from 1e-12 m to 1e12 m, one at most 1000 times the other"),
             );
             return None;
         }

@@ -1,6 +1,7 @@
 //! Solves the eikonal equation and looks at its solution.
 
 use core::f64::consts::TAU;
+use core::ops::ControlFlow;
 
 use piola_characteristics::CharacteristicsError;
 use piola_characteristics::{CauchyProblem, CharacteristicSolution, Grid, Overlap, ParameterInterval, Refinement};
@@ -86,17 +87,36 @@ impl Room {
         Grid { origin, spacing: [spacing; 2], points }
     }
 
+    /// The sides along the outward normal, each with the longest time that a first arrival can take there, s.
+    ///
+    /// ```text
+    /// from the wall, along ∇v:         t ≤ ln(v_max/v_min)/|∇v|  and  t ≤ l/v_min
+    /// from a circle, straight:         t ≤ l ln(v_c/v_min)/(v_c − v_min),    v_c the least speed on it
+    /// ```
+    fn sides(&self) -> Vec<(f64, f64)> {
+        let [a, b] = self.outline.semi_axes;
+        let [g, h] = self.speed.gradient;
+        let (slow, change) = (self.least_speed(), g.abs() * a + h.abs() * b);
+        match self.circle {
+            None => {
+                // The logarithm of a ratio near one, exactly: the speed may be the same everywhere.
+                let along = (2.0 * change / slow).ln_1p() / g.hypot(h);
+                vec![(-1.0, (a.min(b) / slow).min(if along.is_finite() { along } else { f64::INFINITY }))]
+            }
+            Some(circle) => {
+                let ([x, y], radius) = (circle.centre, circle.semi_axes[0]);
+                let start = self.speed.at([x, y]) - g.hypot(h) * radius;
+                let more = start - slow;
+                let mean = if 0.0 < more { more / (more / slow).ln_1p() } else { slow };
+                vec![(1.0, (x.hypot(y) + a.hypot(b)) / mean), (-1.0, radius / start)]
+            }
+        }
+    }
+
     fn solve(&self, found: &mut Arrivals, observer: &mut Observer<'_>) -> Result<bool, CharacteristicsError> {
         let start = self.circle.unwrap_or(self.outline);
         let [a, b] = self.outline.semi_axes;
-        // (side along the outward normal, the longest time that a first arrival can take)
-        let sides = match self.circle {
-            None => vec![(-1.0, a.min(b))],
-            Some(circle) => {
-                let [x, y] = circle.centre;
-                vec![(1.0, x.hypot(y) + a.hypot(b)), (-1.0, circle.semi_axes[0])]
-            }
-        };
+        let sides = self.sides();
         let grid = self.grid();
         let mut values = vec![f64::NAN; grid.points[0] * grid.points[1]];
         let mut progress = Progress { done: 0.0, whole: 4.0 * sides.len() as f64, observer };
@@ -105,7 +125,12 @@ impl Room {
             let problem = CauchyProblem::new(&self.speed, &start, 2)?.near(&guess)?;
             let interval = ParameterInterval { from: SEAM, to: SEAM + TAU, parts: PARTS };
             let refinement = Refinement { levels: LEVELS, ..Refinement::to(self.resolution) };
-            let solution = problem.solve(&[interval], (0.0, 1.02 * longest / self.least_speed()), refinement)?;
+            let span = (0.0, 1.02 * longest);
+            let watched = problem.solve_observed(&[interval], span, refinement, &mut |rays| progress.between(rays));
+            let solution = match watched {
+                Err(CharacteristicsError::Stopped { .. }) => return Ok(false),
+                solved => solved?,
+            };
             found.rays += solution.rays().len();
             found.drift = found.drift.max(solution.drift());
             if progress.stopped() {
@@ -170,6 +195,14 @@ struct Progress<'p, 'o> {
 }
 
 impl Progress<'_, '_> {
+    /// Within a part of unknown length: the more characteristics, the nearer to its end.
+    fn between(&mut self, rays: usize) -> ControlFlow<()> {
+        /// Characteristics after which half of the part is thought to be done.
+        const HALF: f64 = 1000.0;
+        let part = rays as f64 / (rays as f64 + HALF);
+        (self.observer)((self.done + part) / self.whole)
+    }
+
     fn stopped(&mut self) -> bool {
         self.done += 1.0;
         (self.observer)(self.done / self.whole).is_break()
