@@ -1,0 +1,138 @@
+//! What can be wrong with a tree of bodies or its state: each variant names the violated condition.
+
+use piola_kinematics::KinematicsError;
+use piola_numerics::Real;
+
+/// A condition that a tree of rigid bodies or its state violates.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MultibodyError {
+    /// A number is infinite or NaN.
+    #[error("component {index} of `{quantity}` is {value}; it must be finite")]
+    NotFinite {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The component, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A slice of the wrong length.
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
+    WrongLength {
+        /// The name of the argument.
+        quantity: &'static str,
+        /// The length needed.
+        expected: usize,
+        /// The length found.
+        found: usize,
+    },
+    /// Two bodies, two joints or two frames with one name.
+    #[error("there are two {what} named `{name}`; names must differ")]
+    DuplicateName {
+        /// "bodies", "joints" or "frames".
+        what: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A name that nothing has.
+    #[error("there is no {what} named `{name}`")]
+    NoSuchName {
+        /// "body", "joint" or "frame".
+        what: &'static str,
+        /// The name asked for.
+        name: String,
+    },
+    /// An index beyond the last.
+    #[error("there is no {what} {index}: the tree has {count}")]
+    NoSuchIndex {
+        /// "body", "joint" or "frame".
+        what: &'static str,
+        /// The index asked for.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// |axis| = 1 is violated.
+    #[error("the axis of joint `{joint}` has length {length}; it must be a unit vector")]
+    AxisNotUnit {
+        /// The joint's name.
+        joint: String,
+        /// The length of the axis.
+        length: f64,
+    },
+    /// A quantity of a joint outside its range.
+    #[error("the {quantity} of joint `{joint}` is {value}; it must satisfy {condition}")]
+    InvalidJointData {
+        /// The joint's name.
+        joint: String,
+        /// What the value is.
+        quantity: &'static str,
+        /// The value.
+        value: f64,
+        /// The condition.
+        condition: &'static str,
+    },
+    /// The mass or the inertia of a body violates a condition of mechanics.
+    #[error("body `{body}`: {source}")]
+    InvalidInertia {
+        /// The body's name.
+        body: String,
+        /// The condition.
+        source: KinematicsError,
+    },
+    /// A joint moves nothing that has inertia: its acceleration does not exist.
+    #[error(
+        "joint `{joint}` moves no inertia (reduced inertia {inertia} along its motion); \
+         give a body beyond it mass, or the joint a reflected inertia"
+    )]
+    NoInertia {
+        /// The joint's name.
+        joint: String,
+        /// The reduced inertia, kg or kg m².
+        inertia: f64,
+    },
+    /// |q| = 1 is violated by a quaternion of the configuration.
+    #[error("the quaternion of joint `{joint}` has length {length}; it must be a unit quaternion")]
+    NotUnitQuaternion {
+        /// The joint's name.
+        joint: String,
+        /// The quaternion's length.
+        length: f64,
+    },
+    /// A workspace that was made for another tree.
+    #[error("the workspace was made for {found} links; this tree has {expected}")]
+    OtherWorkspace {
+        /// Links of the tree.
+        expected: usize,
+        /// Links of the workspace.
+        found: usize,
+    },
+}
+
+/// found = expected.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn check_length(quantity: &'static str, expected: usize, found: usize) -> Result<(), MultibodyError> {
+    if found == expected { Ok(()) } else { Err(MultibodyError::WrongLength { quantity, expected, found }) }
+}
+
+/// Whether all values are finite in all lanes.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn all_finite<T: Real>(values: &[T]) -> bool {
+    use piola_numerics::Mask;
+    let mut finite = T::Mask::splat(true);
+    for value in values {
+        finite = finite & value.is_finite();
+    }
+    finite.all()
+}
+
+/// |values| < ∞ in all lanes.
+pub(crate) fn check_finite<T: Real>(quantity: &'static str, values: &[T]) -> Result<(), MultibodyError> {
+    use piola_numerics::Mask;
+    let Some((index, entry)) = values.iter().enumerate().find(|(_, entry)| !entry.is_finite().all()) else {
+        return Ok(());
+    };
+    let value = (0..T::LANES).map(|lane| entry.primal(lane)).find(|value| !value.is_finite());
+    Err(MultibodyError::NotFinite { quantity, index, value: value.unwrap_or(f64::NAN) })
+}
