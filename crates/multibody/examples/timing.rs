@@ -44,6 +44,12 @@ fn main() {
             tree.forward_dynamics(&mut work, black_box(&q), &v, &a, &mut out).unwrap();
             black_box(&mut out);
         });
+        let mut matrix = vec![0.0; n * n];
+        let mm = measure(|| {
+            tree.mass_matrix(&mut work, black_box(&q), &mut matrix).unwrap();
+            black_box(&mut matrix);
+        });
+        println!("mass matrix {mm:.0} ns");
         let sc = measure(|| {
             for q in black_box(&q) {
                 black_box(q.sin_cos());

@@ -3,16 +3,29 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod configuration;
+mod coriolis;
+mod derivatives;
 mod error;
+mod factorisation;
 mod forward_dynamics;
 mod inverse_dynamics;
+mod jacobian;
+mod kinematics;
 mod link;
+mod mass_matrix;
+mod momentum;
+mod space;
 mod spatial;
 mod tree;
 mod turn;
 mod workspace;
 
+pub use derivatives::AccelerationDerivatives;
 pub use error::MultibodyError;
+pub use factorisation::TreeFactors;
 pub use inverse_dynamics::AppliedWrench;
+pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
+pub use momentum::{CentroidalMomentum, MassCentre, TreeEnergies};
 pub use tree::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint};
 pub use workspace::TreeWorkspace;

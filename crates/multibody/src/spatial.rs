@@ -32,12 +32,6 @@ pub(crate) fn lit_symmetric<T: Real>(a: [f64; 6]) -> Symmetric<T> {
     [T::lit(a[0]), T::lit(a[1]), T::lit(a[2]), T::lit(a[3]), T::lit(a[4]), T::lit(a[5])]
 }
 
-/// The zero vector.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(crate) fn zero<T: Real>() -> Vector<T> {
-    [T::zero(); 3]
-}
-
 /// a + b.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn add<T: Real>(a: Vector<T>, b: Vector<T>) -> Vector<T> {

@@ -126,16 +126,24 @@ pub struct TreeWorkspace<T> {
     pub(crate) gains: Vec<Pair<T>>,
     /// D⁻¹ of each elementary joint.
     pub(crate) inverses: Vec<T>,
-    /// τ less what the joint already feels, for each freedom.
-    pub(crate) efforts: Vec<T>,
     /// Vectors in space for each freedom: see the modules that fill them.
     pub(crate) rows: Rows<T>,
     /// One number for each freedom.
     pub(crate) column: Vec<T>,
+    /// Forces, then accelerations, of the links for several columns.
+    pub(crate) column_states: Vec<ColumnState<T>>,
+    /// Several columns for each freedom.
+    pub(crate) column_values: Vec<[T; COLUMNS]>,
 }
 
+/// Columns that are solved at once.
+pub(crate) const COLUMNS: usize = 8;
+
+/// Six components of several columns.
+pub(crate) type ColumnState<T> = [[T; COLUMNS]; 6];
+
 /// Numbers for each freedom in [`TreeWorkspace::rows`].
-pub(crate) const ROWS: usize = 36;
+pub(crate) const ROWS: usize = 30;
 
 impl RigidTree {
     /// Memory for evaluations of this tree over any scalar.
@@ -185,9 +193,10 @@ impl RigidTree {
             composite: vec![composite; states],
             gains: vec![pair; n],
             inverses: vec![T::zero(); self.squares],
-            efforts: vec![T::zero(); n],
             rows: Rows::new(ROWS, n),
             column: vec![T::zero(); n],
+            column_states: vec![[[T::zero(); COLUMNS]; 6]; states],
+            column_values: vec![[T::zero(); COLUMNS]; n],
         }
     }
 

@@ -22,5 +22,9 @@ fn robot_has_the_accelerations_and_forces_of_the_reference() {
         assert_close("gravity forces", &out, &golden::vector(&state["gravity"]), ROUNDING);
         tree.forward_dynamics(&mut work, &q, &v, &tau, &mut out).unwrap();
         assert_close("forward dynamics", &out, &golden::vector(&state["aba_acceleration"]), ROUNDING);
+        let mut mass_matrix = vec![0.0; 36];
+        tree.mass_matrix(&mut work, &q, &mut mass_matrix).unwrap();
+        let expected = golden::matrix(&state["mass_matrix"]).concat();
+        assert_close("mass matrix", &mass_matrix, &expected, ROUNDING);
     }
 }

@@ -1,5 +1,6 @@
 //! Tests of trees of rigid bodies.
 
+mod derivatives;
 mod golden;
 mod trees;
 

@@ -90,3 +90,91 @@ pub fn ur5() -> RigidTree {
     }
     builder.build().unwrap()
 }
+
+/// A state of a tree: configuration, velocities, accelerations (or forces).
+pub struct State {
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub a: Vec<f64>,
+}
+
+/// Numbers that are spread over [0, 1), the same for the same seed.
+pub fn uniform(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+    move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    }
+}
+
+/// A random state of a tree.
+pub fn state_of(tree: &RigidTree, seed: u64) -> State {
+    let mut next = uniform(seed);
+    let mut q = vec![0.0; tree.coordinates()];
+    tree.random_configuration(&mut next, &mut q).unwrap();
+    let mut vector = || (0..tree.freedoms()).map(|_| 2.0 * next() - 1.0).collect();
+    State { q, v: vector(), a: vector() }
+}
+
+/// A body without symmetry.
+pub fn odd_body(seed: u64) -> BodyInertia {
+    let mut next = uniform(seed);
+    let moments = [0.1 + 0.1 * next(), 0.15 + 0.1 * next(), 0.2 + 0.04 * next()];
+    let axis = nalgebra::Vector3::new(next(), next(), 1.0);
+    let attitude = Attitude::from_axis_angle(&axis, 3.0 * next()).unwrap();
+    let inertia = Inertia::principal(moments).unwrap().rotated(attitude);
+    BodyInertia::of(&RigidBody::new(0.5 + next(), inertia).unwrap(), [next() - 0.5, next() - 0.5, next() - 0.5])
+}
+
+/// A unit vector.
+fn direction(next: &mut impl FnMut() -> f64) -> [f64; 3] {
+    let a = [next() - 0.5, next() - 0.5, next() + 0.1];
+    let length = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt();
+    a.map(|x| x / length)
+}
+
+/// A free body with arms of several joints, some with motors: all kinds of joints at places turned anyhow.
+pub fn tree_of(kinds: &[JointKind], parents: &[usize], seed: u64) -> RigidTree {
+    let mut next = uniform(seed);
+    let mut builder = RigidTree::builder();
+    let mut bodies = vec![BodyIndex::GROUND];
+    for (i, (&kind, &parent)) in kinds.iter().zip(parents).enumerate() {
+        let attitude = Attitude::from_axis_angle(&nalgebra::Vector3::from(direction(&mut next)), 3.0 * next()).unwrap();
+        let joint = TreeJoint::new(format!("joint {i}"), kind)
+            .at([next() - 0.5, next() - 0.5, next() - 0.5])
+            .turned(attitude)
+            .with_armature(if i % 3 == 1 { 0.1 } else { 0.0 });
+        let body = odd_body(seed + 17 * i as u64 + 1);
+        bodies.push(builder.attach(bodies[parent], joint, format!("body {i}"), body).unwrap());
+    }
+    builder.build().unwrap()
+}
+
+/// A free trunk with two legs and a tail.
+pub fn branched() -> RigidTree {
+    let x = JointKind::Revolute { axis: [1.0, 0.0, 0.0] };
+    let y = JointKind::Revolute { axis: [0.0, 1.0, 0.0] };
+    tree_of(&[JointKind::Free, x, y, x, y, y, x], &[0, 1, 2, 1, 4, 5, 1], 11)
+}
+
+/// All kinds of joints in one tree.
+pub fn mixed() -> RigidTree {
+    let mut next = uniform(5);
+    let [a, b, c, d, e] = [(); 5].map(|()| direction(&mut next));
+    let kinds = [
+        JointKind::Planar,
+        JointKind::Spherical,
+        JointKind::Revolute { axis: a },
+        JointKind::Prismatic { axis: b },
+        JointKind::Helical { axis: c, pitch: 0.3 },
+        JointKind::Universal { first: [1.0, 0.0, 0.0], second: d },
+        JointKind::Cylindrical { axis: e },
+        JointKind::Free,
+        JointKind::Fixed,
+        JointKind::Revolute { axis: [0.0, 0.0, -1.0] },
+        JointKind::Spherical,
+    ];
+    tree_of(&kinds, &[0, 1, 2, 1, 4, 3, 5, 7, 8, 9, 9], 23)
+}

@@ -1,0 +1,141 @@
+//! Derivatives of forward dynamics, in time proportional to the square of the freedoms.
+//!
+//! ```text
+//! ∂v̇/∂q = −M⁻¹ ∂τ/∂q        ∂v̇/∂v = −M⁻¹ ∂τ/∂v        ∂v̇/∂τ = M⁻¹        ∂τ of inverse dynamics at v̇
+//! ```
+//!
+//! Each column is solved along the tree by the articulated inertias of the forward dynamics.
+
+use piola_numerics::{Kernel, Mask, Real, dispatch};
+
+use super::columns::solve;
+use super::inverse::differentiate;
+use crate::error::{MultibodyError, all_finite, check_length};
+use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
+use crate::space::{GAIN, put_pair, reference};
+use crate::spatial::{add, cross, sub, times};
+use crate::tree::RigidTree;
+use crate::workspace::{COLUMNS, TreeWorkspace};
+
+/// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
+///
+/// Each derivative holds n² entries, ∂v̇ᵢ/∂xⱼ at `i + j n`.
+///
+/// # Example
+/// ```
+/// use piola_multibody::{AccelerationDerivatives, BodyIndex, BodyInertia, JointKind, RigidTree, TreeJoint};
+/// let mut builder = RigidTree::builder();
+/// let hinge = TreeJoint::new("hinge", JointKind::Revolute { axis: [0.0, 1.0, 0.0] });
+/// builder.attach(BodyIndex::GROUND, hinge, "bob", BodyInertia::particle(2.0, [0.0, 0.0, -0.5])?)?;
+/// let tree = builder.build()?;
+/// let mut out = AccelerationDerivatives::new(&tree);
+/// tree.forward_dynamics_derivatives(&mut tree.workspace(), &[0.0], &[0.0], &[0.0], &mut out)?;
+/// // −g/l and 1/(m l²).
+/// assert_eq!((out.by_q[0], out.by_tau[0]), (-19.62, 2.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct AccelerationDerivatives<T> {
+    /// v̇.
+    pub acceleration: Vec<T>,
+    /// ∂v̇/∂q, along the tangent space.
+    pub by_q: Vec<T>,
+    /// ∂v̇/∂v.
+    pub by_v: Vec<T>,
+    /// ∂v̇/∂τ = M⁻¹.
+    pub by_tau: Vec<T>,
+}
+
+impl<T: Real> AccelerationDerivatives<T> {
+    /// Memory for the derivatives of a tree.
+    #[must_use]
+    pub fn new(tree: &RigidTree) -> Self {
+        let n = tree.freedoms;
+        let matrix = vec![T::zero(); n * n];
+        Self { acceleration: vec![T::zero(); n], by_q: matrix.clone(), by_v: matrix.clone(), by_tau: matrix }
+    }
+}
+
+impl RigidTree {
+    /// The accelerations of [`forward_dynamics`](Self::forward_dynamics) and their derivatives with respect to q (on the
+    /// tangent space), v and τ.
+    ///
+    /// # Errors
+    /// As [`forward_dynamics`](Self::forward_dynamics).
+    ///
+    /// # Accuracy
+    /// A few ulp times the condition number of the mass matrix.
+    #[doc(alias("ABA derivatives", "linearisation"))]
+    pub fn forward_dynamics_derivatives<T: Real>(
+        &self,
+        work: &mut TreeWorkspace<T>,
+        q: &[T],
+        v: &[T],
+        tau: &[T],
+        out: &mut AccelerationDerivatives<T>,
+    ) -> Result<(), MultibodyError> {
+        let n = self.freedoms;
+        self.check_state(work, q, v)?;
+        check_length("tau", n, tau.len())?;
+        check_length("out.acceleration", n, out.acceleration.len())?;
+        for (quantity, found) in
+            [("out.by_q", out.by_q.len()), ("out.by_v", out.by_v.len()), ("out.by_tau", out.by_tau.len())]
+        {
+            check_length(quantity, n * n, found)?;
+        }
+        let is_positive = dispatch(Derivatives { tree: self, work, q, v, tau, out });
+        let is_finite = all_finite(&out.by_q) && all_finite(&out.by_v) && all_finite(&out.by_tau);
+        if is_positive && is_finite && self.has_unit_quaternions(q) {
+            return Ok(());
+        }
+        self.explain(q, [("v", v), ("tau", tau)], ("out", &[]))?;
+        self.explain_inertia(work)?;
+        self.explain(q, [("v", v), ("tau", tau)], ("out.by_q", &out.by_q))
+    }
+}
+
+/// The derivatives as a kernel.
+struct Derivatives<'a, T> {
+    tree: &'a RigidTree,
+    work: &'a mut TreeWorkspace<T>,
+    q: &'a [T],
+    v: &'a [T],
+    tau: &'a [T],
+    out: &'a mut AccelerationDerivatives<T>,
+}
+
+impl<T: Real> Kernel for Derivatives<'_, T> {
+    type Output = bool;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn run(self) -> bool {
+        let Self { tree, work, q, v, tau, out } = self;
+        let n = tree.freedoms;
+        let AccelerationDerivatives { acceleration, by_q, by_v, by_tau } = out;
+        pass_outwards(tree, &mut work.articulation, q, v);
+        let is_positive = pass_inwards(tree, work, tau, acceleration);
+        pass_accelerations(tree, &mut work.articulation, &work.gains, acceleration);
+        differentiate(tree, work, q, v, acceleration, by_q, by_v, None);
+        by_tau.fill(T::zero());
+        for j in 0..n {
+            by_tau[j * n + j] = T::one();
+        }
+        // The gains in space.
+        let reference = reference(&work.space);
+        for (i, link) in tree.links.iter().enumerate() {
+            let here = &work.space[i + 1];
+            let arm = sub(here.origin, reference);
+            for j in link.v..link.v + link.kind.freedoms() {
+                let force = times(here.axes, work.gains[j].1);
+                let moment = add(times(here.axes, work.gains[j].0), cross(arm, force));
+                put_pair(&mut work.rows, GAIN, j, (moment, force));
+            }
+        }
+        let mut matrices = [&mut by_q[..], &mut by_v[..], &mut by_tau[..]];
+        let mut from = 0;
+        while from < 3 * n {
+            solve(tree, work, &mut matrices, [-1.0, -1.0, 1.0], from);
+            from += COLUMNS;
+        }
+        is_positive.all()
+    }
+}
