@@ -50,6 +50,29 @@ fn main() {
             black_box(&mut matrix);
         });
         println!("mass matrix {mm:.0} ns");
+        let mut d = piola_multibody::AccelerationDerivatives::new(&tree);
+        let fdd = measure(|| {
+            tree.forward_dynamics_derivatives(&mut work, black_box(&q), &v, &a, &mut d).unwrap();
+            black_box(&mut d);
+        });
+        println!("forward dynamics derivatives {fdd:.0} ns");
+        let states = 64;
+        let mut qs = piola_multibody::StateBlocks::new(n, states);
+        for i in 0..states {
+            qs.set(i, &q).unwrap();
+        }
+        let mut outs = qs.clone();
+        let mut batch = piola_multibody::BatchWorkspace::new(&tree, 1);
+        let idl = measure(|| {
+            tree.inverse_dynamics_of_states(&mut batch, black_box(&qs), &qs, &qs, &mut outs).unwrap();
+            black_box(&mut outs);
+        });
+        let fdl = measure(|| {
+            tree.forward_dynamics_of_states(&mut batch, black_box(&qs), &qs, &qs, &mut outs).unwrap();
+            black_box(&mut outs);
+        });
+        let per = (n * states) as f64;
+        println!("lanes: inverse {:.1} forward {:.1}", idl / per, fdl / per);
         let sc = measure(|| {
             for q in black_box(&q) {
                 black_box(q.sin_cos());

@@ -100,6 +100,14 @@ pub enum MultibodyError {
         /// The quaternion's length.
         length: f64,
     },
+    /// A violated condition in one of many states.
+    #[error("state {state}: {source}")]
+    InState {
+        /// The state, from 0.
+        state: usize,
+        /// The condition.
+        source: Box<MultibodyError>,
+    },
     /// A workspace that was made for another tree.
     #[error("the workspace was made for {found} links; this tree has {expected}")]
     OtherWorkspace {

@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod batch;
 mod configuration;
 mod coriolis;
 mod derivatives;
@@ -21,6 +22,7 @@ mod tree;
 mod turn;
 mod workspace;
 
+pub use batch::{BatchWorkspace, StateBlocks};
 pub use derivatives::AccelerationDerivatives;
 pub use error::MultibodyError;
 pub use factorisation::TreeFactors;
