@@ -73,6 +73,13 @@ fn main() {
         });
         let per = (n * states) as f64;
         println!("lanes: inverse {:.1} forward {:.1}", idl / per, fdl / per);
+        let mut m = [vec![0.0; n * n], vec![0.0; n * n], vec![0.0; n * n]];
+        let [x, y, z] = &mut m;
+        let idd = measure(|| {
+            tree.inverse_dynamics_derivatives(&mut work, black_box(&q), &v, &a, x, y, z).unwrap();
+            black_box(&mut *x);
+        });
+        println!("inverse dynamics derivatives {idd:.0} ns");
         let sc = measure(|| {
             for q in black_box(&q) {
                 black_box(q.sin_cos());

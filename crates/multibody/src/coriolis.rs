@@ -19,7 +19,7 @@ use crate::mass_matrix::dots;
 use crate::space::{
     RATE, Runs, SUBSPACE, add_inertia, add_pairs, momentum, motion_at, own_inertia, pass_subspaces, reference, row_pair,
 };
-use crate::spatial::{Matrix, Vector, add, cross, full, product, skew, times, transposed_times};
+use crate::spatial::{Matrix, Vector, add, cross, full, skew_skew, skew_times, times, transposed_times};
 use crate::tree::RigidTree;
 use crate::workspace::{Composite, TreeWorkspace};
 
@@ -91,8 +91,8 @@ pub(crate) fn own_velocity_product<T: Real>(composite: &mut Composite<T>, (w, v)
     let i = composite.inertia;
     let half_trace = T::lit(0.5) * (i[0] + i[3] + i[5]);
     let second = [half_trace - i[0], -i[1], -i[2], half_trace - i[3], -i[4], half_trace - i[5]];
-    let of_mass = product(skew(w), full(second));
-    let of_moment = product(skew(composite.moment), skew(v));
+    let of_mass = skew_times(w, full(second));
+    let of_moment = skew_skew(composite.moment, v);
     composite.velocity_product = negative_sum(of_mass, of_moment);
     composite.momentum = composite.momentum_of((w, v)).1;
 }

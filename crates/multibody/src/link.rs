@@ -136,6 +136,17 @@ pub(crate) trait Elementary<T: Real, const N: usize> {
     fn project(link: &Link, moment: Vector<T>, force: Vector<T>) -> [T; N];
     /// The columns of an inertia times S.
     fn columns(link: &Link, inertia: &Articulated<T>) -> [Pair<T>; N];
+    /// S column by column, in axes that the rows turn to.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn turned_subspace(link: &Link, axes: Matrix<T>) -> [Pair<T>; N] {
+        let mut columns = Self::subspace(link);
+        let mut k = 0;
+        while k < N {
+            columns[k] = (times(axes, columns[k].0), times(axes, columns[k].1));
+            k += 1;
+        }
+        columns
+    }
     /// S column by column.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn subspace(link: &Link) -> [Pair<T>; N] {
@@ -157,6 +168,11 @@ pub(crate) struct Revolute<const A: usize>;
 
 impl<T: Real, const A: usize> Elementary<T, 1> for Revolute<A> {
     type Turn = About<T, A>;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn turned_subspace(link: &Link, axes: Matrix<T>) -> [Pair<T>; 1] {
+        let axis = [axes[0][A], axes[1][A], axes[2][A]];
+        [(scaled(T::lit(link.sign), axis), [T::zero(); 3])]
+    }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(link: &Link, q: &[T]) -> (About<T, A>, Vector<T>) {
         let (sine, cosine) = q[link.q].sin_cos();
@@ -209,6 +225,10 @@ pub(crate) struct RevoluteTurned;
 impl<T: Real> Elementary<T, 1> for RevoluteTurned {
     type Turn = AnyTurn<T>;
     #[cfg_attr(not(debug_assertions), inline(always))]
+    fn turned_subspace(_link: &Link, axes: Matrix<T>) -> [Pair<T>; 1] {
+        [([axes[0][2], axes[1][2], axes[2][2]], [T::zero(); 3])]
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(link: &Link, q: &[T]) -> (AnyTurn<T>, Vector<T>) {
         (turned_about_z(link, q[link.q]), lit(link.origin))
     }
@@ -245,6 +265,10 @@ pub(crate) struct Prismatic;
 
 impl<T: Real> Elementary<T, 1> for Prismatic {
     type Turn = NoTurn;
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn turned_subspace(link: &Link, axes: Matrix<T>) -> [Pair<T>; 1] {
+        [([T::zero(); 3], times(axes, lit(link.axis)))]
+    }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn place(link: &Link, q: &[T]) -> (NoTurn, Vector<T>) {
         (NoTurn, add(lit(link.origin), scaled(q[link.q], lit(link.axis))))

@@ -14,11 +14,11 @@ use piola_numerics::{Kernel, Real, dispatch};
 
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::link::{Articulated, Elementary, Link, for_kind};
-use crate::space::{Runs, SUBSPACE, add_symmetric, pass_places, pass_subspaces, reference};
+use crate::space::{Runs, SUBSPACE, add_symmetric, pass_subspaces, reference};
 use crate::spatial::{add, cross, lit, lit_symmetric, scaled, skew, sub, times, translated_inertia};
 use crate::tree::RigidTree;
 use crate::turn::Turning;
-use crate::workspace::{Composite, LinkInSpace, Rows, TreeWorkspace};
+use crate::workspace::{Composite, LinkForces, LinkInSpace, Rows, TreeWorkspace};
 
 impl RigidTree {
     /// The mass matrix M(q): kinetic energy ½ vᵀ M v, reflected inertias on the diagonal included.
@@ -54,7 +54,8 @@ impl RigidTree {
         check_length("q", self.coordinates, q.len())?;
         check_length("out", n * n, out.len())?;
         dispatch(MassMatrix { tree: self, work, q, out: &mut *out });
-        if all_finite(out) && self.has_unit_quaternions(q) {
+        // A number that is not finite reaches the diagonal.
+        if all_finite(q) && out.iter().step_by(n + 1).all(|x| all_finite(&[*x])) && self.has_unit_quaternions(q) {
             return Ok(());
         }
         self.explain(q, [("q", q), ("q", q)], ("out", out))
@@ -75,7 +76,9 @@ impl<T: Real> Kernel for MassMatrix<'_, T> {
     fn run(self) {
         let Self { tree, work, q, out } = self;
         let TreeWorkspace { space, rows, composite, forces, .. } = work;
-        pass_places(tree, space, q);
+        for (i, link) in tree.links.iter().enumerate() {
+            for_kind!(link.kind, place::<T>(link, i + 1, q, space, forces));
+        }
         pass_subspaces(tree, space, rows);
         if tree.links.iter().any(|link| link.run != 1) {
             out.fill(T::zero());
@@ -87,10 +90,27 @@ impl<T: Real> Kernel for MassMatrix<'_, T> {
         }
         let reference = reference(space);
         for (i, link) in tree.links.iter().enumerate().rev() {
-            for_kind!(link.kind, column::<T>(tree, link, i + 1, q, space, composite, reference, rows, out));
+            for_kind!(link.kind, column::<T>(tree, link, i + 1, forces, space, composite, reference, rows, out));
         }
-        let _ = forces;
     }
+}
+
+/// Places a link in space and keeps its turn.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn place<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    state: usize,
+    q: &[T],
+    space: &mut [LinkInSpace<T>],
+    forces: &mut [LinkForces<T>],
+) {
+    let (turn, origin) = E::place(link, q);
+    turn.keep(&mut forces[state].turn);
+    forces[state].origin = origin;
+    let parent = &space[link.parent];
+    let (axes, place) = (turn.after(parent.axes), add(parent.origin, times(parent.axes, origin)));
+    space[state].axes = axes;
+    space[state].origin = place;
 }
 
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -99,7 +119,7 @@ fn column<T: Real, E: Elementary<T, N>, const N: usize>(
     tree: &RigidTree,
     link: &Link,
     state: usize,
-    q: &[T],
+    forces: &[LinkForces<T>],
     space: &[LinkInSpace<T>],
     composite: &mut [Composite<T>],
     reference: [T; 3],
@@ -134,7 +154,7 @@ fn column<T: Real, E: Elementary<T, N>, const N: usize>(
         k += 1;
     }
     if link.parent != 0 {
-        let (turn, origin) = E::place(link, q);
+        let (turn, origin) = (E::Turn::recall(&forces[state].turn), forces[state].origin);
         let own = &composite[state];
         let h = turn.to_parent(own.moment);
         let turned = turn.symmetric_to_parent(own.inertia);

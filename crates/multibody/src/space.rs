@@ -20,8 +20,6 @@ pub(crate) const RATE: usize = 6;
 pub(crate) const SECOND_RATE: usize = 12;
 /// Ψ̇ + Ṡ.
 pub(crate) const BOTH_RATES: usize = 18;
-/// The gains Y of articulated bodies.
-pub(crate) const GAIN: usize = 24;
 
 /// m × n of two motions.
 #[cfg_attr(not(debug_assertions), inline(always))]
@@ -156,11 +154,11 @@ fn subspaces<T: Real, E: Elementary<T, N>, const N: usize>(
     rows: &mut Rows<T>,
 ) {
     let arm = sub(state.origin, reference);
-    let columns = E::subspace(link);
+    let columns = E::turned_subspace(link, state.axes);
     let mut k = 0;
     while k < N {
-        let angular = times(state.axes, columns[k].0);
-        let linear = add(times(state.axes, columns[k].1), cross(arm, angular));
+        let angular = columns[k].0;
+        let linear = add(columns[k].1, cross(arm, angular));
         rows.put(SUBSPACE, link.v + k, angular);
         rows.put(SUBSPACE + 3, link.v + k, linear);
         k += 1;

@@ -101,6 +101,23 @@ pub(crate) fn skew<T: Real>(a: Vector<T>) -> Matrix<T> {
     [[zero, -a[2], a[1]], [a[2], zero, -a[0]], [-a[1], a[0], zero]]
 }
 
+/// [a]× A for rows A.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn skew_times<T: Real>(a: Vector<T>, b: Matrix<T>) -> Matrix<T> {
+    [
+        sub(scaled(a[1], b[2]), scaled(a[2], b[1])),
+        sub(scaled(a[2], b[0]), scaled(a[0], b[2])),
+        sub(scaled(a[0], b[1]), scaled(a[1], b[0])),
+    ]
+}
+
+/// [a]× [b]× = b aᵀ − (a·b) 1.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn skew_skew<T: Real>(a: Vector<T>, b: Vector<T>) -> Matrix<T> {
+    let (x, y, z) = (a[0] * b[0], a[1] * b[1], a[2] * b[2]);
+    [[-(y + z), b[0] * a[1], b[0] * a[2]], [b[1] * a[0], -(x + z), b[1] * a[2]], [b[2] * a[0], b[2] * a[1], -(x + y)]]
+}
+
 /// [α]× + [ω]×²: the gradient of the field of accelerations in a rigid body.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn acceleration_gradient<T: Real>(w: Vector<T>, alpha: Vector<T>) -> Matrix<T> {

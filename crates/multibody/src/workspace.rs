@@ -134,6 +134,7 @@ pub struct TreeWorkspace<T> {
     pub(crate) column_states: Vec<ColumnState<T>>,
     /// Several columns for each freedom.
     pub(crate) column_values: Vec<[T; COLUMNS]>,
+    pub(crate) column_vectors: Vec<ColumnVectors<T>>,
 }
 
 /// Columns that are solved at once.
@@ -142,8 +143,15 @@ pub(crate) const COLUMNS: usize = 8;
 /// Six components of several columns.
 pub(crate) type ColumnState<T> = [[T; COLUMNS]; 6];
 
+/// S and Y of a freedom in space axes about the reference point, angular parts first.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ColumnVectors<T> {
+    pub(crate) subspace: [T; 6],
+    pub(crate) gain: [T; 6],
+}
+
 /// Numbers for each freedom in [`TreeWorkspace::rows`].
-pub(crate) const ROWS: usize = 30;
+pub(crate) const ROWS: usize = 24;
 
 impl RigidTree {
     /// Memory for evaluations of this tree over any scalar.
@@ -197,6 +205,7 @@ impl RigidTree {
             column: vec![T::zero(); n],
             column_states: vec![[[T::zero(); COLUMNS]; 6]; states],
             column_values: vec![[T::zero(); COLUMNS]; n],
+            column_vectors: vec![ColumnVectors { subspace: symmetric, gain: symmetric }; n],
         }
     }
 

@@ -9,14 +9,16 @@
 
 use piola_numerics::Real;
 
-use crate::space::{GAIN, SUBSPACE};
+use crate::link::Link;
 use crate::tree::RigidTree;
-use crate::workspace::{COLUMNS, ColumnState, TreeWorkspace};
+use crate::workspace::{COLUMNS, ColumnState, ColumnVectors, TreeWorkspace};
 
-/// a·b of a freedom's vector with many columns, from `start`: start − Σ a b.
+type Values<T> = [T; COLUMNS];
+
+/// start − Σ a b.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn less_dot<T: Real>(start: [T; COLUMNS], a: &[T; 6], b: &ColumnState<T>) -> [T; COLUMNS] {
-    let mut out = start;
+fn less_dot<T: Real>(start: &Values<T>, a: &[T; 6], b: &ColumnState<T>) -> Values<T> {
+    let mut out = *start;
     let mut k = 0;
     while k < COLUMNS {
         let angular = a[0] * b[0][k] + a[1] * b[1][k] + a[2] * b[2][k];
@@ -29,7 +31,7 @@ fn less_dot<T: Real>(start: [T; COLUMNS], a: &[T; 6], b: &ColumnState<T>) -> [T;
 
 /// b += a x.
 #[cfg_attr(not(debug_assertions), inline(always))]
-fn add_scaled<T: Real>(b: &mut ColumnState<T>, a: &[T; 6], x: &[T; COLUMNS]) {
+fn add_scaled<T: Real>(b: &mut ColumnState<T>, a: &[T; 6], x: &Values<T>) {
     let mut c = 0;
     while c < 6 {
         let mut k = 0;
@@ -41,21 +43,8 @@ fn add_scaled<T: Real>(b: &mut ColumnState<T>, a: &[T; 6], x: &[T; COLUMNS]) {
     }
 }
 
-/// The six components of a freedom's vector.
-#[cfg_attr(not(debug_assertions), inline(always))]
-fn gather<T: Real>(rows: &[T], stride: usize, row: usize, freedom: usize) -> [T; 6] {
-    let mut out = [T::zero(); 6];
-    let mut c = 0;
-    while c < 6 {
-        out[c] = rows[(row + c) * stride + freedom];
-        c += 1;
-    }
-    out
-}
-
-/// Replaces columns b of three matrices by sign M⁻¹ b, where column c of all is column c mod n of matrix c / n.
-///
-/// `last` is the last link with a right-hand side that is not zero.
+/// Replaces columns b of three matrices by ±M⁻¹ b, from column `from` on, where column c of all is column c mod n of matrix
+/// c / n.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn solve<T: Real>(
     tree: &RigidTree,
@@ -65,82 +54,105 @@ pub(super) fn solve<T: Real>(
     from: usize,
 ) {
     let n = tree.freedoms;
-    let TreeWorkspace { rows, inverses, column_states, column_values, .. } = work;
+    let TreeWorkspace { inverses, column_states, column_values, column_vectors, .. } = work;
     let count = COLUMNS.min(3 * n - from);
-    let place = |k: usize| {
-        let column = (from + k).min(3 * n - 1);
-        (column / n, column % n * n)
-    };
-    let mut places = [(0, 0); COLUMNS];
-    let mut sign = [T::zero(); COLUMNS];
     for k in 0..COLUMNS {
-        places[k] = place(k);
-        sign[k] = T::lit(signs[places[k].0]);
-    }
-    let stride = rows.stride;
-    let rows = &rows.rows[..];
-    let zero = [[T::zero(); COLUMNS]; 6];
-    for (i, link) in tree.links.iter().enumerate().rev() {
-        let mut p = if link.is_leaf { zero } else { column_states[i + 1] };
-        let freedoms = link.kind.freedoms();
-        let mut k = 0;
-        while k < freedoms {
-            let j = link.v + k;
-            let mut b = [T::zero(); COLUMNS];
-            for c in 0..COLUMNS {
-                b[c] = sign[c] * matrices[places[c].0][places[c].1 + j];
+        if count <= k {
+            for values in &mut *column_values {
+                values[k] = T::zero();
             }
-            column_values[j] = less_dot(b, &gather(rows, stride, SUBSPACE, j), &p);
-            k += 1;
+            continue;
         }
-        if link.parent != 0 {
-            k = 0;
-            while k < freedoms {
-                let j = link.v + k;
-                add_scaled(&mut p, &gather(rows, stride, GAIN, j), &column_values[j]);
-                k += 1;
-            }
-            let parent = &mut column_states[link.parent];
-            if link.is_first_met {
-                *parent = p;
-            } else {
-                for c in 0..6 {
-                    for k in 0..COLUMNS {
-                        parent[c][k] += p[c][k];
-                    }
-                }
-            }
+        let (matrix, column) = ((from + k) / n, (from + k) % n);
+        let sign = T::lit(signs[matrix]);
+        for (values, &b) in column_values.iter_mut().zip(&matrices[matrix][column * n..(column + 1) * n]) {
+            values[k] = sign * b;
+        }
+    }
+    for (i, link) in tree.links.iter().enumerate().rev() {
+        if link.kind.freedoms() == 1 {
+            inwards::<T, 1>(link, i + 1, column_states, column_values, column_vectors);
+        } else if link.kind.freedoms() == 3 {
+            inwards::<T, 3>(link, i + 1, column_states, column_values, column_vectors);
+        } else {
+            inwards::<T, 6>(link, i + 1, column_states, column_values, column_vectors);
         }
     }
     for (i, link) in tree.links.iter().enumerate() {
-        let mut state = if link.parent == 0 { zero } else { column_states[link.parent] };
-        let freedoms = link.kind.freedoms();
-        let mut x = [[T::zero(); COLUMNS]; 6];
-        let mut k = 0;
-        while k < freedoms {
-            let j = link.v + k;
-            let mut own = [T::zero(); COLUMNS];
-            let mut l = 0;
-            while l < freedoms {
-                let inverse = inverses[link.square + k * freedoms + l];
-                for c in 0..COLUMNS {
-                    own[c] += inverse * column_values[link.v + l][c];
-                }
-                l += 1;
-            }
-            x[k] = less_dot(own, &gather(rows, stride, GAIN, j), &state);
-            for c in 0..count {
-                matrices[places[c].0][places[c].1 + j] = x[k][c];
-            }
-            k += 1;
+        if link.kind.freedoms() == 1 {
+            outwards::<T, 1>(link, i + 1, inverses, column_states, column_values, column_vectors);
+        } else if link.kind.freedoms() == 3 {
+            outwards::<T, 3>(link, i + 1, inverses, column_states, column_values, column_vectors);
+        } else {
+            outwards::<T, 6>(link, i + 1, inverses, column_states, column_values, column_vectors);
         }
-        if !link.is_leaf {
-            k = 0;
-            while k < freedoms {
-                add_scaled(&mut state, &gather(rows, stride, SUBSPACE, link.v + k), &x[k]);
-                k += 1;
-            }
-            column_states[i + 1] = state;
+    }
+    for k in 0..count {
+        let (matrix, column) = ((from + k) / n, (from + k) % n);
+        for (values, x) in column_values.iter().zip(&mut matrices[matrix][column * n..(column + 1) * n]) {
+            *x = values[k];
         }
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn inwards<T: Real, const N: usize>(
+    link: &Link,
+    state: usize,
+    states: &mut [ColumnState<T>],
+    values: &mut [Values<T>],
+    vectors: &[ColumnVectors<T>],
+) {
+    let mut p = if link.is_leaf { [[T::zero(); COLUMNS]; 6] } else { states[state] };
+    let (values, vectors) = (&mut values[link.v..link.v + N], &vectors[link.v..link.v + N]);
+    for (value, vector) in values.iter_mut().zip(vectors) {
+        *value = less_dot(value, &vector.subspace, &p);
+    }
+    if link.parent == 0 {
+        return;
+    }
+    for (value, vector) in values.iter().zip(vectors) {
+        add_scaled(&mut p, &vector.gain, value);
+    }
+    let parent = &mut states[link.parent];
+    if link.is_first_met {
+        *parent = p;
+        return;
+    }
+    for (parent, p) in parent.iter_mut().zip(&p) {
+        for (parent, &p) in parent.iter_mut().zip(p) {
+            *parent += p;
+        }
+    }
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn outwards<T: Real, const N: usize>(
+    link: &Link,
+    state: usize,
+    inverses: &[T],
+    states: &mut [ColumnState<T>],
+    values: &mut [Values<T>],
+    vectors: &[ColumnVectors<T>],
+) {
+    let mut acceleration = if link.parent == 0 { [[T::zero(); COLUMNS]; 6] } else { states[link.parent] };
+    let (values, vectors) = (&mut values[link.v..link.v + N], &vectors[link.v..link.v + N]);
+    let inverses = &inverses[link.square..link.square + N * N];
+    let mut x = [[T::zero(); COLUMNS]; N];
+    for (k, x) in x.iter_mut().enumerate() {
+        for (l, value) in values.iter().enumerate() {
+            for (x, &value) in x.iter_mut().zip(value) {
+                *x += inverses[k * N + l] * value;
+            }
+        }
+    }
+    for ((value, vector), x) in values.iter_mut().zip(vectors).zip(&x) {
+        *value = less_dot(x, &vector.gain, &acceleration);
+    }
+    if !link.is_leaf {
+        for (value, vector) in values.iter().zip(vectors) {
+            add_scaled(&mut acceleration, &vector.subspace, value);
+        }
+        states[state] = acceleration;
     }
 }

@@ -12,10 +12,10 @@ use super::columns::solve;
 use super::inverse::differentiate;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
-use crate::space::{GAIN, put_pair, reference};
+use crate::space::{SUBSPACE, reference, row_pair};
 use crate::spatial::{add, cross, sub, times};
 use crate::tree::RigidTree;
-use crate::workspace::{COLUMNS, TreeWorkspace};
+use crate::workspace::{COLUMNS, ColumnVectors, TreeWorkspace};
 
 /// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
 ///
@@ -83,9 +83,8 @@ impl RigidTree {
         {
             check_length(quantity, n * n, found)?;
         }
-        let is_positive = dispatch(Derivatives { tree: self, work, q, v, tau, out });
-        let is_finite = all_finite(&out.by_q) && all_finite(&out.by_v) && all_finite(&out.by_tau);
-        if is_positive && is_finite && self.has_unit_quaternions(q) {
+        let is_right = dispatch(Derivatives { tree: self, work, q, v, tau, out });
+        if is_right && self.has_unit_quaternions(q) {
             return Ok(());
         }
         self.explain(q, [("v", v), ("tau", tau)], ("out", &[]))?;
@@ -127,7 +126,11 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
             for j in link.v..link.v + link.kind.freedoms() {
                 let force = times(here.axes, work.gains[j].1);
                 let moment = add(times(here.axes, work.gains[j].0), cross(arm, force));
-                put_pair(&mut work.rows, GAIN, j, (moment, force));
+                let (angular, linear) = row_pair(&work.rows, SUBSPACE, j);
+                work.column_vectors[j] = ColumnVectors {
+                    subspace: [angular[0], angular[1], angular[2], linear[0], linear[1], linear[2]],
+                    gain: [moment[0], moment[1], moment[2], force[0], force[1], force[2]],
+                };
             }
         }
         let mut matrices = [&mut by_q[..], &mut by_v[..], &mut by_tau[..]];
@@ -136,6 +139,6 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
             solve(tree, work, &mut matrices, [-1.0, -1.0, 1.0], from);
             from += COLUMNS;
         }
-        is_positive.all()
+        is_positive.all() && all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
     }
 }

@@ -24,7 +24,7 @@ use crate::space::{
     BOTH_RATES, RATE, Runs, SECOND_RATE, SUBSPACE, add_pairs, force_cross, motion_cross, own_inertia, pass_places,
     put_pair, reference, row_pair,
 };
-use crate::spatial::{Vector, add, cross, lit, scaled, sub, times};
+use crate::spatial::{Vector, add, cross, lit, scaled, sub};
 use crate::tree::RigidTree;
 use crate::workspace::{Composite, LinkInSpace, Rows, TreeWorkspace};
 
@@ -233,12 +233,11 @@ fn outwards<T: Real, E: Elementary<T, N>, const N: usize>(
     let arm = sub(here.origin, reference);
     let zero = ([T::zero(); 3], [T::zero(); 3]);
     let (mut relative, mut relative_acceleration) = (zero, zero);
-    let columns = E::subspace(link);
+    let columns = E::turned_subspace(link, here.axes);
     let mut s = [zero; N];
     let mut k = 0;
     while k < N {
-        let angular = times(here.axes, columns[k].0);
-        s[k] = (angular, add(times(here.axes, columns[k].1), cross(arm, angular)));
+        s[k] = (columns[k].0, add(columns[k].1, cross(arm, columns[k].0)));
         let (rate, second) = (v[link.v + k], a[link.v + k]);
         relative = add_pairs(relative, (scaled(rate, s[k].0), scaled(rate, s[k].1)));
         relative_acceleration = add_pairs(relative_acceleration, (scaled(second, s[k].0), scaled(second, s[k].1)));
