@@ -100,6 +100,22 @@ pub enum MultibodyError {
         /// The quaternion's length.
         length: f64,
     },
+    /// A URDF text violates a condition.
+    #[error("line {line}: {fault}")]
+    Urdf {
+        /// The line, from 1.
+        line: usize,
+        /// The condition.
+        fault: UrdfFault,
+    },
+    /// A URDF file cannot be read.
+    #[error("cannot read {path}: {reason}")]
+    UrdfFile {
+        /// The file.
+        path: String,
+        /// The reason given by the system.
+        reason: String,
+    },
     /// A violated condition in one of many states.
     #[error("state {state}: {source}")]
     InState {
@@ -115,6 +131,75 @@ pub enum MultibodyError {
         expected: usize,
         /// Links of the workspace.
         found: usize,
+    },
+}
+
+/// What is wrong at a line of a URDF text.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum UrdfFault {
+    /// The text is no XML.
+    #[error("{reason}")]
+    Syntax {
+        /// What the parser found.
+        reason: String,
+    },
+    /// An element that has a meaning for mechanics which is not read.
+    #[error("`{element}` is not supported")]
+    Unsupported {
+        /// The element.
+        element: String,
+    },
+    /// An attribute or an element is missing.
+    #[error("`{element}` has no `{what}`")]
+    Missing {
+        /// What is missing.
+        what: &'static str,
+        /// Where it is missing.
+        element: String,
+    },
+    /// An attribute does not hold as many finite numbers as it should.
+    #[error("`{attribute}` is \"{text}\", which are not the finite numbers needed")]
+    NotNumbers {
+        /// The attribute.
+        attribute: &'static str,
+        /// Its text.
+        text: String,
+    },
+    /// A joint names a link that does not exist.
+    #[error("there is no link named `{link}`")]
+    NoSuchLink {
+        /// The link.
+        link: String,
+    },
+    /// A link is the child of two joints.
+    #[error("link `{link}` is the child of two joints; a tree has one, and a loop is a constraint")]
+    TwoParents {
+        /// The link.
+        link: String,
+    },
+    /// Every link has a parent.
+    #[error("no link is the root: the joints go round")]
+    NoRoot,
+    /// Two links have no parent.
+    #[error("links `{first}` and `{second}` have no parent; a tree has one root")]
+    TwoRoots {
+        /// The first root.
+        first: String,
+        /// The second root.
+        second: String,
+    },
+    /// Some links are not reached from the root.
+    #[error("{links} links are joined in a circle that the root does not reach")]
+    Cycle {
+        /// How many.
+        links: usize,
+    },
+    /// A link or a joint violates a condition of mechanics.
+    #[error("{source}")]
+    Invalid {
+        /// The condition.
+        source: Box<MultibodyError>,
     },
 }
 

@@ -1,8 +1,15 @@
 //! Tests of trees of rigid bodies.
 
+mod alloc;
+mod batch;
 mod derivatives;
 mod golden;
+mod laws;
+mod placement;
+mod traps;
 mod trees;
+#[cfg(feature = "urdf")]
+mod urdf;
 
 #[global_allocator]
 static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
