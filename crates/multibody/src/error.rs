@@ -100,6 +100,51 @@ pub enum MultibodyError {
         /// The quaternion's length.
         length: f64,
     },
+    /// A closure whose data violate a condition.
+    #[error("the {quantity} of closure `{closure}` is {value}; it must satisfy {condition}")]
+    InvalidClosure {
+        /// The closure's name.
+        closure: String,
+        /// What the value is.
+        quantity: &'static str,
+        /// The value.
+        value: f64,
+        /// The condition.
+        condition: &'static str,
+    },
+    /// Conditions of closures that depend on each other ask for different motions.
+    #[error("closure `{closure}` (condition {condition}) contradicts the others by {excess:e}")]
+    Contradiction {
+        /// The closure's name.
+        closure: String,
+        /// The condition among all, from 0.
+        condition: usize,
+        /// What is left of the condition's right-hand side, over the square root of its inertia.
+        excess: f64,
+    },
+    /// No state near the given one satisfies the closures.
+    #[error("no state near the given one closes `{closure}`: its residual is still {residual:e}")]
+    NoClosedState {
+        /// The closure that is worst.
+        closure: String,
+        /// Its residual.
+        residual: f64,
+    },
+    /// A step of an implicit method did not converge.
+    #[error("the equations of a step did not converge: the last correction is {correction:e}; make the step shorter")]
+    NoConvergence {
+        /// The last correction, of the size of the coordinates.
+        correction: f64,
+    },
+    /// A method that needs coordinates with q̇ = v.
+    #[error("joint `{joint}` has a quaternion; this method needs joints with one coordinate a freedom")]
+    NeedsPlainCoordinates {
+        /// The joint's name.
+        joint: String,
+    },
+    /// A condition of linear algebra.
+    #[error(transparent)]
+    Numerics(piola_numerics::NumericsError),
     /// A URDF text violates a condition.
     #[error("line {line}: {fault}")]
     Urdf {

@@ -18,6 +18,8 @@ use crate::tree::RigidTree;
 use crate::turn::Turning;
 use crate::workspace::{LinkForces, TreeWorkspace};
 
+const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// Inertial parameters of each body.
 pub const INERTIAL_PARAMETERS: usize = 10;
 
@@ -28,7 +30,6 @@ impl RigidTree {
     /// [`MultibodyError::WrongLength`].
     pub fn inertial_parameters(&self, out: &mut [f64]) -> Result<(), MultibodyError> {
         check_length("out", INERTIAL_PARAMETERS * self.bodies(), out.len())?;
-        const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         for (inertia, out) in self.inertias[1..].iter().zip(out.chunks_exact_mut(INERTIAL_PARAMETERS)) {
             let (moment, about_origin) = inertia.seen_from(IDENTITY, [0.0; 3]);
             out[0] = inertia.mass();

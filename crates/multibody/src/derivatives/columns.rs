@@ -10,6 +10,8 @@
 use piola_numerics::Real;
 
 use crate::link::Link;
+use crate::space::{SUBSPACE, reference, row_pair};
+use crate::spatial::{add, cross, sub, times};
 use crate::tree::RigidTree;
 use crate::workspace::{COLUMNS, ColumnState, ColumnVectors, TreeWorkspace};
 
@@ -43,19 +45,54 @@ fn add_scaled<T: Real>(b: &mut ColumnState<T>, a: &[T; 6], x: &Values<T>) {
     }
 }
 
-/// Replaces columns b of three matrices by ±M⁻¹ b, from column `from` on, where column c of all is column c mod n of matrix
-/// c / n.
+/// S and Y of all freedoms in space, from articulated inertias, places and subspaces that are there.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn solve<T: Real>(
+pub(crate) fn gains_in_space<T: Real>(tree: &RigidTree, work: &mut TreeWorkspace<T>) {
+    let reference = reference(&work.space);
+    for (i, link) in tree.links.iter().enumerate() {
+        let here = &work.space[i + 1];
+        let arm = sub(here.origin, reference);
+        for j in link.v..link.v + link.kind.freedoms() {
+            let force = times(here.axes, work.gains[j].1);
+            let moment = add(times(here.axes, work.gains[j].0), cross(arm, force));
+            let (angular, linear) = row_pair(&work.rows, SUBSPACE, j);
+            work.column_vectors[j] = ColumnVectors {
+                subspace: [angular[0], angular[1], angular[2], linear[0], linear[1], linear[2]],
+                gain: [moment[0], moment[1], moment[2], force[0], force[1], force[2]],
+            };
+        }
+    }
+}
+
+/// Replaces the columns b of matrices of equal size, each with `each` columns, by ±M⁻¹ b.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(crate) fn solve_columns<T: Real>(
     tree: &RigidTree,
     work: &mut TreeWorkspace<T>,
-    matrices: &mut [&mut [T]; 3],
-    signs: [f64; 3],
+    matrices: &mut [&mut [T]],
+    signs: &[f64],
+    each: usize,
+) {
+    let mut from = 0;
+    while from < matrices.len() * each {
+        solve(tree, work, matrices, signs, each, from);
+        from += COLUMNS;
+    }
+}
+
+/// [`solve_columns`] for so many columns from one on, where column c of all is column c mod `each` of matrix c / `each`.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn solve<T: Real>(
+    tree: &RigidTree,
+    work: &mut TreeWorkspace<T>,
+    matrices: &mut [&mut [T]],
+    signs: &[f64],
+    each: usize,
     from: usize,
 ) {
     let n = tree.freedoms;
     let TreeWorkspace { inverses, column_states, column_values, column_vectors, .. } = work;
-    let count = COLUMNS.min(3 * n - from);
+    let count = COLUMNS.min(matrices.len() * each - from);
     for k in 0..COLUMNS {
         if count <= k {
             for values in &mut *column_values {
@@ -63,7 +100,7 @@ pub(super) fn solve<T: Real>(
             }
             continue;
         }
-        let (matrix, column) = ((from + k) / n, (from + k) % n);
+        let (matrix, column) = ((from + k) / each, (from + k) % each);
         let sign = T::lit(signs[matrix]);
         for (values, &b) in column_values.iter_mut().zip(&matrices[matrix][column * n..(column + 1) * n]) {
             values[k] = sign * b;
@@ -88,7 +125,7 @@ pub(super) fn solve<T: Real>(
         }
     }
     for k in 0..count {
-        let (matrix, column) = ((from + k) / n, (from + k) % n);
+        let (matrix, column) = ((from + k) / each, (from + k) % each);
         for (values, x) in column_values.iter().zip(&mut matrices[matrix][column * n..(column + 1) * n]) {
             *x = values[k];
         }

@@ -8,14 +8,12 @@
 
 use piola_numerics::{Kernel, Mask, Real, dispatch};
 
-use super::columns::solve;
+use super::columns::{gains_in_space, solve_columns};
 use super::inverse::differentiate;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
-use crate::space::{SUBSPACE, reference, row_pair};
-use crate::spatial::{add, cross, sub, times};
 use crate::tree::RigidTree;
-use crate::workspace::{COLUMNS, ColumnVectors, TreeWorkspace};
+use crate::workspace::TreeWorkspace;
 
 /// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
 ///
@@ -118,27 +116,8 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
         for j in 0..n {
             by_tau[j * n + j] = T::one();
         }
-        // The gains in space.
-        let reference = reference(&work.space);
-        for (i, link) in tree.links.iter().enumerate() {
-            let here = &work.space[i + 1];
-            let arm = sub(here.origin, reference);
-            for j in link.v..link.v + link.kind.freedoms() {
-                let force = times(here.axes, work.gains[j].1);
-                let moment = add(times(here.axes, work.gains[j].0), cross(arm, force));
-                let (angular, linear) = row_pair(&work.rows, SUBSPACE, j);
-                work.column_vectors[j] = ColumnVectors {
-                    subspace: [angular[0], angular[1], angular[2], linear[0], linear[1], linear[2]],
-                    gain: [moment[0], moment[1], moment[2], force[0], force[1], force[2]],
-                };
-            }
-        }
-        let mut matrices = [&mut by_q[..], &mut by_v[..], &mut by_tau[..]];
-        let mut from = 0;
-        while from < 3 * n {
-            solve(tree, work, &mut matrices, [-1.0, -1.0, 1.0], from);
-            from += COLUMNS;
-        }
+        gains_in_space(tree, work);
+        solve_columns(tree, work, &mut [&mut by_q[..], &mut by_v[..], &mut by_tau[..]], &[-1.0, -1.0, 1.0], n);
         is_positive.all() && all_finite(by_q) && all_finite(by_v) && all_finite(by_tau)
     }
 }

@@ -7,4 +7,5 @@ mod columns;
 mod forward;
 mod inverse;
 
+pub(crate) use columns::{gains_in_space, solve_columns};
 pub use forward::AccelerationDerivatives;

@@ -199,7 +199,7 @@ impl TreeJoint {
             return invalid("origin", value, "|x| < ∞");
         }
         let length = self.attitude.squared_length().sqrt();
-        if !((length - 1.0).abs() <= 1e-9) {
+        if length.is_nan() || 1e-9 < (length - 1.0).abs() {
             return invalid("length of the attitude's quaternion", length, "|q| = 1");
         }
         for (quantity, value) in
@@ -210,11 +210,11 @@ impl TreeJoint {
             }
         }
         for (quantity, value) in [("largest rate", self.largest_rate), ("largest effort", self.largest_effort)] {
-            if !(0.0 <= value) {
+            if value.is_nan() || value < 0.0 {
                 return invalid(quantity, value, "0 ≤ x");
             }
         }
-        if !(self.limits[0] <= self.limits[1]) {
+        if self.limits.iter().any(|x| x.is_nan()) || self.limits[1] < self.limits[0] {
             return invalid("lower limit", self.limits[0], "lower ≤ upper");
         }
         match self.kind {

@@ -232,7 +232,7 @@ impl RigidTree {
         for link in self.links.iter().filter(|link| matches!(link.kind, Kind::Spherical | Kind::Free)) {
             for lane in 0..T::LANES {
                 let squared: f64 = q[link.q..link.q + 4].iter().map(|x| x.primal(lane).powi(2)).sum();
-                if !((squared - 1.0).abs() <= tolerance::<T>()) {
+                if squared.is_nan() || tolerance::<T>() < (squared - 1.0).abs() {
                     return Err(MultibodyError::NotUnitQuaternion {
                         joint: self.joint_of(link),
                         length: squared.sqrt(),

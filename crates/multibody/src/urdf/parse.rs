@@ -246,7 +246,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-fn elements<'a>(of: Element<'a>) -> impl Iterator<Item = Element<'a>> {
+fn elements(of: Element<'_>) -> impl Iterator<Item = Element<'_>> {
     of.children().filter(Node::is_element)
 }
 

@@ -5,6 +5,8 @@ mod batch;
 mod derivatives;
 mod golden;
 mod laws;
+mod loops;
+mod motions;
 mod placement;
 mod traps;
 mod trees;
