@@ -20,6 +20,7 @@ mod loops;
 mod mass_matrix;
 mod momentum;
 mod motion;
+mod reactions;
 mod regressor;
 mod space;
 mod spatial;
@@ -39,6 +40,7 @@ pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
 pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
 pub use momentum::{CentroidalMomentum, MassCentre, TreeEnergies};
 pub use motion::TreeMotion;
+pub use reactions::JointReaction;
 pub use regressor::INERTIAL_PARAMETERS;
 pub use tree::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint};
 #[cfg(feature = "urdf")]

@@ -44,6 +44,7 @@ impl Default for RigidTreeBuilder {
             links: Vec::new(),
             bodies: vec![ground],
             inertias: vec![BodyInertia::MASSLESS],
+            parents: vec![BodyIndex::GROUND],
             frames: Vec::new(),
             joints: Vec::new(),
             armature: Vec::new(),
@@ -118,6 +119,7 @@ impl RigidTreeBuilder {
         }
         self.tree.bodies.push(Mounted { name, link: cursor.link, origin: cursor.origin, axes: cursor.axes });
         self.tree.inertias.push(inertia);
+        self.tree.parents.push(parent);
         Ok(child)
     }
 

@@ -92,6 +92,8 @@ pub struct RigidTree {
     /// The ground is the first.
     pub(crate) bodies: Vec<Mounted>,
     pub(crate) inertias: Vec<BodyInertia>,
+    /// The ground is its own.
+    pub(crate) parents: Vec<BodyIndex>,
     pub(crate) frames: Vec<Mounted>,
     pub(crate) joints: Vec<JointPlace>,
     /// For each freedom.
@@ -189,6 +191,15 @@ impl RigidTree {
     #[must_use]
     pub fn body_name(&self, body: BodyIndex) -> &str {
         self.bodies.get(body.0).map_or("", |body| &body.name)
+    }
+
+    /// The body to which a body is attached; the ground is attached to itself.
+    ///
+    /// # Errors
+    /// [`MultibodyError::NoSuchIndex`].
+    pub fn parent_of(&self, body: BodyIndex) -> Result<BodyIndex, MultibodyError> {
+        let count = self.bodies.len();
+        self.parents.get(body.0).copied().ok_or(MultibodyError::NoSuchIndex { what: "body", index: body.0, count })
     }
 
     /// The mass of all bodies that can move, kg.

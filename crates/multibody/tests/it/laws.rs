@@ -1,6 +1,8 @@
 //! Identities between the passes, for random trees of all joints.
 
-use piola_multibody::{AppliedWrench, BodyIndex, INERTIAL_PARAMETERS, JointKind, RigidTree, TreeFactors};
+use piola_multibody::{
+    AppliedWrench, BodyIndex, INERTIAL_PARAMETERS, JointKind, JointReaction, RigidTree, TreeFactors,
+};
 use piola_numerics::Dual;
 use piola_testkit::{Tol, assert_close, assert_close_at_scale};
 use proptest::prelude::*;
@@ -170,6 +172,28 @@ proptest! {
         let rate = energies.kinetic.tangent + energies.potential.tangent;
         let scale: f64 = tau.iter().zip(&state.v).map(|(tau, v)| (tau * v).abs()).sum();
         assert_close_at_scale("Ė", &[power], &[rate], scale, SUMS);
+    }
+
+    #[test]
+    fn reactions_on_the_ground_are_the_rate_of_momentum_less_the_weight(seed in 0_u64..1 << 40) {
+        let tree = random_tree(seed);
+        let state = state_of(&tree, seed);
+        let mut work = tree.workspace();
+        let rate = tree.centroidal_momentum_rate(&mut work, &state.q, &state.v, &state.a).unwrap();
+        let none = JointReaction { point: [0.0; 3], moment: [0.0; 3], force: [0.0; 3] };
+        let joints: Vec<usize> = (0..tree.joints().len()).collect();
+        let mut reactions = vec![none; joints.len()];
+        tree.joint_reactions(&mut work, &state.q, &state.v, &state.a, &[], &joints, &mut reactions).unwrap();
+        // The joints on the ground carry all: the others pass on what they carry.
+        let mut sum = [0.0, 0.0, -9.81 * tree.total_mass()];
+        for (reaction, place) in reactions.iter().zip(tree.joints()) {
+            if tree.parent_of(place.child).unwrap() == BodyIndex::GROUND {
+                for (sum, force) in sum.iter_mut().zip(reaction.force) {
+                    *sum += force;
+                }
+            }
+        }
+        assert_close("Σ f", &sum, &rate.linear, SUMS);
     }
 
     #[test]

@@ -4,13 +4,13 @@ use piola_kinematics::{Attitude, Inertia, RigidBody};
 use piola_multibody::{BodyIndex, BodyInertia, JointKind, RigidTree, TreeJoint};
 
 /// A uniform rod of 1 m and 1 kg that hangs from its joint along −z, a little thick.
-pub fn rod() -> BodyInertia {
+pub(crate) fn rod() -> BodyInertia {
     let inertia = Inertia::principal([0.084, 0.084, 0.0013]).unwrap();
     BodyInertia::of(&RigidBody::new(1.0, inertia).unwrap(), [0.0, 0.0, -0.5])
 }
 
 /// A chain of rods, whose axes are y and x in turn.
-pub fn chain(links: usize) -> RigidTree {
+pub(crate) fn chain(links: usize) -> RigidTree {
     let mut builder = RigidTree::builder();
     let mut parent = BodyIndex::GROUND;
     for i in 0..links {
@@ -22,9 +22,13 @@ pub fn chain(links: usize) -> RigidTree {
     builder.build().unwrap()
 }
 
+/// Name, origin, axis, pitch, moments of inertia, mass, centre of mass.
+type Row = (&'static str, [f64; 3], [f64; 3], f64, [f64; 3], f64, [f64; 3]);
+
 /// The arm UR5, as in the file `ur5.urdf` of the reference data.
-pub fn ur5() -> RigidTree {
-    const ROWS: [(&str, [f64; 3], [f64; 3], f64, [f64; 3], f64, [f64; 3]); 6] = [
+pub(crate) fn ur5() -> RigidTree {
+    #[expect(clippy::approx_constant, reason = "the digits of the file")]
+    const ROWS: [Row; 6] = [
         (
             "shoulder_pan_joint",
             [0.0, 0.0, 0.089_159],
@@ -92,14 +96,14 @@ pub fn ur5() -> RigidTree {
 }
 
 /// A state of a tree: configuration, velocities, accelerations (or forces).
-pub struct State {
-    pub q: Vec<f64>,
-    pub v: Vec<f64>,
-    pub a: Vec<f64>,
+pub(crate) struct State {
+    pub(crate) q: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+    pub(crate) a: Vec<f64>,
 }
 
 /// Numbers that are spread over [0, 1), the same for the same seed.
-pub fn uniform(seed: u64) -> impl FnMut() -> f64 {
+pub(crate) fn uniform(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
     move || {
         state ^= state << 13;
@@ -110,7 +114,7 @@ pub fn uniform(seed: u64) -> impl FnMut() -> f64 {
 }
 
 /// A random state of a tree.
-pub fn state_of(tree: &RigidTree, seed: u64) -> State {
+pub(crate) fn state_of(tree: &RigidTree, seed: u64) -> State {
     let mut next = uniform(seed);
     let mut q = vec![0.0; tree.coordinates()];
     tree.random_configuration(&mut next, &mut q).unwrap();
@@ -119,7 +123,7 @@ pub fn state_of(tree: &RigidTree, seed: u64) -> State {
 }
 
 /// A body without symmetry.
-pub fn odd_body(seed: u64) -> BodyInertia {
+pub(crate) fn odd_body(seed: u64) -> BodyInertia {
     let mut next = uniform(seed);
     let moments = [0.1 + 0.1 * next(), 0.15 + 0.1 * next(), 0.2 + 0.04 * next()];
     let axis = nalgebra::Vector3::new(next(), next(), 1.0);
@@ -136,7 +140,7 @@ fn direction(next: &mut impl FnMut() -> f64) -> [f64; 3] {
 }
 
 /// A free body with arms of several joints, some with motors: all kinds of joints at places turned anyhow.
-pub fn tree_of(kinds: &[JointKind], parents: &[usize], seed: u64) -> RigidTree {
+pub(crate) fn tree_of(kinds: &[JointKind], parents: &[usize], seed: u64) -> RigidTree {
     let mut next = uniform(seed);
     let mut builder = RigidTree::builder();
     let mut bodies = vec![BodyIndex::GROUND];
@@ -153,14 +157,14 @@ pub fn tree_of(kinds: &[JointKind], parents: &[usize], seed: u64) -> RigidTree {
 }
 
 /// A free trunk with two legs and a tail.
-pub fn branched() -> RigidTree {
+pub(crate) fn branched() -> RigidTree {
     let x = JointKind::Revolute { axis: [1.0, 0.0, 0.0] };
     let y = JointKind::Revolute { axis: [0.0, 1.0, 0.0] };
     tree_of(&[JointKind::Free, x, y, x, y, y, x], &[0, 1, 2, 1, 4, 5, 1], 11)
 }
 
 /// All kinds of joints in one tree.
-pub fn mixed() -> RigidTree {
+pub(crate) fn mixed() -> RigidTree {
     let mut next = uniform(5);
     let [a, b, c, d, e] = [(); 5].map(|()| direction(&mut next));
     let kinds = [
