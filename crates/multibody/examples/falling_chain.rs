@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let clock = Instant::now();
         let mut method = DormandPrince853::new(Tolerance::relative(relative)?);
         let report = method.integrate(&mut motion, &mut state, seconds as f64, |step| {
-            let (q, v) = step.values.split_at(links);
+            let (q, v) = step.values().split_at(links);
             worst = worst.max(error(q, v));
             ControlFlow::Continue(())
         })?;

@@ -73,8 +73,11 @@ impl RigidTree {
         pass_outwards(self, &mut work.articulation, q, v);
         for wrench in wrenches {
             let (link, moment, force) = self.on_link(wrench)?;
-            let needed = &mut work.articulation[link].needed;
-            *needed = (sub(needed.0, moment), sub(needed.1, force));
+            // What acts on the ground moves nothing.
+            if link != 0 {
+                let needed = &mut work.articulation[link].needed;
+                *needed = (sub(needed.0, moment), sub(needed.1, force));
+            }
         }
         let is_positive = pass_inwards(self, work, tau, out);
         pass_accelerations(self, &mut work.articulation, &work.gains, out);
@@ -109,7 +112,7 @@ impl RigidTree {
 /// Angular velocities, biases and what the links need at v̇ = 0.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(crate) fn pass_outwards<T: Real>(tree: &RigidTree, states: &mut [LinkArticulation<T>], q: &[T], v: &[T]) {
-    states[0].acceleration.1 = lit([-tree.gravity[0], -tree.gravity[1], -tree.gravity[2]]);
+    states[0].needed.1 = lit([-tree.gravity[0], -tree.gravity[1], -tree.gravity[2]]);
     for (i, link) in tree.links.iter().enumerate() {
         for_kind!(link.kind, outwards::<T>(link, i + 1, states, q, v));
     }
@@ -401,7 +404,7 @@ fn accelerations<T: Real, E: Elementary<T, N>, const N: usize>(
     gains: &[Pair<T>],
     out: &mut [T],
 ) {
-    let parent = states[link.parent].acceleration;
+    let parent = states[link.parent].needed;
     let child = &mut states[state];
     let turn = E::Turn::recall(&child.turn);
     let mut alpha = add(turn.to_child(parent.0), child.bias.0);
@@ -416,5 +419,5 @@ fn accelerations<T: Real, E: Elementary<T, N>, const N: usize>(
     }
     E::add_angular(link, rate, &mut alpha);
     E::add_linear(link, rate, &mut linear);
-    child.acceleration = (alpha, linear);
+    child.needed = (alpha, linear);
 }

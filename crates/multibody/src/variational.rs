@@ -222,7 +222,7 @@ impl<'a> VariationalTree<'a> {
     fn solve(&mut self, q: &[f64], right: &[f64]) -> Result<(), MultibodyError> {
         let tree = self.tree;
         forward_dynamics::pass_outwards(tree, &mut self.work.articulation, q, &self.zero);
-        self.work.articulation[0].acceleration = ([0.0; 3], [0.0; 3]);
+        self.work.articulation[0].needed = ([0.0; 3], [0.0; 3]);
         let is_positive = forward_dynamics::pass_inwards(tree, &mut self.work, right, &mut self.correction);
         if !is_positive {
             if q.iter().any(|q| !q.is_finite()) {

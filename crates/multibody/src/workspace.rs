@@ -33,14 +33,12 @@ pub(crate) struct LinkArticulation<T> {
     pub(crate) w: Vector<T>,
     /// Accelerations at v̇ = 0.
     pub(crate) bias: Pair<T>,
-    /// The moment and force at v̇ = 0 that the link needs.
+    /// The moment and force at v̇ = 0 that the link needs; then its acceleration, angular and of the origin.
     pub(crate) needed: Pair<T>,
     /// What the children add to the inertia.
     pub(crate) j: Symmetric<T>,
     pub(crate) h: Matrix<T>,
     pub(crate) m: Symmetric<T>,
-    /// Angular acceleration, acceleration of the origin.
-    pub(crate) acceleration: Pair<T>,
 }
 
 /// Of a link, in space axes.
@@ -179,7 +177,6 @@ impl RigidTree {
             j: symmetric,
             h: matrix,
             m: symmetric,
-            acceleration: pair,
         };
         let mut axes = matrix;
         (axes[0][0], axes[1][1], axes[2][2]) = (T::one(), T::one(), T::one());

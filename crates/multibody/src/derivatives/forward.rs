@@ -12,8 +12,11 @@ use super::columns::{gains_in_space, solve_columns};
 use super::inverse::differentiate;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
+use crate::link::{Elementary, Link, for_kind};
+use crate::spatial::{add, times};
 use crate::tree::RigidTree;
-use crate::workspace::TreeWorkspace;
+use crate::turn::Turning;
+use crate::workspace::{LinkArticulation, LinkInSpace, TreeWorkspace};
 
 /// What [`RigidTree::forward_dynamics_derivatives`] writes: v̇ and its derivatives.
 ///
@@ -91,6 +94,21 @@ impl RigidTree {
     }
 }
 
+/// Places a link in space by the turn that forward dynamics kept.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn place<T: Real, E: Elementary<T, N>, const N: usize>(
+    link: &Link,
+    kept: &LinkArticulation<T>,
+    state: usize,
+    space: &mut [LinkInSpace<T>],
+) {
+    let parent = &space[link.parent];
+    let axes = E::Turn::recall(&kept.turn).after(parent.axes);
+    let origin = add(parent.origin, times(parent.axes, kept.origin));
+    space[state].axes = axes;
+    space[state].origin = origin;
+}
+
 /// The derivatives as a kernel.
 struct Derivatives<'a, T> {
     tree: &'a RigidTree,
@@ -111,7 +129,11 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
         pass_outwards(tree, &mut work.articulation, q, v);
         let is_positive = pass_inwards(tree, work, tau, acceleration);
         pass_accelerations(tree, &mut work.articulation, &work.gains, acceleration);
-        differentiate(tree, work, q, v, acceleration, by_q, by_v, None);
+        let TreeWorkspace { articulation, space, .. } = &mut *work;
+        for (i, link) in tree.links.iter().enumerate() {
+            for_kind!(link.kind, place::<T>(link, &articulation[i + 1], i + 1, space));
+        }
+        differentiate(tree, work, v, acceleration, by_q, by_v, None);
         by_tau.fill(T::zero());
         for j in 0..n {
             by_tau[j * n + j] = T::one();

@@ -94,17 +94,16 @@ impl<T: Real> Kernel for Derivatives<'_, T> {
     type Output = ();
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn run(self) {
-        differentiate(self.tree, self.work, self.q, self.v, self.a, self.by_q, self.by_v, self.by_a);
+        pass_places(self.tree, &mut self.work.space, self.q);
+        differentiate(self.tree, self.work, self.v, self.a, self.by_q, self.by_v, self.by_a);
     }
 }
 
-/// The derivatives without checks.
+/// The derivatives without checks, where places are there.
 #[cfg_attr(not(debug_assertions), inline(always))]
-#[expect(clippy::too_many_arguments, reason = "three arguments and three derivatives")]
 pub(super) fn differentiate<T: Real>(
     tree: &RigidTree,
     work: &mut TreeWorkspace<T>,
-    q: &[T],
     v: &[T],
     a: &[T],
     by_q: &mut [T],
@@ -113,7 +112,6 @@ pub(super) fn differentiate<T: Real>(
 ) {
     let n = tree.freedoms;
     let TreeWorkspace { space, rows, composite, column, .. } = work;
-    pass_places(tree, space, q);
     let reference = reference(space);
     // At rest but for gravity.
     space[0].acceleration = lit([-tree.gravity[0], -tree.gravity[1], -tree.gravity[2]]);

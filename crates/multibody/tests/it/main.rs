@@ -3,6 +3,7 @@
 mod alloc;
 mod batch;
 mod derivatives;
+mod digits;
 mod golden;
 mod laws;
 mod loops;
