@@ -12,10 +12,16 @@ use crate::trees::{State, state_of, tree_of, uniform};
 /// Passes that sum in another order, over some ten links.
 const SUMS: Tol = Tol::ulps_because(4096.0, "sums over links, of terms that are larger than what is left");
 
+/// A whole number below n.
+fn pick(next: &mut impl FnMut() -> f64, n: usize) -> usize {
+    let u = next();
+    (1..n).filter(|&k| k as f64 <= u * n as f64).count()
+}
+
 /// A random tree of one to nine bodies with any joints.
 fn random_tree(seed: u64) -> RigidTree {
     let mut next = uniform(seed);
-    let mut pick = |n: usize| (next() * n as f64) as usize;
+    let mut pick = |n: usize| pick(&mut next, n);
     let axes = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.6, 0.0, 0.8], [0.0, 0.0, 1.0]];
     let count = 1 + pick(9);
     let (mut kinds, mut parents) = (Vec::new(), Vec::new());

@@ -99,12 +99,12 @@ fn variational_method_keeps_the_energy_of_a_chain_with_all_plain_joints() {
 fn variational_method_refuses_what_it_cannot_do() {
     let error = VariationalTree::new(&branched(), Order::Two, 1e-3).unwrap_err();
     assert!(matches!(error, MultibodyError::NeedsPlainCoordinates { joint } if joint == "joint 0"));
-    let (tree, mut q, mut v) = horizontal(3);
+    let (tree, mut q, _) = horizontal(3);
     assert!(matches!(
         VariationalTree::new(&tree, Order::Two, 0.0).unwrap_err(),
         MultibodyError::NotFinite { quantity: "1/step", .. }
     ));
-    v = vec![300.0, -200.0, 500.0];
+    let mut v = vec![300.0, -200.0, 500.0];
     let before = (q.clone(), v.clone());
     let error = VariationalTree::new(&tree, Order::Two, 0.5).unwrap().run(&mut q, &mut v, 1).unwrap_err();
     assert!(matches!(error, MultibodyError::NoConvergence { .. }));
