@@ -66,6 +66,7 @@
 //! | Lagrange's equations, reactions, small motions, rolling, closed loops | [`lagrangian`] | `lagrangian` |
 //! | phase space, Hamilton–Jacobi theory, wave fronts | [`hamiltonian`] | `hamiltonian` |
 //! | attracting bodies, Kepler's motion | [`gravitation`] | `gravitation` |
+//! | trees of rigid bodies in linear time | [`multibody`] | `multibody` |
 //! | equations of first order by characteristics | [`characteristics`] | `characteristics` |
 //! | tensors of three dimensions and their functions | [`tensor`] | `tensor` |
 //! | deformation, strain, rates, stress, tangents at a point | [`continuum`] | `continuum` |
@@ -112,6 +113,8 @@ pub use piola_integrators as integrators;
 pub use piola_kinematics as kinematics;
 #[cfg(feature = "lagrangian")]
 pub use piola_lagrangian as lagrangian;
+#[cfg(feature = "multibody")]
+pub use piola_multibody as multibody;
 pub use piola_numerics as numerics;
 #[cfg(feature = "registration")]
 pub use piola_registration as registration;

@@ -56,9 +56,10 @@ pub(super) const COMMAND: Command = Command {
 };
 
 /// Each is a file of that name in `benches/benches`, and its group has the same name.
-const GROUPS: [&str; 13] = [
+const GROUPS: [&str; 14] = [
     "numerics",
     "nbody",
+    "multibody",
     "lagrangian",
     "hamiltonian",
     "hamilton_jacobi",

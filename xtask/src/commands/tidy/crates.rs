@@ -23,7 +23,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("characteristics", &["integrators"]),
     // kinematics: bodies go in and come out by its conversions to glam.
     ("gravitation", &["integrators"]),
-    ("multibody", &["kinematics", "integrators"]),
+    // lagrangian in its tests alone: trees against the placement path.
+    ("multibody", &["kinematics", "integrators", "lagrangian"]),
     ("continuum", &["tensor"]),
     ("batch", &["continuum"]),
     ("fields", &["continuum"]),

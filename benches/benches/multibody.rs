@@ -1,0 +1,97 @@
+//! Nanoseconds of the dynamics of trees of rigid bodies.
+//!
+//! An item is one joint of one state for inverse and forward dynamics, and one state for mass matrices and derivatives. Chains
+//! are of rods of 1 m and 1 kg with axes y and x in turn; the arm UR5 is that of the reference data. `lanes` are batches of 64
+//! states on one core.
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, Throughput};
+use piola_multibody::{AccelerationDerivatives, BatchWorkspace, RigidTree, StateBlocks};
+
+#[path = "../../crates/multibody/tests/it/trees.rs"]
+#[expect(dead_code, reason = "the tests need more trees")]
+mod trees;
+
+/// States of a batch.
+const STATES: usize = 64;
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    let mut group = criterion.benchmark_group("multibody");
+    group.sample_size(20).nresamples(2000);
+    group.warm_up_time(Duration::from_millis(50)).measurement_time(Duration::from_millis(300));
+    single(&mut group, "ur5", &trees::ur5());
+    batch(&mut group, "ur5", &trees::ur5());
+    for links in [10, 30, 100, 300, 1000] {
+        let (name, tree) = (format!("chain_{links}"), trees::chain(links));
+        single(&mut group, &name, &tree);
+        batch(&mut group, &name, &tree);
+    }
+    group.finish();
+    criterion.final_summary();
+}
+
+fn single(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, tree: &RigidTree) {
+    let n = tree.freedoms();
+    let trees::State { q, v, a } = trees::state_of(tree, 1);
+    let mut work = tree.workspace();
+    let mut out = vec![0.0; n];
+    group.throughput(Throughput::Elements(n as u64));
+    group.bench_function(format!("inverse_dynamics/{name}"), |bencher| {
+        bencher.iter(|| {
+            let _ = black_box(tree.inverse_dynamics(&mut work, black_box(&q), &v, &a, &mut out));
+            black_box(&mut out);
+        });
+    });
+    group.bench_function(format!("forward_dynamics/{name}"), |bencher| {
+        bencher.iter(|| {
+            let _ = black_box(tree.forward_dynamics(&mut work, black_box(&q), &v, &a, &mut out));
+            black_box(&mut out);
+        });
+    });
+    group.throughput(Throughput::Elements(1));
+    let mut matrix = vec![0.0; n * n];
+    group.bench_function(format!("mass_matrix/{name}"), |bencher| {
+        bencher.iter(|| {
+            let _ = black_box(tree.mass_matrix(&mut work, black_box(&q), &mut matrix));
+            black_box(&mut matrix);
+        });
+    });
+    let mut derivatives = AccelerationDerivatives::new(tree);
+    group.bench_function(format!("forward_dynamics_derivatives/{name}"), |bencher| {
+        bencher.iter(|| {
+            let _ = black_box(tree.forward_dynamics_derivatives(&mut work, black_box(&q), &v, &a, &mut derivatives));
+            black_box(&mut derivatives);
+        });
+    });
+}
+
+fn batch(group: &mut BenchmarkGroup<'_, WallTime>, name: &str, tree: &RigidTree) {
+    let n = tree.freedoms();
+    let blocks = |of: fn(trees::State) -> Vec<f64>| {
+        let mut blocks = StateBlocks::new(n, STATES);
+        for state in 0..STATES {
+            let _ = blocks.set(state, &of(trees::state_of(tree, state as u64 + 1)));
+        }
+        blocks
+    };
+    let (q, v, a) = (blocks(|state| state.q), blocks(|state| state.v), blocks(|state| state.a));
+    let mut out = a.clone();
+    let mut work = BatchWorkspace::new(tree, 1);
+    group.throughput(Throughput::Elements((n * STATES) as u64));
+    group.bench_function(format!("inverse_dynamics/{name}/lanes"), |bencher| {
+        bencher.iter(|| {
+            let _ = black_box(tree.inverse_dynamics_of_states(&mut work, black_box(&q), &v, &a, &mut out));
+            black_box(&mut out);
+        });
+    });
+    group.bench_function(format!("forward_dynamics/{name}/lanes"), |bencher| {
+        bencher.iter(|| {
+            let _ = black_box(tree.forward_dynamics_of_states(&mut work, black_box(&q), &v, &a, &mut out));
+            black_box(&mut out);
+        });
+    });
+}

@@ -1,0 +1,11 @@
+//! Analytic derivatives of inverse and forward dynamics.
+//!
+//! Derivatives with respect to q are along the tangent space of v: δq is a displacement of
+//! [`move_configuration`](crate::RigidTree::move_configuration).
+
+mod columns;
+mod forward;
+mod inverse;
+
+pub(crate) use columns::{gains_in_space, solve_columns};
+pub use forward::AccelerationDerivatives;

@@ -1,0 +1,49 @@
+//! Trees of rigid bodies in linear time.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+#![expect(clippy::doc_markdown, reason = "symbols with indices, as S_ω, are not code")]
+#![expect(clippy::needless_range_loop, reason = "the indices are those of the equations")]
+
+mod batch;
+mod configuration;
+mod coriolis;
+mod derivatives;
+mod error;
+mod factorisation;
+mod forward_dynamics;
+mod inverse_dynamics;
+mod jacobian;
+mod kinematics;
+mod link;
+mod loops;
+mod mass_matrix;
+mod momentum;
+mod motion;
+mod reactions;
+mod regressor;
+mod space;
+mod spatial;
+mod tree;
+mod turn;
+#[cfg(feature = "urdf")]
+mod urdf;
+mod variational;
+mod workspace;
+
+pub use batch::{BatchWorkspace, StateBlocks};
+pub use derivatives::AccelerationDerivatives;
+pub use error::{MultibodyError, UrdfFault};
+pub use factorisation::TreeFactors;
+pub use inverse_dynamics::AppliedWrench;
+pub use kinematics::{FrameAcceleration, FramePlace, FrameVelocity};
+pub use loops::{BodyPoint, ClosedMotion, ClosedTree, LoopClosure, LoopWorkspace};
+pub use momentum::{CentroidalMomentum, MassCentre, TreeEnergies};
+pub use motion::TreeMotion;
+pub use reactions::JointReaction;
+pub use regressor::INERTIAL_PARAMETERS;
+pub use tree::{BodyIndex, BodyInertia, FrameIndex, JointKind, JointPlace, RigidTree, RigidTreeBuilder, TreeJoint};
+#[cfg(feature = "urdf")]
+pub use urdf::{Mimic, Urdf, UrdfBase, UrdfInertias, UrdfOptions};
+pub use variational::VariationalTree;
+pub use workspace::TreeWorkspace;

@@ -1,0 +1,346 @@
+//! Multipliers: a factorisation that reveals the rank, and the solution of least norm.
+
+use piola_numerics::linear::ldlt;
+
+use super::ClosedTree;
+use crate::derivatives::{gains_in_space, solve_columns};
+use crate::error::{MultibodyError, check_length};
+use crate::forward_dynamics;
+use crate::workspace::TreeWorkspace;
+
+/// The share of a condition's own inertia, 1 where it is independent, below which it is taken to depend on others.
+const LEAST_SHARE: f64 = 1e-10;
+
+/// By how much conditions that depend on others may contradict them, of the largest right-hand side.
+const CONSISTENT: f64 = 1e-7;
+
+/// The memory of evaluations of a tree with closures, and their last results.
+#[derive(Clone, Debug)]
+pub struct LoopWorkspace {
+    pub(super) tree: TreeWorkspace<f64>,
+    /// A column of n for each condition.
+    pub(super) gradients: Vec<f64>,
+    /// M⁻¹ Gᵀ.
+    columns: Vec<f64>,
+    pub(super) residuals: Vec<f64>,
+    pub(super) rates: Vec<f64>,
+    pub(super) gamma: Vec<f64>,
+    right: Vec<f64>,
+    multipliers: Vec<f64>,
+    /// G M⁻¹ Gᵀ with unit diagonal, its factor, and the square of that.
+    matrix: Vec<f64>,
+    factor: Vec<f64>,
+    square: Vec<f64>,
+    scales: Vec<f64>,
+    shares: Vec<f64>,
+    order: Vec<usize>,
+    short: Vec<f64>,
+    rank: usize,
+    pub(super) zero: Vec<f64>,
+    pub(super) part: Vec<f64>,
+    pub(super) step: Vec<f64>,
+}
+
+impl LoopWorkspace {
+    /// The multipliers of the last accelerations, one a condition.
+    #[must_use]
+    pub fn multipliers(&self) -> &[f64] {
+        &self.multipliers
+    }
+
+    /// The residuals of the closures at the last evaluation, one a condition.
+    #[must_use]
+    pub fn residuals(&self) -> &[f64] {
+        &self.residuals
+    }
+
+    /// The conditions that do not depend on others, at the last evaluation.
+    #[must_use]
+    pub const fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// The conditions that depend on others, at the last evaluation.
+    #[must_use]
+    pub fn redundant(&self) -> &[usize] {
+        &self.order[self.rank..]
+    }
+}
+
+impl ClosedTree {
+    /// Memory for evaluations.
+    #[must_use]
+    pub fn workspace(&self) -> LoopWorkspace {
+        let (n, m) = (self.tree.freedoms, self.conditions);
+        LoopWorkspace {
+            tree: self.tree.workspace(),
+            gradients: vec![0.0; n * m],
+            columns: vec![0.0; n * m],
+            residuals: vec![0.0; m],
+            rates: vec![0.0; m],
+            gamma: vec![0.0; m],
+            right: vec![0.0; m],
+            multipliers: vec![0.0; m],
+            matrix: vec![0.0; m * m],
+            factor: vec![0.0; m * m],
+            square: vec![0.0; m * m],
+            scales: vec![0.0; m],
+            shares: vec![0.0; m],
+            order: (0..m).collect(),
+            short: vec![0.0; m],
+            rank: m,
+            zero: vec![0.0; n],
+            part: vec![0.0; n],
+            step: vec![0.0; n],
+        }
+    }
+
+    /// The accelerations under generalised forces with all closures kept; the multipliers stand in the workspace.
+    ///
+    /// The closures must hold for q and v: see [`project`](Self::project).
+    ///
+    /// # Errors
+    /// As [`RigidTree::forward_dynamics`](crate::RigidTree::forward_dynamics);
+    /// [`MultibodyError::Contradiction`] where conditions that depend on each other ask for different accelerations.
+    ///
+    /// # Accuracy
+    /// A few ulp times the condition numbers of M and of the independent part of G M⁻¹ Gᵀ.
+    pub fn accelerations(
+        &self,
+        work: &mut LoopWorkspace,
+        q: &[f64],
+        v: &[f64],
+        tau: &[f64],
+        t: f64,
+        out: &mut [f64],
+    ) -> Result<(), MultibodyError> {
+        let n = self.tree.freedoms;
+        self.tree.forward_dynamics(&mut work.tree, q, v, tau, out)?;
+        self.evaluate(work, q, v, t)?;
+        self.factorise(work);
+        for (i, right) in work.right.iter_mut().enumerate() {
+            let free: f64 = work.gradients[i * n..(i + 1) * n].iter().zip(&*out).map(|(g, a)| g * a).sum();
+            *right = work.gamma[i] - free;
+        }
+        self.solve(work)?;
+        for (column, &multiplier) in work.columns.chunks_exact(n.max(1)).zip(&work.multipliers) {
+            for (out, &x) in out.iter_mut().zip(column) {
+                *out += multiplier * x;
+            }
+        }
+        crate::error::check_finite("out", out)
+    }
+
+    /// The generalised forces Gᵀ λ of the closures after [`accelerations`](Self::accelerations).
+    ///
+    /// # Errors
+    /// [`MultibodyError::WrongLength`].
+    pub fn closure_forces(&self, work: &LoopWorkspace, out: &mut [f64]) -> Result<(), MultibodyError> {
+        let n = self.tree.freedoms;
+        check_length("out", n, out.len())?;
+        out.fill(0.0);
+        for (gradient, &multiplier) in work.gradients.chunks_exact(n.max(1)).zip(&work.multipliers) {
+            for (out, &g) in out.iter_mut().zip(gradient) {
+                *out += multiplier * g;
+            }
+        }
+        Ok(())
+    }
+
+    /// Brings a state back to where the closures hold: q by the displacement that is least in the metric of M, v likewise.
+    ///
+    /// # Errors
+    /// [`MultibodyError::NoClosedState`] where twenty steps of Newton's method do not get there, as from too far away or
+    /// where the closures contradict each other; the state is unchanged then. As
+    /// [`accelerations`](Self::accelerations) else.
+    ///
+    /// # Accuracy
+    /// Residuals within some ulp of the size of the tree.
+    pub fn project(
+        &self,
+        work: &mut LoopWorkspace,
+        q: &mut [f64],
+        v: &mut [f64],
+        t: f64,
+    ) -> Result<(), MultibodyError> {
+        let n = self.tree.freedoms;
+        check_length("q", self.tree.coordinates, q.len())?;
+        check_length("v", n, v.len())?;
+        let start = (q.to_vec(), v.to_vec());
+        let result = self.close_positions(work, q, t).and_then(|()| self.close_velocities(work, q, v, t));
+        if result.is_err() {
+            q.copy_from_slice(&start.0);
+            v.copy_from_slice(&start.1);
+        }
+        result
+    }
+
+    fn close_positions(&self, work: &mut LoopWorkspace, q: &mut [f64], t: f64) -> Result<(), MultibodyError> {
+        let mut before = f64::INFINITY;
+        for _ in 0..20 {
+            self.reach(work, q, t)?;
+            let largest = work.residuals.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+            // At rounding it no longer falls.
+            if largest <= 4.0 * f64::EPSILON || (largest < 1e-9 && 0.5 * before <= largest) {
+                return Ok(());
+            }
+            before = largest;
+            for (right, residual) in work.right.iter_mut().zip(&work.residuals) {
+                *right = -residual;
+            }
+            self.solve(work)?;
+            self.step_of_multipliers(work);
+            self.tree.move_configuration(q, &work.step)?;
+        }
+        let condition = (0..self.conditions)
+            .fold(0, |worst, i| if work.residuals[worst].abs() < work.residuals[i].abs() { i } else { worst });
+        let residual = work.residuals.get(condition).copied().unwrap_or(0.0);
+        Err(MultibodyError::NoClosedState { closure: self.closure_of(condition).to_owned(), residual })
+    }
+
+    fn close_velocities(
+        &self,
+        work: &mut LoopWorkspace,
+        q: &[f64],
+        v: &mut [f64],
+        t: f64,
+    ) -> Result<(), MultibodyError> {
+        let n = self.tree.freedoms;
+        self.reach(work, q, t)?;
+        // Twice: the second time removes the rounding of the first.
+        for _ in 0..2 {
+            for (i, right) in work.right.iter_mut().enumerate() {
+                let rate: f64 = work.gradients[i * n..(i + 1) * n].iter().zip(&*v).map(|(g, v)| g * v).sum();
+                *right = work.rates[i] - rate;
+            }
+            self.solve(work)?;
+            self.step_of_multipliers(work);
+            for (v, step) in v.iter_mut().zip(&work.step) {
+                *v += step;
+            }
+        }
+        Ok(())
+    }
+
+    /// Residuals, gradients and factors at a configuration.
+    fn reach(&self, work: &mut LoopWorkspace, q: &[f64], t: f64) -> Result<(), MultibodyError> {
+        let zero = core::mem::take(&mut work.zero);
+        let result = self.evaluate_at_rest(work, q, &zero, t);
+        work.zero = zero;
+        result?;
+        self.factorise(work);
+        Ok(())
+    }
+
+    fn evaluate_at_rest(
+        &self,
+        work: &mut LoopWorkspace,
+        q: &[f64],
+        zero: &[f64],
+        t: f64,
+    ) -> Result<(), MultibodyError> {
+        forward_dynamics::pass_outwards(&self.tree, &mut work.tree.articulation, q, zero);
+        if !forward_dynamics::pass_inwards(&self.tree, &mut work.tree, zero, &mut work.step) {
+            self.tree.explain_inertia(&work.tree)?;
+        }
+        // `evaluate` takes the zeros of the workspace, which are lent to this call.
+        work.zero.resize(zero.len(), 0.0);
+        self.evaluate(work, q, zero, t)
+    }
+
+    /// M⁻¹ Gᵀ λ.
+    fn step_of_multipliers(&self, work: &mut LoopWorkspace) {
+        work.step.fill(0.0);
+        for (column, &multiplier) in work.columns.chunks_exact(self.tree.freedoms.max(1)).zip(&work.multipliers) {
+            for (step, &x) in work.step.iter_mut().zip(column) {
+                *step += multiplier * x;
+            }
+        }
+    }
+
+    /// M⁻¹ Gᵀ, and the factor of G M⁻¹ Gᵀ, from articulated inertias and gradients that are there.
+    fn factorise(&self, work: &mut LoopWorkspace) {
+        let (n, m) = (self.tree.freedoms, self.conditions);
+        gains_in_space(&self.tree, &mut work.tree);
+        work.columns.copy_from_slice(&work.gradients);
+        solve_columns(&self.tree, &mut work.tree, &mut [&mut work.columns[..]], &[1.0], m);
+        for i in 0..m {
+            for j in 0..m {
+                let gradient = &work.gradients[i * n..(i + 1) * n];
+                let column = &work.columns[j * n..(j + 1) * n];
+                work.matrix[i * m + j] = gradient.iter().zip(column).map(|(g, x)| g * x).sum();
+            }
+        }
+        for i in 0..m {
+            let diagonal = work.matrix[i * m + i];
+            work.scales[i] = if 0.0 < diagonal { diagonal.sqrt().recip() } else { 0.0 };
+            work.shares[i] = if 0.0 < diagonal { 1.0 } else { 0.0 };
+            work.order[i] = i;
+        }
+        for i in 0..m {
+            for j in 0..m {
+                work.matrix[i * m + j] *= work.scales[i] * work.scales[j];
+            }
+        }
+        // Cholesky's factor, the condition with the largest share next.
+        work.factor.fill(0.0);
+        work.rank = 0;
+        for k in 0..m {
+            let best = (k..m)
+                .fold(k, |best, i| if work.shares[work.order[best]] < work.shares[work.order[i]] { i } else { best });
+            work.order.swap(k, best);
+            let pivot = work.order[k];
+            if work.shares[pivot] < LEAST_SHARE {
+                break;
+            }
+            work.rank = k + 1;
+            let root = work.shares[pivot].sqrt();
+            work.factor[pivot * m + k] = root;
+            for &i in &work.order[k + 1..] {
+                let known: f64 = (0..k).map(|j| work.factor[i * m + j] * work.factor[pivot * m + j]).sum();
+                let entry = (work.matrix[i * m + pivot] - known) / root;
+                work.factor[i * m + k] = entry;
+                work.shares[i] -= entry * entry;
+            }
+        }
+    }
+
+    /// The multipliers of least norm for the right-hand side in the workspace.
+    fn solve(&self, work: &mut LoopWorkspace) -> Result<(), MultibodyError> {
+        let (m, rank) = (self.conditions, work.rank);
+        for (right, scale) in work.right.iter_mut().zip(&work.scales) {
+            *right *= scale;
+        }
+        // λ = L (Lᵀ L)⁻² Lᵀ r, with L of m × rank.
+        let (factor, square) = (&work.factor, &mut work.square[..rank * rank]);
+        for i in 0..rank {
+            work.short[i] = (0..m).map(|k| factor[k * m + i] * work.right[k]).sum();
+            for j in 0..rank {
+                square[i + j * rank] = (0..m).map(|k| factor[k * m + i] * factor[k * m + j]).sum();
+            }
+        }
+        ldlt::factor_in_place(square, rank).map_err(MultibodyError::Numerics)?;
+        for _ in 0..2 {
+            ldlt::solve_in_place(square, rank, &mut work.short[..rank]).map_err(MultibodyError::Numerics)?;
+        }
+        for i in 0..m {
+            work.multipliers[i] = (0..rank).map(|j| factor[i * m + j] * work.short[j]).sum();
+        }
+        let scale = work.right.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        for &condition in &work.order[rank..] {
+            let met: f64 = (0..m).map(|j| work.matrix[condition * m + j] * work.multipliers[j]).sum();
+            let excess = work.right[condition] - met;
+            if CONSISTENT * scale < excess.abs() {
+                return Err(MultibodyError::Contradiction {
+                    closure: self.closure_of(condition).to_owned(),
+                    condition,
+                    excess,
+                });
+            }
+        }
+        for (multiplier, scale) in work.multipliers.iter_mut().zip(&work.scales) {
+            *multiplier *= scale;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,49 @@
+//! Evaluations allocate nothing once their workspace is made.
+
+use piola_multibody::{AccelerationDerivatives, BatchWorkspace, INERTIAL_PARAMETERS, StateBlocks, TreeFactors};
+use piola_testkit::allocations_in;
+
+use crate::trees::{mixed, state_of};
+
+#[test]
+fn evaluations_allocate_nothing() {
+    let tree = mixed();
+    let (state, n) = (state_of(&tree, 2), tree.freedoms());
+    let mut work = tree.workspace();
+    let mut factors = TreeFactors::new(&tree);
+    let mut out = vec![0.0; n];
+    let [mut x, mut y, mut z] = [vec![0.0; n * n], vec![0.0; n * n], vec![0.0; n * n]];
+    let mut jacobian = vec![0.0; 6 * n];
+    let mut regressor = vec![0.0; n * tree.bodies() * INERTIAL_PARAMETERS];
+    let mut derivatives = AccelerationDerivatives::new(&tree);
+    let mut batch = BatchWorkspace::new(&tree, 1);
+    let mut blocks = StateBlocks::new(n, 8);
+    let mut places = StateBlocks::new(tree.coordinates(), 8);
+    for i in 0..8 {
+        places.set(i, &state.q).unwrap();
+    }
+    let zeros = blocks.clone();
+    let body = tree.body("body 10").unwrap();
+    let (q, v, a) = (&state.q, &state.v, &state.a);
+    let (count, ()) = allocations_in(|| {
+        tree.inverse_dynamics(&mut work, q, v, a, &mut out).unwrap();
+        tree.bias_forces(&mut work, q, v, &mut out).unwrap();
+        tree.gravity_forces(&mut work, q, &mut out).unwrap();
+        tree.forward_dynamics(&mut work, q, v, a, &mut out).unwrap();
+        tree.forward_dynamics_by_mass_matrix(&mut work, &mut factors, q, v, a, &mut out).unwrap();
+        tree.mass_matrix(&mut work, q, &mut x).unwrap();
+        tree.coriolis_matrix(&mut work, q, v, &mut x).unwrap();
+        tree.jacobian(&mut work, q, body, &mut jacobian).unwrap();
+        tree.jacobian_rate(&mut work, q, v, body, &mut jacobian).unwrap();
+        tree.forward_accelerations(&mut work, q, v, a).unwrap();
+        tree.tree_energies(&mut work, q, v).unwrap();
+        tree.centroidal_momentum_matrix(&mut work, q, &mut jacobian).unwrap();
+        tree.centroidal_momentum_rate(&mut work, q, v, a).unwrap();
+        tree.regressor(&mut work, q, v, a, &mut regressor).unwrap();
+        tree.inverse_dynamics_derivatives(&mut work, q, v, a, &mut x, &mut y, &mut z).unwrap();
+        tree.forward_dynamics_derivatives(&mut work, q, v, a, &mut derivatives).unwrap();
+        tree.inverse_dynamics_of_states(&mut batch, &places, &zeros, &zeros, &mut blocks).unwrap();
+        tree.forward_dynamics_of_states(&mut batch, &places, &zeros, &zeros, &mut blocks).unwrap();
+    });
+    assert_eq!(count, 0);
+}

@@ -1,0 +1,73 @@
+//! Analytic derivatives against dual numbers.
+
+use piola_multibody::{AccelerationDerivatives, RigidTree};
+use piola_numerics::Dual;
+use piola_testkit::{Tol, assert_close};
+
+use crate::trees::{State, branched, chain, mixed, state_of, ur5};
+
+const ROUNDING: Tol = Tol::stated(1e-11, "the project's bound on derivatives");
+
+/// The configuration moved along freedom j, and v and a, as dual numbers.
+fn seeded(tree: &RigidTree, state: &State, by: usize, j: usize) -> [Vec<Dual<f64>>; 3] {
+    let mut q: Vec<_> = state.q.iter().map(|&x| Dual::constant(x)).collect();
+    let [mut v, mut a] = [&state.v, &state.a].map(|x| x.iter().map(|&x| Dual::constant(x)).collect::<Vec<_>>());
+    match by {
+        0 => {
+            let mut delta = vec![Dual::constant(0.0); tree.freedoms()];
+            delta[j] = Dual::variable(0.0);
+            tree.move_configuration(&mut q, &delta).unwrap();
+        }
+        1 => v[j] = Dual::variable(state.v[j]),
+        _ => a[j] = Dual::variable(state.a[j]),
+    }
+    [q, v, a]
+}
+
+fn trees() -> [(&'static str, RigidTree); 4] {
+    [("ur5", ur5()), ("chain", chain(9)), ("branched", branched()), ("mixed", mixed())]
+}
+
+#[test]
+fn derivatives_of_inverse_dynamics_equal_dual_numbers() {
+    for (name, tree) in trees() {
+        let n = tree.freedoms();
+        let state = state_of(&tree, 3);
+        let mut out = [vec![0.0; n * n], vec![0.0; n * n], vec![0.0; n * n]];
+        let [by_q, by_v, by_a] = &mut out;
+        let mut work = tree.workspace();
+        tree.inverse_dynamics_derivatives(&mut work, &state.q, &state.v, &state.a, by_q, by_v, by_a).unwrap();
+        let mut work = tree.workspace();
+        for (by, matrix) in out.iter().enumerate() {
+            let mut expected = Vec::new();
+            for j in 0..n {
+                let [q, v, a] = seeded(&tree, &state, by, j);
+                let mut tau = vec![Dual::constant(0.0); n];
+                tree.inverse_dynamics(&mut work, &q, &v, &a, &mut tau).unwrap();
+                expected.extend(tau.iter().map(|tau| tau.tangent));
+            }
+            assert_close(&format!("{name} {by}"), matrix, &expected, ROUNDING);
+        }
+    }
+}
+
+#[test]
+fn derivatives_of_forward_dynamics_equal_dual_numbers() {
+    for (name, tree) in trees() {
+        let n = tree.freedoms();
+        let state = state_of(&tree, 5);
+        let mut out = AccelerationDerivatives::new(&tree);
+        tree.forward_dynamics_derivatives(&mut tree.workspace(), &state.q, &state.v, &state.a, &mut out).unwrap();
+        let mut work = tree.workspace();
+        for (by, matrix) in [&out.by_q, &out.by_v, &out.by_tau].into_iter().enumerate() {
+            let mut expected = Vec::new();
+            for j in 0..n {
+                let [q, v, tau] = seeded(&tree, &state, by, j);
+                let mut a = vec![Dual::constant(0.0); n];
+                tree.forward_dynamics(&mut work, &q, &v, &tau, &mut a).unwrap();
+                expected.extend(a.iter().map(|a| a.tangent));
+            }
+            assert_close(&format!("{name} {by}"), matrix, &expected, ROUNDING);
+        }
+    }
+}

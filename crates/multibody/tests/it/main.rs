@@ -1,0 +1,18 @@
+//! Tests of trees of rigid bodies.
+
+mod alloc;
+mod batch;
+mod derivatives;
+mod digits;
+mod golden;
+mod laws;
+mod loops;
+mod motions;
+mod placement;
+mod traps;
+mod trees;
+#[cfg(feature = "urdf")]
+mod urdf;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;
