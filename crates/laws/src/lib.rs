@@ -2,11 +2,16 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+pub mod algebra;
+pub mod coupled;
+mod error;
 pub mod invariants;
 mod methods;
 pub mod strain;
 pub mod stretches;
 
+pub use algebra::{Decoupled, OfVolume, Scaled, Sum};
 pub use invariants::{EnergyOfInvariants, Excesses, OfInvariants};
+pub use piola_solids::SolidsError;
 pub use strain::{EnergyOfStrain, OfStrain};
 pub use stretches::{EnergyOfStretches, OfStretches};

@@ -1,6 +1,8 @@
 //! The tests of `piola-laws`.
 
+mod algebra;
 mod alloc;
+mod coupled;
 mod refusals;
 mod same;
 mod zoo;
