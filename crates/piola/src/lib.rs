@@ -102,12 +102,16 @@ pub use piola_fluids as fluids;
 pub use piola_gravitation as gravitation;
 #[cfg(feature = "hamiltonian")]
 pub use piola_hamiltonian as hamiltonian;
+#[cfg(feature = "inelastic")]
+pub use piola_inelastic as inelastic;
 #[cfg(feature = "integrators")]
 pub use piola_integrators as integrators;
 #[cfg(feature = "kinematics")]
 pub use piola_kinematics as kinematics;
 #[cfg(feature = "lagrangian")]
 pub use piola_lagrangian as lagrangian;
+#[cfg(feature = "laws")]
+pub use piola_laws as laws;
 pub use piola_numerics as numerics;
 #[cfg(feature = "registration")]
 pub use piola_registration as registration;
