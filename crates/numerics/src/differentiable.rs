@@ -185,14 +185,14 @@ macro_rules! implement_real {
                         coefficient * regular(coefficient).powf(y - T::lit(2.0))
                     },
                 );
-                if exponent == Self::constant(y) {
+                if exponent.is_fixed() {
                     return in_base;
                 }
                 // As a function of both, xʸ = e^w with w = y ln x; the value is that of the power itself,
                 // which is more accurate than the exponential of a large w.
                 let in_both = (exponent * self.ln()).chain(z, || z, || z);
                 // At x = 0 < y the logarithm does not exist but xʸ ln x → 0: the exponent has no influence.
-                let at_zero = if self == Self::constant(x) { Self::constant(z) } else { in_base };
+                let at_zero = if self.is_fixed() { Self::constant(z) } else { in_base };
                 Self::select(base_is_zero & T::zero().less_than(y), at_zero, in_both)
             }
             #[cfg_attr(not(debug_assertions), inline(always))]

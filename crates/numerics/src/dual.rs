@@ -42,6 +42,11 @@ impl<T: Real> Dual<T> {
     pub fn constant(value: T) -> Self {
         Self { value, tangent: T::zero() }
     }
+    /// Whether there are no derivatives.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_fixed(&self) -> bool {
+        *self == Self::constant(self.value)
+    }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, f: T, f1: impl FnOnce() -> T, _f2: impl FnOnce() -> T) -> Self {
         Self { value: f, tangent: self.tangent * f1() }

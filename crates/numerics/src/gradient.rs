@@ -40,6 +40,11 @@ impl<T: Real, const N: usize> Gradient<T, N> {
     pub fn constant(value: T) -> Self {
         Self { value, partials: [T::zero(); N] }
     }
+    /// Whether there are no derivatives.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_fixed(&self) -> bool {
+        *self == Self::constant(self.value)
+    }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, f: T, f1: impl FnOnce() -> T, _f2: impl FnOnce() -> T) -> Self {
         let f1 = f1();

@@ -57,6 +57,11 @@ impl<T: Real, const N: usize> Jet<T, N> {
     pub fn time(value: T) -> Self {
         Self { value, partials: [T::zero(); N], rate: T::one(), second_rate: T::zero() }
     }
+    /// Whether there are no derivatives.
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn is_fixed(&self) -> bool {
+        *self == Self::constant(self.value)
+    }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn chain(self, f: T, f1: impl FnOnce() -> T, f2: impl FnOnce() -> T) -> Self {
         let (f1, f2) = (f1(), f2());

@@ -5,6 +5,7 @@
 //! | to get | use |
 //! |---|---|
 //! | a derivative of a formula, exact to rounding | [`derivatives`], or [`Dual`], [`Gradient`], [`Jet`] directly |
+//! | its gradient and each second derivative once, in up to seven variables | [`Hessian`] |
 //! | the change of a formula between two close points, without cancellation | [`Secant`] |
 //! | several points at once, in the lanes of one scalar | [`Lanes`], run by [`dispatch`] |
 //! | a linear system solved over any scalar, with the reason when it cannot be | [`linear`] |
@@ -30,6 +31,7 @@ mod prefetch;
 pub mod quadrature;
 mod real;
 mod secant;
+mod second_derivatives;
 pub mod sums;
 
 pub use dispatch::{Kernel, LaneKernel, Level, dispatch, dispatch_at, dispatch_lanes};
@@ -40,6 +42,7 @@ pub use jet::Jet;
 pub use lanes::{Element, LaneMask, Lanes};
 pub use real::{Mask, Real};
 pub use secant::{Secant, SecantMask};
+pub use second_derivatives::Hessian;
 
 /// For the other crates of Piola alone: no part of the interface.
 #[doc(hidden)]

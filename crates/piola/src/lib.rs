@@ -107,6 +107,8 @@ pub use piola_geometric as geometric;
 pub use piola_gravitation as gravitation;
 #[cfg(feature = "hamiltonian")]
 pub use piola_hamiltonian as hamiltonian;
+#[cfg(feature = "inelastic")]
+pub use piola_inelastic as inelastic;
 #[cfg(feature = "integrators")]
 pub use piola_integrators as integrators;
 #[cfg(feature = "kinematics")]
@@ -115,6 +117,8 @@ pub use piola_kinematics as kinematics;
 pub use piola_lagrangian as lagrangian;
 #[cfg(feature = "multibody")]
 pub use piola_multibody as multibody;
+#[cfg(feature = "laws")]
+pub use piola_laws as laws;
 pub use piola_numerics as numerics;
 #[cfg(feature = "registration")]
 pub use piola_registration as registration;

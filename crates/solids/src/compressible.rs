@@ -94,6 +94,12 @@ impl<I: Isochoric, U: Volumetric> Compressible<I, U> {
         Ok(Self { isochoric, volumetric })
     }
 
+    /// W̄ + U, of any parts as they are: also of a negative bulk modulus.
+    #[must_use]
+    pub const fn unchecked(isochoric: I, volumetric: U) -> Self {
+        Self { isochoric, volumetric }
+    }
+
     /// The shear modulus of the reference, Pa.
     #[must_use]
     pub fn shear_modulus(&self) -> f64 {

@@ -7,4 +7,11 @@ pub use crate::isochoric::mooney_rivlin::mooney_rivlin;
 pub use crate::isochoric::neo_hookean::neo_hookean;
 pub use crate::isochoric::rivlin::rivlin_term;
 pub use crate::isochoric::yeoh::yeoh;
+pub use crate::isochoric_factor::Unimodular;
 pub use crate::ogden::terms::ogden_term;
+/// P and ∂P/∂F as numbers one after the other.
+pub mod packed {
+    pub use crate::packed::*;
+}
+pub use crate::strain_energy::{first_piola_numbers, inverse_metric};
+pub use crate::stretch::isochoric::Isochoric;

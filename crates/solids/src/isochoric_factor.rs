@@ -4,15 +4,15 @@ use piola_numerics::Real;
 
 /// J^(−1/3) and J^(−2/3) with their differences from 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unimodular<T> {
+pub struct Unimodular<T> {
     /// r = J^(−1/3).
-    pub(super) third: T,
+    pub third: T,
     /// r − 1.
-    pub(super) third_change: T,
+    pub third_change: T,
     /// r².
-    pub(super) two_thirds: T,
+    pub two_thirds: T,
     /// r² − 1.
-    pub(super) two_thirds_change: T,
+    pub two_thirds_change: T,
 }
 
 impl<T: Real> Unimodular<T> {
@@ -22,7 +22,7 @@ impl<T: Real> Unimodular<T> {
     /// r − 1 = −(J − 1) r³/(1 + r + r²)        r² − 1 = (r − 1)(r + 1)
     /// ```
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of(change: T, jacobian: T) -> Self {
+    pub fn of(change: T, jacobian: T) -> Self {
         let third = jacobian.recip_cbrt();
         let two_thirds = third * third;
         let next = third + T::one();

@@ -11,7 +11,7 @@ use piola_tensor::internal::rows::Rows;
 
 /// F and ∇u, nine numbers each.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn of_deformation<T: Real>(deformation: &impl Deformation<T>) -> [T; 18] {
+pub fn of_deformation<T: Real>(deformation: &impl Deformation<T>) -> [T; 18] {
     let [[a, b, c], [d, e, f], [g, h, i]] = deformation.gradient_rows();
     let [[j, k, l], [m, n, o], [p, q, r]] = deformation.displacement_rows();
     [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]
@@ -19,41 +19,41 @@ pub(super) fn of_deformation<T: Real>(deformation: &impl Deformation<T>) -> [T; 
 
 /// F and ∇u of their numbers.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn gradients<T: Real>(numbers: [T; 18]) -> [Rows<T>; 2] {
+pub fn gradients<T: Real>(numbers: [T; 18]) -> [Rows<T>; 2] {
     let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = numbers;
     [[[a, b, c], [d, e, f], [g, h, i]], [[j, k, l], [m, n, o], [p, q, r]]]
 }
 
 /// One more number.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn with_jacobian<T: Real>(numbers: [T; 18], jacobian: T) -> [T; 19] {
+pub fn with_jacobian<T: Real>(numbers: [T; 18], jacobian: T) -> [T; 19] {
     let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = numbers;
     [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, jacobian]
 }
 
 /// F, ∇u and J of their numbers.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn gradients_and_jacobian<T: Real>(numbers: [T; 19]) -> ([Rows<T>; 2], T) {
+pub fn gradients_and_jacobian<T: Real>(numbers: [T; 19]) -> ([Rows<T>; 2], T) {
     let [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, jacobian] = numbers;
     (gradients([a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r]), jacobian)
 }
 
 /// P as nine numbers.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn of_stress<T: Real>(stress: Rows<T>) -> [T; 9] {
+pub fn of_stress<T: Real>(stress: Rows<T>) -> [T; 9] {
     let [[a, b, c], [d, e, f], [g, h, i]] = stress;
     [a, b, c, d, e, f, g, h, i]
 }
 
 /// P of its numbers.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn stress<T: Real>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> FirstPiola<T> {
+pub fn stress<T: Real>([a, b, c, d, e, f, g, h, i]: [T; 9]) -> FirstPiola<T> {
     FirstPiola(from_rows([[a, b, c], [d, e, f], [g, h, i]]))
 }
 
 /// P and the upper triangle of ∂P/∂F, 9 and 45 numbers.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn of_both<T: Real>(p: Rows<T>, a: &[[T; 9]; 9]) -> [T; 54] {
+pub fn of_both<T: Real>(p: Rows<T>, a: &[[T; 9]; 9]) -> [T; 54] {
     [
         p[0][0], p[0][1], p[0][2], p[1][0], p[1][1], p[1][2], p[2][0], p[2][1], p[2][2], a[0][0], a[0][1], a[0][2],
         a[0][3], a[0][4], a[0][5], a[0][6], a[0][7], a[0][8], a[1][1], a[1][2], a[1][3], a[1][4], a[1][5], a[1][6],
@@ -65,13 +65,13 @@ pub(super) fn of_both<T: Real>(p: Rows<T>, a: &[[T; 9]; 9]) -> [T; 54] {
 
 /// P and the upper triangle of ∂P/∂F.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn of_pair<T: Real>((stress, tangent): (FirstPiola<T>, FirstPiolaTangent<T>)) -> [T; 54] {
+pub fn of_pair<T: Real>((stress, tangent): (FirstPiola<T>, FirstPiolaTangent<T>)) -> [T; 54] {
     of_both(rows_of(&stress.0), &tangent.0.components)
 }
 
 /// One number more at the end.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn with_one_more<T: Real>(n: [T; 54], last: T) -> [T; 55] {
+pub fn with_one_more<T: Real>(n: [T; 54], last: T) -> [T; 55] {
     [
         n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13], n[14], n[15], n[16],
         n[17], n[18], n[19], n[20], n[21], n[22], n[23], n[24], n[25], n[26], n[27], n[28], n[29], n[30], n[31], n[32],
@@ -82,7 +82,7 @@ pub(super) fn with_one_more<T: Real>(n: [T; 54], last: T) -> [T; 55] {
 
 /// The last number apart.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn without_last<T: Real>(n: [T; 55]) -> ([T; 54], T) {
+pub fn without_last<T: Real>(n: [T; 55]) -> ([T; 54], T) {
     let numbers = [
         n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7], n[8], n[9], n[10], n[11], n[12], n[13], n[14], n[15], n[16],
         n[17], n[18], n[19], n[20], n[21], n[22], n[23], n[24], n[25], n[26], n[27], n[28], n[29], n[30], n[31], n[32],
@@ -94,7 +94,7 @@ pub(super) fn without_last<T: Real>(n: [T; 55]) -> ([T; 54], T) {
 
 /// P and ∂P/∂F of their numbers.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn both<T: Real>(n: [T; 54]) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
+pub fn both<T: Real>(n: [T; 54]) -> (FirstPiola<T>, FirstPiolaTangent<T>) {
     let components = [
         [n[9], n[10], n[11], n[12], n[13], n[14], n[15], n[16], n[17]],
         [n[10], n[18], n[19], n[20], n[21], n[22], n[23], n[24], n[25]],

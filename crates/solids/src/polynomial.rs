@@ -82,11 +82,23 @@ impl Polynomial {
     /// reference without stress has a modulus of shear 2 (C₁₀₀ + C₀₁₀) that is not positive, or a negative one of volume.
     pub fn new(terms: Vec<PolynomialTerm>) -> Result<Self, SolidsError> {
         check_bound(LAW, "terms", terms.len() as f64, "0 < number of terms", !terms.is_empty())?;
-        let mut linear = [0.0; 3];
         for term in &terms {
             check_finite(LAW, "coefficient", term.coefficient)?;
             let degree = f64::from(term.first) + f64::from(term.second) + f64::from(term.third);
             check_bound(LAW, "degree", degree, "0 < r + s + t", 0.0 < degree)?;
+        }
+        let law = Self::unchecked(terms);
+        if law.is_stress_free() {
+            law.check_reference()?;
+        }
+        Ok(law)
+    }
+
+    /// From any terms, as they are: also such as no stable solid has, for parts of a sum or for a search. A constant is left out.
+    #[must_use]
+    pub fn unchecked(terms: Vec<PolynomialTerm>) -> Self {
+        let mut linear = [0.0; 3];
+        for term in &terms {
             match (term.first, term.second, term.third) {
                 (1, 0, 0) => linear[0] += term.coefficient,
                 (0, 1, 0) => linear[1] += term.coefficient,
@@ -96,11 +108,7 @@ impl Polynomial {
         }
         let mut curved = terms;
         curved.retain(|term| 1 < u32::from(term.first) + u32::from(term.second) + u32::from(term.third));
-        let law = Self { curved, linear, residual: 2.0 * (linear[0] + 2.0 * linear[1] + linear[2]) };
-        if law.is_stress_free() {
-            law.check_reference()?;
-        }
-        Ok(law)
+        Self { curved, linear, residual: 2.0 * (linear[0] + 2.0 * linear[1] + linear[2]) }
     }
 
     /// From terms with C₁₀₀ + 2 C₀₁₀ + C₀₀₁ = 0, up to 4 ulp of the largest of them.

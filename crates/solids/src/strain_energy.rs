@@ -104,7 +104,7 @@ pub(super) fn first_piola_of<T: Real>(stress: &Symmetric<T>, deformation: &impl 
 /// The kernel of `continuum` serves tangents without major symmetry, too: 81 entries in loops. A loop over lanes around that does
 /// not become vectors (75 ns a point for St. Venant and Kirchhoff's law of any symmetry); 45 entries written out do (9 ns).
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn first_piola_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
+pub fn first_piola_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, tangent: &MajorSymmetric<T>) -> [T; 54] {
     let (s, slots) = (stress.rows(), tangent.slots());
     let mut entries = [[T::zero(); 9]; 9];
     macro_rules! row {
@@ -129,7 +129,7 @@ pub(super) fn first_piola_numbers<T: Real>(f: Rows<T>, stress: &Symmetric<T>, ta
 
 /// C⁻¹ and 1 − C⁻¹, the latter without cancellation.
 #[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn inverse_metric<T: Real>(deformation: &impl Deformation<T>) -> (Symmetric<T>, Symmetric<T>) {
+pub fn inverse_metric<T: Real>(deformation: &impl Deformation<T>) -> (Symmetric<T>, Symmetric<T>) {
     // F⁻¹ = 1 − K: 1 − C⁻¹ = K + Kᵀ − K Kᵀ.
     let k = deformation.spatial_displacement_rows();
     let less = piola_continuum::internal::strain::almansi(transpose(k)) * T::lit(2.0);

@@ -2,10 +2,10 @@
 
 use piola_numerics::{Mask, Real};
 use piola_tensor::internal::rows::{Rows, transpose};
-use piola_tensor::internal::spectral::{combination, expand, from_frame, gram, larger, smaller, weighted};
+use piola_tensor::internal::spectral::{combination, expand, from_frame, larger, smaller, weighted};
 use piola_tensor::spectral::{IsotropicFunction, Logarithm};
 
-use super::{StretchAnalysis, any_tilted, choose, freeze, twice_green};
+use super::{StretchAnalysis, choose, twice_green};
 use crate::Symmetric;
 
 impl<T: Real> StretchAnalysis<T> {
@@ -227,13 +227,6 @@ const PLACE: [[usize; 3]; 3] = [[0, 3, 5], [3, 1, 4], [5, 4, 2]];
 fn shifted<T: Real>(a: Symmetric<T>, s: T) -> Symmetric<T> {
     let [xx, yy, zz, xy, yz, xz] = a.components;
     Symmetric::new(xx + s, yy + s, zz + s, xy, yz, xz)
-}
-
-/// Whether images are not orthogonal enough for the first order to suffice.
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn skewed<T: Real>(images: &Rows<T>) -> T::Mask {
-    let g = gram(&freeze(*images));
-    any_tilted(&[g[0].sqrt(), g[1].sqrt(), g[2].sqrt()], &g)
 }
 
 /// (λₖ, λₖ − shift) from the diagonal, 2eₖ for small strain and λₖ² otherwise, without derivatives.

@@ -22,8 +22,8 @@ pub use self::hencky::{PolarHencky, polar_hencky};
 use piola_numerics::sums::unit_in_last_place;
 use piola_numerics::{Mask, Real};
 
-use self::in_frame::{departure_of, roots_of, skewed};
-use self::orthogonal_images::{orthogonalise, orthogonalise_apart};
+use self::in_frame::{departure_of, roots_of};
+use self::orthogonal_images::{orthogonalise, orthogonalise_apart, orthogonalise_pair};
 use crate::{Deformation, Symmetric};
 use piola_tensor::internal::rows::{Rows, apply, transpose};
 use piola_tensor::internal::spectral::{
@@ -41,10 +41,11 @@ const SHRUNK: f64 = -0.5;
 /// As a singular value decomposition of F: with the stretches λ₁ ≥ λ₂ ≥ λ₃ and ε = 2⁻⁵², R within a few
 /// ε λ₁/(λ₂ + λ₃) and orthogonal within 8 ε, U within a few ε ‖U‖, ln U within a few ε λ₁/λ₃, all norm-wise and
 /// whatever the gaps of the stretches. For small strain ln U and U − 1 are within a few ε of their own norm.
+/// Each principal stretch is within 8 ε λ₁, its logarithm within 8 ε λ₁/λ₃, whatever the gaps.
 ///
 /// # Derivatives
 /// Over scalars with derivatives all tensors have theirs up to the fourth order, finite at coalescence. Single
-/// principal values and axes have them where the stretches are distinct.
+/// principal values and axes have them where the stretches are distinct; those of Σ λₖ are within 8 ε (λ₁/λ₃)².
 ///
 /// # Example
 /// ```
@@ -124,6 +125,19 @@ fn any_tilted<T: Real>([a, b, c]: &[T; 3], gram: &[T; 6]) -> T::Mask {
     tilted(*a, *b, gram[3]) | tilted(*b, *c, gram[4]) | tilted(*a, *c, gram[5])
 }
 
+/// Whether the images of the two axes beside the separated one are so close in length, beside the longest, that the product
+/// of the two changes their lengths by more than rounding: of S between the axes
+///
+/// ```text
+/// [[m + h, d], [d, m − h]]        eigenvalues m ± √(h² + d²):  beyond the diagonal by less than d²/(|h| + |d|)
+/// ```
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn unresolved<T: Real>([a, b, c]: &[T; 3], product: T) -> T::Mask {
+    let (half, rounding) = (T::lit(0.5), T::lit(2.0 * unit_in_last_place::<T>()));
+    let (h, d) = ((half * (*b - *c)).abs(), (product / (*b + *c)).abs());
+    (rounding * larger(*a, *b) * (h + d)).less_than(d * d)
+}
+
 /// Lane by lane and component by component.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn choose<T: Real>(mask: T::Mask, a: [T; 6], b: [T; 6]) -> [T; 6] {
@@ -199,8 +213,8 @@ impl<T: Real> StretchAnalysis<T> {
         let mut roots = roots_of(small, &square);
         let mut slow = Mask::splat(false);
         if !small.all() {
-            let skew = if T::ORDER == 0 { any_tilted(&roots.0, &square) } else { skewed(&images) };
-            slow = !small & skew;
+            let products = if T::ORDER == 0 { square } else { gram(&freeze(images)) };
+            slow = !small & any_tilted(&roots.0, &products);
             if slow.any() {
                 // In lanes within, or it would not have their width.
                 (axes, images) = if T::LANES == 1 {
@@ -209,6 +223,12 @@ impl<T: Real> StretchAnalysis<T> {
                     orthogonalise(slow, gradient, axes, images)
                 };
                 square = choose(slow, gram(&images), square);
+                roots = roots_of(small, &square);
+            }
+            let close = !small & !slow & unresolved(&roots.0, products[4]);
+            if close.any() {
+                (axes, images) = orthogonalise_pair(close, gradient, axes, images);
+                square = choose(close, gram(&images), square);
                 roots = roots_of(small, &square);
             }
         }

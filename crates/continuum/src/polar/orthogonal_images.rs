@@ -6,6 +6,8 @@ use piola_numerics::{Mask, Real};
 use piola_tensor::internal::rows::{Rows, apply};
 use piola_tensor::internal::spectral::combination;
 
+use super::freeze;
+
 /// Sweeps after which rotations stop whatever remains; three suffice in all that was tried.
 const MOST_SWEEPS: usize = 8;
 
@@ -17,7 +19,6 @@ pub(super) fn orthogonalise<T: Real>(
     axes: Rows<T>,
     images: Rows<T>,
 ) -> (Rows<T>, Rows<T>) {
-    let freeze = |rows: Rows<T>| if T::ORDER == 0 { rows } else { rows.map(|row| row.map(T::frozen)) };
     let (mut q, mut b) = (axes, freeze(images));
     for _ in 0..MOST_SWEEPS {
         let first = rotate(mask, &mut q, &mut b, 1, 2);
@@ -27,11 +28,59 @@ pub(super) fn orthogonalise<T: Real>(
             break;
         }
     }
-    if T::ORDER == 0 {
-        return (q, b);
+    with_derivatives(gradient, q, b)
+}
+
+/// Axes and images with the second and third images orthogonal, in the lanes of `mask`, and the longer of the two first: rare, and
+/// apart from the kernel of a single point.
+#[cold]
+#[inline(never)]
+fn pair_apart<T: Real>(mask: T::Mask, gradient: Rows<T>, axes: Rows<T>, images: Rows<T>) -> (Rows<T>, Rows<T>) {
+    pair_within(mask, gradient, axes, images)
+}
+
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn pair_within<T: Real>(mask: T::Mask, gradient: Rows<T>, axes: Rows<T>, images: Rows<T>) -> (Rows<T>, Rows<T>) {
+    let (mut q, mut b) = (axes, freeze(images));
+    let _ = rotate(mask, &mut q, &mut b, 1, 2);
+    // Turned by a right angle about the first axis where they have changed places.
+    let exchange = mask & dot(b[1], b[1]).less_than(dot(b[2], b[2]));
+    for rows in [&mut q, &mut b] {
+        let (x, y) = (rows[1], rows[2]);
+        for i in 0..3 {
+            rows[1][i] = T::select(exchange, y[i], x[i]);
+            rows[2][i] = T::select(exchange, -x[i], y[i]);
+        }
     }
-    let axes = freeze(q);
-    (axes, [apply(gradient, axes[0]), apply(gradient, axes[1]), apply(gradient, axes[2])])
+    with_derivatives(gradient, q, b)
+}
+
+/// [`pair_apart`], in lanes within, or it would not have their width.
+#[cfg_attr(not(debug_assertions), inline(always))]
+pub(super) fn orthogonalise_pair<T: Real>(
+    mask: T::Mask,
+    gradient: Rows<T>,
+    axes: Rows<T>,
+    images: Rows<T>,
+) -> (Rows<T>, Rows<T>) {
+    if T::LANES == 1 { pair_apart(mask, gradient, axes, images) } else { pair_within(mask, gradient, axes, images) }
+}
+
+/// Axes without derivatives and their images with those of F: the values are kept, since the rounding of new products with the
+/// longest stretch would turn short images again.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn with_derivatives<T: Real>(gradient: Rows<T>, axes: Rows<T>, images: Rows<T>) -> (Rows<T>, Rows<T>) {
+    if T::ORDER == 0 {
+        return (axes, images);
+    }
+    let axes = freeze(axes);
+    let mut varied = images;
+    for (varied, axis) in varied.iter_mut().zip(axes) {
+        for (entry, image) in varied.iter_mut().zip(apply(gradient, axis)) {
+            *entry = *entry + (image - image.frozen());
+        }
+    }
+    (axes, varied)
 }
 
 /// [`orthogonalise`], apart from the kernel of a single point that rarely calls it: within, its loops would have the

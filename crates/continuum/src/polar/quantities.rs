@@ -16,7 +16,7 @@ impl<T: Real> StretchAnalysis<T> {
         if T::ORDER == 0 {
             return descending(self.stretches);
         }
-        in_order(self.first, lifted(self.frame_stretch()).0).map(|excess| self.shift + excess)
+        descending(lifted(self.frame_stretch()).0).map(|excess| self.shift + excess)
     }
 
     /// ln λₖ, descending, accurate for λ → 1.
@@ -26,7 +26,7 @@ impl<T: Real> StretchAnalysis<T> {
         if T::ORDER == 0 {
             return descending(self.values_at_stretches(&Logarithm));
         }
-        let excess = in_order(self.first, lifted(self.frame_stretch()).0);
+        let excess = descending(lifted(self.frame_stretch()).0);
         excess.map(|x| {
             let beside = if self.small.any() { x.ln_1p() } else { x };
             let plain = if self.small.all() { beside } else { x.ln() };

@@ -70,6 +70,12 @@ impl Rivlin {
         Ok(Self { terms })
     }
 
+    /// From any terms, as they are: also such as no stable solid has, for parts of a sum or for a search.
+    #[must_use]
+    pub const fn unchecked(terms: Vec<RivlinTerm>) -> Self {
+        Self { terms }
+    }
+
     /// The terms.
     #[must_use]
     pub fn terms(&self) -> &[RivlinTerm] {

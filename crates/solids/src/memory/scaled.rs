@@ -38,6 +38,12 @@ impl<L> Scaled<L> {
         Ok(Self { law, factor })
     }
 
+    /// Of a law and any factor: also a negative one, which takes a part away from a sum.
+    #[must_use]
+    pub const fn unchecked(law: L, factor: f64) -> Self {
+        Self { law, factor }
+    }
+
     /// The law.
     #[must_use]
     pub const fn law(&self) -> &L {

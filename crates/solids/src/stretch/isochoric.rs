@@ -7,15 +7,16 @@ use piola_tensor::internal::rows::{Rows, difference, identity, scaled, sum};
 use crate::isochoric_factor::Unimodular;
 
 /// J^(−1/3) F, kept as itself and as its difference from 1.
-#[derive(Clone, Copy)]
-pub(super) struct Isochoric<T> {
+#[derive(Clone, Copy, Debug)]
+pub struct Isochoric<T> {
     gradient: Rows<T>,
     displacement: Rows<T>,
 }
 
 impl<T: Real> Isochoric<T> {
+    /// Of F or ∇u.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    pub(super) fn of(deformation: &impl Deformation<T>) -> Self {
+    pub fn of(deformation: &impl Deformation<T>) -> Self {
         let change_of_volume = deformation.volume_change();
         let Unimodular { third: scale, third_change: change, .. } =
             Unimodular::of(change_of_volume, deformation.jacobian());

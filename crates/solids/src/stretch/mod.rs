@@ -26,7 +26,7 @@ use piola_tensor::internal::rows::{Rows, product, scaled, sum};
 use super::known_volume::KnownVolume;
 
 mod energy;
-mod isochoric;
+pub(crate) mod isochoric;
 mod parts;
 mod principal;
 

@@ -33,6 +33,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     // continuum and integrators for stresses in any motion, fields for the Navier-Stokes equations: by feature.
     ("fluids", &["tensor", "continuum", "integrators", "fields"]),
     ("viscometry", &["fluids"]),
+    // Laws of one's own and sums of laws stand on the kernels of the built-in ones.
+    ("laws", &["solids"]),
+    // specimens in its tests alone: checks of laws with internal variables.
+    ("inelastic", &["specimens"]),
     // fields, by feature: a body made of one law.
     ("specimens", &["solids", "fields"]),
     ("fit", &["specimens", "viscometry"]),
@@ -72,7 +76,9 @@ const MECHANICS: &[&str] = &[
     "batch",
     "fields",
     "solids",
+    "laws",
     "specimens",
+    "inelastic",
     "fluids",
     "viscometry",
     "fit",

@@ -2,6 +2,7 @@
 
 mod alloc;
 mod cases;
+mod close_stretches;
 mod derivatives;
 mod golden;
 mod laws;

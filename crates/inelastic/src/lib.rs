@@ -1,0 +1,29 @@
+//! Solids with internal variables: flow, plasticity, damage, growth.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod bergstrom_boyce;
+mod driven_growth;
+mod error;
+mod evolution;
+mod flow;
+mod grown;
+mod material_point;
+mod mullins;
+mod newton;
+mod path;
+mod points;
+mod reese_govindjee;
+mod viscoplastic;
+
+pub use bergstrom_boyce::{BergstromBoyce, PowerFlow};
+pub use driven_growth::DrivenGrowth;
+pub use error::InelasticError;
+pub use evolution::Evolution;
+pub use grown::{Grown, ThermalExpansion};
+pub use material_point::{Advanced, MaterialPoint, NextIncrement};
+pub use mullins::Mullins;
+pub use path::{Control, Effort};
+pub use points::{OverHistory, advance_all};
+pub use reese_govindjee::ReeseGovindjee;
+pub use viscoplastic::{Hardening, Viscoplastic};

@@ -1,0 +1,215 @@
+//! An increment of the deformation: implicit steps, extrapolated; divided where the error or Newton's method asks for it.
+
+use piola_tensor::internal::rows::Rows;
+
+use crate::newton::{Iterations, Varied, between, implicit_step, values_of_rows};
+use crate::{Evolution, InelasticError};
+
+/// The most widths of steps that are extrapolated: 1, ½, ⅓, … of the increment. Seven multiply rounding by a thousand, ten by fifty
+/// thousand.
+const MOST_WIDTHS: usize = 7;
+
+/// How accurately an increment is integrated.
+///
+/// # Example
+/// ```
+/// use piola_inelastic::Control;
+/// assert!(Control::new(1e-6).is_ok() && Control::new(-1.0).is_err());
+/// assert_eq!(Control::one_step().tolerance(), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Control {
+    tolerance: Option<f64>,
+}
+
+impl Control {
+    /// With an estimated error of the internal variables below `tolerance`, in each part of an increment.
+    ///
+    /// # Errors
+    /// [`InelasticError::NotFinite`], [`InelasticError::OutOfBounds`] unless 1e-14 ≤ tolerance.
+    pub fn new(tolerance: f64) -> Result<Self, InelasticError> {
+        let holds = 1e-14 <= tolerance;
+        crate::error::check_bound("control", "tolerance", tolerance, "1e-14 ≤ tolerance", holds)?;
+        Ok(Self { tolerance: Some(tolerance) })
+    }
+
+    /// One implicit step an increment, of the first order in its width, without an estimate of the error: as finite elements use it.
+    /// Where Newton's method fails the increment is divided all the same.
+    #[must_use]
+    pub const fn one_step() -> Self {
+        Self { tolerance: None }
+    }
+
+    /// The tolerance; none for one step.
+    #[must_use]
+    pub const fn tolerance(&self) -> Option<f64> {
+        self.tolerance
+    }
+}
+
+impl Default for Control {
+    /// A tolerance of 1e-10.
+    fn default() -> Self {
+        Self { tolerance: Some(1e-10) }
+    }
+}
+
+/// What an increment took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Parts into which the increment was divided.
+    pub parts: usize,
+    /// Implicit steps.
+    pub steps: usize,
+    /// Iterations of Newton's method.
+    pub iterations: usize,
+    /// The largest estimated error of the internal variables in a part; zero for one step.
+    pub error: f64,
+}
+
+/// Where an increment stands.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reached<const S: usize> {
+    pub(crate) share: f64,
+    pub(crate) state: [Varied; S],
+}
+
+/// Why an increment ended early.
+pub(crate) enum Failure {
+    Newton(Iterations),
+    Error { error: f64, tolerance: f64 },
+}
+
+impl Failure {
+    pub(crate) fn at(self, share: f64, gradient: Rows<f64>) -> InelasticError {
+        match self {
+            Self::Newton(iterations) => InelasticError::NotConverged {
+                share,
+                gradient,
+                residual: iterations.last(),
+                iterations: iterations.count,
+            },
+            Self::Error { error, tolerance } => InelasticError::NotAccurate { share, gradient, error, tolerance },
+        }
+    }
+}
+
+/// An increment to be integrated.
+pub(crate) struct Increment<'a, L, const S: usize> {
+    pub(crate) law: &'a L,
+    pub(crate) start: Rows<f64>,
+    pub(crate) end: Rows<f64>,
+    pub(crate) dt: f64,
+    pub(crate) control: Control,
+}
+
+impl<L, const S: usize> Increment<'_, L, S> {
+    /// `count` equal implicit steps over a part of the increment.
+    fn steps<const X: usize>(
+        &self,
+        from: &Reached<S>,
+        width: f64,
+        count: usize,
+        effort: &mut Effort,
+    ) -> Result<[Varied; S], Failure>
+    where
+        L: Evolution<S, X>,
+    {
+        let mut state = from.state;
+        for k in 1..=count {
+            let share = from.share + width * (k as f64 / count as f64);
+            let gradient = between(&self.start, &self.end, share);
+            let dt = self.dt * (width / count as f64);
+            let (next, iterations) =
+                implicit_step::<L, S, X>(self.law, &state, &gradient, dt).map_err(Failure::Newton)?;
+            state = next;
+            effort.steps += 1;
+            effort.iterations += iterations.count;
+        }
+        Ok(state)
+    }
+
+    /// A part of the increment by steps of several widths, extrapolated to width zero (Neville's scheme).
+    ///
+    /// ```text
+    /// Tⱼₖ = Tⱼ,ₖ₋₁ + (Tⱼ,ₖ₋₁ − Tⱼ₋₁,ₖ₋₁)/(nⱼ/nⱼ₋ₖ₊₁ − 1)
+    /// ```
+    fn part<const X: usize>(
+        &self,
+        from: &Reached<S>,
+        width: f64,
+        effort: &mut Effort,
+    ) -> Result<([Varied; S], usize), Failure>
+    where
+        L: Evolution<S, X>,
+    {
+        let Some(tolerance) = self.control.tolerance else {
+            return Ok((self.steps::<X>(from, width, 1, effort)?, 1));
+        };
+        let mut row = [[Varied::constant(0.0); S]; MOST_WIDTHS];
+        let mut error = f64::INFINITY;
+        for j in 0..MOST_WIDTHS {
+            let state = self.steps::<X>(from, width, j + 1, effort)?;
+            let mut entry = self.law.coordinates(&from.state, &state);
+            let mut last = entry;
+            for k in 0..j {
+                // The row above holds T of the last width at k; it makes way for T of this one.
+                let above = row[k];
+                row[k] = entry;
+                let ratio = (j + 1) as f64 / (j - k) as f64 - 1.0;
+                last = entry;
+                for (entry, above) in entry.iter_mut().zip(above) {
+                    let change = (*entry - above) * Varied::constant(1.0 / ratio);
+                    *entry += change;
+                }
+            }
+            row[j] = entry;
+            if 0 < j {
+                error = entry.iter().zip(last).fold(0.0, |size: f64, (x, y)| size.max((x.value - y.value).abs()));
+                if error <= tolerance {
+                    effort.error = effort.error.max(error);
+                    return Ok((self.law.at_coordinates(&from.state, &entry), j + 1));
+                }
+            }
+        }
+        Err(Failure::Error { error, tolerance })
+    }
+
+    /// The state at the end; where that is not reached, the last admissible state and why it is the last.
+    pub(crate) fn run<const X: usize>(&self, state: &[f64; S]) -> (Reached<S>, Effort, Option<Failure>)
+    where
+        L: Evolution<S, X>,
+    {
+        let mut effort = Effort { parts: 0, steps: 0, iterations: 0, error: 0.0 };
+        let mut reached = Reached { share: 0.0, state: state.map(Varied::constant) };
+        let mut width = 1.0;
+        while reached.share < 1.0 {
+            width = f64::min(width, 1.0 - reached.share);
+            match self.part::<X>(&reached, width, &mut effort) {
+                Ok((state, widths)) => {
+                    let share = if width < 1.0 - reached.share { reached.share + width } else { 1.0 };
+                    reached = Reached { share, state };
+                    effort.parts += 1;
+                    if widths < 5 {
+                        width *= 2.0;
+                    }
+                }
+                Err(failure) => {
+                    width *= 0.5;
+                    if width < SMALLEST_WIDTH {
+                        return (reached, effort, Some(failure));
+                    }
+                }
+            }
+        }
+        (reached, effort, None)
+    }
+
+    /// F of a share of the increment.
+    pub(crate) fn gradient(&self, share: f64) -> Rows<f64> {
+        values_of_rows(&between(&self.start, &self.end, share))
+    }
+}
+
+/// Parts of an increment are not divided further.
+const SMALLEST_WIDTH: f64 = 1e-5;

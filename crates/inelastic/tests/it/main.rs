@@ -1,0 +1,14 @@
+//! The tests of `piola-inelastic`.
+
+mod alloc;
+mod grown;
+mod laws;
+mod newton;
+mod paths;
+mod refusals;
+mod specimens;
+
+use piola_testkit::CountingAllocator;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;

@@ -1,0 +1,17 @@
+//! Laws of solids of one's own: an energy is enough, and laws can be added.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+pub mod algebra;
+pub mod coupled;
+mod error;
+pub mod invariants;
+mod methods;
+pub mod strain;
+pub mod stretches;
+
+pub use algebra::{Decoupled, OfVolume, Scaled, Sum};
+pub use invariants::{EnergyOfInvariants, Excesses, OfInvariants};
+pub use piola_solids::SolidsError;
+pub use strain::{EnergyOfStrain, OfStrain};
+pub use stretches::{EnergyOfStretches, OfStretches};

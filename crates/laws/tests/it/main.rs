@@ -1,0 +1,13 @@
+//! The tests of `piola-laws`.
+
+mod algebra;
+mod alloc;
+mod coupled;
+mod refusals;
+mod same;
+mod zoo;
+
+use piola_testkit::CountingAllocator;
+
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
