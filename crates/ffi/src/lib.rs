@@ -13,6 +13,11 @@ pub mod c;
 mod conversions;
 mod error;
 pub mod flows;
+#[doc(hidden)]
+pub mod internal {
+    //! For the tests of this crate.
+    pub use crate::c::status::answer;
+}
 pub mod materials;
 pub mod named;
 pub mod points;

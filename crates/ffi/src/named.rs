@@ -27,9 +27,9 @@
 //!
 //! | volumetric part | parameters |
 //! |---|---|
-//! | `quadratic`, `logarithmic`, `quadratic_logarithmic`, `simo_taylor`, `liu`, `miehe` | `bulk_modulus` |
+//! | `quadratic`, `logarithmic`, `quadratic_logarithmic`, `simo_taylor`, `liu`, `miehe`, `hartmann_neff` | `bulk_modulus` |
 //! | `lame` | `first_lame_parameter` |
-//! | `ogden_volumetric`, `hartmann_neff` | `bulk_modulus`, `exponent` |
+//! | `ogden` | `bulk_modulus`, `exponent` |
 //!
 //! Laws with tables of coefficients (`polynomial`, `rivlin`, `fung`, the anisotropic ones) are made from a text:
 //! [`solid_from_json`](crate::text::solid_from_json).
@@ -145,8 +145,8 @@ const VOLUMETRIC: &[(&str, &[Slot])] = &[
     ("liu", BULK),
     ("miehe", BULK),
     ("lame", &[Number("first_lame_parameter")]),
-    ("ogden_volumetric", &[Number("bulk_modulus"), Number("exponent")]),
-    ("hartmann_neff", &[Number("bulk_modulus"), Number("exponent")]),
+    ("ogden", &[Number("bulk_modulus"), Number("exponent")]),
+    ("hartmann_neff", BULK),
 ];
 
 /// A law whose name is resolved: the name, slots and place (nothing for the law itself) of each piece.

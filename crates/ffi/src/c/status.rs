@@ -71,7 +71,7 @@ fn said(payload: &(dyn Any + Send)) -> String {
 }
 
 /// Runs the body of a function: errors become codes and messages, panics end here.
-pub(super) fn answer(body: impl FnOnce() -> Result<(), FfiError>) -> PiolaStatus {
+pub fn answer(body: impl FnOnce() -> Result<(), FfiError>) -> PiolaStatus {
     let result = catch_unwind(AssertUnwindSafe(body))
         .unwrap_or_else(|payload| Err(FfiError::Fault { message: said(payload.as_ref()) }));
     match result {

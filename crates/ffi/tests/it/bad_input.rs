@@ -122,7 +122,7 @@ fn laws_that_are_none_say_why_and_leave_a_null_pointer() {
         (r#"{"law": "blatz_ko", "shear_modulus": 1.0}"#, "poisson_ratio"),
         (
             r#"{"law": "saint_venant_kirchhoff", "first_lame_parameter": 1.0, "shear_modulus": -2.0}"#,
-            "shear_modulus = -2e0",
+            "violates 0 < 3 λ + 2 μ",
         ),
         (r#"{"law": "saint_venant_kirchhoff", "first_lame_parameter": 1e999, "shear_modulus": 2.0}"#, "range"),
     ] {
@@ -159,6 +159,13 @@ fn fluids_refuse_what_has_no_answer() {
         piola_fluid_free(fluid);
     }
     assert_eq!((value, out), (7.0, [7.0; 2]));
+}
+
+#[test]
+fn a_panic_ends_at_the_border() {
+    let status = piola_ffi::internal::answer(|| std::panic::resume_unwind(Box::new("of a test")));
+    assert_eq!(status, PiolaStatus::Fault);
+    assert_eq!(message(), "a fault of Piola, please report it: of a test");
 }
 
 #[test]

@@ -17,9 +17,8 @@ fn the_header_is_that_of_the_sources() {
     let mut text = String::new();
     let mut lines = made.lines().map(str::trim_end).peekable();
     while let Some(line) = lines.next() {
-        let stars = |line: &str| line.trim() == "*";
-        if stars(line) && lines.peek().is_some_and(|next| next.contains("# Safety")) {
-            while lines.peek().is_some_and(|next| next.trim() != "*/") {
+        if line == "//" && lines.peek().is_some_and(|next| next.contains("# Safety")) {
+            while lines.peek().is_some_and(|next| next.starts_with("//")) {
                 lines.next();
             }
             continue;

@@ -43,9 +43,9 @@ fn numbers_in_order_make_the_law_of_the_same_numbers_by_name() {
             r#"{"law": "compressible", "isochoric": {"law": "yeoh", "c1": 0.5, "c2": 0.1, "c3": 0.01}, "volumetric": {"law": "liu", "bulk_modulus": 9.0}}"#,
         ),
         (
-            "compressible-neo_hookean-ogden_volumetric",
+            "compressible-neo_hookean-ogden",
             vec![0.5, 9.0, -2.0],
-            r#"{"law": "compressible", "isochoric": {"law": "neo_hookean", "shear_modulus": 0.5}, "volumetric": {"law": "ogden_volumetric", "bulk_modulus": 9.0, "exponent": -2.0}}"#,
+            r#"{"law": "compressible", "isochoric": {"law": "neo_hookean", "shear_modulus": 0.5}, "volumetric": {"law": "ogden", "bulk_modulus": 9.0, "exponent": -2.0}}"#,
         ),
         (
             "incompressible arruda_boyce",
@@ -89,10 +89,9 @@ fn numbers_in_order_make_the_law_of_the_same_numbers_by_name() {
     for part in ["mooney_rivlin", "gent", "arruda_boyce_series"] {
         assert!(solid(&format!("compressible-{part}-quadratic"), &[0.5, 2.0, 9.0]).is_ok(), "{part}");
     }
-    for part in ["quadratic_logarithmic", "simo_taylor"] {
+    for part in ["quadratic_logarithmic", "simo_taylor", "hartmann_neff"] {
         assert!(solid(&format!("hencky-{part}"), &[0.5, 9.0]).is_ok(), "{part}");
     }
-    assert!(solid("hencky-hartmann_neff", &[0.5, 9.0, 5.0]).is_ok());
 }
 
 #[test]
@@ -152,7 +151,7 @@ fn a_fit_gives_its_best_law_or_the_one_that_is_named() {
 fn fluids_by_name_are_those_of_their_text() {
     let names = ["yield_stress", "consistency", "exponent"];
     let fluid = fluid_with_names("HERSCHEL_BULKLEY", &names, &[1.0, 2.0, 0.5]).unwrap();
-    assert_eq!(fluid.name(), "Herschel–Bulkley fluid");
+    assert_eq!(fluid.name(), "Herschel-Bulkley");
     let error = fluid_with_names("herschel_bulkley", &names[1..], &[2.0, 0.5]).unwrap_err().to_string();
     assert!(error.contains("yield_stress"), "{error}");
 }
