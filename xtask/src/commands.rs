@@ -8,6 +8,7 @@ mod docs;
 mod errors;
 mod features;
 mod fmt;
+mod header;
 mod ledger;
 mod mutants;
 mod package;
@@ -18,6 +19,7 @@ mod tidy;
 mod verification;
 mod viscometry_accuracy;
 mod weight;
+mod wheel;
 mod work_precision;
 
 use xshell::Shell;
@@ -56,6 +58,8 @@ const COMMANDS: &[Command] = &[
     verification::COMMAND,
     viscometry_accuracy::COMMAND,
     weight::COMMAND,
+    header::COMMAND,
+    wheel::COMMAND,
     mutants::COMMAND,
 ];
 

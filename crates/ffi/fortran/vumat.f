@@ -1,0 +1,87 @@
+C     Hyperelastic laws of Piola as a user material of Abaqus/Explicit,
+C     in double precision.
+C
+C     The name of the material and its constants are those of UMAT.
+C     Stresses are corotated: R^T T R = T(U), from the stretches U,
+C     11, 22, 33, 12, 23, 13. The first call of a run, at time 0, asks
+C     for the stiffness of the body at rest by small strains.
+C
+      subroutine vumat(
+     1 nblock, ndir, nshr, nstatev, nfieldv, nprops, lanneal,
+     2 stepTime, totalTime, dt, cmname, coordMp, charLength,
+     3 props, density, strainInc, relSpinInc,
+     4 tempOld, stretchOld, defgradOld, fieldOld,
+     5 stressOld, stateOld, enerInternOld, enerInelasOld,
+     6 tempNew, stretchNew, defgradNew, fieldNew,
+     7 stressNew, stateNew, enerInternNew, enerInelasNew )
+      use, intrinsic :: iso_c_binding
+      include 'vaba_param.inc'
+      dimension props(nprops), density(nblock), coordMp(nblock,*),
+     1 charLength(nblock), strainInc(nblock,ndir+nshr),
+     2 relSpinInc(nblock,nshr), tempOld(nblock),
+     3 stretchOld(nblock,ndir+nshr),
+     4 defgradOld(nblock,ndir+nshr+nshr),
+     5 fieldOld(nblock,nfieldv), stressOld(nblock,ndir+nshr),
+     6 stateOld(nblock,nstatev), enerInternOld(nblock),
+     7 enerInelasOld(nblock), tempNew(nblock),
+     8 stretchNew(nblock,ndir+nshr),
+     9 defgradNew(nblock,ndir+nshr+nshr),
+     1 fieldNew(nblock,nfieldv), stressNew(nblock,ndir+nshr),
+     2 stateNew(nblock,nstatev), enerInternNew(nblock),
+     3 enerInelasNew(nblock)
+      character*80 cmname
+      interface
+        integer(c_int) function piola_vumat(name,namelen,props,nprops,
+     1   points,ndir,nshr,stretches,added,stresses)
+     2   bind(c,name='piola_vumat')
+          use, intrinsic :: iso_c_binding
+          implicit none
+          character(kind=c_char), intent(in) :: name(*)
+          integer(c_size_t), value :: namelen, nprops, points
+          integer(c_size_t), value :: ndir, nshr
+          real(c_double), intent(in) :: props(*), stretches(*)
+          real(c_double), value :: added
+          real(c_double), intent(inout) :: stresses(*)
+        end function
+        integer(c_size_t) function piola_message(text,length)
+     1   bind(c,name='piola_last_error_padded')
+          use, intrinsic :: iso_c_binding
+          implicit none
+          character(kind=c_char), intent(out) :: text(*)
+          integer(c_size_t), value :: length
+        end function
+      end interface
+      integer(c_int) istatus
+      integer(c_size_t) length
+      character(len=480) message
+      if (totalTime .eq. 0.d0) then
+        istatus = piola_vumat(cmname, int(len(cmname),c_size_t),
+     1   props, int(nprops,c_size_t), int(nblock,c_size_t),
+     2   int(ndir,c_size_t), int(nshr,c_size_t),
+     3   strainInc, 1.d0, stressNew)
+      else
+        istatus = piola_vumat(cmname, int(len(cmname),c_size_t),
+     1   props, int(nprops,c_size_t), int(nblock,c_size_t),
+     2   int(ndir,c_size_t), int(nshr,c_size_t),
+     3   stretchNew, 0.d0, stressNew)
+      end if
+      if (istatus .ne. 0) then
+        length = piola_message(message, int(len(message),c_size_t))
+        write(*,*) 'VUMAT: ', trim(message)
+        call xplb_exit
+        return
+      end if
+C     Work of the mean stress on the strain increment, per mass.
+      do i = 1, nblock
+        work = 0.d0
+        do k = 1, ndir+nshr
+          factor = 0.5d0
+          if (k .gt. ndir) factor = 1.d0
+          work = work + factor*(stressOld(i,k)+stressNew(i,k))
+     1     *strainInc(i,k)
+        end do
+        enerInternNew(i) = enerInternOld(i) + work/density(i)
+        enerInelasNew(i) = enerInelasOld(i)
+      end do
+      return
+      end

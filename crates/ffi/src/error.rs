@@ -1,0 +1,159 @@
+//! What the interface refuses: each variant names one condition.
+
+use piola::fit::FitError;
+use piola::fluids::FluidsError;
+use piola::solids::SolidsError;
+use piola::viscometry::ViscometryError;
+
+/// A violated condition of the interface, or an error of a crate below.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FfiError {
+    /// A pointer that must lead somewhere is null.
+    #[error("`{argument}` is a null pointer")]
+    NullPointer {
+        /// The argument.
+        argument: &'static str,
+    },
+    /// A pointer does not lead to the boundary of a number.
+    #[error("`{argument}` does not lead to the boundary of a number")]
+    Misaligned {
+        /// The argument.
+        argument: &'static str,
+    },
+    /// A text has bytes that are no UTF-8.
+    #[error("`{argument}` is not UTF-8: byte {index} is wrong")]
+    NotText {
+        /// The argument.
+        argument: &'static str,
+        /// The first wrong byte, from 0.
+        index: usize,
+    },
+    /// A choice has a number or a name that it does not have.
+    #[error("`{given}` is no {choice}; there are {valid}")]
+    UnknownChoice {
+        /// The choice, such as `stress`.
+        choice: &'static str,
+        /// The name or number that was given.
+        given: String,
+        /// What can be chosen.
+        valid: String,
+    },
+    /// A law has another number of parameters.
+    #[error("law `{law}` takes {expected}; {found} numbers were given")]
+    WrongCount {
+        /// The law as it was named.
+        law: String,
+        /// The parameters, in their order.
+        expected: String,
+        /// How many numbers were given.
+        found: usize,
+    },
+    /// A law has no such parameter, or it was given twice, or not at all.
+    #[error("law `{law}`: parameter `{parameter}` {what}; the parameters are {valid}")]
+    WrongParameter {
+        /// The law as it was named.
+        law: String,
+        /// The parameter.
+        parameter: String,
+        /// Whether it is unknown, missing or given twice.
+        what: &'static str,
+        /// The parameters, in their order.
+        valid: String,
+    },
+    /// A number is infinite or NaN.
+    #[error("`{quantity}`, entry {index}: {value} is not finite")]
+    NotFinite {
+        /// The argument.
+        quantity: &'static str,
+        /// Which number, from 0.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// An array has another length than the arrays beside it.
+    #[error("`{quantity}` has length {found}; length {expected} is needed")]
+    WrongLength {
+        /// The argument.
+        quantity: &'static str,
+        /// The length it must have.
+        expected: usize,
+        /// The length it has.
+        found: usize,
+    },
+    /// A text describes no law.
+    #[error("the {what} cannot be read: {message}")]
+    Unreadable {
+        /// What the text should describe.
+        what: &'static str,
+        /// What is wrong, with line and column.
+        message: String,
+    },
+    /// The file of a material cannot be read.
+    #[error(
+        "material `{name}` is neither a law nor a file: `{path}`: {message}. Files of materials are searched for in the \
+         folder that the environment variable PIOLA_MATERIALS names, or else in the working folder"
+    )]
+    NoMaterial {
+        /// The name of the material.
+        name: String,
+        /// The file that was tried.
+        path: String,
+        /// What the operating system says.
+        message: String,
+    },
+    /// The components of stress are not those of a solid element.
+    #[error(
+        "{direct} direct and {shear} shear components: 3 and 3 (solid elements) and 3 and 1 (plane strain, \
+         axisymmetric) can be computed"
+    )]
+    Components {
+        /// The number of direct components.
+        direct: usize,
+        /// The number of shear components.
+        shear: usize,
+    },
+    /// Points of a batch are bad; the outputs of all others are computed.
+    #[error("{bad} of {count} points failed: at point {index}, {error}")]
+    BadPoints {
+        /// How many points failed.
+        bad: usize,
+        /// The number of points.
+        count: usize,
+        /// The first bad point, from 0.
+        index: usize,
+        /// What is wrong there.
+        error: SolidsError,
+    },
+    /// A law of a solid refuses.
+    #[error(transparent)]
+    Solids(#[from] SolidsError),
+    /// A law of a fluid refuses.
+    #[error(transparent)]
+    Fluids(#[from] FluidsError),
+    /// A flow refuses.
+    #[error(transparent)]
+    Viscometry(#[from] ViscometryError),
+    /// A fit refuses.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// A fault of this library, caught at its border.
+    #[error("a fault of Piola, please report it: {message}")]
+    Fault {
+        /// The message of the panic.
+        message: String,
+    },
+}
+
+/// Refuses numbers that are infinite or NaN.
+pub(crate) fn check_finite(quantity: &'static str, numbers: &[f64]) -> Result<(), FfiError> {
+    match numbers.iter().position(|number| !number.is_finite()) {
+        Some(index) => Err(FfiError::NotFinite { quantity, index, value: numbers[index] }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses an array of another length.
+pub(crate) fn check_length(quantity: &'static str, expected: usize, found: usize) -> Result<(), FfiError> {
+    if found == expected { Ok(()) } else { Err(FfiError::WrongLength { quantity, expected, found }) }
+}

@@ -1,0 +1,26 @@
+//! C interface of Piola: laws of solids at many points, fluids and their flows; user materials for Abaqus.
+#![doc = include_str!("../README.md")]
+//!
+//! # From Rust
+//! The modules below are the safe half of the interface: functions on slices, which the [C functions](c) and the Python
+//! package call. A Rust program that knows its law when it is compiled uses the crates themselves.
+#![deny(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+pub mod abaqus;
+#[expect(unsafe_code, reason = "pointers from C")]
+pub mod c;
+mod conversions;
+mod error;
+pub mod flows;
+#[doc(hidden)]
+pub mod internal {
+    //! For the tests of this crate.
+    pub use crate::c::status::answer;
+}
+pub mod materials;
+pub mod named;
+pub mod points;
+pub mod text;
+
+pub use error::FfiError;

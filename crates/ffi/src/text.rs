@@ -1,0 +1,136 @@
+//! Laws as texts: the written form of `AnySolid` and `AnyFluid` in JSON, and the summary of a fit.
+
+use piola::fit::solids::AnyModel;
+use piola::fluids::AnyFluid;
+use piola::solids::{AnySolid, AnyVolumetric};
+use serde_json::{Map, Value};
+
+use crate::FfiError;
+use crate::error::{check_finite, check_length};
+
+fn unreadable(what: &'static str, error: &serde_json::Error) -> FfiError {
+    FfiError::Unreadable { what, message: error.to_string() }
+}
+
+/// A law of a solid in its written form.
+pub(crate) fn solid_from_value(value: Value) -> Result<AnySolid, FfiError> {
+    serde_json::from_value(value).map_err(|error| unreadable("law of a solid", &error))
+}
+
+/// An energy of the change of volume in its written form.
+pub(crate) fn volumetric_from_value(value: Value) -> Result<AnyVolumetric, FfiError> {
+    serde_json::from_value(value).map_err(|error| unreadable("energy of the change of volume", &error))
+}
+
+/// An energy of the change of volume from JSON, such as `{"law": "quadratic", "bulk_modulus": 1e3}`: see
+/// [`AnyVolumetric`].
+///
+/// # Errors
+/// As [`solid_from_json`].
+pub fn volumetric_from_json(text: &str) -> Result<AnyVolumetric, FfiError> {
+    serde_json::from_str(text).map_err(|error| unreadable("energy of the change of volume", &error))
+}
+
+/// A law of a solid from JSON, an object with the key `law` and the parameters by name: see
+/// [`AnySolid`](piola::solids::AnySolid).
+///
+/// # Errors
+/// [`FfiError::Unreadable`] with line and column of the mistake, or with what the constructor refuses.
+///
+/// # Example
+/// ```
+/// use piola_ffi::text::solid_from_json;
+/// let text = r#"{"law": "saint_venant_kirchhoff", "first_lame_parameter": 1.0, "shear_modulus": 2.0}"#;
+/// assert!(solid_from_json(text).is_ok());
+/// let wrong = solid_from_json(&text.replace("2.0", "-2.0")).unwrap_err();
+/// assert!(wrong.to_string().contains("violates 0 < 3 λ + 2 μ"));
+/// ```
+pub fn solid_from_json(text: &str) -> Result<AnySolid, FfiError> {
+    serde_json::from_str(text).map_err(|error| unreadable("law of a solid", &error))
+}
+
+/// A fluid from JSON, an object with the key `fluid` and the parameters by name: see
+/// [`AnyFluid`](piola::fluids::AnyFluid).
+///
+/// # Errors
+/// As [`solid_from_json`].
+pub fn fluid_from_json(text: &str) -> Result<AnyFluid, FfiError> {
+    serde_json::from_str(text).map_err(|error| unreadable("fluid", &error))
+}
+
+/// A fluid of a name and parameters by name.
+///
+/// # Errors
+/// [`FfiError::NotFinite`], [`FfiError::WrongLength`] unless there is a value for each name; [`FfiError::Unreadable`].
+///
+/// # Example
+/// ```
+/// use piola::fluids::ViscometricFluid;
+/// let mud = piola_ffi::text::fluid_with_names("bingham", &["yield_stress", "plastic_viscosity"], &[3.0, 0.5])?;
+/// assert_eq!(mud.shear_stress(4.0), 5.0);
+/// # Ok::<(), piola_ffi::FfiError>(())
+/// ```
+pub fn fluid_with_names(name: &str, names: &[&str], values: &[f64]) -> Result<AnyFluid, FfiError> {
+    check_length("values", names.len(), values.len())?;
+    check_finite("parameters", values)?;
+    let mut fluid = Map::new();
+    fluid.insert("fluid".into(), Value::from(name.to_ascii_lowercase()));
+    for (name, value) in names.iter().zip(values) {
+        fluid.insert((*name).to_owned(), Value::from(*value));
+    }
+    serde_json::from_value(Value::Object(fluid)).map_err(|error| unreadable("fluid", &error))
+}
+
+/// The law of a fit: of the `summary.json` that `piola fit` writes, or of one of the entries of its `laws`.
+///
+/// ```text
+/// {"best_by_aicc": "ogden:3", "laws": [{"model": "ogden:3", "parameters": [{"name": …, "value": …}, …]}, …]}
+/// ```
+/// | argument | meaning |
+/// |---|---|
+/// | `model` | which of the laws, such as `yeoh`; the best by AICc where it is `None` |
+/// | `volumetric` | the energy of the change of volume; `None` makes the law incompressible |
+///
+/// # Errors
+/// [`FfiError::Unreadable`] where the text is no such summary; [`FfiError::UnknownChoice`] where it has no such model; what
+/// the law's constructor refuses.
+///
+/// # Example
+/// ```
+/// use piola::solids::{AnySolid, Compressible, isochoric::NeoHookean, volumetric::Quadratic};
+/// let fit = r#"{"model": "neo-hookean", "parameters": [{"name": "mu", "value": 0.5}]}"#;
+/// let law = piola_ffi::text::solid_from_fit(fit, None, Some(Quadratic::new(10.0)?.into()))?;
+/// assert_eq!(law, AnySolid::from(Compressible::new(NeoHookean::new(0.5)?, Quadratic::new(10.0)?)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn solid_from_fit(
+    text: &str,
+    model: Option<&str>,
+    volumetric: Option<AnyVolumetric>,
+) -> Result<AnySolid, FfiError> {
+    const WHAT: &str = "summary of a fit";
+    let missing = |message: &str| FfiError::Unreadable { what: WHAT, message: message.to_owned() };
+    let summary: Value = serde_json::from_str(text).map_err(|error| unreadable(WHAT, &error))?;
+    let only = std::slice::from_ref(&summary);
+    let laws = summary["laws"].as_array().map_or(only, Vec::as_slice);
+    let wanted = model.or_else(|| summary["best_by_aicc"].as_str());
+    let entry = match wanted {
+        Some(wanted) => laws.iter().find(|law| law["model"] == wanted),
+        None => laws.first().filter(|_| laws.len() == 1),
+    };
+    let Some(entry) = entry else {
+        let names: Vec<_> = laws.iter().filter_map(|law| law["model"].as_str()).collect();
+        let given = wanted.unwrap_or("no model").to_owned();
+        return Err(FfiError::UnknownChoice { choice: "model of this fit", given, valid: names.join(", ") });
+    };
+    let name = entry["model"].as_str().ok_or_else(|| missing("there is no `model`"))?;
+    let parameters = entry["parameters"].as_array().ok_or_else(|| missing("there are no `parameters`"))?;
+    let value = |parameter: &Value| parameter["value"].as_f64();
+    let values: Option<Vec<f64>> = parameters.iter().map(value).collect();
+    let values = values.ok_or_else(|| missing("a parameter has no `value`"))?;
+    let model: AnyModel = name.parse()?;
+    Ok(match volumetric {
+        Some(volumetric) => model.compressible(&values, volumetric)?,
+        None => model.law(&values)?,
+    })
+}

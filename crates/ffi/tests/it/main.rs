@@ -1,0 +1,15 @@
+//! The interface of C, the materials of Abaqus, and what both refuse.
+
+mod abaqus;
+mod alloc;
+mod bad_input;
+mod c_program;
+mod flows;
+mod fortran;
+mod header;
+mod named;
+mod points;
+mod programs;
+
+#[global_allocator]
+static ALLOCATOR: piola_testkit::CountingAllocator = piola_testkit::CountingAllocator;

@@ -1,0 +1,129 @@
+//! Stresses and tangents equal those of the library's own types.
+
+use nalgebra::Matrix3;
+use piola::continuum::DeformationGradient;
+use piola::numerics::linear::matrix3::{from_rows, rows_of};
+use piola::solids::isochoric::{Gent, MooneyRivlin as IsochoricMooneyRivlin};
+use piola::solids::volumetric::SimoTaylor;
+use piola::solids::{AnySolid, BlatzKo, Compressible, Hyperelastic, MooneyRivlin, SaintVenantKirchhoff};
+use piola::tensor::voigt::{Abaqus, Classical, Piola, StiffnessMatrix};
+use piola_ffi::points::{StressMeasure, TangentMeasure, VoigtNumbering, stress, stress_and_tangent, tangent};
+use piola_testkit::{Tol, assert_each_close_at_scales, strategies};
+use proptest::prelude::*;
+
+/// Laws of several kinds.
+pub(crate) fn laws() -> Vec<AnySolid> {
+    let volume = SimoTaylor::new(20.0).unwrap();
+    vec![
+        MooneyRivlin::stress_free(0.5, 0.25, 1.0).unwrap().into(),
+        SaintVenantKirchhoff::new(1.0, 2.0).unwrap().into(),
+        BlatzKo::new(1.0, 0.25, 0.5).unwrap().into(),
+        Compressible::new(Gent::new(1.0, 500.0).unwrap(), volume).into(),
+        Compressible::new(IsochoricMooneyRivlin::new(0.5, 0.25).unwrap(), volume).into(),
+    ]
+}
+
+/// F = R U with stretches between 0.6 and 1.6.
+pub(crate) fn deformation() -> impl Strategy<Value = Matrix3<f64>> {
+    (strategies::rotation(), strategies::positive_definite(0.6..1.6)).prop_map(|(quaternion, stretch)| {
+        from_rows(strategies::rotation_matrix(quaternion)) * from_rows::<f64>(stretch)
+    })
+}
+
+fn numbers(f: &Matrix3<f64>) -> [f64; 9] {
+    let [[a, b, c], [d, e, f], [g, h, i]] = rows_of(f);
+    [a, b, c, d, e, f, g, h, i]
+}
+
+fn flat(matrix: [[f64; 6]; 6]) -> [f64; 36] {
+    *matrix.as_flattened().first_chunk().unwrap()
+}
+
+/// Scales of the entries of a tensor: the largest of them.
+fn scale(numbers: &[f64]) -> f64 {
+    numbers.iter().fold(f64::MIN_POSITIVE, |largest, x| largest.max(x.abs()))
+}
+
+fn close(found: &[f64], expected: &[f64], factor: f64) {
+    let scales = vec![scale(expected) * factor; expected.len()];
+    let tol = Tol::ulps_because(128.0, "P and dP/dF in lanes, then two to six products with F or its inverse");
+    assert_each_close_at_scales("numbers", found, expected, &scales, tol);
+}
+
+proptest! {
+    #[test]
+    fn stresses_and_tangents_equal_those_of_the_law(f in deformation()) {
+        let deformation = DeformationGradient::new(f).unwrap();
+        let inverse = deformation.inverse().unwrap();
+        let stretch = scale(&numbers(&f)) * scale(&numbers(inverse.matrix()));
+        let condition = stretch.powi(4).max(1.0);
+        for law in laws() {
+            let f = [numbers(&f)];
+            let mut found = [[0.0; 9]];
+            stress(&law, StressMeasure::Cauchy, &f, &mut found).unwrap();
+            let expected = numbers(&law.cauchy(&deformation).0.matrix());
+            close(&found[0], &expected, condition);
+            stress(&law, StressMeasure::FirstPiola, &f, &mut found).unwrap();
+            close(&found[0], &numbers(&law.first_piola(&deformation).0), condition);
+            stress(&law, StressMeasure::SecondPiola, &f, &mut found).unwrap();
+            close(&found[0], &numbers(&law.second_piola(&deformation).0.matrix()), condition);
+
+            let mut square = [0.0; 81];
+            tangent(&law, TangentMeasure::FirstPiola, VoigtNumbering::Piola, &f, &mut square).unwrap();
+            close(&square, law.first_piola_tangent(&deformation).0.components.as_flattened(), condition);
+            let mut six = [0.0; 36];
+            let (cauchy, truesdell) = law.cauchy_and_tangent(&deformation);
+            let material = law.material_tangent(&deformation);
+            tangent(&law, TangentMeasure::Material, VoigtNumbering::Classical, &f, &mut six).unwrap();
+            close(&six, &flat(StiffnessMatrix::<f64, Classical>::of(&material.0).entries), condition);
+            tangent(&law, TangentMeasure::Truesdell, VoigtNumbering::Piola, &f, &mut six).unwrap();
+            close(&six, &flat(StiffnessMatrix::<f64, Piola>::of(&truesdell.0).entries), condition);
+            tangent(&law, TangentMeasure::Jaumann, VoigtNumbering::Abaqus, &f, &mut six).unwrap();
+            let jaumann = truesdell.jaumann(&cauchy);
+            close(&six, &flat(StiffnessMatrix::<f64, Abaqus>::of(&jaumann.0).entries), condition);
+        }
+    }
+}
+
+#[test]
+fn a_point_has_the_same_bits_anywhere_and_together_with_its_tangent() {
+    let f: Vec<[f64; 9]> = (0..300)
+        .map(|k| {
+            let x = f64::from(k) / 300.0;
+            [1.0 + x, 0.2, -0.1, 0.3 * x, 1.0 - 0.3 * x, 0.1, 0.0, -0.2 * x, 1.1]
+        })
+        .collect();
+    for law in laws() {
+        let mut all = vec![[0.0; 9]; 300];
+        stress(&law, StressMeasure::Cauchy, &f, &mut all).unwrap();
+        let (mut together, mut tangents) = (vec![[0.0; 9]; 300], vec![0.0; 300 * 36]);
+        let measures = (StressMeasure::Cauchy, TangentMeasure::Jaumann);
+        let out = (&mut together[..], &mut tangents[..]);
+        stress_and_tangent(&law, measures, VoigtNumbering::Abaqus, &f, out).unwrap();
+        let mut alone = vec![0.0; 300 * 36];
+        tangent(&law, TangentMeasure::Jaumann, VoigtNumbering::Abaqus, &f, &mut alone).unwrap();
+        assert_eq!(tangents, alone);
+        for k in [0, 127, 128, 299] {
+            let (mut one, mut six) = ([[0.0; 9]], [0.0; 36]);
+            let out = (&mut one[..], &mut six[..]);
+            stress_and_tangent(&law, measures, VoigtNumbering::Abaqus, &f[k..=k], out).unwrap();
+            assert_eq!((one[0], &six[..]), (together[k], &tangents[36 * k..36 * k + 36]));
+        }
+        // P of both requests may differ in its last bits: one of them shares terms with the tangent.
+        close(together.as_flattened(), all.as_flattened(), 8.0);
+    }
+}
+
+#[test]
+fn laws_without_elementary_functions_give_the_bits_of_a_single_point() {
+    let law: AnySolid = SaintVenantKirchhoff::new(1.0, 2.0).unwrap().into();
+    for k in 1..50 {
+        let x = f64::from(k) / 40.0;
+        let f = Matrix3::new(1.0 + x, 0.2, -0.1, 0.3 * x, 1.0, 0.1, 0.0, -0.2 * x, 1.1);
+        let deformation = DeformationGradient::new(f).unwrap();
+        let mut found = [[0.0; 9]];
+        stress(&law, StressMeasure::Cauchy, &[numbers(&f)], &mut found).unwrap();
+        let p = law.first_piola(&deformation);
+        assert_eq!(found[0], numbers(&p.kirchhoff(&deformation).cauchy(&deformation).0.matrix()));
+    }
+}

@@ -1,0 +1,527 @@
+"""Continuum mechanics at compiled speed.
+
+Laws of solids over NumPy arrays, fluids and their viscometric flows, fits of both to measurements, and scenes of motion.
+
+>>> import numpy as np, piola
+>>> rubber = piola.Solid("saint_venant_kirchhoff", first_lame_parameter=1.0, shear_modulus=2.0)
+>>> f = np.diag([2.0, 1.0, 1.0])            # one deformation gradient; (n, 3, 3) for many
+>>> float(rubber.stress(f)[0, 0])           # F11^2 (lambda + 2 mu) E11/J, Pa
+15.0
+
+Arrays of float64 in C order cross without a copy. Evaluations release the global interpreter lock. What the library refuses is a
+``ValueError`` with the message of the library.
+"""
+
+from __future__ import annotations
+
+import json as _json
+from typing import Any, Iterable, Mapping, Sequence
+
+import numpy as np
+
+from . import _native
+
+__version__: str = _native.VERSION
+__all__ = ["Couette", "Fluid", "Pipe", "Run", "Solid", "fit_fluid", "fit_solid", "run_scene"]
+
+
+def _written(kind: str, name: str, parameters: Mapping[str, Any]) -> str:
+    """The written form of a law: its name and its parameters by name."""
+
+    def plain(value: Any) -> Any:
+        if isinstance(value, (np.ndarray, np.generic)):
+            return value.tolist()
+        raise TypeError(f"{type(value).__name__} is no parameter: give numbers, lists and dictionaries")
+
+    return _json.dumps({kind: name, **parameters}, default=plain, allow_nan=False)
+
+
+def _array(name: str, values: Any, tail: tuple[int, ...] = ()) -> np.ndarray:
+    """An array of float64 in C order, the same memory where it is one already."""
+    array = np.ascontiguousarray(values, dtype=np.float64)
+    if tail and array.shape[-len(tail) :] != tail:
+        raise ValueError(f"`{name}` has shape {array.shape}; its last axes must be {tail}")
+    # NumPy makes a number an array of one axis here.
+    return array.reshape(np.shape(values)) if array.ndim != np.ndim(values) else array
+
+
+def _output(out: np.ndarray | None, shape: tuple[int, ...]) -> np.ndarray:
+    """The caller's array, or a new one."""
+    if out is None:
+        return np.empty(shape)
+    if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape:
+        found = f"{out.dtype} {out.shape}" if isinstance(out, np.ndarray) else type(out).__name__
+        raise ValueError(f"`out` is {found}; float64 {shape} is needed")
+    if not out.flags.c_contiguous or not out.flags.writeable:
+        raise ValueError("`out` must be writeable and in C order")
+    return out
+
+
+def _choice(name: str, value: str, valid: tuple[str, ...]) -> str:
+    if value not in valid:
+        raise ValueError(f"`{name}` is {value!r}; it can be {', '.join(valid)}")
+    return value
+
+
+class Solid:
+    """A law of a solid, by its name and its parameters.
+
+    ======================================== ============================================================
+    law                                      parameters
+    ======================================== ============================================================
+    ``mooney_rivlin``                        c10, c01, square_coefficient
+    ``neo_hookean``, ``hencky``              shear_modulus, volumetric
+    ``compressible``                         isochoric, volumetric
+    ``incompressible``                       isochoric
+    ``blatz_ko``                             shear_modulus, poisson_ratio, solid_fraction
+    ``saint_venant_kirchhoff``               first_lame_parameter, shear_modulus
+    ``linear_elastic``                       shear_modulus, first_lame_parameter
+    ``ogden``, ``isochoric_ogden``           terms: [{"modulus": ..., "exponent": ...}, ...], volumetric
+    ``incompressible_ogden``                 terms
+    ``holzapfel_gasser_ogden``               shear_modulus, bulk_modulus, fibre_modulus, fibre_exponent,
+                                             dispersion, fibres
+    ``reinforced_neo_hookean``               shear_modulus, first_lame_parameter, fibre_modulus, fibre
+    ``polynomial``, ``fung``,                as in the reference of the Rust type ``AnySolid``
+    ``anisotropic_linear``,
+    ``anisotropic_saint_venant_kirchhoff``
+    ======================================== ============================================================
+
+    ``isochoric`` is a dictionary with the law ``neo_hookean``, ``mooney_rivlin``, ``yeoh``, ``rivlin``, ``gent``, ``arruda_boyce`` or
+    ``arruda_boyce_series``; ``volumetric`` one with ``quadratic``, ``logarithmic``, ``lame``, ``quadratic_logarithmic``,
+    ``simo_taylor``, ``liu``, ``miehe``, ``ogden`` or ``hartmann_neff``. Moduli are in Pa.
+
+    >>> gent = Solid(
+    ...     "compressible",
+    ...     isochoric={"law": "gent", "shear_modulus": 1e6, "limit": 50.0},
+    ...     volumetric={"law": "simo_taylor", "bulk_modulus": 1e9},
+    ... )
+    """
+
+    __slots__ = ("_solid",)
+
+    def __init__(self, law: str, **parameters: Any) -> None:
+        self._solid = _native.Solid(_written("law", law, parameters))
+
+    @classmethod
+    def _of(cls, solid: Any) -> Solid:
+        made = cls.__new__(cls)
+        made._solid = solid
+        return made
+
+    @classmethod
+    def from_json(cls, text: str) -> Solid:
+        """The law of its written form, such as ``solid.to_json()`` gives."""
+        return cls._of(_native.Solid(text))
+
+    @classmethod
+    def from_fit(cls, summary: str, model: str | None = None, volumetric: Mapping[str, Any] | None = None) -> Solid:
+        """The law of a fit, from the text of the ``summary.json`` that the program ``piola fit`` writes.
+
+        ``model`` chooses one of its laws; without it the best by AICc is taken. ``volumetric`` is the energy of the change of
+        volume, such as ``{"law": "quadratic", "bulk_modulus": 1e9}``; without it the law is incompressible.
+        """
+        volume = None if volumetric is None else _json.dumps(dict(volumetric))
+        return cls._of(_native.Solid.from_fit(summary, model, volume))
+
+    @classmethod
+    def from_values(cls, name: str, values: Sequence[float]) -> Solid:
+        """The law of a name with its parts and numbers in their order: ``from_values("hencky-lame", [mu, lam])``."""
+        return cls._of(_native.Solid.from_values(name, [float(value) for value in values]))
+
+    def to_json(self) -> str:
+        """The written form of the law."""
+        return self._solid.json()
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The law and its parameters by name."""
+        return _json.loads(self._solid.json())
+
+    def __repr__(self) -> str:
+        return f"Solid({self.to_json()})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Solid) and self.parameters == other.parameters
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
+        return (Solid.from_json, (self.to_json(),))
+
+    def stress(
+        self, f: Any, measure: str = "cauchy", *, out: np.ndarray | None = None, bad_points: str = "raise"
+    ) -> np.ndarray:
+        """Stress, Pa, at deformation gradients ``f`` of shape (..., 3, 3); the result has the same shape.
+
+        ================= ===================================================
+        measure           formula
+        ================= ===================================================
+        ``cauchy``        T = P F^T/J
+        ``first_piola``   P = dW/dF
+        ``second_piola``  S = F^-1 P
+        ================= ===================================================
+
+        ``out`` is an array for the result. Where F is not finite, 0 < det F fails or the law has no answer, the point is bad: a
+        ``ValueError``, or NaN at these points with ``bad_points="nan"``. All other points are computed in either case.
+        """
+        f = _array("f", f, (3, 3))
+        result = _output(out, f.shape)
+        _choice("bad_points", bad_points, ("raise", "nan"))
+        message = self._solid.stress(measure, f.reshape(-1), result.reshape(-1))
+        if message is not None and bad_points == "raise":
+            raise ValueError(message)
+        return result
+
+    def tangent(
+        self,
+        f: Any,
+        measure: str = "first_piola",
+        *,
+        voigt: str = "piola",
+        out: np.ndarray | None = None,
+        bad_points: str = "raise",
+    ) -> np.ndarray:
+        """Tangent, Pa, at deformation gradients ``f`` of shape (..., 3, 3).
+
+        ================= ========================================================= =====================
+        measure           tangent                                                   shape
+        ================= ========================================================= =====================
+        ``first_piola``   A_iAjB = dP_iA/dF_jB                                      (..., 3, 3, 3, 3)
+        ``material``      dS/dE                                                     (..., 6, 6)
+        ``truesdell``     D to Truesdell's rate of T                                (..., 6, 6)
+        ``jaumann``       D to Jaumann's rate of tau, over J: DDSDDE of Abaqus      (..., 6, 6)
+        ================= ========================================================= =====================
+
+        Matrices of 6 by 6 multiply engineering shears. ``voigt`` is their order: ``piola`` 11, 22, 33, 12, 23, 13; ``abaqus`` 11, 22, 33,
+        12, 13, 23; ``classical`` 11, 22, 33, 23, 13, 12. For ``out`` and ``bad_points`` see :meth:`stress`.
+        """
+        f = _array("f", f, (3, 3))
+        result = _output(out, f.shape[:-2] + _tangent_shape(measure))
+        _choice("bad_points", bad_points, ("raise", "nan"))
+        message = self._solid.tangent(measure, voigt, f.reshape(-1), result.reshape(-1))
+        if message is not None and bad_points == "raise":
+            raise ValueError(message)
+        return result
+
+    def stress_and_tangent(
+        self,
+        f: Any,
+        measures: tuple[str, str] = ("first_piola", "first_piola"),
+        *,
+        voigt: str = "piola",
+        out: tuple[np.ndarray, np.ndarray] | None = None,
+        bad_points: str = "raise",
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Stress and tangent with the law evaluated once for both: see :meth:`stress` and :meth:`tangent`."""
+        f = _array("f", f, (3, 3))
+        first, second = (None, None) if out is None else out
+        stress = _output(first, f.shape)
+        tangent = _output(second, f.shape[:-2] + _tangent_shape(measures[1]))
+        _choice("bad_points", bad_points, ("raise", "nan"))
+        names = (measures[0], measures[1], voigt)
+        message = self._solid.stress_and_tangent(names, f.reshape(-1), stress.reshape(-1), tangent.reshape(-1))
+        if message is not None and bad_points == "raise":
+            raise ValueError(message)
+        return stress, tangent
+
+
+def _tangent_shape(measure: str) -> tuple[int, ...]:
+    _choice("measure", measure, ("first_piola", "material", "truesdell", "jaumann"))
+    return (3, 3, 3, 3) if measure == "first_piola" else (6, 6)
+
+
+class Fluid:
+    """A fluid, by its name and its parameters.
+
+    ========================================================= ==================================================
+    fluid                                                     parameters
+    ========================================================= ==================================================
+    ``newtonian``                                             viscosity_coefficient
+    ``power_law``                                             consistency, exponent
+    ``bingham``, ``casson``                                   yield_stress, plastic_viscosity
+    ``herschel_bulkley``                                      yield_stress, consistency, exponent
+    ``carreau_yasuda``                                        zero_rate_viscosity, infinite_rate_viscosity, time,
+                                                              exponent, transition
+    ``cross``                                                 zero_rate_viscosity, infinite_rate_viscosity, time,
+                                                              exponent
+    ``oldroyd_b``                                             solvent_viscosity, polymer_viscosity, time
+    ``giesekus``                                              the same, mobility
+    others                                                    as in the reference of the Rust type ``AnyFluid``
+    ========================================================= ==================================================
+
+    >>> mud = Fluid("bingham", yield_stress=3.0, plastic_viscosity=0.5)
+    >>> float(mud.shear_stress(4.0))            # tau_y + mu k, Pa
+    5.0
+    """
+
+    __slots__ = ("_fluid",)
+
+    def __init__(self, fluid: str, **parameters: Any) -> None:
+        self._fluid = _native.Fluid(_written("fluid", fluid, parameters))
+
+    @classmethod
+    def from_json(cls, text: str) -> Fluid:
+        """The fluid of its written form."""
+        made = cls.__new__(cls)
+        made._fluid = _native.Fluid(text)
+        return made
+
+    def to_json(self) -> str:
+        """The written form of the fluid."""
+        return self._fluid.json()
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """The fluid and its parameters by name."""
+        return _json.loads(self._fluid.json())
+
+    def __repr__(self) -> str:
+        return f"Fluid({self.to_json()})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Fluid) and self.parameters == other.parameters
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
+        return (Fluid.from_json, (self.to_json(),))
+
+    def _viscometric(self, function: str, entries: Any) -> np.ndarray:
+        entries = _array("entries", entries)
+        result = np.empty(entries.shape)
+        self._fluid.viscometric(function, entries.reshape(-1), result.reshape(-1))
+        return result
+
+    @property
+    def yield_stress(self) -> float:
+        """The stress below which the fluid is at rest, Pa."""
+        return self._fluid.yield_stress()
+
+    def shear_stress(self, shear_rate: Any) -> np.ndarray:
+        """tau(k), Pa, at shear rates k, 1/s, of any shape."""
+        return self._viscometric("shear_stress", shear_rate)
+
+    def viscosity(self, shear_rate: Any) -> np.ndarray:
+        """tau/k, Pa s, at shear rates, 1/s."""
+        return self._viscometric("viscosity", shear_rate)
+
+    def first_normal_stress_difference(self, shear_rate: Any) -> np.ndarray:
+        """N1 = T22 - T11, Pa, at shear rates, 1/s; direction 1 is that of the gradient, 2 that of the flow."""
+        return self._viscometric("first_normal_stress_difference", shear_rate)
+
+    def second_normal_stress_difference(self, shear_rate: Any) -> np.ndarray:
+        """N2 = T11 - T33, Pa, at shear rates, 1/s."""
+        return self._viscometric("second_normal_stress_difference", shear_rate)
+
+    def shear_rate(self, shear_stress: Any) -> np.ndarray:
+        """The inverse of tau, 1/s, at shear stresses, Pa; zero up to the yield stress."""
+        return self._viscometric("shear_rate", shear_stress)
+
+
+def _drive(first: str, a: float | None, second: str, b: float | None) -> None:
+    if (a is None) == (b is None):
+        raise ValueError(f"give either `{first}` or `{second}`")
+
+
+class Pipe:
+    """Steady flow along a pipe of circular cross section.
+
+    T_rz = -c r/2, v(r) = integral of zeta(c xi/2) from r to R, Q = pi times the integral of xi^2 zeta(c xi/2) from 0 to R, with zeta the
+    shear rate of a shear stress.
+
+    Give the pressure gradient c = -dp/dz, Pa/m, or the discharge Q, m^3/s; the other one is found, with its error bound.
+
+    >>> oil = Fluid("newtonian", viscosity_coefficient=0.5)
+    >>> round(Pipe(oil, 2.0, pressure_gradient=3.0).discharge / np.pi, 12)      # c R^4/(8 mu)
+    12.0
+    """
+
+    __slots__ = ("discharge", "error", "fluid", "pressure_gradient", "radius")
+
+    def __init__(
+        self, fluid: Fluid, radius: float, *, pressure_gradient: float | None = None, discharge: float | None = None
+    ) -> None:
+        _drive("pressure_gradient", pressure_gradient, "discharge", discharge)
+        self.fluid = fluid
+        self.radius = float(radius)
+        if pressure_gradient is not None:
+            self.pressure_gradient = float(pressure_gradient)
+            self.discharge, self.error = fluid._fluid.pipe_discharge(radius, pressure_gradient)
+        else:
+            assert discharge is not None
+            self.discharge = float(discharge)
+            self.pressure_gradient, self.error = fluid._fluid.pipe_pressure_gradient(radius, discharge)
+
+    def velocity(self, r: Any) -> np.ndarray:
+        """Velocity, m/s, at distances r, m, from the axis."""
+        r = _array("r", r)
+        result = np.empty(r.shape)
+        self.fluid._fluid.pipe_velocities(self.radius, self.pressure_gradient, r.reshape(-1), result.reshape(-1))
+        return result
+
+
+class Couette:
+    """Steady flow between coaxial cylinders, the inner one at rest.
+
+    T_rtheta = M/(2 pi r^2), r omega' = zeta(T_rtheta).
+
+    Give the moment M per length, N m/m, or the difference of the angular velocities, rad/s; the other one is found, with its error
+    bound.
+
+    >>> oil = Fluid("newtonian", viscosity_coefficient=0.5)
+    >>> round(Couette(oil, 1.0, 2.0, speed_difference=3.0).moment / np.pi, 12)
+    8.0
+    """
+
+    __slots__ = ("error", "fluid", "inner_radius", "moment", "outer_radius", "speed_difference")
+
+    def __init__(
+        self,
+        fluid: Fluid,
+        inner_radius: float,
+        outer_radius: float,
+        *,
+        moment: float | None = None,
+        speed_difference: float | None = None,
+    ) -> None:
+        _drive("moment", moment, "speed_difference", speed_difference)
+        self.fluid = fluid
+        self.inner_radius, self.outer_radius = float(inner_radius), float(outer_radius)
+        radii = (self.inner_radius, self.outer_radius)
+        if moment is not None:
+            self.moment = float(moment)
+            self.speed_difference, self.error = fluid._fluid.couette_speed_difference(radii, moment)
+        else:
+            assert speed_difference is not None
+            self.speed_difference = float(speed_difference)
+            self.moment, self.error = fluid._fluid.couette_moment(radii, speed_difference)
+
+    def angular_velocity(self, r: Any) -> np.ndarray:
+        """Angular velocity, rad/s, at distances r, m, from the axis."""
+        r = _array("r", r)
+        result = np.empty(r.shape)
+        radii = (self.inner_radius, self.outer_radius)
+        self.fluid._fluid.couette_angular_velocities(radii, self.moment, r.reshape(-1), result.reshape(-1))
+        return result
+
+
+def fit_solid(model: str, tests: Iterable[Mapping[str, Any]], **options: Any) -> dict[str, Any]:
+    """Parameters of an incompressible law from stresses of homogeneous tests.
+
+    ``model`` is ``neo-hookean``, ``mooney-rivlin``, ``yeoh``, ``gent``, ``arruda-boyce``, ``polynomial:n`` or ``ogden:n``. A test is a
+    dictionary:
+
+    ============ ================================================================================
+    key          meaning
+    ============ ================================================================================
+    ``mode``     ``uniaxial``, ``equibiaxial``, ``planar`` or ``simple_shear``
+    ``stretch``  the stretches; in simple shear the amounts of shear
+    ``stress``   the stresses, all in one unit
+    ``measure``  ``first_piola`` (force per area of the reference; default) or ``cauchy``
+    ``name``     of the test; its mode by default
+    ``weight``   1 by default
+    ============ ================================================================================
+
+    Options: ``weighting`` (``largest_stress``, ``equal``), ``stability`` (``required``, ``free``), ``bounds`` ({name: (low, high)}),
+    ``confidence`` (0.95), ``patience`` (200). The result is the fit as a dictionary: ``model``, ``parameters`` with ``value``,
+    ``standard_error`` and ``interval``, ``tests`` with ``residuals``, ``criteria``, ``converged``, ``stable`` and more. The law itself is
+    ``Solid.from_fit(json.dumps(fit), volumetric=...)``.
+    """
+    tables = []
+    for test in tests:
+        unknown = set(test) - {"mode", "stretch", "stress", "measure", "name", "weight"}
+        if unknown:
+            raise ValueError(f"a test has no {', '.join(sorted(unknown))}")
+        mode = _choice("mode", test["mode"], ("uniaxial", "equibiaxial", "planar", "simple_shear"))
+        stretch, stress = _array("stretch", test["stretch"]), _array("stress", test["stress"])
+        if stretch.ndim != 1 or stretch.shape != stress.shape:
+            raise ValueError(f"`stretch` has shape {stretch.shape}, `stress` {stress.shape}; both must be (n,)")
+        if not (np.isfinite(stretch).all() and np.isfinite(stress).all()):
+            raise ValueError(f"test `{test.get('name', mode)}` has stretches or stresses that are not finite")
+        tables.append(
+            {
+                "name": test.get("name", mode),
+                "table": {mode: np.column_stack([stretch, stress]).tolist()},
+                "measure": test.get("measure", "first_piola"),
+                "weight": float(test.get("weight", 1.0)),
+            }
+        )
+    return _json.loads(_native.fit_solid(model, _json.dumps(tables), _options(options)))
+
+
+def fit_fluid(
+    fluid: str, shear_rate: Any, shear_stress: Any, start: Sequence[float], **options: Any
+) -> tuple[Fluid, dict[str, Any]]:
+    """Parameters of a fluid from a flow curve: the fluid, and the fit as a dictionary.
+
+    ``fluid`` is ``newtonian``, ``power_law``, ``bingham``, ``casson``, ``eyring``, ``herschel_bulkley``, ``sisko``, ``ellis``, ``cross``,
+    ``papanastasiou`` or ``carreau_yasuda``. Shear rates, 1/s, must rise; stresses are in Pa. ``start`` has the parameters, in the order of
+    the table of :class:`Fluid`, from which the search starts.
+
+    Options: ``weighting`` (``relative``, ``equal``), ``bounds`` ({name: (low, high)}), ``confidence`` (0.95), ``patience`` (200).
+
+    >>> fluid, fit = fit_fluid("power_law", [1.0, 4.0, 9.0, 100.0], [3.0, 6.0, 9.0, 30.0], start=[1.0, 1.0])   # 3 sqrt(k)
+    >>> [round(parameter["value"], 9) for parameter in fit["parameters"]]
+    [3.0, 0.5]
+    """
+    rates, stresses = _array("shear_rate", shear_rate), _array("shear_stress", shear_stress)
+    if rates.ndim != 1 or rates.shape != stresses.shape:
+        raise ValueError(f"`shear_rate` has shape {rates.shape}, `shear_stress` {stresses.shape}; both must be (n,)")
+    rows = np.column_stack([rates, stresses]).tolist()
+    fit = _json.loads(_native.fit_fluid(fluid, rows, [float(x) for x in start], _options(options)))
+    return Fluid.from_json(_json.dumps(fit.pop("fluid"))), fit
+
+
+def _options(options: Mapping[str, Any]) -> str:
+    written = dict(options)
+    if "bounds" in written:
+        written["bounds"] = [[name, [float(x) for x in bounds]] for name, bounds in dict(written["bounds"]).items()]
+    return _json.dumps(written)
+
+
+class Run:
+    """The record of a scene.
+
+    =================== ======================= =====================================================
+    attribute           shape                   meaning
+    =================== ======================= =====================================================
+    names               (bodies,)               names of the bodies
+    t                   (instants,)             time, s
+    positions           (instants, bodies, 3)   m
+    velocities          (instants, bodies, 3)   m/s; ``None`` for a mechanism
+    coordinate_names    (coordinates,)          of a mechanism
+    coordinates         (instants, 2 m)         coordinates and then their rates; ``None`` unless a mechanism
+    energy_times        (samples,)              s
+    energy              (samples,)              kinetic and potential energy, J
+    summary             dictionary              status, method with its reason, steps, drifts, errors
+    =================== ======================= =====================================================
+    """
+
+    __slots__ = (
+        "coordinate_names",
+        "coordinates",
+        "energy",
+        "energy_times",
+        "names",
+        "positions",
+        "summary",
+        "t",
+        "velocities",
+    )
+
+    def __init__(self, record: Mapping[str, Any]) -> None:
+        for name in Run.__slots__:
+            setattr(self, name, record.get(name))
+        self.summary = _json.loads(record["summary"])
+
+    def __repr__(self) -> str:
+        return f"Run({self.summary['name']!r}, {self.summary['status']}, {len(self.t)} instants)"
+
+
+def run_scene(text: str) -> Run:
+    """Runs a scene of motion written in TOML and returns its record.
+
+    The format is that of the program ``piola``; mistakes are a ``ValueError`` that lists all of them with line and column. A run that
+    fails on its way is returned as far as it came: see ``summary["status"]``. Studies (scenes without ``[time]``) are refused.
+    """
+    return Run(_native.run_scene(text))
