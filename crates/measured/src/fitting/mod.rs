@@ -8,7 +8,7 @@
 //! | write | [`Comparison::write`]: `summary.json`, `curves.csv`, `residuals.csv`, `fit.svg` |
 
 mod figure;
-pub(crate) mod layout;
+mod layout;
 mod mistake;
 mod request;
 mod tables;
@@ -16,7 +16,7 @@ mod tables;
 pub use mistake::{TableMistake, TableReport};
 pub use request::{LawBounds, Request};
 
-pub use piola_fit::solids::{Fit, SolidParameter, Stability, State, Weighting};
+pub use piola_fit::solids::{Fit, SolidParameter, Stability, State, Test, Weighting};
 
 use std::path::{Path, PathBuf};
 
@@ -26,6 +26,7 @@ use piola_fit::solids::{AnyModel, Data, fit};
 
 use crate::MeasuredError;
 use crate::comparison::{self, Judged};
+use crate::sheet::read;
 
 /// Measured stresses of one material.
 ///
@@ -49,6 +50,10 @@ pub struct Measurements {
     pub unit: Option<String>,
     /// The numbers.
     pub data: Data,
+    /// Tests that the file holds out: laws are not fitted to them, but compared with them.
+    pub held_out: Vec<Test>,
+    /// What was read in a way that a reader must know, as sentences without a full stop.
+    pub notes: Vec<String>,
 }
 
 impl Measurements {
@@ -58,7 +63,15 @@ impl Measurements {
     /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every
     /// mistake and its line.
     pub fn load(path: &Path) -> Result<Self, MeasuredError> {
-        Self::parse(path, &layout::read(path)?)
+        Self::load_only(path, &[])
+    }
+
+    /// Reads those rows of a file whose columns have these texts or numbers, as `("batch", "7")`.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_only(path: &Path, only: &[(String, String)]) -> Result<Self, MeasuredError> {
+        Self::of(path, &read(path)?, only)
     }
 
     /// Reads the text of a file.
@@ -66,9 +79,13 @@ impl Measurements {
     /// # Errors
     /// [`MeasuredError::Table`].
     pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, MeasuredError> {
+        Self::of(path, text, &[])
+    }
+
+    fn of(path: impl Into<PathBuf>, text: &str, only: &[(String, String)]) -> Result<Self, MeasuredError> {
         let path = path.into();
-        match layout::parse(text) {
-            Ok((data, unit)) => Ok(Self { path, unit, data }),
+        match layout::parse(text, only) {
+            Ok(layout::Layout { data, unit, held_out, notes }) => Ok(Self { path, unit, data, held_out, notes }),
             Err(mistakes) => Err(MeasuredError::Table(TableReport::new(path, mistakes))),
         }
     }

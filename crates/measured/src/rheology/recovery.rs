@@ -271,8 +271,9 @@ pub fn recover(measured: &Measured, request: &RecoveryRequest) -> Result<Recover
         }
         _ => {}
     }
-    let curve = |answer| curve_of(measured, answer, request).map_err(|error| measured.refused(error));
-    Ok(Recovery { curves: measured.answers.iter().map(curve).collect::<Result<_, _>>()?, correction: None })
+    let merged = measured.merged();
+    let curve = |answer| curve_of(&merged, answer, request).map_err(|error| merged.refused(error));
+    Ok(Recovery { curves: merged.answers.iter().map(curve).collect::<Result<_, _>>()?, correction: None })
 }
 
 /// The curve of a column.
@@ -357,7 +358,8 @@ pub fn recover_without_slip(tables: &[Measured], request: &RecoveryRequest) -> R
             let argument = format!("--slip with --flow {}", measured.flow.kind().name());
             return Err(MeasuredError::Argument { argument, valid: "--flow pipe" });
         };
-        let table = FlowTable::pipe(radius, measured.rows()).and_then(|table| table.with_noise(request.noise));
+        let merged = measured.merged();
+        let table = FlowTable::pipe(radius, merged.rows()).and_then(|table| table.with_noise(request.noise));
         table.map_err(|error| measured.refused(error))
     };
     let pipes: Vec<_> = tables.iter().map(table).collect::<Result<_, _>>()?;
@@ -402,7 +404,8 @@ pub fn recover_without_ends(tables: &[Measured], request: &RecoveryRequest) -> R
             let argument = format!("--flow {}", measured.flow.kind().name());
             return Err(MeasuredError::Argument { argument, valid: "--flow capillary" });
         };
-        let table = Capillary::new(radius, length, measured.rows()).and_then(|table| table.with_noise(request.noise));
+        let merged = measured.merged();
+        let table = Capillary::new(radius, length, merged.rows()).and_then(|table| table.with_noise(request.noise));
         table.map_err(|error| measured.refused(error))
     };
     let capillaries: Vec<_> = tables.iter().map(table).collect::<Result<_, _>>()?;
@@ -632,7 +635,7 @@ impl Recovery {
     pub fn table(&self, tables: &[Measured]) -> String {
         let mut text = String::new();
         for measured in tables {
-            let _ = writeln!(text, "{}", measured.heading());
+            let _ = writeln!(text, "{}", measured.merged().heading());
         }
         for curve in &self.curves {
             text.push_str(&curve.table());
@@ -655,8 +658,9 @@ impl Recovery {
             };
             files.push((csv, curve.csv()));
             if let (Some(measured), Some(what)) = (tables.first(), curve.answering) {
-                files.push((residuals, of_residuals(measured, curve, what)));
-                files.push((svg, figure::recovery(measured, curve, what)));
+                let merged = measured.merged();
+                files.push((residuals, of_residuals(&merged, curve, what)));
+                files.push((svg, figure::recovery(&merged, curve, what)));
             }
         }
         if let (Some(correction), Some(curve)) = (&self.correction, self.curves.first()) {
