@@ -158,6 +158,15 @@ impl FlowData {
         self.rows.is_empty()
     }
 
+    /// The same with no more than about so many rows, evenly chosen, the last one among them.
+    pub(super) fn thinned(&self, most: usize) -> Self {
+        let stride = self.rows.len().div_ceil(most.max(1)).max(1);
+        let from_the_end = self.rows.iter().rev().step_by(stride).copied();
+        let mut rows: Vec<[f64; 2]> = from_the_end.collect();
+        rows.reverse();
+        Self { rows, ..self.clone() }
+    }
+
     /// The answer to the drive of a row of a fluid with shear stresses τ(k) and their inverse ζ(τ), with derivatives with
     /// respect to its parameters.
     ///

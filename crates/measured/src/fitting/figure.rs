@@ -16,12 +16,13 @@ pub(super) fn comparison(measurements: &Measurements, comparison: &Comparison) -
     let tests = measurements.data.tests();
     let panels: Vec<Panel> = tests
         .iter()
-        .enumerate()
-        .map(|(index, test)| {
+        .map(|test| {
             let is_curve = test.table().mode().is_some();
             let points: Vec<(f64, f64)> = test.abscissas().zip(test.stresses()).collect();
             let answers = |fit: &piola_fit::solids::Fit| {
-                points.iter().zip(&fit.tests[index].residuals).map(|((x, y), residual)| (*x, y + residual)).collect()
+                let found = fit.tests.iter().find(|found| found.test == test.name());
+                let residuals = found.map_or(&[][..], |found| found.residuals.as_slice());
+                points.iter().zip(residuals).map(|((x, y), residual)| (*x, y + residual)).collect()
             };
             let curves =
                 comparison.fits().map(|(law, fit)| if is_curve { curve(law, fit, test) } else { answers(fit) });

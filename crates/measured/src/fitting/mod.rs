@@ -16,16 +16,18 @@ mod tables;
 pub use mistake::{TableMistake, TableReport};
 pub use request::{LawBounds, Request};
 
-pub use piola_fit::solids::{Fit, SolidParameter, Stability, State, Test, Weighting};
+pub use piola_fit::solids::{
+    Contradiction, Fit, Intervals, Residuals, SolidParameter, Stability, State, Test, Weighting,
+};
 
 use std::path::{Path, PathBuf};
 
 use piola_charts::{Folder, Written};
 use piola_fit::FitError;
-use piola_fit::solids::{AnyModel, Data, fit};
+use piola_fit::solids::{AnyModel, Data, alone, contradictions, fit_until, held_out};
 
 use crate::MeasuredError;
-use crate::comparison::{self, Judged};
+use crate::comparison::{self, Judged, Watch};
 use crate::sheet::read;
 
 /// Measured stresses of one material.
@@ -97,26 +99,76 @@ impl Measurements {
     }
 }
 
-/// Laws fitted to the same stresses.
-pub type Comparison = comparison::Comparison<AnyModel, Fit, FitError>;
+/// A fitted law with what the tests say of it one by one.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct FittedLaw {
+    /// The fit to all tests that are not held out.
+    pub fit: Fit,
+    /// Parameters for which two tests alone ask for different values.
+    pub contradictions: Vec<Contradiction>,
+    /// What the law predicts for tests that are held out.
+    pub predicted: Vec<Residuals>,
+    /// Each test as the law predicts it that is fitted to all the others, if that was asked for.
+    pub left_out: Vec<Residuals>,
+}
 
-impl Judged for Fit {
+impl core::ops::Deref for FittedLaw {
+    type Target = Fit;
+
+    fn deref(&self) -> &Fit {
+        &self.fit
+    }
+}
+
+/// Laws fitted to the same stresses.
+pub type Comparison = comparison::Comparison<AnyModel, FittedLaw, FitError>;
+
+impl Judged for FittedLaw {
     fn aicc(&self) -> Option<f64> {
-        self.criteria.aicc
+        self.fit.criteria.aicc
     }
     fn is_converged(&self) -> bool {
-        self.outcome.is_converged()
+        self.fit.outcome.is_converged()
+    }
+    fn widening(&self) -> f64 {
+        self.fit.autocorrelation.map_or(1.0, |found| found.widening)
     }
 }
 
 /// Fits each law that is asked for.
 ///
 /// # Errors
-/// Weights of tests that are not in the data. The refusal of a single law stands in its
+/// Weights of tests that are not in the data; bounds that no value of a parameter fulfils. The refusal of a single law stands in its
 /// [`Candidate`](crate::comparison::Candidate).
 pub fn compare(measurements: &Measurements, request: &Request) -> Result<Comparison, MeasuredError> {
-    let data = request.weighted(&measurements.data)?;
-    Ok(Comparison::of(&request.laws, |law| fit(&law, &data, &request.options(law))))
+    compare_until(measurements, request, &mut |_| core::ops::ControlFlow::Continue(()))
+}
+
+/// The same while `watch` lets it go on; it is told the finished part of the laws.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_until(
+    measurements: &Measurements,
+    request: &Request,
+    watch: Watch<'_>,
+) -> Result<Comparison, MeasuredError> {
+    let (data, held) = request.weighted(measurements)?;
+    request.check_bounds(&data)?;
+    Ok(Comparison::of(&request.laws, watch, |law, stop| {
+        let options = request.options(law);
+        let fit = fit_until(&law, &data, &options, stop)?;
+        let predicted = held.iter().map(|test| test.beside(&law, &fit)).collect::<Result<_, _>>()?;
+        let left_out = if request.cross_validation && 1 < data.tests().len() && !stop() {
+            held_out(&law, &data, &options)
+                .map_or_else(|_| Vec::new(), |tests| tests.into_iter().map(|test| test.residuals).collect())
+        } else {
+            Vec::new()
+        };
+        let contradictions = if stop() { Vec::new() } else { contradictions(&alone(&law, &data, &options, &fit)) };
+        Ok(FittedLaw { fit, contradictions, predicted, left_out })
+    }))
 }
 
 impl Comparison {
@@ -138,5 +190,14 @@ impl Comparison {
                 ("fit.svg", figure::comparison(measurements, self)),
             ],
         )
+    }
+
+    /// Stresses of every law from rest to `stretch` in each mode that was measured, with pointwise intervals: CSV with the columns
+    /// `law,mode,stretch,stress,low,high,beyond the data`.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Argument`] unless the stretch is positive and finite.
+    pub fn predictions(&self, measurements: &Measurements, stretch: f64) -> Result<String, MeasuredError> {
+        tables::predictions(measurements, self, stretch)
     }
 }

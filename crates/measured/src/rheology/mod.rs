@@ -24,9 +24,9 @@ mod recovery;
 mod sweeps;
 mod table;
 
-pub use fluids::{Comparison, FittedFluid, FluidName, Request, compare};
+pub use fluids::{Comparison, FittedFluid, FluidName, Request, compare, compare_until};
 pub use kind::{Answer, Answering, Flow, FlowKind};
-pub use piola_fit::fluids::Weighting;
+pub use piola_fit::fluids::{Intervals, State, Weighting};
 pub use piola_viscometry::recover::{Noise, Rise};
 pub use recovery::{
     Correction, Function, Point, RecoveredCurve, Recovery, RecoveryRequest, recover, recover_without_ends,
