@@ -1,6 +1,7 @@
 //! One function a command.
 
 use core::ops::ControlFlow;
+use core::sync::atomic::{AtomicBool, Ordering};
 use std::io::Write as _;
 use std::path::Path;
 
@@ -257,9 +258,24 @@ fn print_json(value: &impl serde::Serialize) {
     print(&format!("{text}\n"));
 }
 
-/// Standard output; a reader that has gone away is no error.
+/// Whether standard output could not take something. A reader that has gone away is no failure.
+static LOST: AtomicBool = AtomicBool::new(false);
+
+/// Standard output.
 pub(crate) fn print(text: &str) {
-    let _ = std::io::stdout().lock().write_all(text.as_bytes());
+    let mut output = std::io::stdout().lock();
+    let written = output.write_all(text.as_bytes()).and_then(|()| output.flush());
+    if let Err(error) = written
+        && error.kind() != std::io::ErrorKind::BrokenPipe
+        && !LOST.swap(true, Ordering::Relaxed)
+    {
+        note(&format!("error: standard output cannot be written: {error}"));
+    }
+}
+
+/// The exit, or a failure if standard output could not take all of the results.
+pub(crate) fn whole(exit: Exit) -> Exit {
+    if exit == Exit::Done && LOST.load(Ordering::Relaxed) { Exit::Failed } else { exit }
 }
 
 /// Standard error.

@@ -43,9 +43,8 @@ pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
             show(&text, flow.json, &folder, &written);
             let lost = recovery.lost();
             if 0 < lost {
-                note(&format!(
-                    "error: no positive value was recovered at {lost} of the rows: the noise is stronger than the flow"
-                ));
+                let why = recovery.why_lost().unwrap_or_default();
+                note(&format!("error: nothing is known at {lost} of the rows: {why}"));
             }
             if lost == 0 && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
         }

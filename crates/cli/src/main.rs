@@ -44,7 +44,7 @@ fn main() -> ExitCode {
         Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
     };
-    match exit {
+    match commands::whole(exit) {
         Exit::Done => ExitCode::SUCCESS,
         Exit::Failed => ExitCode::from(1),
         Exit::Invalid => ExitCode::from(2),

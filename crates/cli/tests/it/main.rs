@@ -2,4 +2,5 @@
 
 mod boxes;
 mod end_to_end;
+mod measurements;
 mod register;

@@ -33,6 +33,7 @@
 //! ```
 
 mod band;
+mod banded;
 mod corrected;
 mod corrections;
 mod curve;
