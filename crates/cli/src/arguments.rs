@@ -66,12 +66,13 @@ pub(crate) struct RunArguments {
 
 #[derive(Debug, Args)]
 pub(crate) struct FitArguments {
-    /// The measured stresses: CSV with the columns mode,stretch,stress (or F and stress by components).
+    /// The measured stresses: a table with the columns mode, stretch (or strain) and stress, or lambda1, lambda2, P1, P2, or F and stress
+    /// by components.
     pub(crate) data: PathBuf,
     /// A law: neo-hookean, mooney-rivlin, yeoh, gent, arruda-boyce, polynomial:n, ogden:n. Without any, the usual ones.
     #[arg(long = "law", value_name = "LAW")]
     pub(crate) laws: Vec<String>,
-    /// Weights of tests, as uniaxial=2,planar=0.5.
+    /// Weights of tests, as uniaxial=2,planar=0.5; 0 holds a test out and compares the laws with it.
     #[arg(long, value_name = "TEST=WEIGHT,...")]
     pub(crate) mode_weights: Option<String>,
     /// Bounds of a parameter, as gent.Jm=60..200 or gent.Jm=60..
@@ -83,6 +84,18 @@ pub(crate) struct FitArguments {
     /// Allow unstable laws. Their instability is still reported.
     #[arg(long)]
     pub(crate) allow_unstable: bool,
+    /// Use only the rows whose column has this text or number, as batch=7.
+    #[arg(long, value_name = "COLUMN=VALUE")]
+    pub(crate) only: Vec<String>,
+    /// Leave out each test in turn and predict it from the others.
+    #[arg(long)]
+    pub(crate) cross_validate: bool,
+    /// Write the stresses of every law up to this stretch, within the data or beyond, to predictions.csv.
+    #[arg(long, value_name = "STRETCH")]
+    pub(crate) to: Option<f64>,
+    /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
+    #[arg(long)]
+    pub(crate) profile: bool,
     /// The probability of the intervals.
     #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
     pub(crate) confidence: f64,
@@ -118,9 +131,21 @@ pub(crate) struct FlowArguments {
     /// Angle between cone and plate, as 2deg, instead of the file's.
     #[arg(long, value_name = "ANGLE")]
     pub(crate) angle: Option<String>,
-    /// Relative standard deviation of the measured responses; 0 for exact data. Estimated if absent.
+    /// Length of the pipe or channel over which the pressure falls, for tables of pressure differences.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) length: Option<String>,
+    /// Height of the inner cylinder, for tables of torques.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) height: Option<String>,
+    /// Relative standard deviation of the measured responses, as 0.02 or 2%; 0 for exact data. Estimated if absent.
     #[arg(long, value_name = "SHARE")]
-    pub(crate) noise: Option<f64>,
+    pub(crate) noise: Option<String>,
+    /// Rows of a table with rising and falling sweeps that are used: rising, falling or all.
+    #[arg(long, value_name = "SWEEP", default_value = "rising")]
+    pub(crate) sweep: String,
+    /// Use only the rows whose column has this text or number, as conc=4.
+    #[arg(long, value_name = "COLUMN=VALUE")]
+    pub(crate) only: Vec<String>,
     /// The probability of the band or the intervals.
     #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
     pub(crate) confidence: f64,
@@ -155,12 +180,15 @@ pub(crate) struct FitFlowArguments {
     #[command(flatten)]
     pub(crate) flow: FlowArguments,
     /// A fluid: newtonian, power-law, bingham, casson, herschel-bulkley, papanastasiou, eyring, sisko, ellis, cross,
-    /// carreau-yasuda. Without any, all of them.
+    /// carreau-yasuda. Without any, all of them but papanastasiou, which is a regularisation.
     #[arg(long = "fluid", value_name = "FLUID")]
     pub(crate) fluids: Vec<String>,
     /// Suppose errors of one size in all rows, instead of a part of each answer.
     #[arg(long)]
     pub(crate) equal_errors: bool,
+    /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
+    #[arg(long)]
+    pub(crate) profile: bool,
 }
 
 #[derive(Debug, Args)]

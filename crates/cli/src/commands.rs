@@ -1,10 +1,10 @@
 //! One function a command.
 
 use core::ops::ControlFlow;
+use core::sync::atomic::{AtomicBool, Ordering};
 use std::borrow::Cow;
 use std::io::Write as _;
 use std::path::Path;
-use std::sync::OnceLock;
 
 use piola_charts::{Folder, Written};
 use piola_measured::MeasuredError;
@@ -17,7 +17,7 @@ use piola_scene::{Plan, Scene, SceneError, SceneFile, Study, schema};
 use crate::arguments::{FitArguments, RunArguments, SceneArguments, SchemaArguments};
 use crate::interrupt::Interrupt;
 use crate::progress::{ProgressLine, STRIDE};
-use crate::{Exit, comparison, report};
+use crate::{Exit, comparison, flows, report};
 
 pub(crate) fn run(arguments: &RunArguments) -> Exit {
     match load(&arguments.scene) {
@@ -180,34 +180,45 @@ pub(crate) fn check(arguments: &SceneArguments) -> Exit {
 }
 
 pub(crate) fn fit(arguments: &FitArguments) -> Exit {
-    let prepared = Measurements::load(&arguments.data).and_then(|measurements| {
+    let interrupt = Interrupt::listen();
+    let prepared = flows::only(&arguments.only).and_then(|only| {
+        let measurements = Measurements::load_only(&arguments.data, &only)?;
         let request = request(arguments)?;
-        let fitted = fitting::compare(&measurements, &request)?;
+        let fitted = flows::watched(&measurements.name(), &interrupt, |watch| {
+            fitting::compare_until(&measurements, &request, watch)
+        })?;
         if let (None, Some((_, refused))) = (fitted.fits().next(), fitted.refusals().next()) {
             return Err(refused.clone().into());
         }
+        let predictions = arguments.to.map(|stretch| fitted.predictions(&measurements, stretch)).transpose()?;
         let beside = || Path::new("out").join(format!("fit-{}", measurements.name()));
         let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
-        Ok((measurements, fitted, folder))
+        Ok((measurements, fitted, predictions, folder))
     });
-    let (measurements, fitted, folder) = match prepared {
+    let (measurements, fitted, predictions, folder) = match prepared {
         Ok(prepared) => prepared,
         Err(error) => return refused(&error, arguments.json),
     };
-    let written = fitted.write(&folder, &measurements);
+    let mut written = fitted.write(&folder, &measurements);
+    if let Some(predictions) = predictions {
+        let more = Written::of(&folder, [("predictions.csv", predictions)]);
+        written.files.extend(more.files);
+        written.failures.extend(more.failures);
+    }
     if arguments.json {
         print(&fitted.summary(&measurements));
     } else {
         print(&comparison::table(&measurements, &fitted));
+        if let Some(stretch) = arguments.to {
+            print(&comparison::warning(&measurements, stretch));
+        }
         print(&listing(&folder, &written));
     }
     for failure in &written.failures {
         note(&format!("error: {failure}"));
     }
-    for (_, refusal) in fitted.refusals() {
-        note(&format!("error: {refusal}"));
-    }
-    if fitted.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+    let refusals: Vec<String> = fitted.refusals().map(|(_, refusal)| refusal.to_string()).collect();
+    flows::settled(&fitted, fitted.is_complete(), &refusals, !arguments.laws.is_empty(), &written)
 }
 
 fn request(arguments: &FitArguments) -> Result<Request, MeasuredError> {
@@ -227,6 +238,10 @@ fn request(arguments: &FitArguments) -> Result<Request, MeasuredError> {
         request.stability = fitting::Stability::Free;
     }
     request.confidence = arguments.confidence;
+    request.cross_validation = arguments.cross_validate;
+    if arguments.profile {
+        request.intervals = fitting::Intervals::Profile;
+    }
     Ok(request)
 }
 
@@ -291,22 +306,24 @@ fn print_json(value: &impl serde::Serialize) {
     print(&format!("{text}\n"));
 }
 
-/// Why standard output could not be written, if it could not.
-static UNWRITTEN: OnceLock<String> = OnceLock::new();
+/// Whether standard output could not take something. A reader that has gone away is no failure.
+static LOST: AtomicBool = AtomicBool::new(false);
 
-/// Standard output; a reader that has gone away is no error.
+/// Standard output.
 pub(crate) fn print(text: &str) {
-    let mut out = std::io::stdout().lock();
-    if let Err(error) = out.write_all(printable(text).as_bytes()).and_then(|()| out.flush())
+    let mut output = std::io::stdout().lock();
+    let written = output.write_all(printable(text).as_bytes()).and_then(|()| output.flush());
+    if let Err(error) = written
         && error.kind() != std::io::ErrorKind::BrokenPipe
+        && !LOST.swap(true, Ordering::Relaxed)
     {
-        let _ = UNWRITTEN.set(error.to_string());
+        note(&format!("error: standard output cannot be written: {error}"));
     }
 }
 
-/// Why standard output could not be written, if it could not.
-pub(crate) fn unwritten() -> Option<&'static str> {
-    UNWRITTEN.get().map(String::as_str)
+/// The exit, or a failure if standard output could not take all of the results.
+pub(crate) fn whole(exit: Exit) -> Exit {
+    if exit == Exit::Done && LOST.load(Ordering::Relaxed) { Exit::Failed } else { exit }
 }
 
 /// Standard error.

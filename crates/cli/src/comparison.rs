@@ -2,24 +2,53 @@
 
 use core::fmt::Write as _;
 
-use piola_measured::fitting::{Comparison, Fit, Measurements, SolidParameter, State};
+use piola_measured::fitting::{Comparison, Fit, Measurements, Residuals, SolidParameter, State};
+
+/// Tests with a column of their own, at most.
+const SHOWN: usize = 6;
 
 /// Laws with their residuals and criteria, then each law's parameters.
 pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> String {
     let mut text = String::new();
     let tests = measurements.data.tests();
-    let count = measurements.data.len();
-    let _ = writeln!(text, "{}: {count} stresses in {} tests\n", measurements.name(), tests.len());
-    let _ = write!(text, "{:<16}{:>3}", "law", "k");
-    for test in tests {
-        let _ = write!(text, "{:>14}", shortened(test.name()));
+    let (count, told) = (measurements.data.len(), measurements.data.informative());
+    let _ = writeln!(text, "{}: {count} stresses in {} tests", measurements.name(), tests.len());
+    if told < count {
+        let _ = writeln!(text, "  {} of them at rest, where every law has the same: they do not count", count - told);
     }
-    let _ = writeln!(text, "{:>10}{:>10}  {:<8}search", "AICc", "above", "stable");
+    for note in &measurements.notes {
+        let _ = writeln!(text, "  {note}");
+    }
+    let fitted = comparison.fits().next().map_or(&[][..], |(_, fit)| fit.tests.as_slice());
+    let names: Vec<&str> =
+        if fitted.len() <= SHOWN { fitted.iter().map(|test| test.test.as_str()).collect() } else { Vec::new() };
+    let widths: Vec<usize> = names.iter().map(|name| name.chars().count().max(10) + 2).collect();
+    let _ = write!(text, "\n{:<16}{:>3}", "law", "k");
+    for (name, width) in names.iter().zip(&widths) {
+        let _ = write!(text, "{name:>width$}");
+    }
+    let validated = comparison.fits().any(|(_, fit)| !fit.left_out.is_empty());
+    let left_out = if validated { format!("{:>11}", "left out") } else { String::new() };
+    let _ = writeln!(
+        text,
+        "{:>12}{:>10}{left_out}{:>10}{:>10}  {:<8}search",
+        "worst RMS", "largest", "AICc", "above", "stable"
+    );
     let least = comparison.best().and_then(|(_, fit)| fit.criteria.aicc);
     for (law, fit) in comparison.fits() {
         let _ = write!(text, "{:<16}{:>3}", law.to_string(), fit.parameters.len());
-        for test in &fit.tests {
-            let _ = write!(text, "{:>12.2} %", 100.0 * test.relative_rms);
+        for (test, width) in fit.tests.iter().zip(&widths) {
+            let width = width - 2;
+            let _ = write!(text, "{:>width$.2} %", 100.0 * test.relative_rms);
+        }
+        let largest = fit.tests.iter().map(|test| test.relative_largest).fold(0.0, f64::max);
+        let _ = write!(text, "{:>10.2} %{:>8.1} %", 100.0 * fit.worst_relative_rms(), 100.0 * largest);
+        if validated {
+            let _ = match worst(&fit.left_out) {
+                Some(rms) if rms < 10.0 => write!(text, "{:>9.1} %", 100.0 * rms),
+                Some(_) => write!(text, "{:>11}", "far off"),
+                None => write!(text, "{:>11}", "-"),
+            };
         }
         let number = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.1}"));
         let above = fit.criteria.aicc.zip(least).map(|(own, least)| own - least);
@@ -27,24 +56,92 @@ pub(crate) fn table(measurements: &Measurements, comparison: &Comparison) -> Str
         let (aicc, above) = (number(fit.criteria.aicc), number(above));
         let _ = writeln!(text, "{aicc:>10}{above:>10}  {stable:<8}{}", fit.outcome.reason());
     }
-    let judged = if least.is_some() {
-        "The least AICc is the best law for these data."
-    } else {
-        "No law has an AICc: that takes at least three stresses more than parameters."
-    };
-    let _ = writeln!(text, "\nRMS residuals are parts of the largest stress of each test. {judged}\n");
+    let _ = writeln!(
+        text,
+        "\nRMS and largest residuals are parts of the largest stress of each test.{}",
+        judgement(comparison)
+    );
+    if validated {
+        text.push_str("Left out: the RMS residual of the test that the law predicts worst from all the others.\n");
+    }
+    text.push('\n');
     for (law, fit) in comparison.fits() {
         let _ = writeln!(text, "{law}");
         if fit.degrees_of_freedom == 0 {
             let _ =
-                writeln!(text, "  no degrees of freedom: {count} stresses, as many parameters; errors cannot be told");
+                writeln!(text, "  no degrees of freedom: {told} stresses, as many parameters; errors cannot be told");
         }
         for estimate in &fit.parameters {
             let _ = writeln!(text, "{}", parameter(estimate, measurements.unit.as_deref()));
         }
+        let unit = measurements.unit.as_ref().map_or_else(String::new, |unit| format!(" {unit}"));
+        let (shear, young) = (short(fit.initial_shear_modulus), short(3.0 * fit.initial_shear_modulus));
+        let _ = writeln!(text, "  at rest: shear modulus {shear}{unit}, Young's modulus {young}{unit}");
+        if let Some(found) = fit.autocorrelation.filter(|found| 1.0 < found.widening) {
+            let (rho, widening) = (found.lag_one, found.widening);
+            let _ = writeln!(
+                text,
+                "  neighbouring residuals are correlated ({rho:.2}): intervals are {widening:.1} times those of independent errors"
+            );
+        }
+        for found in &fit.contradictions {
+            let ([a, b], [x, y]) = (&found.tests, found.values);
+            let name = &found.parameter;
+            let _ = writeln!(
+                text,
+                "  tests contradict each other: alone, {a} asks for {name} = {} and {b} for {}",
+                short(x),
+                short(y)
+            );
+        }
+        for test in &fit.predicted {
+            let (rms, most) = (100.0 * test.relative_rms, 100.0 * test.relative_largest);
+            let _ = writeln!(text, "  {}, held out: predicted to {rms:.2} % RMS, {most:.1} % at most", test.test);
+        }
         violations(&mut text, fit);
     }
     text.push('\n');
+    text
+}
+
+/// The largest RMS residual of tests.
+fn worst(tests: &[Residuals]) -> Option<f64> {
+    tests.iter().map(|test| test.relative_rms).max_by(f64::total_cmp)
+}
+
+/// The best law and what is to be said of it.
+fn judgement(comparison: &Comparison) -> String {
+    let Some((best, fit)) = comparison.best() else {
+        return " No law has an AICc: that takes at least three\nstresses more than parameters.".to_owned();
+    };
+    let mut text = format!(" {best} has the least AICc.");
+    let rivals: Vec<String> = comparison.rivals().map(|(law, _)| law.to_string()).collect();
+    if !rivals.is_empty() {
+        let _ = write!(text, "\nThese data do not tell it from {}.", rivals.join(", "));
+    }
+    if fit.autocorrelation.is_some_and(|found| 1.0 < found.widening) {
+        let within = comparison.indifference().unwrap_or(2.0);
+        let _ = write!(
+            text,
+            "\nIts neighbouring residuals are correlated: differences of AICc below {within:.0} say nothing."
+        );
+    }
+    text
+}
+
+/// What is to be said of predictions up to a stretch.
+pub(crate) fn warning(measurements: &Measurements, stretch: f64) -> String {
+    let mut text = String::new();
+    for test in measurements.data.tests() {
+        let (low, high) = test.abscissas().fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
+        if test.table().mode().is_some() && (high < stretch || stretch < low) {
+            let _ = writeln!(
+                text,
+                "{}: measured from {low} to {high}; at {stretch} the law is a guess, and its band tells only the errors of its parameters",
+                test.name()
+            );
+        }
+    }
     text
 }
 
@@ -97,8 +194,4 @@ fn short(x: f64) -> String {
     } else {
         format!("{x:.4e}")
     }
-}
-
-fn shortened(name: &str) -> String {
-    name.chars().take(13).collect()
 }

@@ -1,20 +1,29 @@
 //! The commands of viscometry.
 
+use core::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use piola_charts::{Folder, Written};
 use piola_measured::MeasuredError;
-use piola_measured::rheology::{self, FlowKind, FluidName, Measured, Noise, RecoveryRequest, Request, Rise, Weighting};
+use piola_measured::comparison::{Comparison, Judged, Watch};
+use piola_measured::rheology::{
+    self, FlowKind, FluidName, Intervals, Measured, Noise, Reading, RecoveryRequest, Request, Rise, Weighting,
+};
 
 use crate::Exit;
 use crate::arguments::{FitFlowArguments, FlowArguments, RecoverArguments};
 use crate::commands::{listing, note, print, refused};
+use crate::interrupt::Interrupt;
+use crate::progress::ProgressLine;
 
 pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
     let flow = &arguments.flow;
     let mut request = RecoveryRequest::default();
     request.confidence = flow.confidence;
-    request.noise = noise(flow);
+    request.noise = match noise(flow) {
+        Ok(noise) => noise,
+        Err(error) => return refused(&error, flow.json),
+    };
     request.rise = if arguments.rising { Rise::Enforced } else { Rise::Reported };
     let load_all = || arguments.data.iter().map(|path| load(path, flow)).collect::<Result<Vec<_>, _>>();
     let prepared = load_all().and_then(|tables| {
@@ -34,9 +43,8 @@ pub(crate) fn recover(arguments: &RecoverArguments) -> Exit {
             show(&text, flow.json, &folder, &written);
             let lost = recovery.lost();
             if 0 < lost {
-                note(&format!(
-                    "error: no positive value was recovered at {lost} of the rows: the noise is stronger than the flow"
-                ));
+                let why = recovery.why_lost().unwrap_or_default();
+                note(&format!("error: nothing is known at {lost} of the rows: {why}"));
             }
             if lost == 0 && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
         }
@@ -52,18 +60,23 @@ fn too_many(tables: &[Measured]) -> MeasuredError {
 
 pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
     let flow = &arguments.flow;
+    let interrupt = Interrupt::listen();
     let prepared = load(&arguments.data, flow).and_then(|measured| {
         let fluids = match arguments.fluids.as_slice() {
-            [] => FluidName::ALL.to_vec(),
+            [] => FluidName::usual(),
             names => names.iter().map(|name| name.parse()).collect::<Result<_, _>>()?,
         };
         let mut request = Request::of(fluids);
         request.confidence = flow.confidence;
-        request.noise = noise(flow);
+        request.noise = noise(flow)?;
         if arguments.equal_errors {
             request.weighting = Weighting::Equal;
         }
-        let comparison = rheology::compare(&measured, &request)?;
+        if arguments.profile {
+            request.intervals = Intervals::Profile;
+        }
+        let comparison =
+            watched(&measured.name(), &interrupt, |watch| rheology::compare_until(&measured, &request, watch))?;
         if let (None, Some((_, refused))) = (comparison.fits().next(), comparison.refusals().next()) {
             return Err(refused.clone().into());
         }
@@ -74,21 +87,77 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
             let written = comparison.write(&folder, &measured);
             let text = if flow.json { comparison.summary(&measured) } else { comparison.table(&measured) };
             show(&text, flow.json, &folder, &written);
-            for (fluid, refusal) in comparison.refusals() {
-                note(&format!("error: {fluid}: {refusal}"));
-            }
-            if comparison.is_complete() && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+            let refusals: Vec<String> =
+                comparison.refusals().map(|(fluid, refusal)| format!("{fluid}: {refusal}")).collect();
+            let is_complete = comparison.is_complete();
+            settled(&comparison, is_complete, &refusals, !arguments.fluids.is_empty(), &written)
         }
         Err(error) => refused(&error, flow.json),
     }
 }
 
-fn noise(arguments: &FlowArguments) -> Noise {
-    match arguments.noise {
-        None => Noise::Estimated,
-        Some(0.0) => Noise::Exact,
-        Some(level) => Noise::Relative(level),
+/// Runs a comparison with a line of progress; a signal ends it.
+pub(crate) fn watched<T>(name: &str, interrupt: &Interrupt, run: impl FnOnce(Watch<'_>) -> T) -> T {
+    /// Evaluations between two looks at the clock.
+    const STRIDE: u64 = 16;
+    let mut progress = ProgressLine::new(name, STRIDE);
+    let result = run(&mut |fraction| {
+        progress.update(fraction);
+        if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    progress.finish();
+    result
+}
+
+/// The exit of a comparison. Models that nobody named do not decide it, unless one of them is the best.
+pub(crate) fn settled<M: Copy + PartialEq, F: Judged, E>(
+    comparison: &Comparison<M, F, E>,
+    is_complete: bool,
+    refusals: &[String],
+    are_named: bool,
+    written: &Written,
+) -> Exit {
+    let word = if are_named { "error" } else { "note" };
+    for refusal in refusals {
+        note(&format!("{word}: {refusal}"));
     }
+    if comparison.interrupted {
+        note("interrupted: what was fitted until then is written");
+    } else if are_named && !is_complete && refusals.is_empty() {
+        note("error: the search of a model that was named did not converge");
+    } else if !comparison.is_settled() {
+        note("error: no search of a best model converged");
+    }
+    let is_settled = if are_named { is_complete } else { comparison.is_settled() };
+    if is_settled && written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+}
+
+fn noise(arguments: &FlowArguments) -> Result<Noise, MeasuredError> {
+    /// Beyond this noise nothing is measured.
+    const MOST: f64 = 1.0;
+    let Some(text) = &arguments.noise else { return Ok(Noise::Estimated) };
+    let (number, unit) = text.trim().strip_suffix('%').map_or((text.trim(), 1.0), |number| (number.trim(), 100.0));
+    match number.parse::<f64>().map(|x| x / unit) {
+        Ok(level) if 0.0 < level && level <= MOST => Ok(Noise::Relative(level)),
+        Ok(level) if level.abs() <= 0.0 => Ok(Noise::Exact),
+        _ => Err(MeasuredError::Argument {
+            argument: format!("--noise {text}"),
+            valid: "a share from 0 to 1, as 0.02 or 2%",
+        }),
+    }
+}
+
+/// `COLUMN=VALUE`.
+pub(crate) fn only(texts: &[String]) -> Result<Vec<(String, String)>, MeasuredError> {
+    let pair = |text: &String| {
+        let (column, value) = text.split_once('=')?;
+        Some((column.trim().to_owned(), value.trim().to_owned()))
+    };
+    let wrong = |text: &String| MeasuredError::Argument {
+        argument: format!("--only {text}"),
+        valid: "COLUMN=VALUE, as conc=4",
+    };
+    texts.iter().map(|text| pair(text).ok_or_else(|| wrong(text))).collect()
 }
 
 fn load(path: &Path, arguments: &FlowArguments) -> Result<Measured, MeasuredError> {
@@ -100,10 +169,14 @@ fn load(path: &Path, arguments: &FlowArguments) -> Result<Measured, MeasuredErro
         ("outer_radius", &arguments.outer_radius),
         ("gap", &arguments.gap),
         ("angle", &arguments.angle),
+        ("length", &arguments.length),
+        ("height", &arguments.height),
     ];
-    let sizes: Vec<(String, String)> =
-        given.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value.clone()?))).collect();
-    Measured::load(path, kind, &sizes)
+    let mut reading = Reading::default();
+    reading.sizes = given.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value.clone()?))).collect();
+    reading.sweep = arguments.sweep.parse()?;
+    reading.only = only(&arguments.only)?;
+    Measured::load_as(path, kind, &reading)
 }
 
 fn folder(arguments: &FlowArguments, command: &str, name: &str) -> Result<Folder, MeasuredError> {

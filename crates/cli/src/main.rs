@@ -44,14 +44,7 @@ fn main() -> ExitCode {
         Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
     };
-    let exit = match (exit, commands::unwritten()) {
-        (Exit::Done, Some(why)) => {
-            commands::note(&format!("error: standard output could not be written: {why}"));
-            Exit::Failed
-        }
-        (exit, _) => exit,
-    };
-    match exit {
+    match commands::whole(exit) {
         Exit::Done => ExitCode::SUCCESS,
         Exit::Failed => ExitCode::from(1),
         Exit::Invalid => ExitCode::from(2),

@@ -10,8 +10,10 @@ mod outcome;
 mod search;
 #[cfg(feature = "solids")]
 pub mod solids;
+mod state;
 mod statistics;
 
 pub use error::FitError;
 pub use outcome::Outcome;
-pub use statistics::{Covariance, Criteria, student};
+pub use state::State;
+pub use statistics::{Autocorrelation, Covariance, Criteria, Intervals, student};

@@ -18,6 +18,8 @@ pub enum Outcome {
     OutOfPatience,
     /// Not converged: stresses were not finite on the way.
     NotFinite,
+    /// Not converged: the caller stopped the search.
+    Interrupted,
     /// Not converged to a stable law: the data ask for less than no stiffness. Every factor is zero, at its bound.
     NoStiffness,
 }
@@ -26,7 +28,7 @@ impl Outcome {
     /// Whether the parameters are at a minimum, and the law has some stiffness if the data ask for any.
     #[must_use]
     pub const fn is_converged(self) -> bool {
-        !matches!(self, Self::OutOfPatience | Self::NotFinite | Self::NoStiffness)
+        !matches!(self, Self::OutOfPatience | Self::NotFinite | Self::Interrupted | Self::NoStiffness)
     }
 
     /// The outcome in words.
@@ -39,6 +41,7 @@ impl Outcome {
             Self::NoFurtherDecrease => "no further decrease",
             Self::OutOfPatience => "stopped: evaluations used up",
             Self::NotFinite => "stopped: stresses not finite",
+            Self::Interrupted => "stopped: interrupted",
             Self::NoStiffness => "stopped: no stiffness, all factors at their bound 0",
         }
     }

@@ -75,14 +75,21 @@ pub(crate) struct End<M: Misfit> {
 }
 
 /// Searches from the coordinates `start`; nothing if no residuals are finite there, or at the end.
-pub(crate) fn minimise<M: Misfit>(misfit: M, start: Vec<f64>, patience: usize) -> Option<End<M>> {
+///
+/// `stop` is asked before each evaluation; once it says so, the search ends at the best point until then.
+pub(crate) fn minimise<M: Misfit>(
+    misfit: M,
+    start: Vec<f64>,
+    patience: usize,
+    stop: &dyn Fn() -> bool,
+) -> Option<End<M>> {
     let mut walk = Walk { misfit, state: None };
-    let outcome = walk_down(&mut walk, start, patience)?;
+    let outcome = walk_down(&mut walk, start, patience, stop)?;
     Some(End { state: walk.state?, misfit: walk.misfit, outcome })
 }
 
 /// The same for any misfit: the search itself is compiled once.
-fn walk_down(walk: &mut dyn Steps, mut x: Vec<f64>, patience: usize) -> Option<Outcome> {
+fn walk_down(walk: &mut dyn Steps, mut x: Vec<f64>, patience: usize, stop: &dyn Fn() -> bool) -> Option<Outcome> {
     walk.visit(&x);
     walk.residuals()?;
     let most = patience.saturating_mul(x.len() + 1);
@@ -91,8 +98,12 @@ fn walk_down(walk: &mut dyn Steps, mut x: Vec<f64>, patience: usize) -> Option<O
     (method.max_iter, method.max_fev) = (usize::MAX, MPMaxFev::Limited(most));
     let derivatives_given = || MPPar { side: MPSide::User, ..MPPar::new() };
     let coordinates = x.iter().map(|_| derivatives_given()).collect();
-    let mut search = Search { walk, at: x.clone(), method, coordinates };
+    let (at, best) = (x.clone(), (x.clone(), f64::INFINITY));
+    let mut search = Search { walk, at, best, method, coordinates, stop, is_stopped: false };
     let ended = search.mpfit(&mut x);
+    if search.is_stopped {
+        x.clone_from(&search.best.0);
+    }
     search.go_to(&x);
     let residuals = search.walk.residuals()?;
     Some(match ended {
@@ -102,6 +113,7 @@ fn walk_down(walk: &mut dyn Steps, mut x: Vec<f64>, patience: usize) -> Option<O
             MPSuccess::MaxIter => Outcome::OutOfPatience,
             _ => Outcome::NoFurtherDecrease,
         },
+        Err(_) if search.is_stopped => Outcome::Interrupted,
         Err(_) => Outcome::NotFinite,
     })
 }
@@ -144,8 +156,12 @@ struct Search<'w> {
     walk: &'w mut dyn Steps,
     /// The coordinates that the walk visited last.
     at: Vec<f64>,
+    /// The coordinates of the least sum of squares, and that sum.
+    best: (Vec<f64>, f64),
     method: MPConfig,
     coordinates: Vec<MPPar>,
+    stop: &'w dyn Fn() -> bool,
+    is_stopped: bool,
 }
 
 impl Search<'_> {
@@ -171,9 +187,20 @@ impl MPFitter for Search<'_> {
     }
 
     fn eval(&mut self, x: &[f64], residuals: &mut [f64]) -> MPResult<()> {
+        if (self.stop)() {
+            self.is_stopped = true;
+            return Err(MPError::Eval);
+        }
         self.go_to(x);
         match self.walk.residuals() {
-            Some(found) => residuals.copy_from_slice(found),
+            Some(found) => {
+                residuals.copy_from_slice(found);
+                let squares = found.iter().map(|r| r * r).sum();
+                if squares < self.best.1 {
+                    self.best.0.copy_from_slice(x);
+                    self.best.1 = squares;
+                }
+            }
             // A step to where there is no answer is taken back.
             None => residuals.fill(1e100),
         }

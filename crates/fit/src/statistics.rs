@@ -142,8 +142,155 @@ pub fn student(confidence: f64, degrees: usize) -> Option<f64> {
     t.is_finite().then_some(t)
 }
 
-/// value ± t error.
+/// The interval of a parameter between its bounds; it crosses none of them.
+///
+/// ```text
+/// θ − L ≥ t σ     [L + (θ − L) e^(−h), L + (θ − L) e^h],   h = t σ/(θ − L): symmetric in ln(θ − L)
+/// otherwise       [L, θ + t σ]: the bound is among the values that the data allow
+/// ```
 #[cfg(any(feature = "fluids", feature = "solids"))]
-pub(crate) fn interval(value: f64, standard_error: Option<f64>, quantile: Option<f64>) -> Option<[f64; 2]> {
-    standard_error.zip(quantile).map(|(error, t)| [value - t * error, value + t * error])
+pub(crate) fn interval(value: f64, [low, high]: [f64; 2], half: f64) -> [f64; 2] {
+    let linear = [(value - half).max(low), (value + half).min(high)];
+    let about = |distance: f64| [distance * (-half / distance).exp(), distance * (half / distance).exp()];
+    match (low.is_finite(), high.is_finite()) {
+        (true, false) if half <= value - low => about(value - low).map(|x| low + x),
+        (false, true) if half <= high - value => {
+            let [near, far] = about(high - value);
+            [high - far, high - near]
+        }
+        _ => linear,
+    }
+}
+
+/// Correlation of neighbouring residuals: what intervals of independent errors miss.
+///
+/// ```text
+/// ρ = Σ rᵢ rᵢ₊₁ / Σ ½ (rᵢ² + rᵢ₊₁²)      widening √((1 + ρ)/(1 − ρ)) where 2/√n < ρ, of n pairs; 1 otherwise
+/// ```
+/// Smooth measured curves that a law misses a little leave ρ near 0.8. The mean of such residuals is as uncertain as that of
+/// (1 − ρ)/(1 + ρ) as many independent ones; intervals are widened accordingly.
+///
+/// # Example
+/// ```
+/// use piola_fit::Autocorrelation;
+/// let slow: Vec<f64> = (0..40).map(|i| (0.1 * f64::from(i)).sin()).collect();
+/// let found = Autocorrelation::of([slow.as_slice()]).expect("39 pairs");
+/// assert!(0.9 < found.lag_one && 4.0 < found.widening);
+/// let alternating = [1.0, -1.0, 1.0, -1.0, 1.0, -1.0];
+/// assert_eq!(Autocorrelation::of([alternating.as_slice()]).expect("5 pairs").widening, 1.0);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct Autocorrelation {
+    /// ρ of neighbours, all tests together.
+    pub lag_one: f64,
+    /// Pairs of neighbours.
+    pub pairs: usize,
+    /// What intervals are multiplied by.
+    pub widening: f64,
+}
+
+impl Autocorrelation {
+    /// Of residuals in the order of their abscissas, one series for each test. `None` for fewer than three pairs, or residuals that
+    /// are all zero.
+    pub fn of<'r>(series: impl IntoIterator<Item = &'r [f64]>) -> Option<Self> {
+        /// Standard deviations of ρ of independent residuals beyond which it counts.
+        const TOLD: f64 = 2.0;
+        /// The largest ρ of the widening.
+        const MOST: f64 = 0.98;
+        let (mut product, mut squares, mut pairs) = (0.0, 0.0, 0);
+        for residuals in series {
+            for pair in residuals.windows(2) {
+                product += pair[0] * pair[1];
+                squares += 0.5 * (pair[0] * pair[0] + pair[1] * pair[1]);
+                pairs += 1;
+            }
+        }
+        let lag_one = product / squares;
+        (3 <= pairs && lag_one.is_finite()).then(|| {
+            let told = TOLD < lag_one * (pairs as f64).sqrt();
+            let rho = lag_one.min(MOST);
+            let widening = if told { ((1.0 + rho) / (1.0 - rho)).sqrt() } else { 1.0 };
+            Self { lag_one, pairs, widening }
+        })
+    }
+}
+
+/// How intervals are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Intervals {
+    /// From the covariance, as if the law were linear in its parameters near the best ones.
+    #[default]
+    Linear,
+    /// By profile likelihood: each parameter is moved, with all others fitted anew, until S exceeds its least by the share t²/(m − k).
+    Profile,
+}
+
+/// Where the least S at a fixed value of a parameter exceeds its least of all by t²/(m − k), on both sides.
+///
+/// `squares(v)` is the least S with the parameter at v; `scale` a first step; an end at which no such value is found is the bound.
+#[cfg(any(feature = "fluids", feature = "solids"))]
+pub(crate) fn profile(
+    value: f64,
+    [low, high]: [f64; 2],
+    scale: f64,
+    (least, limit): (f64, f64),
+    squares: &mut dyn FnMut(f64) -> Option<f64>,
+) -> [f64; 2] {
+    /// The farthest from the value, in ln of the distance to the bound, or in first steps.
+    const FARTHEST: f64 = 14.0;
+    let (is_above, is_below) = (low.is_finite() && high.is_infinite(), high.is_finite() && low.is_infinite());
+    let distance = if is_above { value - low } else { high - value };
+    let in_logarithm = (is_above || is_below) && 0.0 < distance;
+    let at = |x: f64| match (in_logarithm, is_above) {
+        (true, true) => low + distance * x.exp(),
+        (true, false) => high - distance * x.exp(),
+        _ => (value + scale * x).clamp(low, high),
+    };
+    let first = if in_logarithm { (scale / distance).clamp(1e-6, 1.0) } else { 1.0 };
+    // √(S − S₀) is nearly linear in x.
+    let target = (limit - least).sqrt();
+    let mut end = |sign: f64| -> Option<f64> {
+        let mut root = |x: f64| squares(at(sign * x)).map(|s| (s - least).max(0.0).sqrt() - target);
+        let (mut inside, mut below) = (0.0, -target);
+        let mut step = first;
+        let (mut outside, mut above) = loop {
+            let x = inside + step;
+            if FARTHEST * if in_logarithm { 1.0 } else { 50.0 } < x {
+                return None;
+            }
+            match root(x) {
+                Some(found) if found < 0.0 => (inside, below) = (x, found),
+                Some(found) => break (x, found),
+                None => break (x, target),
+            }
+            if (at(sign * inside) - low).abs() <= 0.0 || (at(sign * inside) - high).abs() <= 0.0 {
+                return None;
+            }
+            step *= 1.6;
+        };
+        for _ in 0..12 {
+            if (outside - inside) <= 1e-4 * outside {
+                break;
+            }
+            let share = (-below / (above - below)).clamp(0.05, 0.95);
+            let x = inside + (outside - inside) * share;
+            match root(x) {
+                Some(found) if found < 0.0 => (inside, below) = (x, found),
+                Some(found) => (outside, above) = (x, found),
+                None => outside = x,
+            }
+        }
+        Some(at(sign * outside))
+    };
+    let (a, b) = (end(-1.0), end(1.0));
+    if in_logarithm && !is_above {
+        // Towards the bound x falls and the value rises.
+        [b.unwrap_or(low), a.unwrap_or(high)]
+    } else {
+        [a.unwrap_or(low), b.unwrap_or(high)]
+    }
 }

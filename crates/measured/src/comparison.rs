@@ -1,12 +1,19 @@
 //! Models fitted to the same data, and the best of them: laws of solids in [`fitting`](crate::fitting), fluids in
 //! [`rheology`](crate::rheology).
 
+use core::cell::{Cell, RefCell};
+use core::ops::ControlFlow;
+
 /// The judgement of a fit: what a [`Comparison`] ranks it by.
 pub trait Judged {
     /// Akaike's criterion, corrected for few data; `None` without three data more than parameters.
     fn aicc(&self) -> Option<f64>;
     /// Whether the search converged.
     fn is_converged(&self) -> bool;
+    /// What correlated residuals widen intervals by: criteria count as many numbers less as its square.
+    fn widening(&self) -> f64 {
+        1.0
+    }
 }
 
 /// A model with its fit.
@@ -37,12 +44,39 @@ pub struct Candidate<M, F, E> {
 pub struct Comparison<M, F, E> {
     /// The models.
     pub candidates: Vec<Candidate<M, F, E>>,
+    /// Models that are fitted for other ends than to describe the material, such as regularisations: they are not ranked.
+    pub unranked: Vec<M>,
+    /// Whether the caller stopped it before all models were fitted.
+    pub interrupted: bool,
 }
 
-impl<M: Copy, F: Judged, E> Comparison<M, F, E> {
-    /// Fits each model.
-    pub(crate) fn of(models: &[M], fit: impl Fn(M) -> Result<F, E>) -> Self {
-        Self { candidates: models.iter().map(|&model| Candidate { model, fit: fit(model) }).collect() }
+/// Is told the finished part of the work, and may end it.
+pub type Watch<'w> = &'w mut dyn FnMut(f64) -> ControlFlow<()>;
+
+impl<M: Copy + PartialEq, F: Judged, E> Comparison<M, F, E> {
+    /// Fits each model until `watch` breaks.
+    pub(crate) fn of(
+        models: &[M],
+        watch: Watch<'_>,
+        mut fit: impl FnMut(M, &dyn Fn() -> bool) -> Result<F, E>,
+    ) -> Self {
+        let mut candidates = Vec::new();
+        let watch = RefCell::new(watch);
+        let broken = Cell::new(false);
+        for (index, &model) in models.iter().enumerate() {
+            let done = index as f64 / models.len() as f64;
+            let stop = || {
+                if !broken.get() {
+                    broken.set((*watch.borrow_mut())(done).is_break());
+                }
+                broken.get()
+            };
+            if stop() {
+                break;
+            }
+            candidates.push(Candidate { model, fit: fit(model, &stop) });
+        }
+        Self { candidates, unranked: Vec::new(), interrupted: broken.get() }
     }
 
     /// The models with a fit.
@@ -55,16 +89,45 @@ impl<M: Copy, F: Judged, E> Comparison<M, F, E> {
         self.candidates.iter().filter_map(|candidate| Some((candidate.model, candidate.fit.as_ref().err()?)))
     }
 
-    /// The fit with the least `AICc`; `None` where no fit has one.
+    /// The fit with the least `AICc` of those that are ranked; `None` where no fit has one.
     #[must_use]
     pub fn best(&self) -> Option<(M, &F)> {
-        let judged = self.fits().filter_map(|(model, fit)| Some((fit.aicc()?, (model, fit))));
+        let ranked = self.fits().filter(|(model, _)| !self.unranked.contains(model));
+        let judged = ranked.filter_map(|(model, fit)| Some((fit.aicc()?, (model, fit))));
         judged.min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, best)| best)
+    }
+
+    /// The difference of `AICc` up to which models are not told apart: 2 for independent residuals of the best fit, as many times more as
+    /// correlation makes them fewer.
+    #[must_use]
+    pub fn indifference(&self) -> Option<f64> {
+        let (_, best) = self.best()?;
+        Some(2.0 * best.widening() * best.widening())
+    }
+
+    /// The ranked models that are not told apart from the best one, itself left out.
+    pub fn rivals(&self) -> impl Iterator<Item = (M, &F)> {
+        let best = self.best().and_then(|(model, fit)| Some((model, fit.aicc()?)));
+        let within = self.indifference();
+        let is_near = move |model: M, fit: &F| {
+            let ((best, least), within) = (best?, within?);
+            Some(model != best && fit.aicc()? <= least + within)
+        };
+        let ranked = self.fits().filter(|(model, _)| !self.unranked.contains(model));
+        ranked.filter(move |(model, fit)| is_near(*model, fit).unwrap_or(false))
+    }
+
+    /// Whether there is a best fit and its search converged, or, where no fit has a criterion, any did.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        let any = || self.fits().any(|(_, fit)| fit.is_converged());
+        !self.interrupted && self.best().map_or_else(any, |(_, best)| best.is_converged())
     }
 
     /// Whether every model was fitted, and every search converged.
     #[must_use]
     pub fn is_complete(&self) -> bool {
-        self.candidates.iter().all(|candidate| candidate.fit.as_ref().is_ok_and(Judged::is_converged))
+        !self.interrupted
+            && self.candidates.iter().all(|candidate| candidate.fit.as_ref().is_ok_and(Judged::is_converged))
     }
 }

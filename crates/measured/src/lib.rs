@@ -6,5 +6,6 @@ pub mod comparison;
 mod error;
 pub mod fitting;
 pub mod rheology;
+mod sheet;
 
 pub use error::MeasuredError;

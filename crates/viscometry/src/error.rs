@@ -126,6 +126,24 @@ pub enum ViscometryError {
         /// Where, in the unit of the abscissa.
         at: f64,
     },
+    /// The band of a value has no ends that are numbers: it is not determined.
+    #[error("the value at {at:e} is not determined: its band has no ends")]
+    NotDetermined {
+        /// Where, in the unit of the abscissa.
+        at: f64,
+    },
+    /// Speeds of coaxial cylinders fall towards the smallest torque as those of a fluid that yields.
+    #[error(
+        "the speeds fall towards the smallest torque as those of a fluid that yields: shear rates are known from the stress \
+         {above:e} Pa on, where the outer cylinder has the smallest measured one; below, or in another gap, fit a fluid with \
+         a yield stress"
+    )]
+    YieldUnknown {
+        /// Rows of the table.
+        rows: usize,
+        /// The stress from which on values are known, Pa.
+        above: f64,
+    },
     /// A recovered curve is asked for beyond what was measured.
     #[error("{value:e} lies outside the measured range, {lowest:e} to {highest:e}")]
     NotMeasured {

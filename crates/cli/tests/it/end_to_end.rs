@@ -348,8 +348,6 @@ fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
     let bad = discharges().replace("3,0.589", "3,-0.589");
     std::fs::write(folder.0.join("bad.csv"), bad).unwrap_or_else(|error| panic!("{error}"));
     let tables = [
-        ("unsorted.csv", discharges().replace("3,0.589", "1.5,0.589")),
-        ("twice.csv", discharges().replace("3,0.589", "2,0.589")),
         ("no-number.csv", discharges().replace("\n3,", "\n3,x")),
         ("falling.csv", discharges().replace("\n3,0.5", "\n3,0.2")),
         ("unit.csv", discharges().replace("discharge", "discharge [m^2/s]")),
@@ -359,10 +357,8 @@ fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
     for (name, text) in tables {
         std::fs::write(folder.0.join(name), text).unwrap_or_else(|error| panic!("{error}"));
     }
-    let cases: [(&[&str], &str); 17] = [
+    let cases: [(&[&str], &str); 15] = [
         (&["recover", "bad.csv", "--flow", "pipe"], "bad.csv:5: discharge is -0.589"),
-        (&["recover", "unsorted.csv", "--flow", "pipe"], "unsorted.csv:5: 1.5e0 is below 2e0"),
-        (&["recover", "twice.csv", "--flow", "pipe"], "twice.csv:5: 2e0 repeats the value of the row before"),
         (&["fit-flow", "no-number.csv", "--flow", "pipe"], "no-number.csv:5: discharge is x0.58"),
         (&["recover", "falling.csv", "--flow", "pipe", "--noise", "0"], "falling.csv:5: the response"),
         (&["fit-flow", "unit.csv", "--flow", "pipe"], "unit.csv:2: `m^2/s` is no unit of discharge"),
@@ -380,7 +376,7 @@ fn bad_flow_tables_fluids_or_geometries_exit_with_2_and_write_nothing() {
         (&["fit-flow", "pipe.csv", "--flow", "capillary"], "length is not given"),
         (&["recover", "pipe.csv", "--flow", "hose"], "`hose` is not accepted; valid: pipe, capillary, channel"),
         (&["recover", "pipe.csv", "--flow", "channel"], "half_width is not given"),
-        (&["recover", "pipe.csv", "--flow", "pipe", "--radius", "1kg"], "`radius = 1kg` is not accepted"),
+        (&["recover", "pipe.csv", "--flow", "pipe", "--radius", "1kg"], "`--radius 1kg` is not accepted"),
         (&["recover", "pipe.csv", "--flow", "pipe", "--confidence", "2"], "the confidence 2"),
         (&["fit-flow", "pipe.csv", "--flow", "pipe", "--fluid", "water"], "`water` is not accepted; valid: newtonian"),
     ];

@@ -3,4 +3,5 @@
 mod boxes;
 mod end_to_end;
 mod hostile;
+mod measurements;
 mod register;

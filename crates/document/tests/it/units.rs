@@ -90,6 +90,23 @@ fn an_exponent_has_digits_or_its_letter_begins_a_unit() {
 }
 
 #[test]
+fn a_hint_never_names_a_unit_of_another_magnitude() {
+    let hint = |text: &str| match refused(&format!("1 {text}")) {
+        UnitError::UnknownUnit { nearest, .. } => nearest,
+        error => panic!("{text}: {error}"),
+    };
+    for (wrong, right) in [("KM", "km"), ("arcmn", "arcmin"), ("kpa", "kPa")] {
+        assert_eq!(hint(wrong), Some(right), "{wrong}");
+    }
+    for wrong in ["hPa", "mpa", "MN", "NN", "MW", "pPa", "dPa", "Mm"] {
+        assert_eq!(hint(wrong), None, "{wrong}");
+    }
+    for unit in ["mPa", "mN", "uN", "L", "mL", "dyn", "P", "cP", "psi", "ft", "lbf", "gf", "atm"] {
+        assert!(unit.parse::<Unit>().is_ok(), "{unit}");
+    }
+}
+
+#[test]
 fn brackets_of_a_unit_are_counted_up_and_down() {
     let nested = |depth: usize| format!("1 {}m{}", "(".repeat(depth), ")".repeat(depth));
     assert_eq!(si(&nested(8)), (1.0, Some(Dimension::LENGTH)));

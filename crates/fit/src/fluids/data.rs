@@ -3,8 +3,9 @@
 use core::f64::consts::PI;
 
 use piola_numerics::Real;
+use piola_viscometry::ViscometryError;
 use piola_viscometry::recover::{
-    ChannelGeometry, ConeGeometry, CouetteGeometry, FlowTable, Noise, PipeGeometry, PlatesGeometry,
+    ChannelGeometry, ConeGeometry, CouetteGeometry, FlowTable, Noise, PipeGeometry, PlatesGeometry, mean, repeats,
 };
 
 use crate::FitError;
@@ -86,6 +87,34 @@ impl FlowData {
         Self { kind, rows: table.rows().collect(), noise: table.noise() }
     }
 
+    /// With these rows, rising in the drive. Repeated measurements at one drive are data of their own.
+    ///
+    /// # Errors
+    /// [`FitError::Viscometry`] for a number that is not positive and finite, or a drive below the one before it.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_fit::fluids::FlowData;
+    /// let curve = FlowData::flow_curve(&[])?.with_rows(vec![[1.0, 3.0], [1.0, 3.1], [2.0, 6.0]])?;
+    /// assert_eq!(curve.len(), 3);
+    /// # Ok::<(), piola_fit::FitError>(())
+    /// ```
+    pub fn with_rows(self, rows: Vec<[f64; 2]>) -> Result<Self, FitError> {
+        let mut previous = 0.0;
+        for (row, &[drive, response]) in rows.iter().enumerate() {
+            for (column, value) in [drive, response].into_iter().enumerate() {
+                if !(0.0 < value && value.is_finite()) {
+                    return Err(ViscometryError::RowNotPositive { row, column, value }.into());
+                }
+            }
+            if drive < previous {
+                return Err(ViscometryError::RowNotSorted { row, value: drive, previous }.into());
+            }
+            previous = drive;
+        }
+        Ok(Self { rows, ..self })
+    }
+
     /// With its noise, by which its responses may seem to fall. It changes no parameter.
     ///
     /// # Errors
@@ -100,7 +129,15 @@ impl FlowData {
     /// # Errors
     /// As [`FlowTable::check_rising`].
     pub fn check_rising(&self) -> Result<(), FitError> {
-        Ok(FlowTable::new((), &self.rows)?.with_noise(self.noise)?.check_rising()?)
+        let groups = repeats(&self.rows);
+        let means: Vec<[f64; 2]> = groups.iter().map(|group| mean(&self.rows[group.clone()])).collect();
+        let found = FlowTable::new((), &means)?.with_noise(self.noise)?.check_rising();
+        Ok(found.map_err(|error| match error {
+            ViscometryError::ResponseFalls { row, value, previous } => {
+                ViscometryError::ResponseFalls { row: groups[row].start, value, previous }
+            }
+            error => error,
+        })?)
     }
 
     /// Its rows: drive, response.
@@ -119,6 +156,15 @@ impl FlowData {
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.rows.is_empty()
+    }
+
+    /// The same with no more than about so many rows, evenly chosen, the last one among them.
+    pub(super) fn thinned(&self, most: usize) -> Self {
+        let stride = self.rows.len().div_ceil(most.max(1)).max(1);
+        let from_the_end = self.rows.iter().rev().step_by(stride).copied();
+        let mut rows: Vec<[f64; 2]> = from_the_end.collect();
+        rows.reverse();
+        Self { rows, ..self.clone() }
     }
 
     /// The answer to the drive of a row of a fluid with shear stresses τ(k) and their inverse ζ(τ), with derivatives with

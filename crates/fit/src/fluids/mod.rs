@@ -20,7 +20,7 @@
 mod data;
 mod search;
 
-pub use crate::{Covariance, Criteria, Outcome};
+pub use crate::{Autocorrelation, Covariance, Criteria, Intervals, Outcome, State};
 pub use data::FlowData;
 
 use core::cell::Cell;
@@ -29,9 +29,9 @@ use nalgebra::DMatrix;
 use piola_fluids::{Parameters, ViscometricFluid};
 
 use crate::search::Range;
-use crate::statistics::interval;
+use crate::statistics::{interval, profile};
 use crate::{FitError, student};
-use search::{Model, Problem};
+use search::{Best, Model, Problem};
 
 /// Definition of the residuals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,13 +56,21 @@ pub struct Options {
     pub bounds: Vec<(String, [f64; 2])>,
     /// The probability of the intervals.
     pub confidence: f64,
+    /// How intervals are found.
+    pub intervals: Intervals,
     /// Evaluations of a search, for each parameter.
     pub patience: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { weighting: Weighting::default(), bounds: Vec::new(), confidence: 0.95, patience: 200 }
+        Self {
+            weighting: Weighting::default(),
+            bounds: Vec::new(),
+            confidence: 0.95,
+            intervals: Intervals::Linear,
+            patience: 200,
+        }
     }
 }
 
@@ -74,10 +82,12 @@ pub struct FluidParameter {
     pub name: &'static str,
     /// Its value.
     pub value: f64,
-    /// Its standard error, if the data determine it and there are degrees of freedom.
+    /// Its standard error for independent residuals, if the data determine it and there are degrees of freedom.
     pub standard_error: Option<f64>,
-    /// Its confidence interval.
+    /// Its confidence interval, widened where residuals are correlated; it crosses no bound. At a bound it reaches from there.
     pub interval: Option<[f64; 2]>,
+    /// What the data say of it.
+    pub state: State,
 }
 
 /// A fitted fluid.
@@ -94,8 +104,10 @@ pub struct FluidFit<F> {
     pub residuals: Vec<Vec<f64>>,
     /// S.
     pub squares: f64,
-    /// Rows less parameters.
+    /// Rows less parameters that are not at a bound.
     pub degrees_of_freedom: usize,
+    /// Correlation of neighbouring residuals.
+    pub autocorrelation: Option<Autocorrelation>,
     /// Criteria for choosing between fluids fitted to the same data with the same weighting.
     pub criteria: Criteria,
     /// How the search ended.
@@ -126,15 +138,28 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
     starts: &[[f64; N]],
     options: &Options,
 ) -> Result<FluidFit<F>, FitError> {
-    let residuals = |parameters: &[f64]| {
+    fit_flow_until(data, starts, options, &|| false)
+}
+
+/// The same until `stop` says so; the best parameters until then come with [`Outcome::Interrupted`].
+///
+/// # Errors
+/// As [`fit_flow`].
+pub fn fit_flow_until<F: Parameters<N> + ViscometricFluid, const N: usize>(
+    data: &[FlowData],
+    starts: &[[f64; N]],
+    options: &Options,
+    stop: &dyn Fn() -> bool,
+) -> Result<FluidFit<F>, FitError> {
+    let residuals = |data: &[FlowData], parameters: &[f64]| {
         search::residuals::<F, N>(data, options.weighting, core::array::from_fn(|k| parameters[k]))
     };
     let model = Model { name: F::NAME, names: &F::NAMES, residuals: &residuals };
     let starts: Vec<&[f64]> = starts.iter().map(<[f64; N]>::as_slice).collect();
-    let found = fit_model(&model, data, &starts, options)?;
+    let found = fit_model(&model, data, &starts, options, stop)?;
     let fluid = F::from_parameters(core::array::from_fn(|k| found.parameters[k].value))?;
     let FluidFit { parameters, covariance, residuals, squares, degrees_of_freedom, criteria, outcome, .. } = found;
-    let FluidFit { evaluations, starts_that_agree, .. } = found;
+    let FluidFit { evaluations, starts_that_agree, autocorrelation, .. } = found;
     Ok(FluidFit {
         fluid,
         parameters,
@@ -142,6 +167,7 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
         residuals,
         squares,
         degrees_of_freedom,
+        autocorrelation,
         criteria,
         outcome,
         evaluations,
@@ -149,8 +175,17 @@ pub fn fit_flow<F: Parameters<N> + ViscometricFluid, const N: usize>(
     })
 }
 
+/// Rows beyond which starts are first tried on some of them.
+const MANY: usize = 400;
+
 /// The same for any model: the fluid is left to the caller.
-fn fit_model(model: &Model, data: &[FlowData], starts: &[&[f64]], options: &Options) -> Result<FluidFit<()>, FitError> {
+fn fit_model(
+    model: &Model,
+    data: &[FlowData],
+    starts: &[&[f64]],
+    options: &Options,
+    stop: &dyn Fn() -> bool,
+) -> Result<FluidFit<()>, FitError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
@@ -161,22 +196,26 @@ fn fit_model(model: &Model, data: &[FlowData], starts: &[&[f64]], options: &Opti
     }
     data.iter().try_for_each(FlowData::check_rising)?;
     let ranges = ranges(model, &options.bounds)?;
-    let problem = Problem { model, data, ranges, patience: options.patience.max(1), evaluations: Cell::new(0) };
-    let mut found: Vec<_> = starts.iter().filter_map(|start| problem.search(start)).collect();
-    found.sort_by(|a, b| a.squares.total_cmp(&b.squares));
-    let Some(best) = found.first() else { return Err(FitError::NoStart { model: model.name.to_owned() }) };
-    let (residuals, slopes) = problem.evaluate(&best.parameters)?;
-    let degrees_of_freedom = rows - n;
-    let variance = if 0 < degrees_of_freedom { best.squares / degrees_of_freedom as f64 } else { 0.0 };
-    let all: Vec<usize> = (0..n).collect();
-    let covariance = Covariance::new(&DMatrix::from_row_slice(rows, n, &slopes), &all, variance);
-    let quantile = student(options.confidence, degrees_of_freedom);
-    let parameter = |k: usize| {
-        let standard_error = covariance.standard_error(k).filter(|_| 0 < degrees_of_freedom);
-        let value = best.parameters[k];
-        let interval = interval(value, standard_error, quantile);
-        FluidParameter { name: model.names[k], value, standard_error, interval }
+    let evaluations = Cell::new(0);
+    let patience = options.patience.max(1);
+    let problem = Problem { model, data, ranges: ranges.clone(), patience, evaluations: &evaluations, stop };
+    let few: Vec<FlowData> = data.iter().map(|set| set.thinned(MANY * set.len() / rows)).collect();
+    let sketch = Problem { data: &few, ranges, ..problem };
+    let by_squares = |a: &Best, b: &Best| a.squares.total_cmp(&b.squares);
+    let mut found: Vec<Best> =
+        starts.iter().filter_map(|start| if rows <= MANY { &problem } else { &sketch }.search(start)).collect();
+    found.sort_by(by_squares);
+    let agree = |found: &[Best]| {
+        let least = found.first().map_or(0.0, |best| best.squares);
+        found.iter().filter(|other| other.squares <= least * (1.0 + 1e-6)).count()
     };
+    let starts_that_agree = agree(&found);
+    let mut best = found.into_iter().next();
+    if MANY < rows {
+        best = best.and_then(|best| problem.search(&best.parameters));
+    }
+    let Some(best) = best else { return Err(FitError::NoStart { model: model.name.to_owned() }) };
+    let (residuals, slopes) = problem.evaluate(&best.parameters)?;
     let mut rest = residuals.as_slice();
     let mut sets = Vec::new();
     for set in data {
@@ -184,18 +223,152 @@ fn fit_model(model: &Model, data: &[FlowData], starts: &[&[f64]], options: &Opti
         sets.push(these.to_vec());
         rest = others;
     }
+    let statistics = Statistics::new(&problem, &best, DMatrix::from_row_slice(rows, n, &slopes), &sets, options);
     Ok(FluidFit {
         fluid: (),
-        parameters: (0..n).map(parameter).collect(),
+        parameters: (0..n).map(|k| statistics.parameter(k)).collect(),
         residuals: sets,
         squares: best.squares,
-        degrees_of_freedom,
+        degrees_of_freedom: statistics.degrees_of_freedom,
+        autocorrelation: statistics.autocorrelation,
         criteria: Criteria::new(rows, n, best.squares),
         outcome: best.outcome,
-        evaluations: problem.evaluations.get(),
-        starts_that_agree: found.iter().filter(|other| other.squares <= best.squares * (1.0 + 1e-6)).count(),
-        covariance,
+        evaluations: evaluations.get(),
+        starts_that_agree,
+        covariance: statistics.covariance,
     })
+}
+
+/// What the least sum of squares says of the parameters.
+struct Statistics<'p> {
+    problem: &'p Problem<'p>,
+    best: &'p Best,
+    covariance: Covariance,
+    autocorrelation: Option<Autocorrelation>,
+    degrees_of_freedom: usize,
+    at_bound: Vec<bool>,
+    /// t of Student, times the widening by correlated residuals.
+    quantile: Option<f64>,
+    variance: f64,
+    intervals: Intervals,
+}
+
+/// A half width of ln θ beyond which not even the order of magnitude is told.
+const LOST: f64 = 9.2;
+
+impl<'p> Statistics<'p> {
+    fn new(
+        problem: &'p Problem<'p>,
+        best: &'p Best,
+        slopes: DMatrix<f64>,
+        sets: &[Vec<f64>],
+        options: &Options,
+    ) -> Self {
+        let (rows, n) = slopes.shape();
+        let is_at_bound = |k: usize| {
+            let [low, high] = problem.ranges[k].bounds;
+            let value = best.parameters[k];
+            if low.is_finite() && high.is_finite() {
+                let near = 1e-5 * (high - low);
+                return value - low <= near || high - value <= near;
+            }
+            // Going all the way to the bound changes nothing.
+            Self::moved(problem, best, k)
+                .is_some_and(|squares| squares <= best.squares * (1.0 + 1e-9) + f64::MIN_POSITIVE)
+        };
+        let at_bound: Vec<bool> = (0..n).map(is_at_bound).collect();
+        let free: Vec<usize> = (0..n).filter(|&k| !at_bound[k]).collect();
+        let degrees_of_freedom = rows - free.len();
+        let variance = if 0 < degrees_of_freedom { best.squares / degrees_of_freedom as f64 } else { 0.0 };
+        let covariance = Covariance::new(&slopes, &free, variance);
+        let autocorrelation = Autocorrelation::of(sets.iter().map(Vec::as_slice)).filter(|_| 1e-9 < variance.sqrt());
+        let widening = autocorrelation.map_or(1.0, |found| found.widening);
+        let quantile = student(options.confidence, degrees_of_freedom).map(|t| t * widening);
+        let intervals = options.intervals;
+        Self { problem, best, covariance, autocorrelation, degrees_of_freedom, at_bound, quantile, variance, intervals }
+    }
+
+    /// S with a positive parameter so small that it does nothing; the others stay.
+    fn moved(problem: &Problem<'_>, best: &Best, k: usize) -> Option<f64> {
+        let mut parameters = best.parameters.clone();
+        parameters[k] = (1e-30 * parameters[k]).max(f64::MIN_POSITIVE);
+        let (residuals, _) = problem.evaluate(&parameters).ok()?;
+        let squares = residuals.iter().map(|r| r * r).sum::<f64>();
+        squares.is_finite().then_some(squares)
+    }
+
+    fn parameter(&self, k: usize) -> FluidParameter {
+        let (name, value) = (self.problem.model.names[k], self.best.parameters[k]);
+        let bounds = self.problem.ranges[k].bounds;
+        let none = FluidParameter { name, value, standard_error: None, interval: None, state: State::Undetermined };
+        let Some(quantile) = self.quantile.filter(|_| 0 < self.degrees_of_freedom) else {
+            let is_fixed = self.covariance.parameters.contains(&k);
+            let state = if self.at_bound[k] {
+                State::AtBound
+            } else if is_fixed {
+                State::NoDegreesOfFreedom
+            } else {
+                State::Undetermined
+            };
+            return FluidParameter { state, ..none };
+        };
+        if self.at_bound[k] {
+            return FluidParameter { interval: self.beyond(k, quantile), state: State::AtBound, ..none };
+        }
+        let Some(error) = self.covariance.standard_error(k) else { return none };
+        let (half, distance) = (quantile * error, value - bounds[0]);
+        let is_positive = bounds[1].is_infinite();
+        let limit = self.best.squares + quantile * quantile * self.variance;
+        if is_positive && distance < half {
+            // Either the bound is among what the data allow, or nothing is.
+            let is_allowed = Self::moved(self.problem, self.best, k).is_some_and(|squares| squares <= limit);
+            if !is_allowed && LOST * distance < half {
+                return none;
+            }
+        }
+        let interval = match self.intervals {
+            Intervals::Linear => interval(value, bounds, half),
+            Intervals::Profile => self.profile(k, error, limit),
+        };
+        FluidParameter { standard_error: Some(error), interval: Some(interval), state: State::Determined, ..none }
+    }
+
+    /// By profile likelihood.
+    fn profile(&self, k: usize, error: f64, limit: f64) -> [f64; 2] {
+        let bounds = self.problem.ranges[k].bounds;
+        let mut squares = |value: f64| self.refitted(k, value);
+        profile(self.best.parameters[k], bounds, error, (self.best.squares, limit), &mut squares)
+    }
+
+    /// The least S with a parameter at a value.
+    fn refitted(&self, k: usize, value: f64) -> Option<f64> {
+        let mut ranges = self.problem.ranges.clone();
+        ranges[k].bounds = [value; 2];
+        let problem = Problem { ranges, ..*self.problem };
+        let mut start = self.best.parameters.clone();
+        start[k] = value;
+        problem.search(&start).map(|best| best.squares)
+    }
+
+    /// The interval of a parameter at its bound 0: up to where S exceeds its least, all others fitted anew.
+    fn beyond(&self, k: usize, quantile: f64) -> Option<[f64; 2]> {
+        let [low, high] = self.problem.ranges[k].bounds;
+        let rows: usize = self.problem.data.iter().map(FlowData::len).sum();
+        if low.is_finite() && high.is_finite() || MANY < rows {
+            return None;
+        }
+        let limit = self.best.squares + quantile * quantile * self.variance;
+        let exceeds = |value: f64| self.refitted(k, value).is_none_or(|squares| limit < squares);
+        // Tenfold steps from what does nothing, then halving of the logarithm.
+        let start = self.best.parameters[k].max(1e-12);
+        let above = (0..40).map(|power| start * 10.0_f64.powi(power)).find(|value| exceeds(*value))?;
+        let (mut inside, mut outside) = (0.1 * above, above);
+        for _ in 0..8 {
+            let middle = (inside * outside).sqrt();
+            if exceeds(middle) { outside = middle } else { inside = middle }
+        }
+        Some([low, outside])
+    }
 }
 
 /// Where each parameter is searched for: within its bounds, or above zero.

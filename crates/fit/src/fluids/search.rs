@@ -15,8 +15,8 @@ pub(super) struct Model<'f> {
     pub(super) name: &'static str,
     /// The names of its parameters.
     pub(super) names: &'f [&'static str],
-    /// Residuals at parameters.
-    pub(super) residuals: &'f dyn Fn(&[f64]) -> Result<Rows, FitError>,
+    /// Residuals of data at parameters.
+    pub(super) residuals: &'f dyn Fn(&[FlowData], &[f64]) -> Result<Rows, FitError>,
 }
 
 /// Residuals, and their derivatives row by row.
@@ -54,7 +54,9 @@ pub(super) struct Problem<'a> {
     pub(super) data: &'a [FlowData],
     pub(super) ranges: Vec<Range>,
     pub(super) patience: usize,
-    pub(super) evaluations: Cell<usize>,
+    pub(super) evaluations: &'a Cell<usize>,
+    /// Whether the search shall end.
+    pub(super) stop: &'a dyn Fn() -> bool,
 }
 
 /// The end of a search.
@@ -69,13 +71,13 @@ impl Problem<'_> {
     /// Residuals at parameters.
     pub(super) fn evaluate(&self, parameters: &[f64]) -> Result<Rows, FitError> {
         self.evaluations.set(self.evaluations.get() + 1);
-        (self.model.residuals)(parameters)
+        (self.model.residuals)(self.data, parameters)
     }
 
     /// From a start; nothing if it has no finite answers.
     pub(super) fn search(&self, start: &[f64]) -> Option<Best> {
         let x = self.ranges.iter().zip(start).map(|(range, value)| range.inward(*value)).collect();
-        let end = minimise(Walk { problem: self, parameters: start.to_vec() }, x, self.patience)?;
+        let end = minimise(Walk { problem: self, parameters: start.to_vec() }, x, self.patience, self.stop)?;
         let squares = end.state.0.iter().map(|r| r * r).sum();
         Some(Best { parameters: end.misfit.parameters, squares, outcome: end.outcome })
     }

@@ -10,7 +10,7 @@ use piola_solids::{
     OgdenTerm, internal,
 };
 
-use super::{Model, Parameter, StableSign};
+use super::{Model, Parameter, Place, StableSign};
 use crate::FitError;
 
 /// The largest number of terms, or degree, of a series.
@@ -276,6 +276,46 @@ impl Model for AnyModel {
             Self::ArrudaBoyce => BEYOND.iter().map(|x| vec![x * (largest_first_invariant / 3.0).max(1.0)]).collect(),
             Self::Ogden(series) => exponents(series.0),
             _ => vec![vec![]],
+        }
+    }
+
+    fn contained(&self) -> Vec<(Self, Vec<Place>)> {
+        use Place::{Constant, Parameter};
+        match *self {
+            Self::NeoHookean | Self::Gent | Self::ArrudaBoyce => Vec::new(),
+            Self::MooneyRivlin => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0)])],
+            Self::Yeoh => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0), Constant(0.0)])],
+            Self::Polynomial(series) => {
+                let count = series.powers().count();
+                let fill = |mut places: Vec<Place>| {
+                    places.resize(count, Constant(0.0));
+                    places
+                };
+                let own = |n: usize| (0..n).map(|k| Parameter(k, 1.0)).collect::<Vec<_>>();
+                if series.0 == 1 {
+                    return vec![(Self::MooneyRivlin, own(2))];
+                }
+                let lower = Series(series.0 - 1);
+                let mut contained = vec![(Self::Polynomial(lower), fill(own(lower.powers().count())))];
+                if series.0 == 3 {
+                    // C10, C20 and C30 are the first of each degree.
+                    let mut places = fill(Vec::new());
+                    (places[0], places[2], places[5]) = (Parameter(0, 1.0), Parameter(1, 1.0), Parameter(2, 1.0));
+                    contained.push((Self::Yeoh, places));
+                }
+                contained
+            }
+            Self::Ogden(series) if series.0 == 1 => vec![(Self::NeoHookean, vec![Parameter(0, 1.0), Constant(2.0)])],
+            Self::Ogden(series) => {
+                let mut places: Vec<Place> = (0..2 * (series.0 - 1)).map(|k| Parameter(k, 1.0)).collect();
+                places.extend([Constant(0.0), Constant(1.0)]);
+                let mut contained = vec![(Self::Ogden(Series(series.0 - 1)), places)];
+                if series.0 == 2 {
+                    let terms = vec![Parameter(0, 2.0), Constant(2.0), Parameter(1, -2.0), Constant(-2.0)];
+                    contained.push((Self::MooneyRivlin, terms));
+                }
+                contained
+            }
         }
     }
 

@@ -21,6 +21,10 @@ enum State {
 /// The solution and which unknowns are free; of all solutions the shortest in scaled unknowns.
 pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>, bounds: &[[f64; 2]]) -> (DVector<f64>, Vec<bool>) {
     let unknowns = a.ncols();
+    if 4 * (unknowns + 1) < a.nrows() {
+        let (a, b) = compressed(a, b);
+        return solve(&a, &b, bounds);
+    }
     let sizes: Vec<f64> = (0..unknowns).map(|k| size(a.column(k).norm())).collect();
     let scaled = DMatrix::from_fn(a.nrows(), unknowns, |i, k| a[(i, k)] / sizes[k]);
     // An unknown at its bound is there exactly, whatever scaling and its inverse have rounded.
@@ -66,6 +70,15 @@ pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>, bounds: &[[f64; 2]]) -> 
     }
     let free = states.iter().map(|state| *state == State::Free).collect();
     finish(x, free)
+}
+
+/// Fewer rows with the same sums of squares |A x − b|² for all x: R of [A b] = Q R.
+fn compressed(a: &DMatrix<f64>, b: &DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
+    let unknowns = a.ncols();
+    let mut both = a.clone().insert_column(unknowns, 0.0);
+    both.set_column(unknowns, b);
+    let r = both.qr().r();
+    (r.columns(0, unknowns).into_owned(), r.column(unknowns).into_owned())
 }
 
 /// 1 for a column of zeros.
@@ -127,11 +140,20 @@ pub(super) fn range(a: &DMatrix<f64>, free: &[bool]) -> DMatrix<f64> {
     if places.is_empty() {
         return DMatrix::zeros(a.nrows(), 0);
     }
-    let part = DMatrix::from_fn(a.nrows(), places.len(), |i, k| a[(i, places[k])] / a.column(places[k]).norm());
-    let svd = part.svd(true, false);
+    let norms: Vec<f64> = places.iter().map(|&k| a.column(k).norm()).collect();
+    let part = DMatrix::from_fn(a.nrows(), places.len(), |i, k| a[(i, places[k])] / norms[k]);
+    if part.nrows() <= 4 * part.ncols() {
+        let svd = part.svd(true, false);
+        let threshold = RANK * svd.singular_values.max();
+        let kept: Vec<usize> = (0..places.len()).filter(|&k| threshold < svd.singular_values[k]).collect();
+        return svd.u.map_or_else(|| DMatrix::zeros(a.nrows(), 0), |u| u.select_columns(&kept));
+    }
+    // Q R = part, R = U Σ Vᵀ: the basis is Q U, with few rows in the decomposition.
+    let qr = part.qr();
+    let (q, svd) = (qr.q(), qr.r().svd(true, false));
     let threshold = RANK * svd.singular_values.max();
     let kept: Vec<usize> = (0..places.len()).filter(|&k| threshold < svd.singular_values[k]).collect();
-    svd.u.map_or_else(|| DMatrix::zeros(a.nrows(), 0), |u| u.select_columns(&kept))
+    svd.u.map_or_else(|| DMatrix::zeros(a.nrows(), 0), |u| q * u.select_columns(&kept))
 }
 
 #[cfg(test)]

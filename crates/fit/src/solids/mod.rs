@@ -18,24 +18,30 @@
 //! # Example
 //! See the [crate].
 
+mod crossed;
 mod laws;
 mod linear;
 mod model;
+mod prediction;
+mod report;
 mod search;
 mod stability;
 mod test;
 
-pub use crate::{Covariance, Criteria, Outcome, student};
+pub use crate::{Autocorrelation, Covariance, Criteria, Intervals, Outcome, State, student};
+pub use crossed::{Alone, Contradiction, HeldOut, alone, contradictions, held_out};
 pub use laws::{AnyModel, Series};
-pub use model::{Fitted, Model, Parameter, Role, StableSign};
+pub use model::{Fitted, Model, Parameter, Place, Role, StableSign};
+pub use prediction::{Prediction, predict};
 pub use stability::{Counterexample, StabilityReport};
 pub use test::{Component, Data, Measure, Table, Test};
+
+use core::cell::Cell;
 
 use piola_solids::{AnySolid, AnyVolumetric};
 
 use crate::FitError;
-use crate::statistics::interval;
-use search::{Best, Problem};
+use search::Problem;
 
 /// The divisor of the residuals.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,6 +80,8 @@ pub struct Options {
     pub bounds: Vec<(String, [f64; 2])>,
     /// The probability of the intervals.
     pub confidence: f64,
+    /// How intervals are found.
+    pub intervals: Intervals,
     /// Evaluations of a search, for each unknown; at most a million.
     pub patience: usize,
 }
@@ -85,24 +93,10 @@ impl Default for Options {
             stability: Stability::default(),
             bounds: Vec::new(),
             confidence: 0.95,
+            intervals: Intervals::Linear,
             patience: 200,
         }
     }
-}
-
-/// Whether a parameter could be moved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum State {
-    /// Yes, and the data determine it.
-    Determined,
-    /// It is at a bound, or at zero where stability asks for a sign.
-    AtBound,
-    /// The data say nothing of it, or not of it alone.
-    Undetermined,
-    /// Yes, but there are as many parameters as numbers: what remains says nothing of the error of any.
-    NoDegreesOfFreedom,
 }
 
 /// A fitted parameter.
@@ -115,11 +109,11 @@ pub struct SolidParameter {
     pub is_stress: bool,
     /// Its value.
     pub value: f64,
-    /// Its standard error, if it is determined and there are degrees of freedom.
+    /// Its standard error for independent residuals, if it is determined and there are degrees of freedom.
     pub standard_error: Option<f64>,
-    /// Its confidence interval.
+    /// Its confidence interval, widened where residuals are correlated; it crosses no bound.
     pub interval: Option<[f64; 2]>,
-    /// Whether it could be moved.
+    /// What the data say of it.
     pub state: State,
 }
 
@@ -131,10 +125,12 @@ pub struct Residuals {
     pub test: String,
     /// Numbers in it.
     pub points: usize,
-    /// √(Σ (P − P̂)²/points), in the unit of the stresses.
+    /// √(Σ (P − P̂)²/points), in the unit of the stresses. Points at rest do not count: there no law has a stress.
     pub rms: f64,
     /// The same over the largest stress of the test.
     pub relative_rms: f64,
+    /// The largest |P − P̂| over the largest stress of the test, points at rest left out.
+    pub relative_largest: f64,
     /// The largest stress of the test.
     pub largest_stress: f64,
     /// P − P̂ of each point.
@@ -156,11 +152,17 @@ pub struct Fit {
     pub tests: Vec<Residuals>,
     /// S, the weighted sum of squares.
     pub weighted_squares: f64,
-    /// Numbers measured less parameters that could be moved. At 0 there are no errors, intervals or covariance, and
+    /// Numbers measured, those at rest left out, less parameters that could be moved. At 0 there are no errors, intervals or covariance, and
     /// parameters that the data fix are [`State::NoDegreesOfFreedom`].
     pub degrees_of_freedom: usize,
-    /// Criteria for choosing between laws.
+    /// Criteria for choosing between laws; numbers at rest do not count.
     pub criteria: Criteria,
+    /// Correlation of neighbouring residuals.
+    pub autocorrelation: Option<Autocorrelation>,
+    /// The probability of the intervals.
+    pub confidence: f64,
+    /// The shear modulus at rest, in the unit of the stresses; Young's is three times it.
+    pub initial_shear_modulus: f64,
     /// Whether the law is stable as far as the data go.
     pub stability: StabilityReport,
     /// How the search ended.
@@ -239,6 +241,35 @@ impl Fit {
 /// # Example
 /// See the [crate].
 pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, FitError> {
+    fit_until(model, data, options, &|| false)
+}
+
+/// The same until `stop` says so; the best parameters until then come with [`Outcome::Interrupted`].
+///
+/// # Errors
+/// As [`fit`].
+pub fn fit_until<M: Model>(
+    model: &M,
+    data: &Data,
+    options: &Options,
+    stop: &dyn Fn() -> bool,
+) -> Result<Fit, FitError> {
+    fit_from(model, data, options, None, stop)
+}
+
+/// Numbers beyond which starts are first tried on some of them.
+const MANY: usize = 600;
+/// Starts for a law that another contains.
+const FEW_STARTS: usize = 12;
+
+/// From starts of one's own, or those of the model.
+fn fit_from<M: Model>(
+    model: &M,
+    data: &Data,
+    options: &Options,
+    starts: Option<Vec<Vec<f64>>>,
+    stop: &dyn Fn() -> bool,
+) -> Result<Fit, FitError> {
     if !(0.0 < options.confidence && options.confidence < 1.0) {
         return Err(FitError::ConfidenceOutOfRange { value: options.confidence });
     }
@@ -248,33 +279,59 @@ pub fn fit<M: Model>(model: &M, data: &Data, options: &Options) -> Result<Fit, F
     }
     let reach = data.largest_first_invariant();
     let parameters = bounded(model, reach, &options.bounds)?;
-    if data.len() < parameters.len() {
-        let (points, parameters) = (data.len(), parameters.len());
-        return Err(FitError::TooFewPoints { model: model.name(), points, parameters });
+    let points = data.informative();
+    if points < parameters.len() {
+        return Err(FitError::TooFewPoints { model: model.name(), points, parameters: parameters.len() });
     }
     let signs = options.stability == Stability::Required;
-    let weights = weights(data, options.weighting);
-    let problem = Problem::new(model, data, parameters, weights, signs, options.patience.clamp(1, MOST_PATIENCE));
-    let starts = model.starts(reach);
-    let Some((mut best, starts_that_agree)) = problem.search(&starts) else {
+    let patience = options.patience.clamp(1, MOST_PATIENCE);
+    let scales = scales(data, options.weighting);
+    let stress = data.tests().iter().map(Test::largest_stress).fold(0.0, f64::max);
+    let evaluations = Cell::new(0);
+    let problem_on = |data| {
+        let weights = (weights(data, &scales), stress);
+        Problem::new((model, data), parameters.clone(), weights, signs, patience, (stop, &evaluations))
+    };
+    let problem = problem_on(data);
+    let starts = starts.unwrap_or_else(|| model.starts(reach));
+    let few = (MANY < points).then(|| data.thinned(MANY.div_ceil(data.tests().len())));
+    let found = match &few {
+        Some(few) => problem_on(few).search(&starts).and_then(|(best, agree)| {
+            let (best, _) = problem.search(&[problem.start_of(&best)])?;
+            Some((best, agree))
+        }),
+        None => problem.search(&starts),
+    };
+    let Some((mut best, starts_that_agree)) = found else {
         return Err(FitError::NoStart { model: model.name() });
     };
+    let fan = stability::fan(reach);
+    // A law without any stress is what such data ask for, and cannot be made stable.
+    let loaded = data.tests().iter().flat_map(Test::stresses).any(|stress| 0.0 < stress.abs());
+    let no_stiffness = signs && loaded && problem.has_no_stiffness(&best);
+    let unstable = signs && loaded && !no_stiffness && !problem.is_stable(&best.parameters, &fan);
+    if no_stiffness {
+        // At their bounds the factors are at the minimum; beyond it no law is stable.
+        best.outcome = Outcome::NoStiffness;
+    } else if unstable && let Some(found) = problem.stabilise(&best, &fan) {
+        best = found;
+    }
+    // What is solved directly cannot be worse than what it contains.
+    if options.bounds.is_empty() && loaded && (unstable || best.outcome != Outcome::LinearSolution) {
+        for (contained, places) in model.contained() {
+            let few = contained.starts(reach);
+            let few = few.iter().step_by(few.len().div_ceil(FEW_STARTS).max(1)).cloned().collect();
+            let Ok(lower) = fit_from(&contained, data, options, Some(few), stop) else { continue };
+            if lower.weighted_squares < best.squares * (1.0 - 1e-9) && lower.outcome != Outcome::NoStiffness {
+                best = problem.not_worse(&Place::embed(&places, &lower.values()), lower.weighted_squares, &fan);
+            }
+        }
+    }
     if options.bounds.is_empty() {
         model.order(&mut best.parameters);
     }
-    let mut stability = stability::report(model, &best.parameters, reach);
-    // A law without any stress is what such data ask for, and cannot be made stable.
-    let loaded = data.tests().iter().flat_map(Test::stresses).any(|stress| 0.0 < stress.abs());
-    if signs && loaded && problem.has_no_stiffness(&best) {
-        // At their bounds the factors are at the minimum; beyond it no law is stable.
-        best.outcome = Outcome::NoStiffness;
-    } else if signs && loaded && stability.drucker.is_some() {
-        if let Some(found) = problem.stabilise(&best, &stability::fan(reach)) {
-            best = found;
-        }
-        stability = stability::report(model, &best.parameters, reach);
-    }
-    Ok(result(&problem, options, &best, stability, (starts.len(), starts_that_agree)))
+    let stability = stability::report(model, &best.parameters, reach);
+    Ok(report::result(&problem, options, &best, stability, (starts.len(), starts_that_agree)))
 }
 
 /// The most evaluations of a search, for each unknown.
@@ -316,87 +373,18 @@ fn bounded<M: Model>(model: &M, reach: f64, bounds: &[(String, [f64; 2])]) -> Re
     Ok(parameters)
 }
 
-/// wᵢ of every number.
-fn weights(data: &Data, weighting: Weighting) -> Vec<f64> {
+/// The divisor of the residuals of each test.
+fn scales(data: &Data, weighting: Weighting) -> Vec<f64> {
     let largest = data.tests().iter().map(Test::largest_stress).fold(0.0, f64::max);
-    let of_test = |test: &Test| {
-        let scale = if weighting == Weighting::Equal { largest } else { test.largest_stress() };
-        core::iter::repeat_n(test.weight() / scale, test.len())
-    };
-    data.tests().iter().flat_map(of_test).collect()
+    let scale = |test: &Test| if weighting == Weighting::Equal { largest } else { test.largest_stress() };
+    data.tests().iter().map(scale).collect()
 }
 
-/// A limit with a standard error this many times its distance from its bound is not determined.
-const LOST: f64 = 100.0;
-
-/// Statistics at the end of a search.
-fn result<M: Model>(
-    problem: &Problem<'_, M>,
-    options: &Options,
-    best: &Best,
-    stability: StabilityReport,
-    (starts, starts_that_agree): (usize, usize),
-) -> Fit {
-    let theta = &best.parameters;
-    let (values, slopes) = problem.stresses(theta);
-    let at_bound = |k: usize| {
-        let scale = if problem.parameters[k].is_stress { problem.stress } else { 1.0 };
-        let near = |bound: f64| (theta[k] - bound).abs() <= 1e-9 * bound.abs().max(1e-3 * scale);
-        problem.bounds(k, theta).into_iter().any(|bound| bound.is_finite() && near(bound))
+/// wᵢ of every number; 0 at rest, where no law has a stress.
+fn weights(data: &Data, scales: &[f64]) -> Vec<f64> {
+    let of_test = |(test, scale): (&Test, &f64)| {
+        let weight = test.weight() / scale;
+        (0..test.len()).map(|point| if test.informs(point) { weight } else { 0.0 }).collect::<Vec<_>>()
     };
-    let free: Vec<usize> = (0..theta.len()).filter(|&k| !at_bound(k)).collect();
-    let degrees_of_freedom = problem.data.len() - free.len();
-    let has_errors = 0 < degrees_of_freedom;
-    let variance = if has_errors { best.squares / degrees_of_freedom as f64 } else { 0.0 };
-    let all = Covariance::new(&slopes, &free, variance);
-    // A limit that has gone off to where it does nothing is not told by the data, and takes no part.
-    let lost = |k: usize, error: f64| match problem.parameters[k].bounds {
-        [low, high] if low.is_finite() && high.is_infinite() => LOST * (theta[k] - low) < error,
-        _ => false,
-    };
-    let kept = |place: usize, k: usize| !lost(k, all.matrix[place][place].sqrt());
-    let told: Vec<usize> =
-        all.parameters.iter().enumerate().filter(|&(place, &k)| kept(place, k)).map(|(_, &k)| k).collect();
-    let covariance = if told.len() < all.parameters.len() { Covariance::new(&slopes, &told, variance) } else { all };
-    let quantile = student(options.confidence, degrees_of_freedom);
-    let estimate = |(k, parameter): (usize, &Parameter)| {
-        let state = match covariance.parameters.contains(&k) {
-            true if has_errors => State::Determined,
-            true => State::NoDegreesOfFreedom,
-            false if free.contains(&k) => State::Undetermined,
-            false => State::AtBound,
-        };
-        let standard_error = covariance.standard_error(k).filter(|_| has_errors);
-        let interval = interval(theta[k], standard_error, quantile);
-        let (name, is_stress) = (parameter.name.clone(), parameter.is_stress);
-        SolidParameter { name, is_stress, value: theta[k], standard_error, interval, state }
-    };
-    let mut row = 0;
-    let mut tests = Vec::new();
-    for test in problem.data.tests() {
-        let residuals: Vec<f64> = test
-            .stresses()
-            .enumerate()
-            .map(|(index, stress)| values[row + index] / problem.weights[row + index] - stress)
-            .collect();
-        row += test.len();
-        let rms = (residuals.iter().map(|x| x * x).sum::<f64>() / test.len() as f64).sqrt();
-        let largest_stress = test.largest_stress();
-        let (points, relative_rms) = (test.len(), rms / largest_stress);
-        tests.push(Residuals { test: test.name().to_owned(), points, rms, relative_rms, largest_stress, residuals });
-    }
-    Fit {
-        model: problem.model.name(),
-        parameters: problem.parameters.iter().enumerate().map(estimate).collect(),
-        tests,
-        weighted_squares: best.squares,
-        degrees_of_freedom,
-        criteria: Criteria::new(problem.data.len(), theta.len(), best.squares),
-        stability,
-        outcome: best.outcome,
-        evaluations: problem.evaluations(),
-        starts,
-        starts_that_agree,
-        covariance: has_errors.then_some(covariance),
-    }
+    data.tests().iter().zip(scales).flat_map(of_test).collect()
 }

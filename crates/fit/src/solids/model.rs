@@ -132,6 +132,35 @@ pub trait Model {
 
     /// Puts parameters that mean the same into one order, as terms of a sum.
     fn order(&self, _parameters: &mut [f64]) {}
+
+    /// Laws that this one contains, each with the place of this law's parameters in it: a fit is never worse than that of these.
+    #[must_use]
+    fn contained(&self) -> Vec<(Self, Vec<Place>)>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+}
+
+/// A parameter of a law in terms of those of a law that it contains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// The contained law's parameter of this number, times a factor.
+    Parameter(usize, f64),
+    /// A constant.
+    Constant(f64),
+}
+
+impl Place {
+    /// The parameters of the larger law.
+    pub(super) fn embed(places: &[Self], contained: &[f64]) -> Vec<f64> {
+        let value = |place: &Self| match *place {
+            Self::Parameter(index, factor) => factor * contained.get(index).copied().unwrap_or(0.0),
+            Self::Constant(value) => value,
+        };
+        places.iter().map(value).collect()
+    }
 }
 
 /// A model with its parameters, as a law for homogeneous tests.

@@ -30,7 +30,9 @@ pub(super) struct Problem<'a, M> {
     /// Whether the signs that make terms stable are kept.
     pub(super) signs: bool,
     pub(super) patience: usize,
-    evaluations: Cell<usize>,
+    /// Whether the search shall end.
+    pub(super) stop: &'a dyn Fn() -> bool,
+    evaluations: &'a Cell<usize>,
 }
 
 /// The end of a search.
@@ -44,15 +46,14 @@ pub(super) struct Best {
 
 impl<'a, M: Model> Problem<'a, M> {
     pub(super) fn new(
-        model: &'a M,
-        data: &'a Data,
+        (model, data): (&'a M, &'a Data),
         parameters: Vec<Parameter>,
-        weights: Vec<f64>,
+        (weights, stress): (Vec<f64>, f64),
         signs: bool,
         patience: usize,
+        (stop, evaluations): (&'a dyn Fn() -> bool, &'a Cell<usize>),
     ) -> Self {
-        let stress = data.tests().iter().map(super::Test::largest_stress).fold(0.0, f64::max);
-        Self { model, data, parameters, weights, stress, signs, patience, evaluations: Cell::new(0) }
+        Self { model, data, parameters, weights, stress, signs, patience, stop, evaluations }
     }
 
     /// Evaluations of all stresses so far.
@@ -157,11 +158,13 @@ impl<'a, M: Model> Problem<'a, M> {
             }
             let x = searched.iter().map(|&k| self.range(k).inward(theta[k])).collect();
             let target = Separable { problem: self, searched: &searched, observed: &observed, theta };
-            let end = minimise(target, x, self.patience);
+            let end = minimise(target, x, self.patience, self.stop);
             found.extend(end.map(Best::from).filter(|best| best.squares.is_finite()));
         }
         let best = found.iter().min_by(|a, b| a.squares.total_cmp(&b.squares))?.clone();
-        let agree = found.iter().filter(|other| other.squares <= best.squares * (1.0 + 1e-6)).count();
+        // Of an exact fit only rounding is left.
+        let rounding = 1e-26 * observed.norm_squared();
+        let agree = found.iter().filter(|other| other.squares <= best.squares * (1.0 + 1e-6) + rounding).count();
         Some((best, agree))
     }
 
@@ -172,26 +175,78 @@ impl<'a, M: Model> Problem<'a, M> {
     }
 
     /// A search over all parameters at once, with what Drucker's condition lacks added to the residuals.
-    pub(super) fn stabilise(&self, best: &Best, fan: &[[f64; 3]]) -> Option<Best> {
+    pub(super) fn stabilise(&self, best: &Best, fan: &Fan) -> Option<Best> {
         let observed = self.observed();
+        let fixed = self.fixed(fan);
         let mut theta = best.parameters.clone();
         let mut found = None;
         // From soft to hard, until nothing is lacking.
         for power in 0..7 {
             let hardness = 10_f64.powi(power);
             let x = (0..theta.len()).map(|k| self.range(k).inward(theta[k])).collect();
-            let target = Penalised { problem: self, observed: &observed, fan, hardness, theta: theta.clone() };
-            let reached = Best::from(minimise(target, x, self.patience)?);
+            let (observed, fixed) = (&observed, fixed.as_ref());
+            let target = Penalised { problem: self, observed, fan, fixed, hardness, theta: theta.clone() };
+            let reached = Best::from(minimise(target, x, self.patience, self.stop)?);
             let (values, _) = self.stresses(&reached.parameters);
-            let squares = (values - &observed).norm_squared();
+            let squares = (values - observed).norm_squared();
             theta.clone_from(&reached.parameters);
-            let lacking = fan.iter().any(|point| stability::least_modulus(self.model, *point, &theta) <= 0.0);
             found = Some(Best { squares, ..reached });
-            if !lacking {
+            if self.is_stable(&theta, fan) {
                 break;
             }
         }
         found
+    }
+
+    /// Whether Drucker's condition holds on a fan.
+    pub(super) fn is_stable(&self, theta: &[f64], fan: &Fan) -> bool {
+        !fan.iter().any(|point| stability::least_modulus(self.model, *point, theta) <= 0.0)
+    }
+
+    /// What does not change with parameters that are all factors: stresses and moduli of each alone.
+    fn fixed(&self, fan: &Fan) -> Option<Fixed> {
+        let unknowns = self.parameters.len();
+        if self.parameters.iter().any(|parameter| parameter.role != Role::Linear) {
+            return None;
+        }
+        let unit = |k: usize| (0..unknowns).map(|j| if j == k { 1.0 } else { 0.0 }).collect::<Vec<f64>>();
+        let stresses = self.stresses(&vec![1.0; unknowns]).1;
+        let mut moduli = DMatrix::zeros(3 * fan.len(), unknowns);
+        for k in 0..unknowns {
+            let theta = unit(k);
+            for (index, point) in fan.iter().enumerate() {
+                for (part, value) in stability::moduli(self.model, *point, &theta).into_iter().enumerate() {
+                    moduli[(3 * index + part, k)] = value;
+                }
+            }
+        }
+        Some(Fixed { stresses, moduli })
+    }
+
+    /// The values of the parameters that are searched for.
+    pub(super) fn start_of(&self, best: &Best) -> Vec<f64> {
+        self.places(Role::Nonlinear).into_iter().map(|k| best.parameters[k]).collect()
+    }
+
+    /// From parameters of a law that this one contains, with their sum of squares: the best, and no worse than those.
+    pub(super) fn not_worse(&self, theta: &[f64], squares: f64, fan: &Fan) -> Best {
+        let embedded = Best { parameters: theta.to_vec(), squares, outcome: Outcome::NoFurtherDecrease };
+        let allowed = |best: &Best| best.squares <= squares && (!self.signs || self.is_stable(&best.parameters, fan));
+        let found = if self.places(Role::Nonlinear).is_empty() {
+            self.stabilise(&embedded, fan)
+        } else {
+            self.search(&[self.start_of(&embedded)]).map(|(best, _)| best)
+        };
+        found.filter(allowed).unwrap_or(embedded)
+    }
+
+    /// The least S with a parameter at a value, from the best one.
+    pub(super) fn least_with(&self, best: &Best, k: usize, value: f64) -> Option<f64> {
+        let mut parameters = self.parameters.clone();
+        parameters[k].bounds = [value; 2];
+        let fixed = Problem { parameters, weights: self.weights.clone(), ..*self };
+        let (found, _) = fixed.search(&[self.start_of(best)])?;
+        Some(found.squares)
     }
 
     /// Where a parameter is searched for.
@@ -256,11 +311,21 @@ impl<M: Model> Misfit for Separable<'_, '_, M> {
     }
 }
 
+/// Logarithmic stretches at which stability is looked at.
+pub(super) type Fan = [[f64; 3]];
+
+/// Stresses, and three moduli at each point of a fan, a column for each factor.
+struct Fixed {
+    stresses: DMatrix<f64>,
+    moduli: DMatrix<f64>,
+}
+
 /// The search for all parameters under a penalty.
 struct Penalised<'p, 'a, M> {
     problem: &'p Problem<'a, M>,
     observed: &'p DVector<f64>,
-    fan: &'p [[f64; 3]],
+    fan: &'p Fan,
+    fixed: Option<&'p Fixed>,
     hardness: f64,
     theta: Vec<f64>,
 }
@@ -288,28 +353,48 @@ impl<M: Model> Misfit for Penalised<'_, '_, M> {
         for (k, &x) in x.iter().enumerate() {
             self.theta[k] = self.problem.range(k).outward(x)[0];
         }
-        let (values, slopes) = self.problem.stresses(&self.theta);
-        let (rows, unknowns) = (values.len(), self.theta.len());
+        let unknowns = self.theta.len();
+        let (values, slopes) = match self.fixed {
+            Some(fixed) => (&fixed.stresses * DVector::from_column_slice(&self.theta), fixed.stresses.clone()),
+            None => self.problem.stresses(&self.theta),
+        };
+        let rows = values.len();
         let mut residuals = DVector::zeros(rows + self.fan.len());
         let mut jacobian = DMatrix::zeros(rows + self.fan.len(), unknowns);
         residuals.rows_mut(0, rows).copy_from(&(values - self.observed));
         jacobian.rows_mut(0, rows).copy_from(&slopes);
-        for begin in (0..unknowns).step_by(CHUNK) {
-            let lifted: Vec<_> = self
-                .theta
-                .iter()
-                .enumerate()
-                .map(|(k, x)| Gradient::<f64, CHUNK>::variable(*x, if k < begin { CHUNK } else { k - begin }))
-                .collect();
-            for (index, point) in self.fan.iter().enumerate() {
-                let modulus = stability::least_modulus(self.problem.model, *point, &lifted);
-                let lacking = Self::MARGIN - modulus.value / self.problem.stress;
+        let mut lack =
+            |index: usize, modulus: f64, slopes: &mut dyn FnMut(usize) -> f64, columns: core::ops::Range<usize>| {
+                let lacking = Self::MARGIN - modulus / self.problem.stress;
                 if lacking.is_nan() || 0.0 < lacking {
                     residuals[rows + index] = self.hardness * lacking;
-                    for k in begin..unknowns.min(begin + CHUNK) {
-                        let slope = modulus.partials[k - begin] / self.problem.stress;
-                        jacobian[(rows + index, k)] = -self.hardness * slope;
+                    for k in columns {
+                        jacobian[(rows + index, k)] = -self.hardness * slopes(k) / self.problem.stress;
                     }
+                }
+            };
+        if let Some(fixed) = self.fixed {
+            let moduli = &fixed.moduli * DVector::from_column_slice(&self.theta);
+            for index in 0..self.fan.len() {
+                // The least modulus with its derivatives with respect to the three.
+                let three = [0, 1, 2].map(|part| Gradient::<f64, 3>::variable(moduli[3 * index + part], part));
+                let least = stability::least(three);
+                let mut slope =
+                    |k: usize| (0..3).map(|part| least.partials[part] * fixed.moduli[(3 * index + part, k)]).sum();
+                lack(index, least.value, &mut slope, 0..unknowns);
+            }
+        } else {
+            for begin in (0..unknowns).step_by(CHUNK) {
+                let lifted: Vec<_> = self
+                    .theta
+                    .iter()
+                    .enumerate()
+                    .map(|(k, x)| Gradient::<f64, CHUNK>::variable(*x, if k < begin { CHUNK } else { k - begin }))
+                    .collect();
+                for (index, point) in self.fan.iter().enumerate() {
+                    let modulus = stability::least_modulus(self.problem.model, *point, &lifted);
+                    let end = unknowns.min(begin + CHUNK);
+                    lack(index, modulus.value, &mut |k| modulus.partials[k - begin], begin..end);
                 }
             }
         }

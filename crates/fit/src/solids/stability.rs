@@ -106,7 +106,12 @@ pub(super) fn report<M: Model>(model: &M, parameters: &[f64], largest_first_inva
 
 /// The least principal modulus dτ:dε/dε:dε of isochoric increments.
 pub(super) fn least_modulus<T: Real, M: Model>(model: &M, logarithms: [f64; 3], parameters: &[T]) -> T {
-    /// Two orthonormal directions of Σ εₐ = 0: (2, −1, −1)/√6 and (0, 1, −1)/√2.
+    least(moduli(model, logarithms, parameters))
+}
+
+/// The second derivatives along two orthonormal directions of Σ εₐ = 0, and the mixed one: linear in parameters that are factors.
+pub(super) fn moduli<T: Real, M: Model>(model: &M, logarithms: [f64; 3], parameters: &[T]) -> [T; 3] {
+    /// (2, −1, −1)/√6 and (0, 1, −1)/√2.
     const DIRECTIONS: [[f64; 3]; 2] = [
         [0.816_496_580_927_726, -0.408_248_290_463_863, -0.408_248_290_463_863],
         [0.0, core::f64::consts::FRAC_1_SQRT_2, -core::f64::consts::FRAC_1_SQRT_2],
@@ -121,6 +126,11 @@ pub(super) fn least_modulus<T: Real, M: Model>(model: &M, logarithms: [f64; 3], 
         model.energy(stretches, &lifted).partials.map(|slope| slope.tangent)
     };
     let ([a, b], [_, d]) = (column(0), column(1));
+    [a, b, d]
+}
+
+/// The least of the principal moduli.
+pub(super) fn least<T: Real>([a, b, d]: [T; 3]) -> T {
     // The mean less the radius of Mohr's circle, whose derivative is taken as zero at its centre.
     let (mean, half) = (T::lit(0.5) * (a + d), T::lit(0.5) * (a - d));
     let tiny = T::lit(1e-15) * (a.abs() + d.abs()).frozen();

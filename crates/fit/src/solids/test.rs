@@ -222,12 +222,34 @@ impl Test {
 
     /// Whether nothing is deformed at any point: there every isotropic law has the same stress, none.
     pub(super) fn is_at_rest(&self) -> bool {
+        (0..self.points.len()).all(|point| !self.informs(point))
+    }
+
+    /// Whether the stress at a point depends on the law: at rest, and across a direction of no change, every isotropic law has none.
+    pub(super) fn informs(&self, point: usize) -> bool {
         /// Principal stretches of a rotation are 1 to rounding.
         const ROUNDING: f64 = 16.0 * f64::EPSILON;
-        self.points.iter().all(|point| match point.at {
-            At::Mode(mode, stretch, _) => (stretch - mode.rest()).abs() <= 0.0,
-            At::General(stretches, _) => stretches.iter().all(|stretch| (stretch - 1.0).abs() <= ROUNDING),
-        })
+        match self.points[point].at {
+            At::Mode(mode, stretch, _) => 0.0 < (stretch - mode.rest()).abs(),
+            At::General(stretches, along) => {
+                stretches.iter().any(|stretch| ROUNDING < (stretch - 1.0).abs()) && along.iter().any(|x| 0.0 < x.abs())
+            }
+        }
+    }
+
+    /// Numbers in its table that depend on the law: those at rest do not.
+    #[must_use]
+    pub fn informative(&self) -> usize {
+        (0..self.points.len()).filter(|&point| self.informs(point)).count()
+    }
+
+    /// What a law has less what was measured, at every point. Points at rest have what was measured there, with the other sign.
+    #[must_use]
+    pub fn residuals(&self, law: &impl Incompressible<f64>) -> Vec<f64> {
+        let residual = |(point, stress): (usize, f64)| {
+            if self.informs(point) { self.answer::<f64>(point, law) - stress } else { -stress }
+        };
+        self.stresses().enumerate().map(residual).collect()
     }
 
     /// The stress of a law at a point.
@@ -251,7 +273,7 @@ impl Test {
 }
 
 /// Measured stress over first Piola–Kirchhoff stress: F₁₁, or 1 in simple shear, where F₁₁ is 1.
-fn factor(mode: Mode, measure: Measure, stretch: f64) -> f64 {
+pub(super) fn factor(mode: Mode, measure: Measure, stretch: f64) -> f64 {
     match (measure, mode) {
         (Measure::FirstPiola, _) | (_, Mode::SimpleShear) => 1.0,
         (Measure::Cauchy, _) => stretch,
@@ -394,10 +416,33 @@ impl Data {
         self.tests.iter().map(Test::len).sum()
     }
 
+    /// Numbers in all tables that depend on the law.
+    #[must_use]
+    pub fn informative(&self) -> usize {
+        self.tests.iter().map(Test::informative).sum()
+    }
+
     /// Never.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         false
+    }
+
+    /// The same tests with no more than about so many numbers each, evenly chosen.
+    pub(super) fn thinned(&self, most: usize) -> Self {
+        let thinned = |test: &Test| {
+            let stride = test.len().div_ceil(most.max(1)).max(1);
+            let points = test.points.iter().rev().step_by(stride).rev().copied().collect();
+            // The table is not looked at by a search.
+            Test {
+                name: test.name.clone(),
+                table: Table::General(Vec::new()),
+                measure: test.measure,
+                weight: test.weight,
+                points,
+            }
+        };
+        Self { tests: self.tests.iter().map(thinned).collect() }
     }
 
     /// The largest I₁ = λ₁² + λ₂² + λ₃² at which something was measured.

@@ -5,6 +5,8 @@ use piola_charts::{FINE, Panel, RGBColor, colour, figure, legend};
 use super::tables::curve;
 use super::{Comparison, Measurements};
 
+/// Marks of a panel, at most.
+const MARKS: usize = 600;
 /// Panels beside each other.
 const ACROSS: usize = 3;
 /// Size of a panel and width of the legend, pixels.
@@ -16,12 +18,19 @@ pub(super) fn comparison(measurements: &Measurements, comparison: &Comparison) -
     let tests = measurements.data.tests();
     let panels: Vec<Panel> = tests
         .iter()
-        .enumerate()
-        .map(|(index, test)| {
+        .map(|test| {
             let is_curve = test.table().mode().is_some();
-            let points: Vec<(f64, f64)> = test.abscissas().zip(test.stresses()).collect();
+            // Of many points some are drawn, evenly.
+            let stride = test.len().div_ceil(MARKS).max(1);
+            let points: Vec<(f64, f64)> = test.abscissas().zip(test.stresses()).step_by(stride).collect();
             let answers = |fit: &piola_fit::solids::Fit| {
-                points.iter().zip(&fit.tests[index].residuals).map(|((x, y), residual)| (*x, y + residual)).collect()
+                let found = fit.tests.iter().find(|found| found.test == test.name());
+                let residuals = found.map_or(&[][..], |found| found.residuals.as_slice());
+                points
+                    .iter()
+                    .zip(residuals.iter().step_by(stride))
+                    .map(|((x, y), residual)| (*x, y + residual))
+                    .collect()
             };
             let curves =
                 comparison.fits().map(|(law, fit)| if is_curve { curve(law, fit, test) } else { answers(fit) });

@@ -8,7 +8,7 @@
 //! | write | [`Comparison::write`]: `summary.json`, `curves.csv`, `residuals.csv`, `fit.svg` |
 
 mod figure;
-pub(crate) mod layout;
+mod layout;
 mod mistake;
 mod request;
 mod tables;
@@ -16,16 +16,19 @@ mod tables;
 pub use mistake::{TableMistake, TableReport};
 pub use request::{LawBounds, Request};
 
-pub use piola_fit::solids::{Fit, SolidParameter, Stability, State, Weighting};
+pub use piola_fit::solids::{
+    Contradiction, Fit, Intervals, Residuals, SolidParameter, Stability, State, Test, Weighting,
+};
 
 use std::path::{Path, PathBuf};
 
 use piola_charts::{Folder, Written};
 use piola_fit::FitError;
-use piola_fit::solids::{AnyModel, Data, fit};
+use piola_fit::solids::{AnyModel, Data, alone, contradictions, fit_until, held_out};
 
 use crate::MeasuredError;
-use crate::comparison::{self, Judged};
+use crate::comparison::{self, Judged, Watch};
+use crate::sheet::read;
 
 /// Measured stresses of one material.
 ///
@@ -49,6 +52,10 @@ pub struct Measurements {
     pub unit: Option<String>,
     /// The numbers.
     pub data: Data,
+    /// Tests that the file holds out: laws are not fitted to them, but compared with them.
+    pub held_out: Vec<Test>,
+    /// What was read in a way that a reader must know, as sentences without a full stop.
+    pub notes: Vec<String>,
 }
 
 impl Measurements {
@@ -58,7 +65,15 @@ impl Measurements {
     /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every
     /// mistake and its line.
     pub fn load(path: &Path) -> Result<Self, MeasuredError> {
-        Self::parse(path, &layout::read(path)?)
+        Self::load_only(path, &[])
+    }
+
+    /// Reads those rows of a file whose columns have these texts or numbers, as `("batch", "7")`.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_only(path: &Path, only: &[(String, String)]) -> Result<Self, MeasuredError> {
+        Self::of(path, &read(path)?, only)
     }
 
     /// Reads the text of a file.
@@ -66,9 +81,13 @@ impl Measurements {
     /// # Errors
     /// [`MeasuredError::Table`].
     pub fn parse(path: impl Into<PathBuf>, text: &str) -> Result<Self, MeasuredError> {
+        Self::of(path, text, &[])
+    }
+
+    fn of(path: impl Into<PathBuf>, text: &str, only: &[(String, String)]) -> Result<Self, MeasuredError> {
         let path = path.into();
-        match layout::parse(text) {
-            Ok((data, unit)) => Ok(Self { path, unit, data }),
+        match layout::parse(text, only) {
+            Ok(layout::Layout { data, unit, held_out, notes }) => Ok(Self { path, unit, data, held_out, notes }),
             Err(mistakes) => Err(MeasuredError::Table(TableReport::new(path, mistakes))),
         }
     }
@@ -80,26 +99,76 @@ impl Measurements {
     }
 }
 
-/// Laws fitted to the same stresses.
-pub type Comparison = comparison::Comparison<AnyModel, Fit, FitError>;
+/// A fitted law with what the tests say of it one by one.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct FittedLaw {
+    /// The fit to all tests that are not held out.
+    pub fit: Fit,
+    /// Parameters for which two tests alone ask for different values.
+    pub contradictions: Vec<Contradiction>,
+    /// What the law predicts for tests that are held out.
+    pub predicted: Vec<Residuals>,
+    /// Each test as the law predicts it that is fitted to all the others, if that was asked for.
+    pub left_out: Vec<Residuals>,
+}
 
-impl Judged for Fit {
+impl core::ops::Deref for FittedLaw {
+    type Target = Fit;
+
+    fn deref(&self) -> &Fit {
+        &self.fit
+    }
+}
+
+/// Laws fitted to the same stresses.
+pub type Comparison = comparison::Comparison<AnyModel, FittedLaw, FitError>;
+
+impl Judged for FittedLaw {
     fn aicc(&self) -> Option<f64> {
-        self.criteria.aicc
+        self.fit.criteria.aicc
     }
     fn is_converged(&self) -> bool {
-        self.outcome.is_converged()
+        self.fit.outcome.is_converged()
+    }
+    fn widening(&self) -> f64 {
+        self.fit.autocorrelation.map_or(1.0, |found| found.widening)
     }
 }
 
 /// Fits each law that is asked for.
 ///
 /// # Errors
-/// Weights of tests that are not in the data. The refusal of a single law stands in its
+/// Weights of tests that are not in the data; bounds that no value of a parameter fulfils. The refusal of a single law stands in its
 /// [`Candidate`](crate::comparison::Candidate).
 pub fn compare(measurements: &Measurements, request: &Request) -> Result<Comparison, MeasuredError> {
-    let data = request.weighted(&measurements.data)?;
-    Ok(Comparison::of(&request.laws, |law| fit(&law, &data, &request.options(law))))
+    compare_until(measurements, request, &mut |_| core::ops::ControlFlow::Continue(()))
+}
+
+/// The same while `watch` lets it go on; it is told the finished part of the laws.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_until(
+    measurements: &Measurements,
+    request: &Request,
+    watch: Watch<'_>,
+) -> Result<Comparison, MeasuredError> {
+    let (data, held) = request.weighted(measurements)?;
+    request.check_bounds(&data)?;
+    Ok(Comparison::of(&request.laws, watch, |law, stop| {
+        let options = request.options(law);
+        let fit = fit_until(&law, &data, &options, stop)?;
+        let predicted = held.iter().map(|test| test.beside(&law, &fit)).collect::<Result<_, _>>()?;
+        let left_out = if request.cross_validation && 1 < data.tests().len() && !stop() {
+            held_out(&law, &data, &options)
+                .map_or_else(|_| Vec::new(), |tests| tests.into_iter().map(|test| test.residuals).collect())
+        } else {
+            Vec::new()
+        };
+        let contradictions = if stop() { Vec::new() } else { contradictions(&alone(&law, &data, &options, &fit)) };
+        Ok(FittedLaw { fit, contradictions, predicted, left_out })
+    }))
 }
 
 impl Comparison {
@@ -121,5 +190,14 @@ impl Comparison {
                 ("fit.svg", figure::comparison(measurements, self)),
             ],
         )
+    }
+
+    /// Stresses of every law from rest to `stretch` in each mode that was measured, with pointwise intervals: CSV with the columns
+    /// `law,mode,stretch,stress,low,high,beyond the data`.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Argument`] unless the stretch is positive and finite.
+    pub fn predictions(&self, measurements: &Measurements, stretch: f64) -> Result<String, MeasuredError> {
+        tables::predictions(measurements, self, stretch)
     }
 }

@@ -2,8 +2,10 @@
 
 use core::str::FromStr;
 
-use piola_fit::solids::{AnyModel, Data, Options, Stability, Weighting};
+use piola_fit::FitError;
+use piola_fit::solids::{AnyModel, Data, Intervals, Model as _, Options, Stability, Test, Weighting};
 
+use super::Measurements;
 use crate::MeasuredError;
 
 /// Bounds of a parameter of one law, written `gent.Jm=60..200`; either end may be left out.
@@ -64,14 +66,19 @@ pub struct Request {
     pub stability: Stability,
     /// The probability of the intervals.
     pub confidence: f64,
+    /// How intervals are found.
+    pub intervals: Intervals,
+    /// Whether each test is predicted by the law that is fitted to all the others.
+    pub cross_validation: bool,
 }
 
 impl Request {
     /// A request for some laws, with everything else by default.
     #[must_use]
     pub fn of(laws: Vec<AnyModel>) -> Self {
-        let Options { weighting, stability, confidence, .. } = Options::default();
-        Self { laws, weights: Vec::new(), bounds: Vec::new(), weighting, stability, confidence }
+        let Options { weighting, stability, confidence, intervals, .. } = Options::default();
+        let (weights, bounds) = (Vec::new(), Vec::new());
+        Self { laws, weights, bounds, weighting, stability, confidence, intervals, cross_validation: false }
     }
 
     /// Laws that are compared when none is named.
@@ -79,24 +86,33 @@ impl Request {
     /// # Errors
     /// None: the names are right.
     pub fn usual_laws() -> Result<Vec<AnyModel>, MeasuredError> {
-        const NAMES: [&str; 8] =
-            ["neo-hookean", "mooney-rivlin", "yeoh", "gent", "arruda-boyce", "polynomial:2", "ogden:2", "ogden:3"];
+        const NAMES: [&str; 9] = [
+            "neo-hookean",
+            "mooney-rivlin",
+            "yeoh",
+            "gent",
+            "arruda-boyce",
+            "polynomial:2",
+            "ogden:1",
+            "ogden:2",
+            "ogden:3",
+        ];
         NAMES.iter().map(|name| Ok(name.parse()?)).collect()
     }
 
-    /// Weights written `uniaxial=2,planar=0.5`.
+    /// Weights written `uniaxial=2,planar=0.5`; 0 holds a test out.
     ///
     /// # Errors
     /// [`MeasuredError::Argument`].
     pub fn weights(text: &str) -> Result<Vec<(String, f64)>, MeasuredError> {
         let weight = |part: &str| {
             let (name, value) = part.split_once('=')?;
-            let value = number(value).filter(|value| 0.0 < *value)?;
+            let value = number(value).filter(|value| 0.0 <= *value)?;
             Some((name.trim().to_owned(), value))
         };
         let wrong = |part: &str| MeasuredError::Argument {
             argument: part.to_owned(),
-            valid: "TEST=WEIGHT,…, as uniaxial=2,planar=0.5, weights above 0",
+            valid: "TEST=WEIGHT,…, as uniaxial=2,planar=0.5, weights not below 0; 0 holds a test out",
         };
         text.split(',').map(|part| weight(part).ok_or_else(|| wrong(part))).collect()
     }
@@ -108,14 +124,34 @@ impl Request {
             stability: self.stability,
             bounds: of_law.map(|bounds| (bounds.parameter.clone(), bounds.range)).collect(),
             confidence: self.confidence,
+            intervals: self.intervals,
             ..Options::default()
         }
     }
 
-    pub(super) fn weighted(&self, data: &Data) -> Result<Data, MeasuredError> {
+    /// Refuses bounds that no law can have, before anything is fitted.
+    pub(super) fn check_bounds(&self, data: &Data) -> Result<(), MeasuredError> {
+        let reach = data.largest_first_invariant();
+        for LawBounds { law, parameter, range: [low, high] } in &self.bounds {
+            let own = law.parameters(reach);
+            let Some(found) = own.iter().find(|own| own.name == *parameter) else {
+                return Err(FitError::UnknownParameter { model: law.to_string(), parameter: parameter.clone() }.into());
+            };
+            let (lower, upper) = (low.max(found.bounds[0]), high.min(found.bounds[1]));
+            if upper < lower {
+                let (model, parameter) = (law.to_string(), parameter.clone());
+                return Err(FitError::ImpossibleBounds { model, parameter, lower, upper }.into());
+            }
+        }
+        Ok(())
+    }
+
+    /// The tests that are fitted, with their weights, and those that are held out.
+    pub(super) fn weighted(&self, measurements: &Measurements) -> Result<(Data, Vec<Test>), MeasuredError> {
+        let all = || measurements.data.tests().iter().chain(&measurements.held_out);
         for (name, _) in &self.weights {
-            if data.tests().iter().all(|test| test.name() != name) {
-                let tests = data.tests().iter().map(|test| test.name().to_owned()).collect();
+            if all().all(|test| test.name() != name) {
+                let tests = all().map(|test| test.name().to_owned()).collect();
                 return Err(MeasuredError::NoSuchTest { name: name.clone(), tests });
             }
         }
@@ -127,11 +163,21 @@ impl Request {
                 });
             }
         }
-        let tests =
-            data.tests().iter().cloned().map(|test| match self.weights.iter().find(|(name, _)| name == test.name()) {
-                Some((_, weight)) => test.with_weight(*weight),
-                None => Ok(test),
-            });
-        Ok(Data::new(tests.collect::<Result<_, _>>()?)?)
+        let given = |test: &Test| self.weights.iter().find(|(name, _)| name == test.name()).map(|(_, weight)| *weight);
+        let (mut fitted, mut held) = (Vec::new(), Vec::new());
+        for (test, own) in measurements
+            .data
+            .tests()
+            .iter()
+            .map(|test| (test, None))
+            .chain(measurements.held_out.iter().map(|test| (test, Some(0.0))))
+        {
+            match given(test).or(own) {
+                Some(weight) if weight <= 0.0 => held.push(test.clone()),
+                Some(weight) => fitted.push(test.clone().with_weight(weight)?),
+                None => fitted.push(test.clone()),
+            }
+        }
+        Ok((Data::new(fitted)?, held))
     }
 }

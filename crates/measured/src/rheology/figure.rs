@@ -9,6 +9,14 @@ fn axes(function: Function) -> [String; 2] {
     function.axes().map(|(name, unit)| format!("{} ({unit})", name.replace('_', " ")))
 }
 
+/// Marks of a panel, at most: of more rows some are drawn, evenly.
+const MARKS: usize = 600;
+
+/// Some of many, evenly.
+fn some<T: Copy>(rows: &[T]) -> impl Iterator<Item = T> + '_ {
+    rows.iter().step_by(rows.len().div_ceil(MARKS).max(1)).copied()
+}
+
 /// Sizes of points and band: logarithms are drawn.
 fn sizes(points: &[Point]) -> Vec<(f64, f64)> {
     points.iter().map(|point| (point.at, point.value.abs())).collect()
@@ -23,7 +31,7 @@ fn of_curve<'a>(curve: &RecoveredCurve, title: &'a str, axes: [&'a str; 2]) -> L
     LogPanel {
         title,
         axes,
-        marks: sizes(&curve.rows),
+        marks: sizes(&some(&curve.rows).collect::<Vec<_>>()),
         curves: vec![sizes(&curve.points)],
         band: curve.points.iter().filter_map(band).collect(),
     }
@@ -39,20 +47,21 @@ pub(super) fn recovery(measured: &Measured, curve: &RecoveredCurve, what: Answer
     let rows: &[[f64; 2]] =
         measured.answers.iter().find(|answer| answer.what == what).map_or(&[], |answer| &answer.rows);
     let smooth = |([drive, response], residual): (&[f64; 2], &f64)| (*drive, response / (1.0 + residual));
+    let few: Vec<[f64; 2]> = some(rows).collect();
+    let residuals = vec![some(&curve.residuals).collect::<Vec<_>>()];
     let data = LogPanel {
         title: "measured and smoothed",
         axes: [&names[0], &names[1]],
-        marks: rows.iter().map(|[drive, response]| (*drive, *response)).collect(),
-        curves: vec![rows.iter().zip(&curve.residuals).map(smooth).collect()],
+        marks: few.iter().map(|[drive, response]| (*drive, *response)).collect(),
+        curves: vec![few.iter().zip(&residuals[0]).map(smooth).collect()],
         band: Vec::new(),
     };
-    let residuals = vec![curve.residuals.clone()];
     let title = format!("{}: the fluid behind it", measured.name());
     figure((1130, 420), &title, &|area| {
         let parts = area.split_evenly((1, 3));
         flow.draw(&parts[0])?;
         data.draw(&parts[1])?;
-        of_residuals(&parts[2], (&names[0], rows), &residuals, "measured/smoothed − 1")
+        of_residuals(&parts[2], (&names[0], &few), &residuals, "measured/smoothed − 1")
     })
 }
 
@@ -98,12 +107,12 @@ pub(super) fn correction(tables: &[Measured], curve: &RecoveredCurve, correction
 pub(super) fn comparison(measured: &Measured, comparison: &Comparison) -> String {
     let [drive, response] = measured.first_columns();
     let answers = |residuals: &[f64]| {
-        measured.rows().iter().zip(residuals).map(|([drive, response], r)| (*drive, response * r.exp())).collect()
+        some(measured.rows()).zip(some(residuals)).map(|([drive, response], r)| (drive, response * r.exp())).collect()
     };
     let data = LogPanel {
         title: "measured and fitted",
         axes: [&drive, &response],
-        marks: measured.rows().iter().map(|[drive, response]| (*drive, *response)).collect(),
+        marks: some(measured.rows()).map(|[drive, response]| (drive, response)).collect(),
         curves: comparison.fits().map(|(_, fit)| answers(&fit.residuals)).collect(),
         band: Vec::new(),
     };
@@ -117,7 +126,8 @@ pub(super) fn comparison(measured: &Measured, comparison: &Comparison) -> String
             .collect(),
         band: Vec::new(),
     };
-    let residuals: Vec<Vec<f64>> = comparison.fits().map(|(_, fit)| fit.residuals.clone()).collect();
+    let residuals: Vec<Vec<f64>> = comparison.fits().map(|(_, fit)| some(&fit.residuals).collect()).collect();
+    let rows: Vec<[f64; 2]> = some(measured.rows()).collect();
     let names: Vec<String> = comparison.fits().map(|(fluid, _)| fluid.to_string()).collect();
     let title = format!("{}: measured and fitted", measured.name());
     figure((1290, 420), &title, &|area| {
@@ -126,7 +136,7 @@ pub(super) fn comparison(measured: &Measured, comparison: &Comparison) -> String
         let parts = plots.split_evenly((1, 3));
         data.draw(&parts[0])?;
         flow.draw(&parts[1])?;
-        of_residuals(&parts[2], (&drive, measured.rows()), &residuals, "ln(fitted/measured)")?;
+        of_residuals(&parts[2], (&drive, &rows), &residuals, "ln(fitted/measured)")?;
         let entries: Vec<(&str, RGBColor)> =
             names.iter().enumerate().map(|(k, name)| (name.as_str(), colour(k))).collect();
         legend(&side, &entries)

@@ -2,11 +2,14 @@
 
 use core::fmt;
 use core::fmt::Write as _;
+use core::ops::ControlFlow;
 use core::str::FromStr;
 
 use piola_charts::{Folder, Written};
 use piola_fit::FitError;
-use piola_fit::fluids::{Criteria, FlowData, FluidParameter, Options, Outcome, Weighting, fit_flow};
+use piola_fit::fluids::{
+    Autocorrelation, Criteria, FlowData, FluidParameter, Intervals, Options, Outcome, State, Weighting, fit_flow_until,
+};
 use piola_fluids::{
     Bingham, CarreauYasuda, Casson, Cross, Ellis, Eyring, HerschelBulkley, Newtonian, Papanastasiou, Parameters,
     PowerLaw, Sisko, ViscometricFluid,
@@ -16,7 +19,7 @@ use serde_json::{Value, json};
 
 use super::{Flow, Measured, figure};
 use crate::MeasuredError;
-use crate::comparison::{self, Judged};
+use crate::comparison::{self, Judged, Watch};
 
 /// Points of a curve.
 const POINTS: u32 = 120;
@@ -66,8 +69,12 @@ pub struct FittedFluid {
     pub parameters: Vec<FluidParameter>,
     /// Residuals of the rows: ln(answer/measured), or answer − measured over the largest.
     pub residuals: Vec<f64>,
+    /// S, the sum of squares of the residuals.
+    pub squares: f64,
     /// Criteria to choose by.
     pub criteria: Criteria,
+    /// Correlation of neighbouring residuals.
+    pub autocorrelation: Option<Autocorrelation>,
     /// How the search ended.
     pub outcome: Outcome,
     /// Shear rates and stresses of the fitted fluid.
@@ -75,20 +82,34 @@ pub struct FittedFluid {
 }
 
 fn fitted<F: Parameters<N> + ViscometricFluid, const N: usize>(
-    measured: &Measured,
-    data: &[FlowData],
+    task: &Task<'_>,
     starts: &[[f64; N]],
-    options: &Options,
+    more: &[Vec<f64>],
+    stop: &dyn Fn() -> bool,
 ) -> Result<FittedFluid, FitError> {
-    let fit = fit_flow::<F, N>(data, starts, options)?;
+    let measured = task.measured;
+    let own = |values: &Vec<f64>| -> Option<[f64; N]> { values.as_slice().try_into().ok() };
+    let more: Vec<[f64; N]> = more.iter().filter_map(own).collect();
+    let starts = if more.is_empty() { starts } else { more.as_slice() };
+    let fit = fit_flow_until::<F, N>(task.data, starts, task.options, stop)?;
     let curve = curve(measured, &|rate| fit.fluid.shear_stress(rate));
     Ok(FittedFluid {
         parameters: fit.parameters,
         residuals: fit.residuals.into_iter().next().unwrap_or_default(),
+        squares: fit.squares,
         criteria: fit.criteria,
+        autocorrelation: fit.autocorrelation,
         outcome: fit.outcome,
         curve,
     })
+}
+
+/// What all fluids are fitted to.
+struct Task<'t> {
+    measured: &'t Measured,
+    data: &'t [FlowData],
+    look: Look,
+    options: &'t Options,
 }
 
 /// Shear rates over the range that was measured, and the stresses there.
@@ -106,16 +127,16 @@ macro_rules! fluids {
             /// All of them.
             pub const ALL: &'static [Self] = &[$(Self($name)),+];
 
+            /// From the usual starts, or from `more`.
             fn fit(
                 self,
-                measured: &Measured,
-                data: &[FlowData],
-                look: &Look,
-                options: &Options,
+                task: &Task<'_>,
+                more: &[Vec<f64>],
+                stop: &dyn Fn() -> bool,
             ) -> Result<FittedFluid, FitError> {
                 $(if self.0 == $name {
-                    let $look = look;
-                    return fitted::<$fluid, $count>(measured, data, &$starts, options);
+                    let $look = &task.look;
+                    return fitted::<$fluid, $count>(task, &$starts, more, stop);
                 })+
                 Err(FitError::NoStart { model: self.0.to_owned() })
             }
@@ -155,6 +176,38 @@ fluids! {
     ],
 }
 
+/// The place of a fluid's parameters in one that contains it; what it has not is so small that it does nothing.
+type Embedding = (&'static str, &'static str, fn(&[f64]) -> Vec<f64>);
+
+/// Of no effect beside a number of its size.
+const NOTHING: f64 = 1e-12;
+
+/// Fluids with fluids that they contain.
+const CONTAINED: [Embedding; 7] = [
+    ("power-law", "newtonian", |p| vec![p[0], 1.0]),
+    ("bingham", "newtonian", |p| vec![NOTHING * p[0], p[0]]),
+    ("casson", "newtonian", |p| vec![NOTHING * p[0], p[0]]),
+    ("herschel-bulkley", "power-law", |p| vec![NOTHING * p[0], p[0], p[1]]),
+    ("herschel-bulkley", "bingham", |p| vec![p[0], p[1], 1.0]),
+    ("sisko", "power-law", |p| vec![NOTHING * p[0], p[0], p[1]]),
+    ("sisko", "newtonian", |p| vec![p[0], NOTHING * p[0], 0.5]),
+];
+
+impl FluidName {
+    /// The fluids that are compared when none is named: all but those that regularise another one for computations.
+    #[must_use]
+    pub fn usual() -> Vec<Self> {
+        Self::ALL.iter().copied().filter(|fluid| !fluid.is_regularisation()).collect()
+    }
+
+    /// Whether it replaces a yield stress by a steep but smooth rise so that computations are easier. It is fitted like any other, and not
+    /// ranked among models of materials.
+    #[must_use]
+    pub fn is_regularisation(self) -> bool {
+        self.0 == "papanastasiou"
+    }
+}
+
 impl fmt::Display for FluidName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.0)
@@ -182,6 +235,8 @@ pub struct Request {
     pub weighting: Weighting,
     /// The probability of the intervals.
     pub confidence: f64,
+    /// How intervals are found.
+    pub intervals: Intervals,
     /// The noise of the measurements. A response may fall by this much.
     pub noise: Noise,
 }
@@ -190,7 +245,8 @@ impl Request {
     /// A request for some fluids, with errors in proportion to each measured response.
     #[must_use]
     pub fn of(fluids: Vec<FluidName>) -> Self {
-        Self { fluids, weighting: Weighting::Relative, confidence: 0.95, noise: Noise::Estimated }
+        let (weighting, intervals) = (Weighting::Relative, Intervals::Linear);
+        Self { fluids, weighting, confidence: 0.95, intervals, noise: Noise::Estimated }
     }
 }
 
@@ -203,6 +259,9 @@ impl Judged for FittedFluid {
     }
     fn is_converged(&self) -> bool {
         self.outcome.is_converged()
+    }
+    fn widening(&self) -> f64 {
+        self.autocorrelation.map_or(1.0, |found| found.widening)
     }
 }
 
@@ -224,6 +283,14 @@ impl Judged for FittedFluid {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn compare(measured: &Measured, request: &Request) -> Result<Comparison, MeasuredError> {
+    compare_until(measured, request, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same while `watch` lets it go on; it is told the finished part of the fluids.
+///
+/// # Errors
+/// As [`compare`].
+pub fn compare_until(measured: &Measured, request: &Request, watch: Watch<'_>) -> Result<Comparison, MeasuredError> {
     let is_capillary = matches!(measured.flow, Flow::Capillary { .. });
     if is_capillary || measured.sheared().is_none() {
         let column = measured.answers.first().map_or("nothing", |answer| answer.what.column().0);
@@ -238,8 +305,37 @@ pub fn compare(measured: &Measured, request: &Request) -> Result<Comparison, Mea
         error => MeasuredError::Fit(error),
     })?;
     let look = Look::at(measured);
-    let options = Options { weighting: request.weighting, confidence: request.confidence, ..Options::default() };
-    Ok(Comparison::of(&request.fluids, |fluid| fluid.fit(measured, &data, &look, &options)))
+    let Request { weighting, confidence, intervals, .. } = *request;
+    let options = Options { weighting, confidence, intervals, ..Options::default() };
+    let task = Task { measured, data: &data, look, options: &options };
+    let mut comparison = Comparison::of(&request.fluids, watch, |fluid, stop| fluid.fit(&task, &[], stop));
+    comparison.unranked = request.fluids.iter().copied().filter(|fluid| fluid.is_regularisation()).collect();
+    if !comparison.interrupted {
+        comparison.contain(&task);
+    }
+    Ok(comparison)
+}
+
+impl Comparison {
+    /// Fits again, from there, every fluid that came out worse than one that it contains.
+    fn contain(&mut self, task: &Task<'_>) {
+        for (larger, smaller, embed) in CONTAINED {
+            let of = |name: &str| self.candidates.iter().position(|candidate| candidate.model.0 == name);
+            let (Some(larger), Some(smaller)) = (of(larger), of(smaller)) else { continue };
+            let Ok(contained) = &self.candidates[smaller].fit else { continue };
+            let squares = self.candidates[larger].fit.as_ref().map_or(f64::INFINITY, |fit| fit.squares);
+            if squares <= contained.squares * (1.0 + 1e-9) {
+                continue;
+            }
+            let values: Vec<f64> = contained.parameters.iter().map(|parameter| parameter.value).collect();
+            let again = self.candidates[larger].model.fit(task, &[embed(&values)], &|| false);
+            if let Ok(again) = again
+                && again.squares < squares
+            {
+                self.candidates[larger].fit = Ok(again);
+            }
+        }
+    }
 }
 
 impl Comparison {
@@ -252,9 +348,12 @@ impl Comparison {
             .map(|candidate| match &candidate.fit {
                 Ok(fit) => json!({
                     "fluid": candidate.model.0,
+                    "is_regularisation": candidate.model.is_regularisation(),
                     "parameters": serde_json::to_value(&fit.parameters).unwrap_or_default(),
                     "rms_residual": rms(&fit.residuals),
+                    "largest_residual": largest(&fit.residuals),
                     "criteria": serde_json::to_value(fit.criteria).unwrap_or_default(),
+                    "autocorrelation": serde_json::to_value(fit.autocorrelation).unwrap_or_default(),
                     "converged": fit.outcome.is_converged(),
                 }),
                 Err(error) => json!({ "fluid": candidate.model.0, "failure": error.to_string() }),
@@ -264,7 +363,10 @@ impl Comparison {
             "data": measured.path.display().to_string(),
             "flow": measured.flow.kind().name(),
             "rows": measured.rows().len(),
+            "read": measured.notes,
             "best_by_aicc": self.best().map(|(fluid, _)| fluid.0),
+            "not_told_apart_from_the_best": self.rivals().map(|(fluid, _)| fluid.0).collect::<Vec<_>>(),
+            "interrupted": self.interrupted,
             "fluids": fluids,
         });
         let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
@@ -276,27 +378,52 @@ impl Comparison {
     #[must_use]
     pub fn table(&self, measured: &Measured) -> String {
         let mut text = String::new();
-        let _ = writeln!(text, "{}\n", measured.heading());
-        let _ = writeln!(text, "{:<18}{:>3}{:>14}{:>10}  search", "fluid", "k", "RMS residual", "AICc");
+        let _ = writeln!(text, "{}", measured.heading());
+        text.push_str("least sum of squares of ln(model/measured); intervals and AICc suppose independent errors\n\n");
+        let _ =
+            writeln!(text, "{:<18}{:>3}{:>14}{:>12}{:>10}  search", "fluid", "k", "RMS residual", "largest", "AICc");
         for (fluid, fit) in self.fits() {
             let aicc = fit.criteria.aicc.map_or_else(|| "-".to_owned(), |x| format!("{x:.1}"));
             let (count, residual) = (fit.parameters.len(), 100.0 * rms(&fit.residuals));
-            let _ = writeln!(text, "{:<18}{count:>3}{residual:>12.2} %{aicc:>10}  {}", fluid.0, fit.outcome.reason());
+            let most = 100.0 * largest(&fit.residuals);
+            let _ = write!(text, "{:<18}{count:>3}{residual:>12.2} %{most:>10.2} %{aicc:>10}", fluid.0);
+            let _ = writeln!(text, "  {}", fit.outcome.reason());
         }
-        text.push_str("\nThe least AICc is the best fluid for these data.\n\n");
+        text.push('\n');
+        text.push_str(&self.judgement());
+        text.push('\n');
         for (fluid, fit) in self.fits() {
             let _ = writeln!(text, "{fluid}");
-            for FluidParameter { name, value, standard_error, interval, .. } in &fit.parameters {
-                let _ = write!(text, "  {name:<26}{value:>13.5e}");
-                match (standard_error, interval) {
-                    (Some(error), Some([low, high])) => {
-                        let _ = writeln!(text, " ± {error:.1e}  [{low:.4e}, {high:.4e}]");
-                    }
-                    _ => text.push_str("  not determined by these data\n"),
-                }
+            for found in &fit.parameters {
+                let _ = writeln!(text, "{}", parameter(found));
             }
         }
         text.push('\n');
+        text
+    }
+
+    /// The best fluid and what is to be said of it.
+    fn judgement(&self) -> String {
+        let Some((best, fit)) = self.best() else {
+            return "No fluid has an AICc: that takes at least three rows more than parameters.\n".to_owned();
+        };
+        let mut text = format!("{best} has the least AICc.\n");
+        let rivals: Vec<&str> = self.rivals().map(|(fluid, _)| fluid.0).collect();
+        if !rivals.is_empty() {
+            let _ = writeln!(text, "These data do not tell it from {}.", rivals.join(", "));
+        }
+        if let Some(found) = fit.autocorrelation.filter(|found| 1.0 < found.widening) {
+            let Autocorrelation { lag_one, widening, .. } = found;
+            let within = self.indifference().unwrap_or(2.0);
+            let _ = writeln!(
+                text,
+                "Its neighbouring residuals are correlated ({lag_one:.2}): the curve misses the fluid systematically. Its intervals are\n\
+                 {widening:.1} times those of independent errors, and differences of AICc below {within:.0} say nothing."
+            );
+        }
+        if self.fits().any(|(fluid, _)| fluid.is_regularisation()) {
+            text.push_str("papanastasiou regularises herschel-bulkley for computations: it is not ranked.\n");
+        }
         text
     }
 
@@ -332,6 +459,36 @@ impl Comparison {
             ],
         )
     }
+}
+
+/// A parameter with its interval for a reader.
+fn parameter(FluidParameter { name, value, standard_error, interval, state, .. }: &FluidParameter) -> String {
+    let mut line = format!("  {name:<26}");
+    let _ = match (state, standard_error, interval) {
+        (State::AtBound, _, Some([_, high])) => write!(line, "{:>13}  at its bound, below {high:.4e}", 0),
+        (State::AtBound, _, None) => write!(line, "{value:>13.5e}  at its bound"),
+        (State::Determined, Some(error), Some([low, high])) => {
+            write!(line, "{value:>13.5e} ± {error:.1e}  [{}, {}]", end(*low), end(*high))
+        }
+        (State::NoDegreesOfFreedom, _, _) => write!(line, "{value:>13.5e}  no error: no degrees of freedom"),
+        _ => write!(line, "{value:>13.5e}  not determined by these data"),
+    };
+    line
+}
+
+/// An end of an interval.
+fn end(x: f64) -> String {
+    if x.is_infinite() {
+        "no end".to_owned()
+    } else if x.abs() < f64::MIN_POSITIVE {
+        "0".to_owned()
+    } else {
+        format!("{x:.4e}")
+    }
+}
+
+fn largest(residuals: &[f64]) -> f64 {
+    residuals.iter().fold(0.0, |most, r| most.max(r.abs()))
 }
 
 fn rms(residuals: &[f64]) -> f64 {

@@ -14,16 +14,23 @@
 //! 10, 125.3
 //! ```
 
+mod columns;
 mod figure;
 mod fluids;
+mod geometry;
+mod kind;
+mod oilfield;
 mod recovery;
+mod sweeps;
 mod table;
 
-pub use fluids::{Comparison, FittedFluid, FluidName, Request, compare};
-pub use piola_fit::fluids::Weighting;
+pub use fluids::{Comparison, FittedFluid, FluidName, Request, compare, compare_until};
+pub use kind::{Answer, Answering, Flow, FlowKind};
+pub use piola_fit::fluids::{Intervals, State, Weighting};
 pub use piola_viscometry::recover::{Noise, Rise};
 pub use recovery::{
     Correction, Function, Point, RecoveredCurve, Recovery, RecoveryRequest, recover, recover_without_ends,
     recover_without_slip,
 };
-pub use table::{Answer, Answering, Flow, FlowKind, Measured};
+pub use sweeps::{Hysteresis, Sweep};
+pub use table::{Measured, Reading};

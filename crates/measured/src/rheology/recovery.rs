@@ -15,6 +15,9 @@ use crate::MeasuredError;
 
 /// Points of a curve between the first and the last row.
 const POINTS: u32 = 160;
+/// Rows of a table for a reader, and rows in a summary, at most; of more rows some are taken, evenly.
+const SHOWN: usize = 80;
+const LISTED: usize = 2000;
 
 /// How to recover.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,8 +121,24 @@ pub struct RecoveredCurve {
     pub falls_between_lines: Option<[u64; 2]>,
     /// The probability that the band holds all of it.
     pub confidence: f64,
-    /// Rows at which nothing positive is recovered.
+    /// Rows at which nothing is recovered: nothing positive, or nothing that the rows tell.
     pub lost: usize,
+    /// Why the first of these is lost.
+    pub why_lost: Option<ViscometryError>,
+}
+
+/// The largest factor by which a band may reach on each side of a value that counts as determined.
+const WIDEST: f64 = 10.0;
+
+impl Point {
+    /// Whether its band reaches by no more than a factor of ten on each side.
+    #[must_use]
+    pub fn is_determined(&self) -> bool {
+        self.band.is_none_or(|[low, high]| {
+            let (low, high) = (low / self.value, high / self.value);
+            1.0 / WIDEST <= low.min(high) && low.max(high) <= WIDEST
+        })
+    }
 }
 
 /// A correction of capillaries.
@@ -176,6 +195,7 @@ impl Banded<'_> {
             function,
             answering: Some(answer.what),
             lost: answer.rows.len() - rows.len(),
+            why_lost: self.points.iter().find_map(|point| point.as_ref().err().cloned()),
             falls_between_lines: falling_lines(self.monotonicity, &rows, &lines),
             rows,
             points,
@@ -271,8 +291,9 @@ pub fn recover(measured: &Measured, request: &RecoveryRequest) -> Result<Recover
         }
         _ => {}
     }
-    let curve = |answer| curve_of(measured, answer, request).map_err(|error| measured.refused(error));
-    Ok(Recovery { curves: measured.answers.iter().map(curve).collect::<Result<_, _>>()?, correction: None })
+    let merged = measured.merged();
+    let curve = |answer| curve_of(&merged, answer, request).map_err(|error| merged.refused(error));
+    Ok(Recovery { curves: merged.answers.iter().map(curve).collect::<Result<_, _>>()?, correction: None })
 }
 
 /// The curve of a column.
@@ -357,7 +378,8 @@ pub fn recover_without_slip(tables: &[Measured], request: &RecoveryRequest) -> R
             let argument = format!("--slip with --flow {}", measured.flow.kind().name());
             return Err(MeasuredError::Argument { argument, valid: "--flow pipe" });
         };
-        let table = FlowTable::pipe(radius, measured.rows()).and_then(|table| table.with_noise(request.noise));
+        let merged = measured.merged();
+        let table = FlowTable::pipe(radius, merged.rows()).and_then(|table| table.with_noise(request.noise));
         table.map_err(|error| measured.refused(error))
     };
     let pipes: Vec<_> = tables.iter().map(table).collect::<Result<_, _>>()?;
@@ -402,7 +424,8 @@ pub fn recover_without_ends(tables: &[Measured], request: &RecoveryRequest) -> R
             let argument = format!("--flow {}", measured.flow.kind().name());
             return Err(MeasuredError::Argument { argument, valid: "--flow capillary" });
         };
-        let table = Capillary::new(radius, length, measured.rows()).and_then(|table| table.with_noise(request.noise));
+        let merged = measured.merged();
+        let table = Capillary::new(radius, length, merged.rows()).and_then(|table| table.with_noise(request.noise));
         table.map_err(|error| measured.refused(error))
     };
     let capillaries: Vec<_> = tables.iter().map(table).collect::<Result<_, _>>()?;
@@ -451,6 +474,7 @@ fn of_line(
         falls_between_lines: None,
         confidence: request.confidence,
         lost: 0,
+        why_lost: None,
     }
 }
 
@@ -469,15 +493,18 @@ impl RecoveredCurve {
             fields.insert(abscissa.into(), json!(point.at));
             fields.insert(value.into(), json!(point.value));
             fields.insert("band".into(), json!(point.band));
+            fields.insert("determined".into(), json!(point.is_determined()));
             Value::Object(fields)
         };
         json!({
             "confidence_of_band": self.confidence,
+            "band_is": "simultaneous",
             "band_of": value,
             "smoothing": serde_json::to_value(&self.smoothing).unwrap_or_default(),
             "below_the_smallest_drive": serde_json::to_value(self.below_smallest).unwrap_or_default(),
             "rises": rising,
-            "points": self.rows.iter().map(point).collect::<Vec<_>>(),
+            "rows": self.rows.len(),
+            "points": self.rows.iter().step_by(self.rows.len().div_ceil(LISTED).max(1)).map(point).collect::<Vec<_>>(),
         })
     }
 
@@ -507,17 +534,30 @@ impl RecoveredCurve {
         if self.function.is_flow_curve() {
             let _ = write!(text, "{:>16}", "viscosity Pa s");
         }
-        let _ = writeln!(text, "  {:.0} % band", 100.0 * self.confidence);
-        for point in &self.rows {
+        let _ = writeln!(text, "  band of the whole curve, {:.0} %", 100.0 * self.confidence);
+        let stride = self.rows.len().div_ceil(SHOWN).max(1);
+        for point in self.rows.iter().step_by(stride) {
             let _ = write!(text, "{:>18.5e}  {:>30.5e}", point.at, point.value);
             if self.function.is_flow_curve() {
                 let _ = write!(text, "{:>16.5e}", self.function.viscosity(point));
             }
-            if let Some([low, high]) = point.band {
-                let _ = write!(text, "  [{low:.5e}, {high:.5e}]");
+            match point.band {
+                Some(_) if !point.is_determined() => {
+                    text.push_str("  not determined: the band reaches by more than a factor of ten")
+                }
+                Some([low, high]) => {
+                    let _ = write!(text, "  [{low:.5e}, {high:.5e}]");
+                }
+                None => {}
             }
             text.push('\n');
         }
+        if 1 < stride {
+            let _ = writeln!(text, "every {stride}th of {} rows is shown", self.rows.len());
+        }
+        text.push_str(
+            "The band holds the whole curve at once with that confidence; an interval for a single row would be narrower.\n",
+        );
         text
     }
 
@@ -594,10 +634,20 @@ impl Correction {
 }
 
 impl Recovery {
-    /// Rows at which nothing positive is recovered: noise is stronger than the flow there.
+    /// Rows at which nothing is recovered, or nothing is known to a factor of ten.
     #[must_use]
     pub fn lost(&self) -> usize {
-        self.curves.iter().map(|curve| curve.lost).sum()
+        let unknown = |curve: &RecoveredCurve| curve.rows.iter().filter(|point| !point.is_determined()).count();
+        self.curves.iter().map(|curve| curve.lost + unknown(curve)).sum()
+    }
+
+    /// Why the first of the lost rows is lost, in words.
+    #[must_use]
+    pub fn why_lost(&self) -> Option<String> {
+        let why = self.curves.iter().find_map(|curve| curve.why_lost.as_ref());
+        why.map(ToString::to_string).or_else(|| {
+            (0 < self.lost()).then(|| "the band reaches by more than a factor of ten on each side".to_owned())
+        })
     }
 
     /// The numbers, as they stand in `summary.json`.
@@ -632,7 +682,7 @@ impl Recovery {
     pub fn table(&self, tables: &[Measured]) -> String {
         let mut text = String::new();
         for measured in tables {
-            let _ = writeln!(text, "{}", measured.heading());
+            let _ = writeln!(text, "{}", measured.merged().heading());
         }
         for curve in &self.curves {
             text.push_str(&curve.table());
@@ -655,8 +705,9 @@ impl Recovery {
             };
             files.push((csv, curve.csv()));
             if let (Some(measured), Some(what)) = (tables.first(), curve.answering) {
-                files.push((residuals, of_residuals(measured, curve, what)));
-                files.push((svg, figure::recovery(measured, curve, what)));
+                let merged = measured.merged();
+                files.push((residuals, of_residuals(&merged, curve, what)));
+                files.push((svg, figure::recovery(&merged, curve, what)));
             }
         }
         if let (Some(correction), Some(curve)) = (&self.correction, self.curves.first()) {

@@ -1,301 +1,47 @@
 //! Tables of viscometric measurements.
 
-use core::str::FromStr;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use csv::{ReaderBuilder, StringRecord, Trim};
-use piola_document::units::{Dimension, Quantity, Unit};
 use piola_fit::FitError;
 use piola_fit::fluids::FlowData;
 use piola_viscometry::ViscometryError;
-use piola_viscometry::recover::{ConeGeometry, FlowTable};
+use piola_viscometry::recover::{FlowTable, mean, repeats};
 
+use super::columns::{self, Sources};
+use super::geometry::{mismatch, size};
+use super::kind::{Answer, Answering, Flow, FlowKind};
+use super::sweeps::{self, Hysteresis, Sweep};
 use crate::MeasuredError;
-use crate::fitting::layout::{line_of, read};
 use crate::fitting::{TableMistake, TableReport};
+use crate::sheet::{Sheet, read};
 
-/// Pa.
-const STRESS: Dimension = Dimension { length: -1, mass: 1, time: -2, angle: 0 };
-const RATE: Dimension = Dimension { time: -1, ..Dimension::NONE };
-const DISCHARGE: Dimension = Dimension { length: 3, time: -1, ..Dimension::NONE };
-const DISCHARGE_PER_WIDTH: Dimension = Dimension { length: 2, time: -1, ..Dimension::NONE };
-const PRESSURE_GRADIENT: Dimension = Dimension { length: -2, mass: 1, time: -2, angle: 0 };
-const TORQUE: Dimension = Dimension { length: 2, mass: 1, time: -2, angle: 0 };
-const FORCE: Dimension = Dimension { length: 1, mass: 1, time: -2, angle: 0 };
-
-/// A column: its name, dimension and SI unit.
-type Named = (&'static str, Dimension, &'static str);
-
-const GRADIENT: Named = ("pressure_gradient", PRESSURE_GRADIENT, "Pa/m");
-const SPEED: Named = ("angular_velocity", Dimension::ANGULAR_RATE, "rad/s");
-const VOLUME: Named = ("discharge", DISCHARGE, "m^3/s");
-
-/// The kind of a measurement: the quantity that was set, and one or more columns of responses.
-///
-/// | name | set | response | geometry |
-/// |---|---|---|---|
-/// | `pipe` | `pressure_gradient` (Pa/m) | `discharge` (m³/s) | `radius` |
-/// | `capillary` | `discharge` (m³/s) | `pressure_difference` (Pa), ends included | `radius`, `length` |
-/// | `channel` | `pressure_gradient` (Pa/m) | `discharge_per_width` (m²/s) | `half_width` |
-/// | `couette` | `torque_per_length` (N) | `speed_difference` (rad/s), `radial_stress_difference` (Pa) | `inner_radius`, `outer_radius` |
-/// | `plates` | `angular_velocity` (rad/s) | `torque` (N m), `thrust` (N) | `radius`, `gap` |
-/// | `cone` | `angular_velocity` (rad/s) | `torque` (N m), `thrust` (N) | `radius`, `angle` |
-/// | `curve` | `shear_rate` (1/s) | `shear_stress` (Pa) | |
-///
-/// `radial_stress_difference` is `T_rr` at the outer cylinder less that at the inner one, what rotation adds made good; `thrust` is what
-/// drives the surfaces apart, counted from that at rest. These two may be negative, all of them; everything else is positive.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// How a table is read.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 #[non_exhaustive]
-pub enum FlowKind {
-    /// The discharge of a pipe.
-    Pipe,
-    /// The pressure that a capillary with its ends takes.
-    Capillary,
-    /// The discharge of a channel.
-    Channel,
-    /// The speeds, or radial stresses, of coaxial cylinders.
-    Couette,
-    /// The torque, or thrust, of parallel plates.
-    Plates,
-    /// The torque, or thrust, of cone and plate.
-    Cone,
-    /// A flow curve itself.
-    Curve,
+pub struct Reading {
+    /// Lengths and angles, as `("radius", "2 mm")`; they stand before those of the file.
+    pub sizes: Vec<(String, String)>,
+    /// The rows that are used of a table with rising and falling sweeps.
+    pub sweep: Sweep,
+    /// Only rows whose column has this text or number are used.
+    pub only: Vec<(String, String)>,
 }
 
-impl FlowKind {
-    const ALL: [Self; 7] =
-        [Self::Pipe, Self::Capillary, Self::Channel, Self::Couette, Self::Plates, Self::Cone, Self::Curve];
-
-    /// Its name.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Pipe => "pipe",
-            Self::Capillary => "capillary",
-            Self::Channel => "channel",
-            Self::Couette => "couette",
-            Self::Plates => "plates",
-            Self::Cone => "cone",
-            Self::Curve => "curve",
-        }
-    }
-
-    /// Its name in a sentence.
-    const fn words(self) -> &'static str {
-        match self {
-            Self::Couette => "coaxial cylinders",
-            Self::Plates => "parallel plates",
-            Self::Cone => "cone and plate",
-            Self::Curve => "flow curve",
-            Self::Pipe | Self::Capillary | Self::Channel => self.name(),
-        }
-    }
-
-    /// The column of the quantity that was set.
-    pub(super) const fn drive(self) -> Named {
-        match self {
-            Self::Pipe | Self::Channel => GRADIENT,
-            Self::Capillary => VOLUME,
-            Self::Couette => ("torque_per_length", FORCE, "N"),
-            Self::Plates | Self::Cone => SPEED,
-            Self::Curve => ("shear_rate", RATE, "1/s"),
-        }
-    }
-
-    /// The columns of possible responses.
-    pub(super) const fn answers(self) -> &'static [Answering] {
-        match self {
-            Self::Pipe => &[Answering::Discharge],
-            Self::Capillary => &[Answering::PressureDifference],
-            Self::Channel => &[Answering::DischargePerWidth],
-            Self::Couette => &[Answering::SpeedDifference, Answering::RadialStressDifference],
-            Self::Plates | Self::Cone => &[Answering::Torque, Answering::Thrust],
-            Self::Curve => &[Answering::ShearStress],
-        }
-    }
-
-    /// The lengths and angles of the geometry.
-    const fn sizes(self) -> &'static [(&'static str, Dimension)] {
-        const RADIUS: (&str, Dimension) = ("radius", Dimension::LENGTH);
-        match self {
-            Self::Pipe => &[RADIUS],
-            Self::Capillary => &[RADIUS, ("length", Dimension::LENGTH)],
-            Self::Channel => &[("half_width", Dimension::LENGTH)],
-            Self::Couette => &[("inner_radius", Dimension::LENGTH), ("outer_radius", Dimension::LENGTH)],
-            Self::Plates => &[RADIUS, ("gap", Dimension::LENGTH)],
-            Self::Cone => &[RADIUS, ("angle", Dimension::ANGLE)],
-            Self::Curve => &[],
-        }
-    }
-}
-
-/// The measured quantity of a column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Answering {
-    /// Q, m³/s.
-    Discharge,
-    /// Δp of a capillary with its ends, Pa.
-    PressureDifference,
-    /// Q of a channel for each width, m²/s.
-    DischargePerWidth,
-    /// ΔΩ of coaxial cylinders, rad/s.
-    SpeedDifference,
-    /// `T_rr(R₂) − T_rr(R₁)`, Pa.
-    RadialStressDifference,
-    /// 𝓜, N m.
-    Torque,
-    /// 𝓕, N.
-    Thrust,
-    /// τ, Pa.
-    ShearStress,
-}
-
-impl Answering {
-    /// Its column.
-    pub(super) const fn column(self) -> Named {
-        match self {
-            Self::Discharge => VOLUME,
-            Self::PressureDifference => ("pressure_difference", STRESS, "Pa"),
-            Self::DischargePerWidth => ("discharge_per_width", DISCHARGE_PER_WIDTH, "m^2/s"),
-            Self::SpeedDifference => ("speed_difference", Dimension::ANGULAR_RATE, "rad/s"),
-            Self::RadialStressDifference => ("radial_stress_difference", STRESS, "Pa"),
-            Self::Torque => ("torque", TORQUE, "N m"),
-            Self::Thrust => ("thrust", FORCE, "N"),
-            Self::ShearStress => ("shear_stress", STRESS, "Pa"),
-        }
-    }
-
-    /// Whether it comes of normal stresses and may be negative.
-    #[must_use]
-    pub const fn is_normal(self) -> bool {
-        matches!(self, Self::RadialStressDifference | Self::Thrust)
-    }
-}
-
-/// A column of measured responses.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Answer {
-    /// The measured quantity.
-    pub what: Answering,
-    /// Whether all of the column is negative.
-    pub is_negative: bool,
-    /// The drive and the magnitude of the response, in SI units.
-    pub rows: Vec<[f64; 2]>,
-}
-
-impl Answer {
-    /// −1 or 1.
-    #[must_use]
-    pub const fn sign(&self) -> f64 {
-        if self.is_negative { -1.0 } else { 1.0 }
-    }
-}
-
-impl FromStr for FlowKind {
-    type Err = MeasuredError;
-
-    fn from_str(text: &str) -> Result<Self, MeasuredError> {
-        Self::ALL.into_iter().find(|kind| kind.name() == text).ok_or_else(|| MeasuredError::Argument {
-            argument: text.to_owned(),
-            valid: "pipe, capillary, channel, couette, plates, cone or curve",
-        })
-    }
-}
-
-/// A flow with its geometry. Lengths in m, angles in rad.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
-pub enum Flow {
-    /// A pipe.
-    Pipe {
-        /// Its radius.
-        radius: f64,
-    },
-    /// A capillary.
-    Capillary {
-        /// Its radius.
-        radius: f64,
-        /// Its length.
-        length: f64,
-    },
-    /// A channel.
-    Channel {
-        /// Half its width.
-        half_width: f64,
-    },
-    /// Coaxial cylinders.
-    Couette {
-        /// The radius of the inner one.
-        inner_radius: f64,
-        /// The radius of the outer one.
-        outer_radius: f64,
-    },
-    /// Parallel discs.
-    Plates {
-        /// Their radius.
-        radius: f64,
-        /// Their distance.
-        gap: f64,
-    },
-    /// A cone on a plate.
-    Cone {
-        /// Its radius.
-        radius: f64,
-        /// The angle between cone and plate.
-        angle: f64,
-    },
-    /// A flow curve.
-    Curve,
-}
-
-impl Flow {
-    /// The kind of the flow.
-    #[must_use]
-    pub const fn kind(self) -> FlowKind {
-        match self {
-            Self::Pipe { .. } => FlowKind::Pipe,
-            Self::Capillary { .. } => FlowKind::Capillary,
-            Self::Channel { .. } => FlowKind::Channel,
-            Self::Couette { .. } => FlowKind::Couette,
-            Self::Plates { .. } => FlowKind::Plates,
-            Self::Cone { .. } => FlowKind::Cone,
-            Self::Curve => FlowKind::Curve,
-        }
-    }
-
-    /// Stress and rate at the wall of the Newtonian fluid that would have answered so: where searches start.
-    pub(super) fn apparent(self, [drive, response]: [f64; 2]) -> [f64; 2] {
-        use core::f64::consts::{PI, TAU};
-        match self {
-            Self::Pipe { radius } => [0.5 * drive * radius, 4.0 * response / (PI * radius.powi(3))],
-            Self::Capillary { radius, length } => {
-                [0.5 * response * radius / length, 4.0 * drive / (PI * radius.powi(3))]
-            }
-            Self::Channel { half_width } => [drive * half_width, 1.5 * response / (half_width * half_width)],
-            Self::Couette { inner_radius, outer_radius } => {
-                let (ratio, area) = (inner_radius / outer_radius, TAU * inner_radius.powi(2));
-                [drive / area, 2.0 * response / (1.0 - ratio * ratio)]
-            }
-            Self::Plates { radius, gap } => [2.0 * response / (PI * radius.powi(3)), drive * radius / gap],
-            Self::Cone { radius, angle } => [1.5 * response / (PI * radius.powi(3)), drive / angle],
-            Self::Curve => [response, drive],
-        }
-    }
-}
-
-/// A table of measurements in SI units.
+/// A table of measurements in SI units. Its rows rise in the drive, in whatever order the file has them.
 ///
 /// # Example
 /// ```
 /// use piola_measured::rheology::{FlowKind, Measured};
-/// let text = "# radius: 2 mm\npressure_gradient [kPa/m],discharge [mm^3/s]\n10,125.5\n20,251\n";
+/// let text = "# radius: 2 mm\npressure_gradient [kPa/m],discharge [mm^3/s]\n20,251\n10,125.5\n";
 /// let measured = Measured::parse("pipe.csv", text, FlowKind::Pipe, &[])?;
 /// assert_eq!(measured.rows()[1], [20e3, 251e-9]);
 /// let wrong = Measured::parse("pipe.csv", &text.replace("kPa/m", "kg"), FlowKind::Pipe, &[]);
 /// assert!(wrong.unwrap_err().to_string().starts_with("pipe.csv:2: "));
+/// // A spreadsheet's table, with viscosities instead of stresses.
+/// let text = "Shear rate [1/s];Viscosity [mPa s];T [°C]\n0,1;2500,5;25\n1,0;1200;25\n";
+/// let measured = Measured::parse("curve.csv", text, FlowKind::Curve, &[])?;
+/// assert_eq!(measured.rows(), [[0.1, 0.25005], [1.0, 1.2]]);
 /// # Ok::<(), piola_measured::MeasuredError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -303,22 +49,34 @@ impl Flow {
 pub struct Measured {
     /// The file.
     pub path: PathBuf,
-    /// The flow.
+    /// The flow with its geometry.
     pub flow: Flow,
-    /// The measured columns; at least one.
+    /// The columns of responses, in the order of the file; one at least. Each has the rows of the table.
     pub answers: Vec<Answer>,
     /// The line of each row.
     pub lines: Vec<u64>,
+    /// What was read in a way that a reader must know, as sentences without a full stop.
+    pub notes: Vec<String>,
+    /// Falling beside rising sweeps, if the file has both.
+    pub hysteresis: Option<Hysteresis>,
 }
 
 impl Measured {
-    /// Reads a file. Lengths and angles given as `name`, `value with unit` stand before those of the file's comments.
+    /// Reads a file. Sizes such as `("radius", "2 mm")` stand before those of the file.
     ///
     /// # Errors
-    /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`]; [`MeasuredError::Table`] with every mistake and
-    /// its line; [`MeasuredError::Argument`] for a length that cannot be read.
+    /// [`MeasuredError::Unreadable`], [`MeasuredError::TooLarge`], [`MeasuredError::NotText`], [`MeasuredError::Argument`];
+    /// [`MeasuredError::Table`] with every mistake and its line.
     pub fn load(path: &Path, kind: FlowKind, sizes: &[(String, String)]) -> Result<Self, MeasuredError> {
-        Self::parse(path, &read(path)?, kind, sizes)
+        Self::load_as(path, kind, &Reading { sizes: sizes.to_vec(), ..Reading::default() })
+    }
+
+    /// Reads a file in a stated way.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn load_as(path: &Path, kind: FlowKind, reading: &Reading) -> Result<Self, MeasuredError> {
+        Self::parse_as(path, &read(path)?, kind, reading)
     }
 
     /// Reads the text of a file.
@@ -331,31 +89,32 @@ impl Measured {
         kind: FlowKind,
         sizes: &[(String, String)],
     ) -> Result<Self, MeasuredError> {
+        Self::parse_as(path, text, kind, &Reading { sizes: sizes.to_vec(), ..Reading::default() })
+    }
+
+    /// Reads the text of a file in a stated way.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse).
+    pub fn parse_as(
+        path: impl Into<PathBuf>,
+        text: &str,
+        kind: FlowKind,
+        reading: &Reading,
+    ) -> Result<Self, MeasuredError> {
         let path = path.into();
-        let mut given = Vec::new();
-        for (name, value) in sizes {
-            let argument = || MeasuredError::Argument {
-                argument: format!("{name} = {value}"),
-                valid: "a length or an angle of this flow with its unit, as radius=2mm",
-            };
-            let known = kind.sizes().iter().find(|(known, _)| known == name);
-            let size = known.and_then(|(_, dimension)| size(value, *dimension)).ok_or_else(argument)?;
-            given.push((name.clone(), size));
+        let given = given_sizes(kind, &reading.sizes)?;
+        let table = |mistakes: Vec<TableMistake>| MeasuredError::Table(TableReport::new(path.clone(), mistakes));
+        let mut sheet = Sheet::parse(text, &columns::is_known).map_err(table)?;
+        for (column, value) in &reading.only {
+            sheet.keep_only(column, value).map_err(|mistake| table(vec![mistake]))?;
         }
-        if let Some((_, valid)) = mismatch(kind, &given) {
-            let written: Vec<String> = sizes.iter().map(|(name, value)| format!("{name} = {value}")).collect();
-            return Err(MeasuredError::Argument { argument: written.join(", "), valid });
+        let read = rows(&sheet, kind, &given, reading.sweep).map_err(table)?;
+        let measured = Self { path: path.clone(), ..read };
+        match measured.check() {
+            Ok(()) => Ok(measured),
+            Err(error) => Err(table(vec![measured.mistake(&error)])),
         }
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        parse(text, kind, &given)
-            .and_then(|(flow, answers, lines)| {
-                let measured = Self { path: path.clone(), flow, answers, lines };
-                match measured.check() {
-                    Ok(()) => Ok(measured),
-                    Err(error) => Err(vec![measured.mistake(&error)]),
-                }
-            })
-            .map_err(|mistakes| MeasuredError::Table(TableReport::new(path, mistakes)))
     }
 
     /// The name of the file without folder and ending.
@@ -364,15 +123,41 @@ impl Measured {
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 
-    /// "ketchup: 31 rows, coaxial cylinders".
+    /// "ketchup: 31 rows, coaxial cylinders", and what was read in a way that a reader must know.
     pub(super) fn heading(&self) -> String {
-        format!("{}: {} rows, {}", self.name(), self.rows().len(), self.flow.kind().words())
+        let notes: String = self.notes.iter().map(|note| format!("\n  {note}")).collect();
+        format!("{}: {} rows, {}{notes}", self.name(), self.rows().len(), self.flow.kind().words())
     }
 
     /// Drives and responses: of the first column that is not of normal stresses, if there is one.
     #[must_use]
     pub fn rows(&self) -> &[[f64; 2]] {
         self.sheared().or(self.answers.first()).map_or(&[], |answer| &answer.rows)
+    }
+
+    /// The same with one row for each drive: the geometric mean of repeated measurements ([`repeats`]).
+    #[must_use]
+    pub fn merged(&self) -> Cow<'_, Self> {
+        let rows = self.rows();
+        let groups = repeats(rows);
+        if groups.len() == rows.len() {
+            return Cow::Borrowed(self);
+        }
+        let merged = |answer: &Answer| Answer {
+            what: answer.what,
+            is_negative: answer.is_negative,
+            rows: groups.iter().map(|group| mean(&answer.rows[group.clone()])).collect(),
+        };
+        let mut notes = self.notes.clone();
+        notes.push(format!("{} rows are means of repeated measurements at {} drives", rows.len(), groups.len()));
+        Cow::Owned(Self {
+            path: self.path.clone(),
+            flow: self.flow,
+            answers: self.answers.iter().map(merged).collect(),
+            lines: groups.iter().map(|group| self.lines[group.start]).collect(),
+            notes,
+            hysteresis: self.hysteresis,
+        })
     }
 
     /// The first column that is not of normal stresses.
@@ -393,25 +178,28 @@ impl Measured {
     /// The [`rows`](Self::rows) as data of a fit.
     pub(super) fn data(&self) -> Result<FlowData, FitError> {
         let rows = self.rows();
-        Ok(match self.flow {
-            Flow::Pipe { radius } => FlowData::pipe(&FlowTable::pipe(radius, rows)?),
+        let none: &[[f64; 2]] = &[];
+        let data = match self.flow {
+            Flow::Pipe { radius } => FlowData::pipe(&FlowTable::pipe(radius, none)?),
             Flow::Capillary { radius, length } => {
                 let gradients: Vec<_> =
                     rows.iter().map(|[discharge, pressure]| [pressure / length, *discharge]).collect();
-                FlowData::pipe(&FlowTable::pipe(radius, &gradients)?)
+                return Ok(FlowData::pipe(&FlowTable::pipe(radius, &gradients)?));
             }
-            Flow::Channel { half_width } => FlowData::channel(&FlowTable::channel(half_width, rows)?),
+            Flow::Channel { half_width } => FlowData::channel(&FlowTable::channel(half_width, none)?),
             Flow::Couette { inner_radius, outer_radius } => {
-                FlowData::couette(&FlowTable::couette(inner_radius, outer_radius, rows)?)
+                FlowData::couette(&FlowTable::couette(inner_radius, outer_radius, none)?)
             }
-            Flow::Plates { radius, gap } => FlowData::parallel_plates(&FlowTable::parallel_plates(radius, gap, rows)?),
-            Flow::Cone { radius, angle } => FlowData::cone_and_plate(&FlowTable::cone_and_plate(radius, angle, rows)?),
-            Flow::Curve => FlowData::flow_curve(rows)?,
-        })
+            Flow::Plates { radius, gap } => FlowData::parallel_plates(&FlowTable::parallel_plates(radius, gap, none)?),
+            Flow::Cone { radius, angle } => FlowData::cone_and_plate(&FlowTable::cone_and_plate(radius, angle, none)?),
+            Flow::Curve => FlowData::flow_curve(none)?,
+        };
+        data.with_rows(rows.to_vec())
     }
 
     fn check(&self) -> Result<(), ViscometryError> {
-        self.answers.iter().try_for_each(|answer| FlowTable::new((), &answer.rows).map(|_| ()))
+        let merged = self.merged();
+        merged.answers.iter().try_for_each(|answer| FlowTable::new((), &answer.rows).map(|_| ()))
     }
 
     /// An error of viscometry, with the line of its row.
@@ -421,7 +209,9 @@ impl Measured {
             ViscometryError::RowNotPositive { row, .. } => (Some(*row), "positive numbers"),
             ViscometryError::RowTwice { row, .. } => (Some(*row), "each value of the first column once"),
             ViscometryError::RowNotSorted { row, .. } => (Some(*row), "rows that rise in the first column"),
-            ViscometryError::ResponseFalls { row, .. } => (Some(*row), "a second column that rises with the first"),
+            ViscometryError::ResponseFalls { row, .. } => {
+                (Some(*row), "a response that rises with the drive; if noise makes it fall, state it, as --noise 2%")
+            }
             _ => (None, "a table of this flow"),
         };
         let text = error.to_string();
@@ -444,235 +234,132 @@ impl Measured {
     }
 }
 
-/// Why sizes that are known do not go together: what is wrong, and what would be valid.
-fn mismatch<N: AsRef<str>>(kind: FlowKind, sizes: &[(N, f64)]) -> Option<(String, &'static str)> {
-    let of = |name: &str| sizes.iter().find(|(other, _)| other.as_ref() == name).map(|(_, value)| *value);
-    match kind {
-        FlowKind::Couette => {
-            let (inner, outer) = (of("inner_radius")?, of("outer_radius")?);
-            let what = || format!("inner_radius = {inner} m, outer_radius = {outer} m");
-            (outer <= inner).then(|| (what(), "inner_radius < outer_radius"))
-        }
-        FlowKind::Cone => {
-            let refused = ConeGeometry::new(1.0, of("angle")?).err()?;
-            Some((refused.to_string(), "an angle below 90 deg"))
-        }
-        _ => None,
+/// The sizes of arguments in SI.
+fn given_sizes(kind: FlowKind, sizes: &[(String, String)]) -> Result<Vec<(String, f64)>, MeasuredError> {
+    let mut given = Vec::new();
+    for (name, text) in sizes {
+        let accepted = kind.sizes().iter().chain(kind.more_sizes());
+        let size = accepted.clone().find(|(other, _)| other == name).and_then(|(_, dimension)| size(text, *dimension));
+        let Some(size) = size else {
+            let valid = if accepted.clone().any(|(other, _)| other == name) {
+                "a positive length or angle with its unit, as 2mm or 2deg"
+            } else {
+                "only the sizes of this flow"
+            };
+            let argument = format!("--{} {text}", name.replace('_', "-"));
+            return Err(MeasuredError::Argument { argument, valid });
+        };
+        given.push((name.clone(), size));
     }
+    if let Some((_, valid)) = mismatch(kind, &given) {
+        let argument: Vec<String> = sizes.iter().map(|(name, text)| format!("{name} = {text}")).collect();
+        return Err(MeasuredError::Argument { argument: argument.join(", "), valid });
+    }
+    Ok(given)
 }
 
-/// A positive length, m, or angle, rad.
-fn size(text: &str, dimension: Dimension) -> Option<f64> {
-    let quantity: Quantity = text.parse().ok()?;
-    let value = quantity.to_si().ok()?;
-    let fits = quantity.dimension().is_none_or(|found| found == dimension);
-    (fits && 0.0 < value).then_some(value)
-}
-
-type Read = Result<(Flow, Vec<Answer>, Vec<u64>), Vec<TableMistake>>;
-
-fn parse(text: &str, kind: FlowKind, given: &[(String, f64)]) -> Read {
+/// The rows of a sheet, sorted by the drive.
+fn rows(sheet: &Sheet, kind: FlowKind, given: &[(String, f64)], sweep: Sweep) -> Result<Measured, Vec<TableMistake>> {
     let mut mistakes = Vec::new();
-    let flow = geometry(text, kind, given, &mut mistakes);
-    let mut reader = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .trim(Trim::All)
-        .from_reader(text.as_bytes());
-    let mut records = Vec::new();
-    for record in reader.records() {
-        match record {
-            Ok(fields) => records.push((fields.position().map_or(0, |at| line_of(text, at)), fields)),
-            Err(error) => {
-                let line = error.position().map_or(1, csv::Position::line);
-                mistakes.push(TableMistake::new(line, error.to_string(), "comma-separated values"));
-                return Err(mistakes);
-            }
-        }
-    }
-    let last = u64::try_from(text.lines().count()).unwrap_or(u64::MAX).max(1);
-    let drive = kind.drive();
-    let Some(((line, header), body)) = records.split_first() else {
-        let valid = format!("a header `{},{}` and a row for each point", drive.0, kind.answers()[0].column().0);
-        mistakes.push(TableMistake::new(last, "the table is empty", valid));
-        return Err(mistakes);
-    };
-    let mut units = vec![unit_of(header, *line, 0, drive, &mut mistakes)];
-    let answering = answering(header, *line, kind, &mut mistakes);
-    for (column, what) in &answering {
-        units.push(unit_of(header, *line, *column, what.column(), &mut mistakes));
-    }
-    if body.is_empty() {
-        mistakes.push(TableMistake::new(last, "the table has a header and no rows", "a row for each point"));
+    let Sources { flow, drive, answers: sources, mut notes } = columns::sources(sheet, kind, given, &mut mistakes);
+    if sheet.rows.is_empty() {
+        mistakes.push(TableMistake::new(sheet.last, "the table has a header and no rows", "a row for each point"));
     }
     let mut answers: Vec<Answer> =
-        answering.iter().map(|(_, what)| Answer { what: *what, is_negative: false, rows: Vec::new() }).collect();
+        sources.iter().map(|(what, _)| Answer { what: *what, is_negative: false, rows: Vec::new() }).collect();
     let mut lines = Vec::new();
-    for (line, fields) in body {
-        if fields.len() != header.len() {
-            let what = format!("a row of {} fields", fields.len());
-            mistakes.push(TableMistake::new(*line, what, format!("{} fields", header.len())));
+    let read = drive.filter(|_| !answers.is_empty());
+    for (index, row) in sheet.rows.iter().enumerate() {
+        if let Some(mistake) = sheet.incomplete(row) {
+            mistakes.push(mistake);
             continue;
         }
-        if answering.len() + 1 != fields.len() {
-            continue;
-        }
-        let number = |column: usize| match fields[column].parse::<f64>() {
-            Ok(x) if x.is_finite() => Some(units[column].map_or(x, |unit| unit.to_si(x))),
-            _ => None,
+        let Some(drive) = read else { continue };
+        let mut refuse = |name: &str, found: &str, valid: &str| {
+            mistakes.push(TableMistake::new(row.line, format!("{name} is {found}"), valid));
         };
-        let mut refuse = |column: usize, name: &str, valid: &str| {
-            let found = if fields[column].is_empty() { "missing" } else { &fields[column] };
-            mistakes.push(TableMistake::new(*line, format!("{name} is {found}"), valid));
-        };
-        let set = number(0).filter(|x| 0.0 < *x);
-        if set.is_none() {
-            refuse(0, drive.0, "a positive number");
-        }
-        for (column, answer) in answers.iter_mut().enumerate() {
-            let found = number(column + 1);
-            if answer.rows.is_empty() {
-                answer.is_negative = answer.what.is_normal() && found.is_some_and(|x| x < 0.0);
+        let set = drive.value(sheet, index);
+        match &set {
+            Err((name, found)) => refuse(name, found, "a positive number"),
+            Ok(x) if *x <= 0.0 => {
+                let (name, found) = drive.written(sheet, index);
+                refuse(name, &found, "a positive number");
             }
-            let size = found.map(|x| x * answer.sign()).filter(|x| 0.0 < *x);
+            Ok(_) => {}
+        }
+        let set = set.unwrap_or(f64::NAN);
+        for (answer, (what, source)) in answers.iter_mut().zip(&sources) {
+            let found = source.value(sheet, index);
+            if answer.rows.is_empty() {
+                answer.is_negative = what.is_normal() && found.as_ref().is_ok_and(|x| *x < 0.0);
+            }
+            let size = found.as_ref().ok().map(|x| x * answer.sign()).filter(|x| 0.0 < *x);
             if size.is_none() {
-                let valid = match (answer.what.is_normal(), answer.is_negative) {
+                let valid = match (what.is_normal(), answer.is_negative) {
                     (true, true) => "a negative number, as in the rows before",
                     (true, false) if !answer.rows.is_empty() => "a positive number, as in the rows before",
                     (true, false) => "a number other than 0",
                     _ => "a positive number",
                 };
-                refuse(column + 1, answer.what.column().0, valid);
+                let (name, text) = found.err().unwrap_or_else(|| source.written(sheet, index));
+                refuse(name, &text, valid);
             }
-            answer.rows.push([set.unwrap_or(f64::NAN), size.unwrap_or(f64::NAN)]);
+            answer.rows.push([set, size.unwrap_or(f64::NAN)]);
         }
-        lines.push(*line);
+        lines.push(row.line);
     }
-    match flow {
-        Some(flow) if mistakes.is_empty() => Ok((flow, answers, lines)),
-        _ => {
-            mistakes.sort_by_key(|mistake| mistake.line);
-            Err(mistakes)
-        }
-    }
+    let Some(flow) = flow.filter(|_| mistakes.is_empty()) else {
+        mistakes.sort_by_key(|mistake| mistake.line);
+        return Err(mistakes);
+    };
+    let hysteresis = choose(&mut answers, &mut lines, sweep, &mut notes);
+    sort(&mut answers, &mut lines, &mut notes);
+    Ok(Measured { path: PathBuf::new(), flow, answers, lines, notes, hysteresis })
 }
 
-/// The name in a header's field, and its unit.
-fn named(field: &str) -> (&str, Option<&str>) {
-    let (name, unit) = field.split_once('[').map_or((field, None), |(name, unit)| (name, Some(unit)));
-    (name.trim(), unit)
+/// Keeps the rows of the sweeps that are asked for.
+fn choose(answers: &mut [Answer], lines: &mut Vec<u64>, sweep: Sweep, notes: &mut Vec<String>) -> Option<Hysteresis> {
+    let first = answers.first()?;
+    let drives: Vec<f64> = first.rows.iter().map(|row| row[0]).collect();
+    let rising = sweeps::directions(&drives)?;
+    let hysteresis = sweeps::hysteresis(&first.rows, &rising);
+    let percent = |ratio: f64| format!("{:+.1} %", 100.0 * (ratio - 1.0));
+    let told = hysteresis.map_or_else(String::new, |h| {
+        let (mean, farthest) = (percent(h.mean), percent(h.farthest));
+        format!("; falling beside rising: {mean} on average, {farthest} where they differ most")
+    });
+    let [up, down] = [true, false].map(|way| rising.iter().filter(|rising| **rising == way).count());
+    let used = match sweep {
+        Sweep::Rising => "the rising ones are used (--sweep falling or all for the others)",
+        Sweep::Falling => "the falling ones are used",
+        Sweep::All => "all are used, as repeated measurements",
+    };
+    notes.push(format!("{up} rows of rising and {down} of falling sweeps: {used}{told}"));
+    if sweep != Sweep::All {
+        let kept: Vec<bool> = rising.iter().map(|way| *way == (sweep == Sweep::Rising)).collect();
+        let mut flags = kept.iter();
+        lines.retain(|_| flags.next().copied().unwrap_or(true));
+        for answer in answers {
+            let mut flags = kept.iter();
+            answer.rows.retain(|_| flags.next().copied().unwrap_or(true));
+        }
+    }
+    hysteresis
 }
 
-/// The columns after the first with their measured quantities; wrong or repeated names are mistakes.
-fn answering(
-    header: &StringRecord,
-    line: u64,
-    kind: FlowKind,
-    mistakes: &mut Vec<TableMistake>,
-) -> Vec<(usize, Answering)> {
-    let names: Vec<String> = kind.answers().iter().map(|what| format!("`{}`", what.column().0)).collect();
-    let valid = names.join(" or ");
-    let mut found: Vec<(usize, Answering)> = Vec::new();
-    if header.len() < 2 {
-        let valid = format!("a second column, {valid}");
-        mistakes.push(TableMistake::new(line, format!("a header of {} fields", header.len()), valid));
+/// Sorts by the drive; equal drives keep their order.
+fn sort(answers: &mut [Answer], lines: &mut Vec<u64>, notes: &mut Vec<String>) {
+    let Some(first) = answers.first() else { return };
+    let drives: Vec<f64> = first.rows.iter().map(|row| row[0]).collect();
+    if drives.windows(2).all(|pair| pair[0] <= pair[1]) {
+        return;
     }
-    for (column, field) in header.iter().enumerate().skip(1) {
-        let what = kind.answers().iter().find(|what| what.column().0 == named(field).0);
-        match what {
-            Some(what) if found.iter().all(|(_, other)| other != what) => found.push((column, *what)),
-            Some(_) => {
-                mistakes.push(TableMistake::new(
-                    line,
-                    format!("column {} is `{field}` again", column + 1),
-                    "each once",
-                ));
-            }
-            None => {
-                let what = format!("column {} is `{field}`", column + 1);
-                mistakes.push(TableMistake::new(line, what, valid.clone()));
-            }
-        }
-    }
-    found
-}
-
-/// The unit of a column, if one is named and fits.
-fn unit_of(
-    header: &StringRecord,
-    line: u64,
-    column: usize,
-    (name, dimension, si): Named,
-    mistakes: &mut Vec<TableMistake>,
-) -> Option<Unit> {
-    let text = header.get(column).unwrap_or_default();
-    let (found, unit) = named(text);
-    if found != name {
-        let valid = format!("`{name}` or `{name} [{si}]`");
-        mistakes.push(TableMistake::new(line, format!("column {} is `{text}`", column + 1), valid));
-        return None;
-    }
-    let unit = unit?.trim_end().trim_end_matches(']').trim();
-    match unit.parse::<Unit>() {
-        Ok(unit) if unit.dimension == dimension => Some(unit),
-        Ok(_) => {
-            let valid = format!("a unit such as {si}");
-            mistakes.push(TableMistake::new(line, format!("`{unit}` is no unit of {name}"), valid));
-            None
-        }
-        Err(error) => {
-            mistakes.push(TableMistake::new(line, error.to_string(), format!("a unit such as {si}")));
-            None
-        }
-    }
-}
-
-/// The geometry from what is given and from comments such as `# radius: 2 mm`.
-fn geometry(text: &str, kind: FlowKind, given: &[(String, f64)], mistakes: &mut Vec<TableMistake>) -> Option<Flow> {
-    let mut found = Vec::new();
-    // The line of the last size that a comment states: where sizes do not go together, this one is wrong.
-    let mut last = 1;
-    for (name, dimension) in kind.sizes() {
-        if let Some((_, value)) = given.iter().find(|(other, _)| other == name) {
-            found.push((*name, *value));
-            continue;
-        }
-        let in_comment = |(index, line): (usize, &str)| {
-            let (key, value) = line.strip_prefix('#')?.split_once(':')?;
-            (key.trim() == *name).then(|| (index, value.trim().to_owned()))
-        };
-        let is_angle = *dimension == Dimension::ANGLE;
-        let example = if is_angle { "2 deg" } else { "2 mm" };
-        let valid = format!("a comment `# {name}: {example}`, or the argument --{}", name.replace('_', "-"));
-        match text.lines().enumerate().find_map(in_comment) {
-            None => mistakes.push(TableMistake::new(1, format!("{name} is not given"), valid)),
-            Some((index, value)) => {
-                last = u64::try_from(index + 1).unwrap_or(u64::MAX);
-                if let Some(value) = size(&value, *dimension) {
-                    found.push((*name, value));
-                } else {
-                    let valid = if is_angle { "a positive angle" } else { "a positive length" };
-                    mistakes.push(TableMistake::new(last, format!("{name} is `{value}`"), valid));
-                }
-            }
-        }
-    }
-    if let Some((what, valid)) = mismatch(kind, &found) {
-        mistakes.push(TableMistake::new(last, what, valid));
-        return None;
-    }
-    let found: Vec<f64> = found.into_iter().map(|(_, value)| value).collect();
-    match (kind, found.as_slice()) {
-        (FlowKind::Pipe, [radius]) => Some(Flow::Pipe { radius: *radius }),
-        (FlowKind::Capillary, [radius, length]) => Some(Flow::Capillary { radius: *radius, length: *length }),
-        (FlowKind::Plates, [radius, gap]) => Some(Flow::Plates { radius: *radius, gap: *gap }),
-        (FlowKind::Cone, [radius, angle]) => Some(Flow::Cone { radius: *radius, angle: *angle }),
-        (FlowKind::Channel, [half_width]) => Some(Flow::Channel { half_width: *half_width }),
-        (FlowKind::Couette, [inner_radius, outer_radius]) => {
-            Some(Flow::Couette { inner_radius: *inner_radius, outer_radius: *outer_radius })
-        }
-        (FlowKind::Curve, _) => Some(Flow::Curve),
-        _ => None,
+    let mut order: Vec<usize> = (0..drives.len()).collect();
+    order.sort_by(|&a, &b| drives[a].total_cmp(&drives[b]));
+    let falls = drives.windows(2).all(|pair| pair[1] <= pair[0]);
+    notes.push(if falls { "rows fall in the file".to_owned() } else { "rows are sorted by the drive".to_owned() });
+    *lines = order.iter().map(|&row| lines[row]).collect();
+    for answer in answers {
+        answer.rows = order.iter().map(|&row| answer.rows[row]).collect();
     }
 }

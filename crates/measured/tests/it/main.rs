@@ -3,5 +3,6 @@
 mod figures;
 mod fits;
 mod fitting;
+mod layouts;
 mod newtonian;
 mod rheology;

@@ -1,6 +1,6 @@
 //! Curves recovered from tables, with their bands.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::band::critical;
 use super::rule::{ONE_POWER, Rule};
@@ -106,6 +106,10 @@ pub(super) struct Recovered {
     /// ln drive and ln response of the rows.
     u: Vec<f64>,
     y: Vec<f64>,
+    /// The rows, or of many rows some: between them terms of the series and bands are known.
+    grid: Vec<f64>,
+    /// Whether the responses fall towards the smallest drive as those of a fluid that yields.
+    yields: bool,
     /// Abscissa over drive.
     scale: f64,
     /// Terms of the series in each interval between rows.
@@ -175,6 +179,10 @@ impl Recovered {
             made
         };
         recovered.level = level;
+        recovered.yields = recovered.seems_to_yield();
+        if recovered.yields && recovered.is_unknown(recovered.u[recovered.u.len() - 1]) {
+            return Err(ViscometryError::YieldUnknown { rows: recovered.u.len(), above: recovered.known_from() });
+        }
         recovered.choose_terms();
         recovered.monotonicity = recovered.monotonicity()?;
         recovered.below = recovered.assumption(options.below_smallest);
@@ -189,7 +197,8 @@ impl Recovered {
         smoothing: Smoothing,
         (u, y, scale): (Vec<f64>, Vec<f64>, f64),
     ) -> Self {
-        let terms = u.windows(2).map(|pair| rule.most_terms(pair[0], u[0])).collect();
+        let grid = thinned(&u);
+        let terms = grid.windows(2).map(|pair| rule.most_terms(pair[0], u[0])).collect();
         let residuals = u.iter().zip(&y).map(|(u, y)| (y - main.at(*u)[0]).exp_m1()).collect();
         Self {
             rule,
@@ -199,6 +208,8 @@ impl Recovered {
             level: 0.0,
             u,
             y,
+            grid,
+            yields: false,
             scale,
             terms,
             smoothing,
@@ -215,7 +226,7 @@ impl Recovered {
             return;
         }
         for interval in 0..self.terms.len() {
-            let at = [self.u[interval], self.u[interval + 1]];
+            let at = [self.grid[interval], self.grid[interval + 1]];
             let doubt = |terms: usize| {
                 let spread = |u| self.spread(&self.others, u, terms);
                 at.into_iter().map(spread).fold(0.0, f64::max)
@@ -237,7 +248,7 @@ impl Recovered {
 
     /// The interval of u, whose terms hold there.
     fn interval(&self, u: f64) -> usize {
-        self.u[1..self.u.len() - 1].partition_point(|row| *row <= u)
+        self.grid[1..self.grid.len() - 1].partition_point(|row| *row <= u)
     }
 
     fn logarithm(&self, u: f64) -> Option<f64> {
@@ -250,7 +261,7 @@ impl Recovered {
             let [a, b] = [pair[0], pair[1]];
             (0..FINE).map(move |k| a + (b - a) * k as f64 / FINE as f64)
         };
-        self.u.windows(2).flat_map(inside).chain(self.u.last().copied())
+        self.grid.windows(2).flat_map(inside).chain(self.grid.last().copied())
     }
 
     fn abscissa(&self, u: f64) -> f64 {
@@ -259,7 +270,7 @@ impl Recovered {
 
     fn monotonicity(&self) -> Result<Monotonicity, ViscometryError> {
         let mut previous: Option<[f64; 2]> = None;
-        for u in self.fine() {
+        for u in self.fine().filter(|u| !self.is_unknown(*u)) {
             let Some(value) = self.logarithm(u) else {
                 return Err(ViscometryError::NotRecovered { at: self.abscissa(u) });
             };
@@ -271,6 +282,39 @@ impl Recovered {
             previous = Some([u, value]);
         }
         Ok(Monotonicity::Rising)
+    }
+
+    /// Whether d ln W/d ln x grows towards the smallest row of a noisy table of a wide gap as that of a fluid that yields: it is large there, and falls
+    /// by a third within half as much again of the drive.
+    fn seems_to_yield(&self) -> bool {
+        const STEEP: f64 = 3.0;
+        const FALLS: f64 = 1.5;
+        // In gaps no wider than R₂ = 1.5 R₁ bands hold what is not known.
+        const WIDE: f64 = 0.81;
+        let is_wide = matches!(self.rule, Rule::Series { exponent: None, step, .. } if WIDE < step);
+        if self.penalised.is_none() || !is_wide {
+            return false;
+        }
+        let slope = |u: f64| self.main.at(u)[1];
+        let (lowest, highest) = (self.u[0], self.u[self.u.len() - 1]);
+        let next = (lowest + 1.5_f64.ln()).min(highest);
+        STEEP < slope(lowest) && FALLS * slope(next) < slope(lowest)
+    }
+
+    /// Whether the value at u depends on responses below the smallest drive of a fluid that seems to yield, where nothing is known.
+    fn is_unknown(&self, u: f64) -> bool {
+        match self.rule {
+            Rule::Series { step, .. } if self.yields => u - step < self.u[0],
+            _ => false,
+        }
+    }
+
+    /// The abscissa from which on values are known of a fluid that seems to yield.
+    fn known_from(&self) -> f64 {
+        match self.rule {
+            Rule::Series { step, .. } => self.abscissa(self.u[0] + step),
+            _ => self.abscissa(self.u[0]),
+        }
     }
 
     fn assumption(&self, given: Option<BelowSmallest>) -> BelowSmallest {
@@ -346,19 +390,24 @@ impl Recovered {
             .filter_map(|row| Fitted::through(&without(&self.u, row), &without(&self.y, row), DEGREE));
         let others: Vec<Fitted> = self.others.iter().cloned().chain(left_out).collect();
         let differences = self.differences(&others, fine);
-        let inverse = self.main.splines.matrix(&self.u, 0).try_inverse().unwrap_or_else(|| DMatrix::zeros(rows, rows));
+        let factors = self.main.splines.factors(&self.u);
         let quantile = critical(0.0, f64::INFINITY, 1.0 - (1.0 - confidence) / rows as f64);
         let size = |row: usize| {
             let slope = self.main.at(self.u[row])[1].abs();
             4.0 * f64::EPSILON * (1.0 + self.y[row].abs() + (1.0 + self.u[row].abs()) * slope)
         };
         let sizes: Vec<f64> = (0..rows).map(size).collect();
-        let noise = |u: f64| {
-            let mut row = DVector::zeros(rows);
-            self.rule.gradient(&self.main, u, self.terms[self.interval(u)], row.as_mut_slice());
-            let mapped = inverse.tr_mul(&row);
-            let rounding: f64 = mapped.iter().zip(&sizes).map(|(weight, size)| weight.abs() * size).sum();
-            rounding + quantile * self.level * mapped.norm() + 8.0 * f64::EPSILON
+        let mut row = vec![0.0; rows];
+        let mut noise = |u: f64| {
+            let Some(factors) = &factors else { return f64::INFINITY };
+            row.fill(0.0);
+            self.rule.gradient(&self.main, u, self.terms[self.interval(u)], &mut row);
+            let told = factors.solve_transposed(&mut row);
+            let mapped = row[told.clone()].iter().zip(&sizes[told]);
+            let (rounding, squares) = mapped.fold((0.0, 0.0), |(rounding, squares), (weight, size)| {
+                (rounding + weight.abs() * size, squares + weight * weight)
+            });
+            rounding + quantile * self.level * squares.sqrt() + 8.0 * f64::EPSILON
         };
         fine.iter().zip(differences).map(|(&u, other)| SAFETY * other + noise(u)).collect()
     }
@@ -383,17 +432,36 @@ impl Recovered {
             return Err(ViscometryError::NotMeasured { value: abscissa, lowest, highest });
         }
         let u = u.max(lowest).min(highest);
+        if self.is_unknown(u) {
+            return Err(ViscometryError::YieldUnknown { rows: self.u.len(), above: self.known_from() });
+        }
         let logarithm = self.logarithm(u).ok_or(ViscometryError::NotRecovered { at: abscissa })?;
         let value = logarithm.exp();
-        let band = self.band.as_ref().map(|(_, half)| {
+        let half = self.band.as_ref().map(|(_, half)| {
             let interval = self.interval(u);
-            let part = (u - self.u[interval]) / (self.u[interval + 1] - self.u[interval]);
+            let part = (u - self.grid[interval]) / (self.grid[interval + 1] - self.grid[interval]);
             let first = FINE * interval + (1..FINE).take_while(|k| *k as f64 <= part * FINE as f64).count();
-            let half = half[first].max(half[first + 1]);
-            [value * (-half).exp(), value * half.exp()]
+            half[first].max(half[first + 1])
         });
-        Ok((value, band))
+        if half.is_some_and(|half| half.is_nan() || WIDEST < half) {
+            return Err(ViscometryError::NotDetermined { at: abscissa });
+        }
+        Ok((value, half.map(|half| [value * (-half).exp(), value * half.exp()])))
     }
+}
+
+/// Half the width of ln beyond which a band has no ends that are numbers.
+const WIDEST: f64 = 300.0;
+
+/// Intervals between rows of a table with more rows.
+const MANY: usize = 512;
+
+/// The rows, or of many some, the first and the last among them.
+fn thinned(u: &[f64]) -> Vec<f64> {
+    if u.len() <= MANY {
+        return u.to_vec();
+    }
+    (0..MANY).map(|k| u[k * (u.len() - 1) / (MANY - 1)]).collect()
 }
 
 /// Noise leaves no more than the variance of the exponents.

@@ -33,12 +33,14 @@
 //! ```
 
 mod band;
+mod banded;
 mod corrected;
 mod corrections;
 mod curve;
 pub mod functions;
 mod geometry;
 mod inertia;
+mod repeats;
 mod rotational;
 mod rule;
 mod series;
@@ -51,6 +53,7 @@ pub use curve::{BelowSmallest, Monotonicity, Options, Rise};
 pub use functions::{Approximation, FlowPoint, MeasuredCurve, RatePoint, Series};
 pub use geometry::{ChannelGeometry, ConeGeometry, CouetteGeometry, PipeGeometry, PlatesGeometry};
 pub use inertia::{NormalStressRecovery, RadialStressRow, normal_stress_with_inertia};
+pub use repeats::{mean, repeats};
 pub use rotational::{ConePoint, cone_and_plate};
 pub use smoothing::{Criterion, Smoothing};
 pub use table::{FlowTable, Noise};

@@ -10,6 +10,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::banded::Gathered;
 use super::splines::Splines;
 
 /// Criterion by which a curve was made.
@@ -77,8 +78,12 @@ fn median(values: &mut [f64]) -> f64 {
 pub(super) fn noise(u: &[f64], values: &[f64]) -> f64 {
     /// The median of |x| of a normal x of deviation 1.
     const NORMAL: f64 = 0.674_489_750_196_081_7;
+    const MOST_WINDOWS: usize = 20_000;
     let of_order = |order: usize| {
+        // Of many rows some windows tell the median as well.
+        let stride = u.len().div_ceil(MOST_WINDOWS);
         let mut sizes: Vec<f64> = (0..u.len() - order)
+            .step_by(stride)
             .map(|first| {
                 let window = &u[first..=first + order];
                 let weight = |j: usize| -> f64 {
@@ -135,8 +140,12 @@ impl Smoother {
         let knots: Vec<f64> =
             if u.len() <= MOST { u.to_vec() } else { (0..MOST).map(|k| u[k * (u.len() - 1) / (MOST - 1)]).collect() };
         let splines = Splines::on(&knots, if knots.len() < 7 { 3 } else { 5 });
-        let qr = splines.matrix(u, 0).qr();
-        let (q, r) = (qr.q(), qr.r());
+        let mut gathered = Gathered::new(splines.count());
+        for (&u, &value) in u.iter().zip(values) {
+            let (first, splines_there) = splines.values(u);
+            gathered.add(first, &splines_there[..=splines.degree()], value);
+        }
+        let (r, right, beyond) = gathered.finish()?;
         let lower = r.transpose();
         let half = lower.solve_lower_triangular(&splines.roughness(order))?;
         let both = lower.solve_lower_triangular(&half.transpose())?;
@@ -146,10 +155,7 @@ impl Smoother {
         let vectors = eigen.eigenvectors.select_columns(&places);
         let roughness =
             places.iter().enumerate().map(|(k, &i)| if k < order { 0.0 } else { eigen.eigenvalues[i].max(0.0) });
-        let wanted = DVector::from_column_slice(values);
-        let directions = q * &vectors;
-        let data = directions.tr_mul(&wanted);
-        let beyond = (&wanted - &directions * &data).norm_squared();
+        let data = vectors.tr_mul(&DVector::from_vec(right));
         let modes = r.solve_upper_triangular(&vectors)?;
         let (roughness, data) = (roughness.collect(), data.as_slice().to_vec());
         Some(Self { splines, modes, roughness, data, beyond, rows: u.len() as f64 })

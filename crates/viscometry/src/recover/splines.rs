@@ -6,7 +6,9 @@
 //! ```
 //! C. de Boor, *A Practical Guide to Splines*, 1978.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
+
+use super::banded::Banded;
 
 /// The highest degree.
 pub(super) const HIGHEST: usize = 9;
@@ -32,6 +34,11 @@ impl Splines {
     /// Their number.
     pub(super) fn count(&self) -> usize {
         self.knots.len() - self.degree - 1
+    }
+
+    /// Their degree.
+    pub(super) const fn degree(&self) -> usize {
+        self.degree
     }
 
     /// The intervals between different knots.
@@ -120,14 +127,28 @@ impl Splines {
         gram
     }
 
+    /// The first spline at `u` and the values of those that do not vanish there.
+    pub(super) fn values(&self, u: f64) -> (usize, [f64; HIGHEST + 1]) {
+        let (first, all) = self.at(u);
+        (first, all[0])
+    }
+
+    /// The factors of the matrix of all splines at as many abscissas.
+    pub(super) fn factors(&self, abscissas: &[f64]) -> Option<Banded> {
+        let rows: Vec<(usize, [f64; HIGHEST + 1])> = abscissas.iter().map(|&u| self.values(u)).collect();
+        Banded::factors(self.degree, rows.iter().map(|(first, values)| (*first, &values[..=self.degree])))
+    }
+
     /// The coefficients of the sum through the values at the abscissas, refined once; `None` where there is none.
     pub(super) fn through(&self, abscissas: &[f64], values: &[f64]) -> Option<Vec<f64>> {
-        let matrix = self.matrix(abscissas, 0);
-        let factors = matrix.clone().lu();
-        let wanted = DVector::from_column_slice(values);
-        let first = factors.solve(&wanted)?;
-        let refined = &first + factors.solve(&(&wanted - &matrix * &first))?;
-        Some(refined.as_slice().to_vec())
+        let factors = self.factors(abscissas)?;
+        let mut found = factors.solve(values);
+        let missing: Vec<f64> =
+            abscissas.iter().zip(values).map(|(u, value)| value - self.sum(&found, *u)[0]).collect();
+        for (coefficient, more) in found.iter_mut().zip(factors.solve(&missing)) {
+            *coefficient += more;
+        }
+        Some(found)
     }
 }
 

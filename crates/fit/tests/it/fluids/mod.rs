@@ -3,4 +3,5 @@
 mod golden;
 mod refusals;
 mod statistics;
+mod told;
 mod torques;

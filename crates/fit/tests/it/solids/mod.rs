@@ -6,3 +6,4 @@ mod refusals;
 mod rubber;
 mod statistics;
 mod ties;
+mod told;

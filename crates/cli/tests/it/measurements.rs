@@ -1,0 +1,191 @@
+//! Tables at the bench through the program: exit codes, options, what is printed.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+/// A folder of its own for each test, removed at its end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("piola-bench-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap_or_else(|error| panic!("{error}"));
+        Self(path)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.0.join(name), text).unwrap_or_else(|error| panic!("{error}"));
+    }
+
+    /// The exit code, standard output and standard error.
+    fn piola(&self, arguments: &[&str]) -> (Option<i32>, String, String) {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
+        command.args(arguments).current_dir(&self.0).stdin(Stdio::null());
+        let Output { status, stdout, stderr } = command.output().unwrap_or_else(|error| panic!("{error}"));
+        (status.code(), String::from_utf8_lossy(&stdout).into_owned(), String::from_utf8_lossy(&stderr).into_owned())
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Errors of a percent that look like noise, and are the same in every run.
+fn error(i: u32) -> f64 {
+    0.01 * (f64::from(i * 61 % 97) / 48.0 - 1.0)
+}
+
+fn curve(stress: impl Fn(f64) -> f64) -> String {
+    (0..24_u32).map(|i| (0.3 * f64::from(i) - 3.0).exp()).zip(0..).fold(
+        "shear_rate [1/s],shear_stress [Pa]\n".to_owned(),
+        |mut text, (k, i)| {
+            let _ = writeln!(text, "{k:?},{:?}", stress(k) * (1.0 + error(i)));
+            text
+        },
+    )
+}
+
+#[test]
+fn a_newtonian_table_is_fitted_by_the_usual_fluids_with_exit_code_zero() {
+    let folder = Folder::new("newtonian");
+    folder.write("oil.csv", &curve(|k| 0.9 * k));
+    let (code, shown, told) = folder.piola(&["fit-flow", "oil.csv", "--flow", "curve"]);
+    assert_eq!(code, Some(0), "{shown}{told}");
+    assert!(shown.contains("newtonian has the least AICc.") && !shown.contains("papanastasiou"), "{shown}");
+    assert!(shown.contains("least sum of squares of ln(model/measured)"), "{shown}");
+    for negative in shown.lines().filter(|line| line.contains("[-") || line.contains("e25")) {
+        panic!("{negative}");
+    }
+    assert!(shown.contains("at its bound") || shown.contains("not determined"), "{shown}");
+}
+
+#[test]
+fn a_regularisation_is_fitted_where_it_is_named_and_never_ranked() {
+    let folder = Folder::new("regularised");
+    folder.write("mud.csv", &curve(|k| 5.0 + 3.0 * k.sqrt()));
+    let fluids = ["--fluid", "papanastasiou", "--fluid", "power-law"];
+    let (_, shown, _) = folder.piola(&[["fit-flow", "mud.csv", "--flow", "curve"].as_slice(), &fluids].concat());
+    assert!(shown.contains("power-law has the least AICc."), "{shown}");
+    assert!(shown.contains("papanastasiou regularises herschel-bulkley for computations: it is not ranked"), "{shown}");
+}
+
+#[test]
+fn noise_sizes_and_columns_that_cannot_be_are_refused_before_anything_is_fitted() {
+    let folder = Folder::new("refused");
+    folder.write("mud.csv", &curve(|k| 5.0 + 3.0 * k.sqrt()));
+    let cases: [(&[&str], &str); 6] = [
+        (&["--noise", "1e300"], "`--noise 1e300` is not accepted; valid: a share from 0 to 1, as 0.02 or 2%"),
+        (&["--noise", "much"], "`--noise much` is not accepted"),
+        (&["--noise", "-1"], "unexpected argument"),
+        (&["--sweep", "sideways"], "`sideways` is not accepted; valid: rising, falling or all"),
+        (&["--only", "conc"], "`--only conc` is not accepted; valid: COLUMN=VALUE"),
+        (
+            &["--only", "conc=4"],
+            "mud.csv:1: no column is called `conc`; valid: one of `shear_rate [1/s]`, `shear_stress [Pa]`",
+        ),
+    ];
+    for (arguments, expected) in cases {
+        let (code, _, told) = folder.piola(&[&["fit-flow", "mud.csv", "--flow", "curve"], arguments].concat());
+        assert!(code == Some(2) && told.contains(expected), "{arguments:?}: {told}");
+    }
+    let (code, shown, told) =
+        folder.piola(&["fit-flow", "mud.csv", "--flow", "curve", "--noise", "2%", "--fluid", "casson"]);
+    assert_eq!(code, Some(0), "{shown}{told}");
+    folder.write("rubber.csv", RUBBER);
+    let (code, _, told) = folder.piola(&["fit", "rubber.csv", "--law", "gent", "--bound", "gent.Jx=1..60"]);
+    assert!(code == Some(2) && told.contains("gent has no parameter `Jx`"), "{told}");
+    let (code, _, told) = folder.piola(&["fit", "rubber.csv", "--law", "gent", "--bound", "gent.Jm=200..60"]);
+    assert!(code == Some(2) && told.contains("no value of `Jm`"), "{told}");
+    assert!(!folder.0.join("out/fit-rubber").exists());
+}
+
+const RUBBER: &str = "mode,stretch,stress_MPa\nuniaxial,1,0\nuniaxial,1.5,0.43\nuniaxial,2,0.68\nuniaxial,2.5,0.9\nuniaxial,3,1.15\n\
+                      planar,1.5,0.52\nplanar,2,0.79\nplanar,2.5,1.01\nplanar,3,1.2\n";
+
+#[test]
+fn tests_are_held_out_left_out_and_predicted_beyond_the_data() {
+    let folder = Folder::new("held-out");
+    folder.write("rubber.csv", RUBBER);
+    let laws = ["--law", "neo-hookean", "--law", "mooney-rivlin"];
+    let arguments = ["fit", "rubber.csv", "--mode-weights", "planar=0", "--to", "5"];
+    let (code, shown, told) = folder.piola(&[arguments.as_slice(), &laws].concat());
+    assert_eq!(code, Some(0), "{shown}{told}");
+    assert!(shown.contains("planar, held out: predicted to ") && shown.contains("1 of them at rest"), "{shown}");
+    assert!(shown.contains("uniaxial: measured from 1 to 3; at 5 the law is a guess"), "{shown}");
+    assert!(shown.contains("at rest: shear modulus ") && shown.contains("largest"), "{shown}");
+    let predictions = std::fs::read_to_string(folder.0.join("out/fit-rubber/predictions.csv")).unwrap_or_default();
+    assert!(
+        predictions.starts_with("law,mode,stretch,stress_MPa,low,high,beyond the data\nneo-hookean,uniaxial,1.0,0.0,"),
+        "{predictions}"
+    );
+    assert!(predictions.lines().last().is_some_and(|line| line.ends_with(",1")), "{predictions}");
+    let (code, shown, _) =
+        folder.piola(&[["fit", "rubber.csv", "--cross-validate", "--profile"].as_slice(), &laws].concat());
+    assert!(code == Some(0) && shown.contains("left out"), "{shown}");
+}
+
+#[test]
+fn long_names_of_tests_stay_apart() {
+    let folder = Folder::new("names");
+    let mut text = "mode,stretch,stress,specimen\n".to_owned();
+    for specimen in ["corona_radiata_1", "corona_radiata_2"] {
+        for stretch in [1.5_f64, 2.0, 3.0] {
+            let _ = writeln!(text, "uniaxial,{stretch},{},{specimen}", stretch - stretch.powi(-2));
+        }
+    }
+    folder.write("brain.csv", &text);
+    let (_, shown, _) = folder.piola(&["fit", "brain.csv", "--law", "neo-hookean"]);
+    assert!(shown.contains("uniaxial corona_radiata_1  uniaxial corona_radiata_2"), "{shown}");
+}
+
+#[test]
+fn sweeps_are_chosen_and_their_difference_printed() {
+    let folder = Folder::new("sweeps");
+    let up = curve(|k| 5.0 * k.sqrt());
+    let down = curve(|k| 4.0 * k.sqrt());
+    let rows: Vec<&str> = down.lines().skip(1).collect();
+    folder.write("loop.csv", &format!("{up}{}\n", rows.into_iter().rev().collect::<Vec<_>>().join("\n")));
+    let fitted = |sweep: &str| {
+        folder.piola(&["fit-flow", "loop.csv", "--flow", "curve", "--fluid", "power-law", "--sweep", sweep]).1
+    };
+    assert!(fitted("rising").contains("24 rows of rising and 24 of falling sweeps: the rising ones are used"));
+    assert!(fitted("rising").contains("falling beside rising: -20.0 % on average"), "{}", fitted("rising"));
+    assert!(fitted("falling").contains("the falling ones are used"), "{}", fitted("falling"));
+}
+
+#[test]
+fn nothing_is_printed_of_a_yield_stress_in_a_wide_gap_that_is_not_known() {
+    // Bingham's fluid of 10 Pa between cylinders of 10 and 20 mm, from the stress 12 Pa on.
+    let folder = Folder::new("yield");
+    let mut text =
+        "# inner_radius: 10 mm\n# outer_radius: 20 mm\ntorque_per_length [N],speed_difference [rad/s]\n".to_owned();
+    for i in 0..25 {
+        let wall = 12.0 * (0.12 * f64::from(i)).exp();
+        let outer = (wall / 4.0).max(10.0);
+        // ½ ∫ (τ − 10)/τ dτ, a viscosity of 1.
+        let speed = 0.5 * (wall - outer - 10.0 * (wall / outer).ln());
+        let _ = writeln!(text, "{:?},{:?}", 2.0 * core::f64::consts::PI * 1e-4 * wall, speed * (1.0 + error(i)));
+    }
+    folder.write("mud.csv", &text);
+    for noise in [&["--noise", "0.01"][..], &[]] {
+        let (code, shown, told) = folder.piola(&[&["recover", "mud.csv", "--flow", "couette"], noise].concat());
+        assert_eq!(code, Some(1), "{shown}{told}");
+        assert!(told.contains("those of a fluid that yields: shear rates are known from the stress"), "{told}");
+        assert!(!shown.contains("inf") && shown.contains("band of the whole curve"), "{shown}");
+    }
+    let (code, shown, _) = folder.piola(&["fit-flow", "mud.csv", "--flow", "couette", "--fluid", "bingham"]);
+    assert!(code == Some(0) && shown.contains("yield_stress"), "{shown}");
+}
+
+#[test]
+fn a_full_device_is_a_failure() {
+    let folder = Folder::new("full");
+    let Ok(full) = std::fs::OpenOptions::new().write(true).open("/dev/full") else { return };
+    let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
+    command.arg("schema").current_dir(&folder.0).stdin(Stdio::null()).stdout(full);
+    let status = command.status().unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(status.code(), Some(1));
+}
