@@ -1,8 +1,8 @@
 //! Laws W(E) of Green's strain: one's own function, differentiated in its six components.
 
 use piola_continuum::internal::strain::green;
-use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::strain::GreenStrain;
+use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::internal::Lanewise;
 use piola_numerics::{Hessian, Real};

@@ -115,10 +115,10 @@ pub use piola_integrators as integrators;
 pub use piola_kinematics as kinematics;
 #[cfg(feature = "lagrangian")]
 pub use piola_lagrangian as lagrangian;
-#[cfg(feature = "multibody")]
-pub use piola_multibody as multibody;
 #[cfg(feature = "laws")]
 pub use piola_laws as laws;
+#[cfg(feature = "multibody")]
+pub use piola_multibody as multibody;
 pub use piola_numerics as numerics;
 #[cfg(feature = "registration")]
 pub use piola_registration as registration;

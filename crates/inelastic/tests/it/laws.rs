@@ -88,7 +88,10 @@ fn check_observer<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str
             let (control, tol) = if number < 2 {
                 (Control::one_step(), Tol::ulps_because(1e3, "rounding of some stiff steps"))
             } else {
-                (Control::default(), Tol::stated(1e-8, "errors of two increments, each below 1e-10, times the stiffness"))
+                (
+                    Control::default(),
+                    Tol::stated(1e-8, "errors of two increments, each below 1e-10, times the stiffness"),
+                )
             };
             let a = one.advance(&to, 0.2, &control)?;
             let b = other.advance(&DeformationGradient::new(turn * to.matrix())?, 0.2, &control)?;

@@ -72,7 +72,8 @@ fn times_states_and_parameters_are_refused_by_name() -> Fallible {
     let soft = Hardening { yield_stress: 1.0, linear: 0.0, saturation: 0.5, saturation_exponent: 1.0 };
     let error = Viscoplastic::new(Hencky::new(1.0, 1.0)?, soft, 0.0).map(|_| ());
     assert!(matches!(error, Err(InelasticError::OutOfBounds { parameter: "saturation", .. })));
-    let flow = PowerFlow { rate: f64::NAN, stress: 1.0, stress_exponent: 1.0, stretch_exponent: 0.0, perturbation: 1.0 };
+    let flow =
+        PowerFlow { rate: f64::NAN, stress: 1.0, stress_exponent: 1.0, stretch_exponent: 0.0, perturbation: 1.0 };
     assert!(matches!(flow.checked(), Err(InelasticError::NotFinite { quantity: "rate", .. })));
     Ok(())
 }
@@ -86,25 +87,13 @@ fn arrays_of_the_wrong_length_are_refused_and_points_that_fail_are_named() -> Fa
     let mut stresses = [FirstPiola::zero(); 3];
     let mut tangents = [FirstPiolaTangent(FourthOrder { components: [[0.0; 9]; 9] }); 3];
     let control = Control::one_step();
-    let short = advance_all(
-        &law,
-        &mut states,
-        [&[rest; 2], &[shear; 3]],
-        (0.1, &control),
-        &mut stresses,
-        &mut tangents,
-    );
+    let short =
+        advance_all(&law, &mut states, [&[rest; 2], &[shear; 3]], (0.1, &control), &mut stresses, &mut tangents);
     let expected = InelasticError::WrongLength { quantity: "deformations before", expected: 3, found: 2 };
     assert_eq!(short, Err(expected));
     states[1][0] = f64::NAN;
-    let error = advance_all(
-        &law,
-        &mut states,
-        [&[rest; 3], &[shear; 3]],
-        (0.1, &control),
-        &mut stresses,
-        &mut tangents,
-    );
+    let error =
+        advance_all(&law, &mut states, [&[rest; 3], &[shear; 3]], (0.1, &control), &mut stresses, &mut tangents);
     assert!(matches!(error, Err(InelasticError::AtPoint { index: 1, .. })), "{error:?}");
     assert!(stresses[1].0[(0, 0)].is_nan() && stresses[2].0[(0, 1)] == stresses[0].0[(0, 1)]);
     let single = MaterialPoint::new(&law).advance(&shear, 0.1, &control)?;

@@ -5,8 +5,8 @@ use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, Se
 use piola_numerics::Real;
 use piola_solids::internal::{Isochoric, Unimodular, first_piola_numbers, inverse_metric, packed};
 use piola_solids::{Hyperelastic, SolidsError};
-use piola_tensor::{MajorSymmetric, PairSymmetric};
 use piola_tensor::internal::rows::Rows;
+use piola_tensor::{MajorSymmetric, PairSymmetric};
 
 use crate::methods::answers;
 

@@ -213,9 +213,7 @@ impl<T: Real> Variables<'_, T> {
     /// What grows with the volume alone, with its first and second derivative by ln J.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_volume<const N: usize, const PAIRS: usize>(value: T, slope: T, curvature: T) -> Hessian<T, N, PAIRS> {
-        Hessian::constant(value)
-            .with_partial(LOGARITHM, slope)
-            .with_second_partial((LOGARITHM, LOGARITHM), curvature)
+        Hessian::constant(value).with_partial(LOGARITHM, slope).with_second_partial((LOGARITHM, LOGARITHM), curvature)
     }
 
     /// g (I + c) less a constant, g = J^(−c/3): its rate by ln J is −(c/3) g I, of which I is the excess, and

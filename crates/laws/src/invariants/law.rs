@@ -118,12 +118,7 @@ impl<L: EnergyOfInvariants> OfInvariants<L> {
     /// The energy in the variables of the [module](super).
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn varied<T: Real>(&self, isotropic: &Invariants<T>) -> Hessian<T, 3, 6> {
-        self.0.energy(&Variables {
-            isotropic,
-            fibres: [[T::zero(); 2]; MOST_FAMILIES],
-            families: 0,
-            second: L::SECOND,
-        })
+        self.0.energy(&Variables { isotropic, fibres: [[T::zero(); 2]; MOST_FAMILIES], families: 0, second: L::SECOND })
     }
 }
 
@@ -141,8 +136,7 @@ fn curvatures<T: Real>(energy: &Hessian<T, 3, 6>, slopes: &Slopes<T>, jacobian: 
     let (aa, ab, bb) = (second(FIRST, FIRST), second(FIRST, SECOND), second(SECOND, SECOND));
     let first_turn = second(FIRST, LOGARITHM) - two * aa - four * ab;
     let second_turn = second(SECOND, LOGARITHM) - two * ab - four * bb;
-    let straight =
-        second(LOGARITHM, LOGARITHM) - two * second(FIRST, LOGARITHM) - four * second(SECOND, LOGARITHM);
+    let straight = second(LOGARITHM, LOGARITHM) - two * second(FIRST, LOGARITHM) - four * second(SECOND, LOGARITHM);
     let bending = straight - two * first_turn - four * second_turn;
     Curvatures {
         first_first: aa,
