@@ -83,6 +83,7 @@ pub fn thinned(points: impl Iterator<Item = (f64, f64)>, least: f64) -> Vec<(f64
             _ => kept.push(point),
         }
     }
-    kept.extend(last);
+    // The last point ends the curve, however near it is.
+    kept.extend(last.filter(|last| kept.last() != Some(last)));
     kept
 }

@@ -60,6 +60,11 @@ pub fn time_figure(title: &str, ordinate: &str, mut curves: Vec<TimeCurve>, few:
     let start = extreme(|p| p.0, f64::min).unwrap_or(0.0);
     let end = extreme(|p| p.0, f64::max).unwrap_or(1.0).max(start + 1e-9 * start.abs() + f64::MIN_POSITIVE);
     let (unit, second) = time_unit(end - start);
+    // One curve has no legend: its name stands at the axis.
+    let ordinate = match curves.as_slice() {
+        [one] if !one.name.is_empty() => &format!("{ordinate}: {}", one.name),
+        _ => ordinate,
+    };
     figure((960, 560), title, &|area| {
         let named = 1 < curves.len() && curves.len() <= MOST_NAMED;
         let (width, _) = area.dim_in_pixel();
