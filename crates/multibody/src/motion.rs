@@ -24,7 +24,7 @@ use crate::workspace::TreeWorkspace;
 /// builder.attach(BodyIndex::GROUND, hinge, "bob", BodyInertia::particle(1.0, [0.0, 0.0, -9.81])?)?;
 /// let tree = builder.build()?;
 /// let mut motion = tree.motion(|_t, _q, _v, tau| tau.fill(0.0));
-/// let mut state = State::new(0.0, vec![1e-4, 0.0])?;
+/// let mut state = State::new(0.0, vec![1e-4_f64, 0.0])?;
 /// let period = 2.0 * std::f64::consts::PI;
 /// DormandPrince853::new(Tolerance::relative(1e-12)?).integrate_to(&mut motion, &mut state, period)?;
 /// assert!((state.values[0] / 1e-4 - 1.0).abs() < 1e-9);

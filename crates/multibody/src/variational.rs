@@ -174,7 +174,8 @@ impl<'a> VariationalTree<'a> {
         h: f64,
         forces: &mut impl FnMut(f64, &[f64], &[f64], &mut [f64]),
     ) -> Result<(), MultibodyError> {
-        let mut before = f64::INFINITY;
+        let (mut before, mut stalls) = (f64::INFINITY, 0);
+        let size = q.iter().fold(1.0_f64, |size, q| size.max(q.abs()));
         for count in 0.. {
             for ((middle, &q), &rate) in self.middle.iter_mut().zip(&*q).zip(&self.rate) {
                 *middle = q + 0.5 * h * rate;
@@ -203,9 +204,16 @@ impl<'a> VariationalTree<'a> {
             if !largest.is_finite() || count == MOST_CORRECTIONS {
                 return Err(MultibodyError::NoConvergence { correction: largest * h.abs() });
             }
-            // At rounding corrections no longer fall.
-            let floor = 64.0 * f64::EPSILON * scale;
-            if largest <= 2.0 * f64::EPSILON * scale || (largest <= 4096.0 * floor && 0.5 * before <= largest) {
+            // At rounding, which M⁻¹ makes larger, corrections no longer fall.
+            if 0.5 * before <= largest {
+                stalls += 1;
+            }
+            let moved = largest * h.abs() / size;
+            let is_rounding = |stalls: i32, bound: f64| stalls != 0 && moved <= bound;
+            if largest <= 2.0 * f64::EPSILON * scale
+                || is_rounding(stalls, 4096.0 * f64::EPSILON)
+                || is_rounding(stalls / 3, 1e-9)
+            {
                 break;
             }
             before = largest;

@@ -160,6 +160,8 @@ mod book {
     struct Placements;
     #[doc = include_str!("../../../docs/how-to/constraints.md")]
     struct Constraints;
+    #[doc = include_str!("../../../docs/how-to/trees.md")]
+    struct Trees;
     #[doc = include_str!("../../../docs/how-to/integrators.md")]
     struct Integrators;
     #[doc = include_str!("../../../docs/how-to/scalars.md")]
