@@ -124,4 +124,3 @@ pub(crate) fn square<T: Real>(deviator: &Symmetric<T>, scale: f64) -> T {
 pub(crate) fn trace_of_square<T: Real>(inelastic: &Rows<T>) -> T {
     right_cauchy_green(*inelastic).trace()
 }
-

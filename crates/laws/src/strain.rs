@@ -1,8 +1,8 @@
 //! Laws W(E) of Green's strain: one's own function, differentiated in its six components.
 
 use piola_continuum::internal::strain::green;
-use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::strain::GreenStrain;
+use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::internal::Lanewise;
 use piola_numerics::{Hessian, Real};
@@ -13,7 +13,7 @@ use piola_tensor::internal::rows::product;
 
 use crate::methods::answers;
 
-/// An energy of Green's strain E = ½ (FᵀF − 1), of any symmetry.
+/// An energy of Green's strain E = ½ (Fᵀ F − 1), of any symmetry.
 ///
 /// Write [`energy`](Self::energy); [`OfStrain`] makes a [`Hyperelastic`] law of it. An energy of C is one of 1 + 2 E.
 ///

@@ -63,10 +63,8 @@ fn thrice_a_law_equals_the_sum_of_it_and_twice_it() -> Result<(), Box<dyn Error>
 /// A neo-Hookean law is its own shape, with any volume: (μ/2)(Ī₁ − 3) + U(J).
 #[test]
 fn decoupled_neo_hookean_law_equals_the_isochoric_one() -> Result<(), Box<dyn Error>> {
-    let own = Decoupled {
-        shape: NeoHookeanCiarlet::with_constants(0.8, 3.0)?,
-        volume: OfVolume(SimoTaylor::new(20.0)?),
-    };
+    let own =
+        Decoupled { shape: NeoHookeanCiarlet::with_constants(0.8, 3.0)?, volume: OfVolume(SimoTaylor::new(20.0)?) };
     let built_in = Compressible::new(NeoHookean::new(0.8)?, SimoTaylor::new(20.0)?);
     for f in deformations(10) {
         same("decoupled", &own, &built_in, &f);
@@ -93,10 +91,8 @@ fn answers_of_decoupled_anisotropic_laws_equal_derivatives_of_the_energy() -> Re
 
 #[test]
 fn decoupled_stress_keeps_its_digits_at_small_strain() -> Result<(), Box<dyn Error>> {
-    let own = Decoupled {
-        shape: NeoHookeanCiarlet::with_constants(0.8, 3.0)?,
-        volume: OfVolume(SimoTaylor::new(20.0)?),
-    };
+    let own =
+        Decoupled { shape: NeoHookeanCiarlet::with_constants(0.8, 3.0)?, volume: OfVolume(SimoTaylor::new(20.0)?) };
     let built_in = Compressible::new(NeoHookean::new(0.8)?, SimoTaylor::new(20.0)?);
     let mut random = Random::new(23);
     for exponent in [3, 8, 12, 16] {

@@ -3,7 +3,9 @@
 use core::error::Error;
 
 use piola_continuum::Symmetric;
-use piola_laws::{EnergyOfInvariants, EnergyOfStrain, EnergyOfStretches, Excesses, OfInvariants, OfStrain, OfStretches};
+use piola_laws::{
+    EnergyOfInvariants, EnergyOfStrain, EnergyOfStretches, Excesses, OfInvariants, OfStrain, OfStretches,
+};
 use piola_numerics::Real;
 use piola_solids::stretch::Volume;
 use piola_solids::{
@@ -180,8 +182,7 @@ impl EnergyOfStrain for OwnFung {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn energy<T: Real>(&self, strain: &Symmetric<T>) -> T {
         let trace = strain.trace();
-        let square =
-            T::lit(self.lambda) * trace * trace + T::lit(2.0 * self.mu) * strain.double_contraction(strain);
+        let square = T::lit(self.lambda) * trace * trace + T::lit(2.0 * self.mu) * strain.double_contraction(strain);
         T::lit(0.5 * self.c) * square.exp_m1()
     }
 }

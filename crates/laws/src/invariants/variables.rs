@@ -1,164 +1,11 @@
-//! The arguments of an energy of invariants, as numbers and as variables.
+//! The arguments of an energy of invariants as functions of the variables a, b, θ, I₄, …
 
-use piola_continuum::internal::strain as kernels;
-use piola_continuum::strain::invariants;
-use piola_continuum::{Deformation, Symmetric};
 use piola_numerics::internal::volume_excess;
 use piola_numerics::{Hessian, Mask, Real};
 use piola_solids::internal::Unimodular;
-use piola_solids::invariant::{Invariants, first_excess, second_excess};
+use piola_solids::invariant::Invariants;
 
-use super::EnergyOfInvariants;
-
-/// The most families of fibres that an energy may have.
-pub(super) const MOST_FAMILIES: usize = 2;
-
-/// The arguments of an energy of invariants, each less its value at the reference, so that none has lost digits at small strain.
-///
-/// What is not asked for is not computed. In the table C = FᵀF, J = det F, Ī₁ = J^(−2/3) I₁, Ī₂ = J^(−4/3) I₂, and a is the direction of
-/// a family of fibres.
-///
-/// | method | argument | order in the strain |
-/// |---|---|---|
-/// | `first`, `second` | I₁ − 3, I₂ − 3 | 1 |
-/// | `first_excess`, `second_excess` | I₁ − 3 − 2 ln J, I₂ − 3 − 4 ln J | 2 |
-/// | `isochoric_first`, `isochoric_second` | Ī₁ − 3, Ī₂ − 3 | 2 |
-/// | `volume_change`, `ln_jacobian` | J − 1, ln J | 1 |
-/// | `volume_excess` | J − 1 − ln J | 2 |
-/// | `jacobian` | J | |
-/// | `fourth(k)`, `fifth(k)` | I₄ − 1 = a · C a − 1, I₅ − 1 = a · C² a − 1 of family k | 1 |
-/// | `isochoric_fourth(k)` | J^(−2/3) I₄ − 1 of family k | 1 |
-///
-/// An energy whose terms are of second order keeps all digits of a small stress. So does one with terms of first order whose
-/// coefficients cancel to the last bit: ½ μ (I₁ − 3) − μ ln J does.
-///
-/// The argument of a family that the energy does not have is NaN.
-pub trait Excesses<T: Real> {
-    /// I₁ − 3.
-    #[must_use]
-    fn first(&self) -> T;
-    /// I₂ − 3.
-    #[must_use]
-    fn second(&self) -> T;
-    /// I₁ − 3 − 2 ln J.
-    #[must_use]
-    fn first_excess(&self) -> T;
-    /// I₂ − 3 − 4 ln J.
-    #[must_use]
-    fn second_excess(&self) -> T;
-    /// J^(−2/3) I₁ − 3.
-    #[must_use]
-    fn isochoric_first(&self) -> T;
-    /// J^(−4/3) I₂ − 3.
-    #[must_use]
-    fn isochoric_second(&self) -> T;
-    /// J − 1.
-    #[must_use]
-    fn volume_change(&self) -> T;
-    /// J.
-    #[must_use]
-    fn jacobian(&self) -> T;
-    /// ln J.
-    #[must_use]
-    fn ln_jacobian(&self) -> T;
-    /// J − 1 − ln J.
-    #[must_use]
-    fn volume_excess(&self) -> T;
-    /// I₄ − 1 = a · C a − 1 of a family of fibres.
-    #[must_use]
-    fn fourth(&self, family: usize) -> T;
-    /// I₅ − 1 = a · C² a − 1 of a family of fibres.
-    #[must_use]
-    fn fifth(&self, family: usize) -> T;
-    /// J^(−2/3) I₄ − 1 of a family of fibres.
-    #[must_use]
-    fn isochoric_fourth(&self, family: usize) -> T;
-}
-
-/// The arguments at a deformation, over its own scalar: for the energy.
-pub(super) struct AtDeformation<'a, D, L> {
-    pub(super) deformation: &'a D,
-    pub(super) law: &'a L,
-}
-
-/// a · (C − 1) a, and a · (C² − 1) a = 2 a · (C − 1) a + |(C − 1) a|².
-#[cfg_attr(not(debug_assertions), inline(always))]
-pub(super) fn along<T: Real>(change: &Symmetric<T>, direction: [f64; 3]) -> [T; 2] {
-    let [x, y, z] = [T::lit(direction[0]), T::lit(direction[1]), T::lit(direction[2])];
-    let [u, v, w] = change.apply([x, y, z]);
-    let fourth = x * u + y * v + z * w;
-    [fourth, T::lit(2.0) * fourth + (u * u + v * v + w * w)]
-}
-
-impl<D, L: EnergyOfInvariants> AtDeformation<'_, D, L> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn along<T: Real>(&self, family: usize) -> [T; 2]
-    where
-        D: Deformation<T>,
-    {
-        if L::FIBRES <= family {
-            return [T::lit(f64::NAN); 2];
-        }
-        along(&kernels::right_cauchy_green_minus_one(self.deformation.displacement_rows()), self.law.fibre(family))
-    }
-}
-
-impl<T: Real, D: Deformation<T>, L: EnergyOfInvariants> Excesses<T> for AtDeformation<'_, D, L> {
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn first(&self) -> T {
-        invariants::first_minus_three(self.deformation)
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn second(&self) -> T {
-        invariants::second_minus_three(self.deformation)
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn first_excess(&self) -> T {
-        first_excess(self.deformation)
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn second_excess(&self) -> T {
-        second_excess(self.deformation)
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn isochoric_first(&self) -> T {
-        invariants::isochoric_first_minus_three(self.deformation)
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn isochoric_second(&self) -> T {
-        invariants::isochoric_second_minus_three(self.deformation)
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn volume_change(&self) -> T {
-        self.deformation.volume_change()
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn jacobian(&self) -> T {
-        self.deformation.jacobian()
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn ln_jacobian(&self) -> T {
-        self.deformation.ln_jacobian()
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn volume_excess(&self) -> T {
-        volume_excess(self.deformation.volume_change(), self.deformation.jacobian())
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn fourth(&self, family: usize) -> T {
-        self.along(family)[0]
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn fifth(&self, family: usize) -> T {
-        self.along(family)[1]
-    }
-    #[cfg_attr(not(debug_assertions), inline(always))]
-    fn isochoric_fourth(&self, family: usize) -> T {
-        let Unimodular { two_thirds, two_thirds_change, .. } =
-            Unimodular::of(self.deformation.volume_change(), self.deformation.jacobian());
-        two_thirds * self.fourth(family) + two_thirds_change
-    }
-}
+use super::excesses::{Excesses, MOST_FAMILIES};
 
 /// The number of the variable a.
 pub(super) const FIRST: usize = 0;
@@ -213,9 +60,7 @@ impl<T: Real> Variables<'_, T> {
     /// What grows with the volume alone, with its first and second derivative by ln J.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn of_volume<const N: usize, const PAIRS: usize>(value: T, slope: T, curvature: T) -> Hessian<T, N, PAIRS> {
-        Hessian::constant(value)
-            .with_partial(LOGARITHM, slope)
-            .with_second_partial((LOGARITHM, LOGARITHM), curvature)
+        Hessian::constant(value).with_partial(LOGARITHM, slope).with_second_partial((LOGARITHM, LOGARITHM), curvature)
     }
 
     /// g (I + c) less a constant, g = J^(−c/3): its rate by ln J is −(c/3) g I, of which I is the excess, and
