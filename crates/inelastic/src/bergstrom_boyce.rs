@@ -10,7 +10,7 @@ use crate::{Evolution, InelasticError, flow};
 /// The flow of Bergström and Boyce: a power of the stress, slowed down by the flow so far.
 ///
 /// ```text
-/// Dᵢ = γ̇ dev M/τ        γ̇ = γ̇₀ (λ̄ᵢ − 1 + ξ)^c (τ/τ₀)^m        τ = |dev M|,   λ̄ᵢ = √(tr(FᵢᵀFᵢ)/3)
+/// Dᵢ = γ̇ dev M/τ        γ̇ = γ̇₀ (λ̄ᵢ − 1 + ξ)^c (τ/τ₀)^m        τ = |dev M|,   λ̄ᵢ = √(tr(Fᵢᵀ Fᵢ)/3)
 /// ```
 ///
 /// | symbol | field | unit | bounds |
@@ -70,20 +70,20 @@ impl PowerFlow {
 /// Both laws may be any energy; the spring P₂ must be isotropic. The nine internal variables are Fᵢ by rows.
 ///
 /// # Accuracy
-/// That of the [`Control`](crate::Control); det Fᵢ = 1 to rounding.
+/// That of the [`StepControl`](crate::StepControl); det Fᵢ = 1 to rounding.
 ///
 /// # Example
 /// Held for long, only the law at rest bears the shear.
 /// ```
 /// use piola_continuum::DeformationGradient;
-/// use piola_inelastic::{BergstromBoyce, Control, MaterialPoint, PowerFlow};
+/// use piola_inelastic::{BergstromBoyce, StepControl, InelasticPoint, PowerFlow};
 /// use piola_solids::NeoHookeanCiarlet;
 /// let flow = PowerFlow { rate: 5.0, stress: 1.0, stress_exponent: 1.0, stretch_exponent: 0.0, perturbation: 0.01 };
 /// let spring = NeoHookeanCiarlet::with_constants(1.0, 2.0)?;
 /// let law = BergstromBoyce::new(spring, spring, flow)?;
-/// let mut point = MaterialPoint::new(&law);
+/// let mut point = InelasticPoint::new(&law);
 /// let shear = DeformationGradient::simple_shear(0.3)?;
-/// let stress = point.advance(&shear, 50.0, &Control::default())?.first_piola.0[(0, 1)];
+/// let stress = point.advance(&shear, 50.0, &StepControl::default())?.first_piola.0[(0, 1)];
 /// assert!((stress - 0.3).abs() < 2e-2); // μ k, and what the last of the motion adds
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

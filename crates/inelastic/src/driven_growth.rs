@@ -12,7 +12,7 @@ use crate::{Evolution, InelasticError, flow};
 /// A tissue that grows where it is pulled, up to a limit (Lubarda and Hoger).
 ///
 /// ```text
-/// F_g = ϑ 1        ϑ̇ = k ((ϑ⁺ − ϑ)/(ϑ⁺ − 1))^γ tr M for 0 < tr M,   k ((ϑ − ϑ⁻)/(1 − ϑ⁻))^γ tr M otherwise
+/// G = ϑ 1        ϑ̇ = k ((ϑ⁺ − ϑ)/(ϑ⁺ − 1))^γ tr M for 0 < tr M,   k ((ϑ − ϑ⁻)/(1 − ϑ⁻))^γ tr M otherwise
 /// ```
 /// M = Cₑ Sₑ. The internal variable is ϑ.
 ///
@@ -23,17 +23,17 @@ use crate::{Evolution, InelasticError, flow};
 /// | γ | `exponent` | – | 1 ≤ γ |
 ///
 /// # Accuracy
-/// That of the [`Control`](crate::Control).
+/// That of the [`StepControl`](crate::StepControl).
 ///
 /// # Example
 /// A stretched ball grows until it has no stress.
 /// ```
 /// use piola_continuum::DeformationGradient;
-/// use piola_inelastic::{Control, DrivenGrowth, MaterialPoint};
+/// use piola_inelastic::{StepControl, DrivenGrowth, InelasticPoint};
 /// use piola_solids::NeoHookeanCiarlet;
 /// let law = DrivenGrowth::new(NeoHookeanCiarlet::with_constants(1.0, 2.0)?, 1.0, [0.5, 2.0], 1.0)?;
-/// let mut point = MaterialPoint::new(&law);
-/// let grown = point.advance(&DeformationGradient::dilatation(1.1)?, 100.0, &Control::one_step())?;
+/// let mut point = InelasticPoint::new(&law);
+/// let grown = point.advance(&DeformationGradient::dilatation(1.1)?, 100.0, &StepControl::one_step())?;
 /// assert!((grown.state[0] - 1.1).abs() < 1e-2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -87,7 +87,7 @@ impl<L: Hyperelastic> Evolution<1, 1> for DrivenGrowth<L> {
     fn first_piola<T: Real>(&self, gradient: &Rows<T>, state: &[T; 1]) -> Rows<T> {
         let growth = state[0];
         let stress = self.law.first_piola(&DeformationGradient::trusted(scaled(*gradient, growth.recip())));
-        // J_g/ϑ = ϑ².
+        // det G/ϑ = ϑ².
         scaled(rows_of(&stress.0), growth * growth)
     }
 

@@ -10,7 +10,7 @@ use piola_tensor::internal::rows::Rows;
 /// P = P(F, z)        r(zₙ, F, x, Δt) = 0  for the X unknowns x of a step        zₙ₊₁ = z(zₙ, F, x)
 /// ```
 /// A law states its stress, the equations of one implicit step and the state that follows from their unknowns, each as one function
-/// over any scalar. [`MaterialPoint`](crate::MaterialPoint) solves the equations by Newton's method with exact derivatives, estimates the
+/// over any scalar. [`InelasticPoint`](crate::InelasticPoint) solves the equations by Newton's method with exact derivatives, estimates the
 /// error, divides the increment where it must, and returns the stress with its consistent tangent.
 ///
 /// Unknowns and residuals are without unit and of the size of a strain.
@@ -19,7 +19,7 @@ use piola_tensor::internal::rows::Rows;
 /// A Maxwell element in the volume: J = Jₑ Jᵢ, p = κ ln Jₑ, and the logarithm of Jᵢ creeps as p/η.
 /// ```
 /// use piola_continuum::DeformationGradient;
-/// use piola_inelastic::{Control, Evolution, MaterialPoint};
+/// use piola_inelastic::{StepControl, Evolution, InelasticPoint};
 /// use piola_numerics::Real;
 /// use piola_numerics::linear::matrix3::{adjugate, determinant};
 ///
@@ -45,10 +45,10 @@ use piola_tensor::internal::rows::Rows;
 /// }
 ///
 /// let law = Creeping { kappa: 2.0, eta: 1.0 };
-/// let mut point = MaterialPoint::new(&law);
+/// let mut point = InelasticPoint::new(&law);
 /// let grown = DeformationGradient::dilatation(1.1)?;
-/// point.advance(&grown, 1e-9, &Control::default())?; // at once: p = κ ln J
-/// let relaxed = point.advance(&grown, 0.5, &Control::default())?;
+/// point.advance(&grown, 1e-9, &StepControl::default())?; // at once: p = κ ln J
+/// let relaxed = point.advance(&grown, 0.5, &StepControl::default())?;
 /// let pressure = relaxed.first_piola.0[(0, 0)] * 1.1;
 /// assert!((pressure - 2.0 * 1.1_f64.powi(3).ln() * (-1.0_f64).exp()).abs() < 1e-8); // e^(−κ t/η)
 /// # Ok::<(), piola_inelastic::InelasticError>(())

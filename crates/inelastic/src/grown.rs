@@ -1,4 +1,4 @@
-//! Growth and thermal expansion: F = Fₑ F_g with a stress-free F_g.
+//! Growth and thermal expansion: F = Fₑ G with a stress-free G.
 
 use nalgebra::Matrix3;
 use piola_continuum::stress::tangents::FirstPiolaTangent;
@@ -15,12 +15,12 @@ use crate::error::{check_bound, check_finite};
 /// An elastic law behind a given stress-free deformation: growth, swelling or thermal expansion.
 ///
 /// ```text
-/// F = Fₑ F_g        W(F) = J_g Wₑ(F F_g⁻¹)        P = J_g Pₑ F_g⁻ᵀ,   J_g = det F_g
+/// F = Fₑ G        W(F) = det G Wₑ(F G⁻¹)        P = det G Pₑ G⁻ᵀ
 /// ```
-/// It is a [`Hyperelastic`] law: batches, specimens and checks take it. W is zero where F = F_g.
+/// It is a [`Hyperelastic`] law: batches, specimens and checks take it. W is zero where F = G.
 ///
 /// # Accuracy
-/// That of the elastic law × the condition number of F_g.
+/// That of the elastic law × the condition number of G.
 ///
 /// # Example
 /// A body heated by 100 K without being able to expand is under pressure; free to expand, it has no stress.
@@ -31,13 +31,13 @@ use crate::error::{check_bound, check_finite};
 /// let expansion = ThermalExpansion { coefficient: 1e-3, reference_temperature: 300.0 };
 /// let hot = Grown::heated(NeoHookeanCiarlet::with_constants(1.0, 2.0)?, &expansion, 400.0)?;
 /// let free = DeformationGradient::dilatation(0.1_f64.exp())?; // e^(α ΔT)
-/// assert!(hot.cauchy(&free).0.components[0].abs() < 1e-15);
-/// assert!(hot.cauchy(&DeformationGradient::identity()).0.components[0] < -0.2);
+/// assert!(hot.cauchy(&free).0.components[0].abs() < 1e-15_f64);
+/// assert!(hot.cauchy(&DeformationGradient::<f64>::identity()).0.components[0] < -0.2);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
 /// # Source
-/// E. K. Rodriguez, A. Hoger and A. D. McCulloch, J. Biomech. 27 (1994) 455–467; R. Stojanović, S. Djurić and L. Vujošević, Arch. Mech.
+/// E. K. Rodriguez and others, J. Biomech. 27 (1994) 455–467; R. Stojanović, S. Djurić and L. Vujošević, Arch. Mech.
 /// Stos. 16 (1964) 103–108.
 #[doc(alias("growth", "thermal expansion", "eigenstrain", "swelling"))]
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub struct Grown<L> {
     volume: f64,
 }
 
-/// Isotropic thermal expansion F_θ = e^(α (θ − θ₀)) 1.
+/// Isotropic thermal expansion G = e^(α (θ − θ₀)) 1.
 ///
 /// # Example
 /// ```
@@ -73,15 +73,15 @@ impl ThermalExpansion {
 }
 
 impl<L> Grown<L> {
-    /// Of the elastic law and F_g.
+    /// Of the elastic law and G.
     ///
     /// # Errors
-    /// [`InelasticError::NotFinite`], [`InelasticError::OutOfBounds`] unless 0 < det F_g.
+    /// [`InelasticError::NotFinite`], [`InelasticError::OutOfBounds`] unless 0 < det G.
     pub fn new(law: L, growth: &Matrix3<f64>) -> Result<Self, InelasticError> {
-        check_finite("F_g", growth.as_slice())?;
+        check_finite("G", growth.as_slice())?;
         let growth = rows_of(growth);
         let (inverse, volume) = inverse_and_determinant(growth);
-        check_bound("growth", "det F_g", volume, "0 < det F_g", 0.0 < volume)?;
+        check_bound("growth", "det G", volume, "0 < det G", 0.0 < volume)?;
         Ok(Self { law, growth, inverse, volume })
     }
 
@@ -94,7 +94,7 @@ impl<L> Grown<L> {
         Self::new(law, &Matrix3::from_diagonal_element(stretch))
     }
 
-    /// Grown by ϑ along a direction alone: F_g = 1 + (ϑ − 1) a ⊗ a.
+    /// Grown by ϑ along a direction alone: G = 1 + (ϑ − 1) a ⊗ a.
     ///
     /// # Errors
     /// As [`new`](Self::new).
@@ -117,7 +117,7 @@ impl<L> Grown<L> {
         &self.law
     }
 
-    /// F_g.
+    /// G.
     #[must_use]
     pub fn growth(&self) -> Matrix3<f64> {
         from_rows(self.growth)
@@ -130,7 +130,7 @@ impl<L> Grown<L> {
         [[l(a), l(b), l(c)], [l(d), l(e), l(f)], [l(g), l(h), l(i)]]
     }
 
-    /// Fₑ = F F_g⁻¹.
+    /// Fₑ = F G⁻¹.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn elastic<T: Real>(&self, deformation: &impl Deformation<T>) -> DeformationGradient<T> {
         DeformationGradient::trusted(product(deformation.gradient_rows(), self.inverse()))
@@ -171,7 +171,7 @@ impl<L: Hyperelastic> Hyperelastic for Grown<L> {
         self.first_piola_and_tangent(deformation).1
     }
 
-    /// `A_iAjB = J_g A^e_iCjD G_AC G_BD`, G = F_g⁻¹.
+    /// `A_iAjB = det G A^e_iCjD H_AC H_BD`, H = G⁻¹.
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn first_piola_and_tangent<T: Real>(
         &self,
@@ -180,22 +180,17 @@ impl<L: Hyperelastic> Hyperelastic for Grown<L> {
         let (inverse, volume) = (self.inverse::<T>(), T::lit(self.volume));
         let (stress, tangent) = self.law.first_piola_and_tangent(&self.elastic(deformation));
         let stress = FirstPiola(from_rows(product_transposed(rows_of(&stress.0), inverse)) * volume);
-        let mut half = [[T::zero(); 9]; 9];
+        let entries = &tangent.0.components;
+        let half = |row: usize, j: usize, b: usize| {
+            let [x, y, z] = [entries[row][3 * j], entries[row][3 * j + 1], entries[row][3 * j + 2]];
+            x * inverse[b][0] + y * inverse[b][1] + z * inverse[b][2]
+        };
         let mut whole = [[T::zero(); 9]; 9];
-        for row in 0..9 {
-            for column in 0..9 {
+        for (row, entries) in whole.iter_mut().enumerate() {
+            let (i, h) = (3 * (row / 3), inverse[row % 3]);
+            for (column, entry) in entries.iter_mut().enumerate() {
                 let (j, b) = (column / 3, column % 3);
-                for d in 0..3 {
-                    half[row][column] += tangent.0.components[row][3 * j + d] * inverse[b][d];
-                }
-            }
-        }
-        for row in 0..9 {
-            let (i, a) = (row / 3, row % 3);
-            for column in 0..9 {
-                for c in 0..3 {
-                    whole[row][column] += volume * inverse[a][c] * half[3 * i + c][column];
-                }
+                *entry = volume * (h[0] * half(i, j, b) + h[1] * half(i + 1, j, b) + h[2] * half(i + 2, j, b));
             }
         }
         (stress, FirstPiolaTangent(FourthOrder { components: whole }))

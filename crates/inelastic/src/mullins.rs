@@ -28,15 +28,15 @@ use crate::{Evolution, InelasticError};
 /// # Example
 /// ```
 /// use piola_continuum::DeformationGradient;
-/// use piola_inelastic::{Control, MaterialPoint, Mullins};
+/// use piola_inelastic::{StepControl, InelasticPoint, Mullins};
 /// use piola_solids::{Hyperelastic, NeoHookeanCiarlet};
 /// let rubber = NeoHookeanCiarlet::with_constants(1.0, 2.0)?;
 /// let law = Mullins::new(rubber, 2.0, 0.5, 0.0)?;
-/// let mut point = MaterialPoint::new(&law);
+/// let mut point = InelasticPoint::new(&law);
 /// let (far, near) = (DeformationGradient::simple_shear(1.0)?, DeformationGradient::simple_shear(0.5)?);
-/// let first = point.advance(&near, 1.0, &Control::default())?.first_piola.0[(0, 1)];
-/// point.advance(&far, 1.0, &Control::default())?;
-/// let second = point.advance(&near, 1.0, &Control::default())?.first_piola.0[(0, 1)];
+/// let first = point.advance(&near, 1.0, &StepControl::default())?.first_piola.0[(0, 1)];
+/// point.advance(&far, 1.0, &StepControl::default())?;
+/// let second = point.advance(&near, 1.0, &StepControl::default())?.first_piola.0[(0, 1)];
 /// assert_eq!(first, 0.5); // μ k
 /// assert!((second / first - (1.0 - 0.711_155_633_653_515_1 / 2.0)).abs() < 1e-14); // 1 − erf((½ − ⅛)/½)/2
 /// # Ok::<(), Box<dyn std::error::Error>>(())

@@ -11,23 +11,14 @@ use crate::Evolution;
 pub(crate) type Varied = Gradient<f64, 9>;
 
 /// Iterations after which an update is given up.
-pub(crate) const MOST_ITERATIONS: usize = 40;
+const MOST_ITERATIONS: usize = 40;
 
 /// How an update came to its end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Iterations {
     pub(crate) count: usize,
-    /// The largest modulus of the residual before each iteration.
-    pub(crate) residuals: [f64; MOST_ITERATIONS],
-}
-
-impl Iterations {
-    const NONE: Self = Self { count: 0, residuals: [0.0; MOST_ITERATIONS] };
-
-    /// The last residual.
-    pub(crate) fn last(&self) -> f64 {
-        if self.count == 0 { 0.0 } else { self.residuals[self.count - 1] }
-    }
+    /// The largest modulus of the residual before the last iteration.
+    pub(crate) residual: f64,
 }
 
 /// The largest modulus; NaN where one is.
@@ -75,7 +66,7 @@ pub(crate) fn implicit_step<L: Evolution<S, X>, const S: usize, const X: usize>(
     dt: f64,
 ) -> Result<([Varied; S], Iterations), Iterations> {
     let (start, f) = (values(from), values_of_rows(gradient));
-    let mut iterations = Iterations::NONE;
+    let mut iterations = Iterations { count: 0, residual: 0.0 };
     let mut unknowns = [0.0; X];
     if X == 0 || !law.evolves(&start, &f, dt) {
         let state = law.updated(from, gradient, &[Varied::constant(0.0); X], dt);
@@ -84,10 +75,10 @@ pub(crate) fn implicit_step<L: Evolution<S, X>, const S: usize, const X: usize>(
     let (mut residual, mut matrix) = linearised(law, &start, &f, &unknowns, dt);
     loop {
         let before = size(&residual);
+        iterations.residual = before;
         if iterations.count == MOST_ITERATIONS || !before.is_finite() {
             return Err(iterations);
         }
-        iterations.residuals[iterations.count] = before;
         iterations.count += 1;
         let Some(step) = solved(&matrix, residual.map(|r| -r)) else { return Err(iterations) };
         // The whole step where it lowers the residual, otherwise a part of it.

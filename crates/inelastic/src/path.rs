@@ -13,16 +13,16 @@ const MOST_WIDTHS: usize = 7;
 ///
 /// # Example
 /// ```
-/// use piola_inelastic::Control;
-/// assert!(Control::new(1e-6).is_ok() && Control::new(-1.0).is_err());
-/// assert_eq!(Control::one_step().tolerance(), None);
+/// use piola_inelastic::StepControl;
+/// assert!(StepControl::new(1e-6).is_ok() && StepControl::new(-1.0).is_err());
+/// assert_eq!(StepControl::one_step().tolerance(), None);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Control {
+pub struct StepControl {
     tolerance: Option<f64>,
 }
 
-impl Control {
+impl StepControl {
     /// With an estimated error of the internal variables below `tolerance`, in each part of an increment.
     ///
     /// # Errors
@@ -47,7 +47,7 @@ impl Control {
     }
 }
 
-impl Default for Control {
+impl Default for StepControl {
     /// A tolerance of 1e-10.
     fn default() -> Self {
         Self { tolerance: Some(1e-10) }
@@ -86,7 +86,7 @@ impl Failure {
             Self::Newton(iterations) => InelasticError::NotConverged {
                 share,
                 gradient,
-                residual: iterations.last(),
+                residual: iterations.residual,
                 iterations: iterations.count,
             },
             Self::Error { error, tolerance } => InelasticError::NotAccurate { share, gradient, error, tolerance },
@@ -100,7 +100,7 @@ pub(crate) struct Increment<'a, L, const S: usize> {
     pub(crate) start: Rows<f64>,
     pub(crate) end: Rows<f64>,
     pub(crate) dt: f64,
-    pub(crate) control: Control,
+    pub(crate) control: StepControl,
 }
 
 impl<L, const S: usize> Increment<'_, L, S> {
@@ -152,10 +152,9 @@ impl<L, const S: usize> Increment<'_, L, S> {
             let state = self.steps::<X>(from, width, j + 1, effort)?;
             let mut entry = self.law.coordinates(&from.state, &state);
             let mut last = entry;
-            for k in 0..j {
-                // The row above holds T of the last width at k; it makes way for T of this one.
-                let above = row[k];
-                row[k] = entry;
+            for (k, place) in row.iter_mut().take(j).enumerate() {
+                // The row holds T of the last width at k; it makes way for T of this one.
+                let above = core::mem::replace(place, entry);
                 let ratio = (j + 1) as f64 / (j - k) as f64 - 1.0;
                 last = entry;
                 for (entry, above) in entry.iter_mut().zip(above) {

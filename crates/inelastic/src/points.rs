@@ -8,7 +8,7 @@ use piola_continuum::{DeformationGradient, FirstPiola};
 use piola_solids::memory::{History, SimpleMaterial};
 
 use crate::error::check_bound;
-use crate::{Control, Evolution, InelasticError, MaterialPoint};
+use crate::{Evolution, InelasticError, InelasticPoint, StepControl};
 
 /// Leads points of one law to new deformations in the time `dt`, s: their states, and stress and consistent tangent of each.
 ///
@@ -19,7 +19,7 @@ pub fn advance_all<L: Evolution<S, X>, const S: usize, const X: usize>(
     law: &L,
     states: &mut [[f64; S]],
     [from, to]: [&[DeformationGradient]; 2],
-    (dt, control): (f64, &Control),
+    (dt, control): (f64, &StepControl),
     stresses: &mut [FirstPiola],
     tangents: &mut [FirstPiolaTangent],
 ) -> Result<(), InelasticError> {
@@ -36,7 +36,7 @@ pub fn advance_all<L: Evolution<S, X>, const S: usize, const X: usize>(
     }
     let mut first = None;
     for (index, state) in states.iter_mut().enumerate() {
-        let advanced = MaterialPoint::with_state(law, state, &from[index])
+        let advanced = InelasticPoint::with_state(law, state, &from[index])
             .and_then(|mut point| point.advance(&to[index], dt, control));
         match advanced {
             Ok(advanced) => {
@@ -62,12 +62,12 @@ pub fn advance_all<L: Evolution<S, X>, const S: usize, const X: usize>(
 ///
 /// # Example
 /// ```
-/// use piola_inelastic::{Control, OverHistory, ReeseGovindjee};
+/// use piola_inelastic::{StepControl, OverHistory, ReeseGovindjee};
 /// use piola_solids::NeoHookeanCiarlet;
 /// use piola_solids::memory::SimpleMaterial;
 /// let spring = NeoHookeanCiarlet::with_constants(1.0, 2.0)?;
 /// let law = ReeseGovindjee::new(spring, spring, 0.5)?;
-/// let material = OverHistory::new(&law, 1.0, 10, Control::one_step())?;
+/// let material = OverHistory::new(&law, 1.0, 10, StepControl::one_step())?;
 /// let rest = |_: f64| nalgebra::Matrix3::identity();
 /// assert_eq!(material.cauchy(&rest)[(0, 0)], 0.0);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -77,7 +77,7 @@ pub struct OverHistory<'a, L, const S: usize, const X: usize> {
     law: &'a L,
     duration: f64,
     steps: u32,
-    control: Control,
+    control: StepControl,
     /// Why the last history had no stress.
     failure: RefCell<Option<InelasticError>>,
 }
@@ -87,7 +87,7 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> OverHistory<'a, L, 
     ///
     /// # Errors
     /// [`InelasticError::OutOfBounds`] unless 0 < duration and 0 < steps.
-    pub fn new(law: &'a L, duration: f64, steps: u32, control: Control) -> Result<Self, InelasticError> {
+    pub fn new(law: &'a L, duration: f64, steps: u32, control: StepControl) -> Result<Self, InelasticError> {
         check_bound("history", "duration", duration, "0 < duration", 0.0 < duration)?;
         check_bound("history", "steps", f64::from(steps), "0 < steps", 0 < steps)?;
         Ok(Self { law, duration, steps, control, failure: RefCell::new(None) })
@@ -105,7 +105,7 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> OverHistory<'a, L, 
             DeformationGradient::new(history.gradient(elapsed))
         };
         let start = at(0)?;
-        let mut point = MaterialPoint::with_state(self.law, &self.law.initial(), &start)?;
+        let mut point = InelasticPoint::with_state(self.law, &self.law.initial(), &start)?;
         let dt = self.duration / f64::from(self.steps);
         let mut stress = Matrix3::zeros();
         for step in 1..=self.steps {

@@ -21,7 +21,7 @@ use crate::{Evolution, InelasticError, flow};
 /// | ζ | `bulk_viscosity` | Pa s | 0 < ζ; none: the volume does not flow, and det Fᵢ = 1 |
 ///
 /// # Accuracy
-/// That of the [`Control`](crate::Control); without ζ det Fᵢ = 1 to rounding.
+/// That of the [`StepControl`](crate::StepControl); without ζ det Fᵢ = 1 to rounding.
 ///
 /// # Example
 /// ```

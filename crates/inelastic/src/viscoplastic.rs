@@ -77,19 +77,19 @@ impl Hardening {
 /// | η | `viscosity` | Pa s | 0 ≤ η |
 ///
 /// # Accuracy
-/// That of the [`Control`](crate::Control); det Fᵢ = 1 to rounding.
+/// That of the [`StepControl`](crate::StepControl); det Fᵢ = 1 to rounding.
 ///
 /// # Example
 /// Sheared far beyond its yield stress, the solid bears no more than σ₀/√3.
 /// ```
 /// use piola_continuum::DeformationGradient;
-/// use piola_inelastic::{Control, Hardening, MaterialPoint, Viscoplastic};
+/// use piola_inelastic::{StepControl, Hardening, InelasticPoint, Viscoplastic};
 /// use piola_solids::Hencky;
 /// let hardening = Hardening { yield_stress: 0.01, linear: 0.0, saturation: 0.01, saturation_exponent: 0.0 };
 /// let law = Viscoplastic::new(Hencky::new(1.0, 1.0)?, hardening, 0.0)?;
-/// let mut point = MaterialPoint::new(&law);
+/// let mut point = InelasticPoint::new(&law);
 /// let shear = DeformationGradient::simple_shear(0.1)?;
-/// let stress = point.advance(&shear, 1.0, &Control::one_step())?.first_piola.cauchy(&shear).0.components[3];
+/// let stress = point.advance(&shear, 1.0, &StepControl::one_step())?.first_piola.cauchy(&shear).0.components[3];
 /// assert!((stress - 0.01 / 3.0_f64.sqrt()).abs() < 1e-4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

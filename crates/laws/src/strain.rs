@@ -13,7 +13,7 @@ use piola_tensor::internal::rows::product;
 
 use crate::methods::answers;
 
-/// An energy of Green's strain E = ½ (FᵀF − 1), of any symmetry.
+/// An energy of Green's strain E = ½ (Fᵀ F − 1), of any symmetry.
 ///
 /// Write [`energy`](Self::energy); [`OfStrain`] makes a [`Hyperelastic`] law of it. An energy of C is one of 1 + 2 E.
 ///

@@ -14,4 +14,4 @@ pub mod packed {
     pub use crate::packed::*;
 }
 pub use crate::strain_energy::{first_piola_numbers, inverse_metric};
-pub use crate::stretch::isochoric::Isochoric;
+pub use crate::stretch::isochoric::UnimodularDeformation;

@@ -77,7 +77,7 @@ fn with_derivatives<T: Real>(gradient: Rows<T>, axes: Rows<T>, images: Rows<T>) 
     let mut varied = images;
     for (varied, axis) in varied.iter_mut().zip(axes) {
         for (entry, image) in varied.iter_mut().zip(apply(gradient, axis)) {
-            *entry = *entry + (image - image.frozen());
+            *entry += image - image.frozen();
         }
     }
     (axes, varied)

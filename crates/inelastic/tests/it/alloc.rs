@@ -4,7 +4,7 @@ use core::error::Error;
 use core::hint::black_box;
 
 use piola_continuum::DeformationGradient;
-use piola_inelastic::{Control, MaterialPoint};
+use piola_inelastic::{InelasticPoint, StepControl};
 use piola_testkit::allocations_in;
 
 use super::paths::{bergstrom_boyce, mullins, viscoplastic};
@@ -14,9 +14,9 @@ fn allocations_in_updates_equal_zero() -> Result<(), Box<dyn Error>> {
     let to = DeformationGradient::simple_shear(0.25)?;
     let (flowing, plastic, damaged) = (bergstrom_boyce()?, viscoplastic(0.0)?, mullins()?);
     let (count, ()) = allocations_in(|| {
-        let _ = black_box(MaterialPoint::new(&flowing).advance(&to, 0.1, &Control::default()));
-        let _ = black_box(MaterialPoint::new(&plastic).advance(&to, 0.1, &Control::one_step()));
-        let _ = black_box(MaterialPoint::new(&damaged).advance(&to, 0.1, &Control::default()));
+        let _ = black_box(InelasticPoint::new(&flowing).advance(&to, 0.1, &StepControl::default()));
+        let _ = black_box(InelasticPoint::new(&plastic).advance(&to, 0.1, &StepControl::one_step()));
+        let _ = black_box(InelasticPoint::new(&damaged).advance(&to, 0.1, &StepControl::default()));
     });
     assert_eq!(count, 0);
     Ok(())

@@ -48,6 +48,6 @@ fn growth_without_a_volume_is_refused() -> Result<(), Box<dyn Error>> {
     let law = NeoHookeanCiarlet::with_constants(1.0, 2.0)?;
     assert!(matches!(Grown::isotropic(law, 0.0), Err(InelasticError::OutOfBounds { parameter: "ϑ", .. })));
     let error = Grown::new(law, &Matrix3::from_element(f64::NAN));
-    assert!(matches!(error, Err(InelasticError::NotFinite { quantity: "F_g", index: 0, .. })));
+    assert!(matches!(error, Err(InelasticError::NotFinite { quantity: "G", index: 0, .. })));
     Ok(())
 }

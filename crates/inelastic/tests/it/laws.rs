@@ -4,7 +4,7 @@ use core::error::Error;
 
 use nalgebra::Matrix3;
 use piola_continuum::DeformationGradient;
-use piola_inelastic::{Control, Evolution, MaterialPoint, OverHistory};
+use piola_inelastic::{Evolution, InelasticPoint, OverHistory, StepControl};
 use piola_numerics::linear::matrix3::rows_of;
 use piola_specimens::checks::{Search, history_indifference};
 use piola_testkit::spectral::{Random, with_stretches};
@@ -28,10 +28,10 @@ fn path(seed: u64, count: usize) -> Vec<DeformationGradient> {
 
 fn check_dissipation<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str, law: &L) -> Fallible {
     for seed in 30..36 {
-        let mut point = MaterialPoint::new(law);
+        let mut point = InelasticPoint::new(law);
         for to in path(seed, 6) {
             let before = *point.state();
-            let after = point.advance(&to, 0.25, &Control::one_step())?.state;
+            let after = point.advance(&to, 0.25, &StepControl::one_step())?.state;
             let work = law.dissipated(&before, &rows_of(to.matrix()), &after);
             assert!(-1e-14 <= work, "{what}: {work:e} J/m³ in a step");
         }
@@ -52,7 +52,7 @@ fn dissipation_of_steps_on_random_paths_is_not_negative() -> Fallible {
 fn work_of_mullins_law_on_closed_random_paths_is_not_negative() -> Fallible {
     let law = mullins()?;
     for seed in 40..44 {
-        let mut point = MaterialPoint::new(&law);
+        let mut point = InelasticPoint::new(&law);
         let mut corners = path(seed, 4);
         corners.push(DeformationGradient::identity());
         let (mut work, mut here) = (0.0, Matrix3::identity());
@@ -61,7 +61,8 @@ fn work_of_mullins_law_on_closed_random_paths_is_not_negative() -> Fallible {
             let start = here;
             for k in 1..=400 {
                 let next = start + (corner.matrix() - start) * (f64::from(k) / 400.0);
-                let then = point.advance(&DeformationGradient::new(next)?, 0.0, &Control::one_step())?.first_piola.0;
+                let then =
+                    point.advance(&DeformationGradient::new(next)?, 0.0, &StepControl::one_step())?.first_piola.0;
                 work += 0.5 * (stress + then).dot(&(next - here));
                 (here, stress) = (next, then);
             }
@@ -82,14 +83,14 @@ fn check_observer<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str
         });
         let first = DeformationGradient::identity();
         let turned = DeformationGradient::new(turn)?;
-        let mut one = MaterialPoint::with_state(law, &law.initial(), &first)?;
-        let mut other = MaterialPoint::with_state(law, &law.initial(), &turned)?;
+        let mut one = InelasticPoint::with_state(law, &law.initial(), &first)?;
+        let mut other = InelasticPoint::with_state(law, &law.initial(), &turned)?;
         for (number, to) in path(seed, 4).into_iter().enumerate() {
             let (control, tol) = if number < 2 {
-                (Control::one_step(), Tol::ulps_because(1e3, "rounding of some stiff steps"))
+                (StepControl::one_step(), Tol::ulps_because(1e3, "rounding of some stiff steps"))
             } else {
                 (
-                    Control::default(),
+                    StepControl::default(),
                     Tol::stated(1e-8, "errors of two increments, each below 1e-10, times the stiffness"),
                 )
             };
@@ -115,11 +116,11 @@ fn stresses_seen_by_two_observers_are_those_of_one_turned() -> Fallible {
 fn the_checker_of_histories_finds_no_dependence_on_the_observer() -> Fallible {
     let search = Search { samples: 10, strain: 0.15, ..Search::default() };
     let plastic = viscoplastic(0.0)?;
-    let material = OverHistory::new(&plastic, 1.0, 20, Control::one_step())?;
+    let material = OverHistory::new(&plastic, 1.0, 20, StepControl::one_step())?;
     let report = history_indifference(&material, 1.0, &search);
     assert!(report.passes(), "{report:?}, {:?}", material.failure());
     let flowing = bergstrom_boyce()?;
-    let material = OverHistory::new(&flowing, 1.0, 20, Control::one_step())?;
+    let material = OverHistory::new(&flowing, 1.0, 20, StepControl::one_step())?;
     let report = history_indifference(&material, 1.0, &search);
     assert!(report.passes(), "{report:?}, {:?}", material.failure());
     Ok(())
@@ -129,10 +130,10 @@ fn the_checker_of_histories_finds_no_dependence_on_the_observer() -> Fallible {
 #[test]
 fn stresses_of_laws_without_a_rate_do_not_depend_on_the_time() -> Fallible {
     fn check<L: Evolution<S, X>, const S: usize, const X: usize>(what: &str, law: &L) -> Fallible {
-        let (mut slow, mut fast) = (MaterialPoint::new(law), MaterialPoint::new(law));
+        let (mut slow, mut fast) = (InelasticPoint::new(law), InelasticPoint::new(law));
         for to in path(60, 6) {
-            let a = slow.advance(&to, 1e3, &Control::one_step())?;
-            let b = fast.advance(&to, 1e-3, &Control::one_step())?;
+            let a = slow.advance(&to, 1e3, &StepControl::one_step())?;
+            let b = fast.advance(&to, 1e-3, &StepControl::one_step())?;
             assert_eq!(a.first_piola, b.first_piola, "{what}");
         }
         Ok(())
@@ -145,9 +146,9 @@ fn stresses_of_laws_without_a_rate_do_not_depend_on_the_time() -> Fallible {
 #[test]
 fn slow_viscoplastic_stress_equals_the_plastic_one() -> Fallible {
     let (viscous, plastic) = (viscoplastic(1e-9)?, viscoplastic(0.0)?);
-    let (mut a, mut b) = (MaterialPoint::new(&viscous), MaterialPoint::new(&plastic));
+    let (mut a, mut b) = (InelasticPoint::new(&viscous), InelasticPoint::new(&plastic));
     for to in path(61, 6) {
-        let (p, q) = (a.advance(&to, 1e3, &Control::one_step())?, b.advance(&to, 1e3, &Control::one_step())?);
+        let (p, q) = (a.advance(&to, 1e3, &StepControl::one_step())?, b.advance(&to, 1e3, &StepControl::one_step())?);
         let tol = Tol::stated(1e-10, "η α̇ is 1e-12 of the stress");
         assert_close("P", p.first_piola.0.as_slice(), q.first_piola.0.as_slice(), tol);
     }

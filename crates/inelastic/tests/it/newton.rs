@@ -4,7 +4,7 @@ use core::error::Error;
 
 use nalgebra::{Matrix2, Matrix3, Vector2};
 use piola_continuum::DeformationGradient;
-use piola_inelastic::{Control, Evolution, MaterialPoint};
+use piola_inelastic::{Evolution, InelasticPoint, StepControl};
 use piola_testkit::{Tol, assert_close};
 
 use super::paths::{bergstrom_boyce, driven_growth, mullins, reese_govindjee, viscoplastic};
@@ -19,9 +19,9 @@ fn start() -> Result<DeformationGradient, Box<dyn Error>> {
 fn check_tangent<L: Evolution<S, X>, const S: usize, const X: usize>(
     what: &str,
     law: &L,
-    control: &Control,
+    control: &StepControl,
 ) -> Fallible {
-    let mut point = MaterialPoint::new(law);
+    let mut point = InelasticPoint::new(law);
     point.advance(&start()?, 0.3, control)?;
     let to = Matrix3::new(1.3, 0.1, 0.05, 0.1, 0.95, 0.0, 0.0, 0.15, 1.1);
     let at = |f: Matrix3<f64>| -> Result<_, Box<dyn Error>> {
@@ -54,7 +54,7 @@ fn check_tangent<L: Evolution<S, X>, const S: usize, const X: usize>(
 
 #[test]
 fn consistent_tangents_equal_difference_quotients_of_the_stress() -> Fallible {
-    let (one, controlled) = (Control::one_step(), Control::new(1e-9)?);
+    let (one, controlled) = (StepControl::one_step(), StepControl::new(1e-9)?);
     check_tangent("Bergström–Boyce", &bergstrom_boyce()?, &one)?;
     check_tangent("Reese–Govindjee", &reese_govindjee()?, &one)?;
     check_tangent("driven growth", &driven_growth()?, &one)?;
@@ -67,11 +67,11 @@ fn consistent_tangents_equal_difference_quotients_of_the_stress() -> Fallible {
 
 /// Residuals of the free sides of a bar that is pulled, iteration by iteration.
 fn residuals<L: Evolution<S, X>, const S: usize, const X: usize>(law: &L) -> Result<Vec<f64>, Box<dyn Error>> {
-    let point = MaterialPoint::new(law);
+    let point = InelasticPoint::new(law);
     let (mut sides, mut residuals) = (Vector2::new(1.0, 1.0), Vec::new());
     for _ in 0..8 {
         let to = DeformationGradient::diagonal([1.4, sides[0], sides[1]])?;
-        let here = point.trial(&to, 0.2, &Control::one_step())?;
+        let here = point.trial(&to, 0.2, &StepControl::one_step())?;
         let residual = Vector2::new(here.first_piola.0[(1, 1)], here.first_piola.0[(2, 2)]);
         residuals.push(residual.norm());
         let entry = |i: usize, j: usize| here.tangent.entry(i, i, j, j);

@@ -4,8 +4,8 @@ use core::error::Error;
 
 use piola_continuum::DeformationGradient;
 use piola_inelastic::{
-    BergstromBoyce, Control, DrivenGrowth, Evolution, Hardening, MaterialPoint, Mullins, PowerFlow, ReeseGovindjee,
-    Viscoplastic,
+    BergstromBoyce, DrivenGrowth, Evolution, Hardening, InelasticPoint, Mullins, PowerFlow, ReeseGovindjee,
+    StepControl, Viscoplastic,
 };
 use piola_numerics::linear::matrix3::determinant;
 use piola_solids::{Hencky, NeoHookeanCiarlet};
@@ -24,15 +24,15 @@ fn deformation(value: &Value) -> Result<DeformationGradient, Box<dyn Error>> {
 fn follow<L: Evolution<S, X>, const S: usize, const X: usize>(name: &str, law: &L) -> Result<usize, Box<dyn Error>> {
     let golden = golden::load("inelastic_paths");
     let legs = golden.cases.iter().filter(|case| text(&case["law"]) == name);
-    let control = Control::new(1e-12)?;
+    let control = StepControl::new(1e-12)?;
     let stated = Tol::stated(1e-10, "the error of an increment is controlled to 1e-12");
-    let mut point: Option<MaterialPoint<'_, L, S, X>> = None;
+    let mut point: Option<InelasticPoint<'_, L, S, X>> = None;
     let mut count = 0;
     for leg in legs {
         let from = deformation(&leg["input"]["from"])?;
         let mut here = match point.take() {
             Some(point) => point,
-            None => MaterialPoint::with_state(law, &law.initial(), &from)?,
+            None => InelasticPoint::with_state(law, &law.initial(), &from)?,
         };
         let advanced = here.advance(&deformation(&leg["input"]["to"])?, number(&leg["input"]["duration"]), &control)?;
         let what = text(&leg["id"]);
@@ -110,10 +110,10 @@ fn mullins_stress_equals_the_reference() -> Fallible {
 #[test]
 fn determinant_of_the_inelastic_deformation_stays_one() -> Fallible {
     let law = bergstrom_boyce()?;
-    let mut point = MaterialPoint::new(&law);
+    let mut point = InelasticPoint::new(&law);
     for step in 0..100 {
         let to = DeformationGradient::simple_shear(0.5 * f64::from(step).sin())?;
-        let control = if step % 2 == 0 { Control::default() } else { Control::one_step() };
+        let control = if step % 2 == 0 { StepControl::default() } else { StepControl::one_step() };
         point.advance(&to, 0.1, &control)?;
     }
     let s = point.state();
@@ -127,14 +127,14 @@ fn determinant_of_the_inelastic_deformation_stays_one() -> Fallible {
 fn error_of_one_step_an_increment_is_of_the_first_order() -> Fallible {
     let law = reese_govindjee()?;
     let to = DeformationGradient::simple_shear(0.4)?;
-    let exact = MaterialPoint::new(&law).trial(&to, 1.0, &Control::new(1e-12)?)?.first_piola.0;
+    let exact = InelasticPoint::new(&law).trial(&to, 1.0, &StepControl::new(1e-12)?)?.first_piola.0;
     let counts = [16, 32, 64];
     let error = |count: i32| -> Result<f64, Box<dyn Error>> {
-        let mut point = MaterialPoint::new(&law);
+        let mut point = InelasticPoint::new(&law);
         let mut stress = exact;
         for k in 1..=count {
             let here = DeformationGradient::simple_shear(0.4 * f64::from(k) / f64::from(count))?;
-            stress = point.advance(&here, 1.0 / f64::from(count), &Control::one_step())?.first_piola.0;
+            stress = point.advance(&here, 1.0 / f64::from(count), &StepControl::one_step())?.first_piola.0;
         }
         Ok((stress - exact).norm())
     };

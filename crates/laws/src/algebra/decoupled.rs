@@ -3,7 +3,7 @@
 use piola_continuum::stress::tangents::{FirstPiolaTangent, MaterialTangent, TruesdellTangent};
 use piola_continuum::{CauchyStress, Deformation, FirstPiola, KirchhoffStress, SecondPiola, Symmetric};
 use piola_numerics::Real;
-use piola_solids::internal::{Isochoric, Unimodular, first_piola_numbers, inverse_metric, packed};
+use piola_solids::internal::{Unimodular, UnimodularDeformation, first_piola_numbers, inverse_metric, packed};
 use piola_solids::{Hyperelastic, SolidsError};
 use piola_tensor::internal::rows::Rows;
 use piola_tensor::{MajorSymmetric, PairSymmetric};
@@ -162,7 +162,7 @@ impl<A: Hyperelastic, B: Hyperelastic> Decoupled<A, B> {
     fn stress<T: Real>(&self, deformation: &impl Deformation<T>) -> Symmetric<T> {
         let (inverse, _) = inverse_metric(deformation);
         let Unimodular { two_thirds, .. } = Unimodular::of(deformation.volume_change(), deformation.jacobian());
-        let shape = self.shape.second_piola(&Isochoric::of(deformation)).0;
+        let shape = self.shape.second_piola(&UnimodularDeformation::of(deformation)).0;
         let (stress, _) = Self::stress_of(&shape, deformation, &inverse, two_thirds);
         stress + inverse * self.mean(&Dilatation::of(deformation))
     }
@@ -174,7 +174,7 @@ impl<A: Hyperelastic, B: Hyperelastic> Decoupled<A, B> {
         let (two, third, ninth) = (T::lit(2.0), T::lit(1.0 / 3.0), T::lit(1.0 / 9.0));
         let (inverse, _) = inverse_metric(deformation);
         let Unimodular { two_thirds, .. } = Unimodular::of(deformation.volume_change(), deformation.jacobian());
-        let (shape, tangent) = self.shape.second_piola_and_tangent(&Isochoric::of(deformation));
+        let (shape, tangent) = self.shape.second_piola_and_tangent(&UnimodularDeformation::of(deformation));
         let (stress, pressure) = Self::stress_of(&shape.0, deformation, &inverse, two_thirds);
 
         // ℙ : ℂ̄ : ℙᵀ = ℂ̄ − ⅓ (C⁻¹ ⊗ Z + Z ⊗ C⁻¹) + ⅑ (C : Z) C⁻¹ ⊗ C⁻¹ with Z = ℂ̄ : C.
@@ -208,10 +208,10 @@ impl<A: Hyperelastic, B: Hyperelastic> Hyperelastic for Decoupled<A, B> {
 
     answers! { |self, deformation|
         energy -> T {
-            self.shape.energy(&Isochoric::of(deformation)) + self.volume.energy(&Dilatation::of(deformation))
+            self.shape.energy(&UnimodularDeformation::of(deformation)) + self.volume.energy(&Dilatation::of(deformation))
         }
         check -> Result<(), SolidsError> {
-            self.shape.check(&Isochoric::of(deformation))?;
+            self.shape.check(&UnimodularDeformation::of(deformation))?;
             self.volume.check(&Dilatation::of(deformation))
         }
         first_piola -> FirstPiola<T> { self.second_piola(deformation).first_piola(deformation) }

@@ -14,8 +14,10 @@ use piola_solids::invariant::Invariants;
 use piola_tensor::MajorSymmetric;
 use piola_tensor::internal::rows::{Rows, cofactor, product, scaled, transpose};
 
-use super::EnergyOfInvariants;
-use super::arguments::{FIFTH, FIRST, FOURTH, LOGARITHM, MOST_FAMILIES, SECOND, Variables, along};
+use super::at_deformation::along;
+use super::energy::EnergyOfInvariants;
+use super::excesses::MOST_FAMILIES;
+use super::variables::{FIFTH, FIRST, FOURTH, LOGARITHM, SECOND, Variables};
 
 /// An energy over all variables.
 type Energy<T> = Hessian<T, 7, 28>;
@@ -160,13 +162,13 @@ impl<T: Real> Kinematics<T> {
         let mut tangent = MajorSymmetric::square_dyad(&self.inverse[0]) * (-two * volume);
         if energy.depends_on(SECOND) {
             let change = MajorSymmetric::spherical() * T::lit(3.0) - MajorSymmetric::identity();
-            tangent = tangent + change * (four * slopes[SECOND]);
+            tangent += change * (four * slopes[SECOND]);
         }
         let mut family = 0;
         while family < MOST_FAMILIES {
             if energy.depends_on(FIFTH + family) {
                 let dyad = MajorSymmetric::symmetric_square_dyad(&self.dyads[family], &Symmetric::identity());
-                tangent = tangent + dyad * (T::lit(8.0) * slopes[FIFTH + family]);
+                tangent += dyad * (T::lit(8.0) * slopes[FIFTH + family]);
             }
             family += 1;
         }
@@ -175,12 +177,12 @@ impl<T: Real> Kinematics<T> {
         macro_rules! terms {
             ($($i:literal: $($j:literal)*;)*) => { $(
                 if curvature.is_curved_in($i, $i) {
-                    tangent = tangent + MajorSymmetric::dyad(&self.direction($i)) * curvature.second_partial($i, $i);
+                    tangent += MajorSymmetric::dyad(&self.direction($i)) * curvature.second_partial($i, $i);
                 }
                 $(
                     if curvature.is_curved_in($i, $j) {
                         let dyad = MajorSymmetric::symmetric_dyad(&self.direction($i), &self.direction($j));
-                        tangent = tangent + dyad * (two * curvature.second_partial($i, $j));
+                        tangent += dyad * (two * curvature.second_partial($i, $j));
                     }
                 )*
             )* };

@@ -8,9 +8,13 @@
 //! put together in closed form. In these variables s, which vanishes at a reference without stress, is a derivative and not a
 //! difference: the stress keeps its digits at small strain.
 
-mod arguments;
+mod at_deformation;
+mod energy;
+mod excesses;
 mod fibres;
 mod law;
+mod variables;
 
-pub use arguments::Excesses;
-pub use law::{EnergyOfInvariants, OfInvariants};
+pub use energy::EnergyOfInvariants;
+pub use excesses::Excesses;
+pub use law::OfInvariants;

@@ -1,7 +1,7 @@
 //! One formula gives the same answer over every scalar.
 
 use piola_numerics::derivatives::UnivariateFunction;
-use piola_numerics::{Dual, Gradient, Jet, Lanes, Real};
+use piola_numerics::{Dual, Gradient, Hessian, Jet, Lanes, Real};
 use piola_testkit::golden::{self, Golden, number, text, vector};
 use piola_testkit::{Tol, assert_close};
 
@@ -92,4 +92,49 @@ impl Visitor for DerivativesOverLanes {
 #[test]
 fn derivatives_over_lanes_equal_reference() {
     visit_all(&mut DerivativesOverLanes(golden::load("derivatives")));
+}
+
+/// The second derivatives of two dual numbers, each once.
+struct SameSecondDerivatives;
+
+impl Visitor for SameSecondDerivatives {
+    fn visit(&mut self, name: &'static str, f: &impl UnivariateFunction) {
+        let golden = golden::load("derivatives");
+        for case in golden.cases.iter().filter(|case| text(&case["name"]) == name) {
+            let x = number(&case["x"]);
+            // f(u), u = x + (y − ½)/2 + (y − ½)(z − 2), at y = ½ and z = 2: u,y = ½ and u,yz = 1, so that every term of the chain rule counts.
+            let y = Hessian::<f64, 3, 6>::variable(0.5, 1) - Hessian::lit(0.5);
+            let z = Hessian::<f64, 3, 6>::variable(2.0, 2) - Hessian::lit(2.0);
+            let found = f.call(Hessian::constant(x) + y * Hessian::lit(0.5) + y * z);
+            let nested = f.call(Dual::new(Dual::variable(x), Dual::lit(1.0)));
+            let (slope, curvature) = (nested.value.tangent, nested.tangent.tangent);
+            let tolerance = Tol::ulps(8.0);
+            assert_close(&format!("{name}({x:e})"), &[found.value()], &[nested.value.value], tolerance);
+            assert_close(&format!("{name}′({x:e})"), &found.partials(), &[0.0, 0.5 * slope, 0.0], tolerance);
+            let expected = [0.0, 0.0, 0.0, 0.25 * curvature, slope, 0.0];
+            assert_close(&format!("{name}″({x:e})"), &found.second_partials(), &expected, tolerance);
+            assert!(!found.depends_on(0) && !found.is_curved_in(0, 1));
+        }
+    }
+}
+
+#[test]
+fn second_derivatives_of_a_hessian_equal_those_of_nested_dual_numbers() {
+    visit_all(&mut SameSecondDerivatives);
+}
+
+#[test]
+fn products_and_quotients_of_hessians_equal_closed_forms() {
+    let x = Hessian::<f64, 2, 3>::variable(3.0, 0);
+    let y = Hessian::<f64, 2, 3>::variable(4.0, 1);
+    let product = x * x * y;
+    assert_eq!((product.partials(), product.second_partials()), ([24.0, 9.0], [8.0, 6.0, 0.0]));
+    let quotient = x / (y * y); // x/y²: 1/16, −2 · 3/64; 0, −2/64, 6 · 3/256
+    assert_eq!((quotient.partials(), quotient.second_partials()), ([0.0625, -0.093_75], [0.0, -0.031_25, 0.070_312_5]));
+    assert_eq!(quotient.second_partial(1, 0), quotient.second_partial(0, 1));
+    let power = y.powf(Hessian::lit(0.5));
+    assert_eq!((power.partials(), power.second_partials()), ([0.0, 0.25], [0.0, 0.0, -0.031_25]));
+    // A constant has no derivatives that would have to be computed, and equal numbers are equal.
+    assert!(!Hessian::<f64, 2, 3>::lit(2.0).depends_on(0));
+    assert_eq!(x - x, Hessian::lit(0.0));
 }

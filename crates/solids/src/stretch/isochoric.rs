@@ -8,12 +8,12 @@ use crate::isochoric_factor::Unimodular;
 
 /// J^(−1/3) F, kept as itself and as its difference from 1.
 #[derive(Clone, Copy, Debug)]
-pub struct Isochoric<T> {
+pub struct UnimodularDeformation<T> {
     gradient: Rows<T>,
     displacement: Rows<T>,
 }
 
-impl<T: Real> Isochoric<T> {
+impl<T: Real> UnimodularDeformation<T> {
     /// Of F or ∇u.
     #[cfg_attr(not(debug_assertions), inline(always))]
     pub fn of(deformation: &impl Deformation<T>) -> Self {
@@ -39,7 +39,7 @@ impl<T: Real> Isochoric<T> {
     }
 }
 
-impl<T: Real> Deformation<T> for Isochoric<T> {
+impl<T: Real> Deformation<T> for UnimodularDeformation<T> {
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn gradient_rows(&self) -> Rows<T> {
         self.gradient
@@ -53,7 +53,7 @@ impl<T: Real> Deformation<T> for Isochoric<T> {
         let entry = |i: usize, j: usize| lift(i, j, self.displacement[i][j]);
         let row = |i: usize| [entry(i, 0), entry(i, 1), entry(i, 2)];
         let displacement = [row(0), row(1), row(2)];
-        Isochoric { gradient: sum(displacement, identity()), displacement }
+        UnimodularDeformation { gradient: sum(displacement, identity()), displacement }
     }
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn jacobian(&self) -> T {

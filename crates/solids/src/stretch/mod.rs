@@ -32,14 +32,18 @@ mod principal;
 
 use energy::isochoric_scale;
 pub use energy::{StretchEnergy, Volume};
-use isochoric::Isochoric;
+use isochoric::UnimodularDeformation;
 use parts::{Part, Stress};
 use principal::{Principal, tangent};
 
 /// The stretches that w acts on.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn analysis<T: Real, L: StretchEnergy>(deformation: &impl Deformation<T>) -> StretchAnalysis<T> {
-    if L::ISOCHORIC { StretchAnalysis::of(&Isochoric::of(deformation)) } else { StretchAnalysis::of(deformation) }
+    if L::ISOCHORIC {
+        StretchAnalysis::of(&UnimodularDeformation::of(deformation))
+    } else {
+        StretchAnalysis::of(deformation)
+    }
 }
 
 /// W less W of the reference.

@@ -12,7 +12,7 @@ use piola_tensor::internal::rows::Rows;
 
 use crate::error::{check_bound, check_finite};
 use crate::newton::{Varied, between, stress};
-use crate::path::{Control, Effort, Increment, Reached};
+use crate::path::{Effort, Increment, Reached, StepControl};
 use crate::{Evolution, InelasticError};
 
 /// State, stress and consistent tangent at the end of an increment.
@@ -36,27 +36,27 @@ pub struct Advanced<const S: usize> {
 /// A viscoelastic bar is stretched at once and held: its stress falls to that of the law at rest.
 /// ```
 /// use piola_continuum::DeformationGradient;
-/// use piola_inelastic::{Control, MaterialPoint, ReeseGovindjee};
+/// use piola_inelastic::{StepControl, InelasticPoint, ReeseGovindjee};
 /// use piola_solids::{Hyperelastic, NeoHookeanCiarlet};
 /// let spring = NeoHookeanCiarlet::with_constants(1.0, 2.0)?;
 /// let law = ReeseGovindjee::new(spring, spring, 0.5)?; // η = 0.5 Pa s
-/// let mut point = MaterialPoint::new(&law);
+/// let mut point = InelasticPoint::new(&law);
 /// let shear = DeformationGradient::simple_shear(0.3)?;
-/// let first = point.advance(&shear, 1e-6, &Control::default())?.first_piola.0[(0, 1)];
-/// let last = point.advance(&shear, 100.0, &Control::default())?.first_piola.0[(0, 1)];
+/// let first = point.advance(&shear, 1e-6, &StepControl::default())?.first_piola.0[(0, 1)];
+/// let last = point.advance(&shear, 100.0, &StepControl::default())?.first_piola.0[(0, 1)];
 /// assert!((first - 0.6).abs() < 1e-5); // 2 μ k
 /// assert!((last - 0.3).abs() < 1e-6); // μ k
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct MaterialPoint<'a, L, const S: usize, const X: usize> {
+pub struct InelasticPoint<'a, L, const S: usize, const X: usize> {
     law: &'a L,
     state: [f64; S],
     gradient: Rows<f64>,
     unknowns: PhantomData<[(); X]>,
 }
 
-impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> MaterialPoint<'a, L, S, X> {
+impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> InelasticPoint<'a, L, S, X> {
     /// Of the body as it was made, undeformed.
     #[must_use]
     pub fn new(law: &'a L) -> Self {
@@ -99,7 +99,7 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> MaterialPoint<'a, L
         &mut self,
         to: &DeformationGradient,
         dt: f64,
-        control: &Control,
+        control: &StepControl,
     ) -> Result<Advanced<S>, InelasticError> {
         let end = rows_of(to.matrix());
         let (reached, result) = self.run(&end, dt, control)?;
@@ -112,27 +112,32 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> MaterialPoint<'a, L
     ///
     /// # Errors
     /// Those of [`advance`](Self::advance).
-    pub fn trial(&self, to: &DeformationGradient, dt: f64, control: &Control) -> Result<Advanced<S>, InelasticError> {
+    pub fn trial(
+        &self,
+        to: &DeformationGradient,
+        dt: f64,
+        control: &StepControl,
+    ) -> Result<Advanced<S>, InelasticError> {
         self.run(&rows_of(to.matrix()), dt, control)?.1
     }
 
     /// Stress and consistent tangent as functions of the deformation at the end of an increment, as
     /// `piola_specimens::homogeneous::equilibrium` asks for them.
     #[must_use]
-    pub const fn next(&self, dt: f64, control: Control) -> NextIncrement<'_, L, S, X> {
+    pub const fn next(&self, dt: f64, control: StepControl) -> NextIncrement<'_, L, S, X> {
         NextIncrement { point: self, dt, control }
     }
 
-    fn increment(&self, end: &Rows<f64>, dt: f64, control: &Control) -> Increment<'_, L, S> {
+    fn increment(&self, end: &Rows<f64>, dt: f64, control: &StepControl) -> Increment<'_, L, S> {
         Increment { law: self.law, start: self.gradient, end: *end, dt, control: *control }
     }
 
-    #[expect(clippy::type_complexity, reason = "where the increment stands, and what is to be returned of it")]
+    /// Where the increment stands, and what is to be returned of it.
     fn run(
         &self,
         end: &Rows<f64>,
         dt: f64,
-        control: &Control,
+        control: &StepControl,
     ) -> Result<(Reached<S>, Result<Advanced<S>, InelasticError>), InelasticError> {
         check_bound("increment", "dt", dt, "0 ≤ dt", 0.0 <= dt)?;
         let increment = self.increment(end, dt, control);
@@ -155,27 +160,27 @@ impl<'a, L: Evolution<S, X>, const S: usize, const X: usize> MaterialPoint<'a, L
     }
 }
 
-/// The next increment of a point as a function of its end: [`MaterialPoint::next`].
+/// The next increment of a point as a function of its end: [`InelasticPoint::next`].
 ///
 /// # Example
-/// See [`MaterialPoint`]; here its use as a [`Response`].
+/// See [`InelasticPoint`]; here its use as a [`Response`].
 /// ```
 /// use piola_continuum::DisplacementGradient;
-/// use piola_inelastic::{Control, MaterialPoint, ReeseGovindjee};
+/// use piola_inelastic::{StepControl, InelasticPoint, ReeseGovindjee};
 /// use piola_solids::{NeoHookeanCiarlet, Response};
 /// let spring = NeoHookeanCiarlet::with_constants(1.0, 2.0)?;
 /// let law = ReeseGovindjee::new(spring, spring, 0.5)?;
-/// let point = MaterialPoint::new(&law);
-/// let next = point.next(1e-9, Control::default());
+/// let point = InelasticPoint::new(&law);
+/// let next = point.next(1e-9, StepControl::default());
 /// let stress = next.stress(&DisplacementGradient::simple_shear(0.25)?).0[(0, 1)];
 /// assert!((stress - 0.5).abs() < 1e-8); // 2 μ k
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct NextIncrement<'a, L, const S: usize, const X: usize> {
-    point: &'a MaterialPoint<'a, L, S, X>,
+    point: &'a InelasticPoint<'a, L, S, X>,
     dt: f64,
-    control: Control,
+    control: StepControl,
 }
 
 impl<L: Evolution<S, X>, const S: usize, const X: usize> NextIncrement<'_, L, S, X> {
