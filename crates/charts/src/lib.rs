@@ -9,6 +9,7 @@ mod figure;
 mod folder;
 mod panels;
 mod plane;
+mod ticks;
 mod time;
 
 pub use canvas::{Canvas, Window, between, colour_bar, viridis};

@@ -2,7 +2,8 @@
 
 use plotters::prelude::*;
 
-use crate::figure::{Area, Drawn, FINE, FONT, GRID, INK, colour, format_short, pixels, power_of_ten};
+use crate::figure::{Area, Drawn, FINE, FONT, GRID, INK, colour, format_short, pixels};
+use crate::ticks;
 
 /// Measured points and a curve for each model, on even scales.
 ///
@@ -128,8 +129,8 @@ impl LogPanel<'_> {
             .margin(pixels(8))
             .x_label_area_size(pixels(46))
             .y_label_area_size(pixels(70))
-            .build_cartesian_2d(range(|p| p.0).log_scale(), range(|p| p.1).log_scale())?;
-        let power = |x: &f64| power_of_ten(*x);
+            .build_cartesian_2d(ticks::logarithmic(range(|p| p.0)), ticks::logarithmic(range(|p| p.1)))?;
+        let power = |x: &f64| ticks::label(*x);
         chart
             .configure_mesh()
             .set_all_tick_mark_size(pixels(5))
@@ -162,23 +163,36 @@ impl LogPanel<'_> {
     }
 }
 
+/// The largest residual of the models that fit well: those whose largest one is within five times the least of these. Others do not press
+/// them flat.
+fn scale(sets: &[Vec<f64>]) -> f64 {
+    const WITHIN: f64 = 5.0;
+    let largest = |set: &Vec<f64>| set.iter().filter(|r| r.is_finite()).fold(1e-15_f64, |size, r| size.max(r.abs()));
+    let all: Vec<f64> = sets.iter().map(largest).collect();
+    let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+    all.into_iter().filter(|size| *size <= WITHIN * least).fold(1e-15, f64::max)
+}
+
 /// Residuals over the logarithm of what was set, a colour for each model: `drive` names the first numbers of `rows`, `name` the
-/// residuals.
+/// residuals. The scale is that of the models that fit well; residuals beyond it are not drawn.
 ///
 /// # Errors
 /// Those of the drawing.
 pub fn residuals(area: &Area<'_>, (drive, rows): (&str, &[[f64; 2]]), sets: &[Vec<f64>], name: &str) -> Drawn {
     let drives = || rows.iter().map(|row| row[0]);
     let (left, right) = (drives().fold(f64::INFINITY, f64::min), drives().fold(0.0, f64::max));
-    let size = sets.iter().flatten().filter(|r| r.is_finite()).fold(1e-15_f64, |size, r| size.max(r.abs()));
+    let size = scale(sets);
     let mut chart = ChartBuilder::on(area)
         .caption("residuals", (FONT, pixels(16)).into_font().color(&INK))
         .margin(pixels(8))
         .x_label_area_size(pixels(46))
         .y_label_area_size(pixels(76))
-        .build_cartesian_2d((0.8 * left..1.25 * right).log_scale(), -1.1 * size..1.1 * size)?;
-    let power = |x: &f64| power_of_ten(*x);
-    let percent = |y: &f64| if 1e-4 < size { format!("{:.2} %", 100.0 * y) } else { format!("{y:.0e}") };
+        .build_cartesian_2d(ticks::logarithmic(0.8 * left..1.25 * right), -1.1 * size..1.1 * size)?;
+    let power = |x: &f64| ticks::label(*x);
+    let percent = |y: &f64| {
+        let text = if 1e-4 < size { format!("{:.2} %", 100.0 * y) } else { format!("{y:.0e}") };
+        text.replace('-', "−")
+    };
     chart
         .configure_mesh()
         .set_all_tick_mark_size(pixels(5))
@@ -195,7 +209,7 @@ pub fn residuals(area: &Area<'_>, (drive, rows): (&str, &[[f64; 2]]), sets: &[Ve
         .y_label_formatter(&percent)
         .draw()?;
     for (index, set) in sets.iter().enumerate() {
-        let points = drives().zip(set).filter(|(_, r)| r.is_finite()).map(|(x, r)| (x, *r));
+        let points = drives().zip(set).filter(|(_, r)| r.abs() <= 1.1 * size).map(|(x, r)| (x, *r));
         chart.draw_series(points.map(|point| Circle::new(point, pixels(3), colour(index).filled())))?;
     }
     Ok(())

@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Recover(RecoverArguments),
     /// Fit fluids to a flow curve, or straight to discharges or speeds; compare them in a table, a summary and a figure.
     FitFlow(FitFlowArguments),
+    /// Solve a flow of any fluid: its drive or an answer in, all answers with their error bounds, the profile and a figure out.
+    Flow(SolveArguments),
     /// Register two images: find the map that deforms one into the other. Needs the feature `register` of the program.
     Register(crate::register::RegisterArguments),
     /// Print the JSON Schema of scenes, for editors.
@@ -189,6 +191,49 @@ pub(crate) struct FitFlowArguments {
     /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
     #[arg(long)]
     pub(crate) profile: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SolveArguments {
+    /// The flow: pipe, channel, annulus, couette, plates, cone or film.
+    pub(crate) flow: String,
+    /// The fluid, as 'bingham:yield_stress=3 Pa,plastic_viscosity=50 mPa s', a JSON file of a fluid, or the summary.json of a fit-flow,
+    /// with #NAME for one of its fluids.
+    #[arg(long, value_name = "FLUID")]
+    pub(crate) fluid: String,
+    /// The drive or an answer, as 'pressure_gradient=10 kPa/m' or 'discharge=3 mL/s'.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub(crate) given: String,
+    /// Radius of the pipe, the plates or the cone.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) radius: Option<String>,
+    /// Half the width of the channel.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) half_width: Option<String>,
+    /// Radius of the inner cylinder.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) inner_radius: Option<String>,
+    /// Radius of the outer cylinder.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) outer_radius: Option<String>,
+    /// Distance of the plates.
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) gap: Option<String>,
+    /// Angle between cone and plate.
+    #[arg(long, value_name = "ANGLE")]
+    pub(crate) angle: Option<String>,
+    /// Density of the film.
+    #[arg(long, value_name = "DENSITY")]
+    pub(crate) density: Option<String>,
+    /// Inclination of the film against the horizontal.
+    #[arg(long, value_name = "ANGLE")]
+    pub(crate) inclination: Option<String>,
+    /// Folder of the results instead of out/flow-FLOW.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print JSON to standard output.
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]

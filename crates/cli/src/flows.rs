@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 use piola_charts::{Folder, Written};
 use piola_measured::MeasuredError;
 use piola_measured::comparison::{Comparison, Judged, Watch};
+use piola_measured::forward::{self, FlowRequest};
 use piola_measured::rheology::{
     self, FlowKind, FluidName, Intervals, Measured, Noise, Reading, RecoveryRequest, Request, Rise, Weighting,
 };
 
 use crate::Exit;
-use crate::arguments::{FitFlowArguments, FlowArguments, RecoverArguments};
+use crate::arguments::{FitFlowArguments, FlowArguments, RecoverArguments, SolveArguments};
 use crate::commands::{listing, note, print, refused};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
@@ -93,6 +94,43 @@ pub(crate) fn fit(arguments: &FitFlowArguments) -> Exit {
             settled(&comparison, is_complete, &refusals, !arguments.fluids.is_empty(), &written)
         }
         Err(error) => refused(&error, flow.json),
+    }
+}
+
+pub(crate) fn solve(arguments: &SolveArguments) -> Exit {
+    let prepared = forward::fluid(&arguments.fluid).and_then(|fluid| {
+        let Some((name, value)) = arguments.given.split_once('=') else {
+            return Err(MeasuredError::Argument {
+                argument: format!("--given {}", arguments.given),
+                valid: "NAME=VALUE, as 'discharge=3 mL/s'",
+            });
+        };
+        let sizes = [
+            ("radius", &arguments.radius),
+            ("half_width", &arguments.half_width),
+            ("inner_radius", &arguments.inner_radius),
+            ("outer_radius", &arguments.outer_radius),
+            ("gap", &arguments.gap),
+            ("angle", &arguments.angle),
+            ("density", &arguments.density),
+            ("inclination", &arguments.inclination),
+        ];
+        let sizes: Vec<(&str, &str)> =
+            sizes.into_iter().filter_map(|(name, value)| Some((name, value.as_deref()?))).collect();
+        let request = FlowRequest::new(&arguments.flow, fluid, &sizes, (name.trim(), value.trim()));
+        let solved = forward::solve(&request)?;
+        let beside = || Path::new("out").join(format!("flow-{}", arguments.flow));
+        let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
+        Ok((solved, folder))
+    });
+    match prepared {
+        Ok((solved, folder)) => {
+            let written = solved.write(&folder);
+            let text = if arguments.json { solved.summary() } else { format!("{}\n", solved.table()) };
+            show(&text, arguments.json, &folder, &written);
+            if written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+        }
+        Err(error) => refused(&error, arguments.json),
     }
 }
 

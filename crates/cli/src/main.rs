@@ -41,6 +41,7 @@ fn main() -> ExitCode {
         Command::Fit(arguments) => commands::fit(&arguments),
         Command::Recover(arguments) => flows::recover(&arguments),
         Command::FitFlow(arguments) => flows::fit(&arguments),
+        Command::Flow(arguments) => flows::solve(&arguments),
         Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
     };

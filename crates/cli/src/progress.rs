@@ -60,9 +60,14 @@ impl ProgressLine {
         } else if PAUSE <= self.shown.elapsed() {
             self.shown = Instant::now();
             let spent = self.begun.elapsed().as_secs_f64();
-            let left = spent * (1.0 - fraction) / fraction.max(1e-9);
             let percent = 100.0 * fraction;
-            let _ = writeln!(std::io::stderr().lock(), "{}: {percent:.0} %, {left:.0} s left", self.name);
+            // Of the first thousandth nothing can be told.
+            let left = if fraction < 1e-3 {
+                String::new()
+            } else {
+                format!(", {:.0} s left", spent * (1.0 - fraction) / fraction)
+            };
+            let _ = writeln!(std::io::stderr().lock(), "{}: {percent:.0} %{left}", self.name);
         }
     }
 

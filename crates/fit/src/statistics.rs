@@ -93,10 +93,16 @@ impl Covariance {
         if kept.is_empty() {
             return none;
         }
-        let scaled = DMatrix::from_fn(slopes.nrows(), kept.len(), |i, k| slopes[(i, free[kept[k]])] / sizes[kept[k]]);
+        let mut scaled =
+            DMatrix::from_fn(slopes.nrows(), kept.len(), |i, k| slopes[(i, free[kept[k]])] / sizes[kept[k]]);
+        let rounding = f64::EPSILON * slopes.nrows().min(1000) as f64;
+        if 4 * kept.len() < scaled.nrows() {
+            // Of many rows the triangle of J = Q R has the same directions.
+            scaled = scaled.qr().r();
+        }
         let svd = scaled.svd(false, true);
         let Some(directions) = svd.v_t else { return none };
-        let threshold = f64::EPSILON * slopes.nrows() as f64 * svd.singular_values.max();
+        let threshold = rounding * svd.singular_values.max();
         let (mut inverse, mut determined) = (DMatrix::zeros(kept.len(), kept.len()), vec![true; kept.len()]);
         for (row, &value) in svd.singular_values.iter().enumerate() {
             let direction = directions.row(row);

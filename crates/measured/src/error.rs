@@ -53,6 +53,20 @@ pub enum MeasuredError {
         /// The valid arguments in words.
         valid: &'static str,
     },
+    /// A fluid cannot be made of what is given.
+    #[error("`{argument}` is no fluid: {cause}")]
+    Fluid {
+        /// The argument.
+        argument: String,
+        /// What is wrong.
+        cause: String,
+    },
+    /// A flow lacks one of its sizes.
+    #[error("{name} is not given; valid: --{} with a number and its unit", name.replace('_', "-"))]
+    MissingSize {
+        /// The size.
+        name: String,
+    },
     /// A weight is given to a test that is not in the data.
     #[error("no test is called `{name}`; the tests are: {}", tests.join(", "))]
     NoSuchTest {

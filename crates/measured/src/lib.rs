@@ -5,6 +5,7 @@
 pub mod comparison;
 mod error;
 pub mod fitting;
+pub mod forward;
 pub mod rheology;
 mod sheet;
 

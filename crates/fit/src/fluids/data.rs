@@ -167,6 +167,54 @@ impl FlowData {
         Self { rows, ..self.clone() }
     }
 
+    /// The answers to the drives of all rows. Integrals from rest on are continued from row to row, so that a row costs the stretch of
+    /// rates between it and the one before.
+    pub(super) fn answers<T: Real>(
+        &self,
+        stress: &dyn Fn(f64) -> T,
+        shear_rate: &dyn Fn(f64) -> Result<f64, FitError>,
+    ) -> Result<Vec<T>, FitError> {
+        // The integrand over the rate, and the answer from the upper rate and the integral.
+        let (power, radius) = match self.kind {
+            Kind::Pipe { radius } => (3, radius),
+            Kind::Channel { half_width } => (2, half_width),
+            Kind::ParallelPlates { radius, .. } => (0, radius),
+            _ => return (0..self.rows.len()).map(|row| self.answer(stress, shear_rate, row)).collect(),
+        };
+        let integrand = |k: f64| {
+            let stress = stress(k);
+            match power {
+                3 => stress * stress * stress,
+                2 => stress * stress,
+                _ => T::lit(k * k) * stress,
+            }
+        };
+        let mut answers = Vec::with_capacity(self.rows.len());
+        let (mut integral, mut before) = (T::zero(), 0.0);
+        for &[drive, _] in &self.rows {
+            let (upper, wall) = match self.kind {
+                Kind::Pipe { radius } => (shear_rate(0.5 * drive * radius)?, 0.5 * drive * radius),
+                Kind::Channel { half_width } => (shear_rate(drive * half_width)?, drive * half_width),
+                Kind::ParallelPlates { radius, gap } => (drive * radius / gap, 0.0),
+                _ => (0.0, 0.0),
+            };
+            if before < upper {
+                integral += if 0.0 < before { between(before, upper, &integrand) } else { below(upper, &integrand) };
+                before = upper;
+            }
+            answers.push(match power {
+                // 8π/(3c³) ∫ (T³ − τ³) dk = (π R³/3) (k − ∫τ³/T³).
+                3 => {
+                    T::lit(PI * radius * radius * radius / 3.0)
+                        * (T::lit(upper) - integral / T::lit(wall * wall * wall))
+                }
+                2 => T::lit(radius * radius) * (T::lit(upper) - integral / T::lit(wall * wall)),
+                _ => T::lit(2.0 * PI * (radius / upper).powi(3)) * integral,
+            });
+        }
+        Ok(answers)
+    }
+
     /// The answer to the drive of a row of a fluid with shear stresses τ(k) and their inverse ζ(τ), with derivatives with
     /// respect to its parameters.
     ///

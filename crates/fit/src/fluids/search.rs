@@ -35,8 +35,8 @@ pub(super) fn residuals<F: Parameters<N> + ViscometricFluid, const N: usize>(
     let (mut residuals, mut slopes) = (Vec::new(), Vec::new());
     for set in data {
         let largest = set.rows().iter().map(|row| row[1]).fold(0.0, f64::max);
-        for (index, [_, measured]) in set.rows().iter().enumerate() {
-            let answer = set.answer(&stress, &rate, index)?;
+        let answers = set.answers(&stress, &rate)?;
+        for ([_, measured], answer) in set.rows().iter().zip(answers) {
             let residual = match weighting {
                 Weighting::Relative => (answer / Gradient::lit(*measured)).ln(),
                 Weighting::Equal => (answer - Gradient::lit(*measured)) / Gradient::lit(largest),

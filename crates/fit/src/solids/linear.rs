@@ -73,7 +73,7 @@ pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>, bounds: &[[f64; 2]]) -> 
 }
 
 /// Fewer rows with the same sums of squares |A x − b|² for all x: R of [A b] = Q R.
-fn compressed(a: &DMatrix<f64>, b: &DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
+pub(super) fn compressed(a: &DMatrix<f64>, b: &DVector<f64>) -> (DMatrix<f64>, DVector<f64>) {
     let unknowns = a.ncols();
     let mut both = a.clone().insert_column(unknowns, 0.0);
     both.set_column(unknowns, b);

@@ -317,7 +317,8 @@ fn fit_from<M: Model>(
         best = found;
     }
     // What is solved directly cannot be worse than what it contains.
-    if options.bounds.is_empty() && loaded && (unstable || best.outcome != Outcome::LinearSolution) {
+    let searched = best.outcome != Outcome::LinearSolution && few.is_none();
+    if options.bounds.is_empty() && loaded && (unstable || searched) {
         for (contained, places) in model.contained() {
             let few = contained.starts(reach);
             let few = few.iter().step_by(few.len().div_ceil(FEW_STARTS).max(1)).cloned().collect();

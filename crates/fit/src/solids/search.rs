@@ -176,8 +176,15 @@ impl<'a, M: Model> Problem<'a, M> {
 
     /// A search over all parameters at once, with what Drucker's condition lacks added to the residuals.
     pub(super) fn stabilise(&self, best: &Best, fan: &Fan) -> Option<Best> {
-        let observed = self.observed();
-        let fixed = self.fixed(fan);
+        let all = self.observed();
+        let (fixed, observed) = match self.fixed(fan) {
+            // The same sums of squares but for a constant, with as many rows as parameters.
+            Some(Fixed { stresses, moduli }) if 4 * (stresses.ncols() + 1) < stresses.nrows() => {
+                let (stresses, observed) = linear::compressed(&stresses, &all);
+                (Some(Fixed { stresses, moduli }), observed)
+            }
+            fixed => (fixed, all.clone()),
+        };
         let mut theta = best.parameters.clone();
         let mut found = None;
         // From soft to hard, until nothing is lacking.
@@ -186,9 +193,11 @@ impl<'a, M: Model> Problem<'a, M> {
             let x = (0..theta.len()).map(|k| self.range(k).inward(theta[k])).collect();
             let (observed, fixed) = (&observed, fixed.as_ref());
             let target = Penalised { problem: self, observed, fan, fixed, hardness, theta: theta.clone() };
-            let reached = Best::from(minimise(target, x, self.patience, self.stop)?);
+            // Where nothing but factors is searched for, an evaluation costs next to nothing.
+            let patience = if fixed.is_some() { 50 * self.patience } else { self.patience };
+            let reached = Best::from(minimise(target, x, patience, self.stop)?);
             let (values, _) = self.stresses(&reached.parameters);
-            let squares = (values - observed).norm_squared();
+            let squares = (values - &all).norm_squared();
             theta.clone_from(&reached.parameters);
             found = Some(Best { squares, ..reached });
             if self.is_stable(&theta, fan) {

@@ -2,11 +2,30 @@
 
 use piola_charts::{FINE, LogPanel, RGBColor, colour, figure, legend, residuals as of_residuals};
 
-use super::{Answering, Comparison, Correction, Function, Measured, Point, RecoveredCurve};
+use super::{Answering, Comparison, Correction, FittedFluid, FluidName, Function, Measured, Point, RecoveredCurve};
 
 /// The axes of a curve for a reader.
 fn axes(function: Function) -> [String; 2] {
     function.axes().map(|(name, unit)| format!("{} ({unit})", name.replace('_', " ")))
+}
+
+/// The name of a column as people write it: "discharge (m³/s)" of `discharge [m^3/s]`.
+fn written(column: &str) -> String {
+    column.replace('_', " ").replace('[', "(").replace(']', ")").replace("^2", "²").replace("^3", "³")
+}
+
+/// Fluids with a curve, at most: those with the least sums of squares.
+const DRAWN: usize = 5;
+
+/// The fluids that are drawn, in the order of the table.
+fn drawn(comparison: &Comparison) -> Vec<(FluidName, &FittedFluid)> {
+    let mut all: Vec<(FluidName, &FittedFluid)> = comparison.fits().collect();
+    let mut squares: Vec<f64> = all.iter().map(|(_, fit)| fit.squares).collect();
+    squares.sort_by(f64::total_cmp);
+    if let Some(&most) = squares.get(DRAWN) {
+        all.retain(|(_, fit)| fit.squares < most);
+    }
+    all
 }
 
 /// Marks of a panel, at most: of more rows some are drawn, evenly.
@@ -43,7 +62,7 @@ pub(super) fn recovery(measured: &Measured, curve: &RecoveredCurve, what: Answer
     let title =
         if curve.function.is_flow_curve() { "flow curve with its band" } else { "normal stresses with their band" };
     let flow = of_curve(curve, title, [&axes[0], &axes[1]]);
-    let names = measured.columns(what);
+    let names = measured.columns(what).map(|name| written(&name));
     let rows: &[[f64; 2]] =
         measured.answers.iter().find(|answer| answer.what == what).map_or(&[], |answer| &answer.rows);
     let smooth = |([drive, response], residual): (&[f64; 2], &f64)| (*drive, response / (1.0 + residual));
@@ -95,8 +114,13 @@ pub(super) fn correction(tables: &[Measured], curve: &RecoveredCurve, correction
     let marks = marks.into_iter().filter(|(_, y)| 0.0 < *y).collect();
     let lost = LogPanel { title, axes: ["shear stress (Pa)", name], marks, curves: Vec::new(), band: Vec::new() };
     let names: Vec<String> = tables.iter().map(Measured::name).collect();
-    figure((1130, 420), &format!("{}: the fluid behind them", names.join(", ")), &|area| {
-        let parts = area.split_evenly((1, 3));
+    figure((1290, 420), &format!("{}: the fluid behind them", names.join(", ")), &|area| {
+        let (width, _) = area.dim_in_pixel();
+        let (plots, side) = area.split_horizontally(width - 160 * FINE);
+        let entries: Vec<(&str, RGBColor)> =
+            names.iter().enumerate().map(|(k, name)| (name.as_str(), colour(k))).collect();
+        legend(&side, &entries)?;
+        let parts = plots.split_evenly((1, 3));
         flow.draw(&parts[0])?;
         raw.draw(&parts[1])?;
         lost.draw(&parts[2])
@@ -105,7 +129,8 @@ pub(super) fn correction(tables: &[Measured], curve: &RecoveredCurve, correction
 
 /// Measured answers with those of each fluid, and their residuals.
 pub(super) fn comparison(measured: &Measured, comparison: &Comparison) -> String {
-    let [drive, response] = measured.first_columns();
+    let [drive, response] = measured.first_columns().map(|name| written(&name));
+    let fits = drawn(comparison);
     let answers = |residuals: &[f64]| {
         some(measured.rows()).zip(some(residuals)).map(|([drive, response], r)| (drive, response * r.exp())).collect()
     };
@@ -113,22 +138,19 @@ pub(super) fn comparison(measured: &Measured, comparison: &Comparison) -> String
         title: "measured and fitted",
         axes: [&drive, &response],
         marks: some(measured.rows()).map(|[drive, response]| (drive, response)).collect(),
-        curves: comparison.fits().map(|(_, fit)| answers(&fit.residuals)).collect(),
+        curves: fits.iter().map(|(_, fit)| answers(&fit.residuals)).collect(),
         band: Vec::new(),
     };
     let flow = LogPanel {
         title: "viscosity",
         axes: ["shear rate (1/s)", "viscosity (Pa s)"],
         marks: Vec::new(),
-        curves: comparison
-            .fits()
-            .map(|(_, fit)| fit.curve.iter().map(|[k, stress]| (*k, stress / k)).collect())
-            .collect(),
+        curves: fits.iter().map(|(_, fit)| fit.curve.iter().map(|[k, stress]| (*k, stress / k)).collect()).collect(),
         band: Vec::new(),
     };
-    let residuals: Vec<Vec<f64>> = comparison.fits().map(|(_, fit)| some(&fit.residuals).collect()).collect();
+    let residuals: Vec<Vec<f64>> = fits.iter().map(|(_, fit)| some(&fit.residuals).collect()).collect();
     let rows: Vec<[f64; 2]> = some(measured.rows()).collect();
-    let names: Vec<String> = comparison.fits().map(|(fluid, _)| fluid.to_string()).collect();
+    let names: Vec<String> = fits.iter().map(|(fluid, _)| fluid.to_string()).collect();
     let title = format!("{}: measured and fitted", measured.name());
     figure((1290, 420), &title, &|area| {
         let (width, _) = area.dim_in_pixel();

@@ -119,15 +119,17 @@ impl<G> FlowTable<G> {
     /// standard deviations of a difference,
     ///
     /// ```text
-    /// ln(max Qⱼ/Qᵢ, j < i) ≥ 5 √2 σ
+    /// ln(max Qⱼ/Qᵢ, j < i) ≥ max(5 √2, 1 + 2 √(2 ln n)) σ
     /// ```
+    /// of n rows, the second where there are hundreds: the largest of n normal errors is near √(2 ln n) σ.
     /// σ is what is stated, or estimated from the rows; of fewer than five rows nothing is estimated, and σ = 0.
     /// Whatever the noise, a table is refused in which nothing is above the first response.
     ///
     /// # Errors
     /// [`ViscometryError::ResponseFalls`] with the first such row.
     pub fn check_rising(&self) -> Result<(), ViscometryError> {
-        let allowed = 5.0 * core::f64::consts::SQRT_2 * self.level();
+        let extremes = 1.0 + 2.0 * (2.0 * (self.response.len().max(1) as f64).ln()).sqrt();
+        let allowed = extremes.max(5.0 * core::f64::consts::SQRT_2) * self.level();
         let mut previous = 0.0_f64;
         for (row, &value) in self.response.iter().enumerate() {
             if value <= previous && allowed <= (previous / value).ln() {
