@@ -7,7 +7,7 @@
 //!
 //! δ is a displacement in the tangent space of v: what constant v does in one second.
 
-use piola_integrators::{LieGroup, RigidMotions, Rotations};
+use piola_geometric::{LieGroup, RigidMotions, Rotations};
 use piola_kinematics::Attitude;
 use piola_numerics::Real;
 

@@ -121,7 +121,7 @@ impl<T: Real> LobattoPair<T> {
 
     /// Integrates as [`integrate`](Self::integrate), by simplified Newton iteration with exact Jacobians, which converges where
     /// fixed-point iteration does not. Stability still bounds the step: a vibration ω needs |hω| < 2, 2.8, 3.1 or 6 for order 2,
-    /// 4, 6 or 8. For faster vibrations take [`RadauIia`](piola_integrators::RadauIia). The field must be generic over its scalar.
+    /// 4, 6 or 8. For faster vibrations take `RadauIia` of `piola-stiff`. The field must be generic over its scalar.
     ///
     /// # Errors
     /// As [`integrate`](Self::integrate), and a matrix that is singular or not finite.

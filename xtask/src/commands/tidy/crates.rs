@@ -24,7 +24,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     // kinematics: bodies go in and come out by its conversions to glam.
     ("gravitation", &["integrators"]),
     // lagrangian in its tests alone: trees against the placement path.
-    ("multibody", &["kinematics", "integrators", "lagrangian"]),
+    ("multibody", &["kinematics", "geometric", "lagrangian"]),
     ("continuum", &["tensor"]),
     ("batch", &["continuum"]),
     ("fields", &["continuum"]),
