@@ -4,15 +4,19 @@
 //! q̇ = v for coordinates,  q̇ = ½ q (0, ω) for quaternions,  ẋ = R v for positions        v̇ = forward dynamics
 //! ```
 
-use piola_integrators::Field;
+use piola_integrators::{DirectProduct, Field, GroupField, Translations};
 use piola_numerics::Real;
 
 use crate::error::{MultibodyError, check_length};
+use crate::group::TreeGroup;
 use crate::link::Kind;
 use crate::tree::RigidTree;
 use crate::workspace::TreeWorkspace;
 
-/// The motion y = (q, v) of a tree under forces, as a field; accepted steps end with unit quaternions where the method projects.
+/// The motion y = (q, v) of a tree under forces.
+///
+/// It is a [`Field`], whose steps end with unit quaternions where the method projects, and a [`GroupField`] for the methods on
+/// Lie groups.
 ///
 /// # Example
 /// A pendulum of length l = 9.81 m swings through 1 mm in 2π s.
@@ -33,6 +37,7 @@ use crate::workspace::TreeWorkspace;
 #[derive(Clone, Debug)]
 pub struct TreeMotion<'a, F, T = f64> {
     tree: &'a RigidTree,
+    group: DirectProduct<TreeGroup<'a>, Translations>,
     work: TreeWorkspace<T>,
     tau: Vec<T>,
     forces: F,
@@ -41,7 +46,8 @@ pub struct TreeMotion<'a, F, T = f64> {
 impl RigidTree {
     /// The motion under forces τ(t, q, v), written to the last argument.
     pub fn motion<T: Real, F: FnMut(f64, &[T], &[T], &mut [T])>(&self, forces: F) -> TreeMotion<'_, F, T> {
-        TreeMotion { tree: self, work: self.workspace(), tau: vec![T::zero(); self.freedoms], forces }
+        let group = DirectProduct(TreeGroup(self), Translations(self.freedoms));
+        TreeMotion { tree: self, group, work: self.workspace(), tau: vec![T::zero(); self.freedoms], forces }
     }
 
     /// The rates q̇ of the coordinates.
@@ -127,5 +133,20 @@ impl<T: Real, F: FnMut(f64, &[T], &[T], &mut [T])> Field<T> for TreeMotion<'_, F
     }
     fn project(&mut self, _t: f64, y: &mut [T]) -> Result<(), MultibodyError> {
         self.tree.normalise(&mut y[..self.tree.coordinates])
+    }
+}
+
+impl<'a, T: Real, F: FnMut(f64, &[T], &[T], &mut [T])> GroupField<T> for TreeMotion<'a, F, T> {
+    type Error = MultibodyError;
+    type Group = DirectProduct<TreeGroup<'a>, Translations>;
+    fn group(&self) -> &Self::Group {
+        &self.group
+    }
+    fn velocity(&mut self, t: f64, element: &[T], velocity: &mut [T]) -> Result<(), MultibodyError> {
+        let (q, v) = element.split_at(self.tree.coordinates);
+        let (of_q, of_v) = velocity.split_at_mut(self.tree.freedoms);
+        (self.forces)(t, q, v, &mut self.tau);
+        of_q.copy_from_slice(v);
+        self.tree.forward_dynamics(&mut self.work, q, v, &self.tau, of_v)
     }
 }

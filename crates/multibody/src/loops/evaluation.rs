@@ -46,13 +46,11 @@ impl ClosedTree {
         work: &mut LoopWorkspace,
         q: &[f64],
         v: &[f64],
+        zero: &[f64],
         t: f64,
     ) -> Result<(), MultibodyError> {
         let tree = &self.tree;
-        let zero = core::mem::take(&mut work.zero);
-        let result = tree.forward_accelerations(&mut work.tree, q, v, &zero);
-        work.zero = zero;
-        result?;
+        tree.forward_accelerations(&mut work.tree, q, v, zero)?;
         pass_subspaces(tree, &work.tree.space, &mut work.tree.rows);
         work.gradients.fill(0.0);
         let mut condition = 0;

@@ -39,6 +39,9 @@ pub struct LoopWorkspace {
     pub(super) zero: Vec<f64>,
     pub(super) part: Vec<f64>,
     pub(super) step: Vec<f64>,
+    /// The state before a projection.
+    start_q: Vec<f64>,
+    start_v: Vec<f64>,
 }
 
 impl LoopWorkspace {
@@ -92,6 +95,8 @@ impl ClosedTree {
             zero: vec![0.0; n],
             part: vec![0.0; n],
             step: vec![0.0; n],
+            start_q: vec![0.0; self.tree.coordinates],
+            start_v: vec![0.0; n],
         }
     }
 
@@ -116,7 +121,10 @@ impl ClosedTree {
     ) -> Result<(), MultibodyError> {
         let n = self.tree.freedoms;
         self.tree.forward_dynamics(&mut work.tree, q, v, tau, out)?;
-        self.evaluate(work, q, v, t)?;
+        let zero = core::mem::take(&mut work.zero);
+        let result = self.evaluate(work, q, v, &zero, t);
+        work.zero = zero;
+        result?;
         self.factorise(work);
         for (i, right) in work.right.iter_mut().enumerate() {
             let free: f64 = work.gradients[i * n..(i + 1) * n].iter().zip(&*out).map(|(g, a)| g * a).sum();
@@ -166,11 +174,12 @@ impl ClosedTree {
         let n = self.tree.freedoms;
         check_length("q", self.tree.coordinates, q.len())?;
         check_length("v", n, v.len())?;
-        let start = (q.to_vec(), v.to_vec());
+        work.start_q.copy_from_slice(q);
+        work.start_v.copy_from_slice(v);
         let result = self.close_positions(work, q, t).and_then(|()| self.close_velocities(work, q, v, t));
         if result.is_err() {
-            q.copy_from_slice(&start.0);
-            v.copy_from_slice(&start.1);
+            q.copy_from_slice(&work.start_q);
+            v.copy_from_slice(&work.start_v);
         }
         result
     }
@@ -243,9 +252,7 @@ impl ClosedTree {
         if !forward_dynamics::pass_inwards(&self.tree, &mut work.tree, zero, &mut work.step) {
             self.tree.explain_inertia(&work.tree)?;
         }
-        // `evaluate` takes the zeros of the workspace, which are lent to this call.
-        work.zero.resize(zero.len(), 0.0);
-        self.evaluate(work, q, zero, t)
+        self.evaluate(work, q, zero, zero, t)
     }
 
     /// M⁻¹ Gᵀ λ.

@@ -15,6 +15,7 @@ mod parse;
 use std::path::Path;
 
 use crate::error::MultibodyError;
+use crate::loops::{ClosedTree, LoopClosure};
 use crate::tree::RigidTree;
 
 /// How the root of a file stands on the ground.
@@ -102,6 +103,30 @@ impl Urdf {
     /// [`build`](crate::RigidTreeBuilder::build).
     pub fn parse(text: &str, options: UrdfOptions) -> Result<Self, MultibodyError> {
         parse::parse(text, options)
+    }
+
+    /// The tree with a gear for each mimic joint.
+    ///
+    /// # Errors
+    /// [`MultibodyError::NoSuchName`] for a mimic of a joint that does not exist;
+    /// [`MultibodyError::NoSuchIndex`] where one of the joints has no single coordinate.
+    pub fn with_mimics(&self) -> Result<ClosedTree, MultibodyError> {
+        let mut closed = ClosedTree::new(self.tree.clone());
+        let freedom = |name: &str| {
+            let place = self.tree.joints().iter().find(|place| place.joint.name == name);
+            let missing = || MultibodyError::NoSuchName { what: "joint", name: name.to_owned() };
+            place.map(|place| place.first_freedom).ok_or_else(missing)
+        };
+        for mimic in &self.mimics {
+            let gear = LoopClosure::Gear {
+                follower: freedom(&mimic.joint)?,
+                leader: freedom(&mimic.follows)?,
+                ratio: mimic.multiplier,
+                offset: mimic.offset,
+            };
+            closed.close(format!("{} mimics {}", mimic.joint, mimic.follows), gear)?;
+        }
+        Ok(closed)
     }
 
     /// Reads a tree from a file.

@@ -1,6 +1,10 @@
 //! Evaluations allocate nothing once their workspace is made.
 
-use piola_multibody::{AccelerationDerivatives, BatchWorkspace, INERTIAL_PARAMETERS, StateBlocks, TreeFactors};
+use piola_integrators::Order;
+use piola_multibody::{
+    AccelerationDerivatives, BatchWorkspace, BodyIndex, BodyPoint, ClosedTree, INERTIAL_PARAMETERS, LoopClosure,
+    StateBlocks, TreeFactors, VariationalTree,
+};
 use piola_testkit::allocations_in;
 
 use crate::trees::{mixed, state_of};
@@ -46,4 +50,24 @@ fn evaluations_allocate_nothing() {
         tree.forward_dynamics_of_states(&mut batch, &places, &zeros, &zeros, &mut blocks).unwrap();
     });
     assert_eq!(count, 0);
+}
+
+#[test]
+fn closed_loops_and_steps_allocate_nothing() {
+    let tree = crate::trees::chain(3);
+    let mut closed = ClosedTree::new(tree.clone());
+    let first = BodyPoint::new(tree.body("rod 2").unwrap(), [0.0, 0.0, -1.0]);
+    let second = BodyPoint::new(BodyIndex::GROUND, [0.5, 0.0, -2.5]);
+    closed.close("string", LoopClosure::Distance { first, second, length: 0.5 }).unwrap();
+    let mut work = closed.workspace();
+    let (mut q, mut v, mut out) = ([0.3, 0.1, -0.2], [0.1; 3], [0.0; 3]);
+    let (count, ()) = allocations_in(|| {
+        closed.project(&mut work, &mut q, &mut v, 0.0).unwrap();
+        closed.accelerations(&mut work, &q, &v, &[0.0; 3], 0.0, &mut out).unwrap();
+    });
+    assert_eq!(count, 0);
+    let mut method = VariationalTree::new(&tree, Order::Four, 1e-3).unwrap();
+    let mut run = |steps| allocations_in(|| method.run(&mut q, &mut v, steps).unwrap()).0;
+    // A run has one vector; steps have none.
+    assert_eq!(run(1), run(50));
 }

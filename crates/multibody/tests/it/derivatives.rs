@@ -52,6 +52,38 @@ fn derivatives_of_inverse_dynamics_equal_dual_numbers() {
 }
 
 #[test]
+fn second_derivatives_by_dual_numbers_equal_nested_dual_numbers() {
+    let tree = ur5();
+    let n = tree.freedoms();
+    let state = state_of(&tree, 8);
+    // ∂²τ/∂q_j∂v_k: the analytic derivative along v_k, and both by dual numbers.
+    let (mut work, mut nested) = (tree.workspace(), tree.workspace());
+    let zero = Dual::constant(0.0);
+    for k in 0..n {
+        let [q, v, a] = seeded(&tree, &state, 1, k);
+        let mut out = [vec![zero; n * n], vec![zero; n * n], vec![zero; n * n]];
+        let [by_q, by_v, by_a] = &mut out;
+        tree.inverse_dynamics_derivatives(&mut work, &q, &v, &a, by_q, by_v, by_a).unwrap();
+        for j in 0..n {
+            let inner = |x: &[f64], seed: Option<usize>, outer: Option<usize>| -> Vec<Dual<Dual<f64>>> {
+                let unit = |index: Option<usize>, i: usize| f64::from(u8::from(index == Some(i)));
+                let each =
+                    |(i, &x): (usize, &f64)| Dual::new(Dual::new(x, unit(seed, i)), Dual::constant(unit(outer, i)));
+                x.iter().enumerate().map(each).collect()
+            };
+            let (q, v) = (inner(&state.q, None, Some(j)), inner(&state.v, Some(k), None));
+            let a = inner(&state.a, None, None);
+            let mut tau = vec![Dual::constant(zero); n];
+            tree.inverse_dynamics(&mut nested, &q, &v, &a, &mut tau).unwrap();
+            let expected: Vec<f64> = tau.iter().map(|tau| tau.tangent.tangent).collect();
+            let found: Vec<f64> = out[0][j * n..(j + 1) * n].iter().map(|x| x.tangent).collect();
+            // Relative to the derivatives of all forces, of which some are zero.
+            piola_testkit::assert_close_at_scale("∂²τ/∂q∂v", &found, &expected, 10.0, ROUNDING);
+        }
+    }
+}
+
+#[test]
 fn derivatives_of_forward_dynamics_equal_dual_numbers() {
     for (name, tree) in trees() {
         let n = tree.freedoms();

@@ -1,6 +1,6 @@
 //! Motions in time: energy, the variational method, free bodies.
 
-use piola_integrators::{DormandPrince853, Order, State, Tolerance};
+use piola_integrators::{AdaptiveMuntheKaas, DormandPrince853, Order, State, Tolerance};
 use piola_multibody::{BodyIndex, MultibodyError, RigidTree, VariationalTree};
 use piola_testkit::{Tol, assert_close};
 
@@ -48,6 +48,11 @@ fn free_trees_keep_momentum_and_energy_without_gravity() {
     assert_close("momentum", &after.linear, &before.linear, kept);
     assert_close("angular momentum", &after.angular, &before.angular, kept);
     assert_close("energy", &[energy(&tree, q, v)], &[start], kept);
+    // The same on the group of the configurations.
+    let state = state_of(&tree, 4);
+    let mut on_group = State::new(0.0, [state.q, state.v].concat()).unwrap();
+    AdaptiveMuntheKaas::new(Tolerance::relative(1e-12).unwrap()).integrate_to(&mut motion, &mut on_group, 2.0).unwrap();
+    assert_close("on the group", &on_group.values, &moving.values, kept.times(10.0));
 }
 
 #[test]

@@ -119,6 +119,23 @@ fn mimic_joints_are_named_and_free_bases_move() {
     assert_eq!(found.tree.freedoms(), 7);
     let mimic = &found.mimics[0];
     assert_eq!((mimic.joint.as_str(), mimic.follows.as_str(), mimic.multiplier, mimic.offset), ("j", "k", 2.0, 0.0));
+    let error = found.with_mimics().unwrap_err();
+    assert!(matches!(error, MultibodyError::NoSuchName { what: "joint", name } if name == "k"));
+    let hand = robot(
+        &format!(
+            "{JOINT}<link name=\"finger\"><inertial>{INERTIAL}</inertial></link>{}",
+            JOINT
+                .replace("name=\"j\"", "name=\"k\"")
+                .replace("link=\"arm\"", "link=\"finger\"")
+                .replace("</joint>", "<mimic joint=\"j\" multiplier=\"-3\"/></joint>")
+        ),
+        INERTIAL,
+    );
+    let closed = Urdf::parse(&hand, UrdfOptions::default()).unwrap().with_mimics().unwrap();
+    let mut out = [0.0; 2];
+    closed.accelerations(&mut closed.workspace(), &[0.0; 2], &[0.0; 2], &[1.0, 0.0], 0.0, &mut out).unwrap();
+    // 1/(1 + 9)
+    assert_close("mimic", &out, &[0.1, -0.3], Tol::ulps(8.0));
     let missing = Urdf::read(Path::new("nowhere.urdf"), AS_GIVEN).unwrap_err();
     assert!(matches!(missing, MultibodyError::UrdfFile { path, .. } if path == "nowhere.urdf"));
 }
