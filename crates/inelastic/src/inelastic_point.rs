@@ -42,10 +42,11 @@ pub struct Advanced<const S: usize> {
 /// let law = ReeseGovindjee::new(spring, spring, 0.5)?; // η = 0.5 Pa s
 /// let mut point = InelasticPoint::new(&law);
 /// let shear = DeformationGradient::simple_shear(0.3)?;
-/// let first = point.advance(&shear, 1e-6, &StepControl::default())?.first_piola.0[(0, 1)];
-/// let last = point.advance(&shear, 100.0, &StepControl::default())?.first_piola.0[(0, 1)];
+/// let control = StepControl::new(1e-6)?;
+/// let first = point.advance(&shear, 1e-6, &control)?.first_piola.0[(0, 1)];
+/// let last = point.advance(&shear, 5.0, &control)?.first_piola.0[(0, 1)];
 /// assert!((first - 0.6).abs() < 1e-5); // 2 μ k
-/// assert!((last - 0.3).abs() < 1e-6); // μ k
+/// assert!((last - 0.3).abs() < 1e-4); // μ k
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]

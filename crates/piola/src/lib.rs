@@ -74,6 +74,8 @@
 //! | motions, coordinates, balances, integrals | [`fields`] | `fields` |
 //! | laws of solids, internal constraints, memory | [`solids`] | `solids` |
 //! | homogeneous specimens, and checks of laws | [`specimens`] | `specimens` |
+//! | laws of one's own by their energy; sums of laws | [`laws`] | `laws` |
+//! | solids with internal variables | [`inelastic`] | `inelastic` |
 //! | laws of fluids | [`fluids`] | `fluids` |
 //! | viscometric flows and their inversion | [`viscometry`] | `viscometry` |
 //! | exact solutions of nonlinear elasticity | [`solutions`] | `solutions` |
@@ -166,6 +168,8 @@ mod book {
     struct Integrators;
     #[doc = include_str!("../../../docs/how-to/scalars.md")]
     struct Scalars;
+    #[doc = include_str!("../../../docs/how-to/own-laws.md")]
+    struct OwnLaws;
     #[doc = include_str!("../../../docs/how-to/fitting.md")]
     struct Fitting;
     #[doc = include_str!("../../../docs/how-to/finite-elements.md")]
