@@ -88,7 +88,7 @@ pub fn fluid_with_names(name: &str, names: &[&str], values: &[f64]) -> Result<An
 /// ```
 /// | argument | meaning |
 /// |---|---|
-/// | `model` | which of the laws, such as `yeoh`; the best by AICc where it is `None` |
+/// | `model` | which of the laws, such as `yeoh`; the best by `aicc` where it is `None` |
 /// | `volumetric` | the energy of the change of volume; `None` makes the law incompressible |
 ///
 /// # Errors

@@ -14,3 +14,18 @@ fn a_program_in_c_gets_stresses_tangents_flows_and_messages() {
     let text = printed(&program, &[]);
     assert!(text.ends_with("all 18 checks passed\n"), "{text}");
 }
+
+#[test]
+fn the_program_of_the_guide_prints_what_it_says() {
+    if !has("cc") {
+        return;
+    }
+    let folder = crate_folder();
+    let guide = std::fs::read_to_string(folder.join("../../docs/how-to/other-languages.md")).unwrap();
+    let text = guide.split("```c\n").find(|block| block.contains("int main")).unwrap();
+    let source = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("example.c");
+    std::fs::write(&source, text.split("```").next().unwrap()).unwrap();
+    let include = format!("-I{}", folder.join("include").display());
+    let program = compiled("cc", "guide", &["-Wall", "-Werror", &include], &[source]);
+    assert_eq!(printed(&program, &[]), "T12 = 502513 Pa\n");
+}

@@ -1,5 +1,7 @@
 //! The interface of C, the materials of Abaqus, and what both refuse.
 
+#![expect(clippy::float_cmp, reason = "the same bits from every language, and numbers that are exact")]
+
 mod abaqus;
 mod alloc;
 mod bad_input;

@@ -5,7 +5,10 @@ use piola::continuum::DeformationGradient;
 use piola::numerics::linear::matrix3::{from_rows, rows_of};
 use piola::solids::isochoric::{Gent, MooneyRivlin as IsochoricMooneyRivlin};
 use piola::solids::volumetric::SimoTaylor;
-use piola::solids::{AnySolid, BlatzKo, Compressible, Hyperelastic, MooneyRivlin, SaintVenantKirchhoff};
+use piola::solids::{
+    AnisotropicLinear, AnisotropicSaintVenantKirchhoff, AnySolid, BlatzKo, Compressible, Fung, Hyperelastic,
+    MooneyRivlin, Polynomial, PolynomialTerm, SaintVenantKirchhoff, Stiffness,
+};
 use piola::tensor::voigt::{Abaqus, Classical, Piola, StiffnessMatrix};
 use piola_ffi::points::{StressMeasure, TangentMeasure, VoigtNumbering, stress, stress_and_tangent, tangent};
 use piola_testkit::{Tol, assert_each_close_at_scales, strategies};
@@ -35,7 +38,7 @@ fn numbers(f: &Matrix3<f64>) -> [f64; 9] {
     [a, b, c, d, e, f, g, h, i]
 }
 
-fn flat(matrix: [[f64; 6]; 6]) -> [f64; 36] {
+fn flat(matrix: &[[f64; 6]; 6]) -> [f64; 36] {
     *matrix.as_flattened().first_chunk().unwrap()
 }
 
@@ -75,13 +78,52 @@ proptest! {
             let (cauchy, truesdell) = law.cauchy_and_tangent(&deformation);
             let material = law.material_tangent(&deformation);
             tangent(&law, TangentMeasure::Material, VoigtNumbering::Classical, &f, &mut six).unwrap();
-            close(&six, &flat(StiffnessMatrix::<f64, Classical>::of(&material.0).entries), condition);
+            close(&six, &flat(&StiffnessMatrix::<f64, Classical>::of(&material.0).entries), condition);
             tangent(&law, TangentMeasure::Truesdell, VoigtNumbering::Piola, &f, &mut six).unwrap();
-            close(&six, &flat(StiffnessMatrix::<f64, Piola>::of(&truesdell.0).entries), condition);
+            close(&six, &flat(&StiffnessMatrix::<f64, Piola>::of(&truesdell.0).entries), condition);
             tangent(&law, TangentMeasure::Jaumann, VoigtNumbering::Abaqus, &f, &mut six).unwrap();
             let jaumann = truesdell.jaumann(&cauchy);
-            close(&six, &flat(StiffnessMatrix::<f64, Abaqus>::of(&jaumann.0).entries), condition);
+            close(&six, &flat(&StiffnessMatrix::<f64, Abaqus>::of(&jaumann.0).entries), condition);
         }
+    }
+}
+
+#[test]
+fn every_law_of_the_enum_is_offered() {
+    let stiffness = Stiffness::isotropic(1.0, 2.0).unwrap();
+    let fung = Fung::new(1.0, stiffness).unwrap();
+    let mut laws = laws();
+    laws.push(fung.into());
+    laws.push(AnisotropicLinear::new(stiffness).into());
+    laws.push(AnisotropicSaintVenantKirchhoff::new(stiffness).into());
+    for (name, values) in [
+        ("neo_hookean-lame", vec![2.0, 1.0]),
+        ("hencky-quadratic", vec![2.0, 1.0]),
+        ("linear_elastic", vec![2.0, 1.0]),
+        ("ogden-lame", vec![0.5, 2.0, 1.0]),
+        ("isochoric_ogden-quadratic", vec![0.5, 2.0, 1.0]),
+        ("incompressible_ogden", vec![0.5, 2.0]),
+        ("incompressible-yeoh", vec![0.5, 0.1, 0.01]),
+        ("compressible-arruda_boyce-liu", vec![1.0, 8.0, 20.0]),
+        ("compressible-arruda_boyce_series-miehe", vec![1.0, 8.0, 20.0]),
+        ("compressible-neo_hookean-hartmann_neff", vec![1.0, 20.0]),
+        ("holzapfel_gasser_ogden", vec![1.0, 20.0, 2.0, 0.8, 0.1, 0.6, 0.8, 0.0, 0.6, -0.8, 0.0]),
+        ("reinforced_neo_hookean", vec![1.0, 2.0, 3.0, 0.6, 0.8, 0.0]),
+    ] {
+        laws.push(piola_ffi::named::solid(name, &values).unwrap());
+    }
+    let term = |[first, second, third]: [u8; 3], coefficient| PolynomialTerm { first, second, third, coefficient };
+    let terms = vec![term([1, 0, 0], 0.5), term([0, 1, 0], 0.25), term([0, 0, 1], -1.0), term([0, 0, 2], 5.0)];
+    laws.push(Polynomial::new(terms).unwrap().into());
+    let deformation = DeformationGradient::simple_shear(0.25).unwrap(); // keeps the volume
+    let f = [numbers(deformation.matrix())];
+    for law in laws {
+        let (mut found, mut square) = ([[0.0; 9]], [0.0; 81]);
+        let out = (&mut found[..], &mut square[..]);
+        let measures = (StressMeasure::Cauchy, TangentMeasure::FirstPiola);
+        stress_and_tangent(&law, measures, VoigtNumbering::Piola, &f, out).unwrap();
+        close(&found[0], &numbers(&law.cauchy(&deformation).0.matrix()), 4.0);
+        close(&square, law.first_piola_tangent(&deformation).0.components.as_flattened(), 4.0);
     }
 }
 

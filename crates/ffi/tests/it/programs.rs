@@ -24,7 +24,7 @@ fn library() -> PathBuf {
     let newest = |path: &Path| path.metadata().and_then(|data| data.modified()).ok();
     let is_library = |path: &PathBuf| {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        name.starts_with("libpiola_ffi") && name.ends_with(".a")
+        name.starts_with("libpiola_ffi") && path.extension().is_some_and(|extension| extension == "a")
     };
     let files = std::fs::read_dir(folder).unwrap().flatten().map(|entry| entry.path()).filter(is_library);
     files.max_by_key(|path| newest(path)).expect("cargo builds the static library beside the tests")
