@@ -98,6 +98,15 @@ pub(crate) struct FitArguments {
     /// Find intervals by profile likelihood: each parameter is moved and all others are fitted anew.
     #[arg(long)]
     pub(crate) profile: bool,
+    /// Write a material card of each law for a program: abaqus, ansys, calculix, febio or ls-dyna. Needs --bulk-modulus.
+    #[arg(long = "card", value_name = "PROGRAM", requires = "bulk_modulus")]
+    pub(crate) cards: Vec<String>,
+    /// The bulk modulus of the material cards, in the unit of the stresses.
+    #[arg(long, value_name = "NUMBER")]
+    pub(crate) bulk_modulus: Option<f64>,
+    /// The density of the material cards, in the units of the model; LS-DYNA needs it.
+    #[arg(long, value_name = "NUMBER", default_value_t = 1e-9)]
+    pub(crate) density: f64,
     /// The probability of the intervals.
     #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
     pub(crate) confidence: f64,

@@ -191,11 +191,12 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
             return Err(refused.clone().into());
         }
         let predictions = arguments.to.map(|stretch| fitted.predictions(&measurements, stretch)).transpose()?;
+        let cards = cards(arguments, &fitted)?;
         let beside = || Path::new("out").join(format!("fit-{}", measurements.name()));
         let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
-        Ok((measurements, fitted, predictions, folder))
+        Ok((measurements, fitted, predictions, cards, folder))
     });
-    let (measurements, fitted, predictions, folder) = match prepared {
+    let (measurements, fitted, predictions, cards, folder) = match prepared {
         Ok(prepared) => prepared,
         Err(error) => return refused(&error, arguments.json),
     };
@@ -205,6 +206,9 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
         written.files.extend(more.files);
         written.failures.extend(more.failures);
     }
+    let more = Written::of(&folder, cards.iter().map(|(name, text)| (name.as_str(), text.clone())));
+    written.files.extend(more.files);
+    written.failures.extend(more.failures);
     if arguments.json {
         print(&fitted.summary(&measurements));
     } else {
@@ -219,6 +223,31 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     }
     let refusals: Vec<String> = fitted.refusals().map(|(_, refusal)| refusal.to_string()).collect();
     flows::settled(&fitted, fitted.is_complete(), &refusals, !arguments.laws.is_empty(), &written)
+}
+
+/// The material cards that are asked for, with the names of their files.
+fn cards(arguments: &FitArguments, fitted: &fitting::Comparison) -> Result<Vec<(String, String)>, MeasuredError> {
+    let Some(modulus) = arguments.bulk_modulus else { return Ok(Vec::new()) };
+    let bulk = fitting::Bulk::new(modulus, arguments.density)?;
+    let mut cards = Vec::new();
+    for text in &arguments.cards {
+        let program: fitting::Program = text.parse()?;
+        let mut refused = None;
+        let before = cards.len();
+        for (law, fit) in fitted.fits() {
+            match fitting::card(program, law, fit, bulk) {
+                Ok(card) => {
+                    let name = law.to_string().replace(':', "-");
+                    cards.push((format!("{text}-{name}.{}", program.ending()), card));
+                }
+                Err(error) => refused = Some(error),
+            }
+        }
+        if let Some(error) = refused.filter(|_| cards.len() == before) {
+            return Err(error);
+        }
+    }
+    Ok(cards)
 }
 
 fn request(arguments: &FitArguments) -> Result<Request, MeasuredError> {

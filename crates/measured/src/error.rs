@@ -61,6 +61,16 @@ pub enum MeasuredError {
         /// What is wrong.
         cause: String,
     },
+    /// A finite-element program has no such law.
+    #[error(
+        "{program} has no card of {law}; laws with cards are neo-hookean, mooney-rivlin, yeoh, polynomial:n and ogden:n"
+    )]
+    NoCard {
+        /// The law.
+        law: String,
+        /// The program.
+        program: String,
+    },
     /// A flow lacks one of its sizes.
     #[error("{name} is not given; valid: --{} with a number and its unit", name.replace('_', "-"))]
     MissingSize {

@@ -98,7 +98,9 @@ fn residuals_stand_in_percent_over_the_logarithm_of_the_drive() {
     let percents: Vec<_> = drawing.words().into_iter().filter(|(_, words)| words.ends_with(" %")).collect();
     assert!(3 < percents.len());
     // Ticks at the ordinate, read in percent: the first and the last one give the scale.
-    let percent = |(at, words): &([f64; 2], &str)| (words.trim_end_matches(" %").replace('−', "-").parse::<f64>().unwrap(), at[1]);
+    let percent = |(at, words): &([f64; 2], &str)| {
+        (words.trim_end_matches(" %").replace('−', "-").parse::<f64>().unwrap(), at[1])
+    };
     let (low, high) = (percent(&percents[0]), percent(&percents[percents.len() - 1]));
     let abscissas: Vec<_> = drawing.words().into_iter().filter(|(_, words)| words.starts_with("10")).collect();
     assert_eq!(abscissas.iter().map(|(_, words)| *words).collect::<Vec<_>>(), ["10²", "10³"]);

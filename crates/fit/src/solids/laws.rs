@@ -89,8 +89,8 @@ impl Series {
         self.0
     }
 
-    /// (i, j) with 1 ≤ i + j ≤ n, by degree, powers of I₁ − 3 first.
-    fn powers(self) -> impl Iterator<Item = [u8; 2]> {
+    /// (i, j) with 1 ≤ i + j ≤ n, by degree, powers of I₁ − 3 first: those of the coefficients Cᵢⱼ of a polynomial.
+    pub fn powers(self) -> impl Iterator<Item = [u8; 2]> {
         let degrees = (1_u8..).take(self.0);
         degrees.flat_map(|degree| (0..=degree).map(move |j| [degree - j, j]))
     }

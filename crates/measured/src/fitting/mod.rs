@@ -7,12 +7,14 @@
 //! | fit | [`compare`]: each law on the same data, by [`piola_fit::solids`] |
 //! | write | [`Comparison::write`]: `summary.json`, `curves.csv`, `residuals.csv`, `fit.svg` |
 
+mod cards;
 mod figure;
 mod layout;
 mod mistake;
 mod request;
 mod tables;
 
+pub use cards::{Bulk, Program, card};
 pub use mistake::{TableMistake, TableReport};
 pub use request::{LawBounds, Request};
 

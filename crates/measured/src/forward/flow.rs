@@ -350,7 +350,8 @@ fn cone(request: &FlowRequest) -> Solved {
         found("dissipation", "W", flow.dissipation(fluid)?),
     ];
     let at = |r: f64| Ok([flow.speed() * r, flow.shear_stress(fluid, r)?, flow.shear_rate(fluid, r)?]);
-    Ok((answers, profile(0.0, radius, at)?))
+    // On the axis of a cone there is no gap.
+    Ok((answers, profile(radius / f64::from(INTERVALS), radius, at)?))
 }
 
 fn film(request: &FlowRequest) -> Solved {

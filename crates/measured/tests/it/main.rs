@@ -1,8 +1,10 @@
 //! Tests of measurements: every bad table has a clear answer, every good one the right result.
 
+mod cards;
 mod figures;
 mod fits;
 mod fitting;
+mod forward;
 mod layouts;
 mod newtonian;
 mod rheology;
