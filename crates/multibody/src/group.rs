@@ -1,6 +1,6 @@
 //! The configurations of a tree as a Lie group, for the methods that never leave it.
 
-use piola_integrators::{LieGroup, RigidMotions, Rotations, Translations};
+use piola_geometric::{LieGroup, RigidMotions, Rotations, Translations};
 use piola_numerics::Real;
 
 use crate::link::Kind;
@@ -10,7 +10,7 @@ use crate::tree::RigidTree;
 ///
 /// # Example
 /// ```
-/// use piola_integrators::LieGroup;
+/// use piola_geometric::LieGroup;
 /// use piola_multibody::{BodyIndex, BodyInertia, JointKind, RigidTree, TreeGroup, TreeJoint};
 /// let mut builder = RigidTree::builder();
 /// let ball = BodyInertia::new(1.0, [0.0; 3], [[0.4, 0.0, 0.0], [0.0, 0.4, 0.0], [0.0, 0.0, 0.4]])?;

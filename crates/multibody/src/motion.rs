@@ -4,7 +4,8 @@
 //! q̇ = v for coordinates,  q̇ = ½ q (0, ω) for quaternions,  ẋ = R v for positions        v̇ = forward dynamics
 //! ```
 
-use piola_integrators::{DirectProduct, Field, GroupField, Translations};
+use piola_geometric::{DirectProduct, GroupField, Translations};
+use piola_integrators::Field;
 use piola_numerics::Real;
 
 use crate::error::{MultibodyError, check_length};

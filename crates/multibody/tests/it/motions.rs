@@ -1,6 +1,7 @@
 //! Motions in time: energy, the variational method, free bodies.
 
-use piola_integrators::{AdaptiveMuntheKaas, DormandPrince853, Order, State, Tolerance};
+use piola_geometric::AdaptiveMuntheKaas;
+use piola_integrators::{DormandPrince853, Order, State, Tolerance};
 use piola_multibody::{BodyIndex, MultibodyError, RigidTree, VariationalTree};
 use piola_testkit::{Tol, assert_close};
 
