@@ -160,9 +160,9 @@ pub(super) fn differentiate<T: Real>(
             k += 1;
         }
         if link.parent != 0 {
-            let child = composite[i + 1];
-            let parent = &mut composite[link.parent];
-            add_velocity_product(parent, &child);
+            let (before, after) = composite.split_at_mut(i + 1);
+            let (parent, child) = (&mut before[link.parent], &after[0]);
+            add_velocity_product(parent, child);
             parent.torque = add(parent.torque, child.torque);
             parent.force = add(parent.force, child.force);
         }
