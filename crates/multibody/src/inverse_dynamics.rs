@@ -15,8 +15,9 @@
 
 use piola_numerics::Real;
 
+use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_finite, check_length};
-use crate::link::{Elementary, Link, for_kind, take};
+use crate::link::{Elementary, Link, take};
 use crate::spatial::{acceleration_gradient, add, cross, lit, lit_symmetric, scaled, sub, symmetric_times, times};
 use crate::tree::{BodyIndex, RigidTree};
 use crate::turn::Turning;

@@ -5,10 +5,12 @@
 #![expect(clippy::doc_markdown, reason = "symbols with indices, as S_ω, are not code")]
 #![expect(clippy::needless_range_loop, reason = "the indices are those of the equations")]
 
+mod articulation;
 mod batch;
 mod configuration;
 mod coriolis;
 mod derivatives;
+mod elementary;
 mod error;
 mod factorisation;
 mod forward_dynamics;
@@ -23,6 +25,7 @@ mod momentum;
 mod motion;
 mod reactions;
 mod regressor;
+mod slopes;
 mod space;
 mod spatial;
 mod tree;

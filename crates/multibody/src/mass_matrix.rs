@@ -12,8 +12,9 @@
 
 use piola_numerics::{Kernel, Real, dispatch};
 
+use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
-use crate::link::{Articulated, Elementary, Link, for_kind};
+use crate::link::{Articulated, Elementary, Link};
 use crate::space::{Runs, SUBSPACE, add_symmetric, pass_subspaces, reference};
 use crate::spatial::{add, cross, lit, lit_symmetric, scaled, skew, sub, times, translated_inertia};
 use crate::tree::RigidTree;

@@ -10,9 +10,10 @@
 
 use piola_numerics::Real;
 
+use crate::elementary::for_kind;
 use crate::error::{MultibodyError, check_finite, check_length};
 use crate::inverse_dynamics::pass_outwards;
-use crate::link::{Elementary, Link, Pair, for_kind};
+use crate::link::{Elementary, Link, Pair};
 use crate::spatial::{add, cross, lit, lit_matrix, product, symmetric_times, times, transposed, transposed_times};
 use crate::tree::RigidTree;
 use crate::turn::Turning;

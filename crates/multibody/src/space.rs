@@ -4,7 +4,8 @@
 
 use piola_numerics::Real;
 
-use crate::link::{Elementary, Link, Pair, for_kind, take};
+use crate::elementary::for_kind;
+use crate::link::{Elementary, Link, Pair, take};
 use crate::spatial::{
     Symmetric, Vector, add, cross, lit, lit_symmetric, scaled, sub, symmetric_times, times, translated_inertia,
 };

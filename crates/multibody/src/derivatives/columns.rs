@@ -132,6 +132,35 @@ fn solve<T: Real>(
     }
 }
 
+/// b = a + c x.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn set_sum<T: Real>(b: &mut ColumnState<T>, a: &ColumnState<T>, c: &[T; 6], x: &Values<T>) {
+    let mut i = 0;
+    while i < 6 {
+        let mut k = 0;
+        while k < COLUMNS {
+            b[i][k] = a[i][k] + c[i] * x[k];
+            k += 1;
+        }
+        i += 1;
+    }
+}
+
+/// b = c x.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn set_scaled<T: Real>(b: &mut ColumnState<T>, c: &[T; 6], x: &Values<T>) {
+    let mut i = 0;
+    while i < 6 {
+        let mut k = 0;
+        while k < COLUMNS {
+            b[i][k] = c[i] * x[k];
+            k += 1;
+        }
+        i += 1;
+    }
+}
+
+/// States are written where they stay: they are too large to be copied about.
 #[cfg_attr(not(debug_assertions), inline(always))]
 fn inwards<T: Real, const N: usize>(
     link: &Link,
@@ -140,26 +169,35 @@ fn inwards<T: Real, const N: usize>(
     values: &mut [Values<T>],
     vectors: &[ColumnVectors<T>],
 ) {
-    let mut p = if link.is_leaf { [[T::zero(); COLUMNS]; 6] } else { states[state] };
+    let (before, after) = states.split_at_mut(state);
+    let (parent, own) = (&mut before[link.parent], &after[0]);
     let (values, vectors) = (&mut values[link.v..link.v + N], &vectors[link.v..link.v + N]);
-    for (value, vector) in values.iter_mut().zip(vectors) {
-        *value = less_dot(value, &vector.subspace, &p);
+    if !link.is_leaf {
+        for (value, vector) in values.iter_mut().zip(vectors) {
+            *value = less_dot(value, &vector.subspace, own);
+        }
     }
     if link.parent == 0 {
         return;
     }
-    for (value, vector) in values.iter().zip(vectors) {
-        add_scaled(&mut p, &vector.gain, value);
-    }
-    let parent = &mut states[link.parent];
+    // What the parent gets: p + Y u.
+    let mut rest = 0;
     if link.is_first_met {
-        *parent = p;
-        return;
-    }
-    for (parent, p) in parent.iter_mut().zip(&p) {
-        for (parent, &p) in parent.iter_mut().zip(p) {
-            *parent += p;
+        if link.is_leaf {
+            set_scaled(parent, &vectors[0].gain, &values[0]);
+        } else {
+            set_sum(parent, own, &vectors[0].gain, &values[0]);
         }
+        rest = 1;
+    } else if !link.is_leaf {
+        for (parent, own) in parent.iter_mut().zip(own) {
+            for (parent, &own) in parent.iter_mut().zip(own) {
+                *parent += own;
+            }
+        }
+    }
+    for (value, vector) in values[rest..].iter().zip(&vectors[rest..]) {
+        add_scaled(parent, &vector.gain, value);
     }
 }
 
@@ -172,7 +210,8 @@ fn outwards<T: Real, const N: usize>(
     values: &mut [Values<T>],
     vectors: &[ColumnVectors<T>],
 ) {
-    let mut acceleration = if link.parent == 0 { [[T::zero(); COLUMNS]; 6] } else { states[link.parent] };
+    let (before, after) = states.split_at_mut(state);
+    let (parent, own) = (&before[link.parent], &mut after[0]);
     let (values, vectors) = (&mut values[link.v..link.v + N], &vectors[link.v..link.v + N]);
     let inverses = &inverses[link.square..link.square + N * N];
     let mut x = [[T::zero(); COLUMNS]; N];
@@ -183,13 +222,20 @@ fn outwards<T: Real, const N: usize>(
             }
         }
     }
+    // The ground does not move.
+    let is_root = link.parent == 0;
     for ((value, vector), x) in values.iter_mut().zip(vectors).zip(&x) {
-        *value = less_dot(x, &vector.gain, &acceleration);
+        *value = if is_root { *x } else { less_dot(x, &vector.gain, parent) };
     }
-    if !link.is_leaf {
-        for (value, vector) in values.iter().zip(vectors) {
-            add_scaled(&mut acceleration, &vector.subspace, value);
-        }
-        states[state] = acceleration;
+    if link.is_leaf {
+        return;
+    }
+    if is_root {
+        set_scaled(own, &vectors[0].subspace, &values[0]);
+    } else {
+        set_sum(own, parent, &vectors[0].subspace, &values[0]);
+    }
+    for (value, vector) in values[1..].iter().zip(&vectors[1..]) {
+        add_scaled(own, &vector.subspace, value);
     }
 }

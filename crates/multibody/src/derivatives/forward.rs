@@ -10,9 +10,10 @@ use piola_numerics::{Kernel, Mask, Real, dispatch};
 
 use super::columns::{gains_in_space, solve_columns};
 use super::inverse::differentiate;
+use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
 use crate::forward_dynamics::{pass_accelerations, pass_inwards, pass_outwards};
-use crate::link::{Elementary, Link, for_kind};
+use crate::link::{Elementary, Link};
 use crate::spatial::{add, times};
 use crate::tree::RigidTree;
 use crate::turn::Turning;

@@ -17,8 +17,9 @@
 use piola_numerics::{Kernel, Real, dispatch};
 
 use crate::coriolis::{add_velocity_product, by_velocity, by_velocity_transposed, own_velocity_product};
+use crate::elementary::for_kind;
 use crate::error::{MultibodyError, all_finite, check_length};
-use crate::link::{Elementary, Link, Pair, for_kind};
+use crate::link::{Elementary, Link, Pair};
 use crate::mass_matrix::dots;
 use crate::space::{
     BOTH_RATES, RATE, Runs, SECOND_RATE, SUBSPACE, add_pairs, force_cross, motion_cross, own_inertia, pass_places,
@@ -160,9 +161,9 @@ pub(super) fn differentiate<T: Real>(
             k += 1;
         }
         if link.parent != 0 {
-            let child = composite[i + 1];
-            let parent = &mut composite[link.parent];
-            add_velocity_product(parent, &child);
+            let (before, after) = composite.split_at_mut(i + 1);
+            let (parent, child) = (&mut before[link.parent], &after[0]);
+            add_velocity_product(parent, child);
             parent.torque = add(parent.torque, child.torque);
             parent.force = add(parent.force, child.force);
         }

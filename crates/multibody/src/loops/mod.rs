@@ -13,6 +13,7 @@
 mod closure;
 mod evaluation;
 mod motion;
+mod projection;
 mod solve;
 
 pub use closure::{BodyPoint, LoopClosure};
