@@ -5,12 +5,14 @@
 pub mod algebra;
 pub mod coupled;
 mod error;
+mod examine;
 pub mod invariants;
 mod methods;
 pub mod strain;
 pub mod stretches;
 
 pub use algebra::{Decoupled, OfVolume, Scaled, Sum};
+pub use examine::{LawsError, examine};
 pub use invariants::{EnergyOfInvariants, Excesses, OfInvariants};
 pub use piola_solids::SolidsError;
 pub use strain::{EnergyOfStrain, OfStrain};

@@ -2,6 +2,7 @@
 
 mod alloc;
 mod grown;
+mod in_series;
 mod laws;
 mod newton;
 mod paths;

@@ -23,7 +23,7 @@ use crate::methods::answers;
 /// ```
 ///
 /// # Accuracy
-/// P, S, τ relative 1e-13 down to ∇u = 1e-16 for an energy whose terms keep their digits, see [`Excesses`]; tangents a few ulp of
+/// P, S, τ relative 1e-13 down to ∇u = 1e-16 for an energy whose terms keep their digits, see [`Excesses`](super::Excesses); tangents a few ulp of
 /// their norm. For J far below 1 the stress loses the digits that J^(−2/3) has before the point.
 ///
 /// # Example
