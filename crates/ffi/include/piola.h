@@ -102,7 +102,7 @@ PiolaStatus piola_solid_from_json(const char *json,
 
 // Makes the law of a fit from the text of its `summary.json`.
 //
-// `model` chooses one of its laws, such as `yeoh`; a null pointer chooses the best by AICc. `volumetric` is the energy of the
+// `model` chooses one of its laws, such as `yeoh`; a null pointer chooses the best by `aicc`. `volumetric` is the energy of the
 // change of volume in JSON, such as `{"law": "quadratic", "bulk_modulus": 2e9}`; with a null pointer the law is incompressible.
 PiolaStatus piola_solid_from_fit(const char *summary,
                                  const char *model,

@@ -147,6 +147,12 @@ fn visit<V: SolidVisitor<Output = Result<(), SolidsError>>>(law: &AnySolid, visi
     Ok(result?)
 }
 
+/// Whether a law is linear elasticity, which knows no difference between the measures: each stress is σ, each tangent of 36
+/// numbers ∂σ/∂ε.
+const fn is_linear(law: &AnySolid) -> bool {
+    matches!(law, AnySolid::LinearElastic(_) | AnySolid::AnisotropicLinear(_))
+}
+
 /// P at each point.
 struct FirstPiolaAt<'a>(&'a [[f64; 9]], &'a mut [[f64; 9]]);
 
@@ -212,7 +218,7 @@ fn convert<Q: Quantity<I, K, Input = (), Output = Q>, const I: usize, const K: u
     }
 }
 
-/// The stress at each point, nine components by rows.
+/// The stress at each point, nine components by rows. Of a law of linear elasticity it is σ in every measure.
 ///
 /// | argument | meaning | shape | unit |
 /// |---|---|---|---|
@@ -233,7 +239,7 @@ pub fn stress(law: &AnySolid, measure: StressMeasure, f: &[[f64; 9]], out: &mut 
     check_length("stresses", f.len(), out.len())?;
     let mut bad = Bad::default();
     bad.note(0, visit(law, FirstPiolaAt(f, out)))?;
-    if measure != StressMeasure::FirstPiola {
+    if measure != StressMeasure::FirstPiola && !is_linear(law) {
         let mut converted = [[0.0; 6]; BLOCK];
         for (f, out) in f.chunks(BLOCK).zip(out.chunks_mut(BLOCK)) {
             let converted = &mut converted[..f.len()];
@@ -250,7 +256,8 @@ pub fn stress(law: &AnySolid, measure: StressMeasure, f: &[[f64; 9]], out: &mut 
     bad.finish(f.len())
 }
 
-/// The tangent at each point, by rows: 81 numbers for ∂P/∂F, 36 in the order of `numbering` for the others.
+/// The tangent at each point, by rows: 81 numbers for ∂P/∂F, 36 in the order of `numbering` for the others. Of a law of linear
+/// elasticity it is ∂σ/∂ε in every measure.
 ///
 /// # Errors
 /// As [`stress`]; `out` must hold [`TangentMeasure::numbers`] for each point.
@@ -331,6 +338,7 @@ fn in_blocks<const N: usize>(
 
 /// Memory for a block of points, on the stack.
 struct Block<const N: usize> {
+    is_linear: bool,
     stress: [[f64; 9]; N],
     triangle: [[f64; 45]; N],
     both: [[f64; 54]; N],
@@ -341,6 +349,7 @@ struct Block<const N: usize> {
 impl<const N: usize> Block<N> {
     const fn new() -> Self {
         Self {
+            is_linear: false,
             stress: [[0.0; 9]; N],
             triangle: [[0.0; 45]; N],
             both: [[0.0; 54]; N],
@@ -357,11 +366,22 @@ impl<const N: usize> Block<N> {
             both[..9].copy_from_slice(stress);
             both[9..].copy_from_slice(triangle);
         }
+        self.is_linear = is_linear(law);
+        if self.is_linear {
+            // ∂σ/∂ε is ∂P/∂F itself: there is no stress to take off.
+            for both in &mut self.both[..n] {
+                both[..9].fill(0.0);
+            }
+        }
         result
     }
 
     fn stress(&mut self, measure: StressMeasure, f: &[[f64; 9]], out: &mut [[f64; 9]]) -> Result<(), SolidsError> {
         let n = f.len();
+        if self.is_linear {
+            out.copy_from_slice(&self.stress[..n]);
+            return Ok(());
+        }
         match measure {
             StressMeasure::FirstPiola => {
                 out.copy_from_slice(&self.stress[..n]);
@@ -385,6 +405,8 @@ impl<const N: usize> Block<N> {
     ) -> Result<(), SolidsError> {
         let n = f.len();
         let (both, tangent) = (&self.both[..n], &mut self.tangent[..n]);
+        let still = [[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]; N];
+        let f = if self.is_linear { &still[..n] } else { f };
         match measure {
             TangentMeasure::FirstPiola => {
                 for (out, both) in out.chunks_mut(81).zip(both) {

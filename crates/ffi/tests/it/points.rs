@@ -124,6 +124,12 @@ fn every_law_of_the_enum_is_offered() {
         stress_and_tangent(&law, measures, VoigtNumbering::Piola, &f, out).unwrap();
         close(&found[0], &numbers(&law.cauchy(&deformation).0.matrix()), 4.0);
         close(&square, law.first_piola_tangent(&deformation).0.components.as_flattened(), 4.0);
+        let mut six = [0.0; 36];
+        tangent(&law, TangentMeasure::Truesdell, VoigtNumbering::Piola, &f, &mut six).unwrap();
+        let expected = StiffnessMatrix::<f64, Piola>::of(&law.truesdell_tangent(&deformation).0).entries;
+        close(&six, &flat(&expected), 8.0);
+        stress(&law, StressMeasure::SecondPiola, &f, &mut found).unwrap();
+        close(&found[0], &numbers(&law.second_piola(&deformation).0.matrix()), 4.0);
     }
 }
 
