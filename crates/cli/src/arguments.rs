@@ -67,6 +67,7 @@ pub(crate) struct RunArguments {
 }
 
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub(crate) struct FitArguments {
     /// The measured stresses: a table with the columns mode, stretch (or strain) and stress, or lambda1, lambda2, P1, P2, or F and stress
     /// by components.
@@ -206,11 +207,11 @@ pub(crate) struct FitFlowArguments {
 pub(crate) struct SolveArguments {
     /// The flow: pipe, channel, annulus, couette, plates, cone or film.
     pub(crate) flow: String,
-    /// The fluid, as 'bingham:yield_stress=3 Pa,plastic_viscosity=50 mPa s', a JSON file of a fluid, or the summary.json of a fit-flow,
+    /// The fluid, as `bingham:yield_stress=3 Pa,plastic_viscosity=50 mPa s`, a JSON file of a fluid, or the summary.json of a fit-flow,
     /// with #NAME for one of its fluids.
     #[arg(long, value_name = "FLUID")]
     pub(crate) fluid: String,
-    /// The drive or an answer, as 'pressure_gradient=10 kPa/m' or 'discharge=3 mL/s'.
+    /// The drive or an answer, as `pressure_gradient=10 kPa/m` or `discharge=3 mL/s`.
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub(crate) given: String,
     /// Radius of the pipe, the plates or the cone.

@@ -6,6 +6,7 @@
 mod arguments;
 mod commands;
 mod comparison;
+mod fits;
 mod flows;
 mod interrupt;
 mod progress;
@@ -38,7 +39,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Plan(arguments) => commands::plan(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
-        Command::Fit(arguments) => commands::fit(&arguments),
+        Command::Fit(arguments) => fits::fit(&arguments),
         Command::Recover(arguments) => flows::recover(&arguments),
         Command::FitFlow(arguments) => flows::fit(&arguments),
         Command::Flow(arguments) => flows::solve(&arguments),

@@ -6,6 +6,7 @@
 //! The argument is the number of trials of each case. Each table has 25 rows at rates or wall rates from 10⁻² to 10³ 1/s, each response
 //! times 1 + 1 % normal noise. Flows are solved by `piola_viscometry`, which the fit does not use for its answers.
 
+use core::fmt::Write as _;
 use std::io::Write as _;
 
 use piola_fit::FitError;
@@ -107,7 +108,7 @@ fn fluid<F: Parameters<N> + ViscometricFluid, const N: usize>(
         }
         let shares = (0..N).filter(|k| 0 < told[*k]).map(|k| 100.0 * held[k] as f64 / told[k] as f64);
         let (low, high) = shares.fold((100.0, 0.0_f64), |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
-        line += &format!(" {low:.0}–{high:.0} |");
+        write!(line, " {low:.0}–{high:.0} |")?;
         total.0 += held.iter().sum::<u64>();
         total.1 += told.iter().sum::<u64>();
     }

@@ -229,7 +229,7 @@ fn fit_model(
         sets.push(these.to_vec());
         rest = others;
     }
-    let statistics = Statistics::new(&problem, &best, DMatrix::from_row_slice(rows, n, &slopes), &sets, options);
+    let statistics = Statistics::new(&problem, &best, &DMatrix::from_row_slice(rows, n, &slopes), &sets, options);
     Ok(FluidFit {
         fluid: (),
         parameters: (0..n).map(|k| statistics.parameter(k)).collect(),
@@ -266,7 +266,7 @@ impl<'p> Statistics<'p> {
     fn new(
         problem: &'p Problem<'p>,
         best: &'p Best,
-        slopes: DMatrix<f64>,
+        slopes: &DMatrix<f64>,
         sets: &[Vec<f64>],
         options: &Options,
     ) -> Self {
@@ -286,7 +286,7 @@ impl<'p> Statistics<'p> {
         let free: Vec<usize> = (0..n).filter(|&k| !at_bound[k]).collect();
         let degrees_of_freedom = rows - free.len();
         let variance = if 0 < degrees_of_freedom { best.squares / degrees_of_freedom as f64 } else { 0.0 };
-        let covariance = Covariance::new(&slopes, &free, variance);
+        let covariance = Covariance::new(slopes, &free, variance);
         let autocorrelation = Autocorrelation::of(sets.iter().map(Vec::as_slice)).filter(|_| 1e-9 < variance.sqrt());
         let widening = autocorrelation.map_or(1.0, |found| found.widening);
         let quantile = student(options.confidence, degrees_of_freedom).map(|t| t * widening);

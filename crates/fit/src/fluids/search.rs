@@ -16,8 +16,11 @@ pub(super) struct Model<'f> {
     /// The names of its parameters.
     pub(super) names: &'f [&'static str],
     /// Residuals of data at parameters.
-    pub(super) residuals: &'f dyn Fn(&[FlowData], &[f64]) -> Result<Rows, FitError>,
+    pub(super) residuals: &'f Residuals<'f>,
 }
+
+/// Residuals of data at parameters.
+pub(super) type Residuals<'f> = dyn Fn(&[FlowData], &[f64]) -> Result<Rows, FitError> + 'f;
 
 /// Residuals, and their derivatives row by row.
 pub(super) type Rows = (Vec<f64>, Vec<f64>);

@@ -10,7 +10,7 @@ use piola_solids::{
     OgdenTerm, internal,
 };
 
-use super::{Model, Parameter, Place, StableSign};
+use super::{Embedding, Model, Parameter, StableSign};
 use crate::FitError;
 
 /// The largest number of terms, or degree, of a series.
@@ -279,15 +279,15 @@ impl Model for AnyModel {
         }
     }
 
-    fn contained(&self) -> Vec<(Self, Vec<Place>)> {
-        use Place::{Constant, Parameter};
+    fn contained(&self) -> Vec<(Self, Vec<Embedding>)> {
+        use Embedding::{Constant, Parameter};
         match *self {
             Self::NeoHookean | Self::Gent | Self::ArrudaBoyce => Vec::new(),
             Self::MooneyRivlin => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0)])],
             Self::Yeoh => vec![(Self::NeoHookean, vec![Parameter(0, 0.5), Constant(0.0), Constant(0.0)])],
             Self::Polynomial(series) => {
                 let count = series.powers().count();
-                let fill = |mut places: Vec<Place>| {
+                let fill = |mut places: Vec<Embedding>| {
                     places.resize(count, Constant(0.0));
                     places
                 };
@@ -307,7 +307,7 @@ impl Model for AnyModel {
             }
             Self::Ogden(series) if series.0 == 1 => vec![(Self::NeoHookean, vec![Parameter(0, 1.0), Constant(2.0)])],
             Self::Ogden(series) => {
-                let mut places: Vec<Place> = (0..2 * (series.0 - 1)).map(|k| Parameter(k, 1.0)).collect();
+                let mut places: Vec<Embedding> = (0..2 * (series.0 - 1)).map(|k| Parameter(k, 1.0)).collect();
                 places.extend([Constant(0.0), Constant(1.0)]);
                 let mut contained = vec![(Self::Ogden(Series(series.0 - 1)), places)];
                 if series.0 == 2 {

@@ -31,7 +31,7 @@ mod test;
 pub use crate::{Autocorrelation, Covariance, Criteria, Intervals, Outcome, State, student};
 pub use crossed::{Alone, Contradiction, HeldOut, alone, contradictions, held_out};
 pub use laws::{AnyModel, Series};
-pub use model::{Fitted, Model, Parameter, Place, Role, StableSign};
+pub use model::{Embedding, Fitted, Model, Parameter, Role, StableSign};
 pub use prediction::{Prediction, predict};
 pub use stability::{Counterexample, StabilityReport};
 pub use test::{Component, Data, Measure, Table, Test};
@@ -324,7 +324,7 @@ fn fit_from<M: Model>(
             let few = few.iter().step_by(few.len().div_ceil(FEW_STARTS).max(1)).cloned().collect();
             let Ok(lower) = fit_from(&contained, data, options, Some(few), stop) else { continue };
             if lower.weighted_squares < best.squares * (1.0 - 1e-9) && lower.outcome != Outcome::NoStiffness {
-                best = problem.not_worse(&Place::embed(&places, &lower.values()), lower.weighted_squares, &fan);
+                best = problem.not_worse(&Embedding::embed(&places, &lower.values()), lower.weighted_squares, &fan);
             }
         }
     }

@@ -135,7 +135,7 @@ pub trait Model {
 
     /// Laws that this one contains, each with the place of this law's parameters in it: a fit is never worse than that of these.
     #[must_use]
-    fn contained(&self) -> Vec<(Self, Vec<Place>)>
+    fn contained(&self) -> Vec<(Self, Vec<Embedding>)>
     where
         Self: Sized,
     {
@@ -145,14 +145,14 @@ pub trait Model {
 
 /// A parameter of a law in terms of those of a law that it contains.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum Embedding {
     /// The contained law's parameter of this number, times a factor.
     Parameter(usize, f64),
     /// A constant.
     Constant(f64),
 }
 
-impl Place {
+impl Embedding {
     /// The parameters of the larger law.
     pub(super) fn embed(places: &[Self], contained: &[f64]) -> Vec<f64> {
         let value = |place: &Self| match *place {

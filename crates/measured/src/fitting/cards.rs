@@ -2,9 +2,9 @@
 //!
 //! | program | neo-Hookean, Mooney–Rivlin, Yeoh, polynomial | Ogden |
 //! |---|---|---|
-//! | Abaqus, CalculiX | W = Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ + Σ (J − 1)²ⁱ/Dᵢ, D₁ = 2/K | W = Σ 2μ/α² (λ₁ᵅ + λ₂ᵅ + λ₃ᵅ − 3) |
+//! | Abaqus, `CalculiX` | W = Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ + Σ (J − 1)²ⁱ/Dᵢ, D₁ = 2/K | W = Σ 2μ/α² (λ₁ᵅ + λ₂ᵅ + λ₃ᵅ − 3) |
 //! | Ansys | the same with dᵢ | W = Σ μ/α (λ₁ᵅ + λ₂ᵅ + λ₃ᵅ − 3) |
-//! | LS-DYNA | 077_H: W = Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ, up to C₃₀, K from ν | 077_O: W = Σ μ/α (…), K from ν |
+//! | LS-DYNA | `077_H`: W = Σ Cᵢⱼ (I₁ − 3)ⁱ (I₂ − 3)ʲ, up to C₃₀, K from ν | `077_O`: W = Σ μ/α (…), K from ν |
 //! | `FEBio` | W = c₁ (I₁ − 3) + c₂ (I₂ − 3) + ½ k ln² J; no Yeoh or polynomial | W = Σ c/m² (λ₁ᵐ + λ₂ᵐ + λ₃ᵐ − 3) |
 //!
 //! Stretches and invariants are those of F/J^(1/3). Numbers are in the unit of the fitted stresses, which must be that of the model.

@@ -543,7 +543,7 @@ impl RecoveredCurve {
             }
             match point.band {
                 Some(_) if !point.is_determined() => {
-                    text.push_str("  not determined: the band reaches by more than a factor of ten")
+                    text.push_str("  not determined: the band reaches by more than a factor of ten");
                 }
                 Some([low, high]) => {
                     let _ = write!(text, "  [{low:.5e}, {high:.5e}]");

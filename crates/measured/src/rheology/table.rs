@@ -125,7 +125,7 @@ impl Measured {
 
     /// "ketchup: 31 rows, coaxial cylinders", and what was read in a way that a reader must know.
     pub(super) fn heading(&self) -> String {
-        let notes: String = self.notes.iter().map(|note| format!("\n  {note}")).collect();
+        let notes = self.notes.iter().fold(String::new(), |text, note| text + "\n  " + note);
         format!("{}: {} rows, {}{notes}", self.name(), self.rows().len(), self.flow.kind().words())
     }
 

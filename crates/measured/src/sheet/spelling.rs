@@ -89,7 +89,10 @@ fn rewritten(text: &str) -> String {
     let flush = |factor: &mut String, out: &mut String| {
         let whole = WHOLE.iter().find(|(spelling, _)| spelling == factor).map_or(factor.as_str(), |(_, unit)| *unit);
         let needs_brackets = whole.contains([' ', '/']) && out.trim_end().ends_with('/');
-        out.push_str(&if needs_brackets { format!("({whole})") } else { whole.to_owned() });
+        let [open, close] = if needs_brackets { ["(", ")"] } else { [""; 2] };
+        for part in [open, whole, close] {
+            out.push_str(part);
+        }
         factor.clear();
     };
     let letters: Vec<char> = text.chars().collect();

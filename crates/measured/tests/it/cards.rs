@@ -1,5 +1,7 @@
 //! Material cards: the documented energy of each program, with the numbers of the card, is that of the fitted law.
 
+use core::fmt::Write as _;
+
 use piola_fit::solids::{AnyModel, Model as _};
 use piola_measured::fitting::{Bulk, FittedLaw, Measurements, Program, Request, card, compare};
 use piola_testkit::{Tol, assert_close};
@@ -7,16 +9,11 @@ use piola_testkit::{Tol, assert_close};
 const BULK: f64 = 2000.0;
 
 fn fitted(name: &str) -> (AnyModel, FittedLaw) {
-    let rows: String = (1..=14)
-        .map(|k| 1.0 + 0.25 * f64::from(k))
-        .map(|x| {
-            format!(
-                "uniaxial,{x},{}\nequibiaxial,{x},{}\n",
-                x - x.powi(-2) + 1e-3 * x.powi(4),
-                x - x.powi(-5) + 2e-3 * x.powi(4)
-            )
-        })
-        .collect();
+    let mut rows = String::new();
+    for x in (1..=14).map(|k| 1.0 + 0.25 * f64::from(k)) {
+        let stresses = [x - x.powi(-2) + 1e-3 * x.powi(4), x - x.powi(-5) + 2e-3 * x.powi(4)];
+        let _ = writeln!(rows, "uniaxial,{x},{}\nequibiaxial,{x},{}", stresses[0], stresses[1]);
+    }
     let measurements = Measurements::parse("made.csv", &format!("mode,stretch,stress\n{rows}"))
         .unwrap_or_else(|error| panic!("{error}"));
     let law: AnyModel = name.parse().unwrap_or_else(|error| panic!("{error}"));

@@ -6,6 +6,7 @@ use piola_measured::forward::{FlowRequest, SolvedFlow, fluid, solve};
 use piola_testkit::{Tol, assert_close};
 
 use crate::newtonian::{numbers, written};
+use crate::rheology::csv;
 
 fn solved(flow: &str, text: &str, sizes: &[(&str, &str)], given: (&str, &str)) -> SolvedFlow {
     let fluid = fluid(text).unwrap_or_else(|error| panic!("{error}"));
@@ -44,11 +45,14 @@ fn newtonian_flows_have_their_closed_forms() {
     assert_close("film", &[value(&film, "discharge_per_width")], &[9806.65 * 1e-9 / 6.0], CLOSED);
 }
 
+/// A flow, its sizes, and an answer with its value.
+type Case<'c> = (&'c str, &'c [(&'c str, &'c str)], &'c str, &'c str);
+
 #[test]
 fn a_drive_found_from_an_answer_gives_that_answer() {
     let mud = "herschel-bulkley:yield_stress=5 Pa,consistency=2,exponent=0.5";
     let gap = [("inner_radius", "10 mm"), ("outer_radius", "15 mm")];
-    let cases: [(&str, &[(&str, &str)], &str, &str); 6] = [
+    let cases: [Case; 6] = [
         ("pipe", &[("radius", "5 mm")], "discharge", "20 mL/s"),
         ("channel", &[("half_width", "5 mm")], "discharge_per_width", "20 mm^2/s"),
         ("annulus", &gap, "discharge", "20 mL/s"),
@@ -88,9 +92,9 @@ fn a_flow_writes_its_profile_and_its_figure() {
 #[test]
 fn the_best_fluid_of_a_fit_flows() -> Result<(), Box<dyn std::error::Error>> {
     use piola_measured::rheology::{FlowKind, Measured, Request, compare};
-    let rows: String =
-        (0..12).map(|i| 0.5_f64 * 1.7_f64.powi(i)).map(|k| format!("{k:?},{:?}\n", 2.0 + 0.5 * k)).collect();
-    let measured = Measured::parse("mud.csv", &format!("shear_rate,shear_stress\n{rows}"), FlowKind::Curve, &[])?;
+    let rows = (0..12).map(|i| 0.5_f64 * 1.7_f64.powi(i)).map(|k| [k, 2.0 + 0.5 * k]);
+    let text = csv("shear_rate,shear_stress", rows);
+    let measured = Measured::parse("mud.csv", &text, FlowKind::Curve, &[])?;
     let comparison = compare(&measured, &Request::of(vec!["bingham".parse()?, "newtonian".parse()?]))?;
     let path = std::env::temp_dir().join(format!("piola-forward-{}.json", std::process::id()));
     std::fs::write(&path, comparison.summary(&measured))?;

@@ -311,7 +311,7 @@ fn strains_stretches_and_specimens_are_read_as_they_are_named() {
     let plain = rubber_refused("mode,strain,stress\nUT,50,400\nUT,100,600\n");
     assert!(plain.starts_with("rubber.csv:1: `strain` reaches 100 and has no unit; valid: `strain [%]`"), "{plain}");
     let two = rubber("mode,stretch,stress\nUT_T,1.5,0.4\nUT_C,0.8,-0.3\n");
-    assert_eq!(two.data.tests().iter().map(|test| test.name()).collect::<Vec<_>>(), ["UT_T", "UT_C"]);
+    assert_eq!(two.data.tests().iter().map(piola_measured::fitting::Test::name).collect::<Vec<_>>(), ["UT_T", "UT_C"]);
     let three =
         rubber("Stress [MPa],specimen,stretch,mode,weight\n0.4,a,1.5,planar,2\n0.5,b,1.5,planar,0\n0.6,a,2,planar,2\n");
     assert_eq!(

@@ -5,8 +5,8 @@
 
 use nalgebra::DMatrix;
 
-use super::splines::HIGHEST;
-
+/// The highest degree of splines.
+pub(super) const HIGHEST: usize = 9;
 /// Entries of a row: the diagonal in the middle.
 const WIDTH: usize = 2 * HIGHEST + 1;
 /// Values below this part of the largest are none.

@@ -8,10 +8,8 @@
 
 use nalgebra::DMatrix;
 
-use super::banded::Banded;
+use super::banded::{Banded, HIGHEST};
 
-/// The highest degree.
-pub(super) const HIGHEST: usize = 9;
 /// A value and its first four derivatives.
 pub(super) type Derivatives = [f64; 5];
 

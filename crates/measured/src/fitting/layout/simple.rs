@@ -134,8 +134,8 @@ fn labelled(label: &str) -> Option<(Mode, String)> {
     if let Some(mode) = mode(label) {
         return Some((mode, mode.name().to_owned()));
     }
-    let splits = label.match_indices(['_', ' ', '/', ':', '-']);
-    let (at, _) = splits.into_iter().filter(|(at, _)| mode(&label[..*at]).is_some()).last()?;
+    let splits: Vec<(usize, &str)> = label.match_indices(['_', ' ', '/', ':', '-']).collect();
+    let (at, _) = splits.into_iter().rfind(|(at, _)| mode(&label[..*at]).is_some())?;
     Some((mode(&label[..at])?, label.to_owned()))
 }
 

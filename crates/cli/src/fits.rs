@@ -1,0 +1,107 @@
+//! The command `fit`.
+
+use std::path::Path;
+
+use piola_charts::{Folder, Written};
+use piola_measured::MeasuredError;
+use piola_measured::fitting::{self, Measurements, Request};
+
+use crate::arguments::FitArguments;
+use crate::commands::{listing, note, print, refused};
+use crate::interrupt::Interrupt;
+use crate::{Exit, comparison, flows};
+
+pub(crate) fn fit(arguments: &FitArguments) -> Exit {
+    let interrupt = Interrupt::listen();
+    let prepared = flows::only(&arguments.only).and_then(|only| {
+        let measurements = Measurements::load_only(&arguments.data, &only)?;
+        let request = request(arguments)?;
+        let fitted = flows::watched(&measurements.name(), &interrupt, |watch| {
+            fitting::compare_until(&measurements, &request, watch)
+        })?;
+        if let (None, Some((_, refused))) = (fitted.fits().next(), fitted.refusals().next()) {
+            return Err(refused.clone().into());
+        }
+        let predictions = arguments.to.map(|stretch| fitted.predictions(&measurements, stretch)).transpose()?;
+        let cards = cards(arguments, &fitted)?;
+        let beside = || Path::new("out").join(format!("fit-{}", measurements.name()));
+        let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
+        Ok((measurements, fitted, predictions, cards, folder))
+    });
+    let (measurements, fitted, predictions, cards, folder) = match prepared {
+        Ok(prepared) => prepared,
+        Err(error) => return refused(&error, arguments.json),
+    };
+    let mut written = fitted.write(&folder, &measurements);
+    if let Some(predictions) = predictions {
+        let more = Written::of(&folder, [("predictions.csv", predictions)]);
+        written.files.extend(more.files);
+        written.failures.extend(more.failures);
+    }
+    let more = Written::of(&folder, cards.iter().map(|(name, text)| (name.as_str(), text.clone())));
+    written.files.extend(more.files);
+    written.failures.extend(more.failures);
+    if arguments.json {
+        print(&fitted.summary(&measurements));
+    } else {
+        print(&comparison::table(&measurements, &fitted));
+        if let Some(stretch) = arguments.to {
+            print(&comparison::warning(&measurements, stretch));
+        }
+        print(&listing(&folder, &written));
+    }
+    for failure in &written.failures {
+        note(&format!("error: {failure}"));
+    }
+    let refusals: Vec<String> = fitted.refusals().map(|(_, refusal)| refusal.to_string()).collect();
+    flows::settled(&fitted, fitted.is_complete(), &refusals, !arguments.laws.is_empty(), &written)
+}
+
+/// The material cards that are asked for, with the names of their files.
+fn cards(arguments: &FitArguments, fitted: &fitting::Comparison) -> Result<Vec<(String, String)>, MeasuredError> {
+    let Some(modulus) = arguments.bulk_modulus else { return Ok(Vec::new()) };
+    let bulk = fitting::Bulk::new(modulus, arguments.density)?;
+    let mut cards = Vec::new();
+    for text in &arguments.cards {
+        let program: fitting::Program = text.parse()?;
+        let mut refused = None;
+        let before = cards.len();
+        for (law, fit) in fitted.fits() {
+            match fitting::card(program, law, fit, bulk) {
+                Ok(card) => {
+                    let name = law.to_string().replace(':', "-");
+                    cards.push((format!("{text}-{name}.{}", program.ending()), card));
+                }
+                Err(error) => refused = Some(error),
+            }
+        }
+        if let Some(error) = refused.filter(|_| cards.len() == before) {
+            return Err(error);
+        }
+    }
+    Ok(cards)
+}
+
+fn request(arguments: &FitArguments) -> Result<Request, MeasuredError> {
+    let laws = match arguments.laws.as_slice() {
+        [] => Request::usual_laws()?,
+        names => names.iter().map(|name| Ok(name.parse()?)).collect::<Result<_, MeasuredError>>()?,
+    };
+    let mut request = Request::of(laws);
+    if let Some(weights) = &arguments.mode_weights {
+        request.weights = Request::weights(weights)?;
+    }
+    request.bounds = arguments.bounds.iter().map(|text| text.parse()).collect::<Result<_, _>>()?;
+    if arguments.equal_errors {
+        request.weighting = fitting::Weighting::Equal;
+    }
+    if arguments.allow_unstable {
+        request.stability = fitting::Stability::Free;
+    }
+    request.confidence = arguments.confidence;
+    request.cross_validation = arguments.cross_validate;
+    if arguments.profile {
+        request.intervals = fitting::Intervals::Profile;
+    }
+    Ok(request)
+}
