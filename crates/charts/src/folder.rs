@@ -126,7 +126,8 @@ impl Written {
         remove(SUMMARY);
         let (last, first): (Vec<_>, Vec<_>) = staged.iter().partition(|name| **name == SUMMARY);
         before.iter().filter(|name| !staged.contains(&name.as_str())).for_each(|name| remove(name));
-        let list: String = staged.iter().map(|name| format!("{name}\n")).collect();
+        let mut list = staged.join("\n");
+        list.push('\n');
         if let Err(error) = folder.write(LIST, &list) {
             written.failures.push(error);
         }

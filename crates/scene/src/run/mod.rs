@@ -136,7 +136,7 @@ impl core::fmt::Display for Prediction {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let Self { force_evaluations, bytes, tried_steps, .. } = self;
         write!(f, "about {force_evaluations:.1e} evaluations of the forces, {}", duration(self.seconds))?;
-        write!(f, ", {:.1e} bytes of record; from the first {tried_steps} steps", bytes)
+        write!(f, ", {bytes:.1e} bytes of record; from the first {tried_steps} steps")
     }
 }
 

@@ -6,6 +6,9 @@ use piola_document::Mistake;
 use piola_document::Record;
 use piola_document::words;
 
+/// The part of the largest speed below which rounding of the place changes the speed by too much.
+const LEAST_PART: f64 = 1e-5;
+
 impl Builder<'_> {
     pub(in crate::studies) fn room(&mut self, table: &Record) -> Option<Room> {
         let outline = self.outline(table);
@@ -19,10 +22,9 @@ impl Builder<'_> {
             resolution: table.number("resolution").unwrap_or(a.min(b) / 2000.0),
             grid: table.count("grid")?,
         };
-        /// The part of the largest speed below which rounding of the place changes the speed by too much.
-        const LEAST_PART: f64 = 1e-5;
         let least = room.least_speed();
-        if !(LEAST_PART * (2.0 * speed.at_origin - least) <= least) {
+        let largest = 2.0 * speed.at_origin - least;
+        if least.is_nan() || least < LEAST_PART * largest {
             self.wrong(
                 Mistake::new(
                     table.place_of("speed_gradient"),
@@ -50,7 +52,7 @@ impl Builder<'_> {
     fn outline(&mut self, table: &Record) -> Option<Outline> {
         let semi_axes = table.pair("semi_axes")?;
         let [least, most] = [semi_axes[0].min(semi_axes[1]), semi_axes[0].max(semi_axes[1])];
-        if !(1e-12 <= least && most <= 1e12 && most <= 1e3 * least) {
+        if least < 1e-12 || 1e12 < most || 1e3 * least < most {
             self.wrong(
                 Mistake::new(table.place_of("semi_axes"), format!("semi-axes of {} m", words::numbers(&semi_axes)))
                     .valid("two lengths from 1e-12 m to 1e12 m, one at most 1000 times the other"),
