@@ -4,51 +4,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use piola_continuum::{DeformationGradient, DisplacementGradient};
 use piola_solids::Hyperelastic;
 
-/// What is wrong with an energy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LawsError {
-    /// An answer is infinite or NaN at a deformation that the law does not refuse.
-    #[error(
-        "{quantity}[{index}] = {value} at F = {gradient:?} is not finite, and the law does not refuse this deformation"
-    )]
-    NotFinite {
-        /// The answer.
-        quantity: &'static str,
-        /// Its component, from 0, by rows.
-        index: usize,
-        /// Its value.
-        value: f64,
-        /// F by rows.
-        gradient: [[f64; 3]; 3],
-    },
-    /// The energy of the undeformed body is not zero.
-    #[error("W = {energy:e} J/m³ in the reference configuration, where it must be zero")]
-    ReferenceEnergy {
-        /// W(1), J/m³.
-        energy: f64,
-    },
-    /// The undeformed body has a stress.
-    #[error("the reference configuration has the stress {stress:e} Pa beside a modulus of {modulus:e} Pa")]
-    ReferenceStress {
-        /// The largest component of S(1), Pa.
-        stress: f64,
-        /// The largest component of ∂S/∂E, Pa.
-        modulus: f64,
-    },
-    /// The energy depends on the observer.
-    #[error(
-        "W(F) = {energy:e} J/m³ and W(Q F) = {turned:e} J/m³ at F = {gradient:?}: the energy depends on the observer"
-    )]
-    DependsOnObserver {
-        /// W(F), J/m³.
-        energy: f64,
-        /// W(Q F), J/m³.
-        turned: f64,
-        /// F by rows.
-        gradient: [[f64; 3]; 3],
-    },
-}
+use crate::LawsError;
 
 /// Looks for what an energy must not do: answers that are not finite, an energy or a stress of the undeformed body, another energy for
 /// another observer. Finding nothing proves nothing.

@@ -8,11 +8,13 @@ mod error;
 mod examine;
 pub mod invariants;
 mod methods;
+pub mod plane;
 pub mod strain;
 pub mod stretches;
 
 pub use algebra::{Decoupled, OfVolume, Scaled, Sum};
-pub use examine::{LawsError, examine};
+pub use error::LawsError;
+pub use examine::examine;
 pub use invariants::{EnergyOfInvariants, Excesses, OfInvariants};
 pub use piola_solids::SolidsError;
 pub use strain::{EnergyOfStrain, OfStrain};
