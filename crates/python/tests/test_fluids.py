@@ -43,7 +43,7 @@ def test_coaxial_cylinders_are_those_of_couette():
 def test_a_plug_moves_in_a_pipe_of_mud():
     mud = piola.Fluid("bingham", yield_stress=3.0, plastic_viscosity=0.5)
     velocities = piola.Pipe(mud, 2.0, pressure_gradient=6.0).velocity([0.0, 0.5, 1.0, 2.0])
-    np.testing.assert_allclose(velocities, [6.0, 6.0, 6.0, 0.0], atol=1e-14)  # (tau_w - tau_y)^2/(c mu)
+    np.testing.assert_allclose(velocities, [3.0, 3.0, 3.0, 0.0], atol=1e-14)  # (tau_w - tau_y)^2/(c mu)
     assert mud.yield_stress == 3.0
 
 

@@ -19,7 +19,7 @@ The wheel goes to the folder `wheels` of cargo's target folder; it serves Python
         let manifest = workspace.root.join("crates/python/Cargo.toml");
         let mut steps = vec![Step::program(
             "wheel",
-            cmd!(shell, "maturin build --release --manifest-path {manifest} --out {wheels}"),
+            cmd!(shell, "maturin build --release --features rayon --manifest-path {manifest} --out {wheels}"),
             "maturin is missing (`pip install maturin`), or the package does not build",
         )];
         if is_tested {

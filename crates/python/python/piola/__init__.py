@@ -524,4 +524,6 @@ def run_scene(text: str) -> Run:
     The format is that of the program ``piola``; mistakes are a ``ValueError`` that lists all of them with line and column. A run that
     fails on its way is returned as far as it came: see ``summary["status"]``. Studies (scenes without ``[time]``) are refused.
     """
+    if not hasattr(_native, "run_scene"):
+        raise NotImplementedError("this package was built without the feature `scenes`")
     return Run(_native.run_scene(text))
