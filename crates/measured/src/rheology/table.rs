@@ -39,9 +39,9 @@ pub struct Reading {
 /// let wrong = Measured::parse("pipe.csv", &text.replace("kPa/m", "kg"), FlowKind::Pipe, &[]);
 /// assert!(wrong.unwrap_err().to_string().starts_with("pipe.csv:2: "));
 /// // A spreadsheet's table, with viscosities instead of stresses.
-/// let text = "Shear rate [1/s];Viscosity [mPa s];T [°C]\n0,1;2500,5;25\n1,0;1200;25\n";
+/// let text = "Shear rate [1/s];Viscosity [mPa s];T [°C]\n0,5;2000;25\n1,0;1200;25\n";
 /// let measured = Measured::parse("curve.csv", text, FlowKind::Curve, &[])?;
-/// assert_eq!(measured.rows(), [[0.1, 0.25005], [1.0, 1.2]]);
+/// assert_eq!(measured.rows(), [[0.5, 1.0], [1.0, 1.2]]);
 /// # Ok::<(), piola_measured::MeasuredError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
