@@ -41,8 +41,13 @@ thread_local! {
 /// | that of a law ([`named`]), such as `COMPRESSIBLE-GENT-SIMO_TAYLOR` | with the properties as its parameters |
 /// | any other, such as `TREAD`, without properties | that of the file `tread.json` in the folder [`FOLDER`] |
 ///
-/// A file holds a law in its written form or the summary of a fit, whose best law is then taken as it is: incompressible. The
-/// keys `fit`, `model` and `volumetric` say more: see [`from_file`].
+/// A file holds a law in its written form, or the summary of a fit, whose best law is then taken as it is: incompressible, or it
+/// names a fit, one of its models and an energy of the change of volume. The path of the fit is relative to the folder.
+///
+/// ```text
+/// {"law": "hencky", "shear_modulus": 1.0, "volumetric": {"law": "lame", "first_lame_parameter": 2.0}}
+/// {"fit": "summary.json", "model": "ogden:3", "volumetric": {"law": "simo_taylor", "bulk_modulus": 2000.0}}
+/// ```
 ///
 /// # Errors
 /// As [`named::solid`]; [`FfiError::NoMaterial`]; what is wrong with the file.
@@ -64,12 +69,6 @@ pub fn material(name: &str, properties: &[f64]) -> Result<Rc<AnySolid>, FfiError
 }
 
 /// The law of a material's file.
-///
-/// ```text
-/// {"law": "hencky", "shear_modulus": 1.0, "volumetric": {"law": "lame", "first_lame_parameter": 2.0}}
-/// {"fit": "summary.json", "model": "ogden:3", "volumetric": {"law": "simo_taylor", "bulk_modulus": 2000.0}}
-/// ```
-/// The path of the fit is relative to the folder of the material.
 fn from_file(name: &str) -> Result<AnySolid, FfiError> {
     let folder = std::env::var_os(FOLDER).map(PathBuf::from).unwrap_or_default();
     let read = |file: &str| {

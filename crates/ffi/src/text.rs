@@ -32,7 +32,7 @@ pub fn volumetric_from_json(text: &str) -> Result<AnyVolumetric, FfiError> {
 }
 
 /// A law of a solid from JSON, an object with the key `law` and the parameters by name: see
-/// [`AnySolid`](piola::solids::AnySolid).
+/// [`AnySolid`].
 ///
 /// # Errors
 /// [`FfiError::Unreadable`] with line and column of the mistake, or with what the constructor refuses.
@@ -50,7 +50,7 @@ pub fn solid_from_json(text: &str) -> Result<AnySolid, FfiError> {
 }
 
 /// A fluid from JSON, an object with the key `fluid` and the parameters by name: see
-/// [`AnyFluid`](piola::fluids::AnyFluid).
+/// [`AnyFluid`].
 ///
 /// # Errors
 /// As [`solid_from_json`].

@@ -1,4 +1,4 @@
-//! Flat arrays of NumPy as slices, and errors as `ValueError`.
+//! Flat arrays of `numpy` as slices, and errors as `ValueError`.
 
 use std::fmt::Display;
 

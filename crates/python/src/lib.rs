@@ -1,6 +1,6 @@
 //! The compiled half of the Python package `piola`: the module `piola._native`.
 //!
-//! Arrays cross as flat views of NumPy's own memory. The Python half, `python/piola/__init__.py`, checks shapes, makes the
+//! Arrays cross as flat views of `numpy`'s own memory. The Python half, `python/piola/__init__.py`, checks shapes, makes the
 //! output arrays and holds the documentation.
 #![forbid(unsafe_code)]
 

@@ -30,7 +30,7 @@ pub(crate) fn run_scene<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py,
         let run = run::run(&scene, &plan, |_| {
             steps += 1;
             if steps.is_multiple_of(PATIENCE)
-                && let Err(error) = Python::attach(|py| py.check_signals())
+                && let Err(error) = looked_at_keyboard()
             {
                 interrupt = Some(error);
                 return ControlFlow::Break(());
@@ -44,6 +44,12 @@ pub(crate) fn run_scene<'py>(py: Python<'py>, text: &str) -> PyResult<Bound<'py,
         Some(error) => Err(error),
         None => arrays(py, &run, &summary),
     }
+}
+
+/// An error where the user has pressed Ctrl-C.
+#[expect(clippy::redundant_closure_for_method_calls, reason = "the method lives as long as one token only")]
+fn looked_at_keyboard() -> PyResult<()> {
+    Python::attach(|py| py.check_signals())
 }
 
 /// The record of a run as arrays.
