@@ -56,7 +56,7 @@ pub(super) const COMMAND: Command = Command {
 };
 
 /// Each is a file of that name in `benches/benches`, and its group has the same name.
-const GROUPS: [&str; 14] = [
+const GROUPS: [&str; 15] = [
     "numerics",
     "nbody",
     "multibody",
@@ -66,6 +66,7 @@ const GROUPS: [&str; 14] = [
     "integrators",
     "continuum",
     "constitutive",
+    "own_law",
     "floor",
     "viscometry",
     "solutions",
