@@ -123,7 +123,9 @@ impl Written {
         let before = folder.listed();
         // What is not there needs no removing; what cannot be removed is replaced below.
         let remove = |name: &str| drop(std::fs::remove_file(folder.path.join(name)));
-        remove(SUMMARY);
+        if staged.contains(&SUMMARY) {
+            remove(SUMMARY);
+        }
         let (last, first): (Vec<_>, Vec<_>) = staged.iter().partition(|name| **name == SUMMARY);
         before.iter().filter(|name| !staged.contains(&name.as_str())).for_each(|name| remove(name));
         let mut list = staged.join("\n");

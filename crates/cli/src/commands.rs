@@ -274,6 +274,7 @@ fn printable(text: &str) -> Cow<'_, str> {
     if !text.contains(commands) {
         return Cow::Borrowed(text);
     }
-    let escaped = text.chars().map(|c| if commands(c) { c.escape_unicode().to_string() } else { c.to_string() });
+    // Four digits serve for all of them, and in JSON too.
+    let escaped = text.chars().map(|c| if commands(c) { format!("\\u{:04x}", u32::from(c)) } else { c.to_string() });
     Cow::Owned(escaped.collect())
 }

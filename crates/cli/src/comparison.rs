@@ -109,7 +109,7 @@ fn worst(tests: &[Residuals]) -> Option<f64> {
     tests.iter().map(|test| test.relative_rms).max_by(f64::total_cmp)
 }
 
-/// The best law and what is to be said of it.
+/// Lines on the best law: how it was chosen, and warnings.
 fn judgement(comparison: &Comparison) -> String {
     let Some((best, fit)) = comparison.best() else {
         return " No law has an AICc: that takes at least three\nstresses more than parameters.".to_owned();
@@ -129,7 +129,7 @@ fn judgement(comparison: &Comparison) -> String {
     text
 }
 
-/// What is to be said of predictions up to a stretch.
+/// A warning if the stretch is beyond the data.
 pub(crate) fn warning(measurements: &Measurements, stretch: f64) -> String {
     let mut text = String::new();
     for test in measurements.data.tests() {

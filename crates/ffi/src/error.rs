@@ -86,7 +86,7 @@ pub enum FfiError {
     Unreadable {
         /// What the text should describe.
         what: &'static str,
-        /// What is wrong, with line and column.
+        /// The message of the parser, with line and column.
         message: String,
     },
     /// The file of a material cannot be read.
@@ -122,7 +122,7 @@ pub enum FfiError {
         count: usize,
         /// The first bad point, from 0.
         index: usize,
-        /// What is wrong there.
+        /// The message of the law for that point.
         error: SolidsError,
     },
     /// A law of a solid refuses.

@@ -50,7 +50,7 @@ thread_local! {
 /// ```
 ///
 /// # Errors
-/// As [`named::solid`]; [`FfiError::NoMaterial`]; what is wrong with the file.
+/// As [`named::solid`]; [`FfiError::NoMaterial`]; an unreadable or invalid file.
 pub fn material(name: &str, properties: &[f64]) -> Result<Rc<AnySolid>, FfiError> {
     MATERIALS.with_borrow_mut(|(materials, next)| {
         if let Some(found) = materials.iter().find(|material| material.is(name, properties)) {

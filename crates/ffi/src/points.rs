@@ -31,7 +31,7 @@ use crate::conversions::{
 };
 use crate::error::check_length;
 
-/// Points of a block of the second pass: what it holds fits the second-level cache.
+/// Points of a block of the second pass. Their numbers fit the second-level cache.
 const BLOCK: usize = 128;
 
 /// Points of a small block: single points do not pay for a large one.

@@ -1,4 +1,4 @@
-//! Tables at the bench through the program: exit codes, options, what is printed.
+//! The commands for measured tables, from outside: exit codes, options, printed lines.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

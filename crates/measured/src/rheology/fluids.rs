@@ -402,7 +402,7 @@ impl Comparison {
         text
     }
 
-    /// The best fluid and what is to be said of it.
+    /// Lines on the best fluid: how it was chosen, and warnings.
     fn judgement(&self) -> String {
         let Some((best, fit)) = self.best() else {
             return "No fluid has an AICc: that takes at least three rows more than parameters.\n".to_owned();
