@@ -226,10 +226,19 @@ impl<'a, P: FirstOrderPde> MongeCone<'a, P> {
             if relative <= 4.0 * f64::EPSILON {
                 break;
             }
+            // Free of units: ξ by its size, Φ_ξ and λ by |Φ_ξ|, Φ by both.
+            let size = Some(norm(&xi)).filter(|&size| 0.0 < size).unwrap_or(1.0);
+            let rate = [speed, magnitude / size].into_iter().find(|&rate| 0.0 < rate).unwrap_or(1.0);
+            for i in 0..m {
+                matrix.view_mut((0, i), (m, 1)).scale_mut(size / rate);
+                matrix[(m, i)] /= rate;
+                residual[i] /= rate;
+            }
+            residual[m] /= rate * size;
             let scale = matrix.amax();
             let Ok(step) = matrix.svd(true, true).solve(&residual, 1e-13 * scale) else { break };
-            xi.iter_mut().zip(&step).for_each(|(xi, step)| *xi -= step);
-            lambda -= step[m];
+            xi.iter_mut().zip(&step).for_each(|(xi, step)| *xi -= size * step);
+            lambda -= rate * step[m];
             if !xi.iter().all(|xi| xi.is_finite()) {
                 return Err(refused(&xi, relative));
             }

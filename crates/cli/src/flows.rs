@@ -222,7 +222,7 @@ fn folder(arguments: &FlowArguments, command: &str, name: &str) -> Result<Folder
     Ok(Folder::prepare(arguments.out.as_ref().unwrap_or(&beside))?)
 }
 
-fn show(text: &str, json: bool, folder: &Folder, written: &Written) {
+pub(crate) fn show(text: &str, json: bool, folder: &Folder, written: &Written) {
     print(text);
     if !json {
         print(&listing(folder, written));

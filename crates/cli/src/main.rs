@@ -16,6 +16,7 @@ mod register;
 #[path = "register/absent.rs"]
 mod register;
 mod report;
+mod specimens;
 
 use std::process::ExitCode;
 
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
         Command::Recover(arguments) => flows::recover(&arguments),
         Command::FitFlow(arguments) => flows::fit(&arguments),
         Command::Flow(arguments) => flows::solve(&arguments),
+        Command::Specimen(arguments) => specimens::load(&arguments),
         Command::Register(arguments) => register::register(&arguments),
         Command::Schema(arguments) => commands::schema(&arguments),
     };

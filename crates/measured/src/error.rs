@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use piola_charts::ChartsError;
 use piola_fit::FitError;
+use piola_solutions::SolutionsError;
+use piola_specimens::SpecimensError;
 use piola_viscometry::ViscometryError;
 
 use crate::fitting::TableReport;
@@ -61,6 +63,14 @@ pub enum MeasuredError {
         /// What is wrong.
         cause: String,
     },
+    /// A solid cannot be made of what is given.
+    #[error("`{argument}` is no solid: {cause}")]
+    Solid {
+        /// The argument.
+        argument: String,
+        /// What is wrong.
+        cause: String,
+    },
     /// A finite-element program has no such law.
     #[error(
         "{program} has no card of {law}; laws with cards are neo-hookean, mooney-rivlin, yeoh, polynomial:n and ogden:n"
@@ -91,6 +101,12 @@ pub enum MeasuredError {
     /// A fluid or its data are refused.
     #[error(transparent)]
     Viscometry(#[from] ViscometryError),
+    /// A specimen or its path is refused.
+    #[error(transparent)]
+    Specimens(#[from] SpecimensError),
+    /// A twisted rod is refused.
+    #[error(transparent)]
+    Solutions(#[from] SolutionsError),
     /// The results cannot be written.
     #[error(transparent)]
     Charts(#[from] ChartsError),

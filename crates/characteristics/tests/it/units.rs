@@ -20,24 +20,26 @@ impl FirstOrderPde for Measured {
 }
 
 #[test]
-fn generator_over_a_direction_does_not_depend_on_the_unit_of_the_equation() {
+fn generator_over_a_direction_does_not_depend_on_units() {
     let mut compared = 0;
-    for unit in [1e-6, 1.0, 1e6] {
-        let equation = Measured { unit, length: 1.0 };
-        let cone = MongeCone::new(&equation, &[0.3, -0.2], 0.5).unwrap();
-        for direction in [[0.3, 0.7], [-0.9, 0.2], [0.55, -0.35]] {
-            let guess = direction.map(|x| 1.5 * x + 0.05);
-            let generator = cone.generator_over(&direction, &guess).unwrap();
-            let length = direction[0].hypot(direction[1]);
-            let xi = direction.map(|x| x / length);
-            let few = Tol::ulps(32.0);
-            assert_close("ξ", &generator.covector, &xi, few);
-            assert_close("x′", &generator.x_rate, &xi.map(|x| unit * x), few);
-            assert_close("u′", &[generator.u_rate], &[unit], few);
-            compared += 1;
+    for unit in [1e-14, 1e-6, 1.0, 1e6, 1e14] {
+        for slope in [1e-12, 1e-3, 1.0, 1e12] {
+            let equation = Measured { unit, length: slope };
+            let cone = MongeCone::new(&equation, &[0.3, -0.2], 0.5).unwrap();
+            for direction in [[0.3, 0.7], [-0.9, 0.2], [0.55, -0.35]] {
+                let guess = direction.map(|x| slope * (1.5 * x + 0.05));
+                let generator = cone.generator_over(&direction, &guess).unwrap();
+                let length = direction[0].hypot(direction[1]);
+                let xi = direction.map(|x| slope * x / length);
+                let few = Tol::ulps(32.0);
+                assert_close("ξ", &generator.covector, &xi, few);
+                assert_close("x′", &generator.x_rate, &xi.map(|x| unit * x), few);
+                assert_close("u′", &[generator.u_rate], &[unit * slope * slope], few);
+                compared += 1;
+            }
         }
     }
-    assert_eq!(compared, 9);
+    assert_eq!(compared, 60);
 }
 
 /// u = k R τ on a circle of the radius R by its angle: a strip formed by Monge's, not by characteristics.

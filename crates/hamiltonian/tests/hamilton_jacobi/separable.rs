@@ -171,6 +171,32 @@ fn turning_points_are_those_of_the_well_in_which_the_motion_is() {
     assert_eq!(compared, 12);
 }
 
+/// The first step of the search was once as long as a well, where the well is a thousand wells from the origin.
+#[test]
+fn turning_points_are_those_of_wells_far_from_the_origin() {
+    let mut compared = 0;
+    for pitch in [1e-3, 1.0, 1e3] {
+        for well in [-1000.0, 37.0, 1000.0, 12_345.0] {
+            for energy in [-0.9, -0.5, 0.0, 0.5, 0.99_f64] {
+                // From the bottom of the well, its slopes, and near its turning points.
+                for part in [-0.999, -0.5, 0.0, 0.3, 0.9] {
+                    let half_width = pitch * (-energy).acos();
+                    let bottom = 2.0 * PI * well * pitch;
+                    let q = bottom + part * half_width;
+                    let p = (2.0 * (energy + (q / pitch).cos())).sqrt();
+                    let wells = Corrugated(pitch);
+                    let motion = SeparableMotion::through(&wells, (&[q], &[p], 0.0)).unwrap();
+                    let (Some(low), Some(high)) = motion.turning_points(0) else { panic!("a well has two") };
+                    let expected = [bottom - half_width, bottom + half_width];
+                    assert_close("q", &[low, high], &expected, Tol::ulps(64.0));
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(compared, 300);
+}
+
 #[test]
 fn circular_orbits_and_forbidden_places() {
     let kepler = KeplerPolar { mass: 1.0, strength: 1.0 };

@@ -76,7 +76,7 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             let extent_of = |x: &dyn Fn(usize) -> f64| (0..n).fold(0.0_f64, |m, i| m.max((units[i] * x(i)).abs()));
             let guessed = extent_of(&|i| guess[i]);
             let extent = extent_of(&|i| q[i]).max(extent_of(&|i| q[i] - guess[i])).max(step.amax());
-            let weight = self.weight(q.as_slice(), t);
+            let [weight, size] = self.weight_and_size(q.as_slice(), t);
             // Forces that small are rounding of those at the guess, or of those met on the way.
             let fine = 4.0 * (n as f64 + 1.0) * f64::EPSILON;
             let at_guess = weight.max(decomposition.largest() * guessed);
@@ -111,6 +111,11 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
             iterations += 1;
             step.component_div_assign(&units);
             let Some(moved) = self.shortened_step(&q, &forces, &step, &units, correction <= noise, t) else {
+                // Where q is near zero and positions are not, their rounding leaves a force.
+                let rounding = decomposition.largest() * size;
+                if singular.is_none() && force.amax() <= fine * rounding {
+                    return self.balanced(q, t, [ratio_of(force.amax(), rounding), condition], iterations - 1);
+                }
                 return Err(singular.map_or(
                     LagrangianError::SmallMotions(SmallMotionsError::NoEquilibrium { iterations, residual }),
                     refused,
@@ -173,11 +178,11 @@ impl<S: Holonomic, P: Potential, F: Forces> Lagrangian<S, P, F> {
         Ok(Balance { force, stiffness, inertia })
     }
 
-    /// A bound for what uniform gravity does to any coordinate: |Q_Δ| ≤ √g_ΔΔ · √(Σm) |γ|.
-    fn weight(&self, q: &[f64], t: f64) -> f64 {
-        let mut mass = Mass(0.0);
-        self.system().place(q, t, &mut mass);
-        mass.0.sqrt() * Vector3::from(self.gravity()).norm()
+    /// A bound for what uniform gravity does to any coordinate, |Q_Δ| ≤ √g_ΔΔ · √(Σm) |γ|, and √(Σ m|x|²).
+    fn weight_and_size(&self, q: &[f64], t: f64) -> [f64; 2] {
+        let mut placed = Masses { total: 0.0, moment: 0.0 };
+        self.system().place(q, t, &mut placed);
+        [placed.total.sqrt() * Vector3::from(self.gravity()).norm(), placed.moment.sqrt()]
     }
 }
 
@@ -268,15 +273,19 @@ impl Decomposition {
     }
 }
 
-/// The mass placed.
-struct Mass(f64);
+/// Σ m and Σ m|x|² of what is placed.
+struct Masses {
+    total: f64,
+    moment: f64,
+}
 
-impl Placement<f64> for Mass {
-    fn particle(&mut self, mass: f64, _position: Vector3<f64>) {
-        self.0 += mass;
+impl Placement<f64> for Masses {
+    fn particle(&mut self, mass: f64, position: Vector3<f64>) {
+        self.total += mass;
+        self.moment += mass * position.norm_squared();
     }
-    fn body(&mut self, body: &RigidBody, _centre: Vector3<f64>, _attitude: Attitude<f64>) {
-        self.0 += body.mass();
+    fn body(&mut self, body: &RigidBody, centre: Vector3<f64>, _attitude: Attitude<f64>) {
+        self.particle(body.mass(), centre);
     }
 }
 

@@ -118,6 +118,26 @@ fn condition_number_tells_the_error_of_stiff_and_soft_springs() {
     }
 }
 
+/// Springs of the length of their place, both rounded: at q = 0 they are at rest, but for a force of rounding.
+#[test]
+fn springs_at_rest_are_at_rest() {
+    let (mut compared, mut rounded) = (0, 0);
+    for i in 1..60 {
+        for j in 1..60 {
+            let (a, b) = (0.1 * f64::from(i), 0.07 * f64::from(j));
+            let (place, rest) = (a + b, f64::from(10 * i + 7 * j) / 100.0);
+            let still = Lagrangian::of(Still::Displaced(place)).with_potential(Acts::Spring([40.0, place, rest]));
+            let found = still.with_forces(Linear::default()).equilibrium(&[0.0], 0.0).unwrap();
+            assert_close_at_scale("q", found.coordinates.as_slice(), &[0.0], place, Tol::ulps(4.0));
+            assert!(found.residual <= Tol::ulps(16.0).value(), "{}", found.residual);
+            compared += 1;
+            rounded += usize::from(place.to_bits() != rest.to_bits());
+        }
+    }
+    assert_eq!(compared, 3481);
+    assert!(1000 < rounded, "{rounded} with a force of rounding");
+}
+
 #[test]
 fn cart_without_springs_is_refused_along_its_track() {
     let cart = standing(Still::CartPole(3.0, 1.0));

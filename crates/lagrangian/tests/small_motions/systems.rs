@@ -15,6 +15,8 @@ pub(crate) const TOP: [f64; 4] = [1.0, 0.25, 2.0, 0.5];
 pub(crate) enum Still {
     /// Masses on a line.
     Masses(Vec<f64>),
+    /// A unit mass at x₀ + q.
+    Displaced(f64),
     /// Pendulums hung on each other: masses and lengths.
     Pendulums(Vec<f64>, Vec<f64>),
     /// A cart of one mass, and a pendulum of unit length and the other mass above it.
@@ -42,6 +44,9 @@ impl Holonomic for Still {
                 for (&mass, &x) in masses.iter().zip(q) {
                     bodies.particle(mass, Vector3::new(x, T::zero(), T::zero()));
                 }
+            }
+            Self::Displaced(place) => {
+                bodies.particle(1.0, Vector3::new(T::lit(*place) + q[0], T::zero(), T::zero()));
             }
             Self::Pendulums(masses, lengths) => {
                 let mut end = Vector3::new(T::zero(), T::zero(), T::zero());
@@ -110,6 +115,8 @@ pub(crate) enum Acts {
     Nothing,
     /// ½ q·K q − b·q.
     Springs(DMatrix<f64>, Vec<f64>),
+    /// Between a mass at x₀ + q and the origin: stiffness, x₀ and length at rest.
+    Spring([f64; 3]),
     /// Weight along the vertical that turns with the earth.
     Weight([f64; 4]),
     /// e^q: a force without end.
@@ -129,6 +136,10 @@ impl Potential for Acts {
                     sum -= T::lit(load[i]) * a;
                 }
                 sum
+            }
+            Self::Spring([stiffness, place, rest]) => {
+                let stretch = T::lit(*place) + q[0] - T::lit(*rest);
+                T::lit(0.5 * stiffness) * stretch * stretch
             }
             Self::Weight([mass, length, ..]) => T::lit(mass * GRAVITY) * height(*length, q),
             Self::Exponential => q[0].exp(),

@@ -1,4 +1,5 @@
-//! Flows of any fluid: a drive or an answer in, all answers with their error bounds and the profile out.
+//! Flows of any fluid: a drive or an answer in, all answers with their error bounds and the profile out. Specimens of any solid: a
+//! path of stretches or loads in, all components of strain and stress out.
 //!
 //! | flow | sizes | drive | or an answer |
 //! |---|---|---|---|
@@ -12,9 +13,27 @@
 //!
 //! The film runs down under g = 9.80665 m/s²; its inclination is measured from the horizontal.
 
+//!
+//! | specimen | is changed, or prescribed beside it |
+//! |---|---|
+//! | `uniaxial`, `equibiaxial`, `planar` | `stretch`, `strain`, `stress` (P), `true_stress` (T) |
+//! | `biaxial` | the same along 1; `second_stretch`, `second_stress` along 2 |
+//! | `simple-shear` | `shear` (k = F₂₁), `shear_stress` (T₂₁) |
+//! | `volumetric` | `volume` (det F), `pressure` |
+//! | `mixed`, and all above | any component: `F11` to `F33`, `P11` to `P33`, `T11` to `T33` |
+//! | `torsion` | `twist`; `stretch` or `force` of the ends; sizes `radius`, `inner_radius` |
+//!
+//! Sides that are not named are free of traction, shears that are not named are zero; a planar specimen is held along 2.
+
+mod controls;
 mod flow;
 mod fluid;
 mod output;
+mod solid;
+mod specimen;
+mod specimen_output;
 
 pub use flow::{Answered, FlowRequest, ProfilePoint, SolvedFlow, solve};
 pub use fluid::fluid;
+pub use solid::solid;
+pub use specimen::{LoadedSpecimen, SpecimenRequest, specimen};

@@ -8,3 +8,4 @@ mod forward;
 mod layouts;
 mod newtonian;
 mod rheology;
+mod specimen;

@@ -50,7 +50,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("simulation", &["hamiltonian", "gravitation"]),
     ("document", &[]),
     ("charts", &[]),
-    ("measured", &["document", "charts", "fit"]),
+    ("measured", &["document", "charts", "fit", "solutions"]),
     // solutions and uniformity, by feature: studies of solids; spectral, by feature: fields on a box.
     ("scene", &["document", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral"]),
     // charts: the folder of the results.

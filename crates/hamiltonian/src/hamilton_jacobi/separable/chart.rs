@@ -17,7 +17,7 @@ use piola_lagrangian::internal::integrate;
 /// The accuracy asked of quadratures, relative to ∫|f|.
 const ACCURACY: f64 = 1e-13;
 /// Steps in the search for a turning point.
-const MOST_STEPS: usize = 400;
+const MOST_STEPS: usize = 2000;
 /// How far from a turning point, in parts of the distance over which R′ changes, R is taken from its derivative.
 const NEAR: f64 = 0.02;
 
@@ -64,11 +64,17 @@ fn square<S: Separable>(system: &S, coordinate: usize, constants: &[f64], x: f64
     system.square(coordinate, Dual::variable(x), &constants)
 }
 
-/// R″.
-fn curvature<S: Separable>(system: &S, coordinate: usize, constants: &[f64], x: f64) -> f64 {
+/// R, R′ and R″.
+fn parabola<S: Separable>(system: &S, coordinate: usize, constants: &[f64], x: f64) -> [f64; 3] {
     let constants: Vec<Dual<Dual<f64>>> = constants.iter().map(|&c| Dual::constant(Dual::constant(c))).collect();
     let x = Dual { value: Dual::variable(x), tangent: Dual::constant(1.0) };
-    system.square(coordinate, x, &constants).tangent.tangent
+    let r = system.square(coordinate, x, &constants);
+    [r.value.value, r.value.tangent, r.tangent.tangent]
+}
+
+/// R″.
+fn curvature<S: Separable>(system: &S, coordinate: usize, constants: &[f64], x: f64) -> f64 {
+    parabola(system, coordinate, constants, x)[2]
 }
 
 /// R/(x − end) for a zero of R at `end`, without cancellation; from R′ alone where it is `mild`.
@@ -108,8 +114,8 @@ impl Chart {
             return Err(refused);
         }
         let range = system.range(coordinate);
-        let below = turning_point(|x| square(system, coordinate, constants, x).value, (q, range.0));
-        let above = turning_point(|x| square(system, coordinate, constants, x).value, (q, range.1));
+        let local = |x| parabola(system, coordinate, constants, x);
+        let (below, above) = (turning_point(local, (q, range.0)), turning_point(local, (q, range.1)));
         Ok(match (below, above) {
             (Some(a), Some(b)) => {
                 // In wells so small that R is rounding its derivative still is exact: both ends then tell one R.
@@ -282,31 +288,74 @@ impl Chart {
 }
 
 /// The first zero of R from q towards a bound of the coordinate; none when R stays positive.
-fn turning_point(r: impl Fn(f64) -> f64, (q, bound): (f64, f64)) -> Option<f64> {
+///
+/// R departs from its parabola R + R′s + R″s²/2 with s³. A step in which the parabola is above twice that has no barrier, however
+/// far from the origin q is; others are halved.
+fn turning_point(r: impl Fn(f64) -> [f64; 3], (q, bound): (f64, f64)) -> Option<f64> {
     let direction = if bound < q { -1.0 } else { 1.0 };
     let (mut inside, mut step) = (q, 1e-3 * q.abs().max(1e-3));
+    let mut here = r(q);
     for _ in 0..MOST_STEPS {
+        let [value, slope, curvature] = here;
+        let (slope, bend) = (direction * slope, 0.5 * curvature);
+        let mut smallest = 4.0 * f64::EPSILON * inside.abs();
+        if 0.0 < value {
+            step = step.min(beyond_the_first_zero([value, slope, bend])).max(smallest);
+        }
         // A finite bound is approached, never reached.
-        let next = if bound.is_finite() {
-            let left = (bound - inside).abs();
-            inside + direction * step.min(0.2 * left)
-        } else {
-            inside + direction * step
+        if bound.is_finite() {
+            let most = 0.2 * (bound - inside).abs();
+            (step, smallest) = (step.min(most), smallest.min(most));
+        }
+        let (next, there) = loop {
+            let next = inside + direction * step;
+            if !next.is_finite() || 1e15 < next.abs() {
+                return None;
+            }
+            let parabola = |s: f64| value + s * (slope + s * bend);
+            // Halfway too: at the end R may meet its parabola by chance.
+            let (there, halfway) = (r(next), r(inside + direction * 0.5 * step));
+            let departure = (there[0] - parabola(step)).abs().max(8.0 * (halfway[0] - parabola(0.5 * step)).abs());
+            let noise = f64::EPSILON * (slope * inside).abs().max(bend.abs() * inside * inside);
+            let cubic = [value.max(0.0), slope, bend, -2.0 * departure / (step * step * step)];
+            let is_beyond = there[0] < 0.0 && parabola(step) + 2.0 * departure < 0.0;
+            if is_beyond || departure <= noise || step <= smallest || is_positive(cubic, step) {
+                break (next, there);
+            }
+            step *= 0.5;
         };
-        step *= 1.25;
-        if !next.is_finite() || 1e15 < next.abs() {
+        if there[0].is_nan() {
             return None;
         }
-        let value = r(next);
-        if value.is_nan() {
-            return None;
+        if there[0] < 0.0 {
+            return Some(zero(|x| r(x)[0], inside, next));
         }
-        if value < 0.0 {
-            return Some(zero(r, inside, next));
-        }
-        inside = next;
+        step = (1.25 * step).max(smallest);
+        (inside, here) = (next, there);
     }
     None
+}
+
+/// Whether a + b s + c s² + d s³ is not negative from 0 to the end.
+fn is_positive([a, b, c, d]: [f64; 4], end: f64) -> bool {
+    let cubic = |s: f64| a + s * (b + s * (c + s * d));
+    // Places where its derivative vanishes, without cancellation.
+    let root = (c * c - 3.0 * d * b).sqrt();
+    let large = -(c + root.copysign(c));
+    [large / (3.0 * d), b / large].into_iter().filter(|s| 0.0 < *s && *s < end).chain([end]).all(|s| 0.0 <= cubic(s))
+}
+
+/// A place between the first zero of R + R′s + bs² at s > 0 and its second; infinite without one.
+fn beyond_the_first_zero([value, slope, bend]: [f64; 3]) -> f64 {
+    let discriminant = slope * slope - 4.0 * bend * value;
+    if !(0.0 <= discriminant) {
+        return f64::INFINITY;
+    }
+    // Both zeros without cancellation.
+    let large = -0.5 * (slope + discriminant.sqrt().copysign(slope));
+    let zeros = [large / bend, value / large].map(|s| if 0.0 < s { s } else { f64::INFINITY });
+    let (first, second) = (zeros[0].min(zeros[1]), zeros[0].max(zeros[1]));
+    (1.5 * first).min(0.5 * (first + second))
 }
 
 /// A zero between a place where R is not negative and one where it is: the last place where it is not.
