@@ -107,9 +107,9 @@ pub(crate) struct FitArguments {
     /// The bulk modulus of the material cards, in the unit of the stresses.
     #[arg(long, value_name = "NUMBER")]
     pub(crate) bulk_modulus: Option<f64>,
-    /// The density of the material cards, in the units of the model; LS-DYNA needs it.
-    #[arg(long, value_name = "NUMBER", default_value_t = 1e-9)]
-    pub(crate) density: f64,
+    /// The density of the material cards, in the units of the model; ls-dyna needs it.
+    #[arg(long, value_name = "NUMBER", requires = "bulk_modulus")]
+    pub(crate) density: Option<f64>,
     /// The probability of the intervals.
     #[arg(long, value_name = "PROBABILITY", default_value_t = 0.95)]
     pub(crate) confidence: f64,

@@ -16,6 +16,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     let prepared = flows::only(&arguments.only).and_then(|only| {
         let measurements = Measurements::load_only(&arguments.data, &only)?;
         let request = request(arguments)?;
+        let bulk = bulk(arguments)?;
         let fitted = flows::watched(&measurements.name(), &interrupt, |watch| {
             fitting::compare_until(&measurements, &request, watch)
         })?;
@@ -23,7 +24,7 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
             return Err(refused.clone().into());
         }
         let predictions = arguments.to.map(|stretch| fitted.predictions(&measurements, stretch)).transpose()?;
-        let cards = cards(arguments, &fitted)?;
+        let cards = bulk.map_or_else(|| Ok(Vec::new()), |bulk| cards(&arguments.cards, &fitted, bulk))?;
         let beside = || Path::new("out").join(format!("fit-{}", measurements.name()));
         let folder = Folder::prepare(&arguments.out.clone().unwrap_or_else(beside))?;
         Ok((measurements, fitted, predictions, cards, folder))
@@ -57,12 +58,27 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     flows::settled(&fitted, fitted.is_complete(), &refusals, !arguments.laws.is_empty(), &written)
 }
 
-/// The material cards that are asked for, with the names of their files.
-fn cards(arguments: &FitArguments, fitted: &fitting::Comparison) -> Result<Vec<(String, String)>, MeasuredError> {
-    let Some(modulus) = arguments.bulk_modulus else { return Ok(Vec::new()) };
-    let bulk = fitting::Bulk::new(modulus, arguments.density)?;
-    let mut cards = Vec::new();
+/// What is asked of material cards; nothing without a bulk modulus.
+fn bulk(arguments: &FitArguments) -> Result<Option<fitting::Bulk>, MeasuredError> {
+    let Some(modulus) = arguments.bulk_modulus else { return Ok(None) };
+    let mut bulk = fitting::Bulk::new(modulus)?;
+    if let Some(density) = arguments.density {
+        bulk = bulk.with_density(density)?;
+    }
     for text in &arguments.cards {
+        bulk.check(text.parse()?)?;
+    }
+    Ok(Some(bulk))
+}
+
+/// The material cards that are asked for, with the names of their files.
+fn cards(
+    programs: &[String],
+    fitted: &fitting::Comparison,
+    bulk: fitting::Bulk,
+) -> Result<Vec<(String, String)>, MeasuredError> {
+    let mut cards = Vec::new();
+    for text in programs {
         let program: fitting::Program = text.parse()?;
         let mut refused = None;
         let before = cards.len();

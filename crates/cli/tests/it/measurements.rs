@@ -18,6 +18,10 @@ impl Folder {
         std::fs::write(self.0.join(name), text).unwrap_or_else(|error| panic!("{error}"));
     }
 
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.0.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
     /// The exit code, standard output and standard error.
     fn piola(&self, arguments: &[&str]) -> (Option<i32>, String, String) {
         let mut command = Command::new(env!("CARGO_BIN_EXE_piola"));
@@ -68,6 +72,38 @@ fn a_regularisation_is_fitted_where_it_is_named_and_never_ranked() {
     let (_, shown, _) = folder.piola(&[["fit-flow", "mud.csv", "--flow", "curve"].as_slice(), &fluids].concat());
     assert!(shown.contains("power-law has the least AICc."), "{shown}");
     assert!(shown.contains("papanastasiou regularises herschel-bulkley for computations: it is not ranked"), "{shown}");
+}
+
+#[test]
+fn a_card_of_ls_dyna_needs_a_density() {
+    let folder = Folder::new("card");
+    folder.write("bar.csv", "mode,stretch,stress\nuniaxial,2,1.75\nuniaxial,3,2.8888889\nuniaxial,1.5,1.0555556\n");
+    let fit = ["fit", "bar.csv", "--law", "neo-hookean", "--bulk-modulus", "1000", "--card", "ls-dyna"];
+    let (code, _, told) = folder.piola(&fit);
+    assert_eq!(code, Some(2));
+    assert!(told.contains("`a card of LS-DYNA without a density` is not accepted"), "{told}");
+    let (code, shown, told) = folder.piola(&[fit.as_slice(), &["--density", "1.1e-9"]].concat());
+    assert_eq!(code, Some(0), "{shown}{told}");
+    assert!(folder.read("out/fit-bar/ls-dyna-neo-hookean.k").contains("1, 1.1e-9, "));
+}
+
+#[test]
+fn a_specimen_is_loaded_along_a_path_and_a_path_that_ends_is_told() {
+    let folder = Folder::new("specimen");
+    let rubber = ["--solid", "neo-hookean:mu=1 MPa"];
+    let run = |arguments: &[&str]| folder.piola(&[&["specimen"], arguments, rubber.as_slice()].concat());
+    let (code, shown, told) = run(&["uniaxial", "--path", "stretch=1..2"]);
+    assert_eq!(code, Some(0), "{shown}{told}");
+    assert!(shown.contains("P11 (Pa)") && shown.contains("1.750000e6"), "{shown}");
+    let csv = folder.read("out/specimen-uniaxial/specimen.csv");
+    assert!(csv.starts_with("stretch,F11,F12") && csv.lines().count() == 102, "{csv}");
+    let (code, _, told) = run(&["uniaxial", "--path", "stretch"]);
+    assert_eq!(code, Some(2));
+    assert!(told.contains("`--path stretch` is not accepted; valid: NAME=VALUE"), "{told}");
+    let gent = ["specimen", "uniaxial", "--solid", "gent:mu=1 MPa,jm=1", "--path", "stretch=1..2"];
+    let (code, shown, told) = folder.piola(&gent);
+    assert_eq!(code, Some(1), "{shown}{told}");
+    assert!(shown.contains("The path ends before stretch") && told.contains("error: no state at stretch"), "{told}");
 }
 
 #[test]

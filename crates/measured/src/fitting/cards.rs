@@ -73,21 +73,48 @@ pub struct Bulk {
     /// K, in the unit of the stresses.
     pub modulus: f64,
     /// ρ, in the units of the model; LS-DYNA needs it.
-    pub density: f64,
+    pub density: Option<f64>,
 }
 
 impl Bulk {
-    /// With a bulk modulus, in the unit of the stresses, and a density, in the units of the model.
+    /// With a bulk modulus, in the unit of the stresses.
     ///
     /// # Errors
-    /// [`MeasuredError::Argument`] unless both are positive and finite.
-    pub fn new(modulus: f64, density: f64) -> Result<Self, MeasuredError> {
-        if [modulus, density].iter().all(|x| 0.0 < *x && x.is_finite()) {
-            return Ok(Self { modulus, density });
-        }
-        let argument = format!("bulk modulus {modulus}, density {density}");
-        Err(MeasuredError::Argument { argument, valid: "positive numbers in the units of the model" })
+    /// [`MeasuredError::Argument`] unless it is positive and finite.
+    pub fn new(modulus: f64) -> Result<Self, MeasuredError> {
+        positive("bulk modulus", modulus).map(|modulus| Self { modulus, density: None })
     }
+
+    /// With a density, in the units of the model.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Argument`] unless it is positive and finite.
+    pub fn with_density(self, density: f64) -> Result<Self, MeasuredError> {
+        positive("density", density).map(|density| Self { density: Some(density), ..self })
+    }
+
+    /// Refuses programs whose cards need what is not given.
+    ///
+    /// # Errors
+    /// [`MeasuredError::Argument`] for LS-DYNA without a density.
+    pub fn check(&self, program: Program) -> Result<(), MeasuredError> {
+        if program == Program::LsDyna && self.density.is_none() {
+            let argument = "a card of LS-DYNA without a density".to_owned();
+            return Err(MeasuredError::Argument {
+                argument,
+                valid: "a density in the units of the model, as 1.1e-9 t/mm³",
+            });
+        }
+        Ok(())
+    }
+}
+
+fn positive(name: &str, value: f64) -> Result<f64, MeasuredError> {
+    if 0.0 < value && value.is_finite() {
+        return Ok(value);
+    }
+    let argument = format!("{name} {value:?}");
+    Err(MeasuredError::Argument { argument, valid: "a positive number in the units of the model" })
 }
 
 /// Coefficients of (I₁ − 3)ⁱ (I₂ − 3)ʲ by i and j, or μ and α of Ogden's terms.
@@ -110,7 +137,7 @@ fn law(model: AnyModel, values: &[f64]) -> Option<Law> {
 /// The card of a fitted law.
 ///
 /// # Errors
-/// [`MeasuredError::NoCard`] for a law that the program does not have.
+/// [`MeasuredError::NoCard`] for a law that the program does not have; [`MeasuredError::Argument`] for LS-DYNA without a density.
 ///
 /// # Example
 /// ```
@@ -118,11 +145,12 @@ fn law(model: AnyModel, values: &[f64]) -> Option<Law> {
 /// let text = "mode,stretch,stress_MPa\nuniaxial,2,1.75\nuniaxial,3,2.8888889\n"; // μ = 1 MPa
 /// let comparison = compare(&Measurements::parse("rubber.csv", text)?, &Request::of(vec!["neo-hookean".parse()?]))?;
 /// let (law, fit) = comparison.fits().next().expect("a fit");
-/// let card = card(Program::Abaqus, law, fit, Bulk::new(1000.0, 1e-9)?)?;
+/// let card = card(Program::Abaqus, law, fit, Bulk::new(1000.0)?)?;
 /// assert!(card.contains("*HYPERELASTIC, NEO HOOKE\n0.5") && card.contains(", 0.002")); // C₁₀ = μ/2, D₁ = 2/K
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn card(program: Program, model: AnyModel, fit: &Fit, bulk: Bulk) -> Result<String, MeasuredError> {
+    bulk.check(program)?;
     let none = || MeasuredError::NoCard { law: model.to_string(), program: format!("{program:?}") };
     let law = law(model, &fit.values()).ok_or_else(none)?;
     let name = model.to_string().replace(':', "-");
@@ -215,7 +243,7 @@ fn ansys(name: &str, law: &Law, bulk: Bulk) -> String {
 
 fn dyna(name: &str, law: &Law, shear: f64, bulk: Bulk) -> Option<String> {
     let poisson = (3.0 * bulk.modulus - 2.0 * shear) / (2.0 * (3.0 * bulk.modulus + shear));
-    let head = format!("1, {}, {}, 0", number(bulk.density), number(poisson));
+    let head = format!("1, {}, {}, 0", number(bulk.density?), number(poisson));
     match law {
         Law::Powers(powers) => {
             // C10, C01, C11, C20, C02, C30.

@@ -24,7 +24,8 @@ fn fitted(name: &str) -> (AnyModel, FittedLaw) {
 
 fn of(program: Program, name: &str) -> Option<String> {
     let (law, fit) = fitted(name);
-    card(program, law, &fit, Bulk::new(BULK, 1e-9).unwrap_or_else(|error| panic!("{error}"))).ok()
+    let bulk = Bulk::new(BULK).and_then(|bulk| bulk.with_density(1e-9));
+    card(program, law, &fit, bulk.unwrap_or_else(|error| panic!("{error}"))).ok()
 }
 
 /// The numbers of all lines after the first that hold one of these words.
