@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Plan(SceneArguments),
     /// Look for mistakes in a scene and show all of them.
     Check(SceneArguments),
+    /// Run a scene many times on all cores, with other values or random ones; killed, it goes on with --resume.
+    Sweep(SweepArguments),
     /// Fit laws of rubber to measured stresses; compare them in a table, a summary and a figure.
     Fit(FitArguments),
     /// Recover a fluid's flow curve and normal stresses, with bands, from discharges, speeds, torques and thrusts.
@@ -54,6 +56,39 @@ pub(crate) struct SceneArguments {
     /// Set a value of the scene, as time.end='10 d' or body.earth.mass=6e24.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(crate) settings: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepArguments {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// A value that takes evenly spaced values, as 'joint.elbow.angle=0:90:10 deg'; several times for all combinations.
+    #[arg(long = "vary", value_name = "PATH=FROM:TO:COUNT", allow_hyphen_values = true)]
+    pub(crate) ranges: Vec<String>,
+    /// A random value, as 'particle.bob.mass=normal(1, 0.1) kg' or 'joint.elbow.angle=uniform(0, 90) deg'.
+    #[arg(long = "random", value_name = "PATH=LAW")]
+    pub(crate) random: Vec<String>,
+    /// Members of each combination, with other random values.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) members: u64,
+    /// The seed of the random values.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Threads instead of one for each core.
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<usize>,
+    /// Compute one of several parts, each on its own machine, as 2/8; the last one writes the results.
+    #[arg(long, value_name = "K/N")]
+    pub(crate) part: Option<String>,
+    /// Keep the members that a run before has computed.
+    #[arg(long)]
+    pub(crate) resume: bool,
+    /// Start a sweep of more than a day, too.
+    #[arg(long)]
+    pub(crate) yes: bool,
+    /// Folder of the results instead of out/sweep-SCENE.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

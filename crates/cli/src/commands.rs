@@ -108,7 +108,7 @@ fn ended(outcome: &Outcome, written: &Written, end: &str) -> Exit {
 }
 
 /// Runs of more than a day need a confirmation.
-const MOST_SECONDS: f64 = 86_400.0;
+pub(crate) const MOST_SECONDS: f64 = 86_400.0;
 
 fn refuse_start(why: &str, json: bool) -> Exit {
     refuse(&format!("the run fails at its start: {why}"), json)
@@ -225,7 +225,7 @@ pub(crate) fn refused(error: &MeasuredError, json: bool) -> Exit {
     Exit::Invalid
 }
 
-fn failure(error: &impl core::fmt::Display, json: bool) {
+pub(crate) fn failure(error: &impl core::fmt::Display, json: bool) {
     if json {
         print_json(&serde_json::json!({ "valid": false, "error": error.to_string() }));
     } else {

@@ -17,6 +17,7 @@ mod register;
 mod register;
 mod report;
 mod specimens;
+mod sweeps;
 
 use std::process::ExitCode;
 
@@ -40,6 +41,7 @@ fn main() -> ExitCode {
         Command::Run(arguments) => commands::run(&arguments),
         Command::Plan(arguments) => commands::plan(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
+        Command::Sweep(arguments) => sweeps::sweep(&arguments),
         Command::Fit(arguments) => fits::fit(&arguments),
         Command::Recover(arguments) => flows::recover(&arguments),
         Command::FitFlow(arguments) => flows::fit(&arguments),

@@ -5,3 +5,4 @@ mod end_to_end;
 mod hostile;
 mod measurements;
 mod register;
+mod sweeps;

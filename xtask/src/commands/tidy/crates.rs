@@ -53,9 +53,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("measured", &["document", "charts", "fit", "solutions"]),
     // solutions and uniformity, by feature: studies of solids; spectral, by feature: fields on a box.
     ("scene", &["document", "charts", "simulation", "characteristics", "solutions", "uniformity", "spectral"]),
+    ("ensemble", &["scene"]),
     // charts: the folder of the results.
     // images, by feature: files of images, for the command `register` alone.
-    ("cli", &["scene", "measured", "images"]),
+    ("cli", &["ensemble", "measured", "images"]),
     // The functions that other languages call.
     ("ffi", &["piola"]),
     // ffi: its safe half, laws at many points, compiled once for both. scene, by feature: motions run from a text.

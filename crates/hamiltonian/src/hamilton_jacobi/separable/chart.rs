@@ -348,7 +348,7 @@ fn is_positive([a, b, c, d]: [f64; 4], end: f64) -> bool {
 /// A place between the first zero of R + R′s + bs² at s > 0 and its second; infinite without one.
 fn beyond_the_first_zero([value, slope, bend]: [f64; 3]) -> f64 {
     let discriminant = slope * slope - 4.0 * bend * value;
-    if !(0.0 <= discriminant) {
+    if discriminant.is_nan() || discriminant < 0.0 {
         return f64::INFINITY;
     }
     // Both zeros without cancellation.

@@ -1,0 +1,101 @@
+//! The command `sweep`.
+
+use core::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use piola_charts::Folder;
+use piola_ensemble::{Ensemble, EnsembleError, Options, Part, Results, compute, predicted_seconds};
+use piola_scene::{Document, SceneError};
+
+use crate::Exit;
+use crate::arguments::SweepArguments;
+use crate::commands::{MOST_SECONDS, failure, listing, note, print};
+use crate::interrupt::Interrupt;
+use crate::progress::ProgressLine;
+
+pub(crate) fn sweep(arguments: &SweepArguments) -> Exit {
+    let interrupt = Interrupt::listen();
+    let prepared = prepare(arguments);
+    let (ensemble, folder, options) = match prepared {
+        Ok(prepared) => prepared,
+        Err(error) => {
+            failure(&error, arguments.scene.json);
+            return Exit::Invalid;
+        }
+    };
+    let mut progress = ProgressLine::new("sweep", 1);
+    let computed = compute(&ensemble, folder.path(), options, |share| {
+        progress.update(share);
+        if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    progress.finish();
+    let collected = computed.and_then(|computed| {
+        if computed.interrupted {
+            return Ok((computed, None));
+        }
+        match Results::collect(&ensemble, folder.path()) {
+            Ok(results) => Ok((computed, Some(results))),
+            // Other parts are still computing.
+            Err(EnsembleError::Missing { .. }) if options.part != Part::WHOLE => Ok((computed, None)),
+            Err(error) => Err(error),
+        }
+    });
+    match collected {
+        Ok((_, Some(results))) => {
+            let written = results.write(&folder);
+            if arguments.scene.json {
+                print(&results.summary());
+            } else {
+                print(&format!("{}\n", results.report()));
+                print(&listing(&folder, &written));
+            }
+            for failure in &written.failures {
+                note(&format!("error: {failure}"));
+            }
+            if written.failures.is_empty() { Exit::Done } else { Exit::Failed }
+        }
+        Ok((computed, None)) if computed.interrupted => {
+            let done = computed.kept + computed.computed;
+            note(&format!("interrupted after {done} members; the same command with --resume goes on"));
+            Exit::Failed
+        }
+        Ok((computed, None)) => {
+            note(&format!("{} members of this part are done; other parts are not", computed.kept + computed.computed));
+            Exit::Done
+        }
+        Err(error) => {
+            failure(&error, arguments.scene.json);
+            Exit::Failed
+        }
+    }
+}
+
+fn prepare(arguments: &SweepArguments) -> Result<(Ensemble, Folder, Options), EnsembleError> {
+    let ranges = arguments.ranges.iter().map(|text| text.parse()).collect::<Result<Vec<_>, _>>()?;
+    let random = arguments.random.iter().map(|text| text.parse()).collect::<Result<Vec<_>, _>>()?;
+    let path = &arguments.scene.scene;
+    let document = Document::read_with(path, &arguments.scene.settings).map_err(SceneError::from)?;
+    let ensemble = Ensemble::new(document, ranges, random, arguments.members, arguments.seed)?;
+    let mut options = Options::default();
+    if let Some(threads) = arguments.threads {
+        options = options.with_threads(threads);
+    }
+    if let Some(part) = &arguments.part {
+        options = options.with_part(part.parse()?);
+    }
+    if arguments.resume {
+        options = options.with_resume();
+    }
+    let cores = options.threads.or_else(|| std::thread::available_parallelism().ok().map(usize::from)).unwrap_or(1);
+    if let Some(seconds) = predicted_seconds(&ensemble, options.part)?
+        && !arguments.yes
+        && MOST_SECONDS < seconds / cores as f64
+    {
+        let argument = format!("a sweep of about {:.1} days on {cores} cores", seconds / cores as f64 / MOST_SECONDS);
+        return Err(EnsembleError::Argument { argument, valid: "less than a day, or --yes" });
+    }
+    let name = path.file_stem().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let beside: PathBuf = Path::new("out").join(format!("sweep-{name}"));
+    let folder = Folder::prepare(arguments.out.as_ref().unwrap_or(&beside))?;
+    Ok((ensemble, folder, options))
+}

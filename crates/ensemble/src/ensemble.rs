@@ -1,0 +1,170 @@
+//! An ensemble: a scene and what differs between its members.
+
+use piola_scene::{Document, SceneFile};
+
+use crate::member::{Member, columns, compute};
+use crate::{EnsembleError, Random, Range};
+
+/// The largest number of members.
+pub const MOST_MEMBERS: u64 = 100_000_000;
+
+/// A scene, and what differs between its members.
+///
+/// Members are all combinations of the [ranges](Range), the last range changing fastest, each combination `repeats` times with
+/// other [random](Random) values.
+///
+/// # Example
+/// ```
+/// use piola_ensemble::Ensemble;
+/// use piola_scene::Document;
+/// let scene = Document::parse("orbit.toml", "
+///     [central]
+///     gm = 1.0
+///     [[body]]
+///     name = 'comet'
+///     semi_major_axis = 1.0
+///     eccentricity = 0.5
+///     [time]
+///     revolutions = 1
+/// ");
+/// let ensemble = Ensemble::new(scene, vec!["body.comet.eccentricity=0:0.8:5".parse()?], Vec::new(), 1, 0)?;
+/// assert_eq!(ensemble.members(), 5);
+/// let member = ensemble.member(4);
+/// let x = ensemble.columns().iter().position(|name| name == "comet x (m)").expect("there");
+/// assert!((member.values[x] - 0.2).abs() < 1e-9); // at its perihelion again
+/// # Ok::<(), piola_ensemble::EnsembleError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Ensemble {
+    scene: Document,
+    ranges: Vec<Range>,
+    random: Vec<Random>,
+    repeats: u64,
+    seed: u64,
+    columns: Vec<String>,
+}
+
+impl Ensemble {
+    /// Of a scene.
+    ///
+    /// # Errors
+    /// [`EnsembleError::TooMany`] beyond [`MOST_MEMBERS`]; [`EnsembleError::Argument`] for a value that is varied twice, or repeats
+    /// without random values; [`EnsembleError::Invalid`] when the first member is not a scene.
+    pub fn new(
+        scene: Document,
+        ranges: Vec<Range>,
+        random: Vec<Random>,
+        repeats: u64,
+        seed: u64,
+    ) -> Result<Self, EnsembleError> {
+        let paths: Vec<&String> =
+            ranges.iter().map(|range| &range.path).chain(random.iter().map(|random| &random.path)).collect();
+        if let Some(twice) = paths.iter().enumerate().find_map(|(i, path)| paths[..i].contains(path).then_some(path)) {
+            return Err(EnsembleError::Argument { argument: (*twice).clone(), valid: "each value once" });
+        }
+        if random.is_empty() && repeats != 1 {
+            let argument = format!("{repeats} members of each combination");
+            return Err(EnsembleError::Argument { argument, valid: "one, unless a value is random" });
+        }
+        let members = ranges.iter().fold(repeats as f64, |product, range| product * range.count as f64);
+        if members < 1.0 || (MOST_MEMBERS as f64) < members {
+            return Err(EnsembleError::TooMany { members, most: MOST_MEMBERS });
+        }
+        let mut ensemble = Self { scene, ranges, random, repeats, seed, columns: Vec::new() };
+        let first =
+            ensemble.scene(0).map_err(|error| EnsembleError::Invalid { member: 0, cause: error.to_string() })?;
+        ensemble.columns = columns(&first);
+        Ok(ensemble)
+    }
+
+    /// The number of members.
+    #[must_use]
+    pub fn members(&self) -> u64 {
+        self.ranges.iter().fold(self.repeats, |product, range| product * range.count)
+    }
+
+    /// What is varied, with units, as `joint.elbow.angle (deg)`.
+    #[must_use]
+    pub fn varied(&self) -> Vec<String> {
+        let named =
+            |path: &String, unit: &String| if unit.is_empty() { path.clone() } else { format!("{path} ({unit})") };
+        let ranges = self.ranges.iter().map(|range| named(&range.path, &range.unit));
+        ranges.chain(self.random.iter().map(|random| named(&random.path, &random.unit))).collect()
+    }
+
+    /// The quantities that are kept of a member.
+    #[must_use]
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The values that are varied, of a member.
+    #[must_use]
+    pub fn settings(&self, member: u64) -> Vec<f64> {
+        let indices = self.indices(member);
+        let ranges = self.ranges.iter().zip(&indices).map(|(range, &index)| range.value(index));
+        let random = self.random.iter().zip(0..).map(|(random, which)| random.value(self.seed, which, member));
+        ranges.chain(random).collect()
+    }
+
+    /// The place of a member in each range; the last changes fastest.
+    fn indices(&self, member: u64) -> Vec<u64> {
+        let mut rest = member / self.repeats;
+        let mut indices = vec![0; self.ranges.len()];
+        for (index, range) in indices.iter_mut().zip(&self.ranges).rev() {
+            *index = rest % range.count;
+            rest /= range.count;
+        }
+        indices
+    }
+
+    /// The scene of a member.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn scene(&self, member: u64) -> Result<SceneFile, EnsembleError> {
+        let mut document = self.scene.clone();
+        for (range, index) in self.ranges.iter().zip(self.indices(member)) {
+            document.set(&range.setting(index));
+        }
+        for (random, which) in self.random.iter().zip(0..) {
+            document.set(&random.setting(self.seed, which, member));
+        }
+        Ok(SceneFile::from_document(&document)?)
+    }
+
+    /// Computes a member.
+    #[must_use]
+    pub fn member(&self, member: u64) -> Member {
+        self.member_until(member, || false).unwrap_or_else(|| Member::failed(member, "stopped", self.columns.len()))
+    }
+
+    /// Computes a member unless `stop` says so before its end; then there is none.
+    #[must_use]
+    pub fn member_until(&self, member: u64, stop: impl Fn() -> bool) -> Option<Member> {
+        match self.scene(member) {
+            Ok(scene) => compute(member, &scene, &self.columns, &stop),
+            Err(error) => Some(Member::failed(member, &error.to_string(), self.columns.len())),
+        }
+    }
+
+    /// All that tells this ensemble from another, as a text of one line.
+    #[must_use]
+    pub fn identity(&self) -> String {
+        let texts: Vec<&str> = self.scene.sources().iter().map(|source| source.text.as_str()).collect();
+        serde_json::json!({
+            "ensemble": 1,
+            "version": env!("CARGO_PKG_VERSION"),
+            "scene": texts,
+            "ranges": self.ranges,
+            "random": self.random,
+            "repeats": self.repeats,
+            "seed": self.seed,
+        })
+        .to_string()
+    }
+
+    pub(crate) fn name(&self) -> &str {
+        self.scene.name()
+    }
+}

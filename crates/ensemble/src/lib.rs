@@ -1,0 +1,18 @@
+//! Ensembles: many runs of one scene on all cores.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod ensemble;
+mod error;
+mod journal;
+mod member;
+mod results;
+mod run;
+mod variation;
+
+pub use ensemble::{Ensemble, MOST_MEMBERS};
+pub use error::EnsembleError;
+pub use member::Member;
+pub use results::{Results, Statistics};
+pub use run::{Computed, Options, Part, compute, predicted_seconds};
+pub use variation::{Law, Random, Range};

@@ -1,0 +1,143 @@
+//! One member: its scene is run and the numbers of its end are kept.
+
+use core::ops::ControlFlow;
+
+use piola_scene::run::{self, Outcome, Run};
+use piola_scene::studies::{self, StudyPlan};
+use piola_scene::{Plan, SceneFile};
+use serde_json::Value;
+
+/// The numbers of a member.
+///
+/// # Example
+/// See [`Ensemble`](crate::Ensemble).
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
+pub struct Member {
+    /// Its number, from 0.
+    pub member: u64,
+    /// Why it has no result.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub failure: Option<String>,
+    /// Its numbers, one for each [column](crate::Ensemble::columns); not a number where there is none.
+    #[serde(with = "numbers")]
+    pub values: Vec<f64>,
+}
+
+impl Member {
+    pub(crate) fn failed(member: u64, why: &str, columns: usize) -> Self {
+        // One line of a table.
+        let first = why.lines().next().unwrap_or_default().to_owned();
+        Self { member, failure: Some(first), values: vec![f64::NAN; columns] }
+    }
+}
+
+/// Numbers that are none are `null` in JSON.
+mod numbers {
+    use serde::{Deserialize as _, Deserializer, Serialize as _, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+        let finite = |x: &f64| x.is_finite().then_some(*x);
+        values.iter().map(finite).collect::<Vec<_>>().serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+        let values = Vec::<Option<f64>>::deserialize(deserializer)?;
+        Ok(values.into_iter().map(|x| x.unwrap_or(f64::NAN)).collect())
+    }
+}
+
+/// Names of the numbers that are kept of a scene. A study is run once to see what it finds.
+pub(crate) fn columns(scene: &SceneFile) -> Vec<String> {
+    match scene {
+        SceneFile::Motion(scene) => {
+            // The names stand in the record from the first step on.
+            let run = run::run(scene, &Plan::of(scene), |_| ControlFlow::Break(()));
+            motion(&run).into_iter().map(|(name, _)| name).collect()
+        }
+        SceneFile::Study(study) => of_study(study, &|| false).1.into_iter().map(|(name, _)| name).collect(),
+    }
+}
+
+type Named = Vec<(String, f64)>;
+
+/// The last state, energy, drifts and the work of a motion.
+fn motion(run: &Run) -> Named {
+    let history = &run.history;
+    let mut named: Named = vec![("time (s)".to_owned(), run.time)];
+    if let Some(coordinates) = history.coordinates.last() {
+        let names = &history.coordinate_names;
+        let rates = names.iter().map(|name| format!("rate of {name}"));
+        named.extend(names.iter().cloned().chain(rates).zip(coordinates.iter().copied()));
+    } else {
+        let state = |kind: [&str; 3], unit: &str, vectors: Option<&Vec<[f64; 3]>>| -> Named {
+            let bodies = history.names.iter().zip(vectors.into_iter().flatten());
+            bodies
+                .flat_map(|(name, vector)| {
+                    kind.into_iter().zip(*vector).map(move |(axis, x)| (format!("{name} {axis} ({unit})"), x))
+                })
+                .collect()
+        };
+        named.extend(state(["x", "y", "z"], "m", history.positions.last()));
+        named.extend(state(["vx", "vy", "vz"], "m/s", history.velocities.last()));
+    }
+    named.push(("energy (J)".to_owned(), history.invariants.last().map_or(f64::NAN, |last| last.energy)));
+    let drift = run.drifts.energy.map_or(f64::NAN, |drift| drift.max_relative);
+    named.push(("largest relative change of energy".to_owned(), drift));
+    if let Some(errors) = &run.errors {
+        named.push(("largest relative error".to_owned(), errors.largest_relative));
+    }
+    named.extend([
+        ("steps".to_owned(), run.steps as f64),
+        ("evaluations of the forces".to_owned(), run.force_evaluations as f64),
+    ]);
+    named
+}
+
+/// How a study ended, and the numbers of its results.
+fn of_study(study: &piola_scene::Study, stop: &dyn Fn() -> bool) -> (Outcome, Named) {
+    let run = studies::run(study, |_| going(stop));
+    let summary = run.summary(&StudyPlan::of(study));
+    let value: Value = serde_json::from_str(&summary).unwrap_or_default();
+    let mut named = Named::new();
+    collect("", &value["results"], &mut named);
+    (run.outcome, named)
+}
+
+/// The numbers of a tree, by their paths; lists that are long are left out.
+fn collect(path: &str, value: &Value, named: &mut Named) {
+    /// Longer lists are curves, not results.
+    const MOST: usize = 16;
+    let below = |key: &str| if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
+    match value {
+        Value::Number(number) => named.push((path.to_owned(), number.as_f64().unwrap_or(f64::NAN))),
+        Value::Object(fields) => fields.iter().for_each(|(key, value)| collect(&below(key), value, named)),
+        Value::Array(list) if list.len() <= MOST => {
+            list.iter().enumerate().for_each(|(index, value)| collect(&below(&index.to_string()), value, named));
+        }
+        _ => {}
+    }
+}
+
+fn going(stop: &dyn Fn() -> bool) -> ControlFlow<()> {
+    if stop() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+/// Runs a scene and keeps its numbers; none if it was stopped.
+pub(crate) fn compute(member: u64, scene: &SceneFile, columns: &[String], stop: &dyn Fn() -> bool) -> Option<Member> {
+    let (outcome, named) = match scene {
+        SceneFile::Motion(scene) => {
+            let run = run::run(scene, &Plan::of(scene), |_| going(stop));
+            let named = motion(&run);
+            (run.outcome, named)
+        }
+        SceneFile::Study(study) => of_study(study, stop),
+    };
+    let of = |name: &String| named.iter().find(|(other, _)| other == name).map_or(f64::NAN, |(_, value)| *value);
+    let failure = match outcome {
+        Outcome::Completed => None,
+        Outcome::Interrupted => return None,
+        Outcome::Failed(why) => Some(why.lines().next().unwrap_or_default().to_owned()),
+    };
+    Some(Member { member, failure, values: columns.iter().map(of).collect() })
+}
