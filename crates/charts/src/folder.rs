@@ -102,6 +102,25 @@ pub struct Written {
 }
 
 impl Written {
+    /// Adds files to the set that was just written.
+    pub fn add<'n>(&mut self, folder: &Folder, files: impl IntoIterator<Item = (&'n str, String)>) {
+        let mut list = folder.listed();
+        for (name, text) in files {
+            match folder.write(name, &text) {
+                Ok(path) => {
+                    self.files.push(path);
+                    list.retain(|other| other != name);
+                    list.push(name.to_owned());
+                }
+                Err(error) => self.failures.push(error),
+            }
+        }
+        let list = list.into_iter().fold(String::new(), |text, name| text + &name + "\n");
+        if let Err(error) = folder.write(LIST, &list) {
+            self.failures.push(error);
+        }
+    }
+
     /// Writes a set of files into a folder, in place of the set that was written there before.
     ///
     /// All files are first written beside their places. Then the old `summary.json` is removed, the files are moved to their

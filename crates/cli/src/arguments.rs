@@ -83,6 +83,9 @@ pub(crate) struct SweepArguments {
     /// Keep the members that a run before has computed.
     #[arg(long)]
     pub(crate) resume: bool,
+    /// Write report.html too: figures, tables and inputs in one file.
+    #[arg(long)]
+    pub(crate) report: bool,
     /// Start a sweep of more than a day, too.
     #[arg(long)]
     pub(crate) yes: bool,
@@ -98,6 +101,9 @@ pub(crate) struct RunArguments {
     /// Folder of the results instead of the scene's.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Write report.html too: figures, tables, plan and inputs in one file.
+    #[arg(long)]
+    pub(crate) report: bool,
     /// Start even a run that takes more than a day.
     #[arg(long)]
     pub(crate) yes: bool,

@@ -16,7 +16,7 @@ use piola_scene::{Plan, Scene, SceneError, SceneFile, Study, schema};
 use crate::arguments::{RunArguments, SceneArguments, SchemaArguments};
 use crate::interrupt::Interrupt;
 use crate::progress::{ProgressLine, STRIDE};
-use crate::{Exit, report};
+use crate::{Exit, html, report};
 
 pub(crate) fn run(arguments: &RunArguments) -> Exit {
     match load(&arguments.scene) {
@@ -44,7 +44,11 @@ fn run_study(study: &Study, arguments: &RunArguments) -> Exit {
         if interrupt.asked() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     progress.finish();
-    let written = run.write(&folder, study, &plan);
+    let mut written = run.write(&folder, study, &plan);
+    if arguments.report {
+        let texts = [("Results", run.table(study, &plan)), ("Plan", plan.to_string())];
+        html::add(&arguments.scene, study.title.as_deref().unwrap_or(&study.name), &texts, (&folder, &mut written));
+    }
     if arguments.scene.json {
         print(&run.summary(&plan));
     } else {
@@ -76,7 +80,11 @@ fn run_motion(scene: &Scene, arguments: &RunArguments) -> Exit {
     });
     progress.finish();
     let summary = Summary::of(scene, &plan, &run);
-    let written = output::write(&folder, scene, &plan, &run, &summary);
+    let mut written = output::write(&folder, scene, &plan, &run, &summary);
+    if arguments.report {
+        let texts = [("Results", report::table(scene, &plan, &run)), ("Plan", plan.to_string())];
+        html::add(&arguments.scene, scene.title.as_deref().unwrap_or(&scene.name), &texts, (&folder, &mut written));
+    }
     if arguments.scene.json {
         print(&summary.to_json());
     } else {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use piola_charts::{Folder, Written};
+use piola_charts::Folder;
 use piola_measured::MeasuredError;
 use piola_measured::fitting::{self, Measurements, Request};
 
@@ -35,13 +35,9 @@ pub(crate) fn fit(arguments: &FitArguments) -> Exit {
     };
     let mut written = fitted.write(&folder, &measurements);
     if let Some(predictions) = predictions {
-        let more = Written::of(&folder, [("predictions.csv", predictions)]);
-        written.files.extend(more.files);
-        written.failures.extend(more.failures);
+        written.add(&folder, [("predictions.csv", predictions)]);
     }
-    let more = Written::of(&folder, cards.iter().map(|(name, text)| (name.as_str(), text.clone())));
-    written.files.extend(more.files);
-    written.failures.extend(more.failures);
+    written.add(&folder, cards.iter().map(|(name, text)| (name.as_str(), text.clone())));
     if arguments.json {
         print(&fitted.summary(&measurements));
     } else {

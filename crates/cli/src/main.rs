@@ -8,6 +8,7 @@ mod commands;
 mod comparison;
 mod fits;
 mod flows;
+mod html;
 mod interrupt;
 mod progress;
 #[cfg(feature = "register")]

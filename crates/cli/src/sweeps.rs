@@ -7,11 +7,11 @@ use piola_charts::Folder;
 use piola_ensemble::{Ensemble, EnsembleError, Options, Part, Results, compute, predicted_seconds};
 use piola_scene::{Document, SceneError};
 
-use crate::Exit;
 use crate::arguments::SweepArguments;
 use crate::commands::{MOST_SECONDS, failure, listing, note, print};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
+use crate::{Exit, html};
 
 pub(crate) fn sweep(arguments: &SweepArguments) -> Exit {
     let interrupt = Interrupt::listen();
@@ -42,7 +42,11 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Exit {
     });
     match collected {
         Ok((_, Some(results))) => {
-            let written = results.write(&folder);
+            let mut written = results.write(&folder);
+            if arguments.report {
+                let title = format!("Sweep of {}", arguments.scene.scene.display());
+                html::add(&arguments.scene, &title, &[("Results", results.report())], (&folder, &mut written));
+            }
             if arguments.scene.json {
                 print(&results.summary());
             } else {

@@ -272,6 +272,29 @@ fn fit_says_what_few_or_strange_data_do_not_tell() {
     assert!(told.contains("all its stretches are 1") && told.contains("the data say nothing"), "{told}");
 }
 
+/// The report is well formed, needs nothing from elsewhere, and has every figure, the plan and the scene.
+#[test]
+fn a_report_is_one_file_with_figures_tables_plan_and_inputs() {
+    let folder = Folder::new("report");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/balloon.toml");
+    let output = folder.piola(&["run", &scene.display().to_string(), "--report", "--out", "balloon"]);
+    assert_eq!(output.status.code(), Some(0), "{}", err(&output));
+    assert!(out(&output).contains("report.html"));
+    let html = read(&folder.0.join("balloon/report.html"));
+    let body = html.strip_prefix("<!DOCTYPE html>").unwrap_or_default();
+    let page = roxmltree::Document::parse(body).unwrap_or_else(|error| panic!("{error}"));
+    let count = |name: &str| page.descendants().filter(|node| node.has_tag_name(name)).count();
+    let drawings = std::fs::read_dir(folder.0.join("balloon")).map_or(0, |files| {
+        files.flatten().filter(|file| file.path().extension().is_some_and(|ending| ending == "svg")).count()
+    });
+    let figures = page.descendants().filter(|node| node.tag_name().name() == "svg").count();
+    assert!(0 < drawings && figures == drawings, "{figures} of {drawings}");
+    let names = |name: &'static str| page.descendants().any(|node| node.tag_name().name() == name);
+    assert!(names("table") && !names("script") && !names("link") && !names("img"), "{}", count("table"));
+    assert!(html.contains("shear_modulus") || html.contains("[balloon]"), "the scene");
+    assert!(!html.contains("src=") && !html.contains("href="));
+}
+
 /// Discharges of a fluid of viscosity 2 in a pipe of radius 1, π c/16.
 fn discharges() -> String {
     let row = |c: i32| format!("{c},{}\n", core::f64::consts::PI * f64::from(c) / 16.0);

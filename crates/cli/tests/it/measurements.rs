@@ -85,6 +85,18 @@ fn a_card_of_ls_dyna_needs_a_density() {
     let (code, shown, told) = folder.piola(&[fit.as_slice(), &["--density", "1.1e-9"]].concat());
     assert_eq!(code, Some(0), "{shown}{told}");
     assert!(folder.read("out/fit-bar/ls-dyna-neo-hookean.k").contains("1, 1.1e-9, "));
+    // Cards and predictions stand beside the other results, and go with them.
+    let (code, shown, _) = folder.piola(&[fit.as_slice(), &["--density", "1.1e-9", "--to", "5"]].concat());
+    assert_eq!(code, Some(0));
+    let files = ["summary.json", "curves.csv", "residuals.csv", "fit.svg", "predictions.csv", "ls-dyna-neo-hookean.k"];
+    for file in files {
+        assert!(shown.contains(file) && !folder.read(&format!("out/fit-bar/{file}")).is_empty(), "{file}: {shown}");
+    }
+    let (code, _, _) = folder.piola(&["fit", "bar.csv", "--law", "neo-hookean"]);
+    assert_eq!(code, Some(0));
+    assert!(
+        !folder.read("out/fit-bar/summary.json").is_empty() && !folder.0.join("out/fit-bar/predictions.csv").exists()
+    );
 }
 
 #[test]
