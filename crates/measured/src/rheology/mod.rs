@@ -21,6 +21,7 @@ mod geometry;
 mod kind;
 mod oilfield;
 mod recovery;
+mod recovery_output;
 mod sweeps;
 mod table;
 

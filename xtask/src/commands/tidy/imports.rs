@@ -50,7 +50,7 @@ const CIRCLES: &[(&str, &str, &str)] = &[
     ),
     (
         "crates/measured/src/rheology/figure.rs",
-        "crates/measured/src/rheology/recovery.rs",
+        "crates/measured/src/rheology/recovery_output.rs",
         "a recovered curve writes its figure",
     ),
     (
