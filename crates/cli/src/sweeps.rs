@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use piola_charts::Folder;
-use piola_ensemble::{Ensemble, EnsembleError, Options, Part, Results, compute, predicted_seconds};
+use piola_ensemble::{Ensemble, EnsembleError, Options, Portion, Results, compute, predicted_seconds};
 use piola_scene::{Document, SceneError};
 
 use crate::arguments::SweepArguments;
@@ -36,7 +36,7 @@ pub(crate) fn sweep(arguments: &SweepArguments) -> Exit {
         match Results::collect(&ensemble, folder.path()) {
             Ok(results) => Ok((computed, Some(results))),
             // Other parts are still computing.
-            Err(EnsembleError::Missing { .. }) if options.part != Part::WHOLE => Ok((computed, None)),
+            Err(EnsembleError::Missing { .. }) if options.part != Portion::WHOLE => Ok((computed, None)),
             Err(error) => Err(error),
         }
     });

@@ -5,7 +5,7 @@ use std::fs::{File, OpenOptions};
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
 
-use crate::{Ensemble, EnsembleError, Member, Part};
+use crate::{Ensemble, EnsembleError, Member, Portion};
 
 /// A journal that is open for writing. Its first line tells the ensemble.
 #[derive(Debug)]
@@ -18,7 +18,7 @@ pub(crate) struct Journal {
 const NAME: [&str; 2] = ["members-", ".journal"];
 
 /// Where a part of an ensemble writes.
-fn path_of(folder: &Path, part: Part) -> PathBuf {
+fn path_of(folder: &Path, part: Portion) -> PathBuf {
     folder.join(format!("{}{}-of-{}{}", NAME[0], part.number, part.parts, NAME[1]))
 }
 
@@ -28,7 +28,7 @@ fn refused(path: &Path, cause: &std::io::Error) -> EnsembleError {
 
 impl Journal {
     /// Opens the journal of a part: anew, or with what a run before wrote.
-    pub(crate) fn open(folder: &Path, ensemble: &Ensemble, part: Part, resume: bool) -> Result<Self, EnsembleError> {
+    pub(crate) fn open(folder: &Path, ensemble: &Ensemble, part: Portion, resume: bool) -> Result<Self, EnsembleError> {
         let path = path_of(folder, part);
         let whole = if resume && path.exists() { whole_lines(&path, ensemble)?.1 } else { 0 };
         let open = || {

@@ -1,7 +1,6 @@
 //! Computes members on all cores.
 
 use core::ops::ControlFlow;
-use core::str::FromStr;
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::path::Path;
 use std::sync::mpsc;
@@ -10,52 +9,7 @@ use piola_scene::{SceneFile, run};
 use rayon::prelude::*;
 
 use crate::journal::{Journal, collected};
-use crate::{Ensemble, EnsembleError};
-
-/// A part of an ensemble, for one of several machines: `2/8` are the members 1, 9, 17, …
-///
-/// # Example
-/// ```
-/// use piola_ensemble::Part;
-/// let part: Part = "2/8".parse()?;
-/// assert!(part.has(9) && !part.has(10));
-/// assert!("9/8".parse::<Part>().is_err());
-/// # Ok::<(), piola_ensemble::EnsembleError>(())
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct Part {
-    /// Which, from 1.
-    pub number: u64,
-    /// Of how many.
-    pub parts: u64,
-}
-
-impl Part {
-    /// All of it.
-    pub const WHOLE: Self = Self { number: 1, parts: 1 };
-
-    /// Whether a member belongs to it.
-    #[must_use]
-    pub const fn has(self, member: u64) -> bool {
-        member % self.parts == self.number - 1
-    }
-}
-
-impl FromStr for Part {
-    type Err = EnsembleError;
-
-    fn from_str(text: &str) -> Result<Self, EnsembleError> {
-        let parsed = text.split_once('/').and_then(|(number, parts)| {
-            let (number, parts) = (number.trim().parse().ok()?, parts.trim().parse().ok()?);
-            (1 <= number && number <= parts).then_some(Self { number, parts })
-        });
-        parsed.ok_or_else(|| EnsembleError::Argument {
-            argument: format!("part {text}"),
-            valid: "K/N with 1 ≤ K ≤ N, as 2/8",
-        })
-    }
-}
+use crate::{Ensemble, EnsembleError, Portion};
 
 /// How an ensemble is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,14 +18,14 @@ pub struct Options {
     /// Threads; all cores for none.
     pub threads: Option<usize>,
     /// Which members.
-    pub part: Part,
+    pub part: Portion,
     /// Whether members of a run before are kept.
     pub resume: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { threads: None, part: Part::WHOLE, resume: false }
+        Self { threads: None, part: Portion::WHOLE, resume: false }
     }
 }
 
@@ -85,7 +39,7 @@ impl Options {
 
     /// A part.
     #[must_use]
-    pub const fn with_part(mut self, part: Part) -> Self {
+    pub const fn with_part(mut self, part: Portion) -> Self {
         self.part = part;
         self
     }
@@ -179,7 +133,7 @@ pub fn compute(
 ///
 /// # Errors
 /// [`EnsembleError::Invalid`] when the first member fails at its start.
-pub fn predicted_seconds(ensemble: &Ensemble, part: Part) -> Result<Option<f64>, EnsembleError> {
+pub fn predicted_seconds(ensemble: &Ensemble, part: Portion) -> Result<Option<f64>, EnsembleError> {
     let SceneFile::Motion(scene) = ensemble.scene(0)? else { return Ok(None) };
     let trial = run::trial(&scene, &piola_scene::Plan::of(&scene));
     let trial = trial.map_err(|cause| EnsembleError::Invalid { member: 0, cause })?;

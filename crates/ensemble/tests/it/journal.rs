@@ -3,7 +3,7 @@
 use core::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use piola_ensemble::{Ensemble, EnsembleError, Options, Part, Results, compute};
+use piola_ensemble::{Ensemble, EnsembleError, Options, Portion, Results, compute};
 use piola_scene::Document;
 
 /// An orbit of one revolution.
@@ -58,7 +58,7 @@ fn any_number_of_threads_and_parts_gives_the_same_bytes() {
     run(&ensemble, &one, Options::default().with_threads(1));
     run(&ensemble, &four, Options::default().with_threads(4));
     for part in ["3/3", "1/3", "2/3"] {
-        let part: Part = part.parse().unwrap_or_else(|error| panic!("{error}"));
+        let part: Portion = part.parse().unwrap_or_else(|error| panic!("{error}"));
         let missing = Results::collect(&ensemble, parts.path());
         assert!(matches!(missing, Err(EnsembleError::Missing { members: 40, .. })));
         run(&ensemble, &parts, Options::default().with_part(part));

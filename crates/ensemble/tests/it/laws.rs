@@ -1,6 +1,6 @@
 //! Members against closed forms; random values against their laws; what is refused.
 
-use piola_ensemble::{Ensemble, EnsembleError, Part, Random, Range, Statistics};
+use piola_ensemble::{Ensemble, EnsembleError, Portion, Random, Range, Statistics};
 use piola_scene::Document;
 use piola_testkit::{Tol, assert_close};
 
@@ -84,7 +84,7 @@ fn what_cannot_be_varied_is_refused_by_name() {
         assert!(error.contains("PATH=normal(MEAN, DEVIATION) UNIT"), "{wrong}: {error}");
     }
     for wrong in ["1", "0/2", "3/2", "a/b", "1/0"] {
-        assert!(wrong.parse::<Part>().is_err(), "{wrong}");
+        assert!(wrong.parse::<Portion>().is_err(), "{wrong}");
     }
     let made = |ranges: &[&str], random: &[&str], repeats| {
         let ranges = ranges.iter().map(|text| text.parse()).collect::<Result<_, _>>();
