@@ -27,7 +27,7 @@ use piola_numerics::Real;
 
 use crate::splitting::{MOST_STAGES, SplittingStage};
 use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
-use crate::{Ending, IntegratorsError, Report, Separable, SplittingScheme, State, Step, unobserved};
+use crate::{Ending, IntegratorsError, Report, Separable, SplittingScheme, State, Step};
 
 /// The order of a fixed-step method: the error of a run falls as hᵒʳᵈᵉʳ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -186,24 +186,9 @@ impl<T: Real> Composition<T> {
         self.scheme
     }
 
-    /// The longest step, s.
-    #[must_use]
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
+    crate::longest_step!();
 
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<F: Separable<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.integrate(field, state, end, unobserved)
-    }
+    crate::unobserved_run!(F: Separable<T>, field: &mut F, IntegratorsError<F::Error>);
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is
     /// earlier than the state's time. The observer sees every step and may stop the run.
