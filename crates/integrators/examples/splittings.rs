@@ -71,13 +71,19 @@ fn main() -> Result<(), IntegratorsError> {
             let mut row = Vec::new();
             for rate in rates {
                 let error = if is_kepler {
-                    worst(scheme, &mut Kepler, [0.7, 0.0, 0.0, (1.3_f64 / 0.7).sqrt()], (200.0 * turn, rate / turn), kepler)?
+                    worst(
+                        scheme,
+                        &mut Kepler,
+                        [0.7, 0.0, 0.0, (1.3_f64 / 0.7).sqrt()],
+                        (200.0 * turn, rate / turn),
+                        kepler,
+                    )?
                 } else {
                     worst(scheme, &mut HenonHeiles, [0.0, 0.1, 0.4877, 0.0], (1000.0, rate / turn), henon)?
                 };
                 row.push(format!("{error:.1e}"));
             }
-            println!("| {scheme:?} | {} |", row.join(" | "));
+            println!("| {scheme} | {} |", row.join(" | "));
         }
     }
     Ok(())

@@ -139,7 +139,13 @@ pub(crate) trait Collocation<T: Real, F> {
 
     /// The last coefficient that the rounding of positions alone makes in the step that was just attempted. Methods that do not
     /// know give zero.
-    fn noise(&mut self, _field: &mut F, _state: &State<T>, _h: f64, _evaluations: &mut u64) -> Result<f64, Self::Error> {
+    fn noise(
+        &mut self,
+        _field: &mut F,
+        _state: &State<T>,
+        _h: f64,
+        _evaluations: &mut u64,
+    ) -> Result<f64, Self::Error> {
         Ok(0.0)
     }
 

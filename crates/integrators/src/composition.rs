@@ -12,8 +12,8 @@
 //! drift. [`SplittingScheme`](crate::SplittingScheme) lists what else runs in this loop.
 //!
 //! # Which order?
-//! Two for games and pictures, four to six for long runs at 1e-6…1e-9, eight when errors near rounding are
-//! wanted; ten in extended precision. Where q̇ = M⁻¹p, Runge–Kutta–Nyström splittings need fewer forces. The step stays fixed: for
+//! Two for games and pictures, four to six for long runs at 1e-6…1e-9, eight or ten when errors near rounding are
+//! wanted. Where q̇ = M⁻¹p, Runge–Kutta–Nyström splittings need fewer forces. The step stays fixed: for
 //! close encounters use an adaptive method.
 //!
 //! # References
@@ -262,7 +262,8 @@ impl<T: Real> Composition<T> {
         let kick_first = self.stages[0].drift.abs() <= 0.0;
         let mut evaluations = kicks as u64;
         // Velocities belong to the moments of the kicks that are done, forces to those of the drifts.
-        for (number, &SplittingStage { drift, kick, drift_time, kick_time }) in self.stages[..kicks].iter().enumerate() {
+        for (number, &SplittingStage { drift, kick, drift_time, kick_time }) in self.stages[..kicks].iter().enumerate()
+        {
             if number == 0 && kick_first {
                 q.copy_from_slice(q_start);
                 q_carry.copy_from_slice(q_carry_start);

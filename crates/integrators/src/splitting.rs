@@ -29,6 +29,7 @@ use crate::composition::substeps_of;
 /// use piola_integrators::{Order, SplittingScheme};
 /// assert_eq!((SplittingScheme::Nystrom6.order(), SplittingScheme::Nystrom6.forces()), (6, 11));
 /// assert_eq!(SplittingScheme::Composition(Order::Four).forces(), 5);
+/// assert_eq!(SplittingScheme::Nystrom6.to_string(), "Nyström, order 6, 11 forces");
 /// let drifts: f64 = SplittingScheme::Composition10.stages().map(|stage| stage.drift).sum();
 /// assert!((drifts - 1.0).abs() < 1e-15);
 /// ```
@@ -51,6 +52,17 @@ pub enum SplittingScheme {
     Nystrom6,
     /// Runge–Kutta–Nyström of order six with smaller coefficients of the error, which begins and ends with a drift.
     Nystrom6Long,
+}
+
+impl core::fmt::Display for SplittingScheme {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let order = self.order();
+        if self.is_for_all_separable() {
+            write!(formatter, "composition, order {order}")
+        } else {
+            write!(formatter, "Nyström, order {order}, {} forces", self.forces())
+        }
+    }
 }
 
 /// A drift and the kick after it, in units of the step.

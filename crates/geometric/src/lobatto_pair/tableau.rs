@@ -56,7 +56,8 @@ impl PairTableau {
             couplings[i][i] = 0.5;
             for j in 0..i {
                 // 1 − x is exact for x between ½ and 2, and one of the two coefficients is.
-                let (large, small) = if couplings[i][j] < couplings[j][i] { ((j, i), (i, j)) } else { ((i, j), (j, i)) };
+                let (large, small) =
+                    if couplings[i][j] < couplings[j][i] { ((j, i), (i, j)) } else { ((i, j), (j, i)) };
                 couplings[small.0][small.1] = 1.0 - couplings[large.0][large.1];
             }
         }

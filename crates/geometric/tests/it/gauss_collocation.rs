@@ -45,9 +45,8 @@ fn couplings_are_symplectic_and_of_the_order_of_the_stages() {
             }
             for k in 1..=s {
                 let power = |x: f64, n: usize| (0..n).fold(1.0, |product, _| product * x);
-                let sum: f64 = (0..s)
-                    .map(|j| tableau.weights[j] * tableau.positions[i][j] * power(tableau.nodes[j], k - 1))
-                    .sum();
+                let sum: f64 =
+                    (0..s).map(|j| tableau.weights[j] * tableau.positions[i][j] * power(tableau.nodes[j], k - 1)).sum();
                 let expected = power(tableau.nodes[i], k) / k as f64;
                 assert!((sum - expected).abs() < 8.0 * f64::EPSILON, "{order:?}, {i}, {k}: {sum} {expected}");
                 compared += 1;
@@ -75,10 +74,8 @@ fn stiff_spring_pendulum_keeps_its_energy_where_sweeps_diverge() {
     let k = 1e8;
     for order in [Order::Two, Order::Four, Order::Eight] {
         let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
-        let error = GaussLegendre::new(order, 0.01)
-            .unwrap()
-            .integrate_to(&mut SpringPendulum(k), &mut state, 1.0)
-            .unwrap_err();
+        let error =
+            GaussLegendre::new(order, 0.01).unwrap().integrate_to(&mut SpringPendulum(k), &mut state, 1.0).unwrap_err();
         assert!(!matches!(error, IntegratorsError::WrongLength { .. }));
         let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
         let before = energy(k, &state.values);
@@ -149,8 +146,7 @@ fn steps_allocate_nothing_and_bad_input_is_named() {
     let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0]).unwrap();
     let mut method = GaussCollocation::new(Order::Six, 0.01).unwrap();
     method.integrate_to(&mut SpringPendulum(1e4), &mut state, 0.1).unwrap();
-    let (count, _) =
-        allocations_in(|| method.integrate_to(&mut SpringPendulum(1e4), &mut state, 1.1).unwrap());
+    let (count, _) = allocations_in(|| method.integrate_to(&mut SpringPendulum(1e4), &mut state, 1.1).unwrap());
     assert_eq!(count, 0);
     assert!(matches!(GaussCollocation::<f64>::new(Order::Six, f64::NAN), Err(IntegratorsError::InvalidStep { .. })));
     let mut short = State::new(0.0, vec![1.0]).unwrap();

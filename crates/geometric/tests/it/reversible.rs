@@ -4,7 +4,9 @@ use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_geometric::{ReversibleComposition, StepLength};
-use piola_integrators::{DormandPrince853, IntegratorsError, Order, Separable, SplittingScheme, State, Tolerance, field};
+use piola_integrators::{
+    DormandPrince853, IntegratorsError, Order, Separable, SplittingScheme, State, Tolerance, field,
+};
 use piola_numerics::Real;
 use piola_testkit::{allocations_in, assert_order, relative_error};
 

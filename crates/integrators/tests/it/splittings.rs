@@ -53,8 +53,7 @@ fn compositions_of_order_ten_obey_all_conditions() {
     }
     let mut compared = 0;
     for (sum, word) in sums.iter().zip(&words) {
-        let expected =
-            if word.iter().all(|&letter| letter == 1) { lit(1.0) / factorial(word.len()) } else { lit(0.0) };
+        let expected = if word.iter().all(|&letter| letter == 1) { lit(1.0) / factorial(word.len()) } else { lit(0.0) };
         let rest = (*sum - expected).primal(0);
         assert!(rest.abs() < 2e-15, "{word:?}: {rest:e}");
         compared += 1;
@@ -116,9 +115,8 @@ fn weights(tree: &[Child], kicks: &[(f64, DoubleDouble)]) -> Vec<DoubleDouble> {
             Child::Tree(tree) => {
                 let inner = weights(tree, kicks);
                 for (i, product) in product.iter_mut().enumerate() {
-                    *product *= (0..i).fold(lit(0.0), |sum, j| {
-                        sum + lit(kicks[j].0) * (kicks[i].1 - kicks[j].1) * inner[j]
-                    });
+                    *product *=
+                        (0..i).fold(lit(0.0), |sum, j| sum + lit(kicks[j].0) * (kicks[i].1 - kicks[j].1) * inner[j]);
                 }
             }
         }
@@ -170,7 +168,8 @@ fn schemes_are_symmetric_and_cost_what_they_say() {
         assert_eq!(kicks, kicks.iter().rev().copied().collect::<Vec<_>>());
         assert_eq!(drifts, drifts.iter().rev().copied().collect::<Vec<_>>());
         let mut state = State::new(0.0, kepler_at(0.3, 0.0).to_vec()).unwrap();
-        let report = Composition::with_scheme(scheme, 0.01).unwrap().integrate_to(&mut kepler(), &mut state, 1.0).unwrap();
+        let report =
+            Composition::with_scheme(scheme, 0.01).unwrap().integrate_to(&mut kepler(), &mut state, 1.0).unwrap();
         let first = u64::from(drifts[0].abs() <= 0.0);
         assert_eq!(report.evaluations, 100 * scheme.forces() + first, "{scheme:?}");
     }

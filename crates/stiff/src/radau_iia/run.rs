@@ -30,7 +30,8 @@ impl RadauIia {
         let n = field.dimension();
         check_run(n, state, end)?;
         let [lowest, highest] = self.orders.unwrap_or_else(|| self.control.orders());
-        if let Some((component, index)) = (0..n).map(|k| (k, field.index(k))).find(|&(_, index)| HIGHEST_INDEX < index) {
+        if let Some((component, index)) = (0..n).map(|k| (k, field.index(k))).find(|&(_, index)| HIGHEST_INDEX < index)
+        {
             return Err(IntegratorsError::IndexTooHigh { component, index, t: state.time });
         }
         self.work.begin(n, highest.tableau().stages(), field)?;

@@ -4,9 +4,8 @@ use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    DormandPrince853,
-    Crossing, Ending, Event, EventAction, Field, IntegratorsError, Nystrom86, Nystrom1210, SecondOrder, State,
-    Tolerance, Verner98, field,
+    Crossing, DormandPrince853, Ending, Event, EventAction, Field, IntegratorsError, Nystrom86, Nystrom1210,
+    SecondOrder, State, Tolerance, Verner98, field,
 };
 use piola_numerics::{Dual, Lanes, Real};
 use piola_testkit::{DoubleDouble, Tol, assert_close, assert_order, convergence_order};
@@ -399,7 +398,8 @@ fn tolerances_below_rounding_are_raised_to_two_units_in_the_last_place() {
     check!(Nystrom86);
     check!(Nystrom1210);
     assert!(
-        (DormandPrince853::<f32>::new(tolerance(1e-9)).tolerance().relative_part() - 2.0 * f64::from(f32::EPSILON)).abs()
+        (DormandPrince853::<f32>::new(tolerance(1e-9)).tolerance().relative_part() - 2.0 * f64::from(f32::EPSILON))
+            .abs()
             <= 0.0
     );
 }
