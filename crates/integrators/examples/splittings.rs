@@ -7,6 +7,8 @@
 //! Kepler's ellipse of eccentricity 0.3 over 200 revolutions, and Hénon and Heiles' potential at the energy 1/8 over 1000 s. Of each
 //! scheme the table has the largest energy error of the run, at as many forces for all.
 
+#![expect(clippy::print_stdout, reason = "it prints its table")]
+
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 

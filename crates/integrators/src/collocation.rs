@@ -182,24 +182,15 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         Some(longest) => Grid::of(longest, resumed, state.time, end)?.parts(),
         None => (state.time, report.steps, None),
     };
-    let mut h = match (equal, plan.first_step) {
-        (Some((_, h)), _) => h,
-        (None, Some(h)) => h.copysign(span),
-        (None, None) => first_step(state, span),
-    };
+    // The length of the next step, and the best one of the step before; zero before the first.
+    let (mut h, mut best_before) = first_lengths(state, span, plan, equal, resumed);
     let mut attempts_at_first = 0;
-    // The best length of the step before; zero before the first.
-    let mut best_before = 0.0_f64;
     // When the field last could not be evaluated, and what it said.
     let mut refused: Option<(f64, W::Error)> = None;
     // The last coefficient that rounding makes in this step, where a step was found too long.
     let mut noise: Option<f64> = None;
     if equal.is_some_and(|(count, _)| count <= report.steps) {
         return Ok(report);
-    }
-    if let Some(Checkpoint { numbers, .. }) = resumed {
-        h = equal.map_or(numbers[1].copysign(span), |(_, h)| h);
-        best_before = numbers[2];
     }
     loop {
         let remaining = end - state.time;
@@ -230,19 +221,16 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             }
         };
         let mut factor = attempt.factor(plan, aim);
-        let is_too_long = attempt.hopeless || attempt.converged && factor < 1.0;
-        if equal.is_none() && is_too_long && noise.is_none() {
-            // Where bodies are much nearer to one another than to the origin, shorter steps show no smaller coefficient.
-            let found = work.noise(field, state, h, &mut report.evaluations).unwrap_or(0.0);
-            let found = (ABOVE_NOISE * found).min(MOST_NOISE);
-            noise = Some(found);
-            if plan.aim < found {
-                if attempt.hopeless {
-                    report.rejected += 1;
-                    continue;
-                }
-                factor = attempt.factor(plan, found);
+        if equal.is_none()
+            && let Some(aim) =
+                above_noise(work, field, state, (h, attempt, factor), &mut noise, &mut report.evaluations)
+            && plan.aim < aim
+        {
+            if attempt.hopeless {
+                report.rejected += 1;
+                continue;
             }
+            factor = attempt.factor(plan, aim);
         }
         if equal.is_some() {
             if !attempt.converged {
@@ -325,6 +313,43 @@ impl Grid {
     const fn parts(self) -> (f64, u64, Option<(u64, f64)>) {
         (self.start, self.before, Some((self.count, self.h)))
     }
+}
+
+/// The lengths of the step to begin with and of the best one of the step before, zero where there is none.
+fn first_lengths<T: Real>(
+    state: &State<T>,
+    span: f64,
+    plan: &Plan,
+    equal: Option<(u64, f64)>,
+    resumed: Option<&Checkpoint<T>>,
+) -> (f64, f64) {
+    let best_before = resumed.map_or(0.0, |checkpoint| checkpoint.numbers[2]);
+    let h = match (equal, resumed, plan.first_step) {
+        (Some((_, h)), ..) => h,
+        (None, Some(checkpoint), _) => checkpoint.numbers[1].copysign(span),
+        (None, None, Some(h)) => h.copysign(span),
+        (None, None, None) => first_step(state, span),
+    };
+    (h, best_before)
+}
+
+/// The last coefficient to aim at in a step that should have been shorter, above what rounding makes there. Where bodies are
+/// much nearer to one another than to the origin, shorter steps show no smaller one. It is found once a step.
+fn above_noise<T: Real, F, W: Collocation<T, F>>(
+    work: &mut W,
+    field: &mut F,
+    state: &State<T>,
+    (h, attempt, factor): (f64, Attempt, f64),
+    noise: &mut Option<f64>,
+    evaluations: &mut u64,
+) -> Option<f64> {
+    let is_too_long = attempt.hopeless || attempt.converged && factor < 1.0;
+    if !is_too_long || noise.is_some() {
+        return None;
+    }
+    let found = work.noise(field, state, h, evaluations).unwrap_or(0.0);
+    *noise = Some((ABOVE_NOISE * found).min(MOST_NOISE));
+    *noise
 }
 
 /// The step that would have been the best one, and the next one to try: as the best step changed, it will change.

@@ -35,8 +35,8 @@ use crate::composition::substeps_of;
 /// ```
 ///
 /// # References
-/// Order 10: M. Sofroniou & G. Spaletta, Optim. Methods Softw. 20 (2005) 597. Nyström splittings, there called SRKN₆ᵇ, SRKN₁₁ᵇ and
-/// SRKN₁₄ᵃ: S. Blanes & P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313, whose fifteen digits Newton's method on the order
+/// Order 10: M. Sofroniou & G. Spaletta, Optim. Methods Softw. 20 (2005) 597. Nyström splittings, there called `SRKN₆ᵇ`, `SRKN₁₁ᵇ` and
+/// `SRKN₁₄ᵃ`: S. Blanes & P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313, whose fifteen digits Newton's method on the order
 /// conditions has made full (`testdata/scripts/nystrom_splittings.py`).
 #[doc(alias("Blanes", "Moan", "SRKN", "Sofroniou", "Spaletta", "Runge-Kutta-Nyström"))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -68,7 +68,7 @@ impl<T: Real> GaussCollocation<T> {
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
     pub fn new(order: Order, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
-        Ok(Self { order, step, stepper: PairStepper::new(PairTableau::gauss(order)) })
+        Ok(Self { order, step, stepper: PairStepper::new(&PairTableau::gauss(order)) })
     }
 
     order_and_step!();

@@ -64,7 +64,7 @@ impl<T: Real> LobattoPair<T> {
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
     pub fn new(order: Order, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
-        Ok(Self { order, step, stepper: PairStepper::new(PairTableau::lobatto(order)) })
+        Ok(Self { order, step, stepper: PairStepper::new(&PairTableau::lobatto(order)) })
     }
 
     order_and_step!();

@@ -22,7 +22,7 @@ pub(super) struct PairStepper<T> {
 }
 
 impl<T: Real> PairStepper<T> {
-    pub(super) const fn new(tableau: PairTableau) -> Self {
+    pub(super) const fn new(tableau: &PairTableau) -> Self {
         let work = Workspace {
             stage: Vec::new(),
             rate: Vec::new(),
@@ -30,7 +30,7 @@ impl<T: Real> PairStepper<T> {
             rate_of_seeds: Vec::new(),
             jacobian: Vec::new(),
         };
-        Self { tableau, newton: Newton::new(), increments: Vec::new(), work }
+        Self { tableau: *tableau, newton: Newton::new(), increments: Vec::new(), work }
     }
 
     /// Takes equal steps no longer than `step` to `end`.

@@ -92,7 +92,7 @@ fn forests(room_left: usize, most: Option<&Child>) -> Vec<Vec<Child>> {
     let mut found = Vec::new();
     for child in children.into_iter().filter(|child| most.is_none_or(|most| child <= most)) {
         for rest in forests(room_left - room(&child), Some(&child)) {
-            found.push([&[child.clone()], &rest[..]].concat());
+            found.push([core::slice::from_ref(&child), &rest[..]].concat());
         }
     }
     found
