@@ -178,7 +178,7 @@ fn iteration_that_a_wrong_jacobian_leads_astray_says_so() {
 /// A field whose mass matrix has the wrong length.
 struct Misfit(Vec<f64>);
 impl Field for Misfit {
-    type Error = core::convert::Infallible;
+    type Error = Infallible;
     fn dimension(&self) -> usize {
         2
     }
