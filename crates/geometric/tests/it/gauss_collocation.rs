@@ -83,7 +83,8 @@ fn stiff_spring_pendulum_keeps_its_energy_where_sweeps_diverge() {
         let after = energy(k, &state.values);
         // The energy of the fast vibration, which the pull of gravity excites, is exchanged: measured 0.023 at order two.
         assert!((after - before).abs() < 5e-2, "{order:?}: {before} {after}");
-        assert!((state.values[0].hypot(state.values[1]) - 1.0).abs() < 1e-5);
+        // k δ²/2 is no more than that energy.
+        assert!((state.values[0].hypot(state.values[1]) - 1.0).abs() < 4e-5);
     }
 }
 
