@@ -8,6 +8,7 @@ mod fixed_step;
 mod lie_group;
 mod lobatto_pair;
 mod newton;
+mod reversible;
 mod variational;
 
 pub use discrete_gradient::{DiscreteGradient, EnergySystem};
@@ -15,7 +16,8 @@ pub use lie_group::{
     AdaptiveMuntheKaas, CommutatorFree, DirectPower, DirectProduct, FunctionGroupField, GeneralisedAlpha, GroupField,
     GroupMotion, LieGroup, MuntheKaas, RigidMotions, Rotations, Translations, group_field,
 };
-pub use lobatto_pair::LobattoPair;
+pub use lobatto_pair::{GaussCollocation, LobattoPair};
+pub use reversible::{ReversibleComposition, StepLength};
 pub use variational::{
     ActionRule, Chord, DiscreteEulerLagrange, DiscreteLagrangian, VariationalIntegrator, VariationalSystem,
     momentum_map,
@@ -24,6 +26,6 @@ pub use variational::{
 /// For tests: no part of the interface.
 #[doc(hidden)]
 pub mod internal {
-    pub use crate::lobatto_pair::LobattoTableau;
+    pub use crate::lobatto_pair::PairTableau;
     pub use crate::variational::ActionTableau;
 }

@@ -10,6 +10,10 @@ use piola_numerics::{NumericsError, Real};
 const MOST_ITERATIONS: usize = 100;
 /// The part of the rounding error of an increment that may be left out of it.
 const UNROUNDED: f64 = 1e-4;
+/// Iterations after which corrections within rounding are not waited for to fall further.
+const MOST_WITHIN_ROUNDING: usize = MOST_ITERATIONS;
+/// Corrections, in units of the last place, that are within rounding.
+const ROUNDING: f64 = 64.0;
 /// Corrections that fall more slowly than this ask for a new matrix.
 const SLOW: f64 = 0.2;
 /// A matrix that needs more iterations than these is not kept for the next step.
@@ -116,8 +120,11 @@ impl<T: Real> Newton<T> {
                 self.factor((t, step))?;
                 fresh = true;
             }
-            let progress;
+            let mut progress;
             (change, progress) = self.correct(equations, x, previous)?;
+            if MOST_WITHIN_ROUNDING <= iteration && change < ROUNDING * unit_in_last_place::<T>() {
+                progress = Progress::Converged;
+            }
             match progress {
                 Progress::Converged => {
                     self.kept = iteration <= MOST_WITH_OLD_MATRIX;
@@ -186,7 +193,7 @@ impl<T: Real> Newton<T> {
         // Converged when the next change would be far below the rounding of the increments, since what is left out has
         // the same sign in every step and adds up; or when rounding has stopped the fall.
         let predicted = if previous.is_finite() { change * (change / previous).min(1.0) } else { change };
-        let is_rounding = change < 64.0 * ulp;
+        let is_rounding = change < ROUNDING * ulp;
         let progress = if predicted <= UNROUNDED * ulp * size.min(1.0) || previous <= change && is_rounding {
             Progress::Converged
         } else if SLOW * previous < change && !is_rounding {

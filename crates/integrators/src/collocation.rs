@@ -41,6 +41,10 @@ const HOPELESS: f64 = 20.0;
 const TIMID: f64 = 3.0;
 /// Attempts at the first step.
 const MOST_ATTEMPTS: u32 = 4;
+/// What rounding makes varies from step to step: a last coefficient of so many times that is aimed at.
+const ABOVE_NOISE: f64 = 8.0;
+/// The largest last coefficient that is put down to rounding.
+const MOST_NOISE: f64 = 1e-2;
 
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug)]
@@ -92,10 +96,10 @@ impl Attempt {
         Self { converged: false, ratio: 0.0, contraction, sweeps: 0, change: f64::INFINITY, hopeless: false }
     }
 
-    /// By how much the step should be longer.
+    /// By how much the step should be longer, for the last coefficient `aim`.
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn factor(&self, plan: &Plan) -> f64 {
-        let accurate = if 0.0 < self.ratio { (plan.aim / self.ratio).powf(1.0 / 7.0) } else { f64::INFINITY };
+    fn factor(&self, plan: &Plan, aim: f64) -> f64 {
+        let accurate = if 0.0 < self.ratio { (aim / self.ratio).powf(1.0 / 7.0) } else { f64::INFINITY };
         if !self.converged {
             return if self.hopeless { SAFETY * accurate } else { UNCONVERGED };
         }
@@ -133,6 +137,18 @@ pub(crate) trait Collocation<T: Real, F> {
         evaluations: &mut u64,
     ) -> Result<Attempt, Self::Error>;
 
+    /// The last coefficient that the rounding of positions alone makes in the step that was just attempted. Methods that do not
+    /// know give zero.
+    fn noise(
+        &mut self,
+        _field: &mut F,
+        _state: &State<T>,
+        _h: f64,
+        _evaluations: &mut u64,
+    ) -> Result<f64, Self::Error> {
+        Ok(0.0)
+    }
+
     /// Moves the state to the end of the step.
     ///
     /// # Errors
@@ -166,23 +182,15 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
         Some(longest) => Grid::of(longest, resumed, state.time, end)?.parts(),
         None => (state.time, report.steps, None),
     };
-    let most = if equal.is_some() { f64::INFINITY } else { HOPELESS * plan.aim };
-    let mut h = match (equal, plan.first_step) {
-        (Some((_, h)), _) => h,
-        (None, Some(h)) => h.copysign(span),
-        (None, None) => first_step(state, span),
-    };
+    // The length of the next step, and the best one of the step before; zero before the first.
+    let (mut h, mut best_before) = first_lengths(state, span, plan, equal, resumed);
     let mut attempts_at_first = 0;
-    // The best length of the step before; zero before the first.
-    let mut best_before = 0.0_f64;
     // When the field last could not be evaluated, and what it said.
     let mut refused: Option<(f64, W::Error)> = None;
+    // The last coefficient that rounding makes in this step, where a step was found too long.
+    let mut noise: Option<f64> = None;
     if equal.is_some_and(|(count, _)| count <= report.steps) {
         return Ok(report);
-    }
-    if let Some(Checkpoint { numbers, .. }) = resumed {
-        h = equal.map_or(numbers[1].copysign(span), |(_, h)| h);
-        best_before = numbers[2];
     }
     loop {
         let remaining = end - state.time;
@@ -200,6 +208,8 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             }
         }
         work.begin_step(field, state, &mut report.evaluations)?;
+        let aim = plan.aim.max(noise.unwrap_or(0.0));
+        let most = if equal.is_some() { f64::INFINITY } else { HOPELESS * aim };
         let attempt = match work.attempt(field, state, h, plan.tolerance, most, &mut report.evaluations) {
             Ok(attempt) => attempt,
             Err(source) if equal.is_some() => return Err(IntegratorsError::Field { t: state.time, source }),
@@ -210,7 +220,18 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
                 continue;
             }
         };
-        let factor = attempt.factor(plan);
+        let mut factor = attempt.factor(plan, aim);
+        if equal.is_none()
+            && let Some(aim) =
+                above_noise(work, field, state, (h, attempt, factor), &mut noise, &mut report.evaluations)
+            && plan.aim < aim
+        {
+            if attempt.hopeless {
+                report.rejected += 1;
+                continue;
+            }
+            factor = attempt.factor(plan, aim);
+        }
         if equal.is_some() {
             if !attempt.converged {
                 return Err(diverged(work, &attempt, state.time, h));
@@ -231,6 +252,7 @@ pub(crate) fn follow<T: Real, F, W: Collocation<T, F>>(
             continue;
         }
         let from = state.time;
+        noise = None;
         work.accept(state, h)?;
         report.steps += 1;
         match equal {
@@ -291,6 +313,43 @@ impl Grid {
     const fn parts(self) -> (f64, u64, Option<(u64, f64)>) {
         (self.start, self.before, Some((self.count, self.h)))
     }
+}
+
+/// The lengths of the step to begin with and of the best one of the step before, zero where there is none.
+fn first_lengths<T: Real>(
+    state: &State<T>,
+    span: f64,
+    plan: &Plan,
+    equal: Option<(u64, f64)>,
+    resumed: Option<&Checkpoint<T>>,
+) -> (f64, f64) {
+    let best_before = resumed.map_or(0.0, |checkpoint| checkpoint.numbers[2]);
+    let h = match (equal, resumed, plan.first_step) {
+        (Some((_, h)), ..) => h,
+        (None, Some(checkpoint), _) => checkpoint.numbers[1].copysign(span),
+        (None, None, Some(h)) => h.copysign(span),
+        (None, None, None) => first_step(state, span),
+    };
+    (h, best_before)
+}
+
+/// The last coefficient to aim at in a step that should have been shorter, above what rounding makes there. Where bodies are
+/// much nearer to one another than to the origin, shorter steps show no smaller one. It is found once a step.
+fn above_noise<T: Real, F, W: Collocation<T, F>>(
+    work: &mut W,
+    field: &mut F,
+    state: &State<T>,
+    (h, attempt, factor): (f64, Attempt, f64),
+    noise: &mut Option<f64>,
+    evaluations: &mut u64,
+) -> Option<f64> {
+    let is_too_long = attempt.hopeless || attempt.converged && factor < 1.0;
+    if !is_too_long || noise.is_some() {
+        return None;
+    }
+    let found = work.noise(field, state, h, evaluations).unwrap_or(0.0);
+    *noise = Some((ABOVE_NOISE * found).min(MOST_NOISE));
+    *noise
 }
 
 /// The step that would have been the best one, and the next one to try: as the best step changed, it will change.

@@ -1,4 +1,4 @@
-//! Explicit symplectic compositions of the Störmer–Verlet step, of orders 2, 4, 6 and 8.
+//! Explicit symplectic compositions of the Störmer–Verlet step, of orders 2, 4, 6, 8 and 10, and other symmetric splittings.
 //!
 //! For separable systems q̇ = u(t, p), ṗ = w(t, q). One step of size h composes symmetric second-order
 //! steps of sizes γ₁h, …, γₛh, each drift–kick–drift:
@@ -9,11 +9,12 @@
 //!
 //! Neighbouring drifts merge, so a step costs s forces. The map is symplectic, time-symmetric and keeps
 //! linear and, with q̇ = p, angular momentum exactly but for rounding; the energy oscillates and does not
-//! drift.
+//! drift. [`SplittingScheme`](crate::SplittingScheme) lists what else runs in this loop.
 //!
 //! # Which order?
-//! Two for games and pictures, four to six for long runs at 1e-6…1e-9, eight when errors near rounding are
-//! wanted. The step stays fixed: for close encounters use an adaptive method.
+//! Two for games and pictures, four to six for long runs at 1e-6…1e-9, eight or ten when errors near rounding are
+//! wanted. Where q̇ = M⁻¹p, Runge–Kutta–Nyström splittings need fewer forces. The step stays fixed: for
+//! close encounters use an adaptive method.
 //!
 //! # References
 //! Order 4: Suzuki, Phys. Lett. A 146 (1990) 319, five stages. Orders 6 (nine stages) and 8 (seventeen):
@@ -24,8 +25,9 @@ use core::ops::ControlFlow;
 
 use piola_numerics::Real;
 
+use crate::splitting::{MOST_STAGES, SplittingStage};
 use crate::state::{check_finite, check_run, check_step, compensated_add, equal_steps};
-use crate::{Ending, IntegratorsError, Report, Separable, State, Step, unobserved};
+use crate::{Ending, IntegratorsError, Report, Separable, SplittingScheme, State, Step};
 
 /// The order of a fixed-step method: the error of a run falls as hᵒʳᵈᵉʳ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -82,9 +84,14 @@ impl Order {
             Self::Six => &KAHAN_LI_6,
             Self::Eight => &KAHAN_LI_8,
         };
-        let middle = 1.0 - 2.0 * half.iter().sum::<f64>();
-        half.iter().copied().chain([middle]).chain(half.iter().rev().copied())
+        substeps_of(half)
     }
+}
+
+/// A symmetric list whose sum is one, from its first half.
+pub(crate) fn substeps_of(half: &[f64]) -> impl Iterator<Item = f64> + '_ {
+    let middle = 1.0 - 2.0 * half.iter().sum::<f64>();
+    half.iter().copied().chain([middle]).chain(half.iter().rev().copied())
 }
 
 // First halves of the symmetric coefficient lists; the middle one is 1 − 2 Σ, so that each list sums to one.
@@ -102,10 +109,7 @@ const KAHAN_LI_8: [f64; 8] = [
     0.295_011_723_609_310_3,
 ];
 
-/// The largest number of stages of any order.
-const MOST_STAGES: usize = 17;
-
-/// An explicit symplectic composition with a fixed step.
+/// An explicit symplectic composition, or another [`SplittingScheme`], with a fixed step.
 ///
 /// # Accuracy
 /// Global error O(hᵒʳᵈᵉʳ); the state and its increments are summed with compensation, so that rounding
@@ -130,12 +134,15 @@ const MOST_STAGES: usize = 17;
 #[doc(alias("Verlet", "leapfrog", "Yoshida", "symplectic"))]
 #[derive(Clone, Debug)]
 pub struct Composition<T = f64> {
-    order: Order,
+    scheme: SplittingScheme,
     step: f64,
-    stages: usize,
-    /// γ₁ … γₛ.
-    kicks: [f64; MOST_STAGES],
+    stages: [SplittingStage; MOST_STAGES],
+    count: usize,
     rate: Vec<T>,
+    /// The force at the end of a step that ends with a kick: the next one begins with it.
+    force: Vec<T>,
+    /// Whether `force` belongs to the state.
+    continued: bool,
     /// The step's end and its carry while the step is made; the state is touched only when it is complete.
     next: (Vec<T>, Vec<T>),
 }
@@ -146,39 +153,42 @@ impl<T: Real> Composition<T> {
     /// # Errors
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
     pub fn new(order: Order, step: f64) -> Result<Self, IntegratorsError> {
-        check_step(step)?;
-        let (mut kicks, mut stages) = ([0.0; MOST_STAGES], 0);
-        for (kick, gamma) in kicks.iter_mut().zip(order.substeps()) {
-            *kick = gamma;
-            stages += 1;
-        }
-        Ok(Self { order, step, stages, kicks, rate: Vec::new(), next: (Vec::new(), Vec::new()) })
+        Self::with_scheme(SplittingScheme::Composition(order), step)
     }
 
-    /// The order.
-    #[must_use]
-    pub const fn order(&self) -> Order {
-        self.order
-    }
-
-    /// The longest step, s.
-    #[must_use]
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
-
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
+    /// Another splitting, whose steps are no longer than `step` (s).
     ///
     /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<F: Separable<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.integrate(field, state, end, unobserved)
+    /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
+    ///
+    /// # Example
+    /// ```
+    /// use piola_integrators::{Composition, SplittingScheme, State, separable};
+    /// let mut pendulum = separable(1, |_t, q: &[f64], force: &mut [f64]| force[0] = -q[0].sin());
+    /// let mut state = State::new(0.0, vec![1.0, 0.0])?;
+    /// let mut method = Composition::with_scheme(SplittingScheme::Nystrom6, 0.25)?;
+    /// let report = method.integrate_to(&mut pendulum, &mut state, 100.0)?;
+    /// assert_eq!(report.evaluations, 400 * 11 + 1); // eleven a step, and one to begin with
+    /// let energy = 0.5 * state.values[1].powi(2) - state.values[0].cos();
+    /// assert!((energy + 1.0_f64.cos()).abs() < 2e-10);
+    /// # Ok::<(), piola_integrators::IntegratorsError>(())
+    /// ```
+    pub fn with_scheme(scheme: SplittingScheme, step: f64) -> Result<Self, IntegratorsError> {
+        check_step(step)?;
+        let (stages, count) = scheme.table();
+        let next = (Vec::new(), Vec::new());
+        Ok(Self { scheme, step, stages, count, rate: Vec::new(), force: Vec::new(), continued: false, next })
     }
+
+    /// The splitting.
+    #[must_use]
+    pub const fn scheme(&self) -> SplittingScheme {
+        self.scheme
+    }
+
+    crate::longest_step!();
+
+    crate::unobserved_run!(F: Separable<T>, field: &mut F, IntegratorsError<F::Error>);
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is
     /// earlier than the state's time. The observer sees every step and may stop the run.
@@ -193,21 +203,15 @@ impl<T: Real> Composition<T> {
         end: f64,
         mut observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
     ) -> Result<Report, IntegratorsError<F::Error>> {
-        let n = field.freedom();
-        check_run(2 * n, state, end)?;
+        check_run(2 * field.freedom(), state, end)?;
         let start = state.time;
         let (steps, h) = equal_steps(start, end, self.step)?;
-        self.rate.resize(n, T::zero());
-        self.next.0.resize(2 * n, T::zero());
-        self.next.1.resize(2 * n, T::zero());
+        self.begin(field.freedom());
         let mut report = Report::begin();
         for number in 1..=steps {
-            self.advance(field, state, h)?;
-            core::mem::swap(&mut state.values, &mut self.next.0);
-            core::mem::swap(&mut state.carry, &mut self.next.1);
+            report.evaluations += self.advance(field, state, h)?;
             state.set_time(if number == steps { end } else { start + h * number as f64 });
             report.steps = number;
-            report.evaluations += self.stages as u64;
             if observer(Step { number, time: state.time, values: &state.values }).is_break() {
                 report.ending = Ending::Stopped;
                 break;
@@ -216,48 +220,86 @@ impl<T: Real> Composition<T> {
         Ok(report)
     }
 
+    /// Begins a run of n degrees of freedom.
+    #[doc(hidden)]
+    pub fn begin(&mut self, n: usize) {
+        self.rate.resize(n, T::zero());
+        self.force.resize(n, T::zero());
+        self.continued = false;
+        self.next.0.resize(2 * n, T::zero());
+        self.next.1.resize(2 * n, T::zero());
+    }
+
+    /// Makes one step of length h of a run that was begun, on the state's values; its time is the caller's. Returns the number of
+    /// evaluations of the force.
+    #[doc(hidden)]
+    pub fn advance<F: Separable<T>>(
+        &mut self,
+        field: &mut F,
+        state: &mut State<T>,
+        h: f64,
+    ) -> Result<u64, IntegratorsError<F::Error>> {
+        let evaluations = self.make_step(field, state, h).inspect_err(|_| self.continued = false)?;
+        core::mem::swap(&mut state.values, &mut self.next.0);
+        core::mem::swap(&mut state.carry, &mut self.next.1);
+        Ok(evaluations)
+    }
+
     /// Makes one step from the state to `next`.
-    fn advance<F: Separable<T>>(
+    fn make_step<F: Separable<T>>(
         &mut self,
         field: &mut F,
         state: &State<T>,
         h: f64,
-    ) -> Result<(), IntegratorsError<F::Error>> {
+    ) -> Result<u64, IntegratorsError<F::Error>> {
         let n = self.rate.len();
-        let start = state.time;
-        let rate = &mut self.rate[..];
+        let (start, kicks) = (state.time, self.count - 1);
+        let (rate, force) = (&mut self.rate[..], &mut self.force[..]);
         let (q, p) = self.next.0.split_at_mut(n);
         let (q_carry, p_carry) = self.next.1.split_at_mut(n);
         let (q_start, p_start) = state.values.split_at(n);
         let (q_carry_start, p_carry_start) = state.carry.split_at(n);
-        // Velocities belong to the ends of the substeps, forces to their middles; both in units of h.
-        let (mut reached, mut previous) = (0.0, 0.0);
-        for (stage, &gamma) in self.kicks[..self.stages].iter().enumerate() {
-            let time = start + reached * h;
-            let momentum = if stage == 0 { p_start } else { &*p };
-            field.velocity(time, momentum, rate).map_err(|source| IntegratorsError::Field { t: time, source })?;
-            let drift = 0.5 * (previous + gamma) * h;
-            if stage == 0 {
-                update_from((q_start, q_carry_start), q, q_carry, rate, drift);
+        let kick_first = self.stages[0].drift.abs() <= 0.0;
+        let mut evaluations = kicks as u64;
+        // Velocities belong to the moments of the kicks that are done, forces to those of the drifts.
+        for (number, &SplittingStage { drift, kick, drift_time, kick_time }) in self.stages[..kicks].iter().enumerate()
+        {
+            if number == 0 && kick_first {
+                q.copy_from_slice(q_start);
+                q_carry.copy_from_slice(q_carry_start);
             } else {
-                update(q, q_carry, rate, drift);
+                let t = start + drift_time * h;
+                let momentum = if number == 0 { p_start } else { &*p };
+                field.velocity(t, momentum, rate).map_err(|source| IntegratorsError::Field { t, source })?;
+                if number == 0 {
+                    update_from((q_start, q_carry_start), q, q_carry, rate, drift * h);
+                } else {
+                    update(q, q_carry, rate, drift * h);
+                }
             }
-            let time = start + (reached + 0.5 * gamma) * h;
-            field.force(time, q, rate).map_err(|source| IntegratorsError::Field { t: time, source })?;
-            check_finite("rate", Some(start), rate)?;
-            if stage == 0 {
-                update_from((p_start, p_carry_start), p, p_carry, rate, gamma * h);
+            if number == 0 && kick_first && self.continued {
+                evaluations -= 1;
             } else {
-                update(p, p_carry, rate, gamma * h);
+                let t = start + kick_time * h;
+                field.force(t, q, force).map_err(|source| IntegratorsError::Field { t, source })?;
+                check_finite("rate", Some(start), force)?;
             }
-            reached += gamma;
-            previous = gamma;
+            if number == 0 {
+                update_from((p_start, p_carry_start), p, p_carry, force, kick * h);
+            } else {
+                update(p, p_carry, force, kick * h);
+            }
         }
-        let time = start + h;
-        field.velocity(time, p, rate).map_err(|source| IntegratorsError::Field { t: time, source })?;
-        update(q, q_carry, rate, 0.5 * previous * h);
+        self.continued = kick_first;
+        if !kick_first {
+            let SplittingStage { drift, drift_time, .. } = self.stages[kicks];
+            let t = start + drift_time * h;
+            field.velocity(t, p, rate).map_err(|source| IntegratorsError::Field { t, source })?;
+            update(q, q_carry, rate, drift * h);
+        }
         // A velocity that was infinite or NaN at any stage has left its mark on the position for good.
-        check_finite("state", Some(start), q)
+        check_finite("state", Some(start), q)?;
+        Ok(evaluations)
     }
 }
 

@@ -146,6 +146,19 @@ pub enum IntegratorsError<E = Infallible> {
         /// The index of the pivot, counted from 0.
         pivot: usize,
     },
+    /// A constrained system whose differentiation index is above two.
+    #[error(
+        "component {component} has the differentiation index {index} at t = {t}; it must be 1 or 2: differentiate the constraints \
+         once, or give constraints on velocities"
+    )]
+    IndexTooHigh {
+        /// The component, counted from 0: a reaction.
+        component: usize,
+        /// Its index.
+        index: u32,
+        /// The time at which it was found.
+        t: f64,
+    },
     /// The function of an event is NaN.
     #[error("the function of event {event} is NaN at t = {t}")]
     InvalidEvent {
@@ -197,6 +210,7 @@ impl IntegratorsError<Infallible> {
                 IntegratorsError::StagesDiverged { t, step, iterations, change }
             }
             Self::SingularMatrix { t, step, pivot } => IntegratorsError::SingularMatrix { t, step, pivot },
+            Self::IndexTooHigh { component, index, t } => IntegratorsError::IndexTooHigh { component, index, t },
             Self::InvalidEvent { event, t } => IntegratorsError::InvalidEvent { event, t },
             Self::OutsideStep { t, start, end } => IntegratorsError::OutsideStep { t, start, end },
         }

@@ -61,7 +61,7 @@ impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
     ) -> Result<ErrorEstimate, IntegratorsError<F::Error>> {
         let mut finer_state = state.clone();
         let run = self.integrate_to(field, state, end)?;
-        let finer = self.tolerance().times(FINER_EIGHT).map_err(IntegratorsError::with_field_error)?;
+        let finer = self.tolerance().times::<T>(FINER_EIGHT);
         let coarse = core::mem::replace(&mut self.tolerance, finer);
         let finer_run = self.integrate_to(field, &mut finer_state, end);
         self.tolerance = coarse;
@@ -83,7 +83,7 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
     ) -> Result<ErrorEstimate, IntegratorsError<F::Error>> {
         let mut finer_state = state.clone();
         let run = self.integrate_to(field, state, end)?;
-        let finer = self.tolerance().times(FINER_EIGHT).map_err(IntegratorsError::with_field_error)?;
+        let finer = self.tolerance().times::<T>(FINER_EIGHT);
         let coarse = core::mem::replace(&mut self.tolerance, finer);
         let finer_run = self.integrate_to(field, &mut finer_state, end);
         self.tolerance = coarse;

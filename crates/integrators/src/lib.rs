@@ -21,6 +21,7 @@ mod legendre;
 mod nystrom;
 mod second_order;
 mod sensitivity;
+mod splitting;
 mod state;
 mod tolerance;
 mod verner;
@@ -43,6 +44,7 @@ pub use sensitivity::{
     AdjointSensitivity, ForwardSensitivity, JacobianProduct, Objective, ObjectiveGradient, ParametricField,
     Sensitivities, SensitivityInputs, WithParameters,
 };
+pub use splitting::{SplittingScheme, SplittingStage};
 pub use state::{Ending, Report, State, Step, unobserved};
 pub use tolerance::Tolerance;
 pub use verner::{Verner98, VernerPair};

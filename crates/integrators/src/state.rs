@@ -211,6 +211,54 @@ pub fn unobserved<T>(_step: Step<'_, T>) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
+/// The order and the longest step of a method that has them in `order` and `step`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! order_and_step {
+    () => {
+        /// The order.
+        #[must_use]
+        pub const fn order(&self) -> $crate::Order {
+            self.order
+        }
+
+        $crate::longest_step!();
+    };
+}
+
+/// The longest step of a method that has it in `step`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! longest_step {
+    () => {
+        /// The longest step, s.
+        #[must_use]
+        pub const fn step(&self) -> f64 {
+            self.step
+        }
+    };
+}
+
+/// The unobserved run of a method of equal steps, over scalars `T`, that has an observed one.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! unobserved_run {
+    ($F:ident: $Bound:path, $field:ident: $Field:ty, $Error:ty) => {
+        /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
+        ///
+        /// # Errors
+        /// As [`integrate`](Self::integrate).
+        pub fn integrate_to<$F: $Bound>(
+            &mut self,
+            $field: $Field,
+            state: &mut $crate::State<T>,
+            end: f64,
+        ) -> Result<$crate::Report, $Error> {
+            self.integrate($field, state, end, $crate::unobserved)
+        }
+    };
+}
+
 /// Splits [start, end] into the fewest equal steps no longer than `step`; backwards in time if end < start.
 ///
 /// # Errors

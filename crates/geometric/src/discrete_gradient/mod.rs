@@ -33,7 +33,7 @@ mod system;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{check_step, check_sums, compensated_add};
-use piola_integrators::{IntegratorsError, Order, Report, State, Step, unobserved};
+use piola_integrators::{IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
 use piola_numerics::Real;
 
 use self::equations::{MidpointStep, Workspace};
@@ -109,30 +109,9 @@ impl<T: Real> DiscreteGradient<T> {
         })
     }
 
-    /// The order.
-    #[must_use]
-    pub const fn order(&self) -> Order {
-        self.order
-    }
+    order_and_step!();
 
-    /// The longest step, s.
-    #[must_use]
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
-
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<S: EnergySystem>(
-        &mut self,
-        system: &S,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError> {
-        self.integrate(system, state, end, unobserved)
-    }
+    unobserved_run!(S: EnergySystem, system: &S, IntegratorsError);
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is earlier than the
     /// state's time. The observer sees every step and may stop the run.

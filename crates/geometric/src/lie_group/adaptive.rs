@@ -58,11 +58,11 @@ pub struct AdaptiveMuntheKaas<T = f64> {
 }
 
 impl<T: Real> AdaptiveMuntheKaas<T> {
-    /// The method with the given tolerance.
+    /// The method with the given tolerance, raised above rounding.
     #[must_use]
     pub fn new(tolerance: Tolerance) -> Self {
         Self {
-            tolerance,
+            tolerance: tolerance.above_rounding::<T>(),
             limits: Limits::none(),
             stages: core::array::from_fn(|_| Vec::new()),
             velocity_at_end: Vec::new(),

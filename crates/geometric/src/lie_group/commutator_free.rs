@@ -11,10 +11,10 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::check_step;
-use piola_integrators::{IntegratorsError, Report, State, Step, unobserved};
+use piola_integrators::{IntegratorsError, Report, State, Step, longest_step, unobserved_run};
 use piola_numerics::Real;
 
-use super::run::{Trial, check_start, evaluate};
+use super::run::{Trial, check_start, equal_steps_on_a_group, evaluate};
 use super::{GroupField, LieGroup};
 use crate::fixed_step::take_checked_steps;
 
@@ -47,45 +47,9 @@ impl<T: Real> CommutatorFree<T> {
         Ok(Self { step, stages: core::array::from_fn(|_| Vec::new()), displacement: Vec::new(), trial: Trial::new() })
     }
 
-    /// The longest step, s.
-    #[must_use]
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
+    longest_step!();
 
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<F: GroupField<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.integrate(field, state, end, unobserved)
-    }
-
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is earlier than the
-    /// state's time. The observer sees every step and may stop the run.
-    ///
-    /// # Errors
-    /// As [`MuntheKaas::integrate`](crate::MuntheKaas::integrate).
-    pub fn integrate<F: GroupField<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        check_start(field.group(), 0, state, end)?;
-        let dimension = field.group().dimension();
-        for vector in self.stages.iter_mut().chain([&mut self.displacement]) {
-            vector.resize(dimension, T::zero());
-        }
-        self.trial.resize(state.values.len());
-        take_checked_steps(self.step, state, end, observer, |state, h| self.advance(field, state, h))
-    }
+    equal_steps_on_a_group!();
 
     /// Makes one step; the state changes only when it is complete.
     fn advance<F: GroupField<T>>(

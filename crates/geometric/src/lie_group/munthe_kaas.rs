@@ -10,10 +10,10 @@
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::check_step;
-use piola_integrators::{IntegratorsError, Order, Report, State, Step, unobserved};
+use piola_integrators::{IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
 use piola_numerics::Real;
 
-use super::run::{Trial, check_start, evaluate};
+use super::run::{Trial, check_start, equal_steps_on_a_group, evaluate};
 use super::tableaux::{DORMAND_PRINCE_8, HALF_STEP_2, KUTTA_4, Row, SIX, Tableau};
 use super::{GroupField, LieGroup};
 use crate::fixed_step::take_checked_steps;
@@ -74,62 +74,18 @@ impl<T: Real> MuntheKaas<T> {
         Ok(Self { order, step, stages, displacement: Vec::new(), trial: Trial::new() })
     }
 
-    /// The order.
-    #[must_use]
-    pub const fn order(&self) -> Order {
-        self.order
-    }
+    order_and_step!();
 
-    /// The longest step, s.
-    #[must_use]
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
-
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<F: GroupField<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.integrate(field, state, end, unobserved)
-    }
-
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is earlier than the
-    /// state's time. The observer sees every step and may stop the run.
-    ///
-    /// # Errors
-    /// The state does not fit, is not finite or is no element of the group; the step is too small to advance the time; the
-    /// field fails or gives a velocity that is not finite. The state then stands at the last complete step.
-    pub fn integrate<F: GroupField<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-        observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        check_start(field.group(), 0, state, end)?;
-        let dimension = field.group().dimension();
-        for vector in self.stages.iter_mut().chain([&mut self.displacement]) {
-            vector.resize(dimension, T::zero());
-        }
-        self.trial.resize(state.values.len());
-        let tableau = tableau(self.order);
-        take_checked_steps(self.step, state, end, observer, |state, h| self.advance(tableau, field, state, h))
-    }
+    equal_steps_on_a_group!();
 
     /// Makes one step; the state changes only when it is complete.
     fn advance<F: GroupField<T>>(
         &mut self,
-        tableau: &Tableau,
         field: &mut F,
         state: &mut State<T>,
         h: f64,
     ) -> Result<u64, IntegratorsError<F::Error>> {
+        let tableau = tableau(self.order);
         let Self { stages, displacement, trial, .. } = self;
         evaluate(field, state.time, state.time, &state.values, &mut stages[0])?;
         make_stages(tableau, field, state, h, (stages, displacement, trial))?;

@@ -63,6 +63,36 @@ impl<T: Real> Trial<T> {
     }
 }
 
+/// The runs of a method of equal steps on a group, which has `stages`, `displacement`, `trial`, `step` and `advance`.
+macro_rules! equal_steps_on_a_group {
+    () => {
+        unobserved_run!(F: GroupField<T>, field: &mut F, IntegratorsError<F::Error>);
+
+        /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is earlier than the
+        /// state's time. The observer sees every step and may stop the run.
+        ///
+        /// # Errors
+        /// The state does not fit, is not finite or is no element of the group; the step is too small to advance the time; the
+        /// field fails or gives a velocity that is not finite. The state then stands at the last complete step.
+        pub fn integrate<F: GroupField<T>>(
+            &mut self,
+            field: &mut F,
+            state: &mut State<T>,
+            end: f64,
+            observer: impl FnMut(Step<'_, T>) -> ControlFlow<()>,
+        ) -> Result<Report, IntegratorsError<F::Error>> {
+            check_start(field.group(), 0, state, end)?;
+            let dimension = field.group().dimension();
+            for vector in self.stages.iter_mut().chain([&mut self.displacement]) {
+                vector.resize(dimension, T::zero());
+            }
+            self.trial.resize(state.values.len());
+            take_checked_steps(self.step, state, end, observer, |state, h| self.advance(field, state, h))
+        }
+    };
+}
+pub(super) use equal_steps_on_a_group;
+
 /// The velocity of the field, which must be finite. `start` is the time at the start of the step.
 #[cfg_attr(not(debug_assertions), inline(always))]
 pub(super) fn evaluate<T: Real, F: GroupField<T>>(

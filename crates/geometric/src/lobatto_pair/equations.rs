@@ -6,7 +6,7 @@ use piola_integrators::internal::{DIRECTIONS as D, check_finite, largest_lane, m
 use piola_integrators::{Field, IntegratorsError};
 use piola_numerics::{Gradient, Real};
 
-use super::tableau::LobattoTableau;
+use super::tableau::PairTableau;
 use crate::newton::Equations;
 
 /// Memory of one step.
@@ -24,7 +24,7 @@ pub(super) struct Workspace<T> {
 /// One step: `K` is how the field is differentiated.
 pub(super) struct PairStep<'a, F, T, K> {
     pub(super) field: &'a mut F,
-    pub(super) tableau: &'a LobattoTableau,
+    pub(super) tableau: &'a PairTableau,
     pub(super) weights: &'a [f64],
     pub(super) work: &'a mut Workspace<T>,
     pub(super) values: &'a [T],

@@ -17,19 +17,20 @@
 #![expect(clippy::doc_markdown, reason = "symbols with indices, as Q_s, are not code")]
 
 mod equations;
+mod gauss;
+mod stepper;
 mod tableau;
 
-use core::marker::PhantomData;
 use core::ops::ControlFlow;
 
-use piola_integrators::internal::{DIRECTIONS, check_step, check_sums, compensated_add};
-use piola_integrators::{Field, IntegratorsError, Order, Report, State, Step, unobserved};
+use piola_integrators::internal::{DIRECTIONS, check_step};
+use piola_integrators::{Field, IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
 use piola_numerics::{Gradient, Real};
 
-use self::equations::{Exact, FixedPoint, Jacobians, PairStep, Workspace};
-pub use self::tableau::LobattoTableau;
-use crate::fixed_step::take_equal_steps;
-use crate::newton::Newton;
+use self::equations::{Exact, FixedPoint, Jacobians};
+pub use self::gauss::GaussCollocation;
+use self::stepper::PairStepper;
+pub use self::tableau::PairTableau;
 
 /// Lobatto's pair IIIA–IIIB with a fixed step, for fields y = (q, p) in two halves.
 ///
@@ -53,10 +54,7 @@ use crate::newton::Newton;
 pub struct LobattoPair<T = f64> {
     order: Order,
     step: f64,
-    tableau: LobattoTableau,
-    newton: Newton<T>,
-    increments: Vec<T>,
-    work: Workspace<T>,
+    stepper: PairStepper<T>,
 }
 
 impl<T: Real> LobattoPair<T> {
@@ -66,41 +64,11 @@ impl<T: Real> LobattoPair<T> {
     /// [`IntegratorsError::InvalidStep`] unless 0 < step < ∞.
     pub fn new(order: Order, step: f64) -> Result<Self, IntegratorsError> {
         check_step(step)?;
-        let work = Workspace {
-            stage: Vec::new(),
-            rate: Vec::new(),
-            seeds: Vec::new(),
-            rate_of_seeds: Vec::new(),
-            jacobian: Vec::new(),
-        };
-        let (tableau, newton) = (LobattoTableau::new(order), Newton::new());
-        Ok(Self { order, step, tableau, newton, increments: Vec::new(), work })
+        Ok(Self { order, step, stepper: PairStepper::new(&PairTableau::lobatto(order)) })
     }
 
-    /// The order.
-    #[must_use]
-    pub const fn order(&self) -> Order {
-        self.order
-    }
-
-    /// The longest step, s.
-    #[must_use]
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
-
-    /// Integrates to `end` by fixed-point iteration, unobserved.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.integrate(field, state, end, unobserved)
-    }
+    order_and_step!();
+    unobserved_run!(F: Field<T>, field: &mut F, IntegratorsError<F::Error>);
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step) by fixed-point iteration; backwards if `end` is
     /// earlier than the state's time. The observer sees every step and may stop the run.
@@ -149,47 +117,6 @@ impl<T: Real> LobattoPair<T> {
         if !n.is_multiple_of(2) {
             return Err(IntegratorsError::OddDimension { dimension: n });
         }
-        let size = n * self.tableau.stages;
-        self.newton.begin(size, !K::NONE);
-        self.increments.clear();
-        self.increments.resize(size, T::zero());
-        self.work.resize(n, !K::NONE);
-        let Self { tableau, newton, increments, work, .. } = self;
-        take_equal_steps(n, self.step, state, end, observer, |state, h| {
-            // The weights sum to the step exactly.
-            let mut weights = tableau.weights.map(|b| h * b);
-            let middle = tableau.stages / 2;
-            let others: f64 = weights.iter().sum::<f64>() - weights[middle];
-            weights[middle] = h - others;
-            let (values, carry, t) = (&state.values, &state.carry, state.time);
-            let (weights, kind) = (&weights, PhantomData::<K>);
-            let mut step = PairStep { field, tableau, weights, work, values, carry, t, h, evaluations: 0, kind };
-            newton.solve(&mut step, increments, (t, h))?;
-            let evaluations = step.evaluations;
-            let total = &mut work.rate;
-            for (k, total) in total.iter_mut().enumerate() {
-                *total = T::zero();
-                for stage in increments.chunks(n.max(1)) {
-                    *total += stage[k];
-                }
-            }
-            check_sums(t, &state.values, total)?;
-            for ((y, carry), &increment) in state.values.iter_mut().zip(&mut state.carry).zip(&*total) {
-                compensated_add(y, carry, increment);
-            }
-            Ok(evaluations)
-        })
-    }
-}
-
-impl<T: Real> Workspace<T> {
-    fn resize(&mut self, n: usize, with_jacobian: bool) {
-        self.stage.resize(n, T::zero());
-        self.rate.resize(n, T::zero());
-        if with_jacobian {
-            self.seeds.resize(n, Gradient::constant(T::zero()));
-            self.rate_of_seeds.resize(n, Gradient::constant(T::zero()));
-            self.jacobian.resize(n * n, T::zero());
-        }
+        self.stepper.run::<F, K>(self.step, field, state, end, observer)
     }
 }

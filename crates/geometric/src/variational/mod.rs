@@ -33,7 +33,7 @@ mod system;
 use core::ops::ControlFlow;
 
 use piola_integrators::internal::{check_finite, check_step};
-use piola_integrators::{IntegratorsError, Order, Report, State, Step, unobserved};
+use piola_integrators::{IntegratorsError, Order, Report, State, Step, order_and_step, unobserved_run};
 use piola_numerics::Real;
 
 pub use self::discrete::{Chord, DiscreteEulerLagrange, DiscreteLagrangian};
@@ -99,17 +99,7 @@ impl<T: Real> VariationalIntegrator<T> {
         self.rule
     }
 
-    /// The order.
-    #[must_use]
-    pub const fn order(&self) -> Order {
-        self.order
-    }
-
-    /// The longest step, s.
-    #[must_use]
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
+    order_and_step!();
 
     /// The state (q, p) with the momenta p = ∂L/∂v of velocities at a time.
     ///
@@ -138,18 +128,7 @@ impl<T: Real> VariationalIntegrator<T> {
         State::new(t, values)
     }
 
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<S: VariationalSystem>(
-        &mut self,
-        system: &S,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError> {
-        self.integrate(system, state, end, unobserved)
-    }
+    unobserved_run!(S: VariationalSystem, system: &S, IntegratorsError);
 
     /// Integrates (q, p) to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is earlier than
     /// the state's time. The observer sees every step and may stop the run.

@@ -1,10 +1,12 @@
 //! Tests of the methods that keep what the motion keeps: one binary, one module for each method.
 
 mod discrete_gradient;
+mod gauss_collocation;
 mod lie_group;
 mod lobatto_pair;
 #[path = "../../../integrators/tests/it/problems/kepler.rs"]
 mod problems;
+mod reversible;
 mod variational;
 
 use piola_testkit::CountingAllocator;

@@ -17,11 +17,11 @@ use crate::state::{check_finite, check_run, compensated_add};
 use crate::{Field, IntegratorsError, Report, State, Tolerance};
 
 impl<P: RungeKuttaPair, T: Real> RungeKutta<P, T> {
-    /// A method with the given tolerance.
+    /// A method with the given tolerance, raised above rounding.
     #[must_use]
-    pub const fn new(tolerance: Tolerance) -> Self {
+    pub fn new(tolerance: Tolerance) -> Self {
         Self {
-            tolerance,
+            tolerance: tolerance.above_rounding::<T>(),
             limits: Limits::none(),
             memory: Vec::new(),
             components: 0,

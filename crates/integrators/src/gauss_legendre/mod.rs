@@ -27,7 +27,7 @@ use piola_numerics::Real;
 use self::tableaux::{STAGES_1, STAGES_2, STAGES_3, STAGES_4, Tableau};
 use crate::field::largest_lane;
 use crate::state::{check_finite, check_run, check_step, check_sums, compensated_add, equal_steps};
-use crate::{Ending, Field, IntegratorsError, Order, Report, State, Step, unobserved};
+use crate::{Ending, Field, IntegratorsError, Order, Report, State, Step};
 
 /// Sweeps over the stages after which a step is given up.
 const MOST_SWEEPS: usize = 100;
@@ -101,30 +101,9 @@ impl<T: Real> GaussLegendre<T> {
         Ok(Self { order, step, workspace })
     }
 
-    /// The order.
-    #[must_use]
-    pub const fn order(&self) -> Order {
-        self.order
-    }
+    crate::order_and_step!();
 
-    /// The longest step, s.
-    #[must_use]
-    pub const fn step(&self) -> f64 {
-        self.step
-    }
-
-    /// Integrates to `end` in equal steps no longer than [`step`](Self::step), unobserved.
-    ///
-    /// # Errors
-    /// As [`integrate`](Self::integrate).
-    pub fn integrate_to<F: Field<T>>(
-        &mut self,
-        field: &mut F,
-        state: &mut State<T>,
-        end: f64,
-    ) -> Result<Report, IntegratorsError<F::Error>> {
-        self.integrate(field, state, end, unobserved)
-    }
+    crate::unobserved_run!(F: Field<T>, field: &mut F, IntegratorsError<F::Error>);
 
     /// Integrates to `end` in equal steps no longer than [`step`](Self::step); backwards if `end` is
     /// earlier than the state's time. The observer sees every step and may stop the run.

@@ -323,6 +323,28 @@ impl<T: Real, F: SecondOrder<T>> Collocation<T, F> for Workspace<T> {
         Ok(attempt)
     }
 
+    /// Positions moved by their rounding move the acceleration at the last node by its noise.
+    fn noise(&mut self, field: &mut F, state: &State<T>, h: f64, evaluations: &mut u64) -> Result<f64, F::Error> {
+        /// Units of rounding by which positions are moved.
+        const MOVED: f64 = 1024.0;
+        /// The golden ratio: no two components move alike.
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        for (k, position) in self.positions.iter_mut().enumerate() {
+            let part = 2.0 * (k as f64 * GOLDEN).fract() - 1.0;
+            *position *= T::lit(1.0 + MOVED * self.rounding * part);
+        }
+        *evaluations += 1;
+        let t = T::lit(state.time) + (T::lit(state.time_carry) + T::lit(h) * self.tables.nodes[7]);
+        field.acceleration(t, &self.positions, &self.velocities, &mut self.accelerations)?;
+        let (mut moved, mut size) = (T::zero(), T::zero());
+        for (stages, &acceleration) in self.stages.iter().zip(&self.accelerations) {
+            moved += (acceleration - (stages[0] + stages[7])).abs();
+            size += acceleration.abs();
+        }
+        let noise = largest_ratio(moved, size) / (MOVED * self.rounding);
+        Ok(if noise.is_finite() { noise * self.smallest_ratio() } else { 0.0 })
+    }
+
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn accept(&mut self, state: &mut State<T>, h: f64) -> Result<(), IntegratorsError<F::Error>> {
         let n = self.stages.len();

@@ -67,8 +67,7 @@ pub trait NystromCoefficients: Copy + core::fmt::Debug {
 ///
 /// # Accuracy
 /// The local error of each step is below the tolerance, relative to the largest position and to the largest velocity. The
-/// state and the time are summed with compensation. A tolerance below rounding (1e-16 in doubles) makes steps short and the
-/// result no better.
+/// state and the time are summed with compensation. [Tolerances below rounding](Tolerance#tolerances-below-rounding) are raised.
 ///
 /// # Example
 /// ```
@@ -200,11 +199,11 @@ impl NystromCoefficients for NystromPair1210 {
 }
 
 impl<P: NystromPair, T: Real> Nystrom<P, T> {
-    /// A method with the given tolerance.
+    /// A method with the given tolerance, raised above rounding.
     #[must_use]
-    pub const fn new(tolerance: Tolerance) -> Self {
+    pub fn new(tolerance: Tolerance) -> Self {
         Self {
-            tolerance,
+            tolerance: tolerance.above_rounding::<T>(),
             limits: Limits::none(),
             memory: Vec::new(),
             argument: Vec::new(),

@@ -22,7 +22,7 @@ use crate::explicit::{RungeKutta, RungeKuttaCoefficients, RungeKuttaPair, Weight
 /// # Accuracy
 /// The local error of each step is below the tolerance; the global error is proportional to it, by a factor
 /// that the problem's sensitivity sets. The state and the time are summed with compensation. Dense output is of order
-/// nine. A tolerance below rounding (1e-16 in doubles) makes steps short and the result no better.
+/// nine. [Tolerances below rounding](crate::Tolerance#tolerances-below-rounding) are raised.
 ///
 /// # Example
 /// ```

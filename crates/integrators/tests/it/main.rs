@@ -19,6 +19,7 @@ mod radau_15;
 mod sensitivity;
 #[cfg(feature = "serde")]
 mod serialised;
+mod splittings;
 mod traps;
 
 use piola_testkit::CountingAllocator;

@@ -1,10 +1,20 @@
 //! What a tolerance means for steps of each order.
 
+use piola_integrators::Tolerance;
+
 use super::Control;
 use super::order::RadauOrder;
 
 /// The tolerance with which runs of a fixed step iterate.
 pub(super) const ROUNDING: f64 = 1e-14;
+
+/// The tolerance with a relative part no less than rounding leaves; an absolute one stays as it is.
+pub(super) fn above_rounding(tolerance: Tolerance) -> Tolerance {
+    let (relative, absolute) = (tolerance.relative_part(), tolerance.absolute_part());
+    let raised = if 0.0 < relative { relative.max(ROUNDING) } else { relative };
+    // Numbers between those of two valid tolerances are valid.
+    Tolerance::new(raised, absolute).unwrap_or(tolerance)
+}
 
 /// The accuracy that a method of some order needs within a step.
 #[derive(Clone, Copy, Debug)]

@@ -59,6 +59,7 @@ mod dense;
 mod estimate;
 mod first_step;
 mod global_error;
+mod high_index;
 mod lu;
 mod matrices;
 mod norm;
@@ -171,11 +172,12 @@ impl RadauReport {
 }
 
 impl RadauIia {
-    /// Steps and orders that adapt to a tolerance.
+    /// Steps and orders that adapt to a tolerance. A relative part between 0 and 1e-14 is raised to 1e-14: rounding of the iteration
+    /// leaves nothing to be won below.
     #[must_use]
     pub fn new(tolerance: Tolerance) -> Self {
         Self {
-            control: Control::Adaptive(tolerance),
+            control: Control::Adaptive(aim::above_rounding(tolerance)),
             orders: None,
             first_step: None,
             longest_step: f64::INFINITY,
@@ -233,11 +235,8 @@ impl RadauIia {
     pub(crate) fn finer(&self, part: f64) -> Result<Self, IntegratorsError> {
         let control = match self.control {
             Control::Adaptive(tolerance) => {
-                let relative = tolerance.relative_part();
-                // Below this rounding leaves nothing to be won.
-                let least = if 0.0 < relative { aim::ROUNDING } else { 0.0 };
-                let absolute = tolerance.absolute_part() * part;
-                Control::Adaptive(Tolerance::new((relative * part).max(least), absolute)?)
+                let (relative, absolute) = (tolerance.relative_part() * part, tolerance.absolute_part() * part);
+                Control::Adaptive(aim::above_rounding(Tolerance::new(relative, absolute)?))
             }
             Control::Fixed(step) => Control::Fixed(0.5 * step),
         };
@@ -263,8 +262,9 @@ impl RadauIia {
     /// # Errors
     /// The state does not fit or is not finite; the field or its Jacobian fails or is not finite; however small the step,
     /// the matrix is singular ([`IntegratorsError::SingularMatrix`]), the stages do not converge
-    /// ([`IntegratorsError::StagesDiverged`]) or their error is too large ([`IntegratorsError::StepTooSmall`]); or the limit
-    /// on steps is reached. With a fixed step the first such failure ends the run. The state then stands at the last
+    /// ([`IntegratorsError::StagesDiverged`]) or their error is too large ([`IntegratorsError::StepTooSmall`]), or the
+    /// constraints are of index three ([`IntegratorsError::IndexTooHigh`], also where a component says so itself); or the limit on
+    /// steps is reached. With a fixed step the first such failure ends the run. The state then stands at the last
     /// accepted step.
     pub fn integrate<F: StiffField>(
         &mut self,

@@ -11,6 +11,9 @@ use super::dense::RadauIiaStep;
 use super::{Control, RadauIia, RadauReport};
 use crate::StiffField;
 
+/// The highest differentiation index of a component that can be integrated.
+const HIGHEST_INDEX: u32 = 2;
+
 /// Contraction below which the Jacobian is kept for the next step.
 const FAST: f64 = 1e-3;
 
@@ -27,6 +30,10 @@ impl RadauIia {
         let n = field.dimension();
         check_run(n, state, end)?;
         let [lowest, highest] = self.orders.unwrap_or_else(|| self.control.orders());
+        if let Some((component, index)) = (0..n).map(|k| (k, field.index(k))).find(|&(_, index)| HIGHEST_INDEX < index)
+        {
+            return Err(IntegratorsError::IndexTooHigh { component, index, t: state.time });
+        }
         self.work.begin(n, highest.tableau().stages(), field)?;
         let mut report = RadauReport::begin();
         let (origin, span) = (state.time, end - state.time);
@@ -66,7 +73,8 @@ impl RadauIia {
             let stuck = h.abs() <= 2.0 * f64::EPSILON * state.time.abs();
             if stuck && !last || h.abs() <= f64::MIN_POSITIVE {
                 let too_small = IntegratorsError::StepTooSmall { t: state.time, step: h };
-                return Err(progress.obstacle.unwrap_or(too_small));
+                let obstacle = progress.obstacle.unwrap_or(too_small);
+                return Err(self.index_above_two(field, state, span).unwrap_or(obstacle));
             }
             let order = progress.controller.order;
             let Some(attempt) = self.attempt(field, state, h, &mut progress, &mut report)? else {

@@ -69,7 +69,7 @@ pub trait StiffField: Field {
     fn sparsity(&self) -> Option<&Sparsity> {
         None
     }
-    /// The differentiation index of a component, 1 or 2. The default is 1.
+    /// The differentiation index of a component, 1 or 2; a higher one is refused. The default is 1.
     ///
     /// Components of a constrained system that only the first derivative of the constraints determines, as the
     /// reactions of constraints on velocities, have index 2: errors of theirs are weighted with the step.

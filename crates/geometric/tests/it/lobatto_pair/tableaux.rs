@@ -1,6 +1,6 @@
 //! The coefficients, compared with the conditions that define them in 31 digits.
 
-use piola_geometric::internal::LobattoTableau;
+use piola_geometric::internal::PairTableau;
 use piola_integrators::Order;
 use piola_numerics::Real;
 use piola_testkit::{DoubleDouble, Tol, assert_each_close};
@@ -14,7 +14,7 @@ fn power(c: f64, k: usize) -> DoubleDouble {
 }
 
 /// Σⱼ μᵢⱼ bⱼ cⱼᵏ⁻¹ − cᵢᵏ/k.
-fn simplifying(tableau: &LobattoTableau, row: &[f64], i: usize, k: usize) -> f64 {
+fn simplifying(tableau: &PairTableau, row: &[f64], i: usize, k: usize) -> f64 {
     let term = |j: usize| lit(row[j]) * lit(tableau.weights[j]) * power(tableau.nodes[j], k - 1);
     let sum = (0..tableau.stages).fold(lit(0.0), |sum, j| sum + term(j));
     (sum - power(tableau.nodes[i], k) / lit(k as f64)).primal(0)
@@ -23,7 +23,7 @@ fn simplifying(tableau: &LobattoTableau, row: &[f64], i: usize, k: usize) -> f64
 #[test]
 fn pairs_obey_the_simplifying_conditions() {
     for order in Order::ALL {
-        let tableau = LobattoTableau::new(order);
+        let tableau = PairTableau::lobatto(order);
         let s = tableau.stages;
         for i in 0..s {
             // IIIA: C(s). IIIB: C(s − 2), and not C(s − 1).
@@ -45,7 +45,7 @@ fn pairs_obey_the_simplifying_conditions() {
 #[test]
 fn pairs_are_symplectic_as_they_are_stored_and_symmetric() {
     for order in Order::ALL {
-        let tableau = LobattoTableau::new(order);
+        let tableau = PairTableau::lobatto(order);
         let s = tableau.stages;
         for i in 0..s {
             assert_eq!((tableau.positions[0][i], tableau.momenta[i][s - 1]), (0.0, 0.0));
@@ -63,7 +63,7 @@ fn pairs_are_symplectic_as_they_are_stored_and_symmetric() {
 #[test]
 fn three_stages_equal_those_in_print() {
     // Hairer, Lubich & Wanner, II, table 1.3: aᵢⱼ of IIIA.
-    let tableau = LobattoTableau::new(Order::Four);
+    let tableau = PairTableau::lobatto(Order::Four);
     let row: Vec<f64> = (0..3).map(|j| tableau.positions[1][j] * tableau.weights[j]).collect();
     assert_each_close("IIIA", &row, &[5.0 / 24.0, 1.0 / 3.0, -1.0 / 24.0], Tol::ulps(8.0));
     let row: Vec<f64> = (0..3).map(|j| tableau.momenta[1][j] * tableau.weights[j]).collect();

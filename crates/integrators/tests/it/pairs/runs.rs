@@ -4,8 +4,8 @@ use core::convert::Infallible;
 use core::ops::ControlFlow;
 
 use piola_integrators::{
-    Crossing, Ending, Event, EventAction, Field, IntegratorsError, Nystrom86, Nystrom1210, SecondOrder, State,
-    Tolerance, Verner98, field,
+    Crossing, DormandPrince853, Ending, Event, EventAction, Field, IntegratorsError, Nystrom86, Nystrom1210,
+    SecondOrder, State, Tolerance, Verner98, field,
 };
 use piola_numerics::{Dual, Lanes, Real};
 use piola_testkit::{DoubleDouble, Tol, assert_close, assert_order, convergence_order};
@@ -373,4 +373,33 @@ fn accelerations_that_depend_on_velocities_are_refused() {
     assert_eq!(state.time.to_bits(), 0.0_f64.to_bits());
     method.integrate_to(&mut Damped(false), &mut state, 1.0).unwrap();
     assert_close("uniform", &state.values, &[1.0, 1.0], Tol::ulps(4.0));
+}
+
+/// What rounding alone exceeds is raised, by name, and costs nothing.
+#[test]
+fn tolerances_below_rounding_are_raised_to_two_units_in_the_last_place() {
+    let least = 2.0 * f64::EPSILON;
+    let tolerance = |relative: f64| Tolerance::relative(relative).unwrap();
+    macro_rules! check {
+        ($Method:ident) => {{
+            let run = |tolerance| {
+                let mut state = State::new(0.0, kepler_at(0.6, 0.0).to_vec()).unwrap();
+                let report = $Method::new(tolerance).integrate_to(&mut kepler(), &mut state, 20.0).unwrap();
+                (report, state)
+            };
+            assert_eq!($Method::<f64>::new(tolerance(1e-20)).tolerance(), tolerance(least));
+            assert_eq!($Method::<f64>::new(tolerance(1e-15)).tolerance(), tolerance(1e-15));
+            assert_eq!(run(tolerance(1e-20)), run(tolerance(least)));
+            assert!(run(tolerance(1e-300)).0.steps < 2 * run(tolerance(1e-14)).0.steps);
+        }};
+    }
+    check!(DormandPrince853);
+    check!(Verner98);
+    check!(Nystrom86);
+    check!(Nystrom1210);
+    assert!(
+        (DormandPrince853::<f32>::new(tolerance(1e-9)).tolerance().relative_part() - 2.0 * f64::from(f32::EPSILON))
+            .abs()
+            <= 0.0
+    );
 }

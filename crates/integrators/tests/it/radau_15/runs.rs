@@ -406,3 +406,26 @@ fn rates_that_are_not_finite_are_refused_by_name() {
         }
     }
 }
+
+/// A pair at distance one from the origin whose separation is far below that: the rounding of positions alone makes a last
+/// coefficient above 10⁻⁹. The pair goes around ten times; what is known of its separation is what positions tell of it.
+#[test]
+fn close_pairs_far_from_the_origin_are_followed_to_the_rounding_of_their_positions() {
+    for separation in [1e-3, 1e-4, 1e-5, 1e-6] {
+        let mut pair = by(4, |_t: f64, q: &[f64], _v: &[f64], a: &mut [f64]| {
+            let d = [q[2] - q[0], q[3] - q[1]];
+            let square = d[0] * d[0] + d[1] * d[1];
+            let factor = 0.5 / (square * square.sqrt());
+            a.copy_from_slice(&[d[0] * factor, d[1] * factor, -d[0] * factor, -d[1] * factor]);
+        });
+        // Masses of one half on circles about (1, 1).
+        let speed = 0.5 * (1.0_f64 / separation).sqrt();
+        let half = 0.5 * separation;
+        let mut state = State::new(0.0, vec![1.0 - half, 1.0, 1.0 + half, 1.0, 0.0, -speed, 0.0, speed]).unwrap();
+        let period = core::f64::consts::TAU * separation.powf(1.5);
+        let mut method = GaussRadau15::to_rounding().with_most_steps(2_000);
+        method.integrate_to(&mut pair, &mut state, 10.0 * period).unwrap();
+        let distance = (state.values[2] - state.values[0]).hypot(state.values[3] - state.values[1]);
+        assert!((distance / separation - 1.0).abs() < 2e-14 / separation, "{separation:e}: {distance:e}");
+    }
+}

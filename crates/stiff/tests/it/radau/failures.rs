@@ -1,5 +1,7 @@
 //! Runs that fail say why and keep the last good state.
 
+use core::convert::Infallible;
+
 use piola_integrators::{Field, IntegratorsError, State, Tolerance, field};
 use piola_stiff::{DifferenceJacobian, ExactJacobian, GivenJacobian, RadauIia, RadauOrder, StiffField, WithMass};
 use piola_testkit::{Tol, assert_close, assert_each_close};
@@ -146,7 +148,7 @@ fn constraint_of_index_three_stops_with_the_state_on_the_motion() {
     let mut state = State::new(0.0, vec![1.0, 0.0, 0.0, 0.0, 0.0]).unwrap();
     let error =
         RadauIia::new(Tolerance::new(1e-8, 1e-8).unwrap()).integrate_to(&mut system, &mut state, 5.0).unwrap_err();
-    assert!(matches!(error, IntegratorsError::StepTooSmall { .. }), "{error:?}");
+    assert!(matches!(error, IntegratorsError::IndexTooHigh { component: 4, index: 3, .. }), "{error:?}");
     // Before it stopped the mass fell: y = −t²/2, v = −t.
     let t = state.time;
     let expected = [1.0, -0.5 * t * t, 0.0, -t];
@@ -176,7 +178,7 @@ fn iteration_that_a_wrong_jacobian_leads_astray_says_so() {
 /// A field whose mass matrix has the wrong length.
 struct Misfit(Vec<f64>);
 impl Field for Misfit {
-    type Error = core::convert::Infallible;
+    type Error = Infallible;
     fn dimension(&self) -> usize {
         2
     }
@@ -220,4 +222,44 @@ fn equal_steps_go_on_after_a_fast_decay() {
         // Within the first step alone is the motion faster than the steps.
         assert_each_close("end", &state.values, &exact.values, Tol::stated(1e-6, "steps of 0.05"));
     }
+}
+
+/// A component that says itself that its index is three is refused before anything is computed.
+#[test]
+fn declared_index_three_is_refused_by_name() {
+    struct Declared;
+    impl Field for Declared {
+        type Error = Infallible;
+        fn dimension(&self) -> usize {
+            2
+        }
+        fn rate(&mut self, _t: f64, _y: &[f64], _rate: &mut [f64]) -> Result<(), Infallible> {
+            unreachable!("nothing is computed")
+        }
+    }
+    impl StiffField for Declared {
+        fn jacobian(&mut self, _t: f64, _y: &[f64], _jacobian: &mut [f64]) -> Result<(), Infallible> {
+            unreachable!("nothing is computed")
+        }
+        fn index(&self, component: usize) -> u32 {
+            if component == 1 { 3 } else { 1 }
+        }
+    }
+    let mut state = State::new(0.5, vec![1.0, 2.0]).unwrap();
+    let error = method(1e-6).integrate_to(&mut Declared, &mut state, 1.0).unwrap_err();
+    assert_eq!(error, IntegratorsError::IndexTooHigh { component: 1, index: 3, t: 0.5 });
+}
+
+/// Tolerances below rounding are those at rounding, to the last bit.
+#[test]
+fn tolerances_below_rounding_are_raised() {
+    let run = |tolerance: f64| {
+        let mut decay = DifferenceJacobian::new(field(1, |t: f64, y: &[f64], rate: &mut [f64]| {
+            rate[0] = -1000.0 * (y[0] - t.cos());
+        }));
+        let mut state = State::new(0.0, vec![1.0]).unwrap();
+        let report = method(tolerance).integrate_to(&mut decay, &mut state, 1.0).unwrap();
+        (report, state)
+    };
+    assert_eq!(run(1e-20), run(1e-14));
 }
