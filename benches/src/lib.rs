@@ -5,6 +5,7 @@
 //! | [`advice`] | such tables as the data of `piola_integrators::advise` |
 //! | [`boxes`] | static solutions on a cube: ours, other transforms, differences |
 //! | [`problems`] | initial value problems with known solutions, hand-coded as their authors' peers would |
+//! | [`methods`] | our methods for planets, tops and stiff equations, as [`work_precision`] runs them |
 //! | [`peers`] | the same equations given to other crates |
 //! | [`chain`] | pendulum chains three ways: by placement, hand-coded, by the dual numbers of another crate |
 //! | [`golden_systems`] | the systems of the reference data, hand-coded |
@@ -23,6 +24,7 @@ pub mod constitutive;
 pub mod continuum;
 pub mod figure;
 pub mod golden_systems;
+pub mod methods;
 pub mod notes;
 pub mod peers;
 pub mod problems;

@@ -1,4 +1,4 @@
-//! Error against time on eight problems, our methods and the peers': `work-precision.json` and one SVG each.
+//! Error against time on fourteen problems, our methods and the peers': `work-precision.json` and one SVG each.
 //!
 //! Options: `--out FOLDER` (default: the current one), `--filter PROBLEM` (part of a problem's name), `--table FILE` (the data
 //! of `piola_integrators::advise`).
@@ -9,13 +9,14 @@ use std::path::PathBuf;
 use piola_benches::advice::{self, Entry};
 use piola_benches::chain::Chain;
 use piola_benches::figure::figure;
+use piola_benches::methods::{closed_form, on_the_group, radau_iia, wisdom_holman};
 use piola_benches::problems::{self, Accelerations, Equations, Force, Problem};
 use piola_benches::work_precision::{
     Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, derived_gauss_legendre_16,
-    derived_gauss_radau_15, dormand_prince, gauss_legendre, gauss_legendre_16, gauss_radau_15, measure, nystrom,
+    derived_gauss_radau_15, derived_nystrom, dormand_prince, gauss_legendre, gauss_legendre_16, gauss_radau_15, measure, nystrom,
     peer_methods, verner,
 };
-use piola_gravitation::Gravitation;
+use piola_gravitation::{Gravitation, PostNewtonian};
 use piola_integrators::Order;
 use piola_lagrangian::Lagrangian;
 use serde_json::Value;
@@ -72,11 +73,81 @@ fn main() -> Result<(), Box<dyn Error>> {
     if "outer-solar-system".contains(&filter) {
         outer_solar_system(&mut results)?;
     }
+    if "outer-solar-system-long".contains(&filter) {
+        let problem = problems::outer_solar_system_long()?;
+        let gravitation = Gravitation::new(problem.equations.parameters.to_vec())?;
+        let gravitation = || gravitation.clone();
+        let mut methods = vec![
+            dormand_prince(&problem),
+            verner(&problem),
+            gauss_legendre_16(&problem),
+            gauss_radau_15(&problem),
+            derived_gauss_radau_15("Gravitation", problem.start, problem.end, gravitation),
+        ];
+        methods.extend(nystrom(&problem));
+        methods.push(composition(&problem, Order::Eight, 10_000.0));
+        methods.extend(wisdom_holman(&problem, 2000.0));
+        methods.extend(peer_methods(&problem));
+        run(&problem, &methods, &mut results)?;
+    }
+    if "inner-solar-system".contains(&filter) {
+        let problem = problems::inner_solar_system()?;
+        let term = PostNewtonian { centre: 0, speed_of_light: problem.equations.speed_of_light };
+        let bodies = Gravitation::new(problem.equations.bodies.parameters.to_vec())?.with_post_newtonian(term)?;
+        let bodies = || bodies.clone();
+        let mut methods = vec![
+            dormand_prince(&problem),
+            verner(&problem),
+            gauss_legendre_16(&problem),
+            gauss_radau_15(&problem),
+            derived_gauss_legendre_16("Gravitation", problem.start, problem.end, bodies),
+            gauss_legendre(&problem, Order::Eight, 1000.0),
+        ];
+        methods.extend(peer_methods(&problem));
+        run(&problem, &methods, &mut results)?;
+    }
+    if "cluster".contains(&filter) {
+        let problem = problems::cluster()?;
+        let gravitation = Gravitation::new(problem.equations.parameters.to_vec())?;
+        let gravitation = || gravitation.clone();
+        let mut methods = vec![
+            dormand_prince(&problem),
+            verner(&problem),
+            gauss_legendre_16(&problem),
+            gauss_radau_15(&problem),
+            derived_dormand_prince("Gravitation", problem.start, problem.end, gravitation),
+            derived_gauss_legendre_16("Gravitation", problem.start, problem.end, gravitation),
+            derived_gauss_radau_15("Gravitation", problem.start, problem.end, gravitation),
+        ];
+        methods.extend(nystrom(&problem));
+        methods.extend(derived_nystrom("Gravitation", problem.start, problem.end, gravitation));
+        methods.extend(peer_methods(&problem));
+        run(&problem, &methods, &mut results)?;
+    }
+    for problem in [problems::free_top()?, problems::heavy_top()?] {
+        if problem.name.contains(&filter) {
+            let is_free = problem.name == "free-top";
+            let mut methods = vec![dormand_prince(&problem), verner(&problem)];
+            methods.extend(on_the_group(&problem, if is_free { 40.0 } else { 400.0 }));
+            if is_free {
+                methods.push(closed_form(&problem));
+            }
+            methods.extend(peer_methods(&problem));
+            run(&problem, &methods, &mut results)?;
+        }
+    }
+    if "spring-chain".contains(&filter) {
+        let problem = problems::spring_chain()?;
+        let mut methods = vec![radau_iia(&problem), dormand_prince(&problem), verner(&problem)];
+        methods.extend(peer_methods(&problem));
+        run(&problem, &methods, &mut results)?;
+    }
     let Results { folder, records, entries } = results;
     if records.is_empty() {
         return Err(format!(
-            "no problem is called {filter}: there are double-pendulum, henon-heiles, kepler-03, kepler, \
-             kepler-099, arenstorf, pleiades, outer-solar-system"
+            "no problem is called {filter}: there are double-pendulum, henon-heiles, kepler-03, kepler, kepler-099, \
+             arenstorf, pleiades, outer-solar-system, outer-solar-system-long, inner-solar-system, cluster, free-top, \
+             heavy-top, spring-chain"
         )
         .into());
     }

@@ -3,7 +3,7 @@
 use piola_numerics::Real;
 
 use super::reference::{array, numbers, read};
-use super::{Accelerations, Equations, Problem, ReferenceError};
+use super::{Accelerations, Equations, LONGEST_RUN, Problem, ReferenceError};
 
 /// The restricted problem of three bodies in the rotating plane.
 #[derive(Clone, Copy, Debug)]
@@ -49,5 +49,6 @@ pub fn arenstorf() -> Result<Problem<Arenstorf, 4>, ReferenceError> {
         end: numbers(&data["period"])?.first().copied().unwrap_or(f64::NAN),
         reference: array(&numbers(&data["own_reference_after_one_period"]["state"])?)?,
         small: 1.0,
+        longest_run: LONGEST_RUN,
     })
 }
