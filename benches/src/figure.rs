@@ -27,6 +27,7 @@ const fn colour(family: Family) -> &'static str {
         Family::OdeSolvers => "#CC79A7",
         Family::DifferentialEquations => "#E69F00",
         Family::Diffsol => "#AA4499",
+        Family::Russell => "#DDCC77",
         Family::WisdomHolman => "#661100",
         Family::AdaptiveMuntheKaas => "#6699CC",
         Family::MuntheKaas => "#88CCEE",

@@ -6,6 +6,7 @@
 //! | [`boxes`] | static solutions on a cube: ours, other transforms, differences |
 //! | [`problems`] | initial value problems with known solutions, hand-coded as their authors' peers would |
 //! | [`methods`] | our methods for planets, tops and stiff equations, as [`work_precision`] runs them |
+//! | [`program`] | the program `work-precision`, to which crates of their own add peers |
 //! | [`peers`] | the same equations given to other crates |
 //! | [`chain`] | pendulum chains three ways: by placement, hand-coded, by the dual numbers of another crate |
 //! | [`golden_systems`] | the systems of the reference data, hand-coded |
@@ -28,6 +29,7 @@ pub mod methods;
 pub mod notes;
 pub mod peers;
 pub mod problems;
+pub mod program;
 pub mod stability;
 pub mod viscometry;
 pub mod work_precision;

@@ -5,7 +5,7 @@ use core::convert::Infallible;
 use piola_geometric::{AdaptiveMuntheKaas, DirectProduct, GroupField, MuntheKaas, Rotations, Translations};
 use piola_gravitation::Gravitation;
 use piola_gravitation::wisdom_holman::{Corrector, Splitting, WisdomHolman};
-use piola_integrators::{Field, Order, Report, State, Tolerance};
+use piola_integrators::{Field, GaussLegendre16, Order, Report, SecondOrder, State, Tolerance};
 use piola_kinematics::{Attitude, FreeRotation, Inertia};
 use piola_numerics::Real;
 use piola_stiff::{Differentiable, ExactJacobian, RadauIia};
@@ -71,6 +71,68 @@ pub fn on_the_group(problem: &Problem<Top, 7>, fewest: f64) -> [Method<'_>; 2] {
         Method::new("Munthe-Kaas 8(5,3)", Family::AdaptiveMuntheKaas, 8, decades(3, 15), adaptive),
         Method::new("Munthe-Kaas 8", Family::MuntheKaas, 8, step_counts(fewest), fixed),
     ]
+}
+
+/// A top as an equation of second order of its quaternion: q̈ = ½ q (0, Ω̇) − ¼ |Ω|² q, Ω = 2 q* q̇.
+#[derive(Clone, Copy, Debug)]
+struct QuaternionOfTop(Top);
+
+/// q p of two quaternions.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn product<T: Real>(q: [T; 4], p: [T; 4]) -> [T; 4] {
+    [
+        q[0] * p[0] - q[1] * p[1] - q[2] * p[2] - q[3] * p[3],
+        q[0] * p[1] + q[1] * p[0] + q[2] * p[3] - q[3] * p[2],
+        q[0] * p[2] + q[2] * p[0] + q[3] * p[1] - q[1] * p[3],
+        q[0] * p[3] + q[3] * p[0] + q[1] * p[2] - q[2] * p[1],
+    ]
+}
+
+/// Ω = 2 q* q̇.
+#[cfg_attr(not(debug_assertions), inline(always))]
+fn angular_velocity<T: Real>(q: [T; 4], rate: [T; 4]) -> [T; 3] {
+    let [_, a, b, c] = product([q[0], -q[1], -q[2], -q[3]], rate);
+    [a + a, b + b, c + c]
+}
+
+impl<T: Real> SecondOrder<T> for QuaternionOfTop {
+    type Error = Infallible;
+    const FREEDOM: Option<usize> = Some(4);
+    fn freedom(&self) -> usize {
+        4
+    }
+    #[cfg_attr(not(debug_assertions), inline(always))]
+    fn acceleration(&mut self, _t: T, q: &[T], v: &[T], out: &mut [T]) -> Result<(), Infallible> {
+        let (q, v) = ([q[0], q[1], q[2], q[3]], [v[0], v[1], v[2], v[3]]);
+        let omega = angular_velocity(q, v);
+        let half = T::lit(0.5);
+        let [a, b, c] = self.0.angular_acceleration(q, omega);
+        let turned = product(q, [T::zero(), half * a, half * b, half * c]);
+        let square = T::lit(0.25) * (omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]);
+        for i in 0..4 {
+            out[i] = turned[i] - square * q[i];
+        }
+        Ok(())
+    }
+}
+
+/// Collocation of order sixteen on the quaternion of a top, an equation of second order.
+#[must_use]
+pub fn quaternion_gauss_legendre_16(problem: &Problem<Top, 7>) -> Method<'_> {
+    let run = move |tolerance: f64| {
+        let [q0, q1, q2, q3, a, b, c] = problem.start;
+        let rate = product([q0, q1, q2, q3], [0.0, 0.5 * a, 0.5 * b, 0.5 * c]);
+        let mut state = begin(&[[q0, q1, q2, q3], rate].concat())?;
+        let tolerance = Tolerance::relative(tolerance).map_err(|error| error.to_string())?;
+        let mut top = QuaternionOfTop(problem.equations);
+        let report = GaussLegendre16::new(tolerance).integrate_to(&mut top, &mut state, problem.end);
+        let report = report.map_err(|error| error.to_string())?;
+        let y = &state.values;
+        let (q, rate) = ([y[0], y[1], y[2], y[3]], [y[4], y[5], y[6], y[7]]);
+        let state = q.into_iter().chain(angular_velocity(q, rate)).collect();
+        Ok(Outcome { state, evaluations: report.evaluations, steps: report.steps })
+    };
+    Method::new("Gauss–Legendre 16, quaternion", Family::GaussLegendre16, 16, decades(1, 16), run)
 }
 
 /// The closed form of a free top, which has no parameter: one evaluation at the end.

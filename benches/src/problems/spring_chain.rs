@@ -39,6 +39,24 @@ impl SpringChain {
     }
 }
 
+impl SpringChain {
+    /// Writes ∂f/∂y w, for the peers that ask for it.
+    pub fn jacobian_product(&self, y: &[f64], w: &[f64], out: &mut [f64]) {
+        let (Some(&u), Some(&v)) = (w.first_chunk::<MASSES>(), w.last_chunk::<MASSES>()) else { return };
+        out[..MASSES].copy_from_slice(&v);
+        let mut above = (3.0 * y[0] * y[0] + 1.0) * u[0];
+        for i in 0..MASSES {
+            let below = if i + 1 < MASSES {
+                self.stiffness * (u[i + 1] - u[i]) + self.damping * (v[i + 1] - v[i])
+            } else {
+                0.0
+            };
+            out[MASSES + i] = below - above;
+            above = below;
+        }
+    }
+}
+
 impl Equations<40> for SpringChain {
     #[inline]
     fn rate(&self, y: &[f64; 40], rate: &mut [f64; 40]) {
