@@ -300,13 +300,14 @@ def measure(problem, ours):
                 except Exception as problem_of_peer:
                     print(f"  left out: {name} with {parameter:g}: {problem_of_peer}", flush=True)
                     continue
+                if not problem.error(state) < 0.1:
+                    print(f"  {name} with {parameter:g} ends elsewhere", flush=True)
+                    continue
                 if seconds > LONGEST:
                     break
                 for _ in range(SAMPLES - 1 if seconds < 0.1 else 1):
                     seconds = min(seconds, timed(lambda: run(parameter))[0])
-                error = problem.error(state)
-                if error < 0.1:
-                    record(name, parameter, error, seconds, evaluations, True)
+                record(name, parameter, problem.error(state), seconds, evaluations, True)
     return list(best.values())
 
 

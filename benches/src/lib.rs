@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`advice`] | such tables as the data of `piola_integrators::advise` |
 //! | [`boxes`] | static solutions on a cube: ours, other transforms, differences |
+//! | [`error_bars`] | estimates of the error of whole runs beside the true errors |
 //! | [`problems`] | initial value problems with known solutions, hand-coded as their authors' peers would |
 //! | [`methods`] | our methods for planets, tops and stiff equations, as [`work_precision`] runs them |
 //! | [`program`] | the program `work-precision`, to which crates of their own add peers |
@@ -23,6 +24,7 @@ pub mod boxes;
 pub mod chain;
 pub mod constitutive;
 pub mod continuum;
+pub mod error_bars;
 pub mod figure;
 pub mod golden_systems;
 pub mod methods;

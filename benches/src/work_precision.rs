@@ -317,9 +317,9 @@ where
 }
 
 /// The equations of a problem, over any scalar.
-struct Accelerated<'a, E> {
-    equations: &'a E,
-    freedom: usize,
+pub(crate) struct Accelerated<'a, E> {
+    pub(crate) equations: &'a E,
+    pub(crate) freedom: usize,
 }
 
 impl<T: Real, E: Accelerations> SecondOrder<T> for Accelerated<'_, E> {
@@ -456,7 +456,7 @@ where
 }
 
 /// The force of a problem of D components.
-struct Forced<'a, E, const D: usize>(&'a E);
+pub(crate) struct Forced<'a, E, const D: usize>(pub(crate) &'a E);
 
 impl<E: Force, const D: usize> SecondOrder for Forced<'_, E, D> {
     type Error = std::convert::Infallible;
