@@ -1,8 +1,11 @@
-"""SciPy, heyoka and REBOUND on the problems of `work-precision`, in turn with our methods; writes work-precision-all.json.
+"""SciPy, heyoka and REBOUND on the problems of `work-precision`, in turn with our methods.
+
+Writes work-precision-all.json; work-precision.json without its own peers; and the figures, which do not have them either.
 
     pip install numpy scipy==1.17.1 heyoka==7.13.2 rebound==4.4.3
-    cargo build --release -p piola-benches --bin work-precision
-    taskset -c 0 python3 benches/peers/integration.py --ours target/release/work-precision --out docs/measurements/figures
+    cargo build --release --manifest-path benches/peers/integration/Cargo.toml
+    taskset -c 0 python3 benches/peers/integration.py \\
+        --ours benches/peers/integration/target/release/piola-peer-integration --out docs/measurements/figures
 
 Fields are those of work-precision.json: problem, method, peer, parameter, error, seconds, evaluations (none where the peer does not tell).
 In every round our program runs once on a problem, then every peer at every tolerance; the least time of all rounds counts. SciPy's
@@ -14,6 +17,7 @@ import argparse
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import tempfile
 import time
@@ -272,7 +276,7 @@ def rebound_methods(problem):
         yield "REBOUND 4.4, WHFast, corrector 17", [400.0, 200.0, 100.0, 50.0, 25.0, 12.5], whfast
 
 
-def measure(problem, ours):
+def measure(problem, ours, out):
     best = {}
 
     def record(method, parameter, error, seconds, evaluations, peer):
@@ -288,6 +292,8 @@ def measure(problem, ours):
         if ours:
             with tempfile.TemporaryDirectory() as folder:
                 subprocess.run([ours, "--out", folder, "--filter", problem.name], check=True, capture_output=True)
+                for figure in pathlib.Path(folder).glob(f"work-precision-{problem.name}.svg"):
+                    shutil.copy(figure, out)
                 for each in json.loads((pathlib.Path(folder) / "work-precision.json").read_text()):
                     if each["problem"] == problem.name:
                         record(each["method"], each["parameter"], each["error"], each["seconds"], each["evaluations"], each["peer"])
@@ -357,9 +363,14 @@ def main():
     for problem in problems():
         if chosen.problem in ("", problem.name):
             print(problem.name, flush=True)
-            records += measure(problem, chosen.ours)
-            lines = ",\n".join(json.dumps(record, ensure_ascii=False) for record in records)
-            (chosen.out / "work-precision-all.json").write_text(f"[\n{lines}\n]\n")
+            records += measure(problem, chosen.ours, chosen.out)
+            by_script = ("SciPy", "heyoka", "REBOUND")
+            for name, chosen_records in (
+                ("work-precision.json", [record for record in records if not record["method"].startswith(by_script)]),
+                ("work-precision-all.json", records),
+            ):
+                lines = ",\n".join(json.dumps(record, ensure_ascii=False) for record in chosen_records)
+                (chosen.out / name).write_text(f"[\n{lines}\n]\n")
     table(records)
 
 

@@ -14,8 +14,8 @@ use crate::methods::{closed_form, on_the_group, quaternion_gauss_legendre_16, ra
 use crate::problems::{self, Accelerations, Equations, Force, Problem, SpringChain};
 use crate::work_precision::{
     Curve, Method, canonical_gauss_legendre, composition, derived_dormand_prince, derived_gauss_legendre_16,
-    derived_gauss_radau_15, derived_nystrom, dormand_prince, gauss_legendre, gauss_legendre_16, gauss_radau_15, measure, nystrom,
-    peer_methods, verner,
+    derived_gauss_radau_15, derived_nystrom, dormand_prince, gauss_legendre, gauss_legendre_16, gauss_radau_15,
+    measure, nystrom, peer_methods, verner,
 };
 use piola_gravitation::{Gravitation, PostNewtonian};
 use piola_integrators::Order;
@@ -34,7 +34,10 @@ struct Results {
 /// Peers to be measured in turn with our methods.
 pub trait Peers {
     /// Their methods on a problem.
-    fn of<'a, E: Equations<D> + Copy + Send + Sync, const D: usize>(&self, problem: &'a Problem<E, D>) -> Vec<Method<'a>>;
+    fn of<'a, E: Equations<D> + Copy + Send + Sync, const D: usize>(
+        &self,
+        problem: &'a Problem<E, D>,
+    ) -> Vec<Method<'a>>;
     /// Their methods for stiff equations.
     fn stiff<'a>(&self, _problem: &'a Problem<SpringChain, 40>) -> Vec<Method<'a>> {
         Vec::new()
@@ -46,7 +49,10 @@ pub trait Peers {
 pub struct DormandPrincePeers;
 
 impl Peers for DormandPrincePeers {
-    fn of<'a, E: Equations<D> + Copy + Send + Sync, const D: usize>(&self, problem: &'a Problem<E, D>) -> Vec<Method<'a>> {
+    fn of<'a, E: Equations<D> + Copy + Send + Sync, const D: usize>(
+        &self,
+        problem: &'a Problem<E, D>,
+    ) -> Vec<Method<'a>> {
         peer_methods(problem).into()
     }
 }

@@ -61,9 +61,8 @@ fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let logarithms = || points.iter().map(|(t, error)| (t.ln(), error.ln()));
     let (x, y) = logarithms().fold((0.0, 0.0), |sum, point| (sum.0 + point.0 / n, sum.1 + point.1 / n));
-    let products = logarithms().fold((0.0, 0.0), |sum, point| {
-        (sum.0 + (point.0 - x) * (point.1 - y), sum.1 + (point.0 - x) * (point.0 - x))
-    });
+    let products = logarithms()
+        .fold((0.0, 0.0), |sum, point| (sum.0 + (point.0 - x) * (point.1 - y), sum.1 + (point.0 - x) * (point.0 - x)));
     products.0 / products.1
 }
 

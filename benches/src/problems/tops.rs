@@ -31,11 +31,7 @@ impl Top {
         if self.weight.iter().any(|w| w.abs() > 0.0) {
             let [q0, q1, q2, q3] = q;
             let two = T::lit(2.0);
-            let up = [
-                two * (q1 * q3 - q0 * q2),
-                two * (q2 * q3 + q0 * q1),
-                q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3,
-            ];
+            let up = [two * (q1 * q3 - q0 * q2), two * (q2 * q3 + q0 * q1), q0 * q0 - q1 * q1 - q2 * q2 + q3 * q3];
             let w = self.weight.map(T::lit);
             moment[0] += up[1] * w[2] - up[2] * w[1];
             moment[1] += up[2] * w[0] - up[0] * w[2];

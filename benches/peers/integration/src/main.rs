@@ -14,7 +14,10 @@ use russell_ode::prelude::{Method as RussellMethod, OdeSolver, Params, System};
 struct AllPeers;
 
 impl Peers for AllPeers {
-    fn of<'a, E: Equations<D> + Copy + Send + Sync, const D: usize>(&self, problem: &'a Problem<E, D>) -> Vec<Method<'a>> {
+    fn of<'a, E: Equations<D> + Copy + Send + Sync, const D: usize>(
+        &self,
+        problem: &'a Problem<E, D>,
+    ) -> Vec<Method<'a>> {
         let mut methods = DormandPrincePeers.of(problem);
         let tsit = move |tolerance: f64| diffsol_tsit45(problem, tolerance).map_err(|error| error.to_string());
         methods.push(Method::new("diffsol 0.18, Tsit45", Family::Diffsol, 5, tolerances(), tsit));

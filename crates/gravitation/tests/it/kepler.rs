@@ -50,8 +50,12 @@ fn elements_equal_the_invariants_of_the_golden_trajectory() {
         let expected = [e * argument.cos(), e * argument.sin()];
         assert_close_at_scale("eccentricity_vector", &expected, &towards, 1.0, Tol::ulps(4.0).times(condition));
         let elements = Elements {
-            semi_major_axis: a, eccentricity: e, inclination: 0.0, ascending_node: 0.0,
-            argument_of_pericentre: argument, mean_anomaly: anomaly,
+            semi_major_axis: a,
+            eccentricity: e,
+            inclination: 0.0,
+            ascending_node: 0.0,
+            argument_of_pericentre: argument,
+            mean_anomaly: anomaly,
         };
         let (position, velocity) = elements.state(gm);
         let tolerance = Tol::ulps(4.0).times(condition);

@@ -129,7 +129,11 @@ fn prediction_differs_from_the_ephemeris_by_the_stated_distances() {
             let stated = golden::number(&predicted["difference_to_de421_m"][index]);
             let found = distance(triple(&predicted["positions"][index]), triple(&entry["position"]));
             // Positions are rounded to half an ulp of 7e12 m, some 1e-3 m with both and their components.
-            assert!((found - stated).abs() < 2e-3, "{} after {days}: {found} and {stated}", golden::text(&entry["body"]));
+            assert!(
+                (found - stated).abs() < 2e-3,
+                "{} after {days}: {found} and {stated}",
+                golden::text(&entry["body"])
+            );
             compared += 1;
         }
     }

@@ -102,8 +102,7 @@ impl<P: NystromPair, T: Real> Nystrom<P, T> {
             let (before, after) = (&self.own_magnitudes[..2 * n], &mut self.own_magnitudes_at_end[..2 * n]);
             field.magnitudes(trial, after);
             for i in 0..2 * n {
-                let (error, factor) =
-                    if i < n { (position_error[i], h * h) } else { (velocity_error[i - n], h.abs()) };
+                let (error, factor) = if i < n { (position_error[i], h * h) } else { (velocity_error[i - n], h.abs()) };
                 let error = largest_lane(error);
                 if error.is_nan() || 0.0 < error {
                     let part = error * (factor / (absolute + relative * before[i].max(after[i])));

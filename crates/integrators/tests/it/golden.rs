@@ -3,11 +3,11 @@
 use core::convert::Infallible;
 
 use piola_integrators::{
-    Composition, DormandPrince853, Field, GaussLegendre, GaussRadau15, IntegratorsError, Nystrom86, Nystrom1210, Order, Report,
-    SecondOrder, Separable, State, Tolerance, Verner98,
+    Composition, DormandPrince853, Field, GaussLegendre, GaussRadau15, IntegratorsError, Nystrom86, Nystrom1210, Order,
+    Report, SecondOrder, Separable, State, Tolerance, Verner98,
 };
-use piola_testkit::golden::{self, number, text, vector};
 use piola_numerics::Real;
+use piola_testkit::golden::{self, number, text, vector};
 use piola_testkit::{DoubleDouble, Tol, assert_close};
 
 use crate::problems::{DoublePendulum, henon_heiles, kepler, three_bodies};

@@ -262,7 +262,13 @@ fn check_invariants<S: Holonomic, P: Potential>(case: &Value, lagrangian: &Lagra
         }
         if state.get("momenta").is_some() {
             let what = format!("{name} at {t}: momenta");
-            assert_close_at_scale(&what, momenta.as_slice(), &golden::vector(&state["momenta"]), momenta.amax(), Tol::ulps(64.0));
+            assert_close_at_scale(
+                &what,
+                momenta.as_slice(),
+                &golden::vector(&state["momenta"]),
+                momenta.amax(),
+                Tol::ulps(64.0),
+            );
             checked += 1;
         }
         if state.get("position_velocity").is_some() {

@@ -228,7 +228,8 @@ fn turn_at_pericentre(system: &Central) -> Option<f64> {
 
 /// The shortest period of a revolution, s.
 fn shortest_period(system: &Central) -> Option<f64> {
-    let motions = system.bodies.iter().filter_map(|body| KeplerMotion::new(system.gm, body.position, body.velocity).ok());
+    let motions =
+        system.bodies.iter().filter_map(|body| KeplerMotion::new(system.gm, body.position, body.velocity).ok());
     motions.map(|motion| motion.period()).reduce(f64::min)
 }
 

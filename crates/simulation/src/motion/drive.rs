@@ -8,8 +8,8 @@ use core::ops::ControlFlow;
 
 use piola_integrators::{
     Composition, DenseStep, DormandPrince853, Ending, Field, GaussLegendre, IntegratorsError, Nystrom, Nystrom86,
-    Nystrom1210, NystromPair, NystromStep, Report, RungeKutta, RungeKuttaPair, SecondOrder, Separable, State, Tolerance,
-    Verner98,
+    Nystrom1210, NystromPair, NystromStep, Report, RungeKutta, RungeKuttaPair, SecondOrder, Separable, State,
+    Tolerance, Verner98,
 };
 
 use super::{History, Invariants, Method, Progress, TimeSpan, Timetable};
@@ -364,7 +364,8 @@ impl<'o> Driver<'o> {
     ) -> Result<(), String> {
         self.landing_by_landing(state, reading, &mut |driver, state, landing, reading, between| {
             let mut dense = Ok(());
-            let result = method.integrate(system, state, landing, |step| driver.pass(step, reading, between, &mut dense));
+            let result =
+                method.integrate(system, state, landing, |step| driver.pass(step, reading, between, &mut dense));
             (result, dense)
         })
     }
@@ -378,7 +379,8 @@ impl<'o> Driver<'o> {
     ) -> Result<(), String> {
         self.landing_by_landing(state, reading, &mut |driver, state, landing, reading, between| {
             let mut dense = Ok(());
-            let result = method.integrate(field, state, landing, |step| driver.pass(step, reading, between, &mut dense));
+            let result =
+                method.integrate(field, state, landing, |step| driver.pass(step, reading, between, &mut dense));
             (result, dense)
         })
     }

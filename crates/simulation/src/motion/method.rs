@@ -71,7 +71,9 @@ impl Method {
     pub fn step(&self) -> Option<f64> {
         match self {
             Self::Composition { step, .. } | Self::GaussLegendre { step, .. } => Some(*step),
-            Self::DormandPrince { .. } | Self::Verner { .. } | Self::Nystrom86 { .. } | Self::Nystrom1210 { .. } => None,
+            Self::DormandPrince { .. } | Self::Verner { .. } | Self::Nystrom86 { .. } | Self::Nystrom1210 { .. } => {
+                None
+            }
         }
     }
 }
