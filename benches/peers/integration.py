@@ -146,7 +146,7 @@ def problems():
     for name, r, a, mu in (("kepler-03", 13.0, 10.0, 130.0 / 7.0), ("kepler", 19.0, 10.0, 190.0), ("kepler-099", 199.0, 100.0, 19900.0)):
         start = [r, 0.0, 0.0, 1.0]
         yield Problem(name, kepler(mu), start, 20.0 * math.pi * math.sqrt(a * a * a / mu), start)
-    data = read("reference", "arenstorf")
+    data = read("reference", "arenstorf_of_doubles")
     yield Problem("arenstorf", arenstorf, flat(data["initial_state"]), flat(data["period"])[0], flat(data["own_reference_after_one_period"]["state"]))
     data, masses = read("reference", "pleiades"), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
     yield Problem("pleiades", attraction(masses, 2), flat(data["initial_state"]), 3.0, flat(data["own_reference_t3"]["state"]), bodies=masses, axes=2)

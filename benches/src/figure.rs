@@ -31,8 +31,8 @@ const fn colour(family: Family) -> &'static str {
         Family::WisdomHolman => "#661100",
         Family::AdaptiveMuntheKaas => "#6699CC",
         Family::MuntheKaas => "#88CCEE",
-        Family::ClosedForm => "#117733",
-        Family::RadauIia => "#882255",
+        Family::ClosedForm => "#999999",
+        Family::RadauIia => "#CC6677",
     }
 }
 

@@ -104,7 +104,29 @@ pub fn program(peers: &impl Peers) -> Result<(), Box<dyn Error>> {
     if "outer-solar-system".contains(&filter) {
         outer_solar_system(peers, &mut results)?;
     }
-    if "outer-solar-system-long".contains(&filter) {
+    many_bodies(peers, &filter, &mut results)?;
+    tops_and_springs(peers, &filter, &mut results)?;
+    let Results { folder, records, entries } = results;
+    if records.is_empty() {
+        return Err(format!(
+            "no problem is called {filter}: there are double-pendulum, henon-heiles, kepler-03, kepler, kepler-099, \
+             arenstorf, pleiades, outer-solar-system, outer-solar-system-long, inner-solar-system, cluster, free-top, \
+             heavy-top, spring-chain"
+        )
+        .into());
+    }
+    // One record a line: differences stay readable.
+    let lines: Vec<String> = records.iter().map(Value::to_string).collect();
+    std::fs::write(folder.join("work-precision.json"), format!("[\n{}\n]\n", lines.join(",\n")))?;
+    if let Some(table) = table {
+        std::fs::write(table, advice::table(&entries))?;
+    }
+    Ok(())
+}
+
+/// The long run of the outer Solar System, the inner Solar System, the cluster.
+fn many_bodies(peers: &impl Peers, filter: &str, results: &mut Results) -> Result<(), Box<dyn Error>> {
+    if "outer-solar-system-long".contains(filter) {
         let problem = problems::outer_solar_system_long()?;
         let gravitation = Gravitation::new(problem.equations.parameters.to_vec())?;
         let gravitation = || gravitation.clone();
@@ -119,9 +141,9 @@ pub fn program(peers: &impl Peers) -> Result<(), Box<dyn Error>> {
         methods.push(composition(&problem, Order::Eight, 10_000.0));
         methods.extend(wisdom_holman(&problem, 2000.0));
         methods.extend(peers.of(&problem));
-        run(&problem, &methods, &mut results)?;
+        run(&problem, &methods, results)?;
     }
-    if "inner-solar-system".contains(&filter) {
+    if "inner-solar-system".contains(filter) {
         let problem = problems::inner_solar_system()?;
         let term = PostNewtonian { centre: 0, speed_of_light: problem.equations.speed_of_light };
         let bodies = Gravitation::new(problem.equations.bodies.parameters.to_vec())?.with_post_newtonian(term)?;
@@ -135,9 +157,9 @@ pub fn program(peers: &impl Peers) -> Result<(), Box<dyn Error>> {
             gauss_legendre(&problem, Order::Eight, 1000.0),
         ];
         methods.extend(peers.of(&problem));
-        run(&problem, &methods, &mut results)?;
+        run(&problem, &methods, results)?;
     }
-    if "cluster".contains(&filter) {
+    if "cluster".contains(filter) {
         let problem = problems::cluster()?;
         let gravitation = Gravitation::new(problem.equations.parameters.to_vec())?;
         let gravitation = || gravitation.clone();
@@ -153,10 +175,15 @@ pub fn program(peers: &impl Peers) -> Result<(), Box<dyn Error>> {
         methods.extend(nystrom(&problem));
         methods.extend(derived_nystrom("Gravitation", problem.start, problem.end, gravitation));
         methods.extend(peers.of(&problem));
-        run(&problem, &methods, &mut results)?;
+        run(&problem, &methods, results)?;
     }
+    Ok(())
+}
+
+/// Tops and the stiff chain.
+fn tops_and_springs(peers: &impl Peers, filter: &str, results: &mut Results) -> Result<(), Box<dyn Error>> {
     for problem in [problems::free_top()?, problems::heavy_top()?] {
-        if problem.name.contains(&filter) {
+        if problem.name.contains(filter) {
             let is_free = problem.name == "free-top";
             let mut methods = vec![dormand_prince(&problem), verner(&problem), quaternion_gauss_legendre_16(&problem)];
             methods.extend(on_the_group(&problem, if is_free { 40.0 } else { 400.0 }));
@@ -164,30 +191,15 @@ pub fn program(peers: &impl Peers) -> Result<(), Box<dyn Error>> {
                 methods.push(closed_form(&problem));
             }
             methods.extend(peers.of(&problem));
-            run(&problem, &methods, &mut results)?;
+            run(&problem, &methods, results)?;
         }
     }
-    if "spring-chain".contains(&filter) {
+    if "spring-chain".contains(filter) {
         let problem = problems::spring_chain()?;
         let mut methods = vec![radau_iia(&problem), dormand_prince(&problem), verner(&problem)];
         methods.extend(peers.of(&problem));
         methods.extend(peers.stiff(&problem));
-        run(&problem, &methods, &mut results)?;
-    }
-    let Results { folder, records, entries } = results;
-    if records.is_empty() {
-        return Err(format!(
-            "no problem is called {filter}: there are double-pendulum, henon-heiles, kepler-03, kepler, kepler-099, \
-             arenstorf, pleiades, outer-solar-system, outer-solar-system-long, inner-solar-system, cluster, free-top, \
-             heavy-top, spring-chain"
-        )
-        .into());
-    }
-    // One record a line: differences stay readable.
-    let lines: Vec<String> = records.iter().map(Value::to_string).collect();
-    std::fs::write(folder.join("work-precision.json"), format!("[\n{}\n]\n", lines.join(",\n")))?;
-    if let Some(table) = table {
-        std::fs::write(table, advice::table(&entries))?;
+        run(&problem, &methods, results)?;
     }
     Ok(())
 }

@@ -1,7 +1,8 @@
-"""Writes references of three problems of attracting bodies: the ends of the runs, in testdata/reference.
+"""Writes references of four problems of attracting bodies: the ends of the runs, in testdata/reference.
 
     inner_solar_system.json          the Sun and the inner planets for ten years, with the post-Newtonian term of the Sun
     outer_solar_system_long.json     the Sun and the outer planets for ten thousand years
+    arenstorf_of_doubles.json        Arenstorf's orbit from the start, period and masses of arenstorf.json, rounded to doubles
     cluster.json                     a hundred bodies of one mass, drawn at random from Plummer's model, to t = 1/2
 
 Starts and masses are exact doubles; a state lists all x, all y, all z, then the velocities. Taylor series in binary128 by heyoka, with
@@ -9,7 +10,7 @@ steps of its own choice for a tolerance. Every run is made twice, with another t
 is the largest difference of a component, relative to the largest of its block. Nothing of Piola is used.
 
     pip install heyoka==7.13.2
-    python3 testdata/scripts/work_precision.py inner outer cluster
+    python3 testdata/scripts/work_precision.py inner outer arenstorf cluster
 """
 
 import json
@@ -140,6 +141,37 @@ def outer():
     )
 
 
+def arenstorf():
+    """The motion magnifies the rounding of the start some 10^5 times: the reference of the unrounded start is 1e-11 away."""
+    file = "arenstorf_of_doubles.json"
+    print(file, file=sys.stderr, flush=True)
+    data = json.loads((FOLDER / "reference" / "arenstorf.json").read_text())
+    start, end, mass = [float(s) for s in data["initial_state"]], float(data["period"]), 0.012277471
+    moon, earth = hy.expression(real(mass)), hy.expression(real(1.0 - mass))
+    x, y, u, v = hy.make_vars("x", "y", "u", "v")
+    a, b, power, two = x + moon, x - earth, hy.expression(real("-1.5")), hy.expression(real(2))
+    d1, d2 = earth * (a * a + y * y) ** power, moon * (b * b + y * y) ** power
+    system = [(x, u), (y, v), (u, x + two * v - d1 * a - d2 * b), (v, y - two * u - (d1 + d2) * y)]
+
+    def run(tolerance):
+        method = hy.taylor_adaptive(system, [real(s) for s in start], fp_type=real, tol=real(tolerance), compact_mode=True)
+        method.propagate_until(real(end))
+        return [real(s) for s in method.state]
+
+    tolerances = ("1e-32", "1e-28")
+    first, second = map(run, tolerances)
+    result = {
+        "problem": "Arenstorf's orbit after one period, all inputs rounded to doubles, also the masses of the Moon and of the Earth",
+        "provenance": "testdata/scripts/work_precision.py: Taylor series in binary128 by heyoka 7.13.2, tolerances " + " and ".join(tolerances),
+        "agreement": f"{agreement(first, second):.1e}",
+        "moon": mass,
+        "initial_state": start,
+        "period": end,
+        "own_reference_after_one_period": {"state": [str(s) for s in first]},
+    }
+    (FOLDER / "reference" / file).write_text(json.dumps(result, indent=1) + "\n")
+
+
 def cluster():
     """Aarseth, Henon & Wielen, Astron. Astrophys. 37 (1974) 183: G = M = 1, E = -1/4 on the average."""
     draw, places, velocities = random.Random(1788), [], []
@@ -170,4 +202,4 @@ def cluster():
 
 if __name__ == "__main__":
     for each in sys.argv[1:]:
-        {"inner": inner, "outer": outer, "cluster": cluster}[each]()
+        {"inner": inner, "outer": outer, "arenstorf": arenstorf, "cluster": cluster}[each]()
