@@ -92,8 +92,7 @@ impl From<Method> for MethodSummary {
             Method::Composition { order, step } | Method::GaussLegendre { order, step } => {
                 (order.value(), true, Some(step), None)
             }
-            Method::DormandPrince { tolerance } => (8, false, None, Some(tolerance)),
-            Method::Nystrom86 { tolerance } => (8, false, None, Some(tolerance)),
+            Method::DormandPrince { tolerance } | Method::Nystrom86 { tolerance } => (8, false, None, Some(tolerance)),
             Method::Verner { tolerance } => (9, false, None, Some(tolerance)),
             Method::Nystrom1210 { tolerance } => (12, false, None, Some(tolerance)),
         };
