@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Measures one kind of run and notes its error.
-fn bench<E, const D: usize>(
+fn bench<E: Equations<D>, const D: usize>(
     group: &mut Group<'_>,
     notes: &mut Notes,
     name: &str,
