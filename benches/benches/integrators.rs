@@ -173,7 +173,7 @@ fn collocation<E: Equations<D>, const D: usize>(
     Ok(())
 }
 
-fn compositions<E: Force, const D: usize>(
+fn compositions<E: Equations<D> + Force, const D: usize>(
     group: &mut Group<'_>,
     notes: &mut Notes,
     title: &str,
